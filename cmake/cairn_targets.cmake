@@ -1,0 +1,46 @@
+# How Cairn's targets are made: libraries of the rooms, modules, tests.
+
+# Warnings and sanitizers, for our own targets only (never exported).
+add_library(cairn_private_options INTERFACE)
+target_compile_options(cairn_private_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                                       -Wno-sign-conversion -fno-math-errno)
+if(CAIRN_SANITIZERS)
+  target_compile_options(cairn_private_options INTERFACE -fsanitize=${CAIRN_SANITIZERS} -fno-omit-frame-pointer)
+  target_link_options(cairn_private_options INTERFACE -fsanitize=${CAIRN_SANITIZERS})
+endif()
+
+# cairn_add_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): a shared library of a room.
+function(cairn_add_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} SHARED ${arg_SOURCES})
+  add_library(cairn::${name} ALIAS ${name})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(${name} PUBLIC Eigen3::Eigen ${arg_PUBLIC} PRIVATE cairn_private_options ${arg_PRIVATE})
+  set_target_properties(${name} PROPERTIES BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN")
+endfunction()
+
+# cairn_add_module(NAME CORE sources... [LINK ...]): NAME.so from module.cpp, and NAME_core, a static
+# library of the algorithm files that tests link.
+function(cairn_add_module name)
+  cmake_parse_arguments(arg "" "" "CORE;LINK" ${ARGN})
+  add_library(${name}_core STATIC ${arg_CORE})
+  target_link_libraries(${name}_core PUBLIC cairn_framework PRIVATE cairn_private_options ${arg_LINK})
+  add_library(${name} MODULE module.cpp)
+  target_link_libraries(${name} PRIVATE ${name}_core cairn_private_options)
+  set_target_properties(${name}_core ${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/cairn
+                                           BUILD_RPATH "$ORIGIN/.." INSTALL_RPATH "$ORIGIN/..")
+  set_property(GLOBAL APPEND PROPERTY CAIRN_MODULES ${name})
+endfunction()
+
+# cairn_add_test(NAME SOURCES ... [LINK ...]): one GoogleTest program, every case known to ctest.
+function(cairn_add_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest_main cairn_private_options ${arg_LINK})
+  target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                             CAIRN_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  add_dependencies(cairn_tests ${name})
+endfunction()

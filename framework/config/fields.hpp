@@ -1,0 +1,293 @@
+// Configuration types described once.
+//
+// A config type is a plain struct with defaults and one static function that lists its fields:
+//
+//   struct WaitConfig {
+//     double for_s = 1.0;
+//     static void describe(Fields<WaitConfig>& fields) {
+//       fields.number("for_s", &WaitConfig::for_s, {0.0, 3600.0}, "s", "how long to stand still");
+//       fields.shorthand("for_s");  // `wait: 2` means `wait: {for_s: 2}`
+//     }
+//   };
+//
+// From that one list come loading with checks, `cairn plugins info`, the reference and the schema.
+// Unknown key, wrong type, out of range: ConfigError with file:line:column, what was found, what is
+// allowed and the nearest known name. Angles are degrees in files and radians in structs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/config/config_value.hpp"
+#include "maps/pose.hpp"
+
+namespace cairn {
+
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+
+// A module named in a file: `{plugin: NAME, ...its own fields}`.
+struct PluginChoice {
+  std::string name;
+  ConfigValue config;  // the map without `plugin`; keeps the places
+};
+
+struct FieldSpec {
+  std::string key;
+  std::string type;           // "number", "integer", "flag", "text", "choice", "file", "point", "list of ...", "map"
+  std::string unit;           // "m", "deg", ... or empty
+  Range range;
+  std::vector<std::string> choices;
+  std::string meaning;
+  std::string default_text;
+  bool required = false;
+  std::vector<FieldSpec> fields;  // of a nested struct
+  std::function<void(void* config, const ConfigValue& value)> load;
+};
+
+struct Schema {
+  std::vector<FieldSpec> fields;
+  std::string shorthand;      // the field that a scalar or list in place of the map stands for
+
+  // Loads a map (or the shorthand) into a config object. what: "robot", "plugin explore", ...
+  void load_into(void* config, const ConfigValue& value, const std::string& what) const;
+};
+
+template <class Config>
+class Fields;
+
+template <class Config>
+[[nodiscard]] Schema schema_of() {
+  Fields<Config> fields;
+  Config::describe(fields);
+  return std::move(fields).take();
+}
+
+template <class Config>
+[[nodiscard]] Config load_config(const ConfigValue& value, const std::string& what) {
+  Config config;
+  schema_of<Config>().load_into(&config, value, what);
+  return config;
+}
+
+// Single values, each with its checks and its error text (fields.cpp).
+namespace config_detail {
+[[nodiscard]] double to_number(const ConfigValue& value, const std::string& key, const Range& range,
+                               const std::string& unit);
+[[nodiscard]] std::int64_t to_integer(const ConfigValue& value, const std::string& key, const Range& range);
+[[nodiscard]] bool to_flag(const ConfigValue& value, const std::string& key);
+[[nodiscard]] std::string to_text(const ConfigValue& value, const std::string& key);
+[[nodiscard]] std::size_t to_choice(const ConfigValue& value, const std::string& key,
+                                    const std::vector<std::string>& choices);
+[[nodiscard]] Point to_point(const ConfigValue& value, const std::string& key);
+[[nodiscard]] std::vector<double> to_numbers(const ConfigValue& value, const std::string& key, const Range& range);
+[[nodiscard]] std::vector<Point> to_points(const ConfigValue& value, const std::string& key);
+[[nodiscard]] PluginChoice to_plugin(const ConfigValue& value, const std::string& key);
+[[nodiscard]] const std::vector<ConfigValue>& to_list(const ConfigValue& value, const std::string& key);
+[[nodiscard]] std::string number_text(double value);
+}  // namespace config_detail
+
+template <class Config>
+class Fields {
+ public:
+  FieldSpec& number(std::string key, double Config::*member, Range range, std::string unit, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "number", std::move(meaning), config_detail::number_text(defaults_.*member));
+    f.unit = std::move(unit);
+    f.range = range;
+    f.load = [member, key = f.key, range, unit = f.unit](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_number(v, key, range, unit);
+    };
+    return f;
+  }
+  FieldSpec& number(std::string key, std::optional<double> Config::*member, Range range, std::string unit,
+                    std::string meaning) {
+    FieldSpec& f = add(std::move(key), "number", std::move(meaning), "");
+    f.unit = std::move(unit);
+    f.range = range;
+    f.load = [member, key = f.key, range, unit = f.unit](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_number(v, key, range, unit);
+    };
+    return f;
+  }
+  // Degrees in the file, radians in the struct; the range is in degrees.
+  FieldSpec& angle(std::string key, double Config::*member, Range range_deg, std::string meaning) {
+    FieldSpec& f =
+        add(std::move(key), "number", std::move(meaning), config_detail::number_text(degrees(defaults_.*member)));
+    f.unit = "deg";
+    f.range = range_deg;
+    f.load = [member, key = f.key, range_deg](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, "deg"));
+    };
+    return f;
+  }
+  FieldSpec& angle(std::string key, std::optional<double> Config::*member, Range range_deg, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "number", std::move(meaning), "");
+    f.unit = "deg";
+    f.range = range_deg;
+    f.load = [member, key = f.key, range_deg](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, "deg"));
+    };
+    return f;
+  }
+  template <class Integer>
+  FieldSpec& integer(std::string key, Integer Config::*member, Range range, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "integer", std::move(meaning), std::to_string(defaults_.*member));
+    f.range = range;
+    f.load = [member, key = f.key, range](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = static_cast<Integer>(config_detail::to_integer(v, key, range));
+    };
+    return f;
+  }
+  FieldSpec& flag(std::string key, bool Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "flag", std::move(meaning), defaults_.*member ? "true" : "false");
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_flag(v, key);
+    };
+    return f;
+  }
+  FieldSpec& text(std::string key, std::string Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "text", std::move(meaning), defaults_.*member);
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_text(v, key);
+    };
+    return f;
+  }
+  template <class Enum>
+  FieldSpec& choice(std::string key, Enum Config::*member, std::vector<std::pair<std::string, Enum>> options,
+                    std::string meaning) {
+    std::string default_text;
+    std::vector<std::string> names;
+    for (const auto& [name, value] : options) {
+      names.push_back(name);
+      if (value == defaults_.*member) default_text = name;
+    }
+    FieldSpec& f = add(std::move(key), "choice", std::move(meaning), std::move(default_text));
+    f.choices = names;
+    f.load = [member, key = f.key, options = std::move(options), names](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = options[config_detail::to_choice(v, key, names)].second;
+    };
+    return f;
+  }
+  // A path, resolved against the folder of the file that names it.
+  FieldSpec& file(std::string key, std::filesystem::path Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "file", std::move(meaning), (defaults_.*member).string());
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      (void)config_detail::to_text(v, key);
+      static_cast<Config*>(c)->*member = resolve_path(v);
+    };
+    return f;
+  }
+  FieldSpec& point(std::string key, Point Config::*member, std::string unit, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "point", std::move(meaning),
+                       "[" + config_detail::number_text((defaults_.*member).x()) + ", " +
+                           config_detail::number_text((defaults_.*member).y()) + "]");
+    f.unit = std::move(unit);
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_point(v, key);
+    };
+    return f;
+  }
+  FieldSpec& point(std::string key, std::optional<Point> Config::*member, std::string unit, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "point", std::move(meaning), "");
+    f.unit = std::move(unit);
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_point(v, key);
+    };
+    return f;
+  }
+  FieldSpec& points(std::string key, std::vector<Point> Config::*member, std::string unit, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "list of points", std::move(meaning), "");
+    f.unit = std::move(unit);
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_points(v, key);
+    };
+    return f;
+  }
+  FieldSpec& numbers(std::string key, std::vector<double> Config::*member, Range range, std::string unit,
+                     std::string meaning) {
+    FieldSpec& f = add(std::move(key), "list of numbers", std::move(meaning), "");
+    f.unit = std::move(unit);
+    f.range = range;
+    f.load = [member, key = f.key, range](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_numbers(v, key, range);
+    };
+    return f;
+  }
+  // A nested struct with its own describe().
+  template <class Sub>
+  FieldSpec& group(std::string key, Sub Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "map", std::move(meaning), "");
+    Schema schema = schema_of<Sub>();
+    f.fields = schema.fields;
+    f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
+      schema.load_into(&(static_cast<Config*>(c)->*member), v, key);
+    };
+    return f;
+  }
+  template <class Sub>
+  FieldSpec& group(std::string key, std::optional<Sub> Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "map", std::move(meaning), "");
+    Schema schema = schema_of<Sub>();
+    f.fields = schema.fields;
+    f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
+      Sub sub;
+      schema.load_into(&sub, v, key);
+      static_cast<Config*>(c)->*member = std::move(sub);
+    };
+    return f;
+  }
+  template <class Sub>
+  FieldSpec& list(std::string key, std::vector<Sub> Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "list of maps", std::move(meaning), "");
+    Schema schema = schema_of<Sub>();
+    f.fields = schema.fields;
+    f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
+      auto& out = static_cast<Config*>(c)->*member;
+      out.clear();
+      for (const ConfigValue& item : config_detail::to_list(v, key)) {
+        out.emplace_back();
+        schema.load_into(&out.back(), item, key);
+      }
+    };
+    return f;
+  }
+  FieldSpec& plugin(std::string key, PluginChoice Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "plugin", std::move(meaning), (defaults_.*member).name);
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_plugin(v, key);
+    };
+    return f;
+  }
+  // Anything, kept as it stands (checked by whoever knows).
+  FieldSpec& raw(std::string key, ConfigValue Config::*member, std::string type, std::string meaning) {
+    FieldSpec& f = add(std::move(key), std::move(type), std::move(meaning), "");
+    f.load = [member](void* c, const ConfigValue& v) { static_cast<Config*>(c)->*member = v; };
+    return f;
+  }
+  void shorthand(std::string key) { schema_.shorthand = std::move(key); }
+
+  [[nodiscard]] Schema take() && { return std::move(schema_); }
+
+ private:
+  FieldSpec& add(std::string key, std::string type, std::string meaning, std::string default_text) {
+    FieldSpec f;
+    f.key = std::move(key);
+    f.type = std::move(type);
+    f.meaning = std::move(meaning);
+    f.default_text = std::move(default_text);
+    schema_.fields.push_back(std::move(f));
+    return schema_.fields.back();
+  }
+
+  Config defaults_{};
+  Schema schema_;
+};
+
+}  // namespace cairn

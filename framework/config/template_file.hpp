@@ -1,0 +1,15 @@
+// config/templates/*.yaml -> LandmarkShape. Throws ConfigError.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "maps/contour.hpp"
+
+namespace cairn {
+
+[[nodiscard]] LandmarkShape load_landmark_shape(const std::filesystem::path& file);
+// Every *.yaml of a folder, sorted by category. Refuses an empty folder and a category named twice.
+[[nodiscard]] std::vector<LandmarkShape> load_landmark_shapes(const std::filesystem::path& folder);
+
+}  // namespace cairn

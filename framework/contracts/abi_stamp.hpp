@@ -1,0 +1,65 @@
+// What must agree between the host and a module before one may call the other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "framework/contracts/behaviour.hpp"
+#include "framework/contracts/detector.hpp"
+#include "framework/contracts/mapper.hpp"
+
+#define CAIRN_VERSION "0.1.0"
+
+namespace cairn {
+
+struct AbiStamp {
+  std::uint32_t magic;          // kAbiMagic
+  std::uint32_t stamp_size;     // sizeof(AbiStamp)
+  char cairn_version[16];
+  char compiler[48];
+  char build[16];               // "release", "debug"
+  std::uint32_t eigen_align;
+  std::uint32_t sizes[6];       // Observation, OccupancyGrid, LandmarkGraph, PlanResult, DetectionReport, WorldView
+};
+
+inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
+
+namespace abi_detail {
+template <std::size_t N>
+constexpr void copy(char (&out)[N], std::string_view text) {
+  for (std::size_t i = 0; i < N; ++i) out[i] = i < text.size() && i + 1 < N ? text[i] : '\0';
+}
+}  // namespace abi_detail
+
+[[nodiscard]] constexpr AbiStamp this_abi_stamp() {
+  AbiStamp stamp{};
+  stamp.magic = kAbiMagic;
+  stamp.stamp_size = sizeof(AbiStamp);
+  abi_detail::copy(stamp.cairn_version, CAIRN_VERSION);
+#if defined(__clang__)
+  abi_detail::copy(stamp.compiler, "clang " __clang_version__);
+#else
+  abi_detail::copy(stamp.compiler, "gcc " __VERSION__);
+#endif
+#if defined(NDEBUG)
+  abi_detail::copy(stamp.build, "release");
+#else
+  abi_detail::copy(stamp.build, "debug");
+#endif
+  stamp.eigen_align = EIGEN_MAX_ALIGN_BYTES;
+  stamp.sizes[0] = sizeof(Observation);
+  stamp.sizes[1] = sizeof(OccupancyGrid);
+  stamp.sizes[2] = sizeof(LandmarkGraph);
+  stamp.sizes[3] = sizeof(PlanResult);
+  stamp.sizes[4] = sizeof(DetectionReport);
+  stamp.sizes[5] = sizeof(WorldView);
+  return stamp;
+}
+
+// "cairn 0.1.0, gcc 12.2.0, release, Eigen alignment 16, sizes ..."
+[[nodiscard]] std::string text_of(const AbiStamp& stamp);
+
+}  // namespace cairn

@@ -1,0 +1,36 @@
+// Behaviour: one step of a mission, ticked until it is done.
+#pragma once
+
+#include <string>
+
+#include "framework/contracts/planner.hpp"
+
+namespace cairn {
+
+enum class Progress { running, success, failure };
+
+struct Status {
+  Progress progress = Progress::running;
+  std::string reason;      // for people: what it is doing, or why it ended
+  bool operator==(const Status&) const = default;
+};
+
+// What a behaviour may ask for. Each is carried out by the host, inside its own limits.
+class Orders {
+ public:
+  virtual ~Orders() = default;
+  virtual void drive(const Twist& wanted) = 0;               // for this tick; no call means stop
+  virtual PlanResult plan(const PlanRequest& request) = 0;   // by the mission's planner, at once
+  virtual void save(const std::string& file_name) = 0;       // the map so far, into the output folder
+  virtual void say(const std::string& sentence) = 0;         // an event for people
+};
+
+class Behaviour {
+ public:
+  virtual ~Behaviour() = default;
+  virtual Status tick(const WorldView& world, Orders& orders) = 0;
+  // Called when the step is left before it ended; it must not ask for anything afterwards.
+  virtual void halt() = 0;
+};
+
+}  // namespace cairn

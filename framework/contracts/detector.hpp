@@ -1,0 +1,50 @@
+// Detector: recognises landmarks in OG1 (paper section 3).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/contracts/budget.hpp"
+#include "maps/coarse_grid.hpp"
+#include "maps/landmark_graph.hpp"
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn {
+
+struct Detection {
+  std::string category;
+  Pose2 T_map_landmark;
+  double degree = 0.0;
+  std::vector<TemplateDegree> templates;  // all above tau_match, best first
+};
+
+struct CategoryDegree {
+  std::string category;
+  double degree = 0.0;
+  double orientation_rad = 0.0;
+  Point at_m{0.0, 0.0};
+};
+
+// One run of the template matcher: where, what it found of every category, and the class if any.
+struct Matching {
+  Cell trigger;                              // coarse cell
+  int region_cells = 0;                      // OG1 cells searched
+  Point region_centre_m{0.0, 0.0};
+  std::vector<CategoryDegree> degrees;       // best a category, in the order of the template set
+  std::optional<Detection> detection;
+};
+
+struct DetectionReport {
+  std::vector<Matching> matchings;           // in the order they ran
+};
+
+class Detector {
+ public:
+  virtual ~Detector() = default;
+  virtual DetectionReport detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) = 0;
+  // OG2, for pictures and reports; null when the detector keeps none.
+  [[nodiscard]] virtual const CoarseGrid* coarse_grid() const { return nullptr; }
+};
+
+}  // namespace cairn

@@ -1,0 +1,31 @@
+// Localizer: from observations to where the robot is.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "framework/contracts/observation.hpp"
+#include "maps/landmark_graph.hpp"
+
+namespace cairn {
+
+struct PoseEstimate {
+  Pose2 T_map_robot;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // x_m, y_m, theta_rad
+};
+
+// A known landmark seen again in fresh readings.
+struct LandmarkSighting {
+  LandmarkId landmark = 0;
+  Pose2 T_map_landmark;    // as the graph knows it
+  Pose2 T_robot_landmark;  // as just measured
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+};
+
+class Localizer {
+ public:
+  virtual ~Localizer() = default;
+  virtual PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,19 @@
+// Mapper (plugin kind `map`): from posed observations to OG1.
+#pragma once
+
+#include "framework/contracts/localizer.hpp"
+#include "framework/contracts/observation.hpp"
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn {
+
+class Mapper {
+ public:
+  virtual ~Mapper() = default;
+  // Folds one observation in and says which cells may have changed. Readings that are NaN, negative
+  // or out of their sensor's range follow stated rules; none throws.
+  virtual CellChanges integrate(const Observation& observation, const PoseEstimate& pose) = 0;
+  [[nodiscard]] virtual const OccupancyGrid& grid() const = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,27 @@
+// Sensor: the source of observations; a source that moves is also driven.
+#pragma once
+
+#include "framework/contracts/budget.hpp"
+#include "framework/contracts/observation.hpp"
+
+namespace cairn {
+
+class Drive {
+ public:
+  virtual ~Drive() = default;
+  // Wanted velocity from now on; the source keeps to the robot's limits. Twist{} stops.
+  virtual void command(const Twist& twist) = 0;
+};
+
+class Sensor {
+ public:
+  virtual ~Sensor() = default;
+  // The next observation in order of time, or end of data, or a fault with its reason.
+  virtual SensorStep next(const Budget& budget) = 0;
+  // The wheels behind this source; null for a log.
+  virtual Drive* drive() { return nullptr; }
+  // The first pose in the map frame when the source knows it (a log with poses).
+  [[nodiscard]] virtual std::optional<Pose2> start() const { return std::nullopt; }
+};
+
+}  // namespace cairn

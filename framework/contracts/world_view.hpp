@@ -1,0 +1,25 @@
+// What planners and behaviours may see. Read-only; valid during the call only.
+#pragma once
+
+#include <optional>
+
+#include "framework/contracts/localizer.hpp"
+#include "framework/contracts/observation.hpp"
+#include "framework/contracts/robot_model.hpp"
+#include "maps/landmark_graph.hpp"
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn {
+
+struct WorldView {
+  const OccupancyGrid& grid;
+  const LandmarkGraph& graph;
+  const RobotModel& robot;
+  PoseEstimate pose;
+  double time_s = 0.0;                      // of the mission's clock
+  const Observation* observation = nullptr; // the latest, null when planning against a saved map
+  // The stop layer has cut this share of the last wanted speed: 0 none, 1 all.
+  double held_back_ratio = 0.0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,43 @@
+// Distance to the nearest cell that cannot be crossed, and shortest cell-to-cell travel over what can.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn {
+
+enum class UnknownPolicy : std::uint8_t { avoid, allow };
+
+// Exact Euclidean distance from cell centre to the nearest blocked cell's centre, over a box.
+// Cells outside the box count as blocked when unknown space is avoided.
+class DistanceField {
+ public:
+  DistanceField() = default;
+  // Over grid.bounds() grown by one cell. Occupied cells are blocked; unknown ones by policy.
+  DistanceField(const OccupancyGrid& grid, UnknownPolicy unknown, const OccupancyThresholds& thresholds = {});
+
+  [[nodiscard]] CellBox box() const { return box_; }
+  [[nodiscard]] double cell_m() const { return cell_m_; }
+  [[nodiscard]] Point origin_m() const { return origin_m_; }
+  [[nodiscard]] Cell cell_at(const Point& p_map) const;
+  [[nodiscard]] Point centre_of(Cell cell) const;
+  // Metres between cell centres; 0 on blocked cells and outside the box.
+  [[nodiscard]] float distance_m(Cell cell) const {
+    if (!box_.contains(cell)) return 0.0F;
+    return distance_m_[static_cast<std::size_t>(cell.y - box_.min.y) * static_cast<std::size_t>(box_.width()) +
+                       static_cast<std::size_t>(cell.x - box_.min.x)];
+  }
+  [[nodiscard]] bool is_blocked(Cell cell) const { return distance_m(cell) <= 0.0F; }
+  // A lower bound of the distance from any point of the cell to any point of a blocked cell.
+  [[nodiscard]] double clearance_m(const Point& p_map) const;
+
+ private:
+  CellBox box_;
+  double cell_m_ = 0.05;
+  Point origin_m_{0.0, 0.0};
+  std::vector<float> distance_m_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,84 @@
+// The lowest symbolic level: landmarks joined by routes (METHOD 9; paper section 2.1).
+//
+// Ids are stable: an id is never given twice, whatever is removed. Routes are directed; add_route
+// with two_way adds both directions. Iteration goes by rising id, so results never depend on hashing.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "maps/pose.hpp"
+
+namespace cairn {
+
+using LandmarkId = std::int64_t;
+using RouteId = std::int64_t;
+
+struct TemplateDegree {
+  std::string category;
+  double orientation_rad = 0.0;
+  double degree = 0.0;
+  bool operator==(const TemplateDegree&) const = default;
+};
+
+struct Landmark {
+  LandmarkId id = 0;
+  std::string name;                       // may be empty; "L<id>" always names it too
+  std::string category;                   // empty for imported places without one
+  Pose2 T_map_landmark;
+  double degree = 0.0;                    // of the best matching so far
+  std::vector<TemplateDegree> templates;  // all above tau_match in that matching, best first
+  int sightings = 0;
+  std::optional<Pose2> access;            // where a robot stands to be "at" the landmark; none: its position
+  int level = 0;                          // floor of a building
+  bool operator==(const Landmark&) const = default;
+};
+
+struct Route {
+  RouteId id = 0;
+  LandmarkId from = 0;
+  LandmarkId to = 0;
+  double cost_m = 0.0;
+  std::vector<Pose2> trajectory;          // from access to access; empty when only the cost is known
+  bool driven = false;                    // the robot has driven it; otherwise planned or imported
+  bool closed = false;                    // found blocked
+  int level = 0;
+  bool operator==(const Route&) const = default;
+};
+
+class LandmarkGraph {
+ public:
+  // Ids of 0 are assigned; others are kept (loading). Throws std::invalid_argument on a duplicate
+  // id, an unknown end, or a cost that is negative or not finite.
+  LandmarkId add(Landmark landmark);
+  RouteId add_route(Route route);
+  void remove(LandmarkId id);             // and the routes that touch it
+  void remove_route(RouteId id);
+  void set_closed(RouteId id, bool closed);
+
+  [[nodiscard]] const std::map<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
+  [[nodiscard]] const std::map<RouteId, Route>& routes() const { return routes_; }
+  [[nodiscard]] const Landmark* find(LandmarkId id) const;
+  [[nodiscard]] Landmark* find(LandmarkId id);
+  [[nodiscard]] const Landmark* find_by_name(const std::string& name_or_id) const;  // "L12" or its name
+  [[nodiscard]] const Route* find_route(RouteId id) const;
+  [[nodiscard]] const Landmark* nearest(const Point& p_map, double within_m) const;
+  [[nodiscard]] std::vector<LandmarkId> of_category(const std::string& category) const;
+  // The cheapest open route from one landmark to another, or null.
+  [[nodiscard]] const Route* route_between(LandmarkId from, LandmarkId to) const;
+  bool operator==(const LandmarkGraph&) const = default;
+
+ private:
+  std::map<LandmarkId, Landmark> landmarks_;
+  std::map<RouteId, Route> routes_;
+  LandmarkId next_landmark_ = 1;
+  RouteId next_route_ = 1;
+};
+
+[[nodiscard]] std::string label_of(const Landmark& landmark);  // its name, or "L<id>"
+
+}  // namespace cairn

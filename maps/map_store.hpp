@@ -1,0 +1,39 @@
+// The saved map: one SQLite 3 file (application_id "CRN1", user_version = schema version).
+//
+// save() writes in one transaction: after a kill at any moment the file holds the old or the new
+// content, never a mixture. The same SavedMap gives the same bytes. load() checks every checksum and
+// throws StoreError with the file, the table and what is wrong; it never returns half a map.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "maps/landmark_graph.hpp"
+#include "maps/landmark_template.hpp"
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn {
+
+inline constexpr int kMapSchemaVersion = 1;
+
+class StoreError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct SavedMap {
+  OccupancyGrid grid{0.05};
+  LandmarkGraph graph;
+  std::vector<LandmarkShape> shapes;             // the categories the map was made with
+  std::vector<Pose2> driven_path;                // estimated poses, thinned
+  std::map<std::string, std::string> properties; // mission, seed, robot_radius_m, ...
+};
+
+void save_map(const std::filesystem::path& file, const SavedMap& map);
+[[nodiscard]] SavedMap load_map(const std::filesystem::path& file);
+
+}  // namespace cairn

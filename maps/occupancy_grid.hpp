@@ -1,0 +1,116 @@
+// OG1: the first level occupancy grid (METHOD 2; paper section 2.2).
+//
+// Promises: a cell's index never changes, the grid grows in all four directions without moving
+// what it holds (64 x 64 tiles behind a directory), and every read outside it answers "unknown".
+// Each cell keeps log-odds L in 1/256 nat; what everybody else reads is the linearised prevision
+// OL = floor(255 P), P = 1 / (1 + e^-L), so 127 means equiprobable.
+// Copyable (deep). Reads are thread-safe among themselves.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "maps/cell.hpp"
+#include "maps/pose.hpp"
+
+namespace cairn {
+
+using LogOdds = std::int16_t;                   // 1/256 nat
+inline constexpr double kLogOddsPerNat = 256.0;
+inline constexpr std::uint8_t kUnknownOl = 127;
+
+[[nodiscard]] double probability_of(LogOdds log_odds);
+[[nodiscard]] std::uint8_t ol_of(LogOdds log_odds);
+[[nodiscard]] LogOdds log_odds_of(double probability);  // clamped to the int16 range
+
+enum class CellState : std::uint8_t { free, unknown, occupied };
+
+// Which log-odds count as free and as occupied; what lies between is unknown.
+struct OccupancyThresholds {
+  LogOdds free_below = -158;     // P < 0.35
+  LogOdds occupied_above = 158;  // P > 0.65
+
+  [[nodiscard]] static OccupancyThresholds of(double free_below_p, double occupied_above_p) {
+    return {log_odds_of(free_below_p), log_odds_of(occupied_above_p)};
+  }
+  [[nodiscard]] constexpr CellState state(LogOdds log_odds) const {
+    if (log_odds > occupied_above) return CellState::occupied;
+    return log_odds < free_below ? CellState::free : CellState::unknown;
+  }
+};
+
+class OccupancyGrid {
+ public:
+  static constexpr int kTileSide = 64;
+
+  // origin_m: lower left corner of cell (0, 0) in the map frame. clamp_nat bounds |L|.
+  explicit OccupancyGrid(double cell_m, double clamp_nat = 4.0, Point origin_m = {0.0, 0.0});
+  OccupancyGrid(const OccupancyGrid& other);
+  OccupancyGrid& operator=(const OccupancyGrid& other);
+  OccupancyGrid(OccupancyGrid&&) noexcept = default;
+  OccupancyGrid& operator=(OccupancyGrid&&) noexcept = default;
+  ~OccupancyGrid() = default;
+
+  [[nodiscard]] double cell_m() const { return cell_m_; }
+  [[nodiscard]] double clamp_nat() const { return clamp_ / kLogOddsPerNat; }
+  [[nodiscard]] Point origin_m() const { return origin_m_; }
+  [[nodiscard]] Cell cell_at(const Point& p_map) const;
+  [[nodiscard]] Point centre_of(Cell cell) const;
+
+  // The box of cells that were ever written or asked for by include().
+  [[nodiscard]] CellBox bounds() const { return bounds_; }
+  void include(const CellBox& box);
+
+  [[nodiscard]] LogOdds log_odds(Cell cell) const {
+    const Tile* tile = tile_of(cell);
+    return tile == nullptr ? LogOdds{0} : (*tile)[offset_in_tile(cell)];
+  }
+  [[nodiscard]] std::uint8_t ol(Cell cell) const { return ol_of(log_odds(cell)); }
+  [[nodiscard]] CellState state(Cell cell, const OccupancyThresholds& thresholds = {}) const {
+    return thresholds.state(log_odds(cell));
+  }
+
+  // Both grow the grid where needed and clamp to +-clamp_nat.
+  void set_log_odds(Cell cell, LogOdds value);
+  void add_log_odds(Cell cell, int delta);
+
+  // Row-major copies of a box, row box.min.y first; out.size() == width * height.
+  void copy_ol(const CellBox& box, std::span<std::uint8_t> out) const;
+  void copy_log_odds(const CellBox& box, std::span<LogOdds> out) const;
+
+  // Same cell size, origin, bounds and values.
+  bool operator==(const OccupancyGrid& other) const;
+
+ private:
+  using Tile = std::array<LogOdds, kTileSide * kTileSide>;
+
+  static constexpr int tile_index(int cell) { return cell >> 6; }
+  static constexpr std::size_t offset_in_tile(Cell c) {
+    return static_cast<std::size_t>(((c.y & 63) << 6) | (c.x & 63));
+  }
+  [[nodiscard]] const Tile* tile_of(Cell cell) const {
+    const int tx = tile_index(cell.x) - tiles_box_.min.x;
+    const int ty = tile_index(cell.y) - tiles_box_.min.y;
+    if (tx < 0 || ty < 0 || tx >= tiles_box_.width() || ty >= tiles_box_.height()) return nullptr;
+    return tiles_[static_cast<std::size_t>(ty) * static_cast<std::size_t>(tiles_box_.width()) +
+                  static_cast<std::size_t>(tx)]
+        .get();
+  }
+  Tile& tile_for_writing(Cell cell);
+  void grow_directory(const CellBox& tiles);
+
+  double cell_m_;
+  int clamp_;
+  Point origin_m_;
+  CellBox bounds_;
+  CellBox tiles_box_;
+  std::vector<std::unique_ptr<Tile>> tiles_;  // row-major over tiles_box_; null = all unknown
+};
+
+// Share of the cells of bounds() whose state is not unknown; 0 for an empty grid.
+[[nodiscard]] double known_ratio(const OccupancyGrid& grid, const OccupancyThresholds& thresholds = {});
+
+}  // namespace cairn
