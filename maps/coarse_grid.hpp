@@ -14,10 +14,12 @@ namespace cairn {
 
 class CoarseGrid {
  public:
-  // Throws std::invalid_argument unless n >= 1 and alpha > 1.
+  // Throws std::invalid_argument unless 1 <= n <= 1024 and alpha > 1.
   CoarseGrid(int n, double alpha);
 
-  // Follows the changes of OG1; returns the coarse cells below them, each once, sorted by (y, x).
+  // Follows the changes of OG1; returns the coarse cells over them, each once, sorted by (y, x).
+  // Spans that reach beyond the grid's bounds hold nothing there and are cut. Coarse cells that are
+  // new because OG1 grew are computed whole. Costs n^2 reads a coarse cell touched.
   std::vector<Cell> update(const OccupancyGrid& grid, const CellChanges& changes);
   // Recomputes everything within the grid's bounds.
   void rebuild(const OccupancyGrid& grid);
@@ -37,7 +39,7 @@ class CoarseGrid {
     std::int32_t high_count = 0;
     bool operator==(const Sums&) const = default;
   };
-  void include(const CellBox& coarse_box, const OccupancyGrid& grid);
+  void include(const CellBox& fine_box, const OccupancyGrid& grid);
   [[nodiscard]] Sums sums_of(const OccupancyGrid& grid, Cell coarse) const;
   [[nodiscard]] std::size_t index_of(Cell coarse) const;
 

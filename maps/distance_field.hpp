@@ -11,7 +11,12 @@ namespace cairn {
 enum class UnknownPolicy : std::uint8_t { avoid, allow };
 
 // Exact Euclidean distance from cell centre to the nearest blocked cell's centre, over a box.
-// Cells outside the box count as blocked when unknown space is avoided.
+//
+// What lies outside the box is unknown. It blocks when unknown space is avoided (the box's own rim
+// is unknown then, so distances inside are those of the endless plane). When unknown space is
+// allowed it repels nothing, yet cannot be entered: distance_m() is 0 there all the same. A field
+// without any blocked cell holds the box's diagonal everywhere; one of an empty grid has no cells.
+// Immutable after construction; O(cells) to build.
 class DistanceField {
  public:
   DistanceField() = default;
@@ -30,7 +35,8 @@ class DistanceField {
                        static_cast<std::size_t>(cell.x - box_.min.x)];
   }
   [[nodiscard]] bool is_blocked(Cell cell) const { return distance_m(cell) <= 0.0F; }
-  // A lower bound of the distance from any point of the cell to any point of a blocked cell.
+  // A lower bound of the distance from any point of the point's cell to any point of a blocked cell:
+  // distance_m less one cell diagonal, never below 0.
   [[nodiscard]] double clearance_m(const Point& p_map) const;
 
  private:

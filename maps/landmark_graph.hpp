@@ -1,13 +1,15 @@
 // The lowest symbolic level: landmarks joined by routes (METHOD 9; paper section 2.1).
 //
-// Ids are stable: an id is never given twice, whatever is removed. Routes are directed; add_route
-// with two_way adds both directions. Iteration goes by rising id, so results never depend on hashing.
+// Ids are stable: an id is never given twice, whatever is removed. Routes are directed: a two-way
+// road is two routes. Iteration goes by rising id, so results never depend on hashing.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,29 +54,37 @@ struct Route {
 
 class LandmarkGraph {
  public:
-  // Ids of 0 are assigned; others are kept (loading). Throws std::invalid_argument on a duplicate
-  // id, an unknown end, or a cost that is negative or not finite.
+  // Ids of 0 are assigned; others are kept (loading). Throws std::invalid_argument on a duplicate or
+  // negative id, an unknown end, a cost that is negative or not finite, a place that is not finite.
   LandmarkId add(Landmark landmark);
   RouteId add_route(Route route);
   void remove(LandmarkId id);             // and the routes that touch it
   void remove_route(RouteId id);
   void set_closed(RouteId id, bool closed);
+  // The ids to be given next. A saved graph keeps them, so that removed ids stay retired after
+  // loading; reserve_ids never lowers them.
+  [[nodiscard]] LandmarkId next_landmark_id() const { return next_landmark_; }
+  [[nodiscard]] RouteId next_route_id() const { return next_route_; }
+  void reserve_ids(LandmarkId next_landmark, RouteId next_route);
 
   [[nodiscard]] const std::map<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
   [[nodiscard]] const std::map<RouteId, Route>& routes() const { return routes_; }
   [[nodiscard]] const Landmark* find(LandmarkId id) const;
   [[nodiscard]] Landmark* find(LandmarkId id);
-  [[nodiscard]] const Landmark* find_by_name(const std::string& name_or_id) const;  // "L12" or its name
+  // "L12" or its name; an id wins over a landmark that is named like one, the lower id over a namesake.
+  [[nodiscard]] const Landmark* find_by_name(const std::string& name_or_id) const;
   [[nodiscard]] const Route* find_route(RouteId id) const;
+  // The landmark whose position is nearest, at most within_m away, or null; ties go to the lower id.
   [[nodiscard]] const Landmark* nearest(const Point& p_map, double within_m) const;
   [[nodiscard]] std::vector<LandmarkId> of_category(const std::string& category) const;
-  // The cheapest open route from one landmark to another, or null.
+  // The cheapest open route from one landmark to another, or null; ties go to the lower id.
   [[nodiscard]] const Route* route_between(LandmarkId from, LandmarkId to) const;
   bool operator==(const LandmarkGraph&) const = default;
 
  private:
   std::map<LandmarkId, Landmark> landmarks_;
   std::map<RouteId, Route> routes_;
+  std::set<std::tuple<LandmarkId, LandmarkId, RouteId>> routes_by_ends_;  // from, to, route
   LandmarkId next_landmark_ = 1;
   RouteId next_route_ = 1;
 };

@@ -9,6 +9,8 @@ namespace cairn {
 namespace {
 
 constexpr int kTableHalf = 32768;
+constexpr double kLatticeRim = 1 << 30;        // keeps sums of cell indices inside an int
+constexpr int kLargestCellIndex = 1 << 20;     // 52 km at 0.05 m: beyond it something else is wrong
 
 // OL of every int16 log-odds value: 64 KiB, computed once.
 const std::vector<std::uint8_t>& ol_table() {
@@ -20,6 +22,30 @@ const std::vector<std::uint8_t>& ol_table() {
     return t;
   }();
   return table;
+}
+
+int saturated_floor(double cells) {
+  if (!(cells > -kLatticeRim)) return -static_cast<int>(kLatticeRim);  // NaN too
+  return static_cast<int>(std::floor(std::min(cells, kLatticeRim)));
+}
+
+int checked_clamp(double clamp_nat) {
+  constexpr double kLeast = 1.0 / kLogOddsPerNat;
+  if (!(clamp_nat >= kLeast && clamp_nat <= 127.0))
+    throw std::invalid_argument("OccupancyGrid: clamp_nat must be in [1/256, 127], got " + std::to_string(clamp_nat));
+  return static_cast<int>(std::lround(clamp_nat * kLogOddsPerNat));
+}
+
+// Calls visit(first_cell, run_length) for the pieces of each row of a box that lie in one tile column.
+template <class Visit>
+void for_each_run(const CellBox& box, const Visit& visit) {
+  constexpr int kSide = OccupancyGrid::kTileSide;
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x;) {
+      const int run = std::min(box.max.x, (x & ~(kSide - 1)) + kSide) - x;
+      visit(Cell{x, y}, run);
+      x += run;
+    }
 }
 
 }  // namespace
@@ -34,16 +60,21 @@ std::uint8_t ol_of(LogOdds log_odds) {
 LogOdds log_odds_of(double probability) {
   constexpr double kLow = std::numeric_limits<LogOdds>::min();
   constexpr double kHigh = std::numeric_limits<LogOdds>::max();
+  if (!(probability >= 0.0 && probability <= 1.0))
+    throw std::invalid_argument("log_odds_of: a probability is in [0, 1], got " + std::to_string(probability));
   const double nat = std::log(probability) - std::log1p(-probability);
   return static_cast<LogOdds>(std::lround(std::clamp(nat * kLogOddsPerNat, kLow, kHigh)));
 }
 
+Cell cell_on_lattice(const Point& p_map, const Point& origin_m, double cell_m) {
+  return {saturated_floor((p_map.x() - origin_m.x()) / cell_m), saturated_floor((p_map.y() - origin_m.y()) / cell_m)};
+}
+
 OccupancyGrid::OccupancyGrid(double cell_m, double clamp_nat, Point origin_m)
-    : cell_m_(cell_m), clamp_(static_cast<int>(std::lround(clamp_nat * kLogOddsPerNat))), origin_m_(origin_m) {
+    : cell_m_(cell_m), clamp_(checked_clamp(clamp_nat)), origin_m_(origin_m) {
   if (!(cell_m > 0.0) || !std::isfinite(cell_m))
     throw std::invalid_argument("OccupancyGrid: cell_m must be positive, got " + std::to_string(cell_m));
-  if (!(clamp_nat > 0.0) || clamp_ > std::numeric_limits<LogOdds>::max())
-    throw std::invalid_argument("OccupancyGrid: clamp_nat must be in (0, 127], got " + std::to_string(clamp_nat));
+  if (!origin_m.allFinite()) throw std::invalid_argument("OccupancyGrid: origin_m must be finite");
 }
 
 OccupancyGrid::OccupancyGrid(const OccupancyGrid& other)
@@ -58,16 +89,22 @@ OccupancyGrid& OccupancyGrid::operator=(const OccupancyGrid& other) {
   return *this;
 }
 
-Cell OccupancyGrid::cell_at(const Point& p_map) const {
-  return {static_cast<int>(std::floor((p_map.x() - origin_m_.x()) / cell_m_)),
-          static_cast<int>(std::floor((p_map.y() - origin_m_.y()) / cell_m_))};
-}
+Cell OccupancyGrid::cell_at(const Point& p_map) const { return cell_on_lattice(p_map, origin_m_, cell_m_); }
 
 Point OccupancyGrid::centre_of(Cell cell) const {
   return {origin_m_.x() + (cell.x + 0.5) * cell_m_, origin_m_.y() + (cell.y + 0.5) * cell_m_};
 }
 
-void OccupancyGrid::include(const CellBox& box) { bounds_ = united(bounds_, box); }
+void OccupancyGrid::include(const CellBox& box) {
+  if (box.empty() || intersected(bounds_, box) == box) return;
+  constexpr CellBox kAllowed{{-kLargestCellIndex, -kLargestCellIndex}, {kLargestCellIndex, kLargestCellIndex}};
+  if (intersected(kAllowed, box) != box)
+    throw std::length_error("OccupancyGrid: a map of " + std::to_string(kLargestCellIndex) +
+                            " cells to a side is too small for the cells (" + std::to_string(box.min.x) + ", " +
+                            std::to_string(box.min.y) + ") to (" + std::to_string(box.max.x) + ", " +
+                            std::to_string(box.max.y) + ")");
+  bounds_ = united(bounds_, box);
+}
 
 void OccupancyGrid::set_log_odds(Cell cell, LogOdds value) {
   tile_for_writing(cell)[offset_in_tile(cell)] =
@@ -76,7 +113,8 @@ void OccupancyGrid::set_log_odds(Cell cell, LogOdds value) {
 
 void OccupancyGrid::add_log_odds(Cell cell, int delta) {
   LogOdds& value = tile_for_writing(cell)[offset_in_tile(cell)];
-  value = static_cast<LogOdds>(std::clamp(value + delta, -clamp_, clamp_));
+  // Twice the clamp reaches from one end to the other, so more than that cannot matter.
+  value = static_cast<LogOdds>(std::clamp(value + std::clamp(delta, -2 * clamp_, 2 * clamp_), -clamp_, clamp_));
 }
 
 OccupancyGrid::Tile& OccupancyGrid::tile_for_writing(Cell cell) {
@@ -107,15 +145,25 @@ void OccupancyGrid::grow_directory(const CellBox& tiles) {
 }
 
 void OccupancyGrid::copy_ol(const CellBox& box, std::span<std::uint8_t> out) const {
-  std::size_t i = 0;
-  for (int y = box.min.y; y < box.max.y; ++y)
-    for (int x = box.min.x; x < box.max.x; ++x) out[i++] = ol({x, y});
+  auto to = out.begin();
+  for_each_run(box, [&](Cell first, int run) {
+    const Tile* const tile = tile_of(first);
+    if (tile == nullptr) {
+      to = std::fill_n(to, run, kUnknownOl);
+    } else {
+      const LogOdds* const from = tile->data() + offset_in_tile(first);
+      to = std::transform(from, from + run, to, ol_of);
+    }
+  });
 }
 
 void OccupancyGrid::copy_log_odds(const CellBox& box, std::span<LogOdds> out) const {
-  std::size_t i = 0;
-  for (int y = box.min.y; y < box.max.y; ++y)
-    for (int x = box.min.x; x < box.max.x; ++x) out[i++] = log_odds({x, y});
+  auto to = out.begin();
+  for_each_run(box, [&](Cell first, int run) {
+    const Tile* const tile = tile_of(first);
+    to = tile == nullptr ? std::fill_n(to, run, LogOdds{0})
+                         : std::copy_n(tile->data() + offset_in_tile(first), run, to);
+  });
 }
 
 bool OccupancyGrid::operator==(const OccupancyGrid& other) const {

@@ -24,7 +24,7 @@ inline constexpr std::uint8_t kUnknownOl = 127;
 
 [[nodiscard]] double probability_of(LogOdds log_odds);
 [[nodiscard]] std::uint8_t ol_of(LogOdds log_odds);
-[[nodiscard]] LogOdds log_odds_of(double probability);  // clamped to the int16 range
+[[nodiscard]] LogOdds log_odds_of(double probability);  // clamped to the int16 range; NaN and outside [0, 1] throw
 
 enum class CellState : std::uint8_t { free, unknown, occupied };
 
@@ -42,11 +42,16 @@ struct OccupancyThresholds {
   }
 };
 
+// The cell of a lattice that holds a point, each cell with its lower and left edge. Points beyond
+// +-2^30 cells, and those that are not finite, end at that rim.
+[[nodiscard]] Cell cell_on_lattice(const Point& p_map, const Point& origin_m, double cell_m);
+
 class OccupancyGrid {
  public:
   static constexpr int kTileSide = 64;
 
-  // origin_m: lower left corner of cell (0, 0) in the map frame. clamp_nat bounds |L|.
+  // origin_m: lower left corner of cell (0, 0) in the map frame. clamp_nat bounds |L|. Throws
+  // std::invalid_argument unless cell_m > 0, 1/256 <= clamp_nat <= 127 and the origin is finite.
   explicit OccupancyGrid(double cell_m, double clamp_nat = 4.0, Point origin_m = {0.0, 0.0});
   OccupancyGrid(const OccupancyGrid& other);
   OccupancyGrid& operator=(const OccupancyGrid& other);
@@ -73,7 +78,7 @@ class OccupancyGrid {
     return thresholds.state(log_odds(cell));
   }
 
-  // Both grow the grid where needed and clamp to +-clamp_nat.
+  // Both grow the grid where needed and clamp to +-clamp_nat. Throw std::length_error beyond +-2^20 cells.
   void set_log_odds(Cell cell, LogOdds value);
   void add_log_odds(Cell cell, int delta);
 

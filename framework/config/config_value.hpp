@@ -34,9 +34,9 @@ class ConfigValue {
   Kind kind = Kind::null;
   SourcePlace place;
   std::string scalar;
-  bool quoted = false;              // a quoted scalar is text, never a number
-  std::vector<ConfigValue> items;   // list
-  std::vector<Entry> entries;       // map, in the order of the file; keys are unique
+  bool quoted = false;             // a quoted scalar is text, never a number
+  std::vector<ConfigValue> items;  // list
+  std::vector<Entry> entries;      // map, in the order of the file; keys are unique
 
   [[nodiscard]] const ConfigValue* find(std::string_view key) const;
   [[nodiscard]] ConfigValue* find(std::string_view key);
@@ -64,6 +64,9 @@ void apply_override(ConfigValue& root, const std::string& assignment);
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 // ` (did you mean "x"?)` or empty.
 [[nodiscard]] std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
+
+// A name or value in quotes for a message: one line, at most 60 bytes of it.
+[[nodiscard]] std::string shown(std::string_view text);
 
 // A path in a file: ${NAME} and ${NAME:-default} are read from the environment, then relative
 // paths are taken from the folder of the file that names them.

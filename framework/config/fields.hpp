@@ -41,8 +41,8 @@ struct PluginChoice {
 
 struct FieldSpec {
   std::string key;
-  std::string type;           // "number", "integer", "flag", "text", "choice", "file", "point", "list of ...", "map"
-  std::string unit;           // "m", "deg", ... or empty
+  std::string type;  // "number", "integer", "flag", "text", "choice", "file", "point", "list of ...", "map"
+  std::string unit;  // "m", "deg", ... or empty
   Range range;
   std::vector<std::string> choices;
   std::string meaning;
@@ -54,7 +54,7 @@ struct FieldSpec {
 
 struct Schema {
   std::vector<FieldSpec> fields;
-  std::string shorthand;      // the field that a scalar or list in place of the map stands for
+  std::string shorthand;  // the field that a scalar or list in place of the map stands for
 
   // Loads a map (or the shorthand) into a config object. what: "robot", "plugin explore", ...
   void load_into(void* config, const ConfigValue& value, const std::string& what) const;
@@ -92,6 +92,16 @@ namespace config_detail {
 [[nodiscard]] PluginChoice to_plugin(const ConfigValue& value, const std::string& key);
 [[nodiscard]] const std::vector<ConfigValue>& to_list(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::string number_text(double value);
+// Which one of the keys the map holds. Throws ConfigError when it holds none or several.
+[[nodiscard]] std::string exactly_one_of(const ConfigValue& map, const std::vector<std::string>& keys,
+                                         const std::string& what);
+// The part of a range that an integer type can hold.
+template <class Integer>
+[[nodiscard]] constexpr Range within_type(const Range& range) {
+  constexpr auto kMin = static_cast<double>(std::numeric_limits<Integer>::min());
+  constexpr auto kMax = static_cast<double>(std::numeric_limits<Integer>::max());
+  return {range.min < kMin ? kMin : range.min, range.max > kMax ? kMax : range.max};
+}
 }  // namespace config_detail
 
 template <class Config>
@@ -141,7 +151,8 @@ class Fields {
     FieldSpec& f = add(std::move(key), "integer", std::move(meaning), std::to_string(defaults_.*member));
     f.range = range;
     f.load = [member, key = f.key, range](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = static_cast<Integer>(config_detail::to_integer(v, key, range));
+      static_cast<Config*>(c)->*member =
+          static_cast<Integer>(config_detail::to_integer(v, key, config_detail::within_type<Integer>(range)));
     };
     return f;
   }
@@ -217,6 +228,15 @@ class Fields {
     f.range = range;
     f.load = [member, key = f.key, range](void* c, const ConfigValue& v) {
       static_cast<Config*>(c)->*member = config_detail::to_numbers(v, key, range);
+    };
+    return f;
+  }
+  FieldSpec& texts(std::string key, std::vector<std::string> Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "list of texts", std::move(meaning), "");
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      auto& out = static_cast<Config*>(c)->*member;
+      out.clear();
+      for (const ConfigValue& item : config_detail::to_list(v, key)) out.push_back(config_detail::to_text(item, key));
     };
     return f;
   }

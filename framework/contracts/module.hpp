@@ -122,11 +122,12 @@ struct NoConfig {
     function(registrar); \
   }
 #else
-#define CAIRN_MODULE(function)                                                                         \
-  extern "C" __attribute__((visibility("default"))) extern const cairn::AbiStamp cairn_abi_stamp;      \
-  extern "C" __attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp =            \
-      cairn::this_abi_stamp();                                                                         \
-  extern "C" __attribute__((visibility("default"))) void cairn_register_module(cairn::Registrar & registrar) { \
-    function(registrar);                                                                               \
+#define CAIRN_MODULE(function)                                                                       \
+  extern "C" {                                                                                       \
+  extern __attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp;               \
+  const cairn::AbiStamp cairn_abi_stamp = cairn::this_abi_stamp();                                   \
+  __attribute__((visibility("default"))) void cairn_register_module(cairn::Registrar & registrar) {  \
+    function(registrar);                                                                             \
+  }                                                                                                  \
   }
 #endif

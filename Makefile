@@ -1,0 +1,38 @@
+# Each verb works alone on a fresh Debian 12 machine: it installs what packages.txt lists (only what
+# is missing), configures and builds.
+.PHONY: build demo test check bench deps experiment
+.DEFAULT_GOAL := build
+
+SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+JOBS := $(shell nproc)
+CAIRN := build/release/bin/cairn
+
+deps:
+	@missing=""; for p in $$(grep -v '^#' packages.txt); do \
+	  [ "$$(dpkg-query -W -f='$${db:Status-Status}' $$p 2>/dev/null)" = installed ] || missing="$$missing $$p"; done; \
+	if [ -n "$$missing" ]; then echo "installing:$$missing"; \
+	  $(SUDO) apt-get update -qq && \
+	  DEBIAN_FRONTEND=noninteractive $(SUDO) -E apt-get install -y -qq --no-install-recommends $$missing >/dev/null; fi
+
+build: deps
+	@cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; rm -f build-configure.log; exit 1; }; rm -f build-configure.log
+	@cmake --build --preset release
+
+demo: build
+	$(CAIRN) run config/missions/office.yaml --out out/demo
+	$(CAIRN) plan out/demo/office.cairn --from 0.6,0.6 --to "nearest square" --picture out/demo/route.png
+	@echo "Look at out/demo/map.png and out/demo/route.png"
+
+test: build
+	@cmake --build --preset release --target cairn_tests
+	@ctest --test-dir build/release --output-on-failure -j $(JOBS)
+
+check: build
+	@cmake/check.sh
+
+bench: build
+	@cmake --build --preset release --target cairn_benches
+	@build/release/tests/cairn_bench
+
+experiment: build
+	$(CAIRN) experiment config/experiments/first_mission.yaml --out out/first_mission

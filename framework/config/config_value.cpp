@@ -1,0 +1,256 @@
+#include "framework/config/config_value.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kShownBytes = 60;
+constexpr std::size_t kLongestComparedName = 64;
+
+bool is_number_text(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+// Optimal string alignment distance: insertion, deletion, change, swap of neighbours.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+void set_places(ConfigValue& value, const SourcePlace& place) {
+  value.place = place;
+  for (ConfigValue& item : value.items) set_places(item, place);
+  for (ConfigValue::Entry& entry : value.entries) {
+    entry.key_place = place;
+    set_places(entry.value, place);
+  }
+}
+
+// The text behind '=' read as YAML, so that lists and quotes work as in a file.
+ConfigValue override_value(const std::string& text, const SourcePlace& place) {
+  if (text.find_first_not_of(" \t") == std::string::npos) {
+    ConfigValue nothing;
+    nothing.place = place;
+    return nothing;
+  }
+  // A map or list on its own needs its place; errors inside keep theirs within the text.
+  ConfigValue value = parse_config_text(text, place.file);
+  set_places(value, place);
+  return value;
+}
+
+ConfigValue& list_item(ConfigValue& list, const std::string& part, const SourcePlace& place) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  const bool is_index = error == std::errc{} && end == part.data() + part.size();
+  if (is_index && index < list.items.size()) return list.items[index];
+  const std::string allowed =
+      list.items.empty() ? "the list there is empty" : "allowed: 0 to " + std::to_string(list.items.size() - 1);
+  throw ConfigError(place, shown(part) + " is not an item of the list at " + list.place.text() + "; " + allowed);
+}
+
+// The value below one part of the path; made when it is missing.
+ConfigValue& child_of(ConfigValue& parent, const std::string& part, const SourcePlace& place) {
+  if (parent.kind == ConfigValue::Kind::list) return list_item(parent, part, place);
+  if (parent.kind == ConfigValue::Kind::scalar) {
+    throw ConfigError(place, "no key " + shown(part) + " below the value " + shown(parent.scalar) + " at " +
+                                 parent.place.text() + ", which is not a map");
+  }
+  if (parent.kind == ConfigValue::Kind::null) {
+    parent.kind = ConfigValue::Kind::map;
+    parent.place = place;
+  }
+  if (ConfigValue* child = parent.find(part)) return *child;
+  ConfigValue::Entry entry{part, place, {}};
+  entry.value.place = place;
+  parent.entries.push_back(std::move(entry));
+  return parent.entries.back().value;
+}
+
+std::vector<std::string> split_at_dots(const std::string& key) {
+  std::vector<std::string> parts{""};
+  for (const char c : key) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+bool is_variable_name(std::string_view name) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return !name.empty() && is_letter(name.front()) &&
+         std::ranges::all_of(name, [&](char c) { return is_letter(c) || is_digit(c); });
+}
+
+// The value of `NAME` or `NAME:-default`, the text between the braces.
+std::string variable_value(std::string_view inside, const SourcePlace& place) {
+  const std::size_t split = inside.find(":-");
+  const std::string name(inside.substr(0, split));
+  const bool has_default = split != std::string_view::npos;
+  if (!is_variable_name(name)) {
+    throw ConfigError(
+        place, shown("${" + std::string(inside) + "}") + " is not a variable; allowed: ${NAME} or ${NAME:-default}");
+  }
+  const char* value = std::getenv(name.c_str());
+  if (value != nullptr && (*value != '\0' || !has_default)) return value;
+  if (has_default) return std::string(inside.substr(split + 2));
+  throw ConfigError(place, "the environment variable " + name + " is not set and ${" + name +
+                               "} has no default; set it or write ${" + name + ":-default}");
+}
+
+std::string with_variables(const std::string& text, const SourcePlace& place) {
+  std::string out;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t open = text.find("${", at);
+    out += text.substr(at, open - at);
+    if (open == std::string::npos) break;
+    const std::size_t close = text.find('}', open);
+    if (close == std::string::npos) throw ConfigError(place, "\"${\" without \"}\" in " + shown(text));
+    const std::string inside = text.substr(open + 2, close - open - 2);
+    if (inside.find("${") != std::string::npos) {
+      throw ConfigError(place, "a variable within a variable in " + shown(text) + " is not supported");
+    }
+    out += variable_value(inside, place);
+    at = close + 1;
+  }
+  return out;
+}
+
+// "a/../b" is "b" only where a is no symbolic link.
+std::filesystem::path simplified(const std::filesystem::path& path) {
+  const std::filesystem::path simple = path.lexically_normal();
+  std::error_code error;
+  const bool differs = std::filesystem::exists(path, error) && !std::filesystem::equivalent(path, simple, error);
+  return differs ? path : simple;
+}
+
+}  // namespace
+
+std::string SourcePlace::text() const {
+  if (line <= 0) return file;
+  return file + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+const ConfigValue* ConfigValue::find(std::string_view key) const {
+  const auto at = std::ranges::find(entries, key, &Entry::key);
+  return at == entries.end() ? nullptr : &at->value;
+}
+
+ConfigValue* ConfigValue::find(std::string_view key) {
+  const auto at = std::ranges::find(entries, key, &Entry::key);
+  return at == entries.end() ? nullptr : &at->value;
+}
+
+std::string ConfigValue::kind_name() const {
+  switch (kind) {
+    case Kind::null:
+      return "nothing";
+    case Kind::list:
+      return "a list";
+    case Kind::map:
+      return "a map";
+    case Kind::scalar:
+      break;
+  }
+  if (quoted) return "text";
+  if (scalar == "true" || scalar == "false") return "a flag";
+  return is_number_text(scalar) ? "a number" : "text";
+}
+
+void apply_override(ConfigValue& root, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigError({"--set", 0, 0}, "expected KEY=VALUE, found " + shown(assignment));
+  }
+  const std::string key = assignment.substr(0, equals);
+  const SourcePlace place{"--set " + key, 0, 0};
+  const std::vector<std::string> parts = split_at_dots(key);
+  if (std::ranges::find(parts, "") != parts.end()) throw ConfigError(place, "a part of the key is empty");
+  ConfigValue value = override_value(assignment.substr(equals + 1), place);
+  ConfigValue* target = &root;
+  for (const std::string& part : parts) target = &child_of(*target, part, place);
+  *target = std::move(value);
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  if (name.empty() || name.size() > kLongestComparedName) return "";
+  const std::string wanted = lower_case(name);
+  std::size_t allowed = std::max<std::size_t>(1, wanted.size() / 3);
+  std::string nearest;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > kLongestComparedName) continue;
+    std::size_t distance = edit_distance(wanted, lower_case(candidate));
+    // A forgotten unit ("angle" for "angle_deg") is one mistake, however long the unit.
+    if (wanted.size() >= 2 && candidate.starts_with(wanted + "_")) distance = 1;
+    if (distance > allowed || (distance == allowed && !nearest.empty())) continue;
+    allowed = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  return nearest.empty() ? "" : " (did you mean " + shown(nearest) + "?)";
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string out = "\"";
+  std::size_t end = std::min(text.size(), kShownBytes);
+  // Not in the middle of a UTF-8 character.
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  for (const char c : text.substr(0, end)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      out += "\\n";
+    } else if (byte < 0x20U || byte == 0x7FU) {
+      out += std::string("\\x") + kHex[byte >> 4U] + kHex[byte & 15U];
+    } else {
+      out += c;
+    }
+  }
+  return out + (end < text.size() ? "...\"" : "\"");
+}
+
+std::filesystem::path resolve_path(const ConfigValue& value) {
+  if (value.kind != ConfigValue::Kind::scalar) {
+    throw ConfigError(value.place, "expected a path, found " + value.kind_name());
+  }
+  const std::filesystem::path path = with_variables(value.scalar, value.place);
+  if (path.empty()) throw ConfigError(value.place, "expected a path, found an empty text");
+  const bool from_a_file = value.place.line > 0;
+  if (path.is_absolute() || !from_a_file) return simplified(path);
+  return simplified(std::filesystem::path(value.place.file).parent_path() / path);
+}
+
+}  // namespace cairn

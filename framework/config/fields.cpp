@@ -1,0 +1,227 @@
+#include "framework/config/fields.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+namespace cairn {
+namespace {
+
+// Beyond this a coordinate is a slip of the hand, and cell indices would overflow.
+constexpr Range kCoordinateRange{-1e5, 1e5};
+// Checking that a polygon does not cross itself takes quadratic time.
+constexpr std::size_t kMaxPoints = 10'000;
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string found_text(const ConfigValue& value) {
+  if (value.kind != ConfigValue::Kind::scalar) return value.kind_name();
+  return (value.quoted ? "the text " : "") + shown(value.scalar);
+}
+
+// "a number from 0 to 5 m", "a number of at least 0 m", "a number (m)", "a number".
+std::string allowed_text(const std::string& noun, const Range& range, const std::string& unit) {
+  const std::string with_unit = unit.empty() ? "" : " " + unit;
+  // The ends of a 64 bit integer are no news to people.
+  const bool has_min = std::abs(range.min) < 1e18;
+  const bool has_max = std::abs(range.max) < 1e18;
+  if (has_min && has_max) {
+    return noun + " from " + config_detail::number_text(range.min) + " to " + config_detail::number_text(range.max) +
+           with_unit;
+  }
+  if (has_min) return noun + " of at least " + config_detail::number_text(range.min) + with_unit;
+  if (has_max) return noun + " of at most " + config_detail::number_text(range.max) + with_unit;
+  return unit.empty() ? noun : noun + " (" + unit + ")";
+}
+
+[[noreturn]] void fail(const ConfigValue& value, const std::string& key, const std::string& allowed,
+                       const std::string& hint = "") {
+  throw ConfigError(value.place, key + " must be " + allowed + ", found " + found_text(value) + hint);
+}
+
+// The whole token as a number, whatever the locale; nothing for text, infinities and NaN.
+template <class Number>
+std::optional<Number> parsed(const ConfigValue& value) {
+  if (value.kind != ConfigValue::Kind::scalar || value.quoted) return std::nullopt;
+  std::string_view token = value.scalar;
+  if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
+  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (!std::isfinite(number)) return std::nullopt;
+  }
+  return number;
+}
+
+std::string quotes_hint(const ConfigValue& value) {
+  if (!value.quoted) return "";
+  ConfigValue plain = value;
+  plain.quoted = false;
+  return parsed<double>(plain) ? " (leave out the quotes)" : "";
+}
+
+std::vector<std::string> keys_of(const Schema& schema) {
+  std::vector<std::string> keys;
+  for (const FieldSpec& field : schema.fields) keys.push_back(field.key);
+  return keys;
+}
+
+const FieldSpec* field_of(const Schema& schema, std::string_view key) {
+  const auto at = std::ranges::find(schema.fields, key, &FieldSpec::key);
+  return at == schema.fields.end() ? nullptr : &*at;
+}
+
+[[noreturn]] void fail_unknown(const ConfigValue::Entry& entry, const Schema& schema, const std::string& what) {
+  const std::vector<std::string> known = keys_of(schema);
+  const std::string allowed = known.empty() ? "; it takes none" : "; known: " + joined(known);
+  throw ConfigError(entry.key_place,
+                    "unknown key " + shown(entry.key) + " in " + what + did_you_mean(entry.key, known) + allowed);
+}
+
+void check_required(const Schema& schema, const ConfigValue& value, const std::string& what) {
+  const bool is_shorthand = value.kind == ConfigValue::Kind::scalar || value.kind == ConfigValue::Kind::list;
+  for (const FieldSpec& field : schema.fields) {
+    const bool is_given = is_shorthand ? field.key == schema.shorthand : value.find(field.key) != nullptr;
+    if (field.required && !is_given) {
+      throw ConfigError(value.place, what + " lacks the key " + shown(field.key) + ": " + field.meaning);
+    }
+  }
+}
+
+}  // namespace
+
+void Schema::load_into(void* config, const ConfigValue& value, const std::string& what) const {
+  if (value.kind == ConfigValue::Kind::scalar || value.kind == ConfigValue::Kind::list) {
+    if (shorthand.empty()) throw ConfigError(value.place, what + " must be a map, found " + found_text(value));
+    const FieldSpec* field = field_of(*this, shorthand);
+    if (field == nullptr) throw std::logic_error(what + ": the shorthand \"" + shorthand + "\" is no field");
+    check_required(*this, value, what);
+    field->load(config, value);
+    return;
+  }
+  for (const ConfigValue::Entry& entry : value.entries) {
+    const FieldSpec* field = field_of(*this, entry.key);
+    if (field == nullptr) fail_unknown(entry, *this, what);
+    field->load(config, entry.value);
+  }
+  check_required(*this, value, what);
+}
+
+namespace config_detail {
+
+double to_number(const ConfigValue& value, const std::string& key, const Range& range, const std::string& unit) {
+  const std::optional<double> number = parsed<double>(value);
+  if (!number || *number < range.min || *number > range.max) {
+    fail(value, key, allowed_text("a number", range, unit), quotes_hint(value));
+  }
+  return *number;
+}
+
+std::int64_t to_integer(const ConfigValue& value, const std::string& key, const Range& range) {
+  const std::optional<std::int64_t> number = parsed<std::int64_t>(value);
+  if (!number || static_cast<double>(*number) < range.min || static_cast<double>(*number) > range.max) {
+    fail(value, key, allowed_text("a whole number", range, ""), quotes_hint(value));
+  }
+  return *number;
+}
+
+bool to_flag(const ConfigValue& value, const std::string& key) {
+  const bool is_plain = value.kind == ConfigValue::Kind::scalar && !value.quoted;
+  if (is_plain && value.scalar == "true") return true;
+  if (is_plain && value.scalar == "false") return false;
+  fail(value, key, "true or false");
+}
+
+std::string to_text(const ConfigValue& value, const std::string& key) {
+  if (value.kind != ConfigValue::Kind::scalar) fail(value, key, "text");
+  return value.scalar;
+}
+
+std::size_t to_choice(const ConfigValue& value, const std::string& key, const std::vector<std::string>& choices) {
+  const std::string allowed = (choices.size() > 1 ? "one of " : "") + joined(choices);
+  if (value.kind != ConfigValue::Kind::scalar) fail(value, key, allowed);
+  const auto at = std::ranges::find(choices, value.scalar);
+  if (at == choices.end()) fail(value, key, allowed, did_you_mean(value.scalar, choices));
+  return static_cast<std::size_t>(at - choices.begin());
+}
+
+Point to_point(const ConfigValue& value, const std::string& key) {
+  const std::string allowed = "a point [x, y]";
+  if (value.kind != ConfigValue::Kind::list) fail(value, key, allowed);
+  if (value.items.size() != 2) {
+    throw ConfigError(value.place,
+                      key + " must be " + allowed + ", found a list of " + std::to_string(value.items.size()));
+  }
+  const auto coordinate = [&](std::size_t i, const char* name) {
+    return to_number(value.items[i], name + (" of " + key), kCoordinateRange, "");
+  };
+  return {coordinate(0, "x"), coordinate(1, "y")};
+}
+
+std::vector<double> to_numbers(const ConfigValue& value, const std::string& key, const Range& range) {
+  if (value.kind != ConfigValue::Kind::list) fail(value, key, "a list of numbers");
+  std::vector<double> numbers;
+  for (const ConfigValue& item : value.items) numbers.push_back(to_number(item, "each item of " + key, range, ""));
+  return numbers;
+}
+
+std::vector<Point> to_points(const ConfigValue& value, const std::string& key) {
+  if (value.kind != ConfigValue::Kind::list) fail(value, key, "a list of points [[x, y], ...]");
+  if (value.items.size() > kMaxPoints) {
+    throw ConfigError(value.place, key + " must be a list of at most " + std::to_string(kMaxPoints) +
+                                       " points, found " + std::to_string(value.items.size()));
+  }
+  std::vector<Point> points;
+  for (const ConfigValue& item : value.items) points.push_back(to_point(item, "each item of " + key));
+  return points;
+}
+
+PluginChoice to_plugin(const ConfigValue& value, const std::string& key) {
+  if (value.kind != ConfigValue::Kind::map) fail(value, key, "a map {plugin: NAME, ...}");
+  const ConfigValue* name = value.find("plugin");
+  if (name == nullptr) throw ConfigError(value.place, key + " lacks the key \"plugin\": which module does it");
+  PluginChoice choice{to_text(*name, "plugin"), value};
+  if (choice.name.empty()) fail(*name, "plugin", "the name of a module");
+  std::erase_if(choice.config.entries, [](const ConfigValue::Entry& entry) { return entry.key == "plugin"; });
+  return choice;
+}
+
+const std::vector<ConfigValue>& to_list(const ConfigValue& value, const std::string& key) {
+  if (value.kind != ConfigValue::Kind::list) fail(value, key, "a list");
+  return value.items;
+}
+
+std::string number_text(double value) {
+  if (value == 0.0) return "0";
+  // Twelve digits: the shortest exact text of a converted angle (14.999999999999998) helps nobody.
+  std::array<char, 32> buffer{};
+  const auto result =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 12);
+  return {buffer.data(), result.ptr};
+}
+
+std::string exactly_one_of(const ConfigValue& map, const std::vector<std::string>& keys, const std::string& what) {
+  const ConfigValue::Entry* found = nullptr;
+  for (const ConfigValue::Entry& entry : map.entries) {
+    if (std::ranges::find(keys, entry.key) == keys.end()) continue;
+    if (found != nullptr) {
+      throw ConfigError(entry.key_place, what + " takes only one of " + joined(keys) + ", found both " +
+                                             shown(found->key) + " and " + shown(entry.key));
+    }
+    found = &entry;
+  }
+  if (found == nullptr) throw ConfigError(map.place, what + " needs one of " + joined(keys));
+  return found->key;
+}
+
+}  // namespace config_detail
+}  // namespace cairn

@@ -1,0 +1,57 @@
+// The event stream of a mission. Listeners (reports, pictures, progress) subscribe to it; they see
+// values and can never change what happens.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "framework/contracts/behaviour.hpp"
+#include "framework/contracts/detector.hpp"
+#include "framework/contracts/world_view.hpp"
+
+namespace cairn {
+
+struct TickDone {};  // after each tick; the view holds the new state
+struct MatchingDone {
+  Matching matching;
+};
+struct LandmarkChanged {
+  Landmark landmark;
+  bool is_new = false;
+};
+struct PlanDone {
+  PlanResult result;
+};
+struct StepStarted {
+  int index = 0;
+  std::string name;
+};
+struct StepEnded {
+  int index = 0;
+  std::string name;
+  Status status;
+};
+struct MapSaved {
+  std::string file_name;
+};
+struct Said {
+  std::string sentence;
+};
+struct Bumped {};
+
+using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, PlanDone, StepStarted, StepEnded, MapSaved, Said, Bumped>;
+
+// What listeners see beside the event. Valid during the call only.
+struct MissionView {
+  const WorldView& world;
+  const CoarseGrid* coarse = nullptr;
+};
+
+class Listener {
+ public:
+  virtual ~Listener() = default;
+  virtual void on(const Event& event, const MissionView& view) = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,101 @@
+#include "framework/host/mission.hpp"
+
+#include "framework/config/robot_file.hpp"
+#include "framework/config/template_file.hpp"
+#include "framework/config/world_file.hpp"
+
+namespace cairn {
+namespace {
+
+// A step is a map with one key, the behaviour's name: `{goto: {...}}`, or the bare name.
+MissionStep step_of(const ConfigValue& item) {
+  if (item.kind == ConfigValue::Kind::scalar) {
+    ConfigValue nothing;
+    nothing.kind = ConfigValue::Kind::map;
+    nothing.place = item.place;
+    return {item.scalar, {item.scalar, nothing}};
+  }
+  if (item.kind != ConfigValue::Kind::map || item.entries.size() != 1)
+    throw ConfigError(item.place, "a step is one behaviour with its settings, such as `goto: {landmark: nearest square}`, not " +
+                                      item.kind_name() +
+                                      (item.kind == ConfigValue::Kind::map
+                                           ? " with " + std::to_string(item.entries.size()) + " keys"
+                                           : ""));
+  const ConfigValue::Entry& entry = item.entries.front();
+  PluginChoice choice{entry.key, entry.value};
+  if (choice.config.kind == ConfigValue::Kind::null) choice.config.kind = ConfigValue::Kind::map;
+  choice.config.place = entry.key_place;
+  return {entry.key, choice};
+}
+
+std::vector<MissionStep> steps_of(const ConfigValue& steps) {
+  if (steps.kind == ConfigValue::Kind::null) return {};
+  if (steps.kind != ConfigValue::Kind::list)
+    throw ConfigError(steps.place, "steps: expected a list of steps, found " + steps.kind_name());
+  std::vector<MissionStep> out;
+  for (const ConfigValue& item : steps.items) out.push_back(step_of(item));
+  return out;
+}
+
+// The detector's settings hold keys of its own too: take those that the host knows.
+TemplateConfig template_config_of(const PluginChoice& detector) {
+  ConfigValue mine;
+  mine.kind = ConfigValue::Kind::map;
+  mine.place = detector.config.place;
+  for (const FieldSpec& field : schema_of<TemplateConfig>().fields)
+    for (const ConfigValue::Entry& entry : detector.config.entries)
+      if (entry.key == field.key) mine.entries.push_back(entry);
+  return load_config<TemplateConfig>(mine, "detector");
+}
+
+}  // namespace
+
+void StartConfig::describe(Fields<StartConfig>& fields) {
+  fields.point("at_m", &StartConfig::at_m, "m", "where the robot begins, in the map frame");
+  fields.angle("angle_deg", &StartConfig::angle_rad, {-360.0, 360.0}, "which way it looks there");
+}
+
+void TemplateConfig::describe(Fields<TemplateConfig>& fields) {
+  fields.file("templates", &TemplateConfig::templates, "folder of template files");
+  fields.choice("rendering", &TemplateConfig::rendering, {{"sensed", Rendering::sensed}, {"ideal", Rendering::ideal}},
+                "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
+  fields.angle("step_deg", &TemplateConfig::step_rad, {1.0, 90.0}, "orientation step of the templates");
+}
+
+void MissionConfig::describe(Fields<MissionConfig>& fields) {
+  using C = MissionConfig;
+  fields.text("mission", &C::mission, "name of the mission").required = true;
+  fields.integer("seed", &C::seed, {0.0, 9.0e15}, "of all randomness; the same seed gives the same bytes");
+  fields.file("robot", &C::robot, "robot file").required = true;
+  fields.file("world", &C::world, "world file; leave out when the sensor is a log");
+  fields.group("start", &C::start, "where the robot begins; a log with poses may know better");
+  fields.plugin("sensor", &C::sensor, "source of observations").required = true;
+  fields.plugin("localizer", &C::localizer, "where the robot is").required = true;
+  fields.plugin("map", &C::map, "builds the occupancy grid").required = true;
+  fields.plugin("detector", &C::detector, "recognises landmarks");
+  fields.plugin("planner", &C::planner, "finds ways");
+  fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
+  fields.group("stop_layer", &C::stop_layer, "what keeps the robot from driving into what it sees");
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
+  fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
+}
+
+Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                     std::optional<std::int64_t> seed) {
+  ConfigValue root = read_config_file(file);
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  Mission mission;
+  mission.config = load_config<MissionConfig>(root, "mission");
+  if (seed) mission.config.seed = *seed;
+  mission.robot = load_robot(mission.config.robot);
+  if (!mission.config.detector.name.empty()) {
+    mission.template_config = template_config_of(mission.config.detector);
+    if (!mission.template_config.templates.empty())
+      mission.shapes = load_landmark_shapes(mission.template_config.templates);
+  }
+  if (!mission.config.world.empty()) mission.world = load_world(mission.config.world, mission.shapes);
+  mission.steps = steps_of(mission.config.steps);
+  return mission;
+}
+
+}  // namespace cairn

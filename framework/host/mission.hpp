@@ -1,0 +1,71 @@
+// A mission as its file describes it (config/missions/*.yaml), checked but not yet built.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/robot_model.hpp"
+#include "framework/contracts/world.hpp"
+#include "framework/host/landmark_keeper.hpp"
+#include "framework/host/stop_layer.hpp"
+#include "maps/landmark_template.hpp"
+
+namespace cairn {
+
+struct StartConfig {
+  Point at_m{0.0, 0.0};
+  double angle_rad = 0.0;
+  static void describe(Fields<StartConfig>& fields);
+};
+
+enum class Rendering { sensed, ideal };
+
+// The keys of a detector's settings that the host reads too: it renders the templates.
+struct TemplateConfig {
+  std::filesystem::path templates;
+  Rendering rendering = Rendering::sensed;
+  double step_rad = radians(15.0);
+  static void describe(Fields<TemplateConfig>& fields);
+};
+
+struct MissionConfig {
+  std::string mission;
+  std::int64_t seed = 1;
+  std::filesystem::path robot;
+  std::filesystem::path world;
+  StartConfig start;
+  PluginChoice sensor;
+  PluginChoice localizer;
+  PluginChoice map;
+  PluginChoice detector;
+  PluginChoice planner;
+  LandmarkKeeperConfig landmarks;
+  StopLayerConfig stop_layer;
+  double at_most_s = 36000.0;
+  ConfigValue steps;
+  static void describe(Fields<MissionConfig>& fields);
+};
+
+struct MissionStep {
+  std::string name;   // of the behaviour
+  PluginChoice choice;
+};
+
+struct Mission {
+  MissionConfig config;
+  TemplateConfig template_config;
+  RobotModel robot;
+  std::optional<World> world;
+  std::vector<LandmarkShape> shapes;
+  std::vector<MissionStep> steps;
+};
+
+// Throws ConfigError. overrides: "key=value" texts of --set; seed wins over the file's.
+[[nodiscard]] Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                                   std::optional<std::int64_t> seed = std::nullopt);
+
+}  // namespace cairn

@@ -1,0 +1,73 @@
+#include "framework/host/mission_modules.hpp"
+
+#include "framework/host/fence.hpp"
+#include "framework/host/sensed_templates.hpp"
+
+namespace cairn {
+namespace {
+
+template <class Interface>
+std::shared_ptr<Interface> build(const ModuleLibrary& library, const PluginChoice& choice, const ModuleContext& context) {
+  return fenced("construction", choice.name, [&] { return library.make<Interface>(choice, context); });
+}
+
+ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, const MissionModules& built,
+                          PluginKind kind, std::size_t index = 0) {
+  ModuleContext context{mission.robot};
+  context.world = mission.world ? &*mission.world : nullptr;
+  context.T_map_start = built.T_map_start;
+  context.seed = module_seed(mission.config.seed, kind, index);
+  context.templates = built.templates;
+  context.modules = &library;
+  return context;
+}
+
+}  // namespace
+
+std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
+  // splitmix64: neighbouring mission seeds give unrelated module seeds.
+  std::uint64_t z = static_cast<std::uint64_t>(mission_seed) * 1000003U + static_cast<std::uint64_t>(kind) * 101U + index;
+  z += 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  return z ^ (z >> 31U);
+}
+
+TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleMaker& modules) {
+  const TemplateConfig& config = mission.template_config;
+  if (mission.shapes.empty() || config.rendering == Rendering::ideal || mission.robot.sonars.empty())
+    return render_ideal_set(mission.shapes, config.step_rad, cell_m);
+  PluginChoice simulator{"simulated_robot", {}};
+  simulator.config.kind = ConfigValue::Kind::map;
+  simulator.config.place = mission.config.sensor.config.place;
+  if (mission.config.sensor.name == simulator.name) simulator = mission.config.sensor;
+  return render_sensed_set(mission.shapes, config.step_rad, cell_m, SensedOptions{}, mission.robot, simulator,
+                           mission.config.map, modules);
+}
+
+MissionModules build_modules(const Mission& mission, const ModuleLibrary& library) {
+  const MissionConfig& config = mission.config;
+  MissionModules built;
+  built.T_map_start = {config.start.at_m.x(), config.start.at_m.y(), config.start.angle_rad};
+  const auto context = [&](PluginKind kind, std::size_t index = 0) {
+    return context_for(mission, library, built, kind, index);
+  };
+  built.sensor = build<Sensor>(library, config.sensor, context(PluginKind::sensor));
+  if (const auto start = built.sensor->start()) built.T_map_start = *start;
+  built.localizer = build<Localizer>(library, config.localizer, context(PluginKind::localizer));
+  built.mapper = build<Mapper>(library, config.map, context(PluginKind::map));
+  if (!config.detector.name.empty()) {
+    (void)library.find(PluginKind::detector, config.detector.name, config.detector.config.place);
+    built.templates = std::make_shared<TemplateSet>(fenced("template rendering", config.map.name, [&] {
+      return render_templates(mission, built.mapper->grid().cell_m(), library);
+    }));
+    built.detector = build<Detector>(library, config.detector, context(PluginKind::detector));
+  }
+  if (!config.planner.name.empty())
+    built.planner = build<Planner>(library, config.planner, context(PluginKind::planner));
+  for (std::size_t i = 0; i < mission.steps.size(); ++i)
+    built.behaviours.push_back(build<Behaviour>(library, mission.steps[i].choice, context(PluginKind::behaviour, i)));
+  return built;
+}
+
+}  // namespace cairn

@@ -1,0 +1,32 @@
+// The modules of one mission, built in the order in which they need each other.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framework/host/mission.hpp"
+#include "framework/host/module_library.hpp"
+
+namespace cairn {
+
+struct MissionModules {
+  std::shared_ptr<Sensor> sensor;
+  std::shared_ptr<Localizer> localizer;
+  std::shared_ptr<Mapper> mapper;
+  std::shared_ptr<const TemplateSet> templates;      // null without a detector
+  std::shared_ptr<Detector> detector;                // may be null
+  std::shared_ptr<Planner> planner;                  // may be null
+  std::vector<std::shared_ptr<Behaviour>> behaviours;  // one a step
+  Pose2 T_map_start;
+};
+
+// Throws ConfigError or ModuleFault.
+[[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library);
+
+// Templates as the mission's detector gets them: rendered for the mission's cell size.
+[[nodiscard]] TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleMaker& modules);
+
+// A seed of its own for each module of a mission.
+[[nodiscard]] std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index = 0);
+
+}  // namespace cairn

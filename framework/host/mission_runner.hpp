@@ -1,0 +1,65 @@
+// Runs a mission: one thread of control, one tick after the other (DESIGN, "One tick, as data").
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/host/events.hpp"
+#include "framework/host/mission.hpp"
+#include "framework/host/module_library.hpp"
+#include "maps/map_store.hpp"
+
+namespace cairn {
+
+enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fault, module_fault };
+[[nodiscard]] std::string_view name_of(MissionOutcome outcome);
+
+struct RunOptions {
+  std::filesystem::path out;                      // folder of everything written; must exist
+  bool realtime = false;                          // pace simulated time to the wall clock
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+struct StepReport {
+  std::string name;
+  Status status;
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+struct MissionResult {
+  MissionOutcome outcome = MissionOutcome::done;
+  std::string reason;                             // a sentence for people; empty when all went well
+  std::vector<StepReport> steps;
+  std::int64_t readings = 0;
+  std::int64_t matchings = 0;
+  std::int64_t collisions = 0;
+  double distance_m = 0.0;
+  double time_s = 0.0;                            // simulated or recorded
+  std::string map_file;                           // name in the output folder; empty: could not be saved
+};
+
+class MissionRunner {
+ public:
+  // Builds every module. Throws ConfigError (the user's files) or ModuleFault (a module's fault).
+  MissionRunner(const Mission& mission, const ModuleLibrary& library, RunOptions options);
+  ~MissionRunner();
+
+  void subscribe(Listener& listener);             // the listener must outlive the runner
+  MissionResult run();
+
+  [[nodiscard]] const OccupancyGrid& grid() const;
+  [[nodiscard]] const CoarseGrid* coarse_grid() const;
+  [[nodiscard]] const LandmarkGraph& graph() const;
+  [[nodiscard]] const std::vector<Pose2>& driven_path() const;
+  [[nodiscard]] const TemplateSet* templates() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cairn

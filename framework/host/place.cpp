@@ -1,0 +1,84 @@
+#include "framework/host/place.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "framework/config/config_value.hpp"
+
+namespace cairn {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+std::optional<double> number(const std::string& text) {
+  const std::string token = trimmed(text);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
+  return value;
+}
+
+// All comma separated parts as numbers, or nothing when one is not a number.
+std::optional<std::vector<double>> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t comma = text.find(',', begin);
+    const auto value = number(text.substr(begin, comma - begin));
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+    if (comma == std::string::npos) return values;
+    begin = comma + 1;
+  }
+}
+
+Place place_of(const std::vector<double>& values, const std::string& text) {
+  if (values.size() != 2 && values.size() != 3)
+    throw PlaceError("place \"" + text + "\": expected x,y or x,y,angle_deg, found " + std::to_string(values.size()) +
+                     " numbers");
+  Place place;
+  const bool heading = values.size() == 3;
+  place.pose = Pose2{values[0], values[1], heading && std::isfinite(values[2]) ? wrap_angle(radians(values[2])) : 0.0};
+  place.heading_matters = heading;
+  return place;
+}
+
+Place nearest_place(const std::string& category, const LandmarkGraph& graph) {
+  Place place;
+  place.landmarks = graph.of_category(category);
+  if (!place.landmarks.empty()) return place;
+  std::set<std::string> known;
+  for (const auto& [id, landmark] : graph.landmarks())
+    if (!landmark.category.empty()) known.insert(landmark.category);
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  throw PlaceError("no landmark of category \"" + category + "\"" + did_you_mean(category, {known.begin(), known.end()}) +
+                   "; the map holds: " + (list.empty() ? "none" : list));
+}
+
+}  // namespace
+
+Place parse_place(const std::string& text, const LandmarkGraph& graph) {
+  constexpr std::string_view kNearest = "nearest ";
+  const std::string place_text = trimmed(text);
+  if (place_text.starts_with(kNearest)) return nearest_place(trimmed(place_text.substr(kNearest.size())), graph);
+  if (const auto values = numbers(place_text)) return place_of(*values, place_text);
+  if (const Landmark* landmark = graph.find_by_name(place_text)) {
+    Place place;
+    place.landmarks = {landmark->id};
+    return place;
+  }
+  std::vector<std::string> names;
+  for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
+  throw PlaceError("unknown place \"" + place_text + "\"" + did_you_mean(place_text, names) +
+                   "; a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`");
+}
+
+}  // namespace cairn

@@ -1,0 +1,20 @@
+// Places as people write them: `x,y`, `x,y,angle_deg`, `L12`, a landmark's name, `nearest CATEGORY`.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "framework/contracts/planner.hpp"
+#include "maps/landmark_graph.hpp"
+
+namespace cairn {
+
+// what(): what was found and what is allowed, with the nearest known name.
+class PlaceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+[[nodiscard]] Place parse_place(const std::string& text, const LandmarkGraph& graph);
+
+}  // namespace cairn

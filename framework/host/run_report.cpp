@@ -1,0 +1,178 @@
+#include "framework/host/run_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace cairn {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Figures are for people and scripts: micrometres and micro-degrees are enough.
+double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+
+ordered_json json_of(const Landmark& landmark) {
+  ordered_json templates = ordered_json::array();
+  for (const TemplateDegree& t : landmark.templates)
+    templates.push_back({{"category", t.category},
+                         {"angle_deg", rounded(degrees(t.orientation_rad))},
+                         {"degree", rounded(t.degree)}});
+  return {{"id", "L" + std::to_string(landmark.id)},
+          {"category", landmark.category},
+          {"x_m", rounded(landmark.T_map_landmark.x_m)},
+          {"y_m", rounded(landmark.T_map_landmark.y_m)},
+          {"angle_deg", rounded(degrees(landmark.T_map_landmark.theta_rad))},
+          {"degree", rounded(landmark.degree)},
+          {"sightings", landmark.sightings},
+          {"templates", templates}};
+}
+
+ordered_json json_of(const LandmarkGraph& graph) {
+  ordered_json landmarks = ordered_json::array();
+  for (const auto& [id, landmark] : graph.landmarks()) landmarks.push_back(json_of(landmark));
+  return landmarks;
+}
+
+ordered_json json_of(const std::vector<StepReport>& steps) {
+  ordered_json list = ordered_json::array();
+  for (const StepReport& step : steps)
+    list.push_back({{"step", step.name},
+                    {"outcome", step.status.progress == Progress::success ? "success" : "failure"},
+                    {"reason", step.status.reason},
+                    {"begin_s", rounded(step.begin_s)},
+                    {"end_s", rounded(step.end_s)}});
+  return list;
+}
+
+ordered_json main_figures(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph) {
+  return {{"mission", mission.config.mission},
+          {"seed", mission.config.seed},
+          {"outcome", std::string(name_of(result.outcome))},
+          {"reason", result.reason},
+          {"landmarks", json_of(graph)},
+          {"routes", graph.routes().size()},
+          {"matchings", result.matchings},
+          {"readings", result.readings},
+          {"collisions", result.collisions},
+          {"distance_m", rounded(result.distance_m)},
+          {"time_s", rounded(result.time_s)}};
+}
+
+ordered_json quantiles(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) { return rounded(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]); };
+  return {{"median", at(0.5)}, {"worst", at(1.0)}, {"last", rounded(values.back())}};
+}
+
+std::string at_time(double time_s, const std::string& sentence) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(2) << time_s << " s: " << sentence;
+  return out.str();
+}
+
+struct Sentence {
+  std::string operator()(const TickDone&) const { return {}; }
+  std::string operator()(const MatchingDone&) const { return {}; }
+  std::string operator()(const LandmarkChanged& e) const {
+    std::ostringstream out;
+    out << (e.is_new ? "found " : "improved ") << label_of(e.landmark) << ", " << e.landmark.category << " at ("
+        << std::fixed << std::setprecision(2) << e.landmark.T_map_landmark.x_m << ", "
+        << e.landmark.T_map_landmark.y_m << "), degree " << e.landmark.degree;
+    return out.str();
+  }
+  std::string operator()(const PlanDone& e) const {
+    return "plan: " + std::string(name_of(e.result.outcome)) + (e.result.reason.empty() ? "" : ", " + e.result.reason);
+  }
+  std::string operator()(const StepStarted& e) const { return "step " + std::to_string(e.index + 1) + " (" + e.name + ") begins"; }
+  std::string operator()(const StepEnded& e) const {
+    return "step " + std::to_string(e.index + 1) + " (" + e.name + ") ends: " +
+           (e.status.progress == Progress::success ? "success" : "failure") +
+           (e.status.reason.empty() ? "" : ", " + e.status.reason);
+  }
+  std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
+  std::string operator()(const Said& e) const { return e.sentence; }
+  std::string operator()(const Bumped&) const { return "bumped into something"; }
+};
+
+}  // namespace
+
+void RunReport::on(const Event& event, const MissionView& view) {
+  if (const auto* matching = std::get_if<MatchingDone>(&event))
+    degrees_.push_back({view.world.time_s, matching->matching.degrees});
+  if (std::holds_alternative<TickDone>(event)) note_pose_error(view);
+  if (std::holds_alternative<MapSaved>(event)) explored_ratio_ = known_ratio(view.world.grid);
+  const std::string sentence = std::visit(Sentence{}, event);
+  if (!sentence.empty()) events_.push_back(at_time(view.world.time_s, sentence));
+}
+
+void RunReport::note_pose_error(const MissionView& view) {
+  const Observation* observation = view.world.observation;
+  if (observation == nullptr || !observation->true_T_map_robot || view.world.time_s < last_error_s_ + 1.0) return;
+  last_error_s_ = view.world.time_s;
+  pose_errors_m_.push_back(
+      (observation->true_T_map_robot->position() - view.world.pose.T_map_robot.position()).norm());
+}
+
+std::string RunReport::report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+                                   const std::vector<std::string>& pictures) const {
+  ordered_json report = main_figures(mission, result, graph);
+  report["explored_ratio"] = rounded(explored_ratio_);
+  report["steps"] = json_of(result.steps);
+  report["map"] = result.map_file;
+  report["pictures"] = pictures;
+  if (!pose_errors_m_.empty()) report["pose_error_m"] = quantiles(pose_errors_m_);
+  ordered_json degrees = ordered_json::array();
+  for (const DegreeSample& sample : degrees_) {
+    ordered_json row = {{"time_s", rounded(sample.time_s)}};
+    for (const CategoryDegree& d : sample.degrees) row[d.category] = rounded(d.degree);
+    degrees.push_back(std::move(row));
+  }
+  report["degrees"] = degrees;
+  report["events"] = events_;
+  return report.dump(2) + "\n";
+}
+
+std::string RunReport::summary_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+                                    const std::filesystem::path& out, const std::vector<std::string>& pictures,
+                                    double wall_s) const {
+  ordered_json summary = main_figures(mission, result, graph);
+  summary["explored_ratio"] = rounded(explored_ratio_);
+  summary["wall_s"] = rounded(wall_s);
+  summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();
+  summary["report"] = (out / "report.json").string();
+  ordered_json files = ordered_json::array();
+  for (const std::string& picture : pictures) files.push_back((out / picture).string());
+  summary["pictures"] = files;
+  return summary.dump();
+}
+
+TruthScore score_against(const World& world, const LandmarkGraph& graph, double tolerance_m) {
+  TruthScore score;
+  std::vector<bool> found(world.objects.size(), false);
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    std::size_t best = world.objects.size();
+    double best_error = tolerance_m;
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+      const WorldObject& object = world.objects[i];
+      if (found[i] || object.category.empty() || object.category != landmark.category) continue;
+      const double error = (object.T_map_object.position() - landmark.T_map_landmark.position()).norm();
+      if (error > best_error) continue;
+      best = i;
+      best_error = error;
+    }
+    if (best == world.objects.size()) {
+      ++score.false_landmarks;
+      continue;
+    }
+    found[best] = true;
+    score.matched.push_back({id, best_error});
+  }
+  for (std::size_t i = 0; i < world.objects.size(); ++i)
+    if (!world.objects[i].category.empty() && !found[i]) ++score.missed_objects;
+  return score;
+}
+
+}  // namespace cairn

@@ -1,0 +1,58 @@
+// The report of a run, gathered from the event stream and written as JSON.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/host/events.hpp"
+#include "framework/host/mission_runner.hpp"
+
+namespace cairn {
+
+// Best degree a category at one matching, for charts and reports.
+struct DegreeSample {
+  double time_s = 0.0;
+  std::vector<CategoryDegree> degrees;
+};
+
+class RunReport : public Listener {
+ public:
+  void on(const Event& event, const MissionView& view) override;
+
+  // The same bytes for the same build, mission and seed: no clock, no path of this machine.
+  [[nodiscard]] std::string report_json(const Mission& mission, const MissionResult& result,
+                                        const LandmarkGraph& graph, const std::vector<std::string>& pictures) const;
+  // One line for `--json`: the report's main figures, where its files are, and the wall clock.
+  [[nodiscard]] std::string summary_json(const Mission& mission, const MissionResult& result,
+                                         const LandmarkGraph& graph, const std::filesystem::path& out,
+                                         const std::vector<std::string>& pictures, double wall_s) const;
+
+  [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
+  [[nodiscard]] double explored_ratio() const { return explored_ratio_; }
+
+ private:
+  void note_pose_error(const MissionView& view);
+
+  std::vector<DegreeSample> degrees_;
+  std::vector<double> pose_errors_m_;   // once a second, where the truth is known
+  std::vector<std::string> events_;     // sentences with their time
+  double last_error_s_ = -1.0;
+  double explored_ratio_ = 0.0;
+};
+
+// One landmark against the world it was found in: the nearest true object of its category.
+struct LandmarkTruth {
+  LandmarkId landmark = 0;
+  double error_m = 0.0;
+};
+
+struct TruthScore {
+  std::vector<LandmarkTruth> matched;        // right category, within the tolerance; each object once
+  int false_landmarks = 0;                   // found, but no such object there
+  int missed_objects = 0;                    // standing there, but not found
+};
+[[nodiscard]] TruthScore score_against(const World& world, const LandmarkGraph& graph, double tolerance_m);
+
+}  // namespace cairn

@@ -1,0 +1,32 @@
+// Templates as the mission's own sensors and mapper would see the landmarks (METHOD 6, `sensed`).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framework/contracts/module.hpp"
+#include "framework/contracts/robot_model.hpp"
+#include "maps/landmark_template.hpp"
+
+namespace cairn {
+
+struct SensedOptions {
+  double standoff_m = 0.55;  // from the contour's outer circle to the robot's centre
+  double speed_mps = 0.2;
+  int laps = 2;                     // the first with the landmark on the left, then by turns
+  double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour
+  double edge_outside_cells = 3.0;  // and this far outside
+  std::uint64_t seed = 1;
+};
+
+// Lets the simulated robot drive round each contour, at each distinct orientation, in free space; the
+// templates are the mean Sobel gradients of the maps that arise. The landmark stands with its centre
+// on the centre of a cell, the surface is rough, odometry and compass are free of error.
+// The same arguments give the same templates. Throws what the modules throw, and std::runtime_error
+// when the sensor cannot be driven or ends before the lap does.
+[[nodiscard]] TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
+                                            const SensedOptions& options, const RobotModel& robot,
+                                            const PluginChoice& sensor, const PluginChoice& map,
+                                            const ModuleMaker& modules);
+
+}  // namespace cairn

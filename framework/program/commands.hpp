@@ -1,0 +1,72 @@
+// The commands of `cairn`, each a function from its options to an exit status: 0 done, 1 the mission
+// or plan did not succeed, 2 wrong usage or a bad file (thrown as std::exception, told by main).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cairn {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitNotSolved = 1;
+inline constexpr int kExitBadInput = 2;
+
+struct CommonOptions {
+  std::vector<std::filesystem::path> plugin_folders;
+  bool json = false;
+};
+
+struct RunCommand {
+  std::filesystem::path mission;
+  std::filesystem::path out = "out";
+  std::optional<std::int64_t> seed;
+  std::vector<std::string> overrides;
+  bool realtime = false;
+};
+int run(const RunCommand& command, const CommonOptions& common);
+
+struct PlanCommand {
+  std::filesystem::path map;
+  std::string from;
+  std::string to;
+  std::string queries;                 // a file, "-" for standard input, empty for one query
+  std::string planner = "hybrid";
+  std::optional<double> radius_m;
+  std::optional<double> budget_ms;
+  std::int64_t seed = 1;
+  std::filesystem::path picture;
+};
+int plan(const PlanCommand& command, const CommonOptions& common);
+
+struct MapCommand {
+  std::filesystem::path map;
+  std::filesystem::path picture = "map.png";
+};
+int map_info(const MapCommand& command, const CommonOptions& common);
+int map_check(const MapCommand& command, const CommonOptions& common);
+int map_render(const MapCommand& command, const CommonOptions& common);
+
+struct TemplateCommand {
+  std::filesystem::path folder;
+  std::filesystem::path robot;         // for `sensed` templates
+  std::string rendering = "sensed";
+  double cell_m = 0.05;
+  double step_deg = 15.0;
+  std::filesystem::path picture = "templates.png";
+};
+int template_list(const TemplateCommand& command, const CommonOptions& common);
+int template_preview(const TemplateCommand& command, const CommonOptions& common);
+
+int plugins_list(const CommonOptions& common);
+int plugins_info(const std::string& name, const CommonOptions& common);
+
+struct ExperimentCommand {
+  std::filesystem::path file;
+  std::filesystem::path out = "out/experiment";
+};
+int experiment(const ExperimentCommand& command, const CommonOptions& common);
+
+}  // namespace cairn

@@ -1,0 +1,133 @@
+// The `cairn` program: reads the command line and hands over to the commands.
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+#include <iostream>
+
+#include "framework/contracts/abi_stamp.hpp"
+#include "framework/program/commands.hpp"
+
+namespace cairn {
+namespace {
+
+using Action = std::function<int()>;
+
+void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* sub = app.add_subcommand("run", "Run a mission: map, recognise, plan and drive");
+  sub->add_option("MISSION", c.mission, "mission file (config/missions/*.yaml)")->required();
+  sub->add_option("--out", c.out, "folder for map, pictures and report")->capture_default_str();
+  sub->add_option("--seed", c.seed, "seed, in place of the mission's");
+  sub->add_option("--set", c.overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
+      ->allow_extra_args(false);
+  sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
+  sub->callback([&] { action = [&] { return run(c, common); }; });
+}
+
+void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* sub = app.add_subcommand("plan", "Ask a saved map for a route");
+  sub->add_option("MAP", c.map, "saved map (*.cairn)")->required();
+  sub->add_option("--from", c.from, "x,y | x,y,angle_deg | L12 | a name | nearest CATEGORY");
+  sub->add_option("--to", c.to, "as --from");
+  sub->add_option("--queries", c.queries, "file of queries, one {\"id\",\"from\",\"to\"} a line, or -");
+  sub->add_option("--planner", c.planner, "planner module")->capture_default_str();
+  sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map");
+  sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time");
+  sub->add_option("--seed", c.seed, "seed of the planner")->capture_default_str();
+  sub->add_option("--picture", c.picture, "draw the route into this PNG file");
+  sub->callback([&] { action = [&] { return plan(c, common); }; });
+}
+
+void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* map = app.add_subcommand("map", "Look at saved maps");
+  map->require_subcommand(1);
+  const auto add = [&](const char* name, const char* text, auto command) {
+    CLI::App* sub = map->add_subcommand(name, text);
+    sub->add_option("MAP", c.map, "saved map (*.cairn)")->required();
+    sub->callback([&c, &common, &action, command] { action = [&c, &common, command] { return command(c, common); }; });
+    return sub;
+  };
+  add("info", "Size, landmarks and routes of a map", map_info);
+  add("check", "Prove a map sound, or say what is wrong", map_check);
+  CLI::App* render = add("render", "Draw a map into a PNG file", map_render);
+  render->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
+}
+
+void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* templates = app.add_subcommand("template", "Look at landmark templates");
+  templates->require_subcommand(1);
+  const auto add = [&](const char* name, const char* text, auto command) {
+    CLI::App* sub = templates->add_subcommand(name, text);
+    sub->add_option("FOLDER", c.folder, "folder of template files (config/templates)")->required();
+    sub->add_option("--cell-m", c.cell_m, "cell size of the map")->check(CLI::Range(0.005, 1.0))->capture_default_str();
+    sub->add_option("--step-deg", c.step_deg, "orientation step")->check(CLI::Range(1.0, 90.0))->capture_default_str();
+    sub->callback([&c, &common, &action, command] { action = [&c, &common, command] { return command(c, common); }; });
+    return sub;
+  };
+  add("list", "Categories, sizes and orientations", template_list);
+  CLI::App* preview = add("preview", "Draw every template of a folder into a PNG file", template_preview);
+  preview->add_option("--rendering", c.rendering, "sensed or ideal")
+      ->check(CLI::IsMember({"sensed", "ideal"}))
+      ->capture_default_str();
+  preview->add_option("--robot", c.robot, "robot file whose sonars sense the templates");
+  preview->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
+}
+
+void add_plugins(CLI::App& app, std::string& name, const CommonOptions& common, Action& action) {
+  CLI::App* plugins = app.add_subcommand("plugins", "List the modules, or one module's settings");
+  plugins->callback([&] {
+    if (!action) action = [&] { return plugins_list(common); };
+  });
+  CLI::App* info = plugins->add_subcommand("info", "Settings of one module");
+  info->add_option("NAME", name, "module")->required();
+  info->callback([&] { action = [&] { return plugins_info(name, common); }; });
+}
+
+void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* sub = app.add_subcommand("experiment", "Run an experiment over many seeds and write its table");
+  sub->add_option("FILE", c.file, "experiment file (config/experiments/*.yaml)")->required();
+  sub->add_option("--out", c.out, "folder for the table and reports")->capture_default_str();
+  sub->callback([&] { action = [&] { return experiment(c, common); }; });
+}
+
+int main_of(int argc, char** argv) {
+  CLI::App app{"Cairn: landmark navigation for mobile robots", "cairn"};
+  app.set_version_flag("--version", "cairn " CAIRN_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  CommonOptions common;
+  app.add_option("--plugins", common.plugin_folders, "further folder of modules (may be repeated)")
+      ->allow_extra_args(false);
+  app.add_flag("--json", common.json, "JSON on standard output; text for people on standard error");
+  RunCommand run_options;
+  PlanCommand plan_options;
+  MapCommand map_options;
+  TemplateCommand template_options;
+  ExperimentCommand experiment_options;
+  std::string plugin_name;
+  Action action;
+  add_run(app, run_options, common, action);
+  add_plan(app, plan_options, common, action);
+  add_map(app, map_options, common, action);
+  add_template(app, template_options, common, action);
+  add_plugins(app, plugin_name, common, action);
+  add_experiment(app, experiment_options, common, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+  }
+  return action();
+}
+
+}  // namespace
+}  // namespace cairn
+
+int main(int argc, char** argv) {
+  try {
+    return cairn::main_of(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "cairn: " << error.what() << "\n";
+    return cairn::kExitBadInput;
+  }
+}

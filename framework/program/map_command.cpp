@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "framework/program/commands.hpp"
+#include "maps/map_store.hpp"
+#include "maps/pictures/map_picture.hpp"
+
+namespace cairn {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json json_of(const SavedMap& map) {
+  const CellBox bounds = map.grid.bounds();
+  const double cell_m = map.grid.cell_m();
+  const Point corner = map.grid.origin_m() + cell_m * Point(bounds.min.x, bounds.min.y);
+  return {{"schema", kMapSchemaVersion},
+          {"cell_m", cell_m},
+          {"size_cells", {bounds.width(), bounds.height()}},
+          {"origin_m", {corner.x(), corner.y()}},
+          {"landmarks", map.graph.landmarks().size()},
+          {"routes", map.graph.routes().size()},
+          {"levels", ordered_json::array()},
+          {"explored_ratio", known_ratio(map.grid)}};
+}
+
+}  // namespace
+
+int map_info(const MapCommand& command, const CommonOptions& common) {
+  const SavedMap map = load_map(command.map);
+  if (common.json) {
+    std::cout << json_of(map).dump() << "\n";
+    return kExitDone;
+  }
+  const CellBox bounds = map.grid.bounds();
+  std::cout << fmt::format("{}: schema {}, {} x {} cells of {:g} m, {:.1f} % known\n", command.map.string(),
+                           kMapSchemaVersion, bounds.width(), bounds.height(), map.grid.cell_m(),
+                           100.0 * known_ratio(map.grid));
+  for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
+  for (const auto& [id, landmark] : map.graph.landmarks())
+    std::cout << fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),
+                             landmark.category, landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
+                             degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
+  for (const auto& [id, route] : map.graph.routes())
+    std::cout << fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", id, route.from, route.to, route.cost_m,
+                             route.driven ? "driven" : "planned", route.closed ? ", closed" : "");
+  return kExitDone;
+}
+
+int map_check(const MapCommand& command, const CommonOptions& common) {
+  const SavedMap map = load_map(command.map);  // throws on anything that is not sound
+  if (common.json)
+    std::cout << ordered_json{{"file", command.map.string()}, {"outcome", "sound"}}.dump() << "\n";
+  else
+    std::cout << command.map.string() << ": sound\n";
+  return kExitDone;
+}
+
+int map_render(const MapCommand& command, const CommonOptions& common) {
+  const SavedMap map = load_map(command.map);
+  MapPicture picture;
+  picture.grid = &map.grid;
+  picture.graph = &map.graph;
+  picture.shapes = map.shapes;
+  for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
+  picture.title = command.map.filename().string();
+  write_map_picture(command.picture, picture);
+  if (common.json)
+    std::cout << ordered_json{{"picture", command.picture.string()}}.dump() << "\n";
+  else
+    std::cout << "wrote " << command.picture.string() << "\n";
+  return kExitDone;
+}
+
+}  // namespace cairn

@@ -1,0 +1,46 @@
+#include "framework/program/progress_line.hpp"
+
+#include <fmt/format.h>
+
+namespace cairn {
+namespace {
+
+constexpr double kRedraw_s = 2.0;  // of mission time
+
+}  // namespace
+
+void ProgressLine::on(const Event& event, const MissionView& view) {
+  const double time_s = view.world.time_s;
+  const auto tell = [&](const std::string& sentence) {
+    clear();
+    out_ << fmt::format("{:7.1f} s  {}\n", time_s, sentence);
+  };
+  if (std::holds_alternative<MatchingDone>(event)) ++matchings_;
+  if (std::holds_alternative<TickDone>(event) && live_ && time_s >= drawn_at_s_ + kRedraw_s) draw(view.world);
+  if (const auto* e = std::get_if<LandmarkChanged>(&event); e != nullptr && e->is_new)
+    tell(fmt::format("found {}: {} at ({:.2f}, {:.2f}), degree {:.2f}", label_of(e->landmark), e->landmark.category,
+                     e->landmark.T_map_landmark.x_m, e->landmark.T_map_landmark.y_m, e->landmark.degree));
+  if (const auto* e = std::get_if<StepStarted>(&event)) tell(fmt::format("step {}: {}", e->index + 1, e->name));
+  if (const auto* e = std::get_if<StepEnded>(&event))
+    tell(fmt::format("step {}: {} {}{}", e->index + 1, e->name,
+                     e->status.progress == Progress::success ? "done" : "failed",
+                     e->status.reason.empty() ? "" : " (" + e->status.reason + ")"));
+  if (const auto* e = std::get_if<Said>(&event)) tell(e->sentence);
+  if (std::holds_alternative<Bumped>(event)) tell("bumped into something: stopped");
+}
+
+void ProgressLine::draw(const WorldView& world) {
+  drawn_at_s_ = world.time_s;
+  drawn_ = true;
+  out_ << fmt::format("\r{:7.1f} s  at ({:.2f}, {:.2f})  known {:3.0f} %  landmarks {}  matchings {}   ", world.time_s,
+                      world.pose.T_map_robot.x_m, world.pose.T_map_robot.y_m, 100.0 * known_ratio(world.grid),
+                      world.graph.landmarks().size(), matchings_)
+       << std::flush;
+}
+
+void ProgressLine::clear() {
+  if (drawn_) out_ << "\r" << std::string(78, ' ') << "\r";
+  drawn_ = false;
+}
+
+}  // namespace cairn

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <iostream>
+
+#include "framework/host/fence.hpp"
+#include "framework/host/mission_runner.hpp"
+#include "framework/host/run_report.hpp"
+#include "framework/program/commands.hpp"
+#include "framework/program/interrupt.hpp"
+#include "framework/program/progress_line.hpp"
+#include "framework/program/run_pictures.hpp"
+
+namespace cairn {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": the output folder cannot be made: " + error.message());
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGraph& graph) {
+  if (graph.landmarks().empty()) return;
+  out << "\n  landmark  category        x m     y m   angle deg  degree" << (mission.world ? "   error m" : "") << "\n";
+  const TruthScore truth = mission.world ? score_against(*mission.world, graph, 0.5) : TruthScore{};
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    out << fmt::format("  {:<9} {:<12} {:7.2f} {:7.2f} {:11.0f} {:7.2f}", label_of(landmark), landmark.category,
+                       landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
+                       degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
+    for (const LandmarkTruth& matched : truth.matched)
+      if (matched.landmark == id) out << fmt::format(" {:9.3f}", matched.error_m);
+    out << "\n";
+  }
+}
+
+void print_summary(std::ostream& out, const Mission& mission, const MissionResult& result,
+                   const MissionRunner& runner, const RunPictures& pictures, const std::filesystem::path& folder,
+                   double wall_s) {
+  print_landmarks(out, mission, runner.graph());
+  out << fmt::format("\n  outcome     {}{}\n", name_of(result.outcome),
+                     result.reason.empty() ? "" : ": " + result.reason);
+  out << fmt::format("  driven      {:.1f} m in {:.0f} s, {} collisions\n", result.distance_m, result.time_s,
+                     result.collisions);
+  out << fmt::format("  readings    {}, matchings {}, landmarks {}, routes {}\n", result.readings, result.matchings,
+                     runner.graph().landmarks().size(), runner.graph().routes().size());
+  out << fmt::format("  took        {:.1f} s, {:.0f} times faster than real time\n", wall_s,
+                     result.time_s / std::max(wall_s, 1e-9));
+  if (!result.map_file.empty()) out << "  map         " << (folder / result.map_file).string() << "\n";
+  out << "  report      " << (folder / "report.json").string() << "\n";
+  for (const std::string& picture : pictures.files) out << "  picture     " << (folder / picture).string() << "\n";
+  for (const std::string& sentence : pictures.missing) out << "  no picture  " << sentence << "\n";
+}
+
+}  // namespace
+
+int run(const RunCommand& command, const CommonOptions& common) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Mission mission = load_mission(command.mission, command.overrides, command.seed);
+  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
+  make_folder(command.out);
+  std::ostream& people = common.json ? std::cerr : std::cout;
+  const bool live = isatty(common.json ? STDERR_FILENO : STDOUT_FILENO) != 0;
+  people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
+  MissionRunner runner(mission, library, {command.out, command.realtime, &cancel_on_interrupt()});
+  RunReport report;
+  MissionResult result;
+  {
+    ProgressLine progress(people, live);
+    runner.subscribe(report);
+    runner.subscribe(progress);
+    result = runner.run();
+  }
+  const RunPictures pictures = draw_run(command.out, mission, runner, report);
+  write_file(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  print_summary(people, mission, result, runner, pictures, command.out, wall_s);
+  if (common.json)
+    std::cout << report.summary_json(mission, result, runner.graph(), command.out, pictures.files, wall_s) << "\n";
+  return result.outcome == MissionOutcome::done ? kExitDone : kExitNotSolved;
+}
+
+}  // namespace cairn

@@ -1,0 +1,22 @@
+// The pictures of a run: map.png (OG1, landmarks, graph, driven path), coarse.png (OG2) and
+// degrees.png (matching degrees over time).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "framework/host/mission_runner.hpp"
+#include "framework/host/run_report.hpp"
+
+namespace cairn {
+
+struct RunPictures {
+  std::vector<std::string> files;    // names in the folder
+  std::vector<std::string> missing;  // sentences on those that could not be drawn
+};
+
+[[nodiscard]] RunPictures draw_run(const std::filesystem::path& out, const Mission& mission,
+                                   const MissionRunner& runner, const RunReport& report);
+
+}  // namespace cairn

@@ -1,0 +1,100 @@
+#include "maps/coarse_grid.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace cairn {
+namespace {
+
+constexpr int kLargestN = 1024;  // keeps the sums of one coarse cell well inside 32 bits
+
+constexpr int floor_divide(int a, int n) { return a >= 0 ? a / n : -((n - 1 - a) / n); }
+
+CellBox box_of(Cell c) { return {c, {c.x + 1, c.y + 1}}; }
+
+}  // namespace
+
+CoarseGrid::CoarseGrid(int n, double alpha) : n_(n), alpha_(alpha) {
+  if (n < 1 || n > kLargestN)
+    throw std::invalid_argument("CoarseGrid: n must be in [1, 1024], got " + std::to_string(n));
+  if (!(alpha > 1.0)) throw std::invalid_argument("CoarseGrid: alpha must be above 1, got " + std::to_string(alpha));
+}
+
+std::vector<Cell> CoarseGrid::update(const OccupancyGrid& grid, const CellChanges& changes) {
+  include(grid.bounds(), grid);
+  std::vector<Cell> touched;
+  for (const CellSpan& span : changes.spans) {
+    if (span.x_begin >= span.x_end) continue;
+    const Cell first = coarse_of({span.x_begin, span.y});
+    const Cell last = coarse_of({span.x_end - 1, span.y});
+    // Spans come row by row, so most repeats are the ones of the row before; sort and unique do the rest.
+    for (int x = first.x; x <= last.x; ++x) touched.push_back({x, first.y});
+  }
+  const auto by_row = [](Cell a, Cell b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
+  std::sort(touched.begin(), touched.end(), by_row);
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+
+  std::erase_if(touched, [this](Cell c) { return !bounds_.contains(c); });
+  for (const Cell c : touched) sums_[index_of(c)] = sums_of(grid, c);
+  return touched;
+}
+
+void CoarseGrid::rebuild(const OccupancyGrid& grid) {
+  bounds_ = {};
+  sums_.clear();
+  include(grid.bounds(), grid);
+}
+
+double CoarseGrid::ol(Cell coarse) const {
+  if (!bounds_.contains(coarse)) return kUnknownOl;
+  const Sums& s = sums_[index_of(coarse)];
+  const double weight = (n_ * n_ - s.high_count) + alpha_ * s.high_count;
+  return (s.low_sum + alpha_ * s.high_sum) / weight;
+}
+
+Cell CoarseGrid::coarse_of(Cell fine) const { return {floor_divide(fine.x, n_), floor_divide(fine.y, n_)}; }
+
+CellBox CoarseGrid::fine_box(Cell coarse) const {
+  return {{coarse.x * n_, coarse.y * n_}, {(coarse.x + 1) * n_, (coarse.y + 1) * n_}};
+}
+
+void CoarseGrid::include(const CellBox& fine_box, const OccupancyGrid& grid) {
+  if (fine_box.empty()) return;
+  const CellBox wanted =
+      united(box_of(coarse_of(fine_box.min)), box_of(coarse_of({fine_box.max.x - 1, fine_box.max.y - 1})));
+  const CellBox old_bounds = bounds_;
+  const CellBox new_bounds = united(old_bounds, wanted);
+  if (new_bounds == old_bounds) return;
+
+  bounds_ = new_bounds;
+  std::vector<Sums> old_sums(static_cast<std::size_t>(bounds_.width()) * static_cast<std::size_t>(bounds_.height()));
+  old_sums.swap(sums_);
+  std::size_t from = 0;
+  for (int y = bounds_.min.y; y < bounds_.max.y; ++y)
+    for (int x = bounds_.min.x; x < bounds_.max.x; ++x)
+      sums_[index_of({x, y})] = old_bounds.contains({x, y}) ? old_sums[from++] : sums_of(grid, {x, y});
+}
+
+CoarseGrid::Sums CoarseGrid::sums_of(const OccupancyGrid& grid, Cell coarse) const {
+  const CellBox below = fine_box(coarse);
+  Sums sums;
+  for (int y = below.min.y; y < below.max.y; ++y)
+    for (int x = below.min.x; x < below.max.x; ++x) {
+      const std::int32_t ol = grid.ol({x, y});
+      if (ol <= kUnknownOl) {
+        sums.low_sum += ol;
+      } else {
+        sums.high_sum += ol;
+        ++sums.high_count;
+      }
+    }
+  return sums;
+}
+
+std::size_t CoarseGrid::index_of(Cell coarse) const {
+  return static_cast<std::size_t>(coarse.y - bounds_.min.y) * static_cast<std::size_t>(bounds_.width()) +
+         static_cast<std::size_t>(coarse.x - bounds_.min.x);
+}
+
+}  // namespace cairn

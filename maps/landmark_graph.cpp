@@ -1,0 +1,152 @@
+#include "maps/landmark_graph.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace cairn {
+namespace {
+
+// Ids travel as JSON numbers, which are exact up to here only.
+constexpr std::int64_t kMaxId = (std::int64_t{1} << 53) - 1;
+
+bool is_finite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+}
+
+std::string named(const char* kind, std::int64_t id) { return kind + (" " + std::to_string(id)); }
+
+// Takes the next free id, or keeps the given one and moves the next beyond it.
+std::int64_t claim_id(const char* kind, std::int64_t id, std::int64_t& next) {
+  if (id == 0) id = next;
+  if (id < 0 || id > kMaxId)
+    throw std::invalid_argument(named(kind, id) + ": an id must be in 1.." + std::to_string(kMaxId));
+  next = std::max(next, id + 1);
+  return id;
+}
+
+// The number in "L<number>" as label_of writes it; 0 for any other text.
+LandmarkId id_in_label(const std::string& label) {
+  LandmarkId id = 0;
+  if (label.size() < 2 || label[0] != 'L' || label[1] < '1' || label[1] > '9') return 0;
+  const char* const end = label.data() + label.size();
+  const auto [rest, error] = std::from_chars(label.data() + 1, end, id);
+  return error == std::errc{} && rest == end ? id : 0;
+}
+
+}  // namespace
+
+LandmarkId LandmarkGraph::add(Landmark landmark) {
+  if (landmarks_.contains(landmark.id)) throw std::invalid_argument(named("landmark", landmark.id) + " exists already");
+  if (!is_finite(landmark.T_map_landmark) || (landmark.access && !is_finite(*landmark.access)))
+    throw std::invalid_argument(named("landmark", landmark.id) + ": its place is not finite");
+  landmark.id = claim_id("landmark", landmark.id, next_landmark_);
+  const LandmarkId id = landmark.id;
+  landmarks_.emplace(id, std::move(landmark));
+  return id;
+}
+
+RouteId LandmarkGraph::add_route(Route route) {
+  if (routes_.contains(route.id)) throw std::invalid_argument(named("route", route.id) + " exists already");
+  for (const LandmarkId end : {route.from, route.to})
+    if (!landmarks_.contains(end))
+      throw std::invalid_argument(named("route", route.id) + ": there is no " + named("landmark", end));
+  if (!std::isfinite(route.cost_m) || route.cost_m < 0.0)
+    throw std::invalid_argument(named("route", route.id) + ": cost_m must be finite and not negative, got " +
+                                std::to_string(route.cost_m));
+  for (const Pose2& pose : route.trajectory)
+    if (!is_finite(pose)) throw std::invalid_argument(named("route", route.id) + ": its trajectory is not finite");
+  route.id = claim_id("route", route.id, next_route_);
+  const RouteId id = route.id;
+  routes_by_ends_.emplace(route.from, route.to, id);
+  routes_.emplace(id, std::move(route));
+  return id;
+}
+
+void LandmarkGraph::remove(LandmarkId id) {
+  if (landmarks_.erase(id) == 0) throw std::invalid_argument("there is no " + named("landmark", id) + " to remove");
+  std::erase_if(routes_, [id](const auto& entry) { return entry.second.from == id || entry.second.to == id; });
+  std::erase_if(routes_by_ends_, [id](const auto& ends) { return std::get<0>(ends) == id || std::get<1>(ends) == id; });
+}
+
+void LandmarkGraph::remove_route(RouteId id) {
+  const auto found = routes_.find(id);
+  if (found == routes_.end()) throw std::invalid_argument("there is no " + named("route", id) + " to remove");
+  routes_by_ends_.erase({found->second.from, found->second.to, id});
+  routes_.erase(found);
+}
+
+void LandmarkGraph::set_closed(RouteId id, bool closed) {
+  const auto found = routes_.find(id);
+  if (found == routes_.end()) throw std::invalid_argument("there is no " + named("route", id) + " to close or open");
+  found->second.closed = closed;
+}
+
+void LandmarkGraph::reserve_ids(LandmarkId next_landmark, RouteId next_route) {
+  if (next_landmark > kMaxId + 1 || next_route > kMaxId + 1)
+    throw std::invalid_argument("reserve_ids: ids end at " + std::to_string(kMaxId) + ", asked for " +
+                                std::to_string(next_landmark) + " and " + std::to_string(next_route));
+  next_landmark_ = std::max(next_landmark_, next_landmark);
+  next_route_ = std::max(next_route_, next_route);
+}
+
+const Landmark* LandmarkGraph::find(LandmarkId id) const {
+  const auto found = landmarks_.find(id);
+  return found == landmarks_.end() ? nullptr : &found->second;
+}
+
+Landmark* LandmarkGraph::find(LandmarkId id) {
+  const auto found = landmarks_.find(id);
+  return found == landmarks_.end() ? nullptr : &found->second;
+}
+
+const Landmark* LandmarkGraph::find_by_name(const std::string& name_or_id) const {
+  if (const Landmark* landmark = find(id_in_label(name_or_id))) return landmark;
+  if (name_or_id.empty()) return nullptr;
+  for (const auto& [id, landmark] : landmarks_)
+    if (landmark.name == name_or_id) return &landmark;
+  return nullptr;
+}
+
+const Route* LandmarkGraph::find_route(RouteId id) const {
+  const auto found = routes_.find(id);
+  return found == routes_.end() ? nullptr : &found->second;
+}
+
+const Landmark* LandmarkGraph::nearest(const Point& p_map, double within_m) const {
+  const Landmark* best = nullptr;
+  double best_m = within_m;
+  for (const auto& [id, landmark] : landmarks_) {
+    const double distance_m = (landmark.T_map_landmark.position() - p_map).norm();
+    if (best == nullptr ? distance_m <= best_m : distance_m < best_m) {
+      best = &landmark;
+      best_m = distance_m;
+    }
+  }
+  return best;
+}
+
+std::vector<LandmarkId> LandmarkGraph::of_category(const std::string& category) const {
+  std::vector<LandmarkId> ids;
+  for (const auto& [id, landmark] : landmarks_)
+    if (landmark.category == category) ids.push_back(id);
+  return ids;
+}
+
+const Route* LandmarkGraph::route_between(LandmarkId from, LandmarkId to) const {
+  const Route* best = nullptr;
+  for (auto ends = routes_by_ends_.lower_bound({from, to, std::numeric_limits<RouteId>::min()});
+       ends != routes_by_ends_.end() && std::get<0>(*ends) == from && std::get<1>(*ends) == to; ++ends) {
+    const Route& route = routes_.at(std::get<2>(*ends));
+    if (!route.closed && (best == nullptr || route.cost_m < best->cost_m)) best = &route;
+  }
+  return best;
+}
+
+std::string label_of(const Landmark& landmark) {
+  return landmark.name.empty() ? "L" + std::to_string(landmark.id) : landmark.name;
+}
+
+}  // namespace cairn

@@ -1,0 +1,73 @@
+#include "maps/map_store.hpp"
+
+#include "maps/map_store_file.hpp"
+#include "maps/map_store_schema.hpp"
+#include "maps/map_store_tables.hpp"
+
+namespace cairn {
+namespace {
+
+using store::Database;
+
+// The database is made in memory and becomes a file in one step. A transaction in the file itself
+// would be as safe, but its pages would then depend on what the file held before; made anew, the same
+// map gives the same bytes, and no journal lies beside a map after a kill.
+// Nothing is written that would not load again: what the tables refuse is a bug of the caller.
+Database database_of(const SavedMap& map) {
+  Database database = Database::in_memory();
+  database.execute("PRAGMA page_size = 4096; PRAGMA encoding = 'UTF-8'; PRAGMA secure_delete = ON");
+  database.execute(("PRAGMA application_id = " + std::to_string(store::kMapApplicationId)).c_str());
+  database.execute(("PRAGMA user_version = " + std::to_string(kMapSchemaVersion)).c_str());
+  database.execute("BEGIN");
+  store::create_tables(database);
+  store::write_content(database, map);
+  store::write_checksums(database);
+  database.execute("COMMIT");
+  static_cast<void>(store::read_content(database));
+  return database;
+}
+
+std::string bytes_of(const SavedMap& map) {
+  try {
+    return database_of(map).serialized();
+  } catch (const StoreError& error) {
+    throw std::invalid_argument("save_map: this map cannot be saved: " + std::string(error.what()));
+  }
+}
+
+void check_pages(Database& database) {
+  store::Statement check(database, "PRAGMA quick_check(1)");
+  if (check.step() && check.text(0) != "ok") throw StoreError("is damaged: " + check.text(0));
+}
+
+}  // namespace
+
+void save_map(const std::filesystem::path& file, const SavedMap& map) {
+  const std::string bytes = bytes_of(map);
+  try {
+    if (!store::may_be_replaced(file)) throw StoreError("is there already and is no saved map: it is left as it is");
+    store::replace_file(file, bytes);
+  } catch (const StoreError& error) {
+    throw StoreError(file.string() + ": " + error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw StoreError(file.string() + ": cannot be written: " + error.code().message());
+  }
+}
+
+SavedMap load_map(const std::filesystem::path& file) {
+  try {
+    store::check_header(file);
+    Database database = Database::read_only(file);
+    database.execute("BEGIN");  // one state of the file for all that follows
+    check_pages(database);
+    store::check_schema(database);
+    store::check_checksums(database);
+    return store::read_content(database);
+  } catch (const StoreError& error) {
+    throw StoreError(file.string() + ": " + error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw StoreError(file.string() + ": cannot be read: " + error.code().message());
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,146 @@
+#include "maps/map_store_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "maps/map_store.hpp"
+#include "maps/map_store_schema.hpp"
+
+namespace cairn::store {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 100;
+constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
+
+[[noreturn]] void fail(const char* what, int error) { throw StoreError(what + std::string(": ") + std::strerror(error)); }
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  [[nodiscard]] int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+bool is_still_named(int fd, const std::filesystem::path& name) {
+  struct stat held {};
+  struct stat found {};
+  return ::fstat(fd, &held) == 0 && ::stat(name.c_str(), &found) == 0 && held.st_ino == found.st_ino &&
+         held.st_dev == found.st_dev;
+}
+
+// Opens the file to write in and locks it against other savers. A saver that had to wait holds a file
+// that has been renamed meanwhile, and tries again.
+int open_locked(const std::filesystem::path& name) {
+  for (;;) {
+    const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (fd < 0) fail("cannot be written", errno);
+    while (::flock(fd, LOCK_EX) != 0 && errno == EINTR) {
+    }
+    if (is_still_named(fd, name)) return fd;
+    ::close(fd);
+  }
+}
+
+void write_all(int fd, std::string_view bytes) {
+  if (::ftruncate(fd, 0) != 0) fail("cannot be written", errno);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot be written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fsync(fd) != 0) fail("cannot be written", errno);
+}
+
+std::uint32_t big_endian_at(const std::string& bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = (value << 8) | static_cast<unsigned char>(bytes[offset + i]);
+  return value;
+}
+
+std::string header_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail("cannot be read", errno);
+  std::string header(kHeaderBytes, '\0');
+  stream.read(header.data(), static_cast<std::streamsize>(kHeaderBytes));
+  header.resize(static_cast<std::size_t>(stream.gcount()));
+  return header;
+}
+
+// Offsets as SQLite's file format lays them down.
+void check_size(const std::string& header, std::uintmax_t found) {
+  const std::uint32_t page = (big_endian_at(header, 14) >> 16) & 0xFFFF;
+  const std::uint64_t page_bytes = page == 1 ? 65536 : page;
+  const std::uint64_t expected = page_bytes * big_endian_at(header, 28);
+  if (found < expected)
+    throw StoreError("is truncated: " + std::to_string(found) + " of " + std::to_string(expected) + " bytes are there");
+}
+
+void check_version(std::int64_t version) {
+  const std::string known = std::to_string(kMapSchemaVersion);
+  if (version > kMapSchemaVersion)
+    throw StoreError("was written with schema version " + std::to_string(version) + ", this Cairn reads up to version " +
+                     known + ": use a newer Cairn");
+  if (version < 1)
+    throw StoreError("has schema version " + std::to_string(version) + ", this Cairn reads versions 1 to " + known);
+}
+
+}  // namespace
+
+void replace_file(const std::filesystem::path& file, std::string_view bytes) {
+  const std::filesystem::path target = std::filesystem::is_symlink(file) ? std::filesystem::canonical(file) : file;
+  const std::filesystem::path beside = target.parent_path() / ("." + target.filename().string() + ".saving");
+  const Descriptor written(open_locked(beside));
+  try {
+    write_all(written.get(), bytes);
+    if (::rename(beside.c_str(), target.c_str()) != 0) fail("cannot be replaced", errno);
+  } catch (const StoreError&) {
+    ::unlink(beside.c_str());
+    throw;
+  }
+  // The rename itself must reach the disk too; file systems that cannot sync a folder need no asking.
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.get() >= 0) ::fsync(opened.get());
+}
+
+void check_header(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw StoreError("no such file");
+  if (!std::filesystem::is_regular_file(status)) throw StoreError("is not a file");
+  const std::string header = header_of(file);
+  if (header.empty()) throw StoreError("is empty");
+  if (!std::string_view(header).starts_with(kSqliteMagic)) throw StoreError("is not a saved map (no SQLite 3 file)");
+  if (header.size() < kHeaderBytes)
+    throw StoreError("is truncated: only " + std::to_string(header.size()) + " bytes are there");
+  if (big_endian_at(header, 68) != kMapApplicationId)
+    throw StoreError("is not a saved map (an SQLite file of another program: application_id " +
+                     std::to_string(big_endian_at(header, 68)) + ", a map has " + std::to_string(kMapApplicationId) +
+                     ")");
+  check_version(static_cast<std::int32_t>(big_endian_at(header, 60)));
+  check_size(header, std::filesystem::file_size(file));
+}
+
+bool may_be_replaced(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return true;
+  if (!std::filesystem::is_regular_file(file)) return false;
+  const std::string header = header_of(file);
+  return header.empty() || std::string_view(header).starts_with(kSqliteMagic);
+}
+
+}  // namespace cairn::store

@@ -1,0 +1,22 @@
+// The saved map as a file: its header, and how a new one takes the place of an old one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace cairn::store {
+
+// Gives the file this content: whoever opens it at any moment, also after a kill or a power cut,
+// finds the whole old or the whole new content. Writes beside the file, then renames over it.
+// Savers of the same file take turns. Throws StoreError, and the old content stays.
+void replace_file(const std::filesystem::path& file, std::string_view bytes);
+
+// Refuses, with a StoreError, what no saved map of a known schema version begins like.
+void check_header(const std::filesystem::path& file);
+
+// Whether the file is absent, empty or some SQLite file, so that saving a map over it destroys no
+// mission or picture that was named by mistake.
+[[nodiscard]] bool may_be_replaced(const std::filesystem::path& file);
+
+}  // namespace cairn::store

@@ -1,0 +1,112 @@
+#include "maps/map_store_schema.hpp"
+
+#include <array>
+
+#include "maps/map_store_codec.hpp"
+
+namespace cairn::store {
+namespace {
+
+constexpr std::array kTables{
+    Table{"meta", "key", "key TEXT NOT NULL PRIMARY KEY, value TEXT NOT NULL", " WITHOUT ROWID"},
+    Table{"grid", "level",
+          "level INTEGER PRIMARY KEY, cell_m REAL NOT NULL, origin_x_m REAL NOT NULL, origin_y_m REAL NOT NULL, "
+          "clamp_nat REAL NOT NULL, min_x INTEGER NOT NULL, min_y INTEGER NOT NULL, max_x INTEGER NOT NULL, "
+          "max_y INTEGER NOT NULL",
+          ""},
+    // log_odds: 64 x 64 little-endian int16 in 1/256 nat, row by row from below, zlib; crc32 of the raw bytes.
+    Table{"tiles", "level, ty, tx",
+          "level INTEGER NOT NULL, ty INTEGER NOT NULL, tx INTEGER NOT NULL, log_odds BLOB NOT NULL, "
+          "crc32 INTEGER NOT NULL, PRIMARY KEY (level, ty, tx)",
+          " WITHOUT ROWID"},
+    Table{"landmarks", "id",
+          "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, name TEXT NOT NULL, category TEXT NOT NULL, "
+          "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, degree REAL NOT NULL, "
+          "sightings INTEGER NOT NULL, access_x_m REAL, access_y_m REAL, access_theta_rad REAL",
+          ""},
+    Table{"landmark_templates", "landmark, rank",
+          "landmark INTEGER NOT NULL, rank INTEGER NOT NULL, category TEXT NOT NULL, orientation_rad REAL NOT NULL, "
+          "degree REAL NOT NULL, PRIMARY KEY (landmark, rank)",
+          " WITHOUT ROWID"},
+    // trajectory: little-endian doubles x_m, y_m, theta_rad of each pose, zlib; crc32 of the raw bytes.
+    Table{"routes", "id",
+          "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, from_landmark INTEGER NOT NULL, "
+          "to_landmark INTEGER NOT NULL, cost_m REAL NOT NULL, driven INTEGER NOT NULL, closed INTEGER NOT NULL, "
+          "poses INTEGER NOT NULL, trajectory BLOB NOT NULL, crc32 INTEGER NOT NULL",
+          ""},
+    Table{"next_ids", "kind", "kind TEXT NOT NULL PRIMARY KEY, id INTEGER NOT NULL", " WITHOUT ROWID"},
+    // parameters: the diameter of a circle; "x,y x,y ..." of a polygon's corners (m).
+    Table{"shapes", "number",
+          "number INTEGER PRIMARY KEY, category TEXT NOT NULL, kind TEXT NOT NULL, parameters TEXT NOT NULL", ""},
+    Table{"driven_path", "number",
+          "number INTEGER PRIMARY KEY, x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL", ""},
+};
+
+constexpr Table kChecksums{
+    "checksums", "table_name",
+    "table_name TEXT NOT NULL PRIMARY KEY, row_count INTEGER NOT NULL, crc32 INTEGER NOT NULL", " WITHOUT ROWID"};
+
+struct Checksum {
+  std::int64_t row_count = 0;
+  std::uint32_t crc = 0;
+};
+
+std::string definition_of(const Table& table) {
+  return std::string("CREATE TABLE ") + table.name + " (" + table.columns + ")" + table.options;
+}
+
+Checksum checksum_of(Database& database, const Table& table) {
+  Checksum sum;
+  Statement rows(database, std::string("SELECT * FROM ") + table.name + " ORDER BY " + table.order);
+  for (; rows.step(); ++sum.row_count) sum.crc = crc32_of(rows.row_bytes(), sum.crc);
+  return sum;
+}
+
+void check_definition(Database& database, const Table& table) {
+  Statement found(database, "SELECT sql FROM sqlite_schema WHERE type = 'table' AND name = ?");
+  found.bind_text(table.name);
+  const std::string at = std::string("table ") + table.name;
+  if (!found.step()) throw StoreError(at + ": is missing");
+  if (found.text(0) != definition_of(table))
+    throw StoreError(at + ": its columns are not those of schema version " + std::to_string(kMapSchemaVersion));
+}
+
+void check_table(Database& database, const Table& table) {
+  const std::string at = std::string("table ") + table.name;
+  Statement stored(database, "SELECT row_count, crc32 FROM checksums WHERE table_name = ?");
+  stored.bind_text(table.name);
+  if (!stored.step()) throw StoreError("table checksums: has no row for table " + std::string(table.name));
+  const Checksum found = checksum_of(database, table);
+  if (found.row_count != stored.integer(0))
+    throw StoreError(at + ": has " + std::to_string(found.row_count) + " rows, saved were " +
+                     std::to_string(stored.integer(0)));
+  if (found.crc != stored.integer(1)) throw StoreError(at + ": its content does not match its checksum, it was damaged or edited");
+}
+
+}  // namespace
+
+std::span<const Table> tables() { return kTables; }
+
+void create_tables(Database& database) {
+  for (const Table& table : kTables) database.execute(definition_of(table).c_str());
+  database.execute(definition_of(kChecksums).c_str());
+}
+
+void check_schema(Database& database) {
+  for (const Table& table : kTables) check_definition(database, table);
+  check_definition(database, kChecksums);
+}
+
+void write_checksums(Database& database) {
+  Statement insert(database, "INSERT INTO checksums VALUES (?, ?, ?)");
+  for (const Table& table : kTables) {
+    const Checksum sum = checksum_of(database, table);
+    insert.bind_text(table.name).bind(sum.row_count).bind(std::int64_t{sum.crc}).run();
+  }
+}
+
+void check_checksums(Database& database) {
+  for (const Table& table : kTables) check_table(database, table);
+}
+
+}  // namespace cairn::store

@@ -1,0 +1,28 @@
+// Schema 1 of the saved map: its tables, and a checksum over each.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "maps/map_store_sqlite.hpp"
+
+namespace cairn::store {
+
+inline constexpr std::int64_t kMapApplicationId = 0x43524E31;  // "CRN1"
+
+struct Table {
+  const char* name;
+  const char* order;    // its key: rows are read in this order
+  const char* columns;  // as CREATE TABLE takes them
+  const char* options;  // behind the columns
+};
+
+[[nodiscard]] std::span<const Table> tables();
+void create_tables(Database& database);
+// Every table exists exactly as create_tables makes it; throws StoreError with the first that does not.
+void check_schema(Database& database);
+
+void write_checksums(Database& database);
+void check_checksums(Database& database);
+
+}  // namespace cairn::store

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <charconv>
+
+#include "maps/map_store_codec.hpp"
+#include "maps/map_store_tables.hpp"
+
+namespace cairn::store {
+namespace {
+
+constexpr int kSide = OccupancyGrid::kTileSide;
+
+int tile_index(int cell) { return cell >> 6; }
+
+void write_grid(Database& database, const OccupancyGrid& grid) {
+  const CellBox box = grid.bounds().empty() ? CellBox{} : grid.bounds();
+  Statement(database, "INSERT INTO grid VALUES (0, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(grid.cell_m())
+      .bind(grid.origin_m().x())
+      .bind(grid.origin_m().y())
+      .bind(grid.clamp_nat())
+      .bind(std::int64_t{box.min.x})
+      .bind(std::int64_t{box.min.y})
+      .bind(std::int64_t{box.max.x})
+      .bind(std::int64_t{box.max.y})
+      .run();
+}
+
+void write_tiles(Database& database, const OccupancyGrid& grid) {
+  const CellBox box = grid.bounds();
+  if (box.empty()) return;
+  Statement insert(database, "INSERT INTO tiles VALUES (0, ?, ?, ?, ?)");
+  std::vector<LogOdds> cells(kSide * kSide);
+  for (int ty = tile_index(box.min.y); ty <= tile_index(box.max.y - 1); ++ty) {
+    for (int tx = tile_index(box.min.x); tx <= tile_index(box.max.x - 1); ++tx) {
+      grid.copy_log_odds({{tx * kSide, ty * kSide}, {(tx + 1) * kSide, (ty + 1) * kSide}}, cells);
+      if (std::ranges::all_of(cells, [](LogOdds value) { return value == 0; })) continue;
+      std::string raw;
+      for (const LogOdds value : cells) append_little_endian(raw, value);
+      insert.bind(std::int64_t{ty}).bind(std::int64_t{tx}).bind_blob(compressed(raw));
+      insert.bind(std::int64_t{crc32_of(raw)}).run();
+    }
+  }
+}
+
+void write_landmarks(Database& database, const LandmarkGraph& graph) {
+  Statement insert(database, "INSERT INTO landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert_template(database, "INSERT INTO landmark_templates VALUES (?, ?, ?, ?, ?)");
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    const Pose2& pose = landmark.T_map_landmark;
+    insert.bind(id).bind(std::int64_t{landmark.level}).bind_text(landmark.name).bind_text(landmark.category);
+    insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).bind(landmark.degree);
+    insert.bind(std::int64_t{landmark.sightings});
+    const auto access = [&](double Pose2::*part) {
+      return landmark.access ? std::optional((*landmark.access).*part) : std::nullopt;
+    };
+    insert.bind(access(&Pose2::x_m)).bind(access(&Pose2::y_m)).bind(access(&Pose2::theta_rad)).run();
+    std::int64_t rank = 0;
+    for (const TemplateDegree& match : landmark.templates)
+      insert_template.bind(id).bind(++rank).bind_text(match.category).bind(match.orientation_rad).bind(match.degree).run();
+  }
+}
+
+void write_routes(Database& database, const LandmarkGraph& graph) {
+  Statement insert(database, "INSERT INTO routes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const auto& [id, route] : graph.routes()) {
+    std::string raw;
+    for (const Pose2& pose : route.trajectory)
+      for (const double value : {pose.x_m, pose.y_m, pose.theta_rad}) append_little_endian(raw, value);
+    insert.bind(id).bind(std::int64_t{route.level}).bind(route.from).bind(route.to).bind(route.cost_m);
+    insert.bind(std::int64_t{route.driven}).bind(std::int64_t{route.closed});
+    insert.bind(static_cast<std::int64_t>(route.trajectory.size())).bind_blob(compressed(raw));
+    insert.bind(std::int64_t{crc32_of(raw)}).run();
+  }
+  Statement next(database, "INSERT INTO next_ids VALUES (?, ?)");
+  next.bind_text("landmark").bind(graph.next_landmark_id()).run();
+  next.bind_text("route").bind(graph.next_route_id()).run();
+}
+
+// The shortest text that reads back as the same double.
+std::string text_of(double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return {buffer, end};
+}
+
+void write_shapes(Database& database, const std::vector<LandmarkShape>& shapes) {
+  Statement insert(database, "INSERT INTO shapes VALUES (?, ?, ?, ?)");
+  std::int64_t number = 0;
+  for (const LandmarkShape& shape : shapes) {
+    std::string parameters = shape.contour.is_circle() ? text_of(shape.contour.circle_diameter_m) : "";
+    for (const Point& corner : shape.contour.polygon_m)
+      parameters += (parameters.empty() ? "" : " ") + text_of(corner.x()) + "," + text_of(corner.y());
+    insert.bind(++number).bind_text(shape.category).bind_text(shape.contour.is_circle() ? "circle" : "polygon");
+    insert.bind_text(parameters).run();
+  }
+}
+
+void write_driven_path(Database& database, const std::vector<Pose2>& path) {
+  Statement insert(database, "INSERT INTO driven_path VALUES (?, ?, ?, ?)");
+  std::int64_t number = 0;
+  for (const Pose2& pose : path) insert.bind(++number).bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).run();
+}
+
+}  // namespace
+
+void write_content(Database& database, const SavedMap& map) {
+  Statement insert(database, "INSERT INTO meta VALUES (?, ?)");
+  for (const auto& [key, value] : map.properties) insert.bind_text(key).bind_text(value).run();
+  write_grid(database, map.grid);
+  write_tiles(database, map.grid);
+  write_landmarks(database, map.graph);
+  write_routes(database, map.graph);
+  write_shapes(database, map.shapes);
+  write_driven_path(database, map.driven_path);
+}
+
+}  // namespace cairn::store

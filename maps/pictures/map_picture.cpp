@@ -1,0 +1,1 @@
+#include "maps/occupancy_grid.hpp"

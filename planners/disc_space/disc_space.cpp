@@ -1,0 +1,100 @@
+#include "planners/disc_space/disc_space.hpp"
+
+#include <numbers>
+
+namespace cairn {
+namespace {
+
+constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt2;  // of a cell of side 1
+
+}  // namespace
+
+DiscSpace::DiscSpace(const OccupancyGrid& grid, const GroundRules& rules)
+    : rules_(rules),
+      field_(grid, rules.unknown, rules.thresholds),
+      lattice_{grid.origin_m(), grid.cell_m()} {}
+
+bool DiscSpace::contains(const Point& p_map) const {
+  // Compared as numbers: the index of a far away or NaN point does not fit an int.
+  const Point p_cells = (p_map - lattice_.origin_m) / lattice_.cell_m;
+  const CellBox box = field_.box();
+  return p_cells.x() >= box.min.x && p_cells.x() < box.max.x && p_cells.y() >= box.min.y && p_cells.y() < box.max.y;
+}
+
+double DiscSpace::at_least_m(const Point& p_map) const {
+  const Cell cell = field_.cell_at(p_map);
+  const double centre_m = field_.distance_m(cell);
+  return centre_m - kHalfDiagonal * lattice_.cell_m - (p_map - lattice_.centre_of(cell)).norm();
+}
+
+bool DiscSpace::fits_along(const Point& from, const Point& to, double radius_m) const {
+  if (!contains(from) || !contains(to)) return false;
+  const double length_m = (to - from).norm();
+  const auto at = [&](double s_m) { return length_m > 0.0 ? Point(from + (to - from) * (s_m / length_m)) : from; };
+  for (double s_m = 0.0;;) {
+    const Point here = at(s_m);
+    double step_m = at_least_m(here) - radius_m;
+    if (step_m < lattice_.cell_m) {
+      step_m = std::min(2.0 * lattice_.cell_m, length_m - s_m);
+      if (sweep_touches(lattice_, here, at(s_m + step_m), radius_m, [this](Cell c) { return is_blocked(c); }))
+        return false;
+    }
+    s_m += step_m;
+    if (s_m >= length_m) return true;
+  }
+}
+
+double DiscSpace::share_that_fits(const Point& from, const Point& to, double radius_m) const {
+  if (!fits(from, radius_m)) return 0.0;
+  double good = 0.0;
+  double bad = 1.0;
+  while ((bad - good) * (to - from).norm() > 0.01 * lattice_.cell_m) {
+    const double middle = 0.5 * (good + bad);
+    (fits_along(from, from + middle * (to - from), radius_m) ? good : bad) = middle;
+  }
+  return good;
+}
+
+double DiscSpace::exactly_m(const Point& p_map) const {
+  const Cell cell = field_.cell_at(p_map);
+  const double nearest_m = field_.distance_m(cell) + (p_map - lattice_.centre_of(cell)).norm();
+  const int reach = static_cast<int>(std::ceil(nearest_m / lattice_.cell_m)) + 1;
+  double best_m = nearest_m;
+  for (int y = cell.y - reach; y <= cell.y + reach; ++y)
+    for (int x = cell.x - reach; x <= cell.x + reach; ++x)
+      if (is_blocked({x, y}))
+        best_m = std::min(best_m, distance_to_square_m(p_map, p_map, lattice_.centre_of({x, y}), lattice_.cell_m));
+  return best_m;
+}
+
+double DiscSpace::distance_m(const Point& from, const Point& to) const {
+  // Branch and bound on halves: the distance changes by at most a metre a metre.
+  struct Piece {
+    Point from;
+    Point to;
+  };
+  std::vector<Piece> open{{from, to}};
+  double best_m = std::min(exactly_m(from), exactly_m(to));
+  while (!open.empty()) {
+    const Piece piece = open.back();
+    open.pop_back();
+    const Point middle = 0.5 * (piece.from + piece.to);
+    const double half_m = 0.5 * (piece.to - piece.from).norm();
+    if (half_m < 1e-3 || at_least_m(middle) - half_m >= best_m) continue;
+    const double middle_m = exactly_m(middle);
+    best_m = std::min(best_m, middle_m);
+    if (middle_m - half_m >= best_m - 1e-3) continue;
+    open.push_back({middle, piece.to});
+    open.push_back({piece.from, middle});
+  }
+  return best_m;
+}
+
+TravelField DiscSpace::travel_at_most(const Point& from, double radius_m) const {
+  // A disc at any point p of a cell keeps radius_m from every blocked square, which holds a disc of half
+  // a cell round its own centre; p lies within half a diagonal of the cell's centre.
+  const double centres_m = radius_m + (0.5 - kHalfDiagonal) * lattice_.cell_m;
+  return TravelField(field_, from, std::max(centres_m - 1e-6, 0.5 * lattice_.cell_m));
+}
+
+}  // namespace cairn

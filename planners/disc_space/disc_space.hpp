@@ -1,0 +1,47 @@
+// Where on OG1 a disc may stand and along which straight segments it may move.
+//
+// Answers are exact: a disc fits where it touches no blocked cell (swept_disc.hpp). The distance field
+// answers nearly all questions at once; only what is too near to tell is looked up cell by cell.
+// Immutable and thread-safe. Building it costs O(cells).
+#pragma once
+
+#include "maps/distance_field.hpp"
+#include "maps/travel_field.hpp"
+#include "planners/disc_space/swept_disc.hpp"
+
+namespace cairn {
+
+class DiscSpace {
+ public:
+  DiscSpace(const OccupancyGrid& grid, const GroundRules& rules);
+
+  [[nodiscard]] const DistanceField& field() const { return field_; }
+  [[nodiscard]] const GroundRules& rules() const { return rules_; }
+  [[nodiscard]] double cell_m() const { return lattice_.cell_m; }
+  // Inside the box of the distance field; the centre of a disc never leaves it.
+  [[nodiscard]] bool contains(const Point& p_map) const;
+  [[nodiscard]] bool is_blocked(Cell cell) const {
+    return field_.box().contains(cell) ? field_.is_blocked(cell) : rules_.unknown == UnknownPolicy::avoid;
+  }
+
+  [[nodiscard]] bool fits(const Point& p_map, double radius_m) const { return fits_along(p_map, p_map, radius_m); }
+  [[nodiscard]] bool fits_along(const Point& from, const Point& to, double radius_m) const;
+  // The end of the longest first part of the segment along which the disc fits, as a share of it.
+  [[nodiscard]] double share_that_fits(const Point& from, const Point& to, double radius_m) const;
+  // Distance from the segment to the nearest blocked square, up to a millimetre.
+  [[nodiscard]] double distance_m(const Point& from, const Point& to) const;
+
+  // Travel from a point over every cell in which such a disc might stand: a cell that it does not reach
+  // cannot be reached. What it reaches may still be too narrow by less than two cells.
+  [[nodiscard]] TravelField travel_at_most(const Point& from, double radius_m) const;
+
+ private:
+  [[nodiscard]] double at_least_m(const Point& p_map) const;  // to the nearest blocked square
+  [[nodiscard]] double exactly_m(const Point& p_map) const;
+
+  GroundRules rules_;
+  DistanceField field_;
+  Lattice lattice_;
+};
+
+}  // namespace cairn

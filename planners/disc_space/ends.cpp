@@ -1,0 +1,124 @@
+#include "planners/disc_space/ends.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace cairn {
+namespace {
+
+Refusal start_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& at, double radius_m) {
+  return {PlanOutcome::start_blocked, "the start " + text_of(at) + " is blocked: " +
+                                          why_blocked(grid, space, at, radius_m) +
+                                          nearest_free_text(space, at, radius_m)};
+}
+
+std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldView& world, const EndRules& rules,
+                                                const SpaceCache& spaces) {
+  StartPlace start;
+  start.pose = pose;
+  const Point at = pose.position();
+  if (robot_stands_at(world, at))
+    start.patched_grid = with_ground_under(world.grid, rules.ground, at, rules.radius_m + kLeastRadius_m);
+  const OccupancyGrid& grid = start.grid_of(world);
+  start.space = spaces.space_of(grid, rules.ground);
+  start.leave_from = at;
+  if (start.space->fits(at, rules.radius_m + kLeastRadius_m)) return start;
+  start.escape = escape_from(grid, *start.space, at, rules.radius_m, rules.start_tolerance_m);
+  if (!start.escape) return start_blocked(grid, *start.space, at, rules.radius_m);
+  start.leave_from = start.escape->to;
+  return start;
+}
+
+std::string text_of_goals(const Place& place, const LandmarkGraph& graph) {
+  if (place.pose) return "the goal " + text_of(place.pose->position());
+  const std::string first = label_of(*graph.find(place.landmarks.front()));
+  if (place.landmarks.size() == 1) return first;
+  return "none of " + std::to_string(place.landmarks.size()) + " goals (" + first + ", ...)";
+}
+
+// No way at all, or none for a robot of this size?
+Refusal unreached(const Place& place, const WorldView& world, const EndRules& rules, const StartPlace& start,
+                  const std::vector<Point>& goals) {
+  const TravelField thin = start.space->travel_at_most(start.leave_from, 0.0);
+  bool open = false;
+  for (const Point& goal : goals) open = open || thin.reaches(start.space->field().cell_at(goal));
+  const std::string verb = place.landmarks.size() > 1 ? " can be reached" : " cannot be reached";
+  std::string why = ": what is free around the start ends before it";
+  if (open) {
+    char radius[32];
+    std::snprintf(radius, sizeof radius, "%.2f", rules.radius_m);
+    why = std::string(": the way there is too narrow for a robot of radius ") + radius + " m";
+  }
+  return {PlanOutcome::no_route, text_of_goals(place, world.graph) + verb + why};
+}
+
+}  // namespace
+
+std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph, const std::string& end) {
+  if (place.pose) {
+    if (place.pose->position().allFinite() && std::isfinite(place.pose->theta_rad)) return std::nullopt;
+    return Refusal{PlanOutcome::unknown_place, "the " + end + " is not a place: its numbers are not finite"};
+  }
+  if (place.landmarks.empty()) return Refusal{PlanOutcome::unknown_place, "the request names no " + end};
+  for (const LandmarkId id : place.landmarks)
+    if (graph.find(id) == nullptr)
+      return Refusal{PlanOutcome::unknown_place, "the map has no landmark L" + std::to_string(id) + " (" + end + ")"};
+  return std::nullopt;
+}
+
+std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& world, const EndRules& rules,
+                                           const SpaceCache& spaces) {
+  if (const auto refusal = refusal_of_place(place, world.graph, "start")) return *refusal;
+  if (world.grid.bounds().empty())
+    return Refusal{PlanOutcome::start_blocked, "the map holds no grid to plan a route on"};
+  if (place.pose) return start_at_pose(*place.pose, world, rules, spaces);
+  const auto space = spaces.space_of(world.grid, rules.ground);
+  for (const LandmarkId id : place.landmarks) {
+    const std::optional<Pose2> stand =
+        standing_place(*space, *world.graph.find(id), rules.radius_m + kLeastRadius_m);
+    if (!stand) continue;
+    auto start = start_at_pose(*stand, world, rules, spaces);
+    if (auto* found = std::get_if<StartPlace>(&start)) found->landmark = id;
+    return start;
+  }
+  return Refusal{PlanOutcome::start_blocked, "there is no free place to stand near " +
+                                                 label_of(*world.graph.find(place.landmarks.front())) +
+                                                 ", where the route is to start"};
+}
+
+std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const WorldView& world,
+                                                       const EndRules& rules, const StartPlace& start,
+                                                       const TravelField& travel) {
+  if (const auto refusal = refusal_of_place(place, world.graph, "goal")) return *refusal;
+  const DiscSpace& space = *start.space;
+  const double radius_m = rules.radius_m + kLeastRadius_m;
+  const auto reached = [&](Cell cell) { return travel.reaches(cell); };
+  if (place.pose) {
+    const Point at = place.pose->position();
+    if (!space.fits(at, radius_m))
+      return Refusal{PlanOutcome::goal_blocked,
+                     "the goal " + text_of(at) + " is blocked: " +
+                         why_blocked(start.grid_of(world), space, at, rules.radius_m) +
+                         nearest_free_text(space, at, radius_m)};
+    if (!reached(space.field().cell_at(at))) return unreached(place, world, rules, start, {at});
+    const std::optional<double> heading =
+        place.heading_matters ? std::optional(place.pose->theta_rad) : std::nullopt;
+    return std::vector{GoalPlace{*place.pose, heading, 0}};
+  }
+  std::vector<GoalPlace> goals;
+  std::vector<Point> out_of_reach;
+  for (const LandmarkId id : place.landmarks) {
+    const Landmark& landmark = *world.graph.find(id);
+    if (const auto stand = standing_place(space, landmark, radius_m, reached)) {
+      goals.push_back({*stand, std::nullopt, id});
+    } else if (const auto anywhere = standing_place(space, landmark, radius_m)) {
+      out_of_reach.push_back(anywhere->position());
+    }
+  }
+  if (!goals.empty()) return goals;
+  if (!out_of_reach.empty()) return unreached(place, world, rules, start, out_of_reach);
+  return Refusal{PlanOutcome::goal_blocked,
+                 "there is no free place to stand near " + label_of(*world.graph.find(place.landmarks.front()))};
+}
+
+}  // namespace cairn

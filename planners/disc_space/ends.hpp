@@ -1,0 +1,60 @@
+// The two ends of a request as points on the grid: where the robot sets out and where it may arrive.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "planners/disc_space/places.hpp"
+#include "planners/disc_space/space_cache.hpp"
+
+namespace cairn {
+
+// Why there is no end, as an outcome.
+struct Refusal {
+  PlanOutcome outcome = PlanOutcome::unknown_place;
+  std::string reason;
+};
+
+// The robot at the start. The grid is the world's, with the unknown ground under the robot made free
+// when it stands there now.
+struct StartPlace {
+  std::optional<OccupancyGrid> patched_grid;
+  std::shared_ptr<const DiscSpace> space;
+  Pose2 pose;
+  LandmarkId landmark = 0;               // when the start is one
+  std::optional<Escape> escape;          // when it is left with less clearance than the radius
+  Point leave_from{0.0, 0.0};            // the escape's end, else the pose
+
+  [[nodiscard]] const OccupancyGrid& grid_of(const WorldView& world) const {
+    return patched_grid ? *patched_grid : world.grid;
+  }
+};
+
+struct GoalPlace {
+  Pose2 pose;
+  std::optional<double> heading_rad;     // when it matters
+  LandmarkId landmark = 0;
+};
+
+struct EndRules {
+  GroundRules ground;
+  double radius_m = 0.22;
+  double start_tolerance_m = 0.15;
+};
+
+// Landmarks of a place that the graph lacks, non-finite numbers, a place that names nothing.
+[[nodiscard]] std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph,
+                                                      const std::string& end);
+// The first landmark that has a standing place stands for several.
+[[nodiscard]] std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& world,
+                                                         const EndRules& rules, const SpaceCache& spaces);
+// Every place that the request would accept, landmarks by their standing places on what `travel`
+// reaches; one that cannot be reached is left out. At least one, or a refusal that says why.
+[[nodiscard]] std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const WorldView& world,
+                                                                     const EndRules& rules, const StartPlace& start,
+                                                                     const TravelField& travel);
+
+}  // namespace cairn

@@ -1,0 +1,132 @@
+#include "planners/disc_space/places.hpp"
+
+#include <cstdio>
+
+namespace cairn {
+namespace {
+
+constexpr double kTextSearch_m = 3.0;  // how far a message looks for a free place
+
+std::string metres(double value_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value_m);
+  return text;
+}
+
+GroundRules only_occupied(GroundRules rules) {
+  rules.unknown = UnknownPolicy::allow;
+  return rules;
+}
+
+// Distance from a point to the nearest square of a state, or infinity beyond reach_m.
+double distance_to_state_m(const OccupancyGrid& grid, const GroundRules& rules, const Point& p_map, double reach_m,
+                           CellState state) {
+  const Cell at = grid.cell_at(p_map);
+  const int reach = static_cast<int>(std::ceil(reach_m / grid.cell_m())) + 1;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (int y = at.y - reach; y <= at.y + reach; ++y)
+    for (int x = at.x - reach; x <= at.x + reach; ++x)
+      if (grid.state({x, y}, rules.thresholds) == state)
+        best_m = std::min(best_m, distance_to_square_m(p_map, p_map, grid.centre_of({x, y}), grid.cell_m()));
+  return best_m <= reach_m ? best_m : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::string text_of(const Point& p_map) { return "(" + metres(p_map.x()) + ", " + metres(p_map.y()) + ")"; }
+
+std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, double radius_m, double within_m,
+                                 const std::function<bool(Cell)>& accept) {
+  if (!near_map.allFinite()) return std::nullopt;
+  const DistanceField& field = space.field();
+  const Cell at = field.cell_at(near_map);
+  const int reach = static_cast<int>(std::ceil(within_m / space.cell_m()));
+  const CellBox box = intersected(field.box(), CellBox{at, {at.x + 1, at.y + 1}}.grown(reach));
+  std::optional<Point> best;
+  double best_m = within_m;
+  for (int y = box.min.y; y < box.max.y; ++y) {
+    for (int x = box.min.x; x < box.max.x; ++x) {
+      const Point centre = field.centre_of({x, y});
+      const double away_m = (centre - near_map).norm();
+      if (away_m > best_m || (best && away_m == best_m)) continue;
+      if (!space.fits(centre, radius_m) || (accept && !accept({x, y}))) continue;
+      best = centre;
+      best_m = away_m;
+    }
+  }
+  return best;
+}
+
+std::optional<Pose2> standing_place(const DiscSpace& space, const Landmark& landmark, double radius_m,
+                                    const std::function<bool(Cell)>& accept) {
+  const Point centre = landmark.T_map_landmark.position();
+  const Point wanted = landmark.access ? landmark.access->position() : centre;
+  if (landmark.access && space.fits(wanted, radius_m) && (!accept || accept(space.field().cell_at(wanted))))
+    return landmark.access;
+  const std::optional<Point> near = nearest_fit(space, wanted, radius_m, kStandNear_m, accept);
+  if (!near) return std::nullopt;
+  const Point look = centre - *near;
+  return Pose2{near->x(), near->y(), std::atan2(look.y(), look.x())};
+}
+
+std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& p_map, double radius_m) {
+  if (!space.contains(p_map)) return "it lies outside the map";
+  const GroundRules& rules = space.rules();
+  const double occupied_m = distance_to_state_m(grid, rules, p_map, radius_m, CellState::occupied);
+  const double unknown_m = distance_to_state_m(grid, rules, p_map, radius_m, CellState::unknown);
+  if (occupied_m == 0.0) return "it lies on an occupied cell";
+  if (unknown_m == 0.0 && occupied_m > radius_m) return "it lies in unknown space";
+  const bool occupied = occupied_m <= unknown_m;
+  return std::string(occupied ? "an occupied cell is " : "unknown space is ") +
+         metres(occupied ? occupied_m : unknown_m) + " m from its centre, and the robot needs " + metres(radius_m) +
+         " m";
+}
+
+std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m) {
+  const std::optional<Point> free = nearest_fit(space, p_map, radius_m, kTextSearch_m);
+  if (!free) return "; there is no free place for it within " + metres(kTextSearch_m) + " m";
+  return "; the nearest free place is " + text_of(*free) + ", " + metres((*free - p_map).norm()) + " m away";
+}
+
+bool robot_stands_at(const WorldView& world, const Point& p_map) {
+  return world.observation != nullptr && (world.pose.T_map_robot.position() - p_map).norm() <= world.grid.cell_m();
+}
+
+std::optional<OccupancyGrid> with_ground_under(const OccupancyGrid& grid, const GroundRules& rules,
+                                               const Point& p_map, double radius_m) {
+  if (rules.unknown == UnknownPolicy::allow) return std::nullopt;
+  std::optional<OccupancyGrid> patched;
+  const Cell at = grid.cell_at(p_map);
+  const int reach = static_cast<int>(std::ceil(radius_m / grid.cell_m())) + 1;
+  for (int y = at.y - reach; y <= at.y + reach; ++y) {
+    for (int x = at.x - reach; x <= at.x + reach; ++x) {
+      if (grid.state({x, y}, rules.thresholds) != CellState::unknown) continue;
+      if (distance_to_square_m(p_map, p_map, grid.centre_of({x, y}), grid.cell_m()) > radius_m) continue;
+      if (!patched) patched = grid;
+      patched->set_log_odds({x, y}, static_cast<LogOdds>(rules.thresholds.free_below - 1));
+    }
+  }
+  return patched;
+}
+
+std::optional<Escape> escape_from(const OccupancyGrid& grid, const DiscSpace& space, const Point& start,
+                                  double radius_m, double tolerance_m) {
+  if (!space.contains(start)) return std::nullopt;
+  const double occupied_m = distance_to_state_m(grid, space.rules(), start, radius_m, CellState::occupied);
+  if (occupied_m <= 0.0) return std::nullopt;
+  // A hair less than the start keeps, so that the start itself passes the check.
+  Escape escape{start, std::min(occupied_m, radius_m) - kLeastRadius_m};
+  const std::optional<Point> to =
+      nearest_fit(space, start, radius_m + kLeastRadius_m, tolerance_m, [&](Cell cell) {
+        return escape_is_free(grid, space.rules(), start, {space.field().centre_of(cell), escape.keep_m});
+      });
+  if (!to) return std::nullopt;
+  escape.to = *to;
+  return escape;
+}
+
+bool escape_is_free(const OccupancyGrid& grid, const GroundRules& rules, const Point& start, const Escape& escape) {
+  return sweep_is_free(grid, only_occupied(rules), start, escape.to, escape.keep_m);
+}
+
+}  // namespace cairn

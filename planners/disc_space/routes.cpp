@@ -1,0 +1,102 @@
+#include "planners/disc_space/routes.hpp"
+
+#include <numbers>
+
+namespace cairn {
+namespace {
+
+// The cell nearest to a point whose centre the disc sees from there and which keeps centres_m.
+std::optional<Cell> cell_seen_from(const DiscSpace& space, const Point& p_map, double radius_m, double centres_m) {
+  const auto keeps_clear = [&](Cell cell) {
+    return space.field().distance_m(cell) >= static_cast<float>(centres_m) &&
+           space.fits_along(p_map, space.field().centre_of(cell), radius_m);
+  };
+  const std::optional<Point> centre = nearest_fit(space, p_map, radius_m, 3.0 * space.cell_m(), keeps_clear);
+  if (!centre) return std::nullopt;
+  return space.field().cell_at(*centre);
+}
+
+std::vector<Point> route_at_threshold(const DiscSpace& space, const Point& from, const Point& to, double radius_m,
+                                      double centres_m) {
+  const std::optional<Cell> first = cell_seen_from(space, from, radius_m, centres_m);
+  const std::optional<Cell> last = cell_seen_from(space, to, radius_m, centres_m);
+  if (!first || !last) return {};
+  const TravelField travel(space.field(), space.field().centre_of(*first), centres_m);
+  std::vector<Point> route{from};
+  for (const Cell cell : travel.path_to(*last)) route.push_back(space.field().centre_of(cell));
+  if (route.size() == 1) return {};
+  route.push_back(to);
+  return route;
+}
+
+bool fits_all_along(const DiscSpace& space, const std::vector<Point>& route, double radius_m) {
+  for (std::size_t i = 1; i < route.size(); ++i)
+    if (!space.fits_along(route[i - 1], route[i], radius_m)) return false;
+  return true;
+}
+
+}  // namespace
+
+double length_of(const std::vector<Point>& route) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i] - route[i - 1]).norm();
+  return length_m;
+}
+
+std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
+                                std::size_t keep) {
+  if (route.size() <= keep + 1) return route;
+  std::vector<Point> corners(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
+  // From each corner to the furthest point it sees.
+  for (std::size_t at = keep - 1; at + 1 < route.size();) {
+    std::size_t next = route.size() - 1;
+    while (next > at + 1 && !space.fits_along(route[at], route[next], radius_m)) --next;
+    corners.push_back(route[next]);
+    at = next;
+  }
+  return corners;
+}
+
+std::vector<Point> route_over_cells(const DiscSpace& space, const Point& from, const Point& to, double radius_m) {
+  // The first threshold is exact beside straight walls, the second everywhere.
+  for (const double cells : {0.5, std::numbers::sqrt2}) {
+    const std::vector<Point> route =
+        route_at_threshold(space, from, to, radius_m, radius_m + cells * space.cell_m() + 1e-6);
+    if (!route.empty() && fits_all_along(space, route, radius_m)) return straightened(space, route, radius_m);
+  }
+  return {};
+}
+
+bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,
+                   double radius_m, const std::optional<Escape>& escape) {
+  if (route.empty()) return false;
+  if (escape && (route.size() < 2 || route[1] != escape->to || !escape_is_free(grid, rules, route[0], *escape)))
+    return false;
+  const std::size_t first = escape ? 1 : 0;
+  if (!sweep_is_free(grid, rules, route[first], route[first], radius_m)) return false;
+  for (std::size_t i = first + 1; i < route.size(); ++i)
+    if (!sweep_is_free(grid, rules, route[i - 1], route[i], radius_m)) return false;
+  return true;
+}
+
+double clearance_along(const DiscSpace& space, const std::vector<Point>& route, double radius_m) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < route.size(); ++i)
+    nearest_m = std::min(nearest_m, space.distance_m(route[i == 0 ? 0 : i - 1], route[i]));
+  return std::max(nearest_m - radius_m, 0.0);
+}
+
+std::vector<Pose2> poses_along(const std::vector<Point>& route, double first_heading_rad,
+                               std::optional<double> goal_heading_rad) {
+  std::vector<Pose2> poses;
+  double heading_rad = first_heading_rad;
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    const Point step = i + 1 < route.size() ? Point(route[i + 1] - route[i]) : Point(0.0, 0.0);
+    if (step.squaredNorm() > 0.0) heading_rad = std::atan2(step.y(), step.x());
+    poses.push_back({route[i].x(), route[i].y(), wrap_angle(heading_rad)});
+  }
+  if (!poses.empty() && goal_heading_rad) poses.back().theta_rad = wrap_angle(*goal_heading_rad);
+  return poses;
+}
+
+}  // namespace cairn

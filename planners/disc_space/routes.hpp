@@ -1,0 +1,34 @@
+// Routes as corner points: shortened, measured, re-checked, and turned into poses.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planners/disc_space/places.hpp"
+
+namespace cairn {
+
+[[nodiscard]] double length_of(const std::vector<Point>& route);
+
+// Drops the corners that a straight free segment can skip; the first `keep` points and the last stay.
+[[nodiscard]] std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route,
+                                              double radius_m, std::size_t keep = 1);
+
+// A route over the cells' centres, straightened; empty when the grid's coarseness hides the way.
+// Only tried where sampling found nothing: it sees passages as narrow as the disc plus about a cell.
+[[nodiscard]] std::vector<Point> route_over_cells(const DiscSpace& space, const Point& from, const Point& to,
+                                                  double radius_m);
+
+// The independent re-check, straight from the grid: with an escape the first segment is that escape.
+[[nodiscard]] bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,
+                                 double radius_m, const std::optional<Escape>& escape = std::nullopt);
+
+// Least distance of the disc's edge to anything blocked, not below 0.
+[[nodiscard]] double clearance_along(const DiscSpace& space, const std::vector<Point>& route, double radius_m);
+
+// Headings along the segments; the last pose has the goal's heading if that is given, and a route of one
+// point keeps `first_heading_rad`.
+[[nodiscard]] std::vector<Pose2> poses_along(const std::vector<Point>& route, double first_heading_rad,
+                                             std::optional<double> goal_heading_rad);
+
+}  // namespace cairn

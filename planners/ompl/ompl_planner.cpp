@@ -1,0 +1,169 @@
+#include "planners/ompl/ompl_planner.hpp"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "planners/disc_space/ends.hpp"
+#include "planners/disc_space/routes.hpp"
+
+namespace cairn {
+namespace {
+
+PlanResult refused(const Refusal& refusal) {
+  PlanResult result;
+  result.outcome = refusal.outcome;
+  result.reason = refusal.reason;
+  return result;
+}
+
+PlanResult stopped(const Budget& budget) {
+  if (budget.cancelled()) return refused({PlanOutcome::cancelled, "the search for a route was cancelled"});
+  return refused({PlanOutcome::out_of_budget, "the budget was used up before a route was found"});
+}
+
+// A route with where it came from.
+struct Found {
+  std::vector<Point> route;  // from StartPlace::leave_from
+  bool exact = false;
+  bool interrupted = false;
+  std::string how;
+};
+
+// One request on its way to an answer.
+class Query {
+ public:
+  Query(const OmplConfig& config, const AlgorithmParameters& parameters, const SpaceCache& spaces,
+        const PlanRequest& request, const WorldView& world, const Budget& budget)
+      : config_(config), parameters_(parameters), spaces_(spaces), request_(request), world_(world), budget_(budget) {
+    rules_.ground.unknown = config.unknown;
+    rules_.radius_m = request.radius_m + config.margin_m;
+    rules_.start_tolerance_m = config.start_tolerance_m;
+  }
+
+  PlanResult answer() const {
+    if (budget_.exhausted() || budget_.iterations <= 0) return stopped(budget_);
+    // Both ends are looked at before either is worked on.
+    if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused(*refusal);
+    const auto start = start_of(request_.from, world_, rules_, spaces_);
+    if (const auto* refusal = std::get_if<Refusal>(&start)) return refused(*refusal);
+    return answer_from(std::get<StartPlace>(start));
+  }
+
+ private:
+  PlanResult answer_from(const StartPlace& start) const {
+    const TravelField travel = start.space->travel_at_most(start.leave_from, radius_m());
+    const auto goals = goals_of(request_.to, world_, rules_, start, travel);
+    if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused(*refusal);
+    const GoalPlace& goal = nearest(std::get<std::vector<GoalPlace>>(goals), *start.space, travel);
+    if (budget_.exhausted()) return stopped(budget_);
+    const Found found = find(start, goal, travel);
+    if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped(budget_);
+    return checked(start, goal, found);
+  }
+
+  static const GoalPlace& nearest(const std::vector<GoalPlace>& goals, const DiscSpace& space,
+                                  const TravelField& travel) {
+    const auto cost_m = [&](const GoalPlace& g) { return travel.cost_m(space.field().cell_at(g.pose.position())); };
+    return *std::min_element(goals.begin(), goals.end(),
+                             [&](const GoalPlace& a, const GoalPlace& b) { return cost_m(a) < cost_m(b); });
+  }
+
+  Found find(const StartPlace& start, const GoalPlace& goal, const TravelField& travel) const {
+    const DiscSpace& space = *start.space;
+    const Point from = start.leave_from;
+    const Point to = goal.pose.position();
+    if (from == to) return {{from}, true, false, "start and goal are the same place"};
+    if (space.fits_along(from, to, radius_m())) return {{from, to}, true, false, "straight on"};
+    const SamplingTask task{space,       radius_m(),
+                            from,        to,
+                            reached_cells(space, travel), config_.algorithm,
+                            parameters_, std::min(config_.iterations, budget_.iterations),
+                            config_.simplify, request_.seed};
+    const SamplingAnswer answer = search_by_sampling(task, budget_);
+    if (answer.exact) return {tidied(space, answer.route), true, answer.interrupted, "found by sampling"};
+    if (!answer.interrupted && config_.fall_back_to_grid) {
+      std::vector<Point> route = route_over_cells(space, from, to, radius_m());
+      if (!route.empty())
+        return {std::move(route), true, false, "sampling found nothing; this is the shortest way over the grid's cells"};
+    }
+    return {answer.route, false, answer.interrupted, ""};
+  }
+
+  std::vector<Point> tidied(const DiscSpace& space, const std::vector<Point>& route) const {
+    return config_.simplify ? straightened(space, route, radius_m()) : route;
+  }
+
+  // What states are drawn from: cells the robot can be in and get to.
+  static std::vector<Cell> reached_cells(const DiscSpace& space, const TravelField& travel) {
+    std::vector<Cell> cells;
+    const CellBox box = travel.box();
+    for (int y = box.min.y; y < box.max.y; ++y)
+      for (int x = box.min.x; x < box.max.x; ++x)
+        if (travel.reaches({x, y}) && !space.is_blocked({x, y})) cells.push_back({x, y});
+    return cells;
+  }
+
+  PlanResult checked(const StartPlace& start, const GoalPlace& goal, const Found& found) const {
+    if (found.route.size() < (found.exact ? 1U : 2U)) {
+      return refused({PlanOutcome::out_of_budget, "no route was found in " + std::to_string(config_.iterations) +
+                                                      " iterations; if there is one, it is hardly wider than the "
+                                                      "robot"});
+    }
+    std::vector<Point> route = found.route;
+    if (start.escape) route.insert(route.begin(), start.pose.position());
+    if (!route_is_free(start.grid_of(world_), rules_.ground, route, rules_.radius_m, start.escape))
+      throw std::logic_error("ompl: the re-check refused a route of " + std::to_string(route.size()) +
+                             " points from " + text_of(route.front()) + " to " + text_of(route.back()) +
+                             ", radius " + std::to_string(rules_.radius_m));
+    return result_of(start, goal, found, route);
+  }
+
+  PlanResult result_of(const StartPlace& start, const GoalPlace& goal, const Found& found,
+                       const std::vector<Point>& route) const {
+    PlanResult result;
+    result.outcome = found.exact ? PlanOutcome::solved : PlanOutcome::approximate;
+    result.length_m = length_of(route);
+    result.cost_m = result.length_m;
+    result.clearance_m = clearance_along(*start.space, route, request_.radius_m);
+    result.path = poses_along(route, start.pose.theta_rad, found.exact ? goal.heading_rad : std::nullopt);
+    if (start.landmark != 0) result.landmarks.push_back(start.landmark);
+    if (found.exact && goal.landmark != 0 && goal.landmark != start.landmark)
+      result.landmarks.push_back(goal.landmark);
+    result.reason = found.how;
+    if (!found.exact) result.reason = "the route ends at " + text_of(route.back()) + ", short of the goal";
+    if (found.interrupted) result.reason += "; the budget ended the search for a shorter one";
+    if (start.escape)
+      result.reason += "; the start is too near to something and is left towards " + text_of(start.escape->to) +
+                       " with less clearance than the robot's radius asks for";
+    return result;
+  }
+
+  // Planned with a hair more than is re-checked, so that rounding cannot tell them apart.
+  double radius_m() const { return rules_.radius_m + kLeastRadius_m; }
+
+  const OmplConfig& config_;
+  const AlgorithmParameters& parameters_;
+  const SpaceCache& spaces_;
+  const PlanRequest& request_;
+  const WorldView& world_;
+  const Budget& budget_;
+  EndRules rules_;
+};
+
+}  // namespace
+
+OmplPlanner::OmplPlanner(OmplConfig config)
+    : config_(std::move(config)), parameters_(checked_parameters(config_.algorithm, config_.parameters)) {}
+
+PlanResult OmplPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
+  if (!(request.radius_m >= 0.0 && std::isfinite(request.radius_m)))
+    throw std::invalid_argument("ompl: radius_m must be finite and not negative, got " +
+                                std::to_string(request.radius_m));
+  const auto begin = Budget::Clock::now();
+  PlanResult result = Query(config_, parameters_, spaces_, request, world, budget).answer();
+  result.time_ms.route_ms = std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
+  result.time_ms.total_ms = result.time_ms.route_ms;
+  return result;
+}
+
+}  // namespace cairn

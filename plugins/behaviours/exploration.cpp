@@ -1,0 +1,228 @@
+#include "plugins/behaviours/exploration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kTrace_m = 0.1;  // spacing of remembered positions
+constexpr double kChoiceEvery_s = 2.0;
+constexpr double kChoiceAtLeastApart_s = 0.5;
+constexpr double kLookAround_radps = radians(45.0);
+constexpr double kBlockedAhead_m = 0.8;
+constexpr double kThere_m = 0.12;  // a lookout this near needs no drive
+constexpr double kFace_rad = radians(8.0);
+constexpr double kFaceDwell_s = 0.6;  // one round of the sonars, about
+constexpr double kFaceAtMost_s = 8.0;
+constexpr double kBackOff_mps = 0.1;
+constexpr double kBackOff_m = 0.15;
+constexpr double kBackOffAtMost_s = 3.0;
+constexpr double kTroubleFor_s = 60.0;
+constexpr double kFailedAgain_m = 0.4;
+constexpr int kMostStuckInARow = 8;
+constexpr double kGettingOn_m = 0.5;  // driven between two hold-ups, they are not "in a row"
+
+}  // namespace
+
+Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
+    : config_(config),
+      limits_(follow_limits(world.robot, config.speed_mps)),
+      mode_(limits_.min_turning_radius_m > 0.0 ? Mode::travel : Mode::look_around),
+      begun_s_(world.time_s),
+      mode_since_s_(world.time_s),
+      last_pose_(world.pose.T_map_robot) {
+  settings_.lap = {config.lap_distance_m, config.look_closer_m, config.largest_object_m};
+  settings_.smallest_frontier_m = config.smallest_frontier_m;
+  memory_.trace.push_back(last_pose_.position());
+}
+
+Status Exploration::tick(const WorldView& world, Orders& orders) {
+  remember(world.pose.T_map_robot);
+  if (world.time_s - begun_s_ >= config_.at_most_s) return {Progress::success, "time is up: " + summary(world)};
+  switch (mode_) {
+    case Mode::look_around:
+      return look_around(world, orders);
+    case Mode::face:
+      return face(world, orders);
+    case Mode::back_off:
+      return back_off(world, orders);
+    case Mode::travel:
+      break;
+  }
+  return travel(world, orders);
+}
+
+void Exploration::remember(const Pose2& T_map_robot) {
+  turned_rad_ += std::abs(wrap_angle(T_map_robot.theta_rad - last_pose_.theta_rad));
+  driven_m_ += (T_map_robot.position() - last_pose_.position()).norm();
+  last_pose_ = T_map_robot;
+  if ((T_map_robot.position() - memory_.trace.back()).norm() >= kTrace_m)
+    memory_.trace.push_back(T_map_robot.position());
+}
+
+void Exploration::set_mode(Mode mode, double time_s) {
+  mode_ = mode;
+  mode_since_s_ = time_s;
+  wanted_ = {};
+  watch_.restart();
+}
+
+void Exploration::drive(const Twist& wanted, Orders& orders) {
+  wanted_ = wanted;
+  orders.drive(wanted);
+}
+
+FreeSpace Exploration::space_now(const WorldView& world) const {
+  return FreeSpace(world.grid, {world.pose.T_map_robot.position(), world.robot.radius_m, config_.clearance_m},
+                   memory_.trace, memory_.troubles);
+}
+
+// One turn on the spot, before the first choice: it costs no distance and opens the map all round.
+Status Exploration::look_around(const WorldView& world, Orders& orders) {
+  const bool held = world.time_s - mode_since_s_ > 3.0 * 2.0 * std::numbers::pi / kLookAround_radps;
+  if (turned_rad_ >= 2.0 * std::numbers::pi || held) {
+    set_mode(Mode::travel, world.time_s);
+    return travel(world, orders);
+  }
+  drive({0.0, std::min(kLookAround_radps, world.robot.max_w_radps)}, orders);
+  return {Progress::running, "looking around"};
+}
+
+bool Exploration::needs_choice(const WorldView& world) const {
+  if (!task_) return true;
+  const double since_s = world.time_s - chosen_s_;
+  if (since_s < kChoiceAtLeastApart_s) return false;
+  return since_s >= kChoiceEvery_s || !still_worthwhile(*task_, world.grid);
+}
+
+bool Exploration::choose(const WorldView& world, Orders& orders) {
+  std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
+  chosen_s_ = world.time_s;
+  follow_state_ = {0.0, follow_state_.turning};
+  const FreeSpace space = space_now(world);
+  const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
+  const Pose2& pose = world.pose.T_map_robot;
+  // Each turn of the loop either ends it or gives a part of a task up.
+  for (;;) {
+    task_ = next_task(space, pose, frontiers_wanted, task_ ? &*task_ : nullptr, settings_, memory_);
+    if (!task_) return false;
+    const bool is_there = length_of(task_->path) < kThere_m;
+    if (!is_there || task_->kind == TaskKind::frontier) break;
+    give_up(*task_, space, settings_, memory_);
+  }
+  if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
+    said_about_ = task_->about;
+    orders.say(sentence_of(*task_));
+  }
+  return true;
+}
+
+Status Exploration::travel(const WorldView& world, Orders& orders) {
+  if (watch_.is_stuck(world, wanted_)) return get_unstuck(world, orders);
+  const Point position = world.pose.T_map_robot.position();
+  const double margin_m = world.robot.radius_m + 0.5 * config_.clearance_m;
+  // A robot that already stands too near to something is on its way out and must not stop there.
+  const bool is_blocked = task_ &&
+                          path_is_blocked(world.grid, task_->path, follow_state_.along_m, kBlockedAhead_m, margin_m) &&
+                          !path_is_blocked(world.grid, {position}, 0.0, 0.0, margin_m);
+  if (needs_choice(world) || (is_blocked && world.time_s - chosen_s_ >= kChoiceAtLeastApart_s)) {
+    if (!choose(world, orders)) return finished(world);
+  } else if (is_blocked) {
+    drive({}, orders);
+    return {Progress::running, "something has turned up on the path"};
+  }
+  const FollowStep step = follow(world.pose.T_map_robot, task_->path, follow_state_, limits_);
+  follow_state_ = step.state;
+  if (step.arrived) arrive(world);
+  drive(step.wanted, orders);
+  return {Progress::running, task_ ? sentence_of(*task_) : "choosing what to do next"};
+}
+
+void Exploration::arrive(const WorldView& world) {
+  if (task_->kind == TaskKind::frontier && limits_.min_turning_radius_m <= 0.0) {
+    set_mode(Mode::face, world.time_s);
+    faced_s_ = world.time_s;
+    return;
+  }
+  if (task_->kind == TaskKind::frontier) give_up(*task_, space_now(world), settings_, memory_);
+  task_.reset();
+}
+
+// Turns the sonars to what is still unknown; what they cannot settle from here is given up.
+Status Exploration::face(const WorldView& world, Orders& orders) {
+  const double error_rad = heading_error(world.pose.T_map_robot, task_->about);
+  const bool has_time = world.time_s - mode_since_s_ < kFaceAtMost_s;
+  if (std::abs(error_rad) > kFace_rad && has_time) {
+    faced_s_ = world.time_s;
+    drive(turn_by(error_rad, limits_.max_w_radps), orders);
+  } else if (world.time_s - faced_s_ >= kFaceDwell_s || !has_time || !still_worthwhile(*task_, world.grid)) {
+    give_up(*task_, space_now(world), settings_, memory_);
+    task_.reset();
+    set_mode(Mode::travel, world.time_s);
+  }
+  return {Progress::running, "facing what is still unknown"};
+}
+
+Status Exploration::get_unstuck(const WorldView& world, Orders& orders) {
+  const Pose2& pose = world.pose.T_map_robot;
+  stuck_in_a_row_ = driven_m_ - driven_when_stuck_m_ < kGettingOn_m ? stuck_in_a_row_ + 1 : 1;
+  driven_when_stuck_m_ = driven_m_;
+  if (stuck_in_a_row_ > kMostStuckInARow) {
+    char text[96];
+    std::snprintf(text, sizeof text, "cannot get away from (%.2f, %.2f): held back wherever it turns", pose.x_m,
+                  pose.y_m);
+    return {Progress::failure, text};
+  }
+  memory_.troubles.push_back({pose * Point{world.robot.radius_m, 0.0}, world.time_s + kTroubleFor_s});
+  if (task_) {
+    const bool again = std::any_of(failed_lookouts_.begin(), failed_lookouts_.end(),
+                                   [&](const Point& p) { return (p - task_->lookout).norm() < kFailedAgain_m; });
+    if (again) give_up(*task_, space_now(world), settings_, memory_);
+    failed_lookouts_.push_back(task_->lookout);
+    task_.reset();
+  }
+  backed_from_ = pose.position();
+  set_mode(Mode::back_off, world.time_s);
+  return back_off(world, orders);
+}
+
+Status Exploration::back_off(const WorldView& world, Orders& orders) {
+  const Pose2& pose = world.pose.T_map_robot;
+  const std::vector<Point> behind{pose.position(), pose * Point{-kBackOff_m, 0.0}};
+  const bool is_over = (pose.position() - backed_from_).norm() >= kBackOff_m ||
+                       world.time_s - mode_since_s_ > kBackOffAtMost_s ||
+                       path_is_blocked(world.grid, behind, 0.5 * kBackOff_m, kBackOff_m, world.robot.radius_m);
+  if (is_over) {
+    set_mode(Mode::travel, world.time_s);
+    return travel(world, orders);
+  }
+  drive({-kBackOff_mps, 0.0}, orders);
+  return {Progress::running, "backing off"};
+}
+
+Status Exploration::finished(const WorldView& world) const {
+  const bool has_moved = driven_m_ > 0.05;
+  const FreeSpace space = space_now(world);
+  const Cell here = space.cell_at(world.pose.T_map_robot.position());
+  const bool can_move = std::any_of(std::begin(kNeighbours), std::end(kNeighbours), [&](Cell step) {
+    return space.reaches(here + step) || space.reaches(here + step + step);
+  });
+  if (!has_moved && !can_move) {
+    char text[128];
+    std::snprintf(text, sizeof text, "cannot move: no known free place with %.2f m of room is in reach of (%.2f, %.2f)",
+                  space.least_distance_m(), last_pose_.x_m, last_pose_.y_m);
+    return {Progress::failure, text};
+  }
+  return {Progress::success, "nothing left to explore: " + summary(world)};
+}
+
+std::string Exploration::summary(const WorldView& world) const {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.1f %% known after %.1f m and %.0f s", 100.0 * known_ratio(world.grid), driven_m_,
+                world.time_s - begun_s_);
+  return text;
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,63 @@
+// One run of exploring, from its first tick to its end.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugins/behaviours/explore.hpp"
+#include "plugins/behaviours/explore_tasks.hpp"
+#include "plugins/behaviours/held_back.hpp"
+#include "plugins/behaviours/path_follower.hpp"
+
+namespace cairn::behaviours {
+
+class Exploration {
+ public:
+  Exploration(const ExploreConfig& config, const WorldView& world);
+
+  Status tick(const WorldView& world, Orders& orders);
+
+ private:
+  enum class Mode { look_around, travel, face, back_off };
+
+  Status look_around(const WorldView& world, Orders& orders);
+  Status travel(const WorldView& world, Orders& orders);
+  Status face(const WorldView& world, Orders& orders);
+  Status back_off(const WorldView& world, Orders& orders);
+
+  void remember(const Pose2& T_map_robot);
+  void set_mode(Mode mode, double time_s);
+  void drive(const Twist& wanted, Orders& orders);
+  [[nodiscard]] FreeSpace space_now(const WorldView& world) const;
+  [[nodiscard]] bool needs_choice(const WorldView& world) const;
+  [[nodiscard]] bool choose(const WorldView& world, Orders& orders);
+  void arrive(const WorldView& world);
+  Status get_unstuck(const WorldView& world, Orders& orders);
+  [[nodiscard]] Status finished(const WorldView& world) const;
+  [[nodiscard]] std::string summary(const WorldView& world) const;
+
+  ExploreConfig config_;
+  TaskSettings settings_;
+  FollowLimits limits_;
+  Mode mode_;
+  double begun_s_;
+  double mode_since_s_;
+  double chosen_s_ = 0.0;
+  double faced_s_ = 0.0;
+  double turned_rad_ = 0.0;
+  double driven_m_ = 0.0;
+  double driven_when_stuck_m_ = 0.0;
+  int stuck_in_a_row_ = 0;
+  Pose2 last_pose_;
+  Point backed_from_{0.0, 0.0};
+  Point said_about_{1e9, 1e9};
+  std::optional<ExploreTask> task_;
+  FollowState follow_state_;
+  Twist wanted_;  // of the last tick
+  HeldBackWatch watch_;
+  std::vector<Point> failed_lookouts_;
+  ExploreMemory memory_;
+};
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,36 @@
+#include "plugins/behaviours/explore.hpp"
+
+#include "plugins/behaviours/exploration.hpp"
+
+namespace cairn::behaviours {
+
+void ExploreConfig::describe(Fields<ExploreConfig>& fields) {
+  using C = ExploreConfig;
+  fields.number("until_known_ratio", &C::until_known_ratio, {0.0, 1.0}, "",
+                "share of the cells within the map's bounds to know; then frontiers are left alone");
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to explore; when it is up the step has succeeded");
+  fields.number("clearance_m", &C::clearance_m, {0.0, 2.0}, "m",
+                "kept between the robot's edge and everything occupied");
+  fields.number("look_closer_m", &C::look_closer_m, {0.0, 5.0}, "m",
+                "every edge is passed within this distance and every free-standing object circled; 0: neither");
+  fields.number("lap_distance_m", &C::lap_distance_m, {0.1, 5.0}, "m",
+                "from the edge of an object to the robot's centre on a lap");
+  fields.number("largest_object_m", &C::largest_object_m, {0.1, 20.0}, "m", "what is longer is a wall: no laps");
+  fields.number("smallest_frontier_m", &C::smallest_frontier_m, {0.0, 10.0}, "m", "shorter frontiers are left alone");
+  fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
+}
+
+Explore::Explore(const ExploreConfig& config) : config_(config) {}
+
+Explore::~Explore() = default;
+
+Status Explore::tick(const WorldView& world, Orders& orders) {
+  if (!run_) run_ = std::make_unique<Exploration>(config_, world);
+  return run_->tick(world, orders);
+}
+
+void Explore::halt() {
+  run_.reset();
+}
+
+}  // namespace cairn::behaviours

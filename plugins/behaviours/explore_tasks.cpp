@@ -1,0 +1,123 @@
+#include "plugins/behaviours/explore_tasks.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "plugins/behaviours/frontiers.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+// What a task may cost more than the next one and still come first, in metres of way.
+constexpr double kLapBonus_m = 1.5;             // an object is circled when the robot first comes near
+constexpr double kFrontierBonus_m_per_m = 0.3;  // of the frontier's length
+constexpr double kMostFrontierBonus_m = 0.8;
+constexpr double kStayBonus_m = 0.4;
+constexpr double kSame_m = 0.5;  // lookouts this near are the same task
+constexpr double kLeastEdge_m = 0.2;
+// Edges are looked at from a little nearer than needed, so that arriving is seeing.
+constexpr double kEdgeViewRatio = 0.85;
+
+struct Choice {
+  double score_m = std::numeric_limits<double>::infinity();
+  ExploreTask task;
+};
+
+Point middle_of(const FreeSpace& space, const CellGroup& cells) {
+  Point sum{0.0, 0.0};
+  for (const Cell c : cells) sum += space.centre_of(c);
+  return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
+}
+
+void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* previous) {
+  if (previous != nullptr && previous->kind == task.kind && (previous->lookout - task.lookout).norm() < kSame_m)
+    bonus_m += kStayBonus_m;
+  if (task.cost_m - bonus_m >= best.score_m) return;
+  best = {task.cost_m - bonus_m, std::move(task)};
+}
+
+void offer_groups(Choice& best, TaskKind kind, std::vector<CellGroup> groups, double view_m, double bonus_m_per_m,
+                  const FreeSpace& space, const ExploreTask* previous) {
+  const std::vector<std::optional<Cell>> stands = lookouts(space, groups, view_m);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!stands[i]) continue;
+    const double size_m = static_cast<double>(groups[i].size()) * space.cell_m();
+    ExploreTask task{kind, middle_of(space, groups[i]), std::move(groups[i]), space.centre_of(*stands[i]),
+                     {},   space.cost_m(*stands[i])};
+    offer(best, std::move(task), std::min(kMostFrontierBonus_m, bonus_m_per_m * size_m), previous);
+  }
+}
+
+void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
+                const LapSettings& settings, const ExploreMemory& memory) {
+  for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
+    const Lap lap = lap_round(space, object, memory.trace, memory.given_up_lookouts, settings);
+    if (!lap.is_round_trip() || lap.count(SectorState::open) == 0) continue;
+    LapRoute route = lap_route(space, lap, T_map_robot);
+    ExploreTask task{TaskKind::lap, lap.centre, {}, space.centre_of(route.first), std::move(route.path), route.cost_m};
+    offer(best, std::move(task), kLapBonus_m, previous);
+  }
+}
+
+}  // namespace
+
+std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot, bool frontiers_wanted,
+                                     const ExploreTask* previous, const TaskSettings& settings, ExploreMemory& memory) {
+  Choice best;
+  if (settings.lap.look_closer_m > 0.0) {
+    offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
+    std::vector<CellGroup> groups =
+        grouped(unseen_edges(space, memory.trace, settings.lap.look_closer_m, memory.seen_edges), 1);
+    std::erase_if(groups,
+                  [&](const CellGroup& g) { return static_cast<double>(g.size()) * space.cell_m() < kLeastEdge_m; });
+    offer_groups(best, TaskKind::edge, std::move(groups), kEdgeViewRatio * settings.lap.look_closer_m, 0.0, space,
+                 previous);
+  }
+  if (frontiers_wanted) {
+    const int least_cells = static_cast<int>(settings.smallest_frontier_m / space.cell_m());
+    offer_groups(best, TaskKind::frontier, frontiers(space, memory.given_up_frontiers, least_cells),
+                 settings.frontier_view_m, kFrontierBonus_m_per_m, space, previous);
+  }
+  if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
+  if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
+  return std::move(best.task);
+}
+
+void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory) {
+  if (task.kind == TaskKind::lap) {
+    memory.given_up_lookouts.push_back(task.lookout);
+    return;
+  }
+  const bool is_frontier_task = task.kind == TaskKind::frontier;
+  const double reach_m = 1.3 * (is_frontier_task ? settings.frontier_view_m : settings.lap.look_closer_m);
+  CellSet& set = is_frontier_task ? memory.given_up_frontiers : memory.seen_edges;
+  for (const Cell cell : task.targets) {
+    if ((space.centre_of(cell) - task.lookout).norm() > reach_m) continue;
+    // Outlines shift by a cell as evidence grows; what has shifted is still given up.
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) set.insert(cell + Cell{dx, dy});
+  }
+}
+
+bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid) {
+  if (task.kind != TaskKind::frontier) return true;
+  const auto is_open = [&](Cell c) {
+    if (grid.state(c) == CellState::occupied) return false;
+    return std::any_of(std::begin(kNeighbours), std::end(kNeighbours),
+                       [&](Cell step) { return grid.state(c + step) == CellState::unknown; });
+  };
+  const auto left = std::count_if(task.targets.begin(), task.targets.end(), is_open);
+  return 4 * left > static_cast<std::ptrdiff_t>(task.targets.size());
+}
+
+std::string sentence_of(const ExploreTask& task) {
+  const char* const what = task.kind == TaskKind::lap        ? "going round the object"
+                           : task.kind == TaskKind::frontier ? "going to the frontier"
+                                                             : "looking closer at the edge";
+  char text[96];
+  std::snprintf(text, sizeof text, "%s at (%.2f, %.2f)", what, task.about.x(), task.about.y());
+  return text;
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,52 @@
+// What exploring does next: a lap round an object, a frontier, or an edge to look at, whichever is
+// cheapest from here.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugins/behaviours/look_closer.hpp"
+
+namespace cairn::behaviours {
+
+struct TaskSettings {
+  LapSettings lap;  // lap.look_closer_m 0: no laps and no edges
+  double smallest_frontier_m = 0.3;
+  double frontier_view_m = 0.8;  // a frontier is looked at from within this distance
+};
+
+// What exploring remembers between two choices.
+struct ExploreMemory {
+  std::vector<Point> trace;  // where the robot has been, a point each 10 cm
+  CellSet seen_edges;        // or given up
+  CellSet given_up_frontiers;
+  std::vector<Point> given_up_lookouts;  // of laps
+  std::vector<TroubleSpot> troubles;
+};
+
+enum class TaskKind { lap, frontier, edge };
+
+struct ExploreTask {
+  TaskKind kind = TaskKind::frontier;
+  Point about{0.0, 0.0};    // the middle of what is looked at
+  CellGroup targets;        // of frontiers and edges
+  Point lookout{0.0, 0.0};  // the first place that the path leads to
+  std::vector<Point> path;
+  double cost_m = 0.0;
+};
+
+// None when nothing in reach is left. previous: what the robot is at, preferred when nearly as good.
+[[nodiscard]] std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot,
+                                                   bool frontiers_wanted, const ExploreTask* previous,
+                                                   const TaskSettings& settings, ExploreMemory& memory);
+
+// Not to be chosen again: what the task has from its lookout.
+void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory);
+
+// False when most of what the task was for is known by now. Cheap: reads the task's cells only.
+[[nodiscard]] bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid);
+
+[[nodiscard]] std::string sentence_of(const ExploreTask& task);
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,98 @@
+#include "plugins/behaviours/simple_steps.hpp"
+
+#include <cstdio>
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kSharp_rad = radians(35.0);  // corners sharper than this are stopped at
+
+double corner_at(const Point& before, const Point& corner, const Point& after) {
+  const Point in = corner - before;
+  const Point out = after - corner;
+  return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+}
+
+}  // namespace
+
+void DriveConfig::describe(Fields<DriveConfig>& fields) {
+  using C = DriveConfig;
+  fields.points("points_m", &C::points_m, "m", "places of the map, driven to in this order in straight lines")
+      .required = true;
+  fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
+  fields.number("tolerance_m", &C::tolerance_m, {0.01, 1.0}, "m", "this near to a point is there");
+  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s",
+                "held back for longer than this, the step has failed");
+  fields.shorthand("points_m");
+}
+
+DriveTo::DriveTo(const DriveConfig& config) : config_(config), watch_(config.patience_s) {}
+
+void DriveTo::halt() {
+  *this = DriveTo(config_);
+}
+
+void DriveTo::begin_stretch(const Point& from) {
+  stretch_ = {from};
+  do {
+    stretch_.push_back(config_.points_m[next_++]);
+  } while (next_ < config_.points_m.size() &&
+           corner_at(stretch_[stretch_.size() - 2], stretch_.back(), config_.points_m[next_]) < kSharp_rad);
+  follow_state_ = {};
+}
+
+Status DriveTo::tick(const WorldView& world, Orders& orders) {
+  const Pose2& pose = world.pose.T_map_robot;
+  if (!begun_ && !config_.points_m.empty()) begin_stretch(pose.position());
+  begun_ = true;
+  char text[96];
+  if (watch_.is_stuck(world, wanted_)) {
+    std::snprintf(text, sizeof text, "held back at (%.2f, %.2f) on the way to (%.2f, %.2f)", pose.x_m, pose.y_m,
+                  stretch_.back().x(), stretch_.back().y());
+    return {Progress::failure, text};
+  }
+  FollowLimits limits = follow_limits(world.robot, config_.speed_mps);
+  limits.arrive_m = config_.tolerance_m;
+  FollowStep step = follow(pose, stretch_, follow_state_, limits);
+  if (step.arrived) {
+    if (next_ >= config_.points_m.size()) return {Progress::success, "drove all points"};
+    begin_stretch(stretch_.back());
+    step = follow(pose, stretch_, follow_state_, limits);
+  }
+  follow_state_ = step.state;
+  wanted_ = step.wanted;
+  orders.drive(wanted_);
+  std::snprintf(text, sizeof text, "driving to (%.2f, %.2f)", stretch_.back().x(), stretch_.back().y());
+  return {Progress::running, text};
+}
+
+void WaitConfig::describe(Fields<WaitConfig>& fields) {
+  fields.number("for_s", &WaitConfig::for_s, {0.0, 1e6}, "s", "how long to stand still");
+  fields.shorthand("for_s");
+}
+
+Status Wait::tick(const WorldView& world, Orders&) {
+  if (!begun_s_) begun_s_ = world.time_s;
+  if (world.time_s - *begun_s_ < config_.for_s) return {Progress::running, "waiting"};
+  return {Progress::success, "waited"};
+}
+
+void SaveConfig::describe(Fields<SaveConfig>& fields) {
+  fields.raw("file", &SaveConfig::file, "text", "name of the saved map in the output folder, e.g. office.cairn")
+      .required = true;
+  fields.shorthand("file");
+}
+
+Save::Save(const SaveConfig& config) : file_name_(config_detail::to_text(config.file, "file")) {
+  if (file_name_.empty() || file_name_ == "." || file_name_ == ".." ||
+      file_name_.find_first_of("/\\") != std::string::npos)
+    throw ConfigError(config.file.place,
+                      "save: \"" + file_name_ + "\" is not a plain file name; maps are saved into the output folder");
+}
+
+Status Save::tick(const WorldView&, Orders& orders) {
+  orders.save(file_name_);
+  return {Progress::success, "saved " + file_name_};
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,58 @@
+// Settings of the simulated robot; what belongs to a robot (limits, sonars, errors) is in its own file.
+#pragma once
+
+#include "framework/config/fields.hpp"
+
+namespace cairn {
+
+// How an echo comes about. Levels are dB relative to a smooth wall, head on, on the axis, at 1 m.
+// Lobe angles and the numbers below are those of a Polaroid transducer (nominal half-beam 15 deg);
+// another half-beam scales all of its lobes.
+struct EchoConfig {
+  int rays = 31;
+  double side_lobe_rad = radians(25.0);
+  double far_side_lobe_rad = radians(42.0);
+  double side_lobe_db = -16.0;
+  double far_side_lobe_db = -22.0;
+  double threshold_db = -40.0;
+  double absorption_db_per_m = 3.0;
+  double rough_db = -10.0;
+  double edge_db = -20.0;
+  double bounce_db = -2.0;
+  int max_bounces = 4;
+
+  static void describe(Fields<EchoConfig>& fields) {
+    fields.integer("rays", &EchoConfig::rays, {3, 1001}, "rays a reading, spread evenly over all lobes");
+    fields.angle("side_lobe_deg", &EchoConfig::side_lobe_rad, {0, 90}, "outer edge of the first side lobe");
+    fields.angle("far_side_lobe_deg", &EchoConfig::far_side_lobe_rad, {0, 90}, "outer edge of the second side lobe");
+    fields.number("side_lobe_db", &EchoConfig::side_lobe_db, {-100, 0}, "dB", "first side lobe, one way");
+    fields.number("far_side_lobe_db", &EchoConfig::far_side_lobe_db, {-100, 0}, "dB", "second side lobe, one way");
+    fields.number("threshold_db", &EchoConfig::threshold_db, {-200, 0}, "dB", "weakest echo that is heard");
+    fields.number("absorption_db_per_m", &EchoConfig::absorption_db_per_m, {0, 100}, "dB/m",
+                  "loss in air per metre of range, both ways together");
+    fields.number("rough_db", &EchoConfig::rough_db, {-100, 0}, "dB", "a rough surface, head on");
+    fields.number("edge_db", &EchoConfig::edge_db, {-100, 0}, "dB", "a corner seen from outside, a wall's end");
+    fields.number("bounce_db", &EchoConfig::bounce_db, {-100, 0}, "dB", "each mirror bounce, both ways together");
+    fields.integer("max_bounces", &EchoConfig::max_bounces, {0, 10}, "mirror bounces that a ray is followed for");
+  }
+};
+
+struct SimulatedRobotConfig {
+  bool fire_all = false;
+  double tick_s = 0.04;
+  bool compass = true;
+  double turn_as_distance_m_per_rad = 0.1;
+  EchoConfig echo;
+
+  static void describe(Fields<SimulatedRobotConfig>& fields) {
+    fields.flag("fire_all", &SimulatedRobotConfig::fire_all, "every transducer each tick instead of one");
+    fields.number("tick_s", &SimulatedRobotConfig::tick_s, {0.001, 10.0}, "s",
+                  "time between observations of a robot whose firing period is 0 (all its transducers at once)");
+    fields.flag("compass", &SimulatedRobotConfig::compass, "whether the robot has one");
+    fields.number("turn_as_distance_m_per_rad", &SimulatedRobotConfig::turn_as_distance_m_per_rad, {0, 10}, "m/rad",
+                  "driven distance that a turn in place counts as for the heading error of the odometry");
+    fields.group("echo", &SimulatedRobotConfig::echo, "the sonar model");
+  }
+};
+
+}  // namespace cairn

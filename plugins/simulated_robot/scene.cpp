@@ -1,0 +1,145 @@
+#include "plugins/simulated_robot/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+constexpr double kSamePlace_m = 1e-3;  // world files are written to the millimetre
+
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double bearing(const Point& d) { return wrap_angle(std::atan2(d.y(), d.x())); }
+
+// Distance along the ray to a segment, or infinity.
+double along_ray_to_face(const Point& from, const Point& direction, const Face& face) {
+  const Point edge = face.b_m - face.a_m;
+  const Point to_a = face.a_m - from;
+  const double turn = cross(direction, edge);
+  const double along = cross(to_a, edge);
+  const double share = cross(to_a, direction);
+  // Signs first: a division only for faces that the ray does cross.
+  if (turn > 0.0 ? (along <= 0.0 || share < 0.0 || share > turn) : (along >= 0.0 || share > 0.0 || share < turn)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return turn == 0.0 ? std::numeric_limits<double>::infinity() : along / turn;
+}
+
+double along_ray_to_round(const Point& from, const Point& direction, const RoundFace& face) {
+  const Point to_centre = face.centre_m - from;
+  const double middle = to_centre.dot(direction);
+  const double outside = to_centre.squaredNorm() - face.radius_m * face.radius_m;
+  const double half_chord_squared = middle * middle - outside;
+  if (middle <= 0.0 || outside <= 0.0 || half_chord_squared < 0.0) return std::numeric_limits<double>::infinity();
+  return middle - std::sqrt(half_chord_squared);
+}
+
+}  // namespace
+
+double distance_to_segment(const Point& p_m, const Point& a_m, const Point& b_m) {
+  const Point edge = b_m - a_m;
+  const double length_squared = edge.squaredNorm();
+  const double share = length_squared > 0.0 ? std::clamp((p_m - a_m).dot(edge) / length_squared, 0.0, 1.0) : 0.0;
+  return (a_m + share * edge - p_m).norm();
+}
+
+VertexLook Vertex::look_from(const Point& eye_m) const {
+  const double eye = bearing(eye_m - at_m);
+  // The arms on either side of the eye, going round.
+  const auto above = std::upper_bound(arms.begin(), arms.end(), eye,
+                                      [](double angle, const Arm& arm) { return angle < arm.bearing_rad; });
+  const Arm& left = above == arms.end() ? arms.front() : *above;
+  const Arm& right = above == arms.begin() ? arms.back() : *std::prev(above);
+  double opening = left.bearing_rad - right.bearing_rad;
+  if (opening <= 0.0) opening += 2.0 * std::numbers::pi;
+  if (opening > radians(200.0)) return VertexLook::edge;
+  const bool square = std::abs(opening - radians(90.0)) < radians(5.0);
+  return square && !left.rough && !right.rough ? VertexLook::square_corner : VertexLook::nothing;
+}
+
+Scene::Scene(const World& world) {
+  for (const WorldWall& wall : world.walls) {
+    for (std::size_t i = 1; i < wall.points_m.size(); ++i) {
+      add_face(wall.points_m[i - 1], wall.points_m[i], wall.surface == Surface::rough);
+    }
+  }
+  for (const WorldObject& object : world.objects) {
+    const bool rough = object.surface == Surface::rough;
+    if (object.contour.is_circle()) {
+      round_faces_.push_back({object.T_map_object.position(), 0.5 * object.contour.circle_diameter_m, rough});
+      continue;
+    }
+    const std::vector<Point>& corners = object.contour.polygon_m;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      add_face(object.T_map_object * corners[i], object.T_map_object * corners[(i + 1) % corners.size()], rough);
+    }
+  }
+  collect_vertices();
+}
+
+void Scene::add_face(const Point& a_m, const Point& b_m, bool rough) {
+  const Point edge = b_m - a_m;
+  if (edge.norm() == 0.0) return;
+  faces_.push_back({a_m, b_m, Point(-edge.y(), edge.x()).normalized(), rough});
+}
+
+void Scene::collect_vertices() {
+  const auto known = [this](const Point& p) {
+    return std::any_of(vertices_.begin(), vertices_.end(),
+                       [&](const Vertex& vertex) { return (vertex.at_m - p).norm() < kSamePlace_m; });
+  };
+  for (const Face& face : faces_) {
+    for (const Point& end : {face.a_m, face.b_m}) {
+      if (known(end)) continue;
+      Vertex vertex{end, {}};
+      // A face that only touches with its middle leaves in both directions: a wall built onto another.
+      for (const Face& other : faces_) {
+        if (distance_to_segment(end, other.a_m, other.b_m) >= kSamePlace_m) continue;
+        for (const Point& far_end : {other.a_m, other.b_m}) {
+          if ((far_end - end).norm() >= kSamePlace_m) vertex.arms.push_back({bearing(far_end - end), other.rough});
+        }
+      }
+      std::sort(vertex.arms.begin(), vertex.arms.end(),
+                [](const Vertex::Arm& p, const Vertex::Arm& q) { return p.bearing_rad < q.bearing_rad; });
+      if (!vertex.arms.empty()) vertices_.push_back(std::move(vertex));
+    }
+  }
+}
+
+RayHit Scene::cast(const Point& from_m, const Point& direction, double reach_m) const {
+  RayHit hit;
+  double nearest = reach_m;
+  const Face* face_hit = nullptr;
+  const RoundFace* round_hit = nullptr;
+  for (const Face& face : faces_) {
+    const double distance = along_ray_to_face(from_m, direction, face);
+    if (distance < nearest) {
+      nearest = distance;
+      face_hit = &face;
+    }
+  }
+  for (const RoundFace& face : round_faces_) {
+    const double distance = along_ray_to_round(from_m, direction, face);
+    if (distance < nearest) {
+      nearest = distance;
+      round_hit = &face;
+    }
+  }
+  if (face_hit == nullptr && round_hit == nullptr) return hit;
+  hit.distance_m = nearest;
+  hit.rough = round_hit != nullptr ? round_hit->rough : face_hit->rough;
+  hit.normal = round_hit != nullptr ? Point((from_m + nearest * direction - round_hit->centre_m) / round_hit->radius_m)
+                                    : face_hit->normal;
+  if (hit.normal.dot(direction) > 0.0) hit.normal = -hit.normal;
+  return hit;
+}
+
+bool Scene::sees(const Point& from_m, const Point& target_m) const {
+  const Point way = target_m - from_m;
+  const double distance = way.norm();
+  if (distance <= kSamePlace_m) return true;
+  return std::isinf(cast(from_m, way / distance, distance - kSamePlace_m).distance_m);
+}
+
+}  // namespace cairn

@@ -1,0 +1,72 @@
+// The world as sound and a bumper meet it: straight faces, round faces and the vertices between.
+//
+// Built once from a World; everything after is read-only and in the map frame.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "framework/contracts/world.hpp"
+
+namespace cairn {
+
+struct Face {
+  Point a_m;
+  Point b_m;
+  Point normal;  // unit; the side does not matter
+  bool rough = false;
+};
+
+struct RoundFace {
+  Point centre_m;
+  double radius_m = 0.0;
+  bool rough = false;
+};
+
+// How a vertex looks from some side: only a square inner corner of smooth faces sends a beam back.
+enum class VertexLook { edge, square_corner, nothing };
+
+// An end of one or more faces.
+struct Vertex {
+  struct Arm {
+    double bearing_rad;  // direction of a face that leaves the vertex, in (-pi, pi]
+    bool rough;
+  };
+  Point at_m;
+  std::vector<Arm> arms;  // ascending bearing
+
+  [[nodiscard]] VertexLook look_from(const Point& eye_m) const;
+};
+
+struct RayHit {
+  double distance_m = std::numeric_limits<double>::infinity();
+  Point normal{0.0, 0.0};  // unit, against the ray
+  bool rough = false;
+};
+
+class Scene {
+ public:
+  explicit Scene(const World& world);
+
+  [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
+  [[nodiscard]] const std::vector<RoundFace>& round_faces() const { return round_faces_; }
+  [[nodiscard]] const std::vector<Vertex>& vertices() const { return vertices_; }
+
+  // The first face on a ray of unit direction, nearer than reach_m. Linear in the faces.
+  [[nodiscard]] RayHit cast(const Point& from_m, const Point& direction, double reach_m) const;
+  // Nothing between the two points; a face that passes through the target itself does not count.
+  [[nodiscard]] bool sees(const Point& from_m, const Point& target_m) const;
+
+ private:
+  void add_face(const Point& a_m, const Point& b_m, bool rough);
+  void collect_vertices();
+
+  std::vector<Face> faces_;
+  std::vector<RoundFace> round_faces_;
+  std::vector<Vertex> vertices_;
+};
+
+[[nodiscard]] double distance_to_segment(const Point& p_m, const Point& a_m, const Point& b_m);
+
+}  // namespace cairn

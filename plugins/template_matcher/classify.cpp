@@ -1,0 +1,73 @@
+#include "plugins/template_matcher/classify.hpp"
+
+#include <algorithm>
+
+namespace cairn::template_matcher {
+namespace {
+
+// Mean mismatches compared without division, so that equal is equal.
+bool fits_better(const TemplateMatch& a, const LandmarkTemplate& shape_a, const TemplateMatch& b,
+                 const LandmarkTemplate& shape_b) {
+  return static_cast<std::int64_t>(a.mismatch) * static_cast<std::int64_t>(shape_b.cells.size()) <
+         static_cast<std::int64_t>(b.mismatch) * static_cast<std::int64_t>(shape_a.cells.size());
+}
+
+}  // namespace
+
+double degree_of(std::int32_t mismatch, std::size_t cells, double mu) {
+  return std::max(0.0, 1.0 - mismatch / (kMismatchPerUnit * mu * static_cast<double>(cells)));
+}
+
+std::size_t best_template(std::span<const TemplateMatch> matches, std::span<const LandmarkTemplate> templates) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < matches.size(); ++i) {
+    if (fits_better(matches[i], templates[i], matches[best], templates[best])) best = i;
+  }
+  return best;
+}
+
+bool is_decided(std::size_t best, std::span<const TemplateMatch> matches, std::span<const LandmarkTemplate> templates,
+                const ScoreRule& rule) {
+  const double degree = degree_of(matches[best].mismatch, templates[best].cells.size(), rule.mu);
+  if (degree <= rule.tau_match) return false;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (templates[i].category == templates[best].category) continue;
+    const double other = degree_of(matches[i].mismatch, templates[i].cells.size(), rule.mu);
+    if (!fits_better(matches[best], templates[best], matches[i], templates[i])) return false;
+    if (degree - other < rule.min_margin) return false;
+  }
+  return true;
+}
+
+std::vector<CategoryDegree> degrees_by_category(std::span<const TemplateMatch> matches, const TemplateSet& set,
+                                                const OccupancyGrid& grid, const ScoreRule& rule) {
+  std::vector<CategoryDegree> degrees;
+  for (const LandmarkShape& shape : set.shapes) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (set.templates[i].category != shape.category) continue;
+      if (!best || fits_better(matches[i], set.templates[i], matches[*best], set.templates[*best])) best = i;
+    }
+    if (!best) continue;
+    const LandmarkTemplate& t = set.templates[*best];
+    degrees.push_back({shape.category, degree_of(matches[*best].mismatch, t.cells.size(), rule.mu),
+                       wrap_angle(t.orientation_rad), grid.centre_of(matches[*best].at)});
+  }
+  return degrees;
+}
+
+std::vector<TemplateDegree> templates_above(std::span<const TemplateMatch> matches,
+                                            std::span<const LandmarkTemplate> templates, const ScoreRule& rule) {
+  std::vector<TemplateDegree> above;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double degree = degree_of(matches[i].mismatch, templates[i].cells.size(), rule.mu);
+    if (degree > rule.tau_match) {
+      above.push_back({templates[i].category, wrap_angle(templates[i].orientation_rad), degree});
+    }
+  }
+  std::stable_sort(above.begin(), above.end(),
+                   [](const TemplateDegree& a, const TemplateDegree& b) { return a.degree > b.degree; });
+  return above;
+}
+
+}  // namespace cairn::template_matcher

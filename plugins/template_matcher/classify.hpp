@@ -1,0 +1,41 @@
+// From mismatches to degrees and a class (METHOD 7; paper section 3.3).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "framework/contracts/detector.hpp"
+#include "plugins/template_matcher/match.hpp"
+
+namespace cairn::template_matcher {
+
+struct ScoreRule {
+  double mu = 0.0;  // gradient distance that counts as no match at all
+  double tau_match = 0.0;
+  double min_margin = 0.0;  // by which the best category must lead the next one
+};
+
+// 1 - mismatch / (cells * mu), at least 0.
+[[nodiscard]] double degree_of(std::int32_t mismatch, std::size_t cells, double mu);
+
+// Index of the template that fits best; ties go to the first.
+[[nodiscard]] std::size_t best_template(std::span<const TemplateMatch> matches,
+                                        std::span<const LandmarkTemplate> templates);
+
+// Whether the class of the best template may be believed: its degree is above tau_match, and no
+// template of another category reaches it or comes within the margin.
+[[nodiscard]] bool is_decided(std::size_t best, std::span<const TemplateMatch> matches,
+                              std::span<const LandmarkTemplate> templates, const ScoreRule& rule);
+
+// The best degree of every category, in the order of the set, with its place.
+[[nodiscard]] std::vector<CategoryDegree> degrees_by_category(std::span<const TemplateMatch> matches,
+                                                              const TemplateSet& set, const OccupancyGrid& grid,
+                                                              const ScoreRule& rule);
+
+// All templates above tau_match, best first.
+[[nodiscard]] std::vector<TemplateDegree> templates_above(std::span<const TemplateMatch> matches,
+                                                          std::span<const LandmarkTemplate> templates,
+                                                          const ScoreRule& rule);
+
+}  // namespace cairn::template_matcher

@@ -1,0 +1,32 @@
+#include "plugins/template_matcher/config.hpp"
+
+namespace cairn::template_matcher {
+
+void Config::describe(Fields<Config>& fields) {
+  fields.file("templates", &Config::templates, "folder of template files; the host renders them for the mission");
+  fields.choice("rendering", &Config::rendering,
+                {{"sensed", TemplateRendering::sensed}, {"ideal", TemplateRendering::ideal}},
+                "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
+  fields.angle("step_deg", &Config::step_rad, {1.0, 90.0}, "orientation step of the templates");
+  fields.integer("coarse_cells", &Config::coarse_cells, {1.0, 100.0},
+                 "n: one OG2 cell covers n x n OG1 cells; at most the smallest landmark's diameter in cells");
+  fields.number("alpha_og2", &Config::alpha_og2, {1.000001, 100.0}, "",
+                "weight, in OG2's mean, of OG1 cells with OL > 127; the others weigh 1");
+  fields.number("tau_trigger", &Config::tau_trigger, {0.0, 255.0}, "OL", "match only where OL2 is above this");
+  fields.number("tau_var", &Config::tau_var, {0.0, 255.0}, "OL",
+                "match again only where OL2 has risen by more than this");
+  fields.choice("trigger", &Config::trigger,
+                {{"since_matching", TriggerRule::since_matching}, {"since_update", TriggerRule::since_update}},
+                "what the rise is counted from: the last matching that covered the cell, or its last update");
+  fields.number("tau_grow", &Config::tau_grow, {0.0, 255.0}, "OL",
+                "the searched region grows over neighbours with OL2 above this");
+  fields.number("tau_match", &Config::tau_match, {0.0, 1.0}, "", "a template fits when its degree is above this");
+  fields.choice("mu", &Config::mu, {{"sobel", MismatchScale::sobel}, {"literal", MismatchScale::literal}},
+                "the mismatch that counts as degree 0: the largest gradient, or the largest gradient difference");
+  fields.number("min_margin", &Config::min_margin, {0.0, 1.0}, "",
+                "the best category must lead the next one by this degree; 0 as in the paper");
+  fields.choice("search", &Config::search, {{"pruned", Search::pruned}, {"exhaustive", Search::exhaustive}},
+                "how the best places are found; the answers are the same");
+}
+
+}  // namespace cairn::template_matcher

@@ -1,0 +1,35 @@
+// Settings of the template matcher (METHOD 3 to 7). Values of OL and OL2 are on the scale 0..255.
+#pragma once
+
+#include <filesystem>
+
+#include "framework/config/fields.hpp"
+
+namespace cairn::template_matcher {
+
+enum class TriggerRule { since_matching, since_update };
+enum class MismatchScale { sobel, literal };
+enum class Search { pruned, exhaustive };
+enum class TemplateRendering { sensed, ideal };
+
+struct Config {
+  // Read by the host, which renders the templates.
+  std::filesystem::path templates;
+  TemplateRendering rendering = TemplateRendering::sensed;
+  double step_rad = radians(15.0);
+
+  int coarse_cells = 5;
+  double alpha_og2 = 3.0;
+  double tau_trigger = 140.0;
+  double tau_var = 12.0;
+  TriggerRule trigger = TriggerRule::since_matching;
+  double tau_grow = 140.0;
+  double tau_match = 0.6;
+  MismatchScale mu = MismatchScale::sobel;
+  double min_margin = 0.0;
+  Search search = Search::pruned;
+
+  static void describe(Fields<Config>& fields);
+};
+
+}  // namespace cairn::template_matcher

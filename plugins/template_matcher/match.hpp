@@ -1,0 +1,63 @@
+// Template matching (METHOD 7; paper section 3.3): where each template fits best, and how badly.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "maps/landmark_template.hpp"
+#include "plugins/template_matcher/gradient_field.hpp"
+
+namespace cairn::template_matcher {
+
+// Mismatches are sums of gradient distances in fixed point, so their order does not matter.
+inline constexpr int kMismatchPerUnit = 16;
+
+// |gradient difference| in 1/16. dx and dy are whole numbers within +-2040, so the sum of squares
+// and the scaling are exact and the root is correctly rounded: the same on every machine.
+[[nodiscard]] inline std::int32_t gradient_distance(float dx, float dy) {
+  return static_cast<std::int32_t>(kMismatchPerUnit * std::sqrt(dx * dx + dy * dy) + 0.5F);
+}
+
+// The place where one template fits best: least mismatch, ties to the smaller (y, x).
+struct TemplateMatch {
+  Cell at;
+  std::int32_t mismatch = 0;
+  bool operator==(const TemplateMatch&) const = default;
+};
+
+// How far the templates' cells lie from their centre cells, at most (chessboard distance).
+[[nodiscard]] int reach_of(std::span<const LandmarkTemplate> templates);
+
+// The mismatch of one template centred on one cell. The field covers the template there.
+[[nodiscard]] std::int32_t mismatch_at(const GradientField& field, const LandmarkTemplate& shape, Cell at);
+
+// Best place of every template over all cells of the spans, which are not empty and sorted by
+// (y, x). The field's box holds the spans grown by the templates' reach. The plain loop: the oracle.
+[[nodiscard]] std::vector<TemplateMatch> match_exhaustively(const GradientField& field,
+                                                            std::span<const CellSpan> region,
+                                                            std::span<const LandmarkTemplate> templates);
+
+// The same answer to the bit, sooner: a whole row of places is summed at once, and given up as soon
+// as none of its partial sums can beat the template's best so far.
+class PrunedMatcher {
+ public:
+  explicit PrunedMatcher(std::span<const LandmarkTemplate> templates);
+  [[nodiscard]] std::vector<TemplateMatch> match(const GradientField& field, std::span<const CellSpan> region) const;
+
+ private:
+  struct PreparedCell {
+    Cell offset;
+    float gradient_x;
+    float gradient_y;
+  };
+  using PreparedTemplate = std::vector<PreparedCell>;  // in an order that spreads round the contour
+
+  static void match_span(const GradientField& field, const CellSpan& span, const PreparedTemplate& shape,
+                         std::vector<std::int32_t>& sums, TemplateMatch& best);
+
+  std::vector<PreparedTemplate> templates_;
+};
+
+}  // namespace cairn::template_matcher

@@ -1,0 +1,26 @@
+// Where to match (METHOD 5; paper section 3.2).
+#pragma once
+
+#include <vector>
+
+#include "maps/coarse_grid.hpp"
+
+namespace cairn::template_matcher {
+
+// Greatest Distance8, in coarse cells, from the trigger cell.
+struct RegionReach {
+  int start = 0;  // of the neighbourhood that the smallest landmark fills: always searched
+  int most = 0;   // of the neighbourhood that the largest landmark may fill
+
+  [[nodiscard]] static RegionReach of(double smallest_diameter_m, double largest_diameter_m, double coarse_cell_m);
+};
+
+// Coarse cells to search, sorted by (y, x): the starting neighbourhood, extended by 8-adjacent cells
+// of the grid with OL2 > tau_grow within the largest neighbourhood.
+[[nodiscard]] std::vector<Cell> grow_region(const CoarseGrid& coarse, Cell trigger, const RegionReach& reach,
+                                            double tau_grow);
+
+// The OG1 cells below, as spans sorted by (y, x).
+[[nodiscard]] std::vector<CellSpan> fine_spans(const CoarseGrid& coarse, const std::vector<Cell>& region);
+
+}  // namespace cairn::template_matcher

@@ -1,0 +1,92 @@
+#include "plugins/template_matcher/template_matcher.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace cairn::template_matcher {
+namespace {
+
+// The largest magnitude of a 3x3 Sobel gradient of values 0..255: components 1020 and 510.
+const double kSobelMagnitude = 255.0 * std::sqrt(20.0);
+
+const TemplateSet& checked(const std::shared_ptr<const TemplateSet>& set) {
+  if (set == nullptr || set->templates.empty()) {
+    throw std::invalid_argument("template_matcher has no templates to look for; name a folder of template files");
+  }
+  for (const LandmarkTemplate& t : set->templates) {
+    if (t.cells.empty()) throw std::invalid_argument("a template of category \"" + t.category + "\" has no cells");
+  }
+  return *set;
+}
+
+int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
+  const int most = static_cast<int>(std::floor(set.smallest_diameter_m() / set.cell_m + 1e-9));
+  if (coarse_cells < 1 || coarse_cells > most) {
+    throw std::invalid_argument("coarse_cells is " + std::to_string(coarse_cells) + " but must lie between 1 and " +
+                                std::to_string(most) + ", the smallest landmark's diameter in cells");
+  }
+  return coarse_cells;
+}
+
+}  // namespace
+
+TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const TemplateSet> templates)
+    : config_(config),
+      templates_(std::move(templates)),
+      rule_{config.mu == MismatchScale::sobel ? kSobelMagnitude : 2.0 * kSobelMagnitude, config.tau_match,
+            config.min_margin},
+      reach_(RegionReach::of(checked(templates_).smallest_diameter_m(), templates_->largest_diameter_m(),
+                             config.coarse_cells * templates_->cell_m)),
+      template_reach_(reach_of(templates_->templates)),
+      coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),
+      trigger_(config.trigger, config.tau_trigger, config.tau_var),
+      matcher_(templates_->templates) {}
+
+DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {
+  if (std::abs(grid.cell_m() - templates_->cell_m) > 1e-9) {
+    throw std::invalid_argument("the grid's cells are " + std::to_string(grid.cell_m()) +
+                                " m, the templates were rendered for " + std::to_string(templates_->cell_m) + " m");
+  }
+  DetectionReport report;
+  for (const Cell coarse : coarse_.update(grid, changes)) {
+    if (static_cast<std::int64_t>(report.matchings.size()) >= budget.iterations || budget.exhausted()) break;
+    if (trigger_.fires(coarse, coarse_.ol(coarse))) report.matchings.push_back(match(grid, coarse));
+  }
+  return report;
+}
+
+Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
+  const std::vector<Cell> region = grow_region(coarse_, trigger, reach_, config_.tau_grow);
+  for (const Cell coarse : region) trigger_.matched(coarse, coarse_.ol(coarse));
+  const std::vector<CellSpan> spans = fine_spans(coarse_, region);
+  const CellBox box = CellChanges{spans}.box();
+  const GradientField field(grid, box.grown(template_reach_ + 1));
+  const std::vector<TemplateMatch> matches = config_.search == Search::pruned
+                                                 ? matcher_.match(field, spans)
+                                                 : match_exhaustively(field, spans, templates_->templates);
+  Matching matching;
+  matching.trigger = trigger;
+  matching.region_cells = static_cast<int>(region.size()) * coarse_.n() * coarse_.n();
+  matching.region_centre_m = 0.5 * (grid.centre_of(box.min) + grid.centre_of(box.max - Cell{1, 1}));
+  matching.degrees = degrees_by_category(matches, *templates_, grid, rule_);
+  matching.detection = detection_of(field, matches, grid);
+  return matching;
+}
+
+std::optional<Detection> TemplateMatcher::detection_of(const GradientField& field,
+                                                       std::span<const TemplateMatch> matches,
+                                                       const OccupancyGrid& grid) const {
+  (void)field;
+  const std::vector<LandmarkTemplate>& templates = templates_->templates;
+  const std::size_t best = best_template(matches, templates);
+  if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
+  const LandmarkTemplate& t = templates[best];
+  const Point at_m = grid.centre_of(matches[best].at);
+  return Detection{t.category,
+                   {at_m.x(), at_m.y(), wrap_angle(t.orientation_rad)},
+                   degree_of(matches[best].mismatch, t.cells.size(), rule_.mu),
+                   templates_above(matches, templates, rule_)};
+}
+
+}  // namespace cairn::template_matcher

@@ -1,0 +1,43 @@
+// The paper's landmark detector: OG2 says when and where, template matching on the gradients of OG1
+// says what (METHOD 3 to 7; paper section 3).
+#pragma once
+
+#include <memory>
+
+#include "framework/contracts/detector.hpp"
+#include "plugins/template_matcher/classify.hpp"
+#include "plugins/template_matcher/config.hpp"
+#include "plugins/template_matcher/match.hpp"
+#include "plugins/template_matcher/region.hpp"
+#include "plugins/template_matcher/trigger.hpp"
+
+namespace cairn::template_matcher {
+
+// Runs at most budget.iterations matchings a call; a trigger that a budget cut off fires again with
+// the next change. Not thread-safe.
+class TemplateMatcher : public Detector {
+ public:
+  // Throws std::invalid_argument without templates, on a template without cells, and when
+  // coarse_cells > floor(d_min / l) (METHOD 3).
+  TemplateMatcher(const Config& config, std::shared_ptr<const TemplateSet> templates);
+
+  DetectionReport detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) override;
+  [[nodiscard]] const CoarseGrid* coarse_grid() const override { return &coarse_; }
+
+ private:
+  [[nodiscard]] Matching match(const OccupancyGrid& grid, Cell trigger);
+  [[nodiscard]] std::optional<Detection> detection_of(const GradientField& field,
+                                                      std::span<const TemplateMatch> matches,
+                                                      const OccupancyGrid& grid) const;
+
+  Config config_;
+  std::shared_ptr<const TemplateSet> templates_;
+  ScoreRule rule_;
+  RegionReach reach_;
+  int template_reach_;
+  CoarseGrid coarse_;
+  Trigger trigger_;
+  PrunedMatcher matcher_;
+};
+
+}  // namespace cairn::template_matcher

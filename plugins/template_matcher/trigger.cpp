@@ -1,0 +1,23 @@
+#include "plugins/template_matcher/trigger.hpp"
+
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn::template_matcher {
+
+bool Trigger::fires(Cell coarse, double ol) {
+  if (rule_ == TriggerRule::since_update) {
+    const auto [before, is_first] = reference_.try_emplace(coarse, kUnknownOl);
+    const double rise = ol - before->second;
+    before->second = ol;
+    return ol > tau_trigger_ && rise > tau_var_;
+  }
+  if (ol <= tau_trigger_) return false;
+  const auto last = reference_.find(coarse);
+  return last == reference_.end() || ol - last->second > tau_var_;
+}
+
+void Trigger::matched(Cell coarse, double ol) {
+  if (rule_ == TriggerRule::since_matching) reference_[coarse] = ol;
+}
+
+}  // namespace cairn::template_matcher

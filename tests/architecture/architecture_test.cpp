@@ -1,0 +1,144 @@
+// The house rules as a test: arrows between rooms, who may touch which library, the length of files.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+  std::string file;    // relative to the project
+  std::string header;  // as written
+  bool angled = false;
+};
+
+struct Source {
+  std::string file;
+  std::vector<std::string> lines;
+};
+
+const std::vector<Source>& sources() {
+  static const std::vector<Source> all = [] {
+    std::vector<Source> found;
+    for (const char* room : {"maps", "framework", "plugins", "planners", "tests"})
+      for (const auto& entry : fs::recursive_directory_iterator(fs::path(CAIRN_SOURCE_DIR) / room)) {
+        const auto extension = entry.path().extension();
+        if (extension != ".hpp" && extension != ".cpp") continue;
+        Source source{fs::relative(entry.path(), CAIRN_SOURCE_DIR).generic_string(), {}};
+        std::ifstream in(entry.path());
+        for (std::string line; std::getline(in, line);) source.lines.push_back(line);
+        found.push_back(std::move(source));
+      }
+    return found;
+  }();
+  return all;
+}
+
+std::vector<Include> includes() {
+  static const std::regex pattern(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
+  std::vector<Include> found;
+  for (const Source& source : sources())
+    for (const std::string& line : source.lines) {
+      std::smatch match;
+      if (std::regex_search(line, match, pattern)) found.push_back({source.file, match[2], match[1] == "<"});
+    }
+  return found;
+}
+
+std::string room_of(const std::string& path) { return path.substr(0, path.find('/')); }
+
+std::string module_of(const std::string& path) {
+  const std::size_t first = path.find('/');
+  return path.substr(0, path.find('/', first + 1));
+}
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& beginnings) {
+  for (const std::string& beginning : beginnings)
+    if (text.starts_with(beginning)) return true;
+  return false;
+}
+
+TEST(Architecture, ArrowsBetweenRoomsPointDownOnly) {
+  const std::map<std::string, std::vector<std::string>> allowed = {
+      {"maps", {"maps"}},
+      {"framework", {"framework", "maps"}},
+      {"plugins", {"framework", "maps", "plugins"}},
+      {"planners", {"framework", "maps", "planners"}},
+  };
+  for (const Include& include : includes()) {
+    const std::string from = room_of(include.file);
+    const std::string to = room_of(include.header);
+    if (!allowed.contains(from) || !allowed.contains(to)) continue;
+    EXPECT_THAT(allowed.at(from), testing::Contains(to)) << include.file << " includes " << include.header;
+  }
+}
+
+TEST(Architecture, ModulesKnowContractsAndMapsButNeverEachOtherNorTheHost) {
+  for (const Include& include : includes()) {
+    const std::string room = room_of(include.file);
+    if (room != "plugins" && room != "planners") continue;
+    const std::string target = room_of(include.header);
+    if (target == "framework")
+      EXPECT_TRUE(starts_with_any(include.header, {"framework/contracts/", "framework/config/"}))
+          << include.file << " includes " << include.header;
+    if (target == "plugins" || target == "planners")
+      EXPECT_TRUE(module_of(include.header) == module_of(include.file) ||
+                  (room == "planners" && include.header.starts_with("planners/disc_space/")))
+          << include.file << " includes " << include.header;
+  }
+}
+
+TEST(Architecture, TheProgramLinksNoModule) {
+  for (const Include& include : includes())
+    if (include.file.starts_with("framework/"))
+      EXPECT_FALSE(starts_with_any(include.header, {"plugins/", "planners/"})) << include.file << " includes " << include.header;
+}
+
+TEST(Architecture, EachLibraryIsTouchedOnlyWhereItBelongs) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> owners = {
+      {"ompl/", {"planners/ompl/"}},
+      {"boost/graph/", {"planners/landmark_search/"}},
+      {"opencv2/", {"maps/", "plugins/template_matcher/"}},
+      {"boost/dll/", {"framework/host/plugin_loader.cpp"}},
+      {"yaml-cpp/", {"framework/config/"}},
+      {"sqlite3.h", {"maps/map_store", "maps/sqlite"}},
+      {"CLI/", {"framework/program/main.cpp"}},
+      {"nlohmann/", {"framework/host/", "framework/program/"}},
+  };
+  for (const Include& include : includes())
+    for (const auto& [library, places] : owners)
+      if (include.angled && include.header.starts_with(library) && !include.file.starts_with("tests/"))
+        EXPECT_TRUE(starts_with_any(include.file, places)) << include.file << " includes <" << include.header << ">";
+}
+
+TEST(Architecture, PublicHeadersUseTheStandardLibraryAndEigenOnly) {
+  for (const Include& include : includes()) {
+    const bool is_public = include.file.ends_with(".hpp") &&
+                           starts_with_any(include.file, {"maps/", "framework/contracts/", "framework/config/"});
+    if (!is_public || !include.angled) continue;
+    EXPECT_TRUE(include.header.starts_with("Eigen/") || include.header.find('/') == std::string::npos &&
+                                                            include.header.find('.') == std::string::npos)
+        << include.file << " includes <" << include.header << ">";
+  }
+}
+
+TEST(Architecture, FilesStayUnderThreeHundredCodeLines) {
+  for (const Source& source : sources()) {
+    int code = 0;
+    for (const std::string& line : source.lines) {
+      const std::size_t first = line.find_first_not_of(" \t");
+      if (first != std::string::npos && !line.substr(first).starts_with("//")) ++code;
+    }
+    EXPECT_LE(code, source.file.starts_with("tests/") ? 450 : 300) << source.file;
+  }
+}
+
+}  // namespace

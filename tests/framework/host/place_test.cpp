@@ -1,0 +1,67 @@
+#include "framework/host/place.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cairn {
+namespace {
+
+LandmarkGraph two_landmarks() {
+  LandmarkGraph graph;
+  Landmark square;
+  square.category = "square";
+  square.name = "desk";
+  graph.add(square);
+  Landmark circle;
+  circle.category = "circle";
+  graph.add(circle);
+  return graph;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    (void)parse_place(text, two_landmarks());
+  } catch (const PlaceError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Place, TwoNumbersAreAPositionWhoseHeadingDoesNotMatter) {
+  const Place place = parse_place(" 0.5, -1 ", two_landmarks());
+  ASSERT_TRUE(place.pose);
+  EXPECT_EQ(*place.pose, (Pose2{0.5, -1.0, 0.0}));
+  EXPECT_FALSE(place.heading_matters);
+}
+
+TEST(Place, AThirdNumberIsAHeadingInDegrees) {
+  const Place place = parse_place("1,2,90", two_landmarks());
+  EXPECT_TRUE(place.heading_matters);
+  EXPECT_DOUBLE_EQ(place.pose->theta_rad, radians(90.0));
+}
+
+TEST(Place, ALandmarkIsNamedByIdOrName) {
+  EXPECT_EQ(parse_place("L2", two_landmarks()).landmarks, std::vector<LandmarkId>{2});
+  EXPECT_EQ(parse_place("desk", two_landmarks()).landmarks, std::vector<LandmarkId>{1});
+}
+
+TEST(Place, NearestTakesEveryLandmarkOfTheCategory) {
+  EXPECT_EQ(parse_place("nearest circle", two_landmarks()).landmarks, std::vector<LandmarkId>{2});
+}
+
+TEST(Place, AnUnknownCategoryNamesTheNearestKnownOne) {
+  EXPECT_EQ(error_of("nearest sqare"),
+            "no landmark of category \"sqare\" (did you mean \"square\"?); the map holds: circle, square");
+}
+
+TEST(Place, AnUnknownPlaceSaysWhatAPlaceIs) {
+  EXPECT_EQ(error_of("desc"),
+            "unknown place \"desc\" (did you mean \"desk\"?); a place is x,y or x,y,angle_deg, a landmark's id or name, "
+            "or `nearest CATEGORY`");
+}
+
+TEST(Place, FourNumbersAreTooMany) {
+  EXPECT_EQ(error_of("1,2,3,4"), "place \"1,2,3,4\": expected x,y or x,y,angle_deg, found 4 numbers");
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,116 @@
+// Modules that fail in every way that a mission must survive, and a small sensor that works.
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "framework/contracts/module.hpp"
+
+namespace {
+
+using namespace cairn;
+
+struct CountingConfig {
+  int readings = 5;
+  static void describe(Fields<CountingConfig>& fields) {
+    fields.integer("readings", &CountingConfig::readings, {0.0, 1000.0}, "observations before the data ends");
+  }
+};
+
+class CountingSensor : public Sensor, public Drive {
+ public:
+  explicit CountingSensor(int readings) : left_(readings) {}
+  SensorStep next(const Budget&) override {
+    SensorStep step;
+    if (left_-- <= 0) {
+      step.reason = "all readings given";
+      return step;
+    }
+    step.state = SensorState::observation;
+    step.observation.stamp_s = 0.04 * ++count_;
+    return step;
+  }
+  Drive* drive() override { return this; }
+  void command(const Twist&) override {}
+
+ private:
+  int left_;
+  int count_ = 0;
+};
+
+class StillLocalizer : public Localizer {
+ public:
+  PoseEstimate update(const Observation&, std::span<const LandmarkSighting>) override { return {}; }
+};
+
+class NanLocalizer : public Localizer {
+ public:
+  PoseEstimate update(const Observation&, std::span<const LandmarkSighting>) override {
+    PoseEstimate pose;
+    pose.T_map_robot.x_m = std::numeric_limits<double>::quiet_NaN();
+    return pose;
+  }
+};
+
+class EmptyMapper : public Mapper {
+ public:
+  CellChanges integrate(const Observation&, const PoseEstimate&) override { return {}; }
+  const OccupancyGrid& grid() const override { return grid_; }
+
+ private:
+  OccupancyGrid grid_{0.1};
+};
+
+class ThrowingMapper : public EmptyMapper {
+ public:
+  CellChanges integrate(const Observation&, const PoseEstimate&) override {
+    if (++calls_ == 3) throw std::runtime_error("the map is torn");
+    return {};
+  }
+
+ private:
+  int calls_ = 0;
+};
+
+class NumberThrowingMapper : public EmptyMapper {
+ public:
+  CellChanges integrate(const Observation&, const PoseEstimate&) override { throw 42; }
+};
+
+class FailingBehaviour : public Behaviour {
+ public:
+  Status tick(const WorldView&, Orders&) override { return {Progress::failure, "does not feel like it"}; }
+  void halt() override {}
+};
+
+class EndlessBehaviour : public Behaviour {
+ public:
+  Status tick(const WorldView&, Orders&) override { return {Progress::running, "going on"}; }
+  void halt() override {}
+};
+
+template <class Interface, class Type>
+void add_plain(Registrar& registrar, const char* name) {
+  registrar.add<Interface, NoConfig>(name, "for tests",
+                                     [](const NoConfig&, const ModuleContext&) { return std::make_unique<Type>(); });
+}
+
+void register_module(Registrar& registrar) {
+  registrar.add<Sensor, CountingConfig>("counting_sensor", "for tests", [](const CountingConfig& c, const ModuleContext&) {
+    return std::make_unique<CountingSensor>(c.readings);
+  });
+  add_plain<Localizer, StillLocalizer>(registrar, "still_localizer");
+  add_plain<Localizer, NanLocalizer>(registrar, "nan_localizer");
+  add_plain<Mapper, EmptyMapper>(registrar, "empty_map");
+  add_plain<Mapper, ThrowingMapper>(registrar, "throwing_map");
+  add_plain<Mapper, NumberThrowingMapper>(registrar, "number_throwing_map");
+  add_plain<Behaviour, FailingBehaviour>(registrar, "fail");
+  add_plain<Behaviour, EndlessBehaviour>(registrar, "endless");
+  registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",
+                                     [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Localizer> {
+                                       throw std::runtime_error("no such device");
+                                     });
+}
+
+}  // namespace
+
+CAIRN_MODULE(register_module)

@@ -1,0 +1,115 @@
+#include "framework/host/module_library.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+fs::path folder_of(const std::string& fault) { return fs::path(CAIRN_BINARY_DIR) / "tests" / "plugin" / fault; }
+
+PluginChoice choice_of(const std::string& name) {
+  PluginChoice choice{name, {}};
+  choice.config.kind = ConfigValue::Kind::map;
+  choice.config.place = {"mission.yaml", 7, 3};
+  return choice;
+}
+
+std::string error_of(const ModuleLibrary& library, const std::string& name) {
+  try {
+    (void)library.find(PluginKind::localizer, name, {"mission.yaml", 7, 3});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ModuleLibrary, SaysThatALibraryIsNoModule) {
+  const ModuleLibrary library({folder_of("not_a_module")});
+  EXPECT_THAT(library.entries(), IsEmpty());
+  EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("not_a_module.so: is no Cairn module"),
+                                                  HasSubstr("it exports no cairn_abi_stamp"))));
+}
+
+TEST(ModuleLibrary, NamesBothSidesOfAWrongAbiStamp) {
+  const ModuleLibrary library({folder_of("wrong_stamp")});
+  EXPECT_THAT(library.faults(),
+              ElementsAre(AllOf(HasSubstr("wrong_stamp.so: was built with another ABI"), HasSubstr("module:  cairn 0.1.0, gcc 99.0"),
+                                HasSubstr("program: " + text_of(this_abi_stamp())))));
+}
+
+TEST(ModuleLibrary, SaysWhatAModuleThrewWhileRegistering) {
+  const ModuleLibrary library({folder_of("throws_at_load")});
+  EXPECT_THAT(library.faults(),
+              ElementsAre(HasSubstr("throws_at_load.so: threw while registering: no licence found")));
+}
+
+TEST(ModuleLibrary, SaysThatATextFileCannotBeOpened) {
+  const fs::path folder = fs::path(testing::TempDir()) / "cairn_text_plugin";
+  fs::create_directories(folder);
+  std::ofstream(folder / "text.so") << "hello\n";
+  const ModuleLibrary library({folder});
+  EXPECT_THAT(library.faults(), ElementsAre(HasSubstr("text.so: cannot be opened as a module")));
+}
+
+TEST(ModuleLibrary, AMissingFolderIsAFault) {
+  const ModuleLibrary library({"/nowhere/at/all"});
+  EXPECT_THAT(library.faults(), ElementsAre("/nowhere/at/all: no such plugin folder"));
+}
+
+TEST(ModuleLibrary, AnUnknownNameIsAnErrorWithPlaceAndNearestName) {
+  const ModuleLibrary library({folder_of("faulty")});
+  EXPECT_EQ(error_of(library, "stil_localizer"),
+            "mission.yaml:7:3: unknown localizer plugin \"stil_localizer\" (did you mean \"still_localizer\"?); known "
+            "are: nan_localizer, still_localizer, throwing_constructor");
+}
+
+TEST(ModuleLibrary, ANameOfAnotherKindIsAnError) {
+  const ModuleLibrary library({folder_of("faulty")});
+  EXPECT_EQ(error_of(library, "empty_map"), "mission.yaml:7:3: \"empty_map\" is a map plugin, not a localizer");
+}
+
+TEST(ModuleLibrary, TheFirstOfTwoModulesKeepsTheName) {
+  const ModuleLibrary library({folder_of("faulty"), folder_of("faulty")});
+  EXPECT_FALSE(library.faults().empty());
+  EXPECT_THAT(library.faults().front(), HasSubstr("the name \"counting_sensor\" is taken by"));
+}
+
+TEST(ModuleLibrary, AnObjectOutlivesTheLibraryThatLoadedIt) {
+  std::shared_ptr<Localizer> localizer;
+  {
+    const ModuleLibrary library({folder_of("faulty")});
+    const RobotModel robot;
+    localizer = library.make<Localizer>(choice_of("still_localizer"), ModuleContext{robot});
+  }
+  EXPECT_EQ(localizer->update({}, {}).T_map_robot, Pose2{});
+}
+
+TEST(ModuleLibrary, UnknownConfigKeysAreRefused) {
+  const ModuleLibrary library({folder_of("faulty")});
+  const RobotModel robot;
+  PluginChoice choice = choice_of("counting_sensor");
+  ConfigValue value;
+  value.kind = ConfigValue::Kind::scalar;
+  value.scalar = "3";
+  value.place = {"mission.yaml", 8, 15};
+  choice.config.entries.push_back({"reading", {"mission.yaml", 8, 5}, value});
+  try {
+    (void)library.make<Sensor>(choice, ModuleContext{robot});
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("mission.yaml:8:5"), HasSubstr("reading"), HasSubstr("readings")));
+  }
+}
+
+}  // namespace
+}  // namespace cairn

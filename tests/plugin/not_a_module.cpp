@@ -1,0 +1,2 @@
+// A shared library that is no Cairn module.
+extern "C" int unrelated_function() { return 42; }

@@ -1,0 +1,88 @@
+#include "plugins/template_matcher/classify.hpp"
+
+#include <gmock/gmock.h>
+
+namespace cairn::template_matcher {
+namespace {
+
+constexpr double kMu = 100.0;
+
+LandmarkTemplate shape_of(const std::string& category, double angle_deg, std::size_t cells) {
+  return {category, radians(angle_deg), std::vector<TemplateCell>(cells)};
+}
+
+// The mismatch that gives a template of so many cells this degree.
+TemplateMatch match_of(double degree, std::size_t cells, Cell at = {0, 0}) {
+  return {at,
+          static_cast<std::int32_t>(std::lround((1.0 - degree) * kMu * kMismatchPerUnit * static_cast<double>(cells)))};
+}
+
+const std::vector<LandmarkTemplate> kTemplates = {shape_of("circle", 0, 10), shape_of("square", 0, 20),
+                                                  shape_of("square", 15, 30), shape_of("triangle", 0, 40)};
+
+std::vector<TemplateMatch> matches_of(double circle, double square0, double square15, double triangle) {
+  return {match_of(circle, 10, {1, 1}), match_of(square0, 20, {2, 2}), match_of(square15, 30, {3, 3}),
+          match_of(triangle, 40, {4, 4})};
+}
+
+TEST(Degree, FallsFrom1To0WithTheMeanMismatch) {
+  EXPECT_DOUBLE_EQ(degree_of(0, 10, kMu), 1.0);
+  EXPECT_DOUBLE_EQ(degree_of(10 * 50 * kMismatchPerUnit, 10, kMu), 0.5);
+  EXPECT_DOUBLE_EQ(degree_of(10 * 150 * kMismatchPerUnit, 10, kMu), 0.0);
+}
+
+TEST(Classify, TakesTheBestTemplateOfAll) {
+  const auto matches = matches_of(0.5, 0.7, 0.8, 0.6);
+  EXPECT_EQ(best_template(matches, kTemplates), 2U);
+  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.0}));
+}
+
+TEST(Classify, NeedsMoreThanTauMatch) {
+  const auto matches = matches_of(0.2, 0.3, 0.6, 0.1);
+  EXPECT_FALSE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.0}));
+  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.59, 0.0}));
+}
+
+TEST(Classify, StaysUndecidedWhenAnotherCategoryTies) {
+  // Means of sums over different numbers of cells, equal without rounding.
+  const auto matches = matches_of(0.8, 0.7, 0.5, 0.8);
+  const std::size_t best = best_template(matches, kTemplates);
+  EXPECT_EQ(best, 0U);
+  EXPECT_FALSE(is_decided(best, matches, kTemplates, {kMu, 0.6, 0.0}));
+}
+
+TEST(Classify, DoesNotMindATieWithinOneCategory) {
+  const auto matches = matches_of(0.5, 0.8, 0.8, 0.6);
+  EXPECT_EQ(best_template(matches, kTemplates), 1U);
+  EXPECT_TRUE(is_decided(1, matches, kTemplates, {kMu, 0.6, 0.0}));
+}
+
+TEST(Classify, WantsTheMarginToTheNextCategoryOnly) {
+  const auto matches = matches_of(0.72, 0.79, 0.8, 0.6);
+  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.07}));
+  EXPECT_FALSE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.09}));
+}
+
+TEST(Classify, ListsTheBestOfEveryCategoryWithItsPlace) {
+  TemplateSet set;
+  set.shapes = {{"circle", {}}, {"square", {}}, {"triangle", {}}};
+  set.templates = kTemplates;
+  const OccupancyGrid grid(0.05);
+  const auto degrees = degrees_by_category(matches_of(0.5, 0.7, 0.8, 0.6), set, grid, {kMu, 0.6, 0.0});
+  ASSERT_EQ(degrees.size(), 3U);
+  EXPECT_EQ(degrees[1].category, "square");
+  EXPECT_NEAR(degrees[1].degree, 0.8, 1e-3);
+  EXPECT_NEAR(degrees[1].orientation_rad, radians(15.0), 1e-12);
+  EXPECT_EQ(degrees[1].at_m, grid.centre_of({3, 3}));
+}
+
+TEST(Classify, KeepsAllTemplatesAboveTauMatchBestFirst) {
+  const auto above = templates_above(matches_of(0.65, 0.7, 0.8, 0.6), kTemplates, {kMu, 0.6, 0.0});
+  ASSERT_EQ(above.size(), 3U);
+  EXPECT_NEAR(above[0].degree, 0.8, 1e-3);
+  EXPECT_NEAR(above[1].degree, 0.7, 1e-3);
+  EXPECT_EQ(above[2].category, "circle");
+}
+
+}  // namespace
+}  // namespace cairn::template_matcher

@@ -1,0 +1,203 @@
+#include "plugins/template_matcher/template_matcher.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/plugins/template_matcher/drawn_grid.hpp"
+
+namespace cairn::template_matcher {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::shared_ptr<const TemplateSet> paper_templates() {
+  return std::make_shared<TemplateSet>(paper_set());
+}
+
+std::string error_of(const Config& config, std::shared_ptr<const TemplateSet> templates) {
+  try {
+    TemplateMatcher matcher(config, std::move(templates));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const Detection* best_detection(const DetectionReport& report) {
+  const Detection* best = nullptr;
+  for (const Matching& m : report.matchings) {
+    if (m.detection && (best == nullptr || m.detection->degree > best->degree)) best = &*m.detection;
+  }
+  return best;
+}
+
+// Ideal templates fit ideal paintings best; the thresholds for sensed maps do not matter here.
+Config plain() {
+  Config config;
+  config.tau_match = 0.6;
+  return config;
+}
+
+TEST(TemplateMatcher, FindsEachPaintedLandmarkWithItsPlaceAndOrientation) {
+  for (const LandmarkShape& shape : paper_set().shapes) {
+    TemplateMatcher matcher(plain(), paper_templates());
+    OccupancyGrid grid(0.05);
+    const Point at = grid.centre_of({17, -9});
+    paint(grid, shape.contour, {at.x(), at.y(), radians(30.0)}, {{-20, -45}, {55, 30}});
+    const DetectionReport report = matcher.detect(grid, all_of(grid.bounds()), {});
+    const Detection* found = best_detection(report);
+    ASSERT_NE(found, nullptr) << shape.category;
+    EXPECT_EQ(found->category, shape.category);
+    EXPECT_NEAR(found->T_map_landmark.x_m, at.x(), 0.01) << shape.category;
+    EXPECT_NEAR(found->T_map_landmark.y_m, at.y(), 0.01) << shape.category;
+    EXPECT_GT(found->degree, 0.85);
+    ASSERT_FALSE(found->templates.empty());
+    EXPECT_EQ(found->templates.front().category, shape.category);
+    if (shape.category != "circle") EXPECT_NEAR(degrees(found->T_map_landmark.theta_rad), 30.0, 4.0);
+  }
+}
+
+TEST(TemplateMatcher, ReportsEveryCategoryInEveryMatching) {
+  TemplateMatcher matcher(plain(), paper_templates());
+  OccupancyGrid grid(0.05);
+  paint(grid, square_shape().contour, {}, {{-25, -25}, {25, 25}});
+  const DetectionReport report = matcher.detect(grid, all_of(grid.bounds()), {});
+  ASSERT_FALSE(report.matchings.empty());
+  for (const Matching& m : report.matchings) {
+    ASSERT_EQ(m.degrees.size(), 3U);
+    EXPECT_EQ(m.degrees[0].category, "circle");
+    EXPECT_EQ(m.degrees[1].category, "square");
+    EXPECT_EQ(m.degrees[2].category, "triangle");
+    EXPECT_GE(m.region_cells, 9 * 25);
+    EXPECT_LE(m.region_cells, 25 * 25);
+  }
+}
+
+TEST(TemplateMatcher, FindsTheSameByEitherSearch) {
+  OccupancyGrid grid(0.05);
+  paint(grid, triangle_shape().contour, {0.013, 0.021, 0.7}, {{-25, -25}, {25, 25}});
+  Config exhaustive = plain();
+  exhaustive.search = Search::exhaustive;
+  const auto a = TemplateMatcher(plain(), paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  const auto b = TemplateMatcher(exhaustive, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  ASSERT_EQ(a.matchings.size(), b.matchings.size());
+  for (std::size_t i = 0; i < a.matchings.size(); ++i) {
+    EXPECT_EQ(a.matchings[i].trigger, b.matchings[i].trigger);
+    ASSERT_EQ(a.matchings[i].detection.has_value(), b.matchings[i].detection.has_value());
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(a.matchings[i].degrees[k].degree, b.matchings[i].degrees[k].degree);
+      EXPECT_EQ(a.matchings[i].degrees[k].at_m, b.matchings[i].degrees[k].at_m);
+    }
+  }
+}
+
+TEST(TemplateMatcher, MatchesNothingOnAnEmptyGrid) {
+  TemplateMatcher matcher(plain(), paper_templates());
+  const OccupancyGrid grid(0.05);
+  EXPECT_TRUE(matcher.detect(grid, {}, {}).matchings.empty());
+  EXPECT_TRUE(matcher.detect(grid, all_of({{0, 0}, {40, 40}}), {}).matchings.empty());
+}
+
+TEST(TemplateMatcher, MatchesNothingOnFreeFloor) {
+  TemplateMatcher matcher(plain(), paper_templates());
+  OccupancyGrid grid(0.05);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) grid.set_log_odds({x, y}, -1024);
+  }
+  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), {}).matchings.empty());
+}
+
+TEST(TemplateMatcher, ScoresUnseenFloorNearATenth) {
+  // One occupied coarse cell far from any contour triggers; all around nothing is known. Paper, Table 1.
+  Config config = plain();
+  config.tau_trigger = 100.0;
+  const auto matchings = [&](MismatchScale mu) {
+    config.mu = mu;
+    TemplateMatcher matcher(config, paper_templates());
+    OccupancyGrid grid(0.05);
+    grid.include({{0, 0}, {40, 40}});
+    return matcher.detect(grid, all_of({{0, 0}, {5, 5}}), {}).matchings;
+  };
+  const auto by_sobel = matchings(MismatchScale::sobel);
+  ASSERT_EQ(by_sobel.size(), 1U);
+  EXPECT_FALSE(by_sobel.front().detection.has_value());
+  for (const CategoryDegree& d : by_sobel.front().degrees) {
+    EXPECT_GT(d.degree, 0.05) << d.category;
+    EXPECT_LT(d.degree, 0.25) << d.category;
+  }
+  const auto by_literal = matchings(MismatchScale::literal);
+  for (const CategoryDegree& d : by_literal.front().degrees) EXPECT_NEAR(d.degree, 0.55, 0.08) << d.category;
+}
+
+TEST(TemplateMatcher, WorksAtTheEdgeOfTheGrid) {
+  // The painting ends half a cell outside the ring: templates reach into what was never written.
+  TemplateMatcher matcher(plain(), paper_templates());
+  OccupancyGrid grid(0.05);
+  const Point at = grid.centre_of({0, 0});
+  paint(grid, circle_shape().contour, {at.x(), at.y(), 0.0}, {{-7, -7}, {8, 8}});
+  const DetectionReport report = matcher.detect(grid, all_of(grid.bounds()), {});
+  const Detection* found = best_detection(report);
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->category, "circle");
+}
+
+TEST(TemplateMatcher, DoesNotMatchAgainUntilMoreIsKnown) {
+  TemplateMatcher matcher(plain(), paper_templates());
+  OccupancyGrid grid(0.05);
+  paint(grid, circle_shape().contour, {}, {{-25, -25}, {25, 25}});
+  EXPECT_FALSE(matcher.detect(grid, all_of(grid.bounds()), {}).matchings.empty());
+  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), {}).matchings.empty());
+}
+
+TEST(TemplateMatcher, StopsWithTheBudgetAndGoesOnWithTheNextChange) {
+  OccupancyGrid grid(0.05);
+  paint(grid, circle_shape().contour, {}, {{-25, -25}, {25, 25}});
+  TemplateMatcher matcher(plain(), paper_templates());
+  Budget none;
+  none.iterations = 0;
+  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), none).matchings.empty());
+  Budget one;
+  one.iterations = 1;
+  EXPECT_EQ(matcher.detect(grid, all_of(grid.bounds()), one).matchings.size(), 1U);
+  const std::atomic<bool> cancelled = true;
+  Budget over;
+  over.cancel = &cancelled;
+  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), over).matchings.empty());
+}
+
+TEST(TemplateMatcher, KeepsACoarseGridThatEqualsARecomputation) {
+  TemplateMatcher matcher(plain(), paper_templates());
+  OccupancyGrid grid(0.05);
+  paint(grid, square_shape().contour, {}, {{-25, -25}, {25, 25}});
+  (void)matcher.detect(grid, all_of(grid.bounds()), {});
+  CoarseGrid fresh(5, plain().alpha_og2);
+  fresh.rebuild(grid);
+  ASSERT_NE(matcher.coarse_grid(), nullptr);
+  EXPECT_EQ(*matcher.coarse_grid(), fresh);
+}
+
+TEST(TemplateMatcher, RefusesCoarseCellsLargerThanTheSmallestLandmark) {
+  Config config = plain();
+  config.coarse_cells = 11;
+  EXPECT_THAT(error_of(config, paper_templates()), HasSubstr("coarse_cells is 11 but must lie between 1 and 10"));
+  config.coarse_cells = 10;
+  EXPECT_EQ(error_of(config, paper_templates()), "no error");
+}
+
+TEST(TemplateMatcher, RefusesToLookForNothing) {
+  EXPECT_THAT(error_of(plain(), nullptr), HasSubstr("no templates"));
+  EXPECT_THAT(error_of(plain(), std::make_shared<TemplateSet>()), HasSubstr("no templates"));
+  auto hollow = std::make_shared<TemplateSet>(paper_set());
+  hollow->templates.front().cells.clear();
+  EXPECT_THAT(error_of(plain(), hollow), HasSubstr("category \"circle\" has no cells"));
+}
+
+TEST(TemplateMatcher, RefusesAGridOfOtherCells) {
+  TemplateMatcher matcher(plain(), paper_templates());
+  const OccupancyGrid grid(0.1);
+  EXPECT_THROW((void)matcher.detect(grid, {}, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace cairn::template_matcher
