@@ -48,7 +48,8 @@ class Patch {
   }
   [[nodiscard]] int ol(int x, int y) const {
     const double d = distance(x, y);
-    if (d > kRingOutside + kTie) return kFreeOl;
+    // A tie counts as free: the other way an aligned side would have two equal rows and no slope.
+    if (d >= kRingOutside - kTie) return kFreeOl;
     return d > kRingInside + kTie ? kOccupiedOl : 127;
   }
   [[nodiscard]] bool is_edge(int x, int y) const {

@@ -83,7 +83,7 @@ std::string header_of(const std::filesystem::path& file) {
 
 // Offsets as SQLite's file format lays them down.
 void check_size(const std::string& header, std::uintmax_t found) {
-  const std::uint32_t page = (big_endian_at(header, 14) >> 16) & 0xFFFF;
+  const std::uint32_t page = big_endian_at(header, 16) >> 16;
   const std::uint64_t page_bytes = page == 1 ? 65536 : page;
   const std::uint64_t expected = page_bytes * big_endian_at(header, 28);
   if (found < expected)

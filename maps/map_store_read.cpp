@@ -34,7 +34,10 @@ void in_table(const std::string& table, Read read) {
   }
 }
 
-std::string numbered(const char* kind, std::int64_t id) { return kind + (" " + std::to_string(id)); }
+std::string numbered(const char* kind, std::int64_t id) { return std::string(kind) + " " + std::to_string(id); }
+
+// Grids and tiles of other floors are for later versions.
+void require_level_zero(const Statement& row, int column) { static_cast<void>(row.integer_within(column, 0, 0)); }
 
 // Unpacks a blob column with the checksum in the column behind it.
 std::string unpacked(const Statement& row, int column, std::size_t raw_size, const std::string& what) {
@@ -50,7 +53,7 @@ std::string unpacked(const Statement& row, int column, std::size_t raw_size, con
 OccupancyGrid read_grid(Database& database) {
   Statement row(database, "SELECT * FROM grid ORDER BY level");
   if (!row.step()) throw StoreError("has no row");
-  row.integer_within(0, 0, 0);
+  require_level_zero(row, 0);
   const double cell_m = row.real(1);
   const double clamp_nat = row.real(4);
   if (!(cell_m > 0.0) || cell_m > kMaxCellM) throw StoreError("cell_m must be in (0, 1000], is " + std::to_string(cell_m));
@@ -86,7 +89,7 @@ void take_tile(OccupancyGrid& grid, Cell tile, const std::string& raw, const std
 void read_tiles(Database& database, OccupancyGrid& grid) {
   Statement row(database, "SELECT level, tx, ty, log_odds, crc32 FROM tiles ORDER BY level, ty, tx");
   while (row.step()) {
-    row.integer_within(0, 0, 0);
+    require_level_zero(row, 0);
     const Cell tile{static_cast<int>(row.integer_within(1, -kMaxCellIndex / kSide, kMaxCellIndex / kSide)),
                     static_cast<int>(row.integer_within(2, -kMaxCellIndex / kSide, kMaxCellIndex / kSide))};
     const std::string what = "tile (" + std::to_string(tile.x) + ", " + std::to_string(tile.y) + ")";

@@ -88,8 +88,10 @@ void write_shapes(Database& database, const std::vector<LandmarkShape>& shapes) 
   std::int64_t number = 0;
   for (const LandmarkShape& shape : shapes) {
     std::string parameters = shape.contour.is_circle() ? text_of(shape.contour.circle_diameter_m) : "";
-    for (const Point& corner : shape.contour.polygon_m)
-      parameters += (parameters.empty() ? "" : " ") + text_of(corner.x()) + "," + text_of(corner.y());
+    for (const Point& corner : shape.contour.polygon_m) {
+      if (!parameters.empty()) parameters += ' ';
+      parameters += text_of(corner.x()) + ',' + text_of(corner.y());
+    }
     insert.bind(++number).bind_text(shape.category).bind_text(shape.contour.is_circle() ? "circle" : "polygon");
     insert.bind_text(parameters).run();
   }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kTableHalf = 32768;
 constexpr double kLatticeRim = 1 << 30;        // keeps sums of cell indices inside an int
-constexpr int kLargestCellIndex = 1 << 20;     // 52 km at 0.05 m: beyond it something else is wrong
+constexpr int kLargestCellIndex = 1 << 17;    // 6.5 km at 0.05 m: beyond it something else is wrong
 
 // OL of every int16 log-odds value: 64 KiB, computed once.
 const std::vector<std::uint8_t>& ol_table() {
@@ -111,10 +111,12 @@ void OccupancyGrid::set_log_odds(Cell cell, LogOdds value) {
       static_cast<LogOdds>(std::clamp(static_cast<int>(value), -clamp_, clamp_));
 }
 
-void OccupancyGrid::add_log_odds(Cell cell, int delta) {
+bool OccupancyGrid::add_log_odds(Cell cell, int delta) {
   LogOdds& value = tile_for_writing(cell)[offset_in_tile(cell)];
+  const LogOdds before = value;
   // Twice the clamp reaches from one end to the other, so more than that cannot matter.
   value = static_cast<LogOdds>(std::clamp(value + std::clamp(delta, -2 * clamp_, 2 * clamp_), -clamp_, clamp_));
+  return value != before;
 }
 
 OccupancyGrid::Tile& OccupancyGrid::tile_for_writing(Cell cell) {

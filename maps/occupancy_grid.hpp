@@ -78,9 +78,10 @@ class OccupancyGrid {
     return thresholds.state(log_odds(cell));
   }
 
-  // Both grow the grid where needed and clamp to +-clamp_nat. Throw std::length_error beyond +-2^20 cells.
+  // Both grow the grid where needed and clamp to +-clamp_nat. Throw std::length_error beyond +-2^17 cells.
   void set_log_odds(Cell cell, LogOdds value);
-  void add_log_odds(Cell cell, int delta);
+  // add_log_odds says whether the value changed.
+  bool add_log_odds(Cell cell, int delta);
 
   // Row-major copies of a box, row box.min.y first; out.size() == width * height.
   void copy_ol(const CellBox& box, std::span<std::uint8_t> out) const;

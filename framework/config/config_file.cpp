@@ -64,7 +64,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (known == anchored_.end()) fail(mark, "an alias stands within its own anchor; a value cannot hold itself");
     const Size size = size_of(known->second);
     if (open_.size() + size.depth > kMaxDepth) fail_too_deep(mark);
-    count_values(mark, size.values);
+    count_values(place_of(mark), size.values);
     finish(known->second, YAML::NullAnchor);
   }
 
@@ -92,9 +92,10 @@ class TreeBuilder : public YAML::EventHandler {
     fail(mark, "nested deeper than " + std::to_string(kMaxDepth) + " levels");
   }
 
-  void count_values(const YAML::Mark& mark, std::size_t more) {
+  void count_values(const SourcePlace& place, std::size_t more) {
     values_ += more;
-    if (values_ > kMaxValues) fail(mark, "more than " + std::to_string(kMaxValues) + " values in one file");
+    if (values_ > kMaxValues)
+      throw ConfigError(place, "more than " + std::to_string(kMaxValues) + " values in one file");
   }
 
   static Size size_of(const ConfigValue& value) {
@@ -114,7 +115,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (!tag.empty() && tag != kPlainTag && !(is_scalar && (tag == kQuotedTag || tag == kTextTag))) {
       fail(mark, "the YAML tag " + shown(tag) + " is not supported");
     }
-    count_values(mark, 1);
+    count_values(place_of(mark), 1);
     ConfigValue value;
     value.kind = kind;
     value.place = place_of(mark);
@@ -139,8 +140,7 @@ class TreeBuilder : public YAML::EventHandler {
   void finish(ConfigValue value, YAML::anchor_t anchor) {
     if (anchor != YAML::NullAnchor) {
       // Kept copies cost memory too.
-      values_ += size_of(value).values;
-      if (values_ > kMaxValues) throw ConfigError(value.place, "too many values below anchors");
+      count_values(value.place, size_of(value).values);
       anchored_[anchor] = value;
     }
     if (open_.empty()) {
@@ -161,7 +161,9 @@ class TreeBuilder : public YAML::EventHandler {
     return !open_.empty() && open_.back().value.kind == ConfigValue::Kind::map && !open_.back().key;
   }
   [[noreturn]] static void fail_key(const ConfigValue& key) {
-    throw ConfigError(key.place, "a key must be text, found " + key.kind_name());
+    // To the parser "[1, 2" without its end looks like a key.
+    const std::string hint = key.kind == ConfigValue::Kind::null ? "" : "; is a bracket left open?";
+    throw ConfigError(key.place, "a key must be text, found " + key.kind_name() + hint);
   }
 
   void take_key(const ConfigValue& key) {

@@ -126,23 +126,25 @@ class Fields {
     };
     return f;
   }
-  // Degrees in the file, radians in the struct; the range is in degrees.
-  FieldSpec& angle(std::string key, double Config::*member, Range range_deg, std::string meaning) {
+  // Degrees in the file, radians in the struct; the range is in degrees, the unit may be "deg/s" and the like.
+  FieldSpec& angle(std::string key, double Config::*member, Range range_deg, std::string meaning,
+                   std::string unit = "deg") {
     FieldSpec& f =
         add(std::move(key), "number", std::move(meaning), config_detail::number_text(degrees(defaults_.*member)));
-    f.unit = "deg";
+    f.unit = std::move(unit);
     f.range = range_deg;
-    f.load = [member, key = f.key, range_deg](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, "deg"));
+    f.load = [member, key = f.key, range_deg, unit = f.unit](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, unit));
     };
     return f;
   }
-  FieldSpec& angle(std::string key, std::optional<double> Config::*member, Range range_deg, std::string meaning) {
+  FieldSpec& angle(std::string key, std::optional<double> Config::*member, Range range_deg, std::string meaning,
+                   std::string unit = "deg") {
     FieldSpec& f = add(std::move(key), "number", std::move(meaning), "");
-    f.unit = "deg";
+    f.unit = std::move(unit);
     f.range = range_deg;
-    f.load = [member, key = f.key, range_deg](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, "deg"));
+    f.load = [member, key = f.key, range_deg, unit = f.unit](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, unit));
     };
     return f;
   }

@@ -17,13 +17,11 @@ struct LimitsConfig {
   double min_turning_radius_m = 0.0;
   static void describe(Fields<LimitsConfig>& fields) {
     fields.number("max_v_mps", &LimitsConfig::max_v_mps, {0.01, 10.0}, "m/s", "highest speed");
-    fields.angle("max_w_degps", &LimitsConfig::max_w_radps, {1.0, 1000.0}, "highest turning speed").unit = "deg/s";
+    fields.angle("max_w_degps", &LimitsConfig::max_w_radps, {1.0, 1000.0}, "highest turning speed", "deg/s");
     fields.number("max_acceleration_mps2", &LimitsConfig::max_acceleration_mps2, {0.01, 100.0}, "m/s2",
                   "highest acceleration, braking too");
-    fields
-        .angle("max_turn_acceleration_degps2", &LimitsConfig::max_turn_acceleration_radps2, {1.0, 100000.0},
-               "highest turning acceleration")
-        .unit = "deg/s2";
+    fields.angle("max_turn_acceleration_degps2", &LimitsConfig::max_turn_acceleration_radps2, {1.0, 100000.0},
+                 "highest turning acceleration", "deg/s2");
     fields.number("min_turning_radius_m", &LimitsConfig::min_turning_radius_m, {0.0, 100.0}, "m",
                   "smallest turning circle of a car, at its reference point");
   }
@@ -68,10 +66,8 @@ struct OdometryConfig {
                   "error of the distance driven, independent from metre to metre");
     fields.number("distance_bias_ratio", &OdometryConfig::distance_bias_ratio, {0.0, 1.0}, "",
                   "error of the distance driven that stays the same over a run");
-    fields
-        .angle("heading_deg_per_m", &OdometryConfig::heading_rad_per_m, {0.0, 90.0},
-               "error of the heading, independent from metre to metre")
-        .unit = "deg/m";
+    fields.angle("heading_deg_per_m", &OdometryConfig::heading_rad_per_m, {0.0, 90.0},
+                 "error of the heading, independent from metre to metre", "deg/m");
   }
 };
 

@@ -67,9 +67,9 @@ class ModuleMaker {
 struct ModuleContext {
   const RobotModel& robot;
   const World* world = nullptr;                        // simulation only
-  Pose2 T_map_start;                                   // where the mission says the robot begins
+  Pose2 T_map_start{};                                 // where the mission says the robot begins
   std::uint64_t seed = 1;                              // of this module alone
-  std::shared_ptr<const TemplateSet> templates;        // rendered; for detectors
+  std::shared_ptr<const TemplateSet> templates{};      // rendered; for detectors
   const ModuleMaker* modules = nullptr;
 };
 

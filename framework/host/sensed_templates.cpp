@@ -91,12 +91,12 @@ std::vector<TemplateCell> band_of(const Contour& contour, double orientation_rad
 
 ModuleContext context_of(const Studio& studio, const RobotModel& robot, std::uint64_t seed, const Pose2& T_map_start,
                          const World* world) {
-  return {.robot = robot,
-          .world = world,
-          .T_map_start = T_map_start,
-          .seed = seed,
-          .templates = nullptr,
-          .modules = &studio.modules};
+  ModuleContext context{robot};
+  context.world = world;
+  context.T_map_start = T_map_start;
+  context.seed = seed;
+  context.modules = &studio.modules;
+  return context;
 }
 
 // Maps one lap and adds its gradients. The landmark's centre is the centre of cell (0, 0).

@@ -1,11 +1,15 @@
 #include "planners/disc_space/disc_space.hpp"
 
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace cairn {
 namespace {
 
 constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt2;  // of a cell of side 1
+
+constexpr int floor_divided(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace
 
@@ -13,6 +17,25 @@ DiscSpace::DiscSpace(const OccupancyGrid& grid, const GroundRules& rules)
     : rules_(rules),
       field_(grid, rules.unknown, rules.thresholds),
       lattice_{grid.origin_m(), grid.cell_m()} {}
+
+DiscSpace::DiscSpace(const DiscSpace& coarse, int parts)
+    : rules_(coarse.rules_), lattice_{coarse.lattice_.origin_m, coarse.lattice_.cell_m / parts} {
+  // Blocked cells as occupied ones and all others as free, so that the finer field blocks the same ground.
+  OccupancyGrid grid(lattice_.cell_m, 4.0, lattice_.origin_m);
+  const CellBox box = coarse.field_.box();
+  for (int y = box.min.y * parts; y < box.max.y * parts; ++y)
+    for (int x = box.min.x * parts; x < box.max.x * parts; ++x) {
+      const bool blocked = coarse.is_blocked({floor_divided(x, parts), floor_divided(y, parts)});
+      grid.set_log_odds({x, y}, static_cast<LogOdds>(blocked ? rules_.thresholds.occupied_above + 1
+                                                             : rules_.thresholds.free_below - 1));
+    }
+  field_ = DistanceField(grid, rules_.unknown, rules_.thresholds);
+}
+
+DiscSpace DiscSpace::refined(int parts) const {
+  if (parts < 1) throw std::invalid_argument("DiscSpace::refined: parts must be positive, got " + std::to_string(parts));
+  return DiscSpace(*this, parts);
+}
 
 bool DiscSpace::contains(const Point& p_map) const {
   // Compared as numbers: the index of a far away or NaN point does not fit an int.

@@ -9,7 +9,7 @@ namespace {
 Refusal start_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& at, double radius_m) {
   return {PlanOutcome::start_blocked, "the start " + text_of(at) + " is blocked: " +
                                           why_blocked(grid, space, at, radius_m) +
-                                          nearest_free_text(space, at, radius_m)};
+                                          nearest_free_text(space, at, radius_m + kLeastRadius_m)};
 }
 
 std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldView& world, const EndRules& rules,
@@ -29,11 +29,11 @@ std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldVi
   return start;
 }
 
-std::string text_of_goals(const Place& place, const LandmarkGraph& graph) {
-  if (place.pose) return "the goal " + text_of(place.pose->position());
-  const std::string first = label_of(*graph.find(place.landmarks.front()));
-  if (place.landmarks.size() == 1) return first;
-  return "none of " + std::to_string(place.landmarks.size()) + " goals (" + first + ", ...)";
+std::string not_reached_text(const Place& goal, const LandmarkGraph& graph) {
+  if (goal.pose) return "the goal " + text_of(goal.pose->position()) + " cannot be reached";
+  const std::string first = label_of(*graph.find(goal.landmarks.front()));
+  if (goal.landmarks.size() == 1) return first + " cannot be reached";
+  return "none of " + std::to_string(goal.landmarks.size()) + " goals (" + first + ", ...) can be reached";
 }
 
 // No way at all, or none for a robot of this size?
@@ -42,17 +42,19 @@ Refusal unreached(const Place& place, const WorldView& world, const EndRules& ru
   const TravelField thin = start.space->travel_at_most(start.leave_from, 0.0);
   bool open = false;
   for (const Point& goal : goals) open = open || thin.reaches(start.space->field().cell_at(goal));
-  const std::string verb = place.landmarks.size() > 1 ? " can be reached" : " cannot be reached";
-  std::string why = ": what is free around the start ends before it";
-  if (open) {
-    char radius[32];
-    std::snprintf(radius, sizeof radius, "%.2f", rules.radius_m);
-    why = std::string(": the way there is too narrow for a robot of radius ") + radius + " m";
-  }
-  return {PlanOutcome::no_route, text_of_goals(place, world.graph) + verb + why};
+  if (open) return too_narrow(place, world.graph, rules.radius_m);
+  return {PlanOutcome::no_route,
+          not_reached_text(place, world.graph) + ": what is free around the start ends before it"};
 }
 
 }  // namespace
+
+Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m) {
+  char radius[32];
+  std::snprintf(radius, sizeof radius, "%.2f", radius_m);
+  return {PlanOutcome::no_route, not_reached_text(goal, graph) +
+                                     ": the way there is too narrow for a robot of radius " + radius + " m"};
+}
 
 std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph, const std::string& end) {
   if (place.pose) {

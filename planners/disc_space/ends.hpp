@@ -51,6 +51,8 @@ struct EndRules {
 // The first landmark that has a standing place stands for several.
 [[nodiscard]] std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& world,
                                                          const EndRules& rules, const SpaceCache& spaces);
+// That the way is too narrow for the robot, for people.
+[[nodiscard]] Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m);
 // Every place that the request would accept, landmarks by their standing places on what `travel`
 // reaches; one that cannot be reached is left out. At least one, or a refusal that says why.
 [[nodiscard]] std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const WorldView& world,

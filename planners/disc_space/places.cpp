@@ -6,6 +6,7 @@ namespace cairn {
 namespace {
 
 constexpr double kTextSearch_m = 3.0;  // how far a message looks for a free place
+constexpr double kTie_m = 1e-9;
 
 std::string metres(double value_m) {
   char text[32];
@@ -48,7 +49,7 @@ std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, 
     for (int x = box.min.x; x < box.max.x; ++x) {
       const Point centre = field.centre_of({x, y});
       const double away_m = (centre - near_map).norm();
-      if (away_m > best_m || (best && away_m == best_m)) continue;
+      if (away_m > (best ? best_m - kTie_m : best_m)) continue;
       if (!space.fits(centre, radius_m) || (accept && !accept({x, y}))) continue;
       best = centre;
       best_m = away_m;
@@ -75,7 +76,7 @@ std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const
   const double occupied_m = distance_to_state_m(grid, rules, p_map, radius_m, CellState::occupied);
   const double unknown_m = distance_to_state_m(grid, rules, p_map, radius_m, CellState::unknown);
   if (occupied_m == 0.0) return "it lies on an occupied cell";
-  if (unknown_m == 0.0 && occupied_m > radius_m) return "it lies in unknown space";
+  if (unknown_m == 0.0) return "it lies in unknown space";
   const bool occupied = occupied_m <= unknown_m;
   return std::string(occupied ? "an occupied cell is " : "unknown space is ") +
          metres(occupied ? occupied_m : unknown_m) + " m from its centre, and the robot needs " + metres(radius_m) +

@@ -12,7 +12,7 @@ namespace cairn {
 
 enum class Algorithm {
   abit_star, ait_star, bfmt, bi_est, bit_star, bi_trrt, bkpiece, est, fmt, informed_rrt_star, kpiece, lazy_rrt,
-  lbkpiece, lbt_rrt, pdst, prm, prm_star, proj_est, rrt, rrt_connect, rrt_sharp, rrt_star, rrt_x_static, sbl,
+  lbt_rrt, pdst, prm, prm_star, proj_est, rrt, rrt_connect, rrt_sharp, rrt_star, rrt_x_static, sbl,
   sorrt_star, stride, trrt,
 };
 
@@ -26,7 +26,7 @@ enum class Algorithm {
           {"FMT", fmt},                {"BFMT", bfmt},            {"RRT", rrt},
           {"LazyRRT", lazy_rrt},       {"TRRT", trrt},            {"BiTRRT", bi_trrt},
           {"EST", est},                {"BiEST", bi_est},         {"ProjEST", proj_est},
-          {"KPIECE1", kpiece},         {"BKPIECE1", bkpiece},     {"LBKPIECE1", lbkpiece},
+          {"KPIECE1", kpiece},         {"BKPIECE1", bkpiece},    
           {"SBL", sbl},                {"STRIDE", stride},        {"PDST", pdst}};
 }
 

@@ -21,11 +21,15 @@ PlanResult stopped(const Budget& budget) {
   return refused({PlanOutcome::out_of_budget, "the budget was used up before a route was found"});
 }
 
+constexpr int kRefinedParts = 4;
+constexpr std::int64_t kMostRefinedCells = 8'000'000;
+
 // A route with where it came from.
 struct Found {
-  std::vector<Point> route;  // from StartPlace::leave_from
-  bool exact = false;
+  std::vector<Point> route;  // from StartPlace::leave_from; empty: none
+  bool exact = false;        // otherwise it ends short of the goal
   bool interrupted = false;
+  bool impossible = false;   // proven
   std::string how;
 };
 
@@ -54,39 +58,64 @@ class Query {
     const TravelField travel = start.space->travel_at_most(start.leave_from, radius_m());
     const auto goals = goals_of(request_.to, world_, rules_, start, travel);
     if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused(*refusal);
-    const GoalPlace& goal = nearest(std::get<std::vector<GoalPlace>>(goals), *start.space, travel);
-    if (budget_.exhausted()) return stopped(budget_);
-    const Found found = find(start, goal, travel);
-    if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped(budget_);
-    return checked(start, goal, found);
+    PlanResult first;
+    for (const GoalPlace& goal : nearest_first(std::get<std::vector<GoalPlace>>(goals), *start.space, travel)) {
+      if (budget_.exhausted()) return stopped(budget_);
+      const Found found = find(start, goal, travel);
+      if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped(budget_);
+      PlanResult result = checked(start, goal, found);
+      if (found.exact) return result;
+      if (first.reason.empty()) first = std::move(result);
+    }
+    return first;
   }
 
-  static const GoalPlace& nearest(const std::vector<GoalPlace>& goals, const DiscSpace& space,
-                                  const TravelField& travel) {
+  static std::vector<GoalPlace> nearest_first(std::vector<GoalPlace> goals, const DiscSpace& space,
+                                              const TravelField& travel) {
     const auto cost_m = [&](const GoalPlace& g) { return travel.cost_m(space.field().cell_at(g.pose.position())); };
-    return *std::min_element(goals.begin(), goals.end(),
-                             [&](const GoalPlace& a, const GoalPlace& b) { return cost_m(a) < cost_m(b); });
+    std::stable_sort(goals.begin(), goals.end(),
+                     [&](const GoalPlace& a, const GoalPlace& b) { return cost_m(a) < cost_m(b); });
+    return goals;
   }
 
   Found find(const StartPlace& start, const GoalPlace& goal, const TravelField& travel) const {
     const DiscSpace& space = *start.space;
     const Point from = start.leave_from;
     const Point to = goal.pose.position();
-    if (from == to) return {{from}, true, false, "start and goal are the same place"};
-    if (space.fits_along(from, to, radius_m())) return {{from, to}, true, false, "straight on"};
-    const SamplingTask task{space,       radius_m(),
-                            from,        to,
-                            reached_cells(space, travel), config_.algorithm,
-                            parameters_, std::min(config_.iterations, budget_.iterations),
-                            config_.simplify, request_.seed};
+    if (from == to) return {{from}, true, false, false, "start and goal are the same place"};
+    if (space.fits_along(from, to, radius_m())) return {{from, to}, true, false, false, "straight on"};
+    const SamplingTask task{space,
+                            radius_m(),
+                            from,
+                            to,
+                            reached_cells(space, travel),
+                            config_.algorithm,
+                            parameters_,
+                            std::min(config_.iterations, budget_.iterations),
+                            config_.simplify,
+                            request_.seed};
     const SamplingAnswer answer = search_by_sampling(task, budget_);
-    if (answer.exact) return {tidied(space, answer.route), true, answer.interrupted, "found by sampling"};
-    if (!answer.interrupted && config_.fall_back_to_grid) {
-      std::vector<Point> route = route_over_cells(space, from, to, radius_m());
-      if (!route.empty())
-        return {std::move(route), true, false, "sampling found nothing; this is the shortest way over the grid's cells"};
+    if (answer.exact) return {tidied(space, answer.route), true, answer.interrupted, false, "found by sampling"};
+    if (answer.interrupted) return {{}, false, true, false, ""};
+    Found found = find_over_cells(space, from, to);
+    if (found.route.empty() && !found.impossible) found.route = answer.route;
+    return found;
+  }
+
+  // Sampling has found nothing: is there nothing, or is it only hard to hit?
+  Found find_over_cells(const DiscSpace& space, const Point& from, const Point& to) const {
+    Found found;
+    if (config_.fall_back_to_grid) found.route = route_over_cells(space, from, to, radius_m());
+    const CellBox box = space.field().box();
+    const std::int64_t cells = std::int64_t{box.width()} * box.height() * kRefinedParts * kRefinedParts;
+    if (found.route.empty() && cells <= kMostRefinedCells) {
+      const DiscSpace fine = space.refined(kRefinedParts);
+      found.impossible = !fine.travel_at_most(from, radius_m()).reaches(fine.field().cell_at(to));
+      if (!found.impossible && config_.fall_back_to_grid) found.route = route_over_cells(fine, from, to, radius_m());
     }
-    return {answer.route, false, answer.interrupted, ""};
+    found.exact = !found.route.empty();
+    found.how = "sampling found nothing; this is the shortest way over the grid's cells";
+    return found;
   }
 
   std::vector<Point> tidied(const DiscSpace& space, const std::vector<Point>& route) const {
@@ -104,6 +133,7 @@ class Query {
   }
 
   PlanResult checked(const StartPlace& start, const GoalPlace& goal, const Found& found) const {
+    if (found.impossible) return refused(too_narrow(request_.to, world_.graph, rules_.radius_m));
     if (found.route.size() < (found.exact ? 1U : 2U)) {
       return refused({PlanOutcome::out_of_budget, "no route was found in " + std::to_string(config_.iterations) +
                                                       " iterations; if there is one, it is hardly wider than the "

@@ -4,6 +4,7 @@
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/spaces/RealVectorStateProjections.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
@@ -129,6 +130,10 @@ ob::SpaceInformationPtr space_information(const SamplingTask& task) {
   // For what still counts in steps: half a cell.
   info->setStateValidityCheckingResolution(half_m / space->getMaximumExtent());
   info->setup();
+  // The identity projection that 1.5.2 has just registered by itself aborts on use.
+  auto projection = std::make_shared<ob::RealVectorOrthogonalProjectionEvaluator>(space, std::vector<unsigned>{0, 1});
+  projection->setup();
+  space->registerDefaultProjection(projection);
   return info;
 }
 
@@ -152,6 +157,14 @@ void simplify(og::PathGeometric& path, const ob::SpaceInformationPtr& info, cons
   for (int round = 0; round < kShortcutRounds && !budget.exhausted(); ++round)
     if (!simplifier.shortcutPath(path)) break;
   simplifier.reduceVertices(path);
+}
+
+bool takes(ob::Planner& planner, const std::string& name, const std::string& value) {
+  try {
+    return planner.params().setParam(name, value);
+  } catch (const std::exception&) {  // a number that is none, or one the algorithm refuses
+    return false;
+  }
 }
 
 SamplingAnswer search_locked(const SamplingTask& task, const Budget& budget) {
@@ -199,8 +212,7 @@ AlgorithmParameters checked_parameters(Algorithm algorithm, const ConfigValue& p
     if (!planner->params().hasParam(entry.key))
       throw ConfigError(entry.key_place, planner->getName() + " has no parameter \"" + entry.key + "\"" +
                                              did_you_mean(entry.key, names));
-    if (entry.value.kind != ConfigValue::Kind::scalar ||
-        !planner->params().setParam(entry.key, entry.value.scalar))
+    if (entry.value.kind != ConfigValue::Kind::scalar || !takes(*planner, entry.key, entry.value.scalar))
       throw ConfigError(entry.value.place, "parameter " + entry.key + " of " + planner->getName() +
                                                " does not take \"" + entry.value.scalar + "\"");
     checked.emplace_back(entry.key, entry.value.scalar);

@@ -17,6 +17,7 @@ constexpr double kForbidden = 1e6;  // the step weight of cells that may not be 
 constexpr double kOutOfReach_m = 1e4;
 constexpr double kLongestWayOut_m = 0.8;
 constexpr std::size_t kLongestShortcut_cells = 60;
+constexpr int kStraightFirst[8] = {1, 3, 4, 6, 0, 2, 5, 7};  // of kNeighbours
 
 }  // namespace
 
@@ -78,7 +79,7 @@ std::vector<Point> FreeSpace::find_way_out() const {
       std::reverse(way.begin() + 1, way.end());
       return way;
     }
-    for (int k = 0; k < 8; ++k) {
+    for (const int k : kStraightFirst) {
       const Cell next = here + kNeighbours[k];
       if (!near.contains(next) || came_from.at(next) >= 0 || states_.at(next) == CellState::occupied) continue;
       came_from[next] = static_cast<std::int8_t>(k);
@@ -113,6 +114,7 @@ double FreeSpace::cost_m(Cell cell) const {
 }
 
 double FreeSpace::line_cost(const Point& from, const Point& to) const {
+  if (!segment_is_clear(field_, from, to, least_m_)) return std::numeric_limits<double>::infinity();
   const double length_m = (to - from).norm();
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / (0.5 * cell_m()))));
   double sum = 0.0;

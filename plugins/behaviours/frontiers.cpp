@@ -62,6 +62,7 @@ std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vec
   std::vector<std::optional<Cell>> best(groups.size());
   std::vector<double> best_cost_m(groups.size(), std::numeric_limits<double>::infinity());
   const auto cell_m = static_cast<float>(space.cell_m());
+  const double most_m = within_m + 0.01 * space.cell_m();  // sums of cells, give or take rounding
   while (!queue.empty()) {
     const auto [way_m, cell, group] = queue.top();
     queue.pop();
@@ -75,7 +76,7 @@ std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vec
     for (const Cell step : kNeighbours) {
       const Cell next = cell + step;
       const float next_m = way_m + cell_m * (step.x != 0 && step.y != 0 ? std::numbers::sqrt2_v<float> : 1.0F);
-      if (next_m > within_m || owner.at(next).group >= 0 || space.state(next) != CellState::free) continue;
+      if (next_m > most_m || owner.at(next).group >= 0 || space.state(next) != CellState::free) continue;
       if (next_m < owner.at(next).way_m) {
         owner[next].way_m = next_m;
         queue.emplace(next_m, next, group);

@@ -17,7 +17,8 @@ constexpr double kBackOff_m = 0.15;
 constexpr double kBackOffAtMost_s = 3.0;
 constexpr double kFace_rad = radians(3.0);
 constexpr double kFaceAtMost_s = 15.0;
-constexpr double kWayOutClearance_m = 0.05;
+constexpr double kWayOutClearance_m = 0.1;
+constexpr double kWayOutTolerance_m = 0.02;
 constexpr std::size_t kMostNamed = 12;
 const std::string kNearest = "nearest ";
 
@@ -172,7 +173,7 @@ Status GoTo::travel(const WorldView& world, Orders& orders) {
     return plan_again(world, orders, "something stands on the path");
 
   FollowLimits limits = follow_limits(world.robot, config_.speed_mps);
-  limits.arrive_m = config_.tolerance_m;
+  limits.arrive_m = on_way_out_ ? kWayOutTolerance_m : config_.tolerance_m;
   const FollowStep step = follow(pose, path_, follow_state_, limits);
   follow_state_ = step.state;
   wanted_ = step.wanted;

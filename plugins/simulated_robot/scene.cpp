@@ -7,6 +7,8 @@ namespace cairn {
 namespace {
 
 constexpr double kSamePlace_m = 1e-3;  // world files are written to the millimetre
+constexpr double kOverlap_ratio = 1e-9;
+constexpr double kNone = std::numeric_limits<double>::infinity();
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -19,11 +21,14 @@ double along_ray_to_face(const Point& from, const Point& direction, const Face& 
   const double turn = cross(direction, edge);
   const double along = cross(to_a, edge);
   const double share = cross(to_a, direction);
-  // Signs first: a division only for faces that the ray does cross.
-  if (turn > 0.0 ? (along <= 0.0 || share < 0.0 || share > turn) : (along >= 0.0 || share > 0.0 || share < turn)) {
-    return std::numeric_limits<double>::infinity();
+  // Signs first: a division only for faces that the ray does cross. The ends reach out a little, so
+  // that no ray slips through where two faces meet.
+  const double low = -kOverlap_ratio * turn;
+  const double high = turn - low;
+  if (turn > 0.0 ? (along <= 0.0 || share < low || share > high) : (along >= 0.0 || share > low || share < high)) {
+    return kNone;
   }
-  return turn == 0.0 ? std::numeric_limits<double>::infinity() : along / turn;
+  return turn == 0.0 ? kNone : along / turn;
 }
 
 double along_ray_to_round(const Point& from, const Point& direction, const RoundFace& face) {
@@ -31,7 +36,7 @@ double along_ray_to_round(const Point& from, const Point& direction, const Round
   const double middle = to_centre.dot(direction);
   const double outside = to_centre.squaredNorm() - face.radius_m * face.radius_m;
   const double half_chord_squared = middle * middle - outside;
-  if (middle <= 0.0 || outside <= 0.0 || half_chord_squared < 0.0) return std::numeric_limits<double>::infinity();
+  if (middle <= 0.0 || outside <= 0.0 || half_chord_squared < 0.0) return kNone;
   return middle - std::sqrt(half_chord_squared);
 }
 
@@ -128,6 +133,7 @@ RayHit Scene::cast(const Point& from_m, const Point& direction, double reach_m) 
   }
   if (face_hit == nullptr && round_hit == nullptr) return hit;
   hit.distance_m = nearest;
+  hit.round_radius_m = round_hit != nullptr ? round_hit->radius_m : 0.0;
   hit.rough = round_hit != nullptr ? round_hit->rough : face_hit->rough;
   hit.normal = round_hit != nullptr ? Point((from_m + nearest * direction - round_hit->centre_m) / round_hit->radius_m)
                                     : face_hit->normal;

@@ -10,14 +10,14 @@ namespace {
 // The largest magnitude of a 3x3 Sobel gradient of values 0..255: components 1020 and 510.
 const double kSobelMagnitude = 255.0 * std::sqrt(20.0);
 
-const TemplateSet& checked(const std::shared_ptr<const TemplateSet>& set) {
+std::shared_ptr<const TemplateSet> checked(std::shared_ptr<const TemplateSet> set) {
   if (set == nullptr || set->templates.empty()) {
     throw std::invalid_argument("template_matcher has no templates to look for; name a folder of template files");
   }
   for (const LandmarkTemplate& t : set->templates) {
     if (t.cells.empty()) throw std::invalid_argument("a template of category \"" + t.category + "\" has no cells");
   }
-  return *set;
+  return set;
 }
 
 int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
@@ -33,10 +33,10 @@ int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
 
 TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const TemplateSet> templates)
     : config_(config),
-      templates_(std::move(templates)),
+      templates_(checked(std::move(templates))),
       rule_{config.mu == MismatchScale::sobel ? kSobelMagnitude : 2.0 * kSobelMagnitude, config.tau_match,
             config.min_margin},
-      reach_(RegionReach::of(checked(templates_).smallest_diameter_m(), templates_->largest_diameter_m(),
+      reach_(RegionReach::of(templates_->smallest_diameter_m(), templates_->largest_diameter_m(),
                              config.coarse_cells * templates_->cell_m)),
       template_reach_(reach_of(templates_->templates)),
       coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),

@@ -54,7 +54,8 @@ TEST(TemplateMatcher, FindsEachPaintedLandmarkWithItsPlaceAndOrientation) {
     EXPECT_GT(found->degree, 0.85);
     ASSERT_FALSE(found->templates.empty());
     EXPECT_EQ(found->templates.front().category, shape.category);
-    if (shape.category != "circle") EXPECT_NEAR(degrees(found->T_map_landmark.theta_rad), 30.0, 4.0);
+    const double expected_deg = shape.category == "circle" ? 0.0 : 30.0;
+    EXPECT_NEAR(degrees(found->T_map_landmark.theta_rad), expected_deg, 4.0);
   }
 }
 

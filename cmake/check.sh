@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# What `make check` runs beside the tests: formatting, clang-tidy, and the unit tests under
+# AddressSanitizer and UndefinedBehaviorSanitizer.
+set -eu
+cd "$(dirname "$0")/.."
+jobs=$(nproc)
+
+echo "== clang-format"
+git ls-files '*.hpp' '*.cpp' | xargs clang-format --dry-run -Werror
+
+echo "== clang-tidy"
+git ls-files 'maps/*.cpp' 'framework/*.cpp' 'plugins/*.cpp' 'planners/*.cpp' |
+  xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet --warnings-as-errors='*' 2>/dev/null
+
+echo "== address and undefined behaviour sanitizers"
+cmake --preset asan >/dev/null
+cmake --build --preset asan --target all cairn_tests
+ASAN_OPTIONS=detect_leaks=1 ctest --test-dir build/asan --output-on-failure -j "$jobs"
+echo "check: all good"

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "framework/config/robot_file.hpp"
+#include "framework/config/template_file.hpp"
+#include "framework/host/mission_modules.hpp"
+#include "framework/program/commands.hpp"
+#include "maps/pictures/template_sheet.hpp"
+
+namespace cairn {
+namespace {
+
+PluginChoice plain(const std::string& name) {
+  PluginChoice choice{name, {}};
+  choice.config.kind = ConfigValue::Kind::map;
+  choice.config.place.file = name;
+  return choice;
+}
+
+// A mission of nothing but templates: the robot, the simulator and the default mapper.
+TemplateSet render(const TemplateCommand& command, const CommonOptions& common, std::vector<LandmarkShape> shapes) {
+  Mission mission;
+  mission.shapes = std::move(shapes);
+  mission.template_config.step_rad = radians(command.step_deg);
+  mission.template_config.rendering = command.rendering == "ideal" ? Rendering::ideal : Rendering::sensed;
+  if (mission.template_config.rendering == Rendering::sensed) {
+    if (command.robot.empty())
+      throw std::runtime_error("template preview: sensed templates need --robot FILE (or choose --rendering ideal)");
+    mission.robot = load_robot(command.robot);
+  }
+  mission.config.sensor = plain("simulated_robot");
+  mission.config.map = plain("bayes_map");
+  apply_override(mission.config.map.config, fmt::format("cell_m={}", command.cell_m));
+  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  return render_templates(mission, command.cell_m, library);
+}
+
+}  // namespace
+
+int template_list(const TemplateCommand& command, const CommonOptions& common) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const LandmarkShape& shape : load_landmark_shapes(command.folder)) {
+    const std::size_t orientations =
+        distinct_orientations(shape.contour, radians(command.step_deg), command.cell_m).size();
+    if (common.json)
+      list.push_back({{"category", shape.category},
+                      {"diameter_m", shape.contour.outer_diameter_m()},
+                      {"orientations", orientations}});
+    else
+      std::cout << fmt::format("{:<16} {:<9} diameter {:.2f} m, {} orientation{} at {:g} degree steps\n",
+                               shape.category, shape.contour.is_circle() ? "circle" : "polygon",
+                               shape.contour.outer_diameter_m(), orientations, orientations == 1 ? "" : "s",
+                               command.step_deg);
+  }
+  if (common.json) std::cout << nlohmann::ordered_json{{"templates", list}}.dump() << "\n";
+  return kExitDone;
+}
+
+int template_preview(const TemplateCommand& command, const CommonOptions& common) {
+  const TemplateSet set = render(command, common, load_landmark_shapes(command.folder));
+  write_template_sheet(command.picture, set);
+  if (common.json)
+    std::cout << nlohmann::ordered_json{{"picture", command.picture.string()}, {"templates", set.templates.size()}}.dump()
+              << "\n";
+  else
+    std::cout << fmt::format("wrote {} templates to {}\n", set.templates.size(), command.picture.string());
+  return kExitDone;
+}
+
+}  // namespace cairn

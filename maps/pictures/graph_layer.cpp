@@ -1,0 +1,173 @@
+#include "maps/pictures/graph_layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "maps/pictures/colours.hpp"
+
+namespace cairn::pictures {
+namespace {
+
+constexpr double kDotPx = 5.0;
+constexpr std::size_t kMaxFullLabels = 60;
+constexpr std::size_t kMaxLabels = 250;
+constexpr TextStyle kLabelText{kInk, 12.5};
+constexpr double kLabelHeightPx = 18.0;
+
+// Corners of a contour, a circle as a fine polygon.
+std::vector<Point> corners_of(const Contour& contour) {
+  if (!contour.is_circle()) return contour.polygon_m;
+  std::vector<Point> corners;
+  for (int i = 0; i < 64; ++i) {
+    const double angle_rad = i * 2.0 * std::numbers::pi / 64.0;
+    corners.push_back(contour.circle_diameter_m / 2.0 * Point(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  return corners;
+}
+
+double outer_radius_m(const Contour& contour) {
+  double radius_m = 0.0;
+  for (const Point& corner : corners_of(contour)) radius_m = std::max(radius_m, corner.norm());
+  return radius_m;
+}
+
+Point end_of(const Landmark& landmark) { return landmark.access.value_or(landmark.T_map_landmark).position(); }
+
+Stroke stroke_of(const Route& route) {
+  const double dash_px = route.trajectory.empty() || route.closed ? 7.0 : 0.0;
+  return {route.closed ? kClosed : kRoute, 2.0, 0.75, dash_px};
+}
+
+LegendEntry category_entry(const std::string& category, const Contour* contour, Colour colour) {
+  if (contour == nullptr)
+    return {category, [colour](Canvas& canvas, const Pixel& at) { canvas.fill_disc(at, kDotPx, {colour}); }};
+  return {category, [contour = *contour, colour](Canvas& canvas, const Pixel& at) {
+            const double scale = 8.0 / outer_radius_m(contour);
+            std::vector<Pixel> corners;
+            for (const Point& p : corners_of(contour)) corners.push_back(at + Pixel(p.x() * scale, -p.y() * scale));
+            canvas.fill_polygon(corners, {colour, 0.2});
+            canvas.outline(corners, {colour, 2.0});
+          }};
+}
+
+}  // namespace
+
+GraphLayer::GraphLayer(const LandmarkGraph& graph, std::span<const LandmarkShape> shapes)
+    : graph_(graph), shapes_(shapes) {
+  for (const LandmarkShape& shape : shapes) categories_.push_back(shape.category);
+  std::set<std::string> others;
+  for (const auto& [id, landmark] : graph.landmarks()) others.insert(landmark.category);
+  for (const std::string& category : categories_) others.erase(category);
+  categories_.insert(categories_.end(), others.begin(), others.end());
+}
+
+const Contour* GraphLayer::contour_of(const std::string& category) const {
+  for (const LandmarkShape& shape : shapes_)
+    if (shape.category == category) return &shape.contour;
+  return nullptr;
+}
+
+Colour GraphLayer::colour_of(const std::string& category) const {
+  const auto found = std::ranges::find(categories_, category);
+  return category.empty() ? kInk : category_colour(static_cast<std::size_t>(found - categories_.begin()));
+}
+
+double GraphLayer::radius_px(const Landmark& landmark, const MapFrame& frame) const {
+  const Contour* contour = contour_of(landmark.category);
+  return contour == nullptr ? kDotPx : std::max(kDotPx, outer_radius_m(*contour) * frame.px_per_m);
+}
+
+std::vector<Point> GraphLayer::course_of(const Route& route) const {
+  if (route.trajectory.empty()) return {end_of(*graph_.find(route.from)), end_of(*graph_.find(route.to))};
+  std::vector<Point> course;
+  for (const Pose2& pose : route.trajectory) course.push_back(pose.position());
+  return course;
+}
+
+void GraphLayer::draw_routes(Canvas& canvas, const MapFrame& frame) const {
+  for (const auto& [id, route] : graph_.routes()) {
+    // There and back again is one line when both are straight.
+    const Route* back = graph_.route_between(route.to, route.from);
+    if (route.trajectory.empty() && back != nullptr && back->trajectory.empty() && back->id < id) continue;
+    canvas.line(frame.pixels_of(course_of(route)), stroke_of(route));
+  }
+}
+
+void GraphLayer::draw_landmarks(Canvas& canvas, const MapFrame& frame) const {
+  for (const auto& [id, landmark] : graph_.landmarks()) {
+    const Colour colour = colour_of(landmark.category);
+    const Pixel centre = frame.pixel_of(landmark.T_map_landmark.position());
+    if (const Contour* contour = contour_of(landmark.category)) {
+      std::vector<Pixel> corners;
+      for (const Point& p : corners_of(*contour)) corners.push_back(frame.pixel_of(landmark.T_map_landmark * p));
+      canvas.fill_polygon(corners, {colour, 0.2});
+      canvas.outline(corners, {colour, 2.5});
+      canvas.fill_disc(centre, 2.5, {colour});
+    } else {
+      canvas.fill_disc(centre, kDotPx + 1.5, {kWhite});
+      canvas.fill_disc(centre, kDotPx, {colour});
+    }
+  }
+}
+
+std::string GraphLayer::words_about(const Landmark& landmark) const {
+  std::string words = label_of(landmark);
+  if (graph_.landmarks().size() > kMaxFullLabels) return words;
+  if (!landmark.category.empty()) words += " " + landmark.category;
+  if (landmark.degree > 0.0) words += " " + short_text(landmark.degree, 2);
+  return words;
+}
+
+void GraphLayer::draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer& placer) const {
+  if (graph_.landmarks().size() > kMaxLabels) return;
+  for (const auto& [id, landmark] : graph_.landmarks()) {
+    const Pixel centre = frame.pixel_of(landmark.T_map_landmark.position());
+    const double radius = radius_px(landmark, frame);
+    placer.avoid({centre - Pixel(radius, radius), centre + Pixel(radius, radius)}, 6.0);
+  }
+  for (const auto& [id, landmark] : graph_.landmarks()) {
+    const std::string words = words_about(landmark);
+    const Colour colour = colour_of(landmark.category);
+    const Pixel size(Canvas::text_width_px(words, kLabelText) + 12.0, kLabelHeightPx);
+    const PixelBox box =
+        placer.place(frame.pixel_of(landmark.T_map_landmark.position()), radius_px(landmark, frame), size);
+    const Pixel rim(1.0, 1.0);
+    canvas.fill_box({box.min - rim, box.max + rim}, {colour, 0.9}, 5.0);
+    canvas.fill_box(box, {kWhite, 0.95}, 4.0);
+    canvas.text(box.centre(), words, {kLabelText.colour, kLabelText.size_px, Align::centre});
+  }
+}
+
+std::vector<LegendEntry> GraphLayer::legend() const {
+  std::vector<LegendEntry> entries;
+  for (const std::string& category : categories_)
+    if (!graph_.of_category(category).empty())
+      entries.push_back(category_entry(category.empty() ? "place" : category, contour_of(category), colour_of(category)));
+  bool open = false;
+  bool closed = false;
+  bool cost_only = false;
+  for (const auto& [id, route] : graph_.routes()) {
+    closed = closed || route.closed;
+    open = open || (!route.closed && !route.trajectory.empty());
+    cost_only = cost_only || (!route.closed && route.trajectory.empty());
+  }
+  if (open) entries.push_back(line_entry("route", {kRoute, 2.0, 0.75}));
+  if (cost_only) entries.push_back(line_entry("route, course not known", {kRoute, 2.0, 0.75, 5.0}));
+  if (closed) entries.push_back(line_entry("closed route", {kClosed, 2.0, 0.75, 5.0}));
+  return entries;
+}
+
+Extent GraphLayer::extent() const {
+  Extent extent;
+  for (const auto& [id, landmark] : graph_.landmarks()) {
+    const Contour* contour = contour_of(landmark.category);
+    extent.include(landmark.T_map_landmark.position(), contour == nullptr ? 0.0 : outer_radius_m(*contour));
+  }
+  for (const auto& [id, route] : graph_.routes())
+    for (const Pose2& pose : route.trajectory) extent.include(pose.position());
+  return extent;
+}
+
+}  // namespace cairn::pictures

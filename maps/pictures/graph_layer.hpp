@@ -1,0 +1,39 @@
+// Landmarks and routes as drawn on a map picture.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "maps/contour.hpp"
+#include "maps/landmark_graph.hpp"
+#include "maps/pictures/label_placer.hpp"
+#include "maps/pictures/legend.hpp"
+#include "maps/pictures/map_frame.hpp"
+
+namespace cairn::pictures {
+
+class GraphLayer {
+ public:
+  GraphLayer(const LandmarkGraph& graph, std::span<const LandmarkShape> shapes);
+
+  void draw_routes(Canvas& canvas, const MapFrame& frame) const;
+  void draw_landmarks(Canvas& canvas, const MapFrame& frame) const;
+  // "L3 square 0.74" beside each landmark; of many landmarks the label only, of very many nothing.
+  void draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer& placer) const;
+  [[nodiscard]] std::vector<LegendEntry> legend() const;
+  [[nodiscard]] Extent extent() const;
+
+ private:
+  [[nodiscard]] const Contour* contour_of(const std::string& category) const;
+  [[nodiscard]] Colour colour_of(const std::string& category) const;
+  [[nodiscard]] double radius_px(const Landmark& landmark, const MapFrame& frame) const;
+  [[nodiscard]] std::vector<Point> course_of(const Route& route) const;
+  [[nodiscard]] std::string words_about(const Landmark& landmark) const;
+
+  const LandmarkGraph& graph_;
+  std::span<const LandmarkShape> shapes_;
+  std::vector<std::string> categories_;  // of shapes_, then of the graph's others by name
+};
+
+}  // namespace cairn::pictures

@@ -1,0 +1,34 @@
+// A map as a PNG: OG1 with whatever is known on top of it, about 1000 pixels on its longer side.
+//
+// White is free, black occupied, grey unknown; y is up. What is not given is not drawn, and the legend
+// names only what is. The same input gives the same bytes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "maps/contour.hpp"
+#include "maps/landmark_graph.hpp"
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn {
+
+struct MapPicture {
+  const OccupancyGrid* grid = nullptr;   // none: a blank page
+  const LandmarkGraph* graph = nullptr;
+  std::vector<LandmarkShape> shapes;     // outlines of the graph's categories; a dot where there is none
+  std::vector<Point> driven;             // in the map frame, as all below
+  std::vector<Point> planned;
+  std::optional<Point> start;
+  std::optional<Point> goal;
+  std::optional<Pose2> robot;
+  double robot_radius_m = 0.0;
+  std::string title;
+};
+
+// Throws std::runtime_error with the file and the reason when it cannot be written.
+void write_map_picture(const std::filesystem::path& file, const MapPicture& picture);
+
+}  // namespace cairn

@@ -1,0 +1,78 @@
+#include "plugins/bayes_map/bayes_map.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "plugins/bayes_map/beam_cells.hpp"
+
+namespace cairn::bayes_map {
+namespace {
+
+enum class Meaning { ignored, echo, silence };
+
+bool is_finite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+}
+
+Meaning meaning_of(const RangeReading& reading) {
+  const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 && reading.max_m > 0.0;
+  if (!sane || std::isnan(reading.range_m)) return Meaning::ignored;
+  if (reading.range_m >= reading.max_m) return Meaning::silence;
+  return reading.range_m >= reading.min_m && reading.range_m > 0.0 ? Meaning::echo : Meaning::ignored;
+}
+
+// Sorted, and joined where they overlap or meet.
+std::vector<CellSpan> tidied(std::vector<CellSpan> spans) {
+  std::sort(spans.begin(), spans.end(),
+            [](const CellSpan& a, const CellSpan& b) { return a.y != b.y ? a.y < b.y : a.x_begin < b.x_begin; });
+  std::vector<CellSpan> tidy;
+  for (const CellSpan& span : spans) {
+    if (!tidy.empty() && tidy.back().y == span.y && span.x_begin <= tidy.back().x_end)
+      tidy.back().x_end = std::max(tidy.back().x_end, span.x_end);
+    else
+      tidy.push_back(span);
+  }
+  return tidy;
+}
+
+}  // namespace
+
+BayesMap::BayesMap(const Config& config) : beam_model_(config), grid_(config.cell_m, config.clamp_nat) {}
+
+CellChanges BayesMap::integrate(const Observation& observation, const PoseEstimate& pose) {
+  if (!is_finite(pose.T_map_robot)) return {};
+  std::vector<CellSpan> changed;
+  for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot, changed);
+  return {observation.ranges.size() > 1 ? tidied(std::move(changed)) : std::move(changed)};
+}
+
+void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map_robot,
+                                 std::vector<CellSpan>& changed) {
+  const Meaning meaning = meaning_of(reading);
+  if (meaning == Meaning::ignored) return;
+  const bool echo = meaning == Meaning::echo;
+  const Beam beam{T_map_robot * reading.T_robot_sensor, reading.half_beam_rad,
+                  echo ? beam_model_.reach_of_echo_m(reading.range_m) : beam_model_.reach_of_silence_m(reading.max_m)};
+  const BeamFrame frame(beam, grid_.cell_m());
+
+  const auto increment_of = [&](const BeamPlace& place) {
+    const double alpha = beam_model_.alpha(place.range_m, place.bearing_rad, beam.half_beam_rad);
+    const double lambda = echo ? beam_model_.lambda_of_echo(alpha, place.range_m, reading.range_m)
+                               : beam_model_.lambda_of_silence(alpha, place.range_m, reading.max_m);
+    return static_cast<int>(std::lround(kLogOddsPerNat * std::log(lambda)));
+  };
+  for (const CellSpan& span : spans_over(beam, grid_.cell_m())) {
+    CellSpan moved{span.y, span.x_end, span.x_end};
+    for (int x = span.x_begin; x < span.x_end; ++x) {
+      const Cell cell{x, span.y};
+      const BeamPlace place = frame.place_of(cell);
+      if (!place.is_inside || !grid_.add_log_odds(cell, increment_of(place))) continue;
+      moved.x_begin = std::min(moved.x_begin, x);
+      moved.x_end = x + 1;
+    }
+    if (moved.x_begin < moved.x_end) changed.push_back(moved);
+  }
+}
+
+}  // namespace cairn::bayes_map

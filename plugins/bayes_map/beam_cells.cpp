@@ -1,0 +1,106 @@
+#include "plugins/bayes_map/beam_cells.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace cairn::bayes_map {
+namespace {
+
+// In cells: more than all rounding here, less than matters. Spans may be too wide, never too narrow.
+constexpr double kMargin_cells = 1e-6;
+
+struct Interval {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+
+  void cut(double from, double to) {
+    low = std::max(low, from);
+    high = std::min(high, to);
+  }
+};
+
+// All below in cells, relative to the apex.
+
+// x of the points of the row at height y inside the disc.
+void cut_to_disc(Interval& x, double y, double radius) {
+  const double half = std::sqrt(std::max(0.0, radius * radius - y * y));
+  x.cut(-half, half);
+}
+
+// x of the points of the row at height y to the left of the line through the apex along `edge`.
+void cut_to_left_of(Interval& x, double y, const Point& edge) {
+  // cross(edge, p) = edge.x y - edge.y x >= 0
+  if (edge.y() > 0.0) x.high = std::min(x.high, edge.x() * y / edge.y());
+  if (edge.y() < 0.0) x.low = std::max(x.low, edge.x() * y / edge.y());
+}
+
+Point direction_of(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+// Lowest and highest y of the sector: its apex, its two corners, and the disc's poles it holds.
+Interval rows_of(double axis_rad, double half_beam_rad, double radius) {
+  Interval y{0.0, 0.0};
+  const auto add = [&](double angle_rad) {
+    y.low = std::min(y.low, radius * std::sin(angle_rad));
+    y.high = std::max(y.high, radius * std::sin(angle_rad));
+  };
+  add(axis_rad - half_beam_rad);
+  add(axis_rad + half_beam_rad);
+  for (const double pole_rad : {0.5 * std::numbers::pi, -0.5 * std::numbers::pi})
+    if (std::abs(wrap_angle(pole_rad - axis_rad)) <= half_beam_rad) add(pole_rad);
+  return y;
+}
+
+int floor_of(double cells) { return static_cast<int>(std::floor(cells)); }
+
+std::vector<CellSpan> spans_of_cone(const Beam& beam, const Point& apex, double reach) {
+  const double axis = beam.T_map_sensor.theta_rad;
+  const Interval rows = rows_of(axis, beam.half_beam_rad, reach);
+  const Point right_edge = direction_of(axis - beam.half_beam_rad);
+  const Point left_edge = direction_of(axis + beam.half_beam_rad);
+  const bool convex = beam.half_beam_rad <= 0.5 * std::numbers::pi;
+
+  std::vector<CellSpan> spans;
+  const int y_last = floor_of(apex.y() + rows.high - 0.5 + kMargin_cells);
+  for (int cell_y = floor_of(apex.y() + rows.low + 0.5 - kMargin_cells); cell_y <= y_last; ++cell_y) {
+    const double y = cell_y + 0.5 - apex.y();
+    Interval x;
+    cut_to_disc(x, y, reach + kMargin_cells);
+    if (convex) {
+      cut_to_left_of(x, y, right_edge);
+      cut_to_left_of(x, y, -left_edge);
+    }
+    const int first = floor_of(apex.x() + x.low + 0.5 - kMargin_cells);
+    const int end = floor_of(apex.x() + x.high + 0.5 + kMargin_cells);
+    if (first < end) spans.push_back({cell_y, first, end});
+  }
+  return spans;
+}
+
+std::vector<CellSpan> spans_of_ray(const Beam& beam, const Point& apex, double reach) {
+  const Point way = reach * beam.T_map_sensor.direction();
+  const Point tip = apex + way;
+  std::vector<CellSpan> spans;
+  const int y_last = floor_of(std::max(apex.y(), tip.y()));
+  for (int y = floor_of(std::min(apex.y(), tip.y())); y <= y_last; ++y) {
+    Interval x{std::min(apex.x(), tip.x()), std::max(apex.x(), tip.x())};
+    if (way.y() != 0.0) {
+      const double x_below = apex.x() + (y - apex.y()) / way.y() * way.x();
+      const double x_above = apex.x() + (y + 1 - apex.y()) / way.y() * way.x();
+      x.cut(std::min(x_below, x_above), std::max(x_below, x_above));
+    }
+    if (x.low <= x.high) spans.push_back({y, floor_of(x.low), floor_of(x.high) + 1});
+  }
+  return spans;
+}
+
+}  // namespace
+
+std::vector<CellSpan> spans_over(const Beam& beam, double cell_m) {
+  if (!(beam.reach_m > 0.0)) return {};
+  const Point apex = beam.T_map_sensor.position() / cell_m;
+  const double reach = beam.reach_m / cell_m;
+  return beam.half_beam_rad > 0.0 ? spans_of_cone(beam, apex, reach) : spans_of_ray(beam, apex, reach);
+}
+
+}  // namespace cairn::bayes_map

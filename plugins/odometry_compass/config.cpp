@@ -1,0 +1,33 @@
+#include "plugins/odometry_compass/config.hpp"
+
+namespace cairn::odometry_compass {
+
+void Config::describe(Fields<Config>& fields) {
+  fields.number("start_position_m", &Config::start_position_m, {0.0, 100.0}, "m",
+                "standard deviation of the start position, in x and in y");
+  fields.angle("start_heading_deg", &Config::start_heading_rad, {0.0, 180.0},
+               "standard deviation of the start heading");
+  fields.number("least_distance_ratio", &Config::least_distance_ratio, {0.0, 1.0}, "",
+                "least odometry error, of the distance driven and independent from metre to metre, along and across");
+  fields.angle("least_heading_deg_per_m", &Config::least_heading_rad_per_m, {0.0, 45.0},
+               "least odometry error of the heading, each metre");
+  fields.number("turn_as_distance_m_per_rad", &Config::turn_as_distance_m_per_rad, {0.0, 10.0}, "m/rad",
+                "driven distance that a turn in place counts as for the heading error of the odometry");
+  fields.flag("use_compass", &Config::use_compass, "false: odometry and landmarks only");
+  fields.angle("least_compass_noise_deg", &Config::least_compass_noise_rad, {0.01, 90.0},
+               "least standard deviation of one compass reading");
+  fields.number("local_bias_ratio", &Config::local_bias_ratio, {0.0, 1.0}, "",
+                "standard deviation of the compass's local bias over the bound that the robot's file gives");
+  fields.number("compass_gate_sigmas", &Config::compass_gate_sigmas, {1.0, 100.0}, "",
+                "compass readings further off than this many standard deviations are refused");
+  fields.integer("compass_refusals", &Config::compass_refusals, {1, 1000000},
+                 "after so many refusals in a row the compass is believed and the heading is the suspect");
+  fields.number("landmark_noise_m", &Config::landmark_noise_m, {0.0, 10.0}, "m",
+                "added to every landmark sighting: how well the map knows where the landmark is");
+  fields.number("landmark_gate_sigmas", &Config::landmark_gate_sigmas, {1.0, 100.0}, "",
+                "landmark sightings further off than this (Mahalanobis distance) are refused");
+  fields.flag("use_landmark_heading", &Config::use_landmark_heading,
+              "correct the heading by the landmark's orientation too (wrong for symmetric landmarks)");
+}
+
+}  // namespace cairn::odometry_compass

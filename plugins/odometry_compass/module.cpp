@@ -1,0 +1,19 @@
+#include "framework/contracts/module.hpp"
+
+#include "plugins/odometry_compass/odometry_compass.hpp"
+
+namespace {
+
+void register_module(cairn::Registrar& registrar) {
+  using cairn::odometry_compass::Config;
+  using cairn::odometry_compass::OdometryCompass;
+  registrar.add<cairn::Localizer, Config>(
+      "odometry_compass", "Kalman filter over odometry, compass and known landmarks, with an honest covariance",
+      [](const Config& config, const cairn::ModuleContext& context) {
+        return std::make_unique<OdometryCompass>(config, context.robot, context.T_map_start);
+      });
+}
+
+}  // namespace
+
+CAIRN_MODULE(register_module)

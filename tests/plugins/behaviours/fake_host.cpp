@@ -1,0 +1,153 @@
+#include "tests/plugins/behaviours/fake_host.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <sstream>
+
+#include "maps/travel_field.hpp"
+
+namespace cairn::behaviours {
+namespace {
+constexpr double kTick_s = 0.04;
+constexpr int kRevealEvery = 5;
+constexpr int kRays = 240;
+}  // namespace
+
+FakeHost::FakeHost(const std::string& drawing, const FakeHostSettings& settings)
+    : grid(settings.cell_m), settings_(settings) {
+  std::istringstream lines(drawing);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find_first_not_of(' ') != std::string::npos) rows_.push_back(line.substr(line.find_first_not_of(' ')));
+  const auto side = settings.character_m;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const std::size_t c = rows_[r].find('R');
+    if (c == std::string::npos) continue;
+    T_map_robot = {(static_cast<double>(c) + 0.5) * side, (static_cast<double>(rows_.size() - r) - 0.5) * side, 0.0};
+  }
+  if (settings.all_known) {
+    const int per_side = static_cast<int>(std::lround(side / settings.cell_m));
+    for (int y = 0; y < static_cast<int>(rows_.size()) * per_side; ++y)
+      for (int x = 0; x < static_cast<int>(rows_[0].size()) * per_side; ++x) mark({x, y});
+  }
+  reveal();
+}
+
+bool FakeHost::is_solid(const Point& p) const {
+  const int c = static_cast<int>(std::floor(p.x() / settings_.character_m));
+  const int up = static_cast<int>(std::floor(p.y() / settings_.character_m));
+  const int r = static_cast<int>(rows_.size()) - 1 - up;
+  if (r < 0 || r >= static_cast<int>(rows_.size())) return false;
+  const std::string& row = rows_[static_cast<std::size_t>(r)];
+  return c >= 0 && c < static_cast<int>(row.size()) && row[static_cast<std::size_t>(c)] == '#';
+}
+
+void FakeHost::solidify(const Point& p, bool solid) {
+  const int c = static_cast<int>(std::floor(p.x() / settings_.character_m));
+  const int r = static_cast<int>(rows_.size()) - 1 - static_cast<int>(std::floor(p.y() / settings_.character_m));
+  rows_.at(static_cast<std::size_t>(r)).at(static_cast<std::size_t>(c)) = solid ? '#' : '.';
+}
+
+void FakeHost::mark(Cell cell) {
+  grid.set_log_odds(cell, is_solid(grid.centre_of(cell)) ? 600 : -600);
+}
+
+void FakeHost::reveal() {
+  if (settings_.sight_m <= 0.0) return;
+  const double step_m = 0.5 * settings_.cell_m;
+  for (int i = 0; i < kRays; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kRays;
+    const Point direction{std::cos(angle), std::sin(angle)};
+    for (double r_m = 0.0; r_m <= settings_.sight_m; r_m += step_m) {
+      const Cell cell = grid.cell_at(T_map_robot.position() + direction * r_m);
+      mark(cell);
+      if (is_solid(grid.centre_of(cell))) break;
+    }
+  }
+}
+
+double FakeHost::distance_to_solid_m() const {
+  const double side = settings_.character_m;
+  double nearest = 1e9;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    for (std::size_t c = 0; c < rows_[r].size(); ++c) {
+      if (rows_[r][c] != '#') continue;
+      const Point low{static_cast<double>(c) * side, static_cast<double>(rows_.size() - 1 - r) * side};
+      const Point p = T_map_robot.position();
+      const double dx = std::max({low.x() - p.x(), 0.0, p.x() - low.x() - side});
+      const double dy = std::max({low.y() - p.y(), 0.0, p.y() - low.y() - side});
+      nearest = std::min(nearest, std::hypot(dx, dy));
+    }
+  }
+  return nearest;
+}
+
+void FakeHost::move(const Twist& twist) {
+  const Pose2 before = T_map_robot;
+  T_map_robot = T_map_robot * Pose2{twist.v_mps * kTick_s, 0.0, twist.w_radps * kTick_s};
+  const double nearest = distance_to_solid_m();
+  if (nearest < robot.radius_m && twist.v_mps != 0.0) T_map_robot = {before.x_m, before.y_m, T_map_robot.theta_rad};
+  nearest_solid_m = std::min(nearest_solid_m, nearest);
+  driven_m += (T_map_robot.position() - before.position()).norm();
+}
+
+PlanResult FakeHost::plan(const PlanRequest& request) {
+  planned.push_back(request);
+  if (planner) return planner(request);
+  PlanResult result;
+  const DistanceField space(grid, UnknownPolicy::avoid);
+  Place to = request.to;
+  if (!to.landmarks.empty()) {
+    const Landmark& landmark = graph.landmarks().at(to.landmarks.front());
+    to.pose = landmark.access.value_or(landmark.T_map_landmark);
+    result.landmarks = {landmark.id};
+  }
+  const TravelField travel(space, request.from.pose->position(), request.radius_m + settings_.cell_m);
+  const std::vector<Cell> cells = travel.path_to(space.cell_at(to.pose->position()));
+  if (cells.empty()) {
+    result.reason = "no way leads there";
+    return result;
+  }
+  result.outcome = PlanOutcome::solved;
+  for (const Cell c : cells) result.path.push_back({space.centre_of(c).x(), space.centre_of(c).y(), 0.0});
+  return result;
+}
+
+Status FakeHost::tick(Behaviour& behaviour) {
+  wanted_ = {};
+  const WorldView world{grid, graph, robot, {T_map_robot, Eigen::Matrix3d::Zero()}, time_s, nullptr, held_back_ratio};
+  Status status = behaviour.tick(world, *this);
+  const Twist allowed = stop_layer ? stop_layer(T_map_robot, wanted_) : wanted_;
+  held_back_ratio = wanted_.v_mps == 0.0 ? 0.0 : 1.0 - allowed.v_mps / wanted_.v_mps;
+  move(allowed);
+  driven.push_back(T_map_robot);
+  time_s += kTick_s;
+  if (++ticks_ % kRevealEvery == 0) reveal();
+  return status;
+}
+
+Status FakeHost::run(Behaviour& behaviour, double at_most_s) {
+  const double end_s = time_s + at_most_s;
+  Status status;
+  while (status.progress == Progress::running && time_s < end_s) status = tick(behaviour);
+  return status;
+}
+
+std::string FakeHost::picture() const {
+  const CellBox box = grid.bounds();
+  std::vector<std::string> rows(static_cast<std::size_t>(box.height()),
+                                std::string(static_cast<std::size_t>(box.width()), ' '));
+  const auto at = [&](Cell c) -> char& {
+    return rows[static_cast<std::size_t>(box.max.y - 1 - c.y)][static_cast<std::size_t>(c.x - box.min.x)];
+  };
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      at({x, y}) = grid.state({x, y}) == CellState::occupied ? '#' : grid.state({x, y}) == CellState::free ? '.' : ' ';
+  for (const Pose2& pose : driven)
+    if (box.contains(grid.cell_at(pose.position()))) at(grid.cell_at(pose.position())) = 'o';
+  if (box.contains(grid.cell_at(T_map_robot.position()))) at(grid.cell_at(T_map_robot.position())) = 'R';
+  std::string text = "\n";
+  for (const std::string& row : rows) text += row + "\n";
+  return text;
+}
+
+}  // namespace cairn::behaviours

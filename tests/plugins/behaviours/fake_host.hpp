@@ -1,0 +1,73 @@
+// A tiny host for behaviours: a disc that obeys at once, with a perfect pose, in a world drawn in
+// ASCII; the grid is revealed by line of sight.
+//
+//   #  solid        .  free        R  free, the robot starts here, looking right
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/contracts/behaviour.hpp"
+
+namespace cairn::behaviours {
+
+struct FakeHostSettings {
+  double character_m = 0.1;  // side of a drawn square
+  double cell_m = 0.05;
+  double sight_m = 2.0;
+  bool all_known = false;  // the grid is complete from the start
+};
+
+class FakeHost : public Orders {
+ public:
+  explicit FakeHost(const std::string& drawing, const FakeHostSettings& settings = {});
+
+  void drive(const Twist& wanted) override { wanted_ = wanted; }
+  PlanResult plan(const PlanRequest& request) override;
+  void save(const std::string& file_name) override { saved.push_back(file_name); }
+  void say(const std::string& sentence) override { said.push_back(sentence); }
+
+  // Ticks until the behaviour ends or the time is up (then its status is still running).
+  Status run(Behaviour& behaviour, double at_most_s);
+  Status tick(Behaviour& behaviour);
+
+  [[nodiscard]] bool is_solid(const Point& p) const;
+  // From the robot's centre to the nearest solid square.
+  [[nodiscard]] double distance_to_solid_m() const;
+  // The grid and the driven path, for failures.
+  [[nodiscard]] std::string picture() const;
+  void solidify(const Point& p, bool solid = true);
+
+  RobotModel robot;
+  LandmarkGraph graph;
+  OccupancyGrid grid;
+  Pose2 T_map_robot;
+  double time_s = 0.0;
+  double held_back_ratio = 0.0;
+  // What the stop layer lets through; all of it by default.
+  std::function<Twist(const Pose2& T_map_robot, const Twist& wanted)> stop_layer;
+  // Answers plan(); by default the shortest way over the grid.
+  std::function<PlanResult(const PlanRequest&)> planner;
+
+  std::vector<Pose2> driven;  // every tick
+  std::vector<PlanRequest> planned;
+  std::vector<std::string> saved;
+  std::vector<std::string> said;
+  double driven_m = 0.0;
+  double nearest_solid_m = 1e9;  // over the whole run
+
+ private:
+  void reveal();
+  void move(const Twist& twist);
+  [[nodiscard]] bool can_stand(const Point& p) const;
+  void mark(Cell cell);
+
+  FakeHostSettings settings_;
+  std::vector<std::string> rows_;  // from the top
+  Twist wanted_;
+  int ticks_ = 0;
+};
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,106 @@
+#include "tests/scenario/program.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <fcntl.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace cairn::testing_program {
+namespace {
+
+struct Pipe {
+  int read_end = -1;
+  int write_end = -1;
+  Pipe() {
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+    read_end = ends[0];
+    write_end = ends[1];
+  }
+};
+
+[[noreturn]] void become_cairn(const std::vector<std::string>& arguments, const Pipe& out, const Pipe& err) {
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+  dup2(out.write_end, STDOUT_FILENO);
+  dup2(err.write_end, STDERR_FILENO);
+  for (const int end : {out.read_end, out.write_end, err.read_end, err.write_end}) close(end);
+  const std::string program = std::string(CAIRN_BINARY_DIR) + "/bin/cairn";
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  execv(program.c_str(), argv.data());
+  _exit(127);
+}
+
+// Reads both ends until they close; calls on_output once, when the first bytes of standard output came.
+template <class OnOutput>
+void drain(const Pipe& out, const Pipe& err, Finished& finished, OnOutput on_output) {
+  pollfd ends[2] = {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
+  std::string* texts[2] = {&finished.out, &finished.err};
+  bool told = false;
+  while (ends[0].fd >= 0 || ends[1].fd >= 0) {
+    poll(ends, 2, -1);
+    for (int i = 0; i < 2; ++i) {
+      if (ends[i].fd < 0 || ends[i].revents == 0) continue;
+      char buffer[4096];
+      const ssize_t count = read(ends[i].fd, buffer, sizeof buffer);
+      if (count > 0) texts[i]->append(buffer, static_cast<std::size_t>(count));
+      else {
+        close(ends[i].fd);
+        ends[i].fd = -1;
+      }
+      if (i == 0 && count > 0 && !told) {
+        told = true;
+        on_output();
+      }
+    }
+  }
+}
+
+Finished start(const std::vector<std::string>& arguments, bool interrupt) {
+  const Pipe out;
+  const Pipe err;
+  const pid_t child = fork();
+  if (child == 0) become_cairn(arguments, out, err);
+  close(out.write_end);
+  close(err.write_end);
+  Finished finished;
+  drain(out, err, finished, [&] {
+    if (interrupt) kill(child, SIGINT);
+  });
+  int status = 0;
+  waitpid(child, &status, 0);
+  finished.exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  return finished;
+}
+
+}  // namespace
+
+Finished run_cairn(const std::vector<std::string>& arguments) { return start(arguments, false); }
+Finished interrupt_cairn(const std::vector<std::string>& arguments) { return start(arguments, true); }
+
+std::filesystem::path fresh_folder(const std::string& name) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("cairn_" + name);
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+std::string source_folder() { return CAIRN_SOURCE_DIR; }
+
+}  // namespace cairn::testing_program
