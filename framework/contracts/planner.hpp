@@ -51,7 +51,8 @@ struct PlanResult {
   double length_m = 0.0;
   double clearance_m = 0.0;              // least distance of the robot's edge to anything not free
   std::vector<LandmarkId> landmarks;     // passed, in order, ends included
-  std::vector<RouteId> routes;           // stored routes used or, when blocked, found blocked
+  std::vector<RouteId> routes;           // stored routes used, in order
+  std::vector<RouteId> blocked_routes;   // stored routes found blocked on the way to this answer
   std::vector<Pose2> path;
   std::int64_t settled = 0;              // graph vertices settled
   PlanTimes time_ms;

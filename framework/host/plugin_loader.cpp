@@ -12,11 +12,12 @@ using boost::dll::shared_library;
 std::shared_ptr<shared_library> open(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) throw PluginError(file.string() + ": no such file");
   auto library = std::make_shared<shared_library>();
-  boost::dll::fs::error_code error;
-  library->load(boost::dll::fs::path(std::filesystem::absolute(file).string()), error,
-                boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
-  if (error || !library->is_loaded())
-    throw PluginError(file.string() + ": cannot be opened as a module (" + error.message() + ")");
+  try {
+    library->load(boost::dll::fs::path(std::filesystem::absolute(file).string()),
+                  boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+  } catch (const std::exception& error) {
+    throw PluginError(file.string() + ": cannot be opened as a module: " + error.what());
+  }
   return library;
 }
 

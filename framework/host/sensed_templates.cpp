@@ -122,10 +122,10 @@ void add_lap(const Studio& studio, const LandmarkShape& shape, double orientatio
 }
 
 LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad,
-                               double cell_m) {
+                               double cell_m, int first, int stride) {
   std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, cell_m, studio.options);
   std::vector<Gradient> sums(cells.size());
-  for (int lap = 0; lap < studio.options.laps; ++lap) add_lap(studio, shape, orientation_rad, lap, cells, sums);
+  for (int lap = 0; lap < studio.options.laps; ++lap) add_lap(studio, shape, orientation_rad, first + lap * stride, cells, sums);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     cells[i].gradient_x = static_cast<std::int16_t>(std::lround(sums[i].x / studio.options.laps));
     cells[i].gradient_y = static_cast<std::int16_t>(std::lround(sums[i].y / studio.options.laps));
@@ -143,7 +143,8 @@ TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double s
   TemplateSet set{cell_m, step_rad, shapes, {}};
   for (const LandmarkShape& shape : shapes) {
     for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
-      set.templates.push_back(render_sensed(studio, shape, orientation_rad, cell_m));
+      for (int first = 0; first < (options.each_way ? 2 : 1); ++first)
+      set.templates.push_back(render_sensed(studio, shape, orientation_rad, cell_m, first, options.each_way ? 2 : 1));
     }
   }
   return set;

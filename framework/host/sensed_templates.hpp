@@ -16,6 +16,7 @@ struct SensedOptions {
   int laps = 2;                     // the first with the landmark on the left, then by turns
   double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour
   double edge_outside_cells = 3.0;  // and this far outside
+  bool each_way = false;
   std::uint64_t seed = 1;
 };
 

@@ -147,6 +147,11 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const Query& qu
   picture.graph = &planner.map().graph;
   picture.shapes = planner.map().shapes;
   for (const Pose2& pose : result.path) picture.planned.push_back(pose.position());
+  if (!result.path.empty()) {
+    picture.start = result.path.front().position();
+    picture.goal = result.path.back().position();
+  }
+  picture.robot_radius_m = planner.radius_m();
   picture.title = fmt::format("{} to {}: {}", query.from, query.to, name_of(result.outcome));
   if (result.outcome == PlanOutcome::solved) picture.title += fmt::format(", {:.2f} m", result.length_m);
   write_map_picture(command.picture, picture);

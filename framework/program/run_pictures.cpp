@@ -15,16 +15,23 @@ void draw_map(const std::filesystem::path& file, const Mission& mission, const M
   picture.graph = &runner.graph();
   picture.shapes = mission.shapes;
   for (const Pose2& pose : runner.driven_path()) picture.driven.push_back(pose.position());
+  if (!runner.driven_path().empty()) {
+    picture.start = runner.driven_path().front().position();
+    picture.robot = runner.driven_path().back();
+    picture.robot_radius_m = mission.robot.radius_m;
+  }
   picture.title = mission.config.mission + ", seed " + std::to_string(mission.config.seed);
   write_map_picture(file, picture);
 }
 
 Chart chart_of(const std::vector<DegreeSample>& samples) {
-  std::map<std::string, ChartSeries> series;
+  std::map<std::string, Series> series;
   for (const DegreeSample& sample : samples)
     for (const CategoryDegree& degree : sample.degrees) {
-      series[degree.category].name = degree.category;
-      series[degree.category].points.emplace_back(sample.time_s, degree.degree);
+      Series& line = series[degree.category];
+      line.name = degree.category;
+      line.style = SeriesStyle::lines_and_points;
+      line.points.emplace_back(sample.time_s, degree.degree);
     }
   Chart chart;
   chart.title = "Best matching degree of each category";
@@ -42,15 +49,19 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
   draw_map(out / "map.png", mission, runner);
   pictures.files.emplace_back("map.png");
   if (runner.coarse_grid() != nullptr) {
-    write_coarse_picture(out / "coarse.png", *runner.coarse_grid());
+    CoarsePicture coarse;
+    coarse.coarse = runner.coarse_grid();
+    coarse.grid = &runner.grid();
+    coarse.title = "OG2 of " + mission.config.mission;
+    write_coarse_picture(out / "coarse.png", coarse);
     pictures.files.emplace_back("coarse.png");
   }
   if (report.degrees().empty()) return pictures;
-  std::string why_not;
-  if (write_chart(out / "degrees.png", chart_of(report.degrees()), why_not))
+  const ChartOutcome chart = write_chart(out / "degrees.png", chart_of(report.degrees()));
+  if (chart.drawn)
     pictures.files.emplace_back("degrees.png");
   else
-    pictures.missing.push_back("degrees.png: " + why_not);
+    pictures.missing.push_back("degrees.png: " + chart.reason);
   return pictures;
 }
 

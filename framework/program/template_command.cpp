@@ -61,7 +61,7 @@ int template_list(const TemplateCommand& command, const CommonOptions& common) {
 
 int template_preview(const TemplateCommand& command, const CommonOptions& common) {
   const TemplateSet set = render(command, common, load_landmark_shapes(command.folder));
-  write_template_sheet(command.picture, set);
+  write_template_sheet(command.picture, set, command.folder.string() + ", " + command.rendering);
   if (common.json)
     std::cout << nlohmann::ordered_json{{"picture", command.picture.string()}, {"templates", set.templates.size()}}.dump()
               << "\n";

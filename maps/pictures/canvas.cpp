@@ -21,16 +21,22 @@ cv::Mat view_of(std::vector<std::uint8_t>& samples, int width_px, int height_px)
   return {height_px * kSamplesPerPixel, width_px * kSamplesPerPixel, CV_8UC3, samples.data()};
 }
 
+// What is drawn far outside, or nowhere at all, must not overflow whole numbers.
+double within_reach(double samples) {
+  constexpr double kReach = 1e7;
+  return std::max(-kReach, std::min(kReach, samples));  // in this order NaN becomes kReach
+}
+
 cv::Rect clipped(const cv::Mat& target, const PixelBox& box, double margin_px) {
-  const auto low = [&](double value) { return static_cast<int>(std::floor((value - margin_px) * kSamplesPerPixel)); };
-  const auto high = [&](double value) { return static_cast<int>(std::ceil((value + margin_px) * kSamplesPerPixel)); };
+  const auto low = [&](double value) { return static_cast<int>(std::floor(within_reach((value - margin_px) * kSamplesPerPixel))); };
+  const auto high = [&](double value) { return static_cast<int>(std::ceil(within_reach((value + margin_px) * kSamplesPerPixel))); };
   const cv::Rect wanted(cv::Point(low(box.min.x()), low(box.min.y())), cv::Point(high(box.max.x()), high(box.max.y())));
   return wanted & cv::Rect(0, 0, target.cols, target.rows);
 }
 
 cv::Point fixed_point(const Pixel& p, const cv::Rect& part) {
   // A sample's centre is a whole number to OpenCV.
-  const auto fixed = [](double sample) { return static_cast<int>(std::lround((sample - 0.5) * (1 << kShift))); };
+  const auto fixed = [](double sample) { return static_cast<int>(std::lround(within_reach(sample - 0.5) * (1 << kShift))); };
   return {fixed(p.x() * kSamplesPerPixel - part.x), fixed(p.y() * kSamplesPerPixel - part.y)};
 }
 

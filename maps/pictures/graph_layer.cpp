@@ -90,7 +90,7 @@ void GraphLayer::draw_routes(Canvas& canvas, const MapFrame& frame) const {
   for (const auto& [id, route] : graph_.routes()) {
     // There and back again is one line when both are straight.
     const Route* back = graph_.route_between(route.to, route.from);
-    if (route.trajectory.empty() && back != nullptr && back->trajectory.empty() && back->id < id) continue;
+    if (!route.closed && route.trajectory.empty() && back != nullptr && back->trajectory.empty() && back->id < id) continue;
     canvas.line(frame.pixels_of(course_of(route)), stroke_of(route));
   }
 }
@@ -127,6 +127,7 @@ void GraphLayer::draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer&
     const double radius = radius_px(landmark, frame);
     placer.avoid({centre - Pixel(radius, radius), centre + Pixel(radius, radius)}, 6.0);
   }
+  for (const auto& [id, route] : graph_.routes()) placer.avoid_line(frame.pixels_of(course_of(route)), 0.5);
   for (const auto& [id, landmark] : graph_.landmarks()) {
     const std::string words = words_about(landmark);
     const Colour colour = colour_of(landmark.category);

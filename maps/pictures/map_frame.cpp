@@ -11,9 +11,10 @@ namespace cairn::pictures {
 namespace {
 
 constexpr double kLongerSidePx = 930.0;
+constexpr int kLeastPageWidthPx = 560;
 constexpr double kTopPx = 62.0;
 constexpr double kLeftPx = 48.0;
-constexpr double kTickRoomPx = 30.0;
+constexpr double kTickRoomPx = 22.0;
 constexpr double kLeastTickDistancePx = 70.0;
 constexpr int kMaxImageSide = 2000;
 
@@ -53,8 +54,10 @@ void draw_ticks(Canvas& canvas, const MapFrame& frame, bool along_x) {
 
 }  // namespace
 
+bool is_drawable(const Point& p_map) { return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < 1e6; }
+
 void Extent::include(const Point& p, double margin_m) {
-  if (!p.allFinite()) return;
+  if (!is_drawable(p)) return;
   const Point margin(margin_m, margin_m);
   min_m = is_empty ? p - margin : Point(min_m.cwiseMin(p - margin));
   max_m = is_empty ? p + margin : Point(max_m.cwiseMax(p + margin));
@@ -64,7 +67,7 @@ void Extent::include(const Point& p, double margin_m) {
 std::vector<Pixel> MapFrame::pixels_of(std::span<const Point> points_map) const {
   std::vector<Pixel> pixels;
   for (const Point& p : points_map)
-    if (p.allFinite()) pixels.push_back(pixel_of(p));
+    if (is_drawable(p)) pixels.push_back(pixel_of(p));
   return pixels;
 }
 
@@ -86,7 +89,7 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
                  {kFrame, 1.0});
   draw_ticks(canvas, frame, true);
   draw_ticks(canvas, frame, false);
-  canvas.text({box.max.x(), box.max.y() + 26.0}, "x, y in metres", {kFaintInk, 10.0, Align::right});
+  canvas.text({box.max.x(), box.min.y() - 11.0}, "x, y in metres", {kFaintInk, 11.0, Align::right});
 }
 
 void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle) {
@@ -95,7 +98,7 @@ void draw_title(Canvas& canvas, const std::string& title, const std::string& sub
 }
 
 void draw_scale_bar(Canvas& canvas, const MapFrame& frame, const Pixel& right_end) {
-  const double length_m = round_at_least(60.0 / frame.px_per_m);
+  const double length_m = round_at_least(80.0 / frame.px_per_m);
   const Pixel left_end = right_end - Pixel(length_m * frame.px_per_m, 0.0);
   canvas.line(std::array{left_end, right_end}, {kInk, 2.0});
   for (const Pixel& end : {left_end, right_end})
@@ -105,7 +108,7 @@ void draw_scale_bar(Canvas& canvas, const MapFrame& frame, const Pixel& right_en
 }
 
 int page_width_px(const MapFrame& frame) {
-  return std::max(420, static_cast<int>(std::ceil(frame.box.max.x() + kPageMarginPx)));
+  return std::max(kLeastPageWidthPx, static_cast<int>(std::ceil(frame.box.max.x() + kPageMarginPx)));
 }
 
 double below_frame_px(const MapFrame& frame) { return frame.box.max.y() + kTickRoomPx; }
@@ -133,6 +136,14 @@ std::string short_text(double value, int decimals) {
   char buffer[64];
   std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value == 0.0 ? 0.0 : value);
   return buffer;
+}
+
+std::string trimmed_text(double value, int decimals) {
+  std::string text = short_text(value, decimals);
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
 }
 
 }  // namespace cairn::pictures

@@ -11,12 +11,15 @@
 
 namespace cairn::pictures {
 
+// Finite, and not beyond any place on earth: grids are looked up with whole numbers.
+[[nodiscard]] bool is_drawable(const Point& p_map);
+
 struct Extent {
   Point min_m{0.0, 0.0};
   Point max_m{0.0, 0.0};
   bool is_empty = true;
 
-  void include(const Point& p, double margin_m = 0.0);  // points that are not finite are passed over
+  void include(const Point& p, double margin_m = 0.0);  // what is not drawable is passed over
 };
 
 struct MapFrame {
@@ -27,7 +30,7 @@ struct MapFrame {
   [[nodiscard]] Pixel pixel_of(const Point& p_map) const {
     return {box.min.x() + (p_map.x() - min_m.x()) * px_per_m, box.max.y() - (p_map.y() - min_m.y()) * px_per_m};
   }
-  // Points that are not finite are left out.
+  // Points that are not drawable are left out.
   [[nodiscard]] std::vector<Pixel> pixels_of(std::span<const Point> points_map) const;
   [[nodiscard]] Point point_at(const Pixel& pixel) const {
     return {min_m.x() + (pixel.x() - box.min.x()) / px_per_m, min_m.y() + (box.max.y() - pixel.y()) / px_per_m};
@@ -53,7 +56,8 @@ inline constexpr double kScaleBarRoomPx = 230.0;
 [[nodiscard]] CellImage image_of(const OccupancyGrid& grid, const CellBox& box);
 [[nodiscard]] PixelBox pixel_box_of(const MapFrame& frame, const OccupancyGrid& grid, const CellBox& box);
 
-// A number as people write it: no needless zeros, at most the given decimals.
+// A number with this many decimals, and with at most this many.
 [[nodiscard]] std::string short_text(double value, int decimals);
+[[nodiscard]] std::string trimmed_text(double value, int decimals);
 
 }  // namespace cairn::pictures

@@ -67,7 +67,7 @@ CellBox cells_of(const OccupancyGrid& grid, const MapFrame& frame) {
 void draw_grid(Canvas& canvas, const MapFrame& frame, const OccupancyGrid* grid) {
   canvas.fill_box(frame.box, {grid == nullptr ? kWhite : colour_of_ol(kUnknownOl)});
   if (grid == nullptr) return;
-  const CellBox cells = cells_of(*grid, frame);
+  const CellBox cells = intersected(cells_of(*grid, frame), grid->bounds());
   if (!cells.empty()) canvas.image(pixel_box_of(frame, *grid, cells), image_of(*grid, cells));
 }
 
@@ -162,7 +162,7 @@ std::string subtitle_of(const MapPicture& picture) {
     const CellBox box = known_box(*picture.grid);
     const double cell_m = picture.grid->cell_m();
     add(short_text(box.width() * cell_m, 1) + " x " + short_text(box.height() * cell_m, 1) + " m");
-    add("cells of " + short_text(cell_m * 100.0, cell_m < 0.1 ? 1 : 0) + " cm");
+    add("cells of " + trimmed_text(cell_m * 100.0, 2) + " cm");
   }
   if (picture.graph != nullptr) {
     add(counted(picture.graph->landmarks().size(), "landmark"));

@@ -46,12 +46,17 @@ double length_of(const std::vector<Point>& route) {
 std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
                                 std::size_t keep) {
   if (route.size() <= keep + 1) return route;
-  std::vector<Point> corners(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
-  // From each corner to the furthest point it sees.
-  for (std::size_t at = keep - 1; at + 1 < route.size();) {
-    std::size_t next = route.size() - 1;
-    while (next > at + 1 && !space.fits_along(route[at], route[next], radius_m)) --next;
-    corners.push_back(route[next]);
+  // One sweep that stretches each straight piece as far as it goes, for routes of many points ...
+  std::vector<Point> swept(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
+  for (std::size_t i = keep + 1; i < route.size(); ++i)
+    if (!space.fits_along(swept.back(), route[i], radius_m)) swept.push_back(route[i - 1]);
+  swept.push_back(route.back());
+  // ... then from each corner to the furthest one it sees.
+  std::vector<Point> corners(swept.begin(), swept.begin() + static_cast<std::ptrdiff_t>(keep));
+  for (std::size_t at = keep - 1; at + 1 < swept.size();) {
+    std::size_t next = swept.size() - 1;
+    while (next > at + 1 && !space.fits_along(swept[at], swept[next], radius_m)) --next;
+    corners.push_back(swept[next]);
     at = next;
   }
   return corners;

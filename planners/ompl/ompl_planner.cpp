@@ -135,7 +135,7 @@ class Query {
   PlanResult checked(const StartPlace& start, const GoalPlace& goal, const Found& found) const {
     if (found.impossible) return refused(too_narrow(request_.to, world_.graph, rules_.radius_m));
     if (found.route.size() < (found.exact ? 1U : 2U)) {
-      return refused({PlanOutcome::out_of_budget, "no route was found in " + std::to_string(config_.iterations) +
+      return refused({PlanOutcome::out_of_budget, "no route was found in " + std::to_string(std::min(config_.iterations, budget_.iterations)) +
                                                       " iterations; if there is one, it is hardly wider than the "
                                                       "robot"});
     }

@@ -10,8 +10,8 @@
 namespace cairn {
 
 struct OmplConfig {
-  Algorithm algorithm = Algorithm::rrt_connect;
-  std::int64_t iterations = 5000;
+  Algorithm algorithm = Algorithm::bit_star;
+  std::int64_t iterations = 3000;
   UnknownPolicy unknown = UnknownPolicy::avoid;
   double margin_m = 0.0;
   double start_tolerance_m = 0.15;

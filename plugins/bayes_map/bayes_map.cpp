@@ -67,7 +67,8 @@ void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map
     for (int x = span.x_begin; x < span.x_end; ++x) {
       const Cell cell{x, span.y};
       const BeamPlace place = frame.place_of(cell);
-      if (!place.is_inside || !grid_.add_log_odds(cell, increment_of(place))) continue;
+      const int increment = place.is_inside ? increment_of(place) : 0;
+      if (increment == 0 || !grid_.add_log_odds(cell, increment)) continue;  // 0 must not grow the grid
       moved.x_begin = std::min(moved.x_begin, x);
       moved.x_end = x + 1;
     }

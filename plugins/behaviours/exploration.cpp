@@ -7,7 +7,8 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kTrace_m = 0.1;  // spacing of remembered positions
+constexpr double kTrace_m = 0.1;  // spacing of remembered poses
+constexpr double kTraceTurn_rad = radians(30.0);
 constexpr double kChoiceEvery_s = 2.0;
 constexpr double kChoiceAtLeastApart_s = 0.5;
 constexpr double kLookAround_radps = radians(45.0);
@@ -32,14 +33,15 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
       mode_(limits_.min_turning_radius_m > 0.0 ? Mode::travel : Mode::look_around),
       begun_s_(world.time_s),
       mode_since_s_(world.time_s),
-      last_pose_(world.pose.T_map_robot) {
+      last_pose_(world.pose.T_map_robot),
+      near_echoes_(world.grid) {
   settings_.lap = {config.lap_distance_m, config.look_closer_m, config.largest_object_m};
   settings_.smallest_frontier_m = config.smallest_frontier_m;
-  memory_.trace.push_back(last_pose_.position());
+  memory_.trace.push_back(last_pose_);
 }
 
 Status Exploration::tick(const WorldView& world, Orders& orders) {
-  remember(world.pose.T_map_robot);
+  remember(world);
   if (world.time_s - begun_s_ >= config_.at_most_s) return {Progress::success, "time is up: " + summary(world)};
   switch (mode_) {
     case Mode::look_around:
@@ -54,12 +56,17 @@ Status Exploration::tick(const WorldView& world, Orders& orders) {
   return travel(world, orders);
 }
 
-void Exploration::remember(const Pose2& T_map_robot) {
-  turned_rad_ += std::abs(wrap_angle(T_map_robot.theta_rad - last_pose_.theta_rad));
-  driven_m_ += (T_map_robot.position() - last_pose_.position()).norm();
-  last_pose_ = T_map_robot;
-  if ((T_map_robot.position() - memory_.trace.back()).norm() >= kTrace_m)
-    memory_.trace.push_back(T_map_robot.position());
+void Exploration::remember(const WorldView& world) {
+  const Pose2& pose = world.pose.T_map_robot;
+  turned_rad_ += std::abs(wrap_angle(pose.theta_rad - last_pose_.theta_rad));
+  driven_m_ += (pose.position() - last_pose_.position()).norm();
+  last_pose_ = pose;
+  if (world.observation != nullptr) near_echoes_.see(*world.observation, pose);
+  near_echoes_.stand_at(pose.position(), world.robot.radius_m);
+  const Pose2& last = memory_.trace.back();
+  if ((pose.position() - last.position()).norm() >= kTrace_m ||
+      std::abs(wrap_angle(pose.theta_rad - last.theta_rad)) >= kTraceTurn_rad)
+    memory_.trace.push_back(pose);
 }
 
 void Exploration::set_mode(Mode mode, double time_s) {
@@ -75,8 +82,9 @@ void Exploration::drive(const Twist& wanted, Orders& orders) {
 }
 
 FreeSpace Exploration::space_now(const WorldView& world) const {
-  return FreeSpace(world.grid, {world.pose.T_map_robot.position(), world.robot.radius_m, config_.clearance_m},
-                   memory_.trace, memory_.troubles);
+  return FreeSpace(near_echoes_.added_to(world.grid),
+                   {world.pose.T_map_robot.position(), world.robot.radius_m, config_.clearance_m}, memory_.trace,
+                   memory_.troubles);
 }
 
 // One turn on the spot, before the first choice: it costs no distance and opens the map all round.
@@ -119,17 +127,24 @@ bool Exploration::choose(const WorldView& world, Orders& orders) {
   return true;
 }
 
+bool Exploration::is_blocked(const WorldView& world) const {
+  if (!task_) return false;
+  const double margin_m = world.robot.radius_m + 0.5 * config_.clearance_m;
+  const auto blocks = [&](const std::vector<Point>& path, double along_m, double ahead_m) {
+    return path_is_blocked(world.grid, path, along_m, ahead_m, margin_m) ||
+           path_is_blocked(near_echoes_.votes(), path, along_m, ahead_m, margin_m);
+  };
+  // A robot that already stands too near to something is on its way out and must not stop there.
+  return blocks(task_->path, follow_state_.along_m, kBlockedAhead_m) &&
+         !blocks({world.pose.T_map_robot.position()}, 0.0, 0.0);
+}
+
 Status Exploration::travel(const WorldView& world, Orders& orders) {
   if (watch_.is_stuck(world, wanted_)) return get_unstuck(world, orders);
-  const Point position = world.pose.T_map_robot.position();
-  const double margin_m = world.robot.radius_m + 0.5 * config_.clearance_m;
-  // A robot that already stands too near to something is on its way out and must not stop there.
-  const bool is_blocked = task_ &&
-                          path_is_blocked(world.grid, task_->path, follow_state_.along_m, kBlockedAhead_m, margin_m) &&
-                          !path_is_blocked(world.grid, {position}, 0.0, 0.0, margin_m);
-  if (needs_choice(world) || (is_blocked && world.time_s - chosen_s_ >= kChoiceAtLeastApart_s)) {
+  const bool blocked = is_blocked(world);
+  if (needs_choice(world) || (blocked && world.time_s - chosen_s_ >= kChoiceAtLeastApart_s)) {
     if (!choose(world, orders)) return finished(world);
-  } else if (is_blocked) {
+  } else if (blocked) {
     drive({}, orders);
     return {Progress::running, "something has turned up on the path"};
   }

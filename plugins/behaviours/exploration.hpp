@@ -8,6 +8,7 @@
 #include "plugins/behaviours/explore.hpp"
 #include "plugins/behaviours/explore_tasks.hpp"
 #include "plugins/behaviours/held_back.hpp"
+#include "plugins/behaviours/near_echoes.hpp"
 #include "plugins/behaviours/path_follower.hpp"
 
 namespace cairn::behaviours {
@@ -26,10 +27,11 @@ class Exploration {
   Status face(const WorldView& world, Orders& orders);
   Status back_off(const WorldView& world, Orders& orders);
 
-  void remember(const Pose2& T_map_robot);
+  void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   void drive(const Twist& wanted, Orders& orders);
   [[nodiscard]] FreeSpace space_now(const WorldView& world) const;
+  [[nodiscard]] bool is_blocked(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
   [[nodiscard]] bool choose(const WorldView& world, Orders& orders);
   void arrive(const WorldView& world);
@@ -57,6 +59,7 @@ class Exploration {
   Twist wanted_;  // of the last tick
   HeldBackWatch watch_;
   std::vector<Point> failed_lookouts_;
+  NearEchoes near_echoes_;
   ExploreMemory memory_;
 };
 

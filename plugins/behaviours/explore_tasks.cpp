@@ -16,8 +16,8 @@ constexpr double kMostFrontierBonus_m = 0.8;
 constexpr double kStayBonus_m = 0.4;
 constexpr double kSame_m = 0.5;  // lookouts this near are the same task
 constexpr double kLeastEdge_m = 0.2;
-// Edges are looked at from a little nearer than needed, so that arriving is seeing.
-constexpr double kEdgeViewRatio = 0.85;
+// Things are looked at from a little nearer than needed, so that arriving is seeing.
+constexpr double kViewRatio = 0.85;
 
 struct Choice {
   double score_m = std::numeric_limits<double>::infinity();
@@ -28,6 +28,12 @@ Point middle_of(const FreeSpace& space, const CellGroup& cells) {
   Point sum{0.0, 0.0};
   for (const Cell c : cells) sum += space.centre_of(c);
   return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
+}
+
+std::vector<CellGroup> groups_of(const std::vector<Cell>& cells, double least_cells) {
+  std::vector<CellGroup> groups = grouped(cells, 1);
+  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) < least_cells; });
+  return groups;
 }
 
 void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* previous) {
@@ -65,19 +71,20 @@ void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, 
 std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot, bool frontiers_wanted,
                                      const ExploreTask* previous, const TaskSettings& settings, ExploreMemory& memory) {
   Choice best;
-  if (settings.lap.look_closer_m > 0.0) {
+  const double look_closer_m = settings.lap.look_closer_m;
+  if (look_closer_m > 0.0) {
     offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
-    std::vector<CellGroup> groups =
-        grouped(unseen_edges(space, memory.trace, settings.lap.look_closer_m, memory.seen_edges), 1);
-    std::erase_if(groups,
-                  [&](const CellGroup& g) { return static_cast<double>(g.size()) * space.cell_m() < kLeastEdge_m; });
-    offer_groups(best, TaskKind::edge, std::move(groups), kEdgeViewRatio * settings.lap.look_closer_m, 0.0, space,
-                 previous);
+    offer_groups(best, TaskKind::edge,
+                 groups_of(unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges),
+                           kLeastEdge_m / space.cell_m()),
+                 kViewRatio * look_closer_m, 0.0, space, previous);
   }
   if (frontiers_wanted) {
-    const int least_cells = static_cast<int>(settings.smallest_frontier_m / space.cell_m());
-    offer_groups(best, TaskKind::frontier, frontiers(space, memory.given_up_frontiers, least_cells),
-                 settings.frontier_view_m, kFrontierBonus_m_per_m, space, previous);
+    const Sight& sight = settings.frontier_sight;
+    offer_groups(best, TaskKind::frontier,
+                 groups_of(unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers),
+                           settings.smallest_frontier_m / space.cell_m()),
+                 kViewRatio * sight.within_m, kFrontierBonus_m_per_m, space, previous);
   }
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
   if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
@@ -90,8 +97,8 @@ void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings
     return;
   }
   const bool is_frontier_task = task.kind == TaskKind::frontier;
-  const double reach_m = 1.3 * (is_frontier_task ? settings.frontier_view_m : settings.lap.look_closer_m);
-  CellSet& set = is_frontier_task ? memory.given_up_frontiers : memory.seen_edges;
+  const double reach_m = 1.3 * (is_frontier_task ? settings.frontier_sight.within_m : settings.lap.look_closer_m);
+  CellSet& set = is_frontier_task ? memory.seen_frontiers : memory.seen_edges;
   for (const Cell cell : task.targets) {
     if ((space.centre_of(cell) - task.lookout).norm() > reach_m) continue;
     // Outlines shift by a cell as evidence grows; what has shifted is still given up.

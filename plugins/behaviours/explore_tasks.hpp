@@ -18,9 +18,9 @@ struct TaskSettings {
 
 // What exploring remembers between two choices.
 struct ExploreMemory {
-  std::vector<Point> trace;  // where the robot has been, a point each 10 cm
-  CellSet seen_edges;        // or given up
-  CellSet given_up_frontiers;
+  std::vector<Pose2> trace;              // where the robot has been, a pose each 10 cm
+  CellSet seen_edges;                    // or given up
+  CellSet seen_frontiers;                // or given up
   std::vector<Point> given_up_lookouts;  // of laps
   std::vector<TroubleSpot> troubles;
 };

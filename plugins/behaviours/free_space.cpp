@@ -22,7 +22,7 @@ constexpr int kStraightFirst[8] = {1, 3, 4, 6, 0, 2, 5, 7};  // of kNeighbours
 }  // namespace
 
 CellLayer<CellState> FreeSpace::known_states(const OccupancyGrid& grid, const DistanceField& field, double radius_m,
-                                             const std::vector<Point>& trace) {
+                                             const std::vector<Pose2>& trace) {
   const CellBox box = field.box();
   CellLayer<CellState> states(box, CellState::unknown, CellState::unknown);
   std::vector<LogOdds> row(static_cast<std::size_t>(std::max(0, box.width())));
@@ -32,8 +32,8 @@ CellLayer<CellState> FreeSpace::known_states(const OccupancyGrid& grid, const Di
       states[{x, y}] = OccupancyThresholds{}.state(row[static_cast<std::size_t>(x - box.min.x)]);
   }
   const int reach = static_cast<int>(radius_m / field.cell_m());
-  for (const Point& p : trace) {
-    const Cell centre = field.cell_at(p);
+  for (const Pose2& pose : trace) {
+    const Cell centre = field.cell_at(pose.position());
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
         const Cell c = centre + Cell{dx, dy};
@@ -93,7 +93,7 @@ TravelField FreeSpace::travel_from_way_out() const {
   return TravelField(field_, way_out_.back(), least_m_, [this](Cell c) { return weights_.at(c); });
 }
 
-FreeSpace::FreeSpace(const OccupancyGrid& grid, const RobotSpace& robot, const std::vector<Point>& trace,
+FreeSpace::FreeSpace(const OccupancyGrid& grid, const RobotSpace& robot, const std::vector<Pose2>& trace,
                      const std::vector<TroubleSpot>& troubles)
     : robot_(robot),
       least_m_(robot.radius_m + robot.clearance_m),

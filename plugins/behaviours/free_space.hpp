@@ -30,7 +30,7 @@ struct RobotSpace {
 class FreeSpace {
  public:
   // trace: where the robot has been so far.
-  FreeSpace(const OccupancyGrid& grid, const RobotSpace& robot, const std::vector<Point>& trace,
+  FreeSpace(const OccupancyGrid& grid, const RobotSpace& robot, const std::vector<Pose2>& trace,
             const std::vector<TroubleSpot>& troubles = {});
 
   [[nodiscard]] CellBox box() const { return states_.box(); }
@@ -57,7 +57,7 @@ class FreeSpace {
 
  private:
   [[nodiscard]] static CellLayer<CellState> known_states(const OccupancyGrid& grid, const DistanceField& field,
-                                                         double radius_m, const std::vector<Point>& trace);
+                                                         double radius_m, const std::vector<Pose2>& trace);
   [[nodiscard]] CellLayer<float> weights(const std::vector<TroubleSpot>& troubles) const;
   [[nodiscard]] std::vector<Point> find_way_out() const;
   [[nodiscard]] TravelField travel_from_way_out() const;

@@ -36,14 +36,11 @@ bool is_edge(const FreeSpace& space, Cell cell) {
   return space.state(cell) == CellState::occupied && has_beside(space, cell, CellState::free);
 }
 
-std::vector<CellGroup> frontiers(const FreeSpace& space, const CellSet& given_up, int least_cells) {
-  std::vector<CellGroup> groups =
-      grouped(cells_where(space.box(), [&](Cell c) { return is_frontier(space, c) && !given_up.contains(c); }), 1);
-  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<int>(g.size()) < least_cells; });
-  return groups;
+std::vector<Cell> frontier_cells(const FreeSpace& space) {
+  return cells_where(space.box(), [&](Cell c) { return is_frontier(space, c); });
 }
 
-std::vector<Cell> edges(const FreeSpace& space) {
+std::vector<Cell> edge_cells(const FreeSpace& space) {
   return cells_where(space.box(), [&](Cell c) { return is_edge(space, c); });
 }
 

@@ -13,11 +13,9 @@ namespace cairn::behaviours {
 // The same for an occupied cell with a free one beside it.
 [[nodiscard]] bool is_edge(const FreeSpace& space, Cell cell);
 
-// All frontier cells that are not given up, in groups of at least least_cells.
-[[nodiscard]] std::vector<CellGroup> frontiers(const FreeSpace& space, const CellSet& given_up, int least_cells);
-
-// All edge cells, row by row.
-[[nodiscard]] std::vector<Cell> edges(const FreeSpace& space);
+// All of them, row by row.
+[[nodiscard]] std::vector<Cell> frontier_cells(const FreeSpace& space);
+[[nodiscard]] std::vector<Cell> edge_cells(const FreeSpace& space);
 
 // Where to stand to look at a group of cells: the cheapest cell in reach from which the way to the
 // group, over free cells, is at most within_m. One answer a group; none where there is no such cell.

@@ -138,8 +138,8 @@ Status GoTo::begin_path(const WorldView& world, const PlanResult& result) {
     for (const Pose2& pose : result.path) path_.push_back(pose.position());
   } else if (result.outcome == PlanOutcome::start_blocked && ways_out_ < kMostWaysOut) {
     // Too near to something to plan: a little further from it first.
-    const Point position = world.pose.T_map_robot.position();
-    path_ = FreeSpace(world.grid, {position, world.robot.radius_m, kWayOutClearance_m}, {position}).way_out();
+    const Pose2& pose = world.pose.T_map_robot;
+    path_ = FreeSpace(world.grid, {pose.position(), world.robot.radius_m, kWayOutClearance_m}, {pose}).way_out();
     on_way_out_ = true;
     ++ways_out_;
   }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "plugins/behaviours/frontiers.hpp"
+#include "plugins/behaviours/path_follower.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -84,9 +84,10 @@ Sector look_along(const FreeSpace& space, const CellGroup& object, const Lap& la
   return result;
 }
 
-void mark_covered(const FreeSpace& space, const CellGroup& object, const std::vector<Point>& trace,
+void mark_covered(const FreeSpace& space, const CellGroup& object, const std::vector<Pose2>& trace,
                   double look_closer_m, Lap& lap) {
-  for (const Point& p : trace) {
+  for (const Pose2& pose : trace) {
+    const Point p = pose.position();
     const Point from_centre = p - lap.centre;
     if (from_centre.norm() > lap.radius_m + look_closer_m) continue;
     Sector& sector = lap.sectors[static_cast<std::size_t>(sector_of(from_centre))];
@@ -98,22 +99,23 @@ void mark_covered(const FreeSpace& space, const CellGroup& object, const std::ve
 
 }  // namespace
 
-std::vector<Cell> unseen_edges(const FreeSpace& space, const std::vector<Point>& trace, double within_m,
-                               CellSet& seen) {
-  std::vector<Cell> unseen;
-  for (const Cell cell : edges(space)) {
+std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells, const std::vector<Pose2>& trace,
+                         const Sight& sight, CellSet& seen) {
+  std::vector<Cell> left;
+  for (const Cell cell : cells) {
     if (seen.contains(cell)) continue;
     const Point p = space.centre_of(cell);
-    const bool now_seen = std::any_of(trace.rbegin(), trace.rend(), [&](const Point& from) {
-      return (p - from).squaredNorm() <= within_m * within_m && space.sees(from, cell);
+    const bool now_seen = std::any_of(trace.rbegin(), trace.rend(), [&](const Pose2& from) {
+      return (p - from.position()).squaredNorm() <= sight.within_m * sight.within_m &&
+             std::abs(heading_error(from, p)) <= sight.to_the_side_rad && space.sees(from.position(), cell);
     });
     if (now_seen) {
       seen.insert(cell);
     } else {
-      unseen.push_back(cell);
+      left.push_back(cell);
     }
   }
-  return unseen;
+  return left;
 }
 
 int Lap::count(SectorState state) const {
@@ -143,7 +145,7 @@ std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_ob
   return groups;
 }
 
-Lap lap_round(const FreeSpace& space, const CellGroup& object, const std::vector<Point>& trace,
+Lap lap_round(const FreeSpace& space, const CellGroup& object, const std::vector<Pose2>& trace,
               const std::vector<Point>& avoid, const LapSettings& settings) {
   Lap lap;
   CellBox extent;

@@ -4,16 +4,23 @@
 // not enough), so an object that stands free is circled; walls are only passed.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "plugins/behaviours/free_space.hpp"
 
 namespace cairn::behaviours {
 
-// The edge cells that no point of the trace has seen from within within_m. What has been seen is
-// remembered in `seen`, which also may hold cells that were given up.
-[[nodiscard]] std::vector<Cell> unseen_edges(const FreeSpace& space, const std::vector<Point>& trace, double within_m,
-                                             CellSet& seen);
+// How near, and how far off the robot's heading, a cell must be for the robot to have seen it well.
+struct Sight {
+  double within_m = 0.9;
+  double to_the_side_rad = std::numbers::pi;
+};
+
+// The cells that have not been seen from any pose of the trace. What has been seen is remembered in
+// `seen`, which may also hold cells that were given up.
+[[nodiscard]] std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells,
+                                       const std::vector<Pose2>& trace, const Sight& sight, CellSet& seen);
 
 struct LapSettings {
   double distance_m = 0.55;       // from the object's edge to the robot's centre
@@ -49,7 +56,7 @@ struct Lap {
 [[nodiscard]] std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_object_m);
 
 // avoid: lookouts within 0.25 m of these are no lookouts.
-[[nodiscard]] Lap lap_round(const FreeSpace& space, const CellGroup& object, const std::vector<Point>& trace,
+[[nodiscard]] Lap lap_round(const FreeSpace& space, const CellGroup& object, const std::vector<Pose2>& trace,
                             const std::vector<Point>& avoid, const LapSettings& settings);
 
 // The lap's cheapest open sector, and the way on through the open sectors next to it, in the direction

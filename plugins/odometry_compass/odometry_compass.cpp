@@ -1,5 +1,6 @@
 #include "plugins/odometry_compass/odometry_compass.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 

@@ -58,7 +58,7 @@ TEST(ModuleLibrary, SaysThatATextFileCannotBeOpened) {
   fs::create_directories(folder);
   std::ofstream(folder / "text.so") << "hello\n";
   const ModuleLibrary library({folder});
-  EXPECT_THAT(library.faults(), ElementsAre(HasSubstr("text.so: cannot be opened as a module")));
+  EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("text.so: cannot be opened as a module"), HasSubstr("ELF"))));
 }
 
 TEST(ModuleLibrary, AMissingFolderIsAFault) {

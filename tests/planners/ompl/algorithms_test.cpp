@@ -25,7 +25,7 @@ std::vector<std::string> names() {
 TEST_P(EveryAlgorithm, FindsItsOwnWayRoundTheWalls) {
   const auto world = test::drawn_world(test::kOffice);
   const PlanRequest request = world.request('A', 'B', 0.15);
-  const PlanResult result = planner("fall_back_to_grid: false").plan(request, world.view(), {});
+  const PlanResult result = planner("fall_back_to_grid: false\niterations: 5000").plan(request, world.view(), {});
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_TRUE(test::keeps_clear(world.grid, result.path, request.radius_m)) << test::drawing_of(world.grid, result.path);
   EXPECT_EQ(result.path.front().position(), world.places.at('A'));
@@ -39,9 +39,9 @@ TEST_P(EveryAlgorithm, GivesTheSameRouteAgain) {
   const auto world = test::drawn_world(test::kOffice);
   PlanRequest request = world.request('A', 'D', 0.12);
   request.seed = 5;
-  const PlanResult first = planner().plan(request, world.view(), {});
+  const PlanResult first = planner("iterations: 600").plan(request, world.view(), {});
   (void)planner("iterations: 77").plan(world.request('C', 'B', 0.1), world.view(), {});
-  const PlanResult again = planner().plan(request, world.view(), {});
+  const PlanResult again = planner("iterations: 600").plan(request, world.view(), {});
   EXPECT_EQ(first.outcome, again.outcome);
   EXPECT_EQ(first.path, again.path);
 }

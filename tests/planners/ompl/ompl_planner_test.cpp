@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "planners/disc_space/disc_space.hpp"
+#include "planners/disc_space/routes.hpp"
 #include "tests/planners/ompl/ompl_worlds.hpp"
 
 namespace cairn {
@@ -101,12 +101,12 @@ TEST(OmplPlanner, APointPassesAnyGapOfOneCell) {
 TEST(OmplPlanner, ABlockedGoalIsNamedWithTheNearestFreePlace) {
   const auto world = drawn_world(test::kOffice);
   PlanRequest request = world.request('A', 'B', 0.14);
-  request.to.pose = Pose2{2.25, 0.85, 0.0};
+  request.to.pose = Pose2{2.25, 1.05, 0.0};
   const PlanResult result = plan(world, request);
   EXPECT_EQ(result.outcome, PlanOutcome::goal_blocked);
   EXPECT_EQ(result.reason,
-            "the goal (2.25, 0.85) is blocked: an occupied cell is 0.05 m from its centre, and the robot needs "
-            "0.14 m; the nearest free place is (2.15, 0.85), 0.10 m away");
+            "the goal (2.25, 1.05) is blocked: an occupied cell is 0.05 m from its centre, and the robot needs "
+            "0.14 m; the nearest free place is (2.15, 1.05), 0.10 m away");
   request.to.pose = Pose2{9.0, 9.0, 0.0};
   EXPECT_EQ(plan(world, request).outcome, PlanOutcome::goal_blocked);
   EXPECT_THAT(plan(world, request).reason, HasSubstr("outside the map"));
@@ -269,6 +269,7 @@ TEST(OmplPlanner, OfSeveralLandmarksTakesTheNearestByTravelThatCanBeReached) {
 TEST(OmplPlanner, RoutesAreNotMuchLongerThanTheShortest) {
   std::mt19937_64 random(1);
   int solved = 0;
+  double sum_ratio = 0.0;
   for (int trial = 0; trial < 15; ++trial) {
     auto world = drawn_world(std::string(40, '.') + "\n");
     for (int y = 0; y < 40; ++y)
@@ -283,14 +284,17 @@ TEST(OmplPlanner, RoutesAreNotMuchLongerThanTheShortest) {
     request.to.pose = Pose2{3.75, 3.75, 0.0};
     request.radius_m = 0.12;
     const DiscSpace space(world.grid, {});
-    const TravelField best(space.field(), {0.25, 0.25}, 0.12 + 1.5 * 0.1);
+        const std::vector<Point> over_cells = route_over_cells(space, {0.25, 0.25}, {3.75, 3.75}, 0.12);
     const PlanResult result = plan(world, request);
-    const float over_cells_m = best.cost_m({37, 37});
-    if (over_cells_m > 1e6F) continue;
+    const double over_cells_m = length_of(over_cells);
+    if (over_cells.empty()) continue;
     ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
-    EXPECT_LT(result.length_m, 1.15 * over_cells_m) << test::drawing_of(world.grid, result.path);
+    // A gap hardly wider than the robot may stay unseen, and the way round it is longer.
+    EXPECT_LT(result.length_m, 1.25 * over_cells_m) << test::drawing_of(world.grid, result.path);
+    sum_ratio += result.length_m / over_cells_m;
     ++solved;
   }
+  EXPECT_LT(sum_ratio / solved, 1.03);
   EXPECT_GT(solved, 5);
 }
 

@@ -14,7 +14,7 @@ RobotSpace robot_at(const Point& p) {
 }
 
 FreeSpace space_of(const AsciiGrid& map, char start, const std::vector<TroubleSpot>& troubles = {}) {
-  return FreeSpace(map.grid, robot_at(map.at(start)), {map.at(start)}, troubles);
+  return FreeSpace(map.grid, robot_at(map.at(start)), {{map.at(start).x(), map.at(start).y(), 0.0}}, troubles);
 }
 
 const std::string kRooms = R"(
@@ -87,7 +87,7 @@ TEST(FreeSpace, WhereTheRobotHasStoodIsFree) {
 ..........
 )");
   const Point under = map.grid.centre_of({5, 3});
-  const FreeSpace space(map.grid, robot_at(under), {under});
+  const FreeSpace space(map.grid, robot_at(under), {{under.x(), under.y(), 0.0}});
   EXPECT_EQ(space.state({5, 3}), CellState::free);
   EXPECT_TRUE(space.reaches({0, 0}));
 }

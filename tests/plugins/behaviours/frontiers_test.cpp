@@ -12,7 +12,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 FreeSpace space_of(const AsciiGrid& map) {
-  return FreeSpace(map.grid, {map.at('R'), 0.2, 0.1}, {map.at('R')});
+  return FreeSpace(map.grid, {map.at('R'), 0.2, 0.1}, {{map.at('R').x(), map.at('R').y(), 0.0}});
 }
 
 TEST(Frontiers, AreTheFreeCellsBesideUnknownOnesInGroups) {
@@ -24,25 +24,10 @@ TEST(Frontiers, AreTheFreeCellsBesideUnknownOnesInGroups) {
 #........
 ####  ####
 )");
-  const std::vector<CellGroup> groups = frontiers(space_of(map), {}, 1);
+  const std::vector<CellGroup> groups = grouped(frontier_cells(space_of(map)), 1);
   ASSERT_THAT(groups, SizeIs(2));
   EXPECT_THAT(groups[0], ElementsAre(Cell{4, 1}, Cell{5, 1}));
   EXPECT_THAT(groups[1], ElementsAre(Cell{8, 1}, Cell{8, 2}, Cell{8, 3}, Cell{8, 4}));
-}
-
-TEST(Frontiers, LeaveOutSmallGroupsAndGivenUpCells) {
-  const AsciiGrid map(R"(
-##########
-#........
-#..R.....
-#........
-#........
-####  ####
-)");
-  EXPECT_THAT(frontiers(space_of(map), {}, 3), SizeIs(1));
-  CellSet given_up;
-  for (int y = 1; y < 5; ++y) given_up.insert({8, y});
-  EXPECT_THAT(frontiers(space_of(map), given_up, 3), IsEmpty());
 }
 
 TEST(Edges, AreTheOccupiedCellsBesideFreeOnes) {
@@ -54,7 +39,7 @@ TEST(Edges, AreTheOccupiedCellsBesideFreeOnes) {
 .....
 )");
   const FreeSpace space = space_of(map);
-  EXPECT_THAT(edges(space), SizeIs(8));
+  EXPECT_THAT(edge_cells(space), SizeIs(8));
   EXPECT_FALSE(is_edge(space, {2, 2}));
 }
 

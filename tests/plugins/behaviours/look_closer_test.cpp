@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "plugins/behaviours/frontiers.hpp"
 #include "tests/plugins/behaviours/ascii_grid.hpp"
 
 namespace cairn::behaviours {
@@ -27,14 +28,14 @@ AsciiGrid open_room() {
 }
 
 FreeSpace space_of(const AsciiGrid& map) {
-  return FreeSpace(map.grid, {map.at('R'), 0.2, 0.1}, {map.at('R')});
+  return FreeSpace(map.grid, {map.at('R'), 0.2, 0.1}, {{map.at('R').x(), map.at('R').y(), 0.0}});
 }
 
-std::vector<Point> ring(const Point& centre, double radius_m, double from_deg, double to_deg) {
-  std::vector<Point> points;
+std::vector<Pose2> ring(const Point& centre, double radius_m, double from_deg, double to_deg) {
+  std::vector<Pose2> poses;
   for (double a = from_deg; a <= to_deg; a += 3.0)
-    points.push_back(centre + radius_m * Point{std::cos(radians(a)), std::sin(radians(a))});
-  return points;
+    poses.push_back(Pose2{centre.x(), centre.y(), radians(a)} * Pose2{radius_m, 0.0, radians(90.0)});
+  return poses;
 }
 
 const Point kCentre{2.55, 1.75};
@@ -124,7 +125,7 @@ TEST(LapRoute, GoesAllTheWayRoundFromTheNearestSector) {
 
 TEST(LapRoute, GoesOnInTheDirectionThatIsLeft) {
   const AsciiGrid map = open_room();
-  const FreeSpace space(map.grid, {kCentre + Point{-0.8, 0.0}, 0.2, 0.1}, {map.at('R')});
+  const FreeSpace space(map.grid, {kCentre + Point{-0.8, 0.0}, 0.2, 0.1}, {{0.55, 1.75, 0.0}});
   // Half a lap is done, clockwise from the right over the top: on through the bottom.
   const Lap lap = lap_round(space, compact_objects(space, 1.5).at(0), ring(kCentre, 0.8, 0, 180), {}, {});
   const LapRoute route = lap_route(space, lap, {1.75, 1.75, radians(90.0)});
@@ -138,15 +139,23 @@ TEST(LapRoute, IsEmptyWhenNothingIsOpen) {
   EXPECT_TRUE(lap_route(space, lap, {}).path.empty());
 }
 
-TEST(UnseenEdges, AreThoseThatNoPointOfTheTraceHasSeenFromNear) {
+TEST(Unseen, IsWhatNoPoseOfTheTraceHasSeenFromNear) {
   const FreeSpace space = space_of(open_room());
+  const std::vector<Cell> all = edge_cells(space);
   CellSet seen;
-  const std::vector<Cell> all = unseen_edges(space, {}, 0.9, seen);
-  EXPECT_THAT(unseen_edges(space, {{2.55, 0.8}}, 0.9, seen), testing::Each(testing::Truly([&](Cell c) {
+  EXPECT_THAT(unseen(space, all, {}, {0.9}, seen), SizeIs(all.size()));
+  EXPECT_THAT(unseen(space, all, {{2.55, 0.8, 0.0}}, {0.9}, seen), testing::Each(testing::Truly([&](Cell c) {
                 return (space.centre_of(c) - Point{2.55, 0.8}).norm() > 0.9 || c.y > 17;
               })));
   // It stays seen.
-  EXPECT_LT(unseen_edges(space, {}, 0.9, seen).size(), all.size());
+  EXPECT_LT(unseen(space, all, {}, {0.9}, seen).size(), all.size());
+}
+
+TEST(Unseen, LeavesWhatIsBehindTheRobotWhenItLooksAheadOnly) {
+  const FreeSpace space = space_of(open_room());
+  CellSet seen;
+  const std::vector<Cell> cells{{20, 8}, {14, 8}};
+  EXPECT_THAT(unseen(space, cells, {{1.75, 0.85, 0.0}}, {0.9, radians(60.0)}, seen), testing::ElementsAre(Cell{14, 8}));
 }
 
 }  // namespace

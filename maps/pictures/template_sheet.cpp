@@ -1,0 +1,122 @@
+#include "maps/pictures/template_sheet.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "maps/pictures/colours.hpp"
+#include "maps/pictures/map_frame.hpp"
+
+namespace cairn {
+namespace {
+
+using namespace pictures;
+
+constexpr int kColumns = 8;
+constexpr double kTilePx = 108.0;
+constexpr double kGapPx = 10.0;
+constexpr double kCaptionPx = 24.0;
+constexpr double kTopPx = 66.0;
+constexpr double kLeftPx = 48.0;
+constexpr double kLegendPx = 84.0;
+constexpr Colour kTileGround{24, 28, 34};
+
+double magnitude_of(const TemplateCell& cell) { return std::hypot(cell.gradient_x, cell.gradient_y); }
+
+Colour colour_of(double direction_rad, double steepness) {
+  const double turn = direction_rad / (2.0 * std::numbers::pi);
+  const Colour hue = colour_of_hue(turn - std::floor(turn), 1.0);
+  // Even weak gradients stand out from the ground.
+  const double share = 0.15 + 0.85 * steepness;
+  const auto mix = [share](int ground, int full) { return static_cast<std::uint8_t>(ground + (full - ground) * share); };
+  return {mix(kTileGround.red, hue.red), mix(kTileGround.green, hue.green), mix(kTileGround.blue, hue.blue)};
+}
+
+struct Scale {
+  int reach_cells = 1;     // the farthest edge cell from the centre, in x or y
+  double steepest = 1.0;   // the greatest gradient magnitude
+};
+
+Scale scale_of(const TemplateSet& set) {
+  Scale scale;
+  for (const LandmarkTemplate& one : set.templates)
+    for (const TemplateCell& cell : one.cells) {
+      scale.reach_cells = std::max({scale.reach_cells, std::abs(cell.offset.x), std::abs(cell.offset.y)});
+      scale.steepest = std::max(scale.steepest, magnitude_of(cell));
+    }
+  return scale;
+}
+
+void draw_tile(Canvas& canvas, const Pixel& upper_left, const LandmarkTemplate& one, const Scale& scale) {
+  canvas.fill_box({upper_left, upper_left + Pixel(kTilePx, kTilePx)}, {kTileGround}, 5.0);
+  const double cell_px = std::max(0.5, std::floor(2.0 * kTilePx / (2.0 * scale.reach_cells + 3.0)) / 2.0);
+  const Pixel centre = upper_left + Pixel(kTilePx / 2.0, kTilePx / 2.0);
+  const Pixel half(cell_px / 2.0, cell_px / 2.0);
+  for (const TemplateCell& cell : one.cells) {
+    const Pixel at = centre + cell_px * Pixel(cell.offset.x, -cell.offset.y);
+    canvas.fill_box({at - half, at + half},
+                    {colour_of(std::atan2(cell.gradient_y, cell.gradient_x), magnitude_of(cell) / scale.steepest)});
+  }
+  canvas.fill_disc(centre, 1.5, {kFaintInk});
+  const std::string caption = one.category + " " + trimmed_text(degrees(one.orientation_rad), 1) + " deg";
+  canvas.text(centre + Pixel(0.0, kTilePx / 2.0 + kCaptionPx / 2.0), caption, {kInk, 11.0, Align::centre});
+}
+
+// Where each template goes; a new category starts a new row.
+struct Layout {
+  std::vector<Pixel> tiles;
+  int rows = 0;
+};
+
+Layout lay_out(const TemplateSet& set) {
+  Layout layout;
+  int column = kColumns;
+  for (std::size_t i = 0; i < set.templates.size(); ++i) {
+    const bool new_category = i > 0 && set.templates[i].category != set.templates[i - 1].category;
+    if (column == kColumns || new_category) {
+      ++layout.rows;
+      column = 0;
+    }
+    layout.tiles.emplace_back(kLeftPx + column * (kTilePx + kGapPx), kTopPx + (layout.rows - 1) * (kTilePx + kCaptionPx));
+    ++column;
+  }
+  return layout;
+}
+
+// A ring of all directions beside the words that explain it.
+void draw_legend(Canvas& canvas, const Pixel& left) {
+  constexpr double kRadiusPx = 22.0;
+  const Pixel centre = left + Pixel(kRadiusPx, 0.0);
+  constexpr int kSteps = 72;
+  for (int i = 0; i < kSteps; ++i) {
+    const double angle_rad = i * 2.0 * std::numbers::pi / kSteps;
+    const Pixel direction(std::cos(angle_rad), -std::sin(angle_rad));
+    canvas.line(std::array{Pixel(centre + 11.0 * direction), Pixel(centre + kRadiusPx * direction)},
+                {colour_of(angle_rad, 1.0), 2.5});
+  }
+  canvas.text(left + Pixel(2.0 * kRadiusPx + 14.0, -8.0),
+              "hue: where the gradient points, towards what is occupied", {kInk, 12.0});
+  canvas.text(left + Pixel(2.0 * kRadiusPx + 14.0, 10.0), "brightness: how steep it is", {kInk, 12.0});
+}
+
+}  // namespace
+
+void write_template_sheet(const std::filesystem::path& file, const TemplateSet& templates, const std::string& title) {
+  const Layout layout = lay_out(templates);
+  const Scale scale = scale_of(templates);
+  const double bottom_px = kTopPx + layout.rows * (kTilePx + kCaptionPx);
+  const double width_px = kLeftPx + kColumns * (kTilePx + kGapPx) - kGapPx + kPageMarginPx;
+  Canvas canvas(static_cast<int>(std::ceil(width_px)), static_cast<int>(std::ceil(bottom_px + kLegendPx)), kPaper);
+  draw_title(canvas, title,
+             std::to_string(templates.templates.size()) + " templates,  steps of " +
+                 trimmed_text(degrees(templates.step_rad), 2) + " deg,  cells of " +
+                 trimmed_text(templates.cell_m * 100.0, 2) + " cm");
+  for (std::size_t i = 0; i < layout.tiles.size(); ++i)
+    draw_tile(canvas, layout.tiles[i], templates.templates[i], scale);
+  draw_legend(canvas, {kLeftPx, bottom_px + kLegendPx / 2.0});
+  canvas.write_png(file);
+}
+
+}  // namespace cairn

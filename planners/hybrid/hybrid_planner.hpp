@@ -1,0 +1,63 @@
+// From a place to a place over both levels (METHOD 10): landmarks first, then the way between them.
+#pragma once
+
+#include <memory>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/planner.hpp"
+#include "planners/disc_space/space_cache.hpp"
+
+namespace cairn {
+
+struct HybridConfig {
+  PluginChoice route = {"ompl", empty_map()};
+  PluginChoice graph = {"landmark_search", empty_map()};
+  double detour_ratio = 1.3;
+  double start_tolerance_m = 0.15;
+  bool shortcut = true;
+
+  static void describe(Fields<HybridConfig>& fields) {
+    fields.plugin("route", &HybridConfig::route,
+                  "planner of routes on the grid; its `unknown` holds for stored routes too");
+    fields.plugin("graph", &HybridConfig::graph, "planner over the landmark graph");
+    fields.number("detour_ratio", &HybridConfig::detour_ratio, {1.0, 100.0}, "",
+                  "a way over landmarks is taken when it is at most this much longer than the direct one, and a "
+                  "leg planned anew likewise against its stored cost");
+    fields.number("start_tolerance_m", &HybridConfig::start_tolerance_m, {0.0, 1.0}, "m",
+                  "how far a start that is too near to something may be left with what clearance it has");
+    fields.flag("shortcut", &HybridConfig::shortcut, "cut corners of the joined path where the ground is free");
+  }
+
+ private:
+  static ConfigValue empty_map() {
+    ConfigValue value;
+    value.kind = ConfigValue::Kind::map;
+    return value;
+  }
+};
+
+// What the route planner's settings say about unknown space, for the hybrid's own checks.
+[[nodiscard]] UnknownPolicy unknown_policy_of(const PluginChoice& route);
+
+// Landmarks are passed by stored trajectories that are still free, other legs are planned; a leg that is
+// blocked closes its route for this query and the landmarks are searched again. Without a landmark in
+// between when the direct way is hardly longer. cost_m is that of the graph search (stored costs, lengths
+// where there are none); the path, with its corners cut, may be shorter. On a map without a grid the
+// graph planner's answer is the answer. Every solved path has been re-checked cell by cell. Thread-safe
+// if both planners are.
+class HybridPlanner : public Planner {
+ public:
+  HybridPlanner(HybridConfig config, std::shared_ptr<const Planner> route, std::shared_ptr<const Planner> graph);
+
+  [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
+                                const Budget& budget) const override;
+
+ private:
+  HybridConfig config_;
+  UnknownPolicy unknown_;
+  std::shared_ptr<const Planner> route_;
+  std::shared_ptr<const Planner> graph_;
+  SpaceCache spaces_;
+};
+
+}  // namespace cairn

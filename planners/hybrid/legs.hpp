@@ -1,0 +1,57 @@
+// The sub-symbolic half of a plan: a way over the grid along the landmarks (METHOD 10).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/contracts/planner.hpp"
+#include "planners/disc_space/routes.hpp"
+#include "planners/hybrid/symbolic_path.hpp"
+
+namespace cairn {
+
+struct LegRules {
+  double radius_m = 0.22;      // of the request
+  double detour_ratio = 1.3;   // a leg planned anew may be this much longer than its stored cost
+  std::uint64_t seed = 1;
+};
+
+struct Walk {
+  std::vector<Point> route;              // from StartPlace::leave_from to the goal
+  double cost_m = 0.0;                   // stored costs, or lengths where there was none to use
+  int stored_legs = 0;
+  int planned_legs = 0;
+  std::optional<RouteId> blocked;        // the route that is not passable today; the walk ends there
+  bool mile_failed = false;              // no way to the first or from the last landmark
+  std::optional<PlanOutcome> stopped;    // cancelled or out_of_budget
+
+  [[nodiscard]] bool complete() const { return !blocked && !mile_failed && !stopped; }
+};
+
+// Walks a symbolic path: stored trajectories where the disc still fits along them, otherwise legs by the
+// route planner. `world` is the robot's world with the start's grid.
+class Walker {
+ public:
+  Walker(const WorldView& world, const DiscSpace& space, const LegRules& rules, const Planner& route_planner,
+         const Budget& budget)
+      : world_(world), space_(space), rules_(rules), route_planner_(route_planner), budget_(budget) {}
+
+  [[nodiscard]] Walk walk(const Point& from, const SymbolicPath& path, const Pose2& goal) const;
+
+ private:
+  enum class Step { done, failed, stopped };
+
+  [[nodiscard]] Step go_to(const Point& to, Walk& walk, double at_most_m) const;
+  [[nodiscard]] bool is_passable(const std::vector<Pose2>& trajectory) const;
+  void take_leg(const Route& leg, Walk& walk) const;
+  void take_mile(const Point& to, Walk& walk) const;
+
+  const WorldView& world_;
+  const DiscSpace& space_;
+  const LegRules& rules_;
+  const Planner& route_planner_;
+  const Budget& budget_;
+};
+
+}  // namespace cairn

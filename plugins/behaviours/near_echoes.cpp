@@ -1,0 +1,84 @@
+#include "plugins/behaviours/near_echoes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kNear_m = 1.0;
+constexpr int kHit = 100;  // two make a cell solid (OccupancyThresholds)
+constexpr int kPassed = -50;
+constexpr double kMost_nat = 1.6;  // four hits
+constexpr double kMoved_m = 0.02;
+constexpr double kTurned_rad = radians(3.0);
+constexpr int kRays = 5;  // over the middle half of the beam
+
+bool has_moved(const Pose2& a, const Pose2& b) {
+  return (a.position() - b.position()).norm() >= kMoved_m ||
+         std::abs(wrap_angle(a.theta_rad - b.theta_rad)) >= kTurned_rad;
+}
+
+}  // namespace
+
+NearEchoes::NearEchoes(const OccupancyGrid& map) : votes_(map.cell_m(), kMost_nat, map.origin_m()) {}
+
+void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
+  for (const RangeReading& reading : observation.ranges) {
+    const bool is_near_echo = reading.range_m > reading.min_m && reading.range_m <= kNear_m;
+    if (!is_near_echo || reading.sensor < 0) continue;
+    const auto sensor = static_cast<std::size_t>(reading.sensor);
+    const Pose2 nowhere{std::numeric_limits<double>::max(), 0.0, 0.0};
+    if (sensor >= last_voted_.size()) last_voted_.resize(sensor + 1, nowhere);
+    const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
+    if (!has_moved(T_map_sensor, last_voted_[sensor])) continue;
+    last_voted_[sensor] = T_map_sensor;
+    vote(reading, T_map_sensor);
+  }
+}
+
+void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
+  const double cell_m = votes_.cell_m();
+  std::vector<Cell> hit;
+  std::vector<Cell> passed;
+  for (int i = 0; i < kRays; ++i) {
+    const double bearing_rad = 0.5 * reading.half_beam_rad * (2.0 * i / (kRays - 1) - 1.0);
+    const Point direction{std::cos(bearing_rad), std::sin(bearing_rad)};
+    hit.push_back(votes_.cell_at(T_map_sensor * (direction * reading.range_m)));
+    for (double r_m = 0.0; r_m < reading.range_m - 2.0 * cell_m; r_m += 0.5 * cell_m)
+      passed.push_back(votes_.cell_at(T_map_sensor * (direction * r_m)));
+  }
+  const auto once_each = [](std::vector<Cell>& cells) {
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  };
+  once_each(hit);
+  once_each(passed);
+  for (const Cell c : hit) votes_.add_log_odds(c, kHit);
+  for (const Cell c : passed)
+    if (!std::binary_search(hit.begin(), hit.end(), c)) votes_.add_log_odds(c, kPassed);
+}
+
+void NearEchoes::stand_at(const Point& p_map, double radius_m) {
+  const Cell centre = votes_.cell_at(p_map);
+  const int reach = static_cast<int>(radius_m / votes_.cell_m());
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const Cell c = centre + Cell{dx, dy};
+      if (dx * dx + dy * dy <= reach * reach && votes_.log_odds(c) > 0) votes_.set_log_odds(c, 0);
+    }
+  }
+}
+
+OccupancyGrid NearEchoes::added_to(const OccupancyGrid& map) const {
+  OccupancyGrid all = map;
+  const CellBox box = votes_.bounds();
+  const LogOdds solid = log_odds_of(0.9);
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      if (votes_.state({x, y}) == CellState::occupied && map.log_odds({x, y}) < solid) all.set_log_odds({x, y}, solid);
+  return all;
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,35 @@
+// Grids as drawings: '#' occupied, '.' free, '?' unknown; the first line is the highest row, and the
+// lower left character is the cell `corner`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "maps/occupancy_grid.hpp"
+
+namespace cairn {
+
+inline OccupancyGrid drawn(const std::vector<std::string>& rows, double cell_m = 0.1, Cell corner = {0, 0}) {
+  OccupancyGrid grid(cell_m);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t x = 0; x < rows[i].size(); ++x) {
+      const Cell cell = corner + Cell{static_cast<int>(x), static_cast<int>(rows.size() - 1 - i)};
+      grid.include({cell, cell + Cell{1, 1}});
+      if (rows[i][x] != '?') grid.set_log_odds(cell, rows[i][x] == '#' ? LogOdds{1000} : LogOdds{-1000});
+    }
+  return grid;
+}
+
+// What a drawing says of a box, for failures.
+inline std::string drawing_of(const OccupancyGrid& grid) {
+  const CellBox box = grid.bounds();
+  std::string text = "\n";
+  for (int y = box.max.y - 1; y >= box.min.y; --y, text += '\n')
+    for (int x = box.min.x; x < box.max.x; ++x) {
+      const CellState state = grid.state({x, y});
+      text += state == CellState::occupied ? '#' : state == CellState::free ? '.' : '?';
+    }
+  return text;
+}
+
+}  // namespace cairn

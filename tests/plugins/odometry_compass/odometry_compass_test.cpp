@@ -1,0 +1,174 @@
+#include "plugins/odometry_compass/odometry_compass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cairn::odometry_compass {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+RobotModel calibrated_robot() {
+  RobotModel robot;
+  robot.odometry_error = {0.01, 0.0, radians(0.5)};
+  robot.compass_error = {radians(2.0), 0.0, 2.0};
+  return robot;
+}
+
+Observation observed(const Pose2& T_odom_robot, std::optional<double> compass_rad = std::nullopt) {
+  Observation observation;
+  observation.T_odom_robot = T_odom_robot;
+  observation.compass_rad = compass_rad;
+  return observation;
+}
+
+OdometryCompass localizer(const Pose2& T_map_start = {}, const Config& config = {}) {
+  return {config, calibrated_robot(), T_map_start};
+}
+
+LandmarkSighting sighting(const Pose2& T_map_landmark, const Pose2& T_map_robot) {
+  LandmarkSighting seen;
+  seen.T_map_landmark = T_map_landmark;
+  seen.T_robot_landmark = inverse(T_map_robot) * T_map_landmark;
+  seen.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-3).asDiagonal();
+  return seen;
+}
+
+TEST(OdometryCompass, BeginsWhereTheMissionSaysWhateverTheOdometrysOrigin) {
+  const Pose2 start{2.0, 3.0, 1.0};
+  OdometryCompass at = localizer(start);
+  EXPECT_EQ(at.update(observed({100.0, -50.0, 2.0}), {}).T_map_robot, start);
+  const Pose2 moved = at.update(observed(Pose2{100.0, -50.0, 2.0} * Pose2{0.5, 0.0, 0.1}), {}).T_map_robot;
+  const Pose2 expected = start * Pose2{0.5, 0.0, 0.1};
+  EXPECT_NEAR(moved.x_m, expected.x_m, 1e-9);
+  EXPECT_NEAR(moved.y_m, expected.y_m, 1e-9);
+  EXPECT_NEAR(moved.theta_rad, expected.theta_rad, 1e-9);
+}
+
+TEST(OdometryCompass, SkipsOdometryThatIsNotFinite) {
+  OdometryCompass at = localizer();
+  (void)at.update(observed({}), {});
+  (void)at.update(observed({kNaN, 0.0, 0.0}), {});
+  EXPECT_NEAR(at.update(observed({1.0, 0.0, 0.0}), {}).T_map_robot.x_m, 1.0, 1e-12);
+}
+
+TEST(OdometryCompass, GoesByOdometryAloneWithoutACompass) {
+  OdometryCompass at = localizer();
+  (void)at.update(observed({}), {});
+  (void)at.update(observed({}, kNaN), {});
+  const PoseEstimate estimate = at.update(observed({4.0, 0.0, 0.0}), {});
+  EXPECT_EQ(estimate.T_map_robot.theta_rad, 0.0);
+  EXPECT_NEAR(std::sqrt(estimate.covariance(2, 2)), std::hypot(radians(0.5), radians(0.5) * 2.0), 1e-9);
+}
+
+TEST(OdometryCompass, LeavesTheCompassOutWhenToldTo) {
+  Config config;
+  config.use_compass = false;
+  OdometryCompass at = localizer({}, config);
+  EXPECT_EQ(at.update(observed({}, 0.05), {}).T_map_robot.theta_rad, 0.0);
+}
+
+TEST(OdometryCompass, TurnsTowardsTheCompass) {
+  OdometryCompass at = localizer();
+  for (int i = 0; i < 500; ++i) (void)at.update(observed({}, radians(1.0)), {});
+  EXPECT_NEAR(at.update(observed({}, radians(1.0)), {}).T_map_robot.theta_rad, radians(1.0), radians(0.1));
+}
+
+TEST(OdometryCompass, RefusesAWildCompassReading) {
+  OdometryCompass at = localizer();
+  (void)at.update(observed({}, 0.0), {});
+  const PoseEstimate before = at.update(observed({}, 0.0), {});
+  const PoseEstimate after = at.update(observed({}, 2.0), {});
+  EXPECT_EQ(after.T_map_robot, before.T_map_robot);
+  EXPECT_EQ(after.covariance, before.covariance);
+}
+
+TEST(OdometryCompass, BelievesTheCompassInTheEnd) {
+  Config config;
+  config.compass_refusals = 20;
+  OdometryCompass at = localizer({}, config);
+  for (int i = 0; i < 19; ++i) ASSERT_EQ(at.update(observed({}, 2.0), {}).T_map_robot.theta_rad, 0.0);
+  for (int i = 0; i < 5; ++i) (void)at.update(observed({}, 2.0), {});
+  EXPECT_NEAR(at.update(observed({}, 2.0), {}).T_map_robot.theta_rad, 2.0, 0.02);
+}
+
+TEST(OdometryCompass, ForgetsRefusalsAfterAGoodReading) {
+  Config config;
+  config.compass_refusals = 20;
+  OdometryCompass at = localizer({}, config);
+  for (int i = 0; i < 200; ++i) (void)at.update(observed({}, i % 10 == 0 ? 0.0 : 2.0), {});
+  EXPECT_NEAR(at.update(observed({}), {}).T_map_robot.theta_rad, 0.0, 0.01);
+}
+
+TEST(OdometryCompass, IsPulledBackByAKnownLandmark) {
+  OdometryCompass at = localizer();
+  (void)at.update(observed({}), {});
+  const Pose2 truth{20.3, 0.1, 0.0};
+  const PoseEstimate drifted = at.update(observed({20.0, 0.0, 0.0}), {});
+  const LandmarkSighting seen = sighting({21.0, 1.0, 0.7}, truth);
+  const PoseEstimate corrected = at.update(observed({20.0, 0.0, 0.0}), {&seen, 1});
+  const auto off = [&](const PoseEstimate& e) { return (e.T_map_robot.position() - truth.position()).norm(); };
+  EXPECT_LT(off(corrected), off(drifted));
+  EXPECT_LT(corrected.covariance(0, 0), drifted.covariance(0, 0));
+  EXPECT_LT(corrected.covariance(1, 1), drifted.covariance(1, 1));
+}
+
+TEST(OdometryCompass, LearnsTheOdometrysScaleFromALandmark) {
+  RobotModel robot = calibrated_robot();
+  robot.odometry_error = {0.002, 0.05, radians(0.1)};
+  OdometryCompass at(Config{}, robot, {});
+  (void)at.update(observed({}), {});
+  (void)at.update(observed({10.4, 0.0, 0.0}), {});  // counts 4 % too much: the robot stands at 10 m
+  const LandmarkSighting seen = sighting({11.0, 0.5, 0.0}, {10.0, 0.0, 0.0});
+  (void)at.update(observed({10.4, 0.0, 0.0}), {&seen, 1});
+  EXPECT_NEAR(at.update(observed({20.8, 0.0, 0.0}), {}).T_map_robot.x_m, 20.0, 0.1);
+}
+
+TEST(OdometryCompass, RefusesTheWrongLandmark) {
+  OdometryCompass at = localizer();
+  const PoseEstimate before = at.update(observed({}), {});
+  const LandmarkSighting wrong = sighting({4.0, 1.0, 0.0}, {1.5, 0.0, 0.0});
+  const PoseEstimate after = at.update(observed({}), {&wrong, 1});
+  EXPECT_EQ(after.T_map_robot, before.T_map_robot);
+}
+
+TEST(OdometryCompass, RefusesSightingsThatAreNoMeasurement) {
+  OdometryCompass at = localizer();
+  const PoseEstimate before = at.update(observed({}), {});
+  std::vector<LandmarkSighting> bad(4, sighting({4.0, 1.0, 0.0}, {0.01, 0.0, 0.0}));
+  bad[0].T_robot_landmark.x_m = kNaN;
+  bad[1].covariance(0, 0) = kNaN;
+  bad[2].covariance.setZero();
+  bad[3].covariance(0, 0) = -1.0;
+  const PoseEstimate after = at.update(observed({}), bad);
+  EXPECT_EQ(after.T_map_robot, before.T_map_robot);
+  EXPECT_EQ(after.covariance, before.covariance);
+}
+
+TEST(OdometryCompass, HeedsALandmarksOrientationOnlyWhenToldTo) {
+  Config with_heading;
+  with_heading.use_landmark_heading = true;
+  with_heading.start_heading_rad = radians(10.0);
+  Config without = with_heading;
+  without.use_landmark_heading = false;
+  // The landmark is seen where it should be, yet turned by 5 degrees: so the robot is.
+  LandmarkSighting turned = sighting({1.0, 0.0, 0.0}, {});
+  turned.T_robot_landmark.theta_rad = radians(-5.0);
+  turned.covariance.topLeftCorner<2, 2>() = Eigen::Matrix2d::Identity();
+  turned.covariance(2, 2) = 1e-6;
+  EXPECT_NEAR(localizer({}, with_heading).update(observed({}), {&turned, 1}).T_map_robot.theta_rad, radians(5.0), 0.001);
+  EXPECT_NEAR(localizer({}, without).update(observed({}), {&turned, 1}).T_map_robot.theta_rad, 0.0, 0.001);
+}
+
+TEST(OdometryCompass, DescribesAllItsSettings) {
+  const Schema schema = schema_of<Config>();
+  EXPECT_EQ(schema.fields.size(), 13U);
+  for (const FieldSpec& field : schema.fields) EXPECT_FALSE(field.meaning.empty()) << field.key;
+}
+
+}  // namespace
+}  // namespace cairn::odometry_compass
