@@ -9,9 +9,13 @@ namespace {
 
 constexpr int kLargestN = 1024;  // keeps the sums of one coarse cell well inside 32 bits
 
-constexpr int floor_divide(int a, int n) { return a >= 0 ? a / n : -((n - 1 - a) / n); }
+constexpr int floor_divide(int a, int n) {
+  return a >= 0 ? a / n : -((n - 1 - a) / n);
+}
 
-CellBox box_of(Cell c) { return {c, {c.x + 1, c.y + 1}}; }
+CellBox box_of(Cell c) {
+  return {c, {c.x + 1, c.y + 1}};
+}
 
 }  // namespace
 
@@ -53,7 +57,9 @@ double CoarseGrid::ol(Cell coarse) const {
   return (s.low_sum + alpha_ * s.high_sum) / weight;
 }
 
-Cell CoarseGrid::coarse_of(Cell fine) const { return {floor_divide(fine.x, n_), floor_divide(fine.y, n_)}; }
+Cell CoarseGrid::coarse_of(Cell fine) const {
+  return {floor_divide(fine.x, n_), floor_divide(fine.y, n_)};
+}
 
 CellBox CoarseGrid::fine_box(Cell coarse) const {
   return {{coarse.x * n_, coarse.y * n_}, {(coarse.x + 1) * n_, (coarse.y + 1) * n_}};

@@ -26,16 +26,16 @@ class CoarseGrid {
 
   [[nodiscard]] int n() const { return n_; }
   [[nodiscard]] double alpha() const { return alpha_; }
-  [[nodiscard]] CellBox bounds() const { return bounds_; }         // in coarse cells
-  [[nodiscard]] double ol(Cell coarse) const;                      // 127 outside bounds
-  [[nodiscard]] Cell coarse_of(Cell fine) const;                   // floor division by n
+  [[nodiscard]] CellBox bounds() const { return bounds_; }  // in coarse cells
+  [[nodiscard]] double ol(Cell coarse) const;               // 127 outside bounds
+  [[nodiscard]] Cell coarse_of(Cell fine) const;            // floor division by n
   [[nodiscard]] CellBox fine_box(Cell coarse) const;
   bool operator==(const CoarseGrid&) const = default;
 
  private:
   struct Sums {
-    std::int32_t low_sum = 0;    // OL over cells with OL <= 127
-    std::int32_t high_sum = 0;   // OL over the others
+    std::int32_t low_sum = 0;   // OL over cells with OL <= 127
+    std::int32_t high_sum = 0;  // OL over the others
     std::int32_t high_count = 0;
     bool operator==(const Sums&) const = default;
   };

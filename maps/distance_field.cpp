@@ -44,12 +44,13 @@ DistanceField::DistanceField(const OccupancyGrid& grid, UnknownPolicy unknown, c
   cv::distanceTransform(crossable, distance_cells, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
   // The square of a cell distance is a whole number: rounding to it removes OpenCV's last-bit noise,
   // so that "at least this clearance" means the same everywhere.
-  std::transform(distance_cells.begin<float>(), distance_cells.end<float>(), distance_m_.begin(), [this](double d) {
-    return static_cast<float>(std::sqrt(std::floor(d * d + 0.5)) * cell_m_);
-  });
+  std::transform(distance_cells.begin<float>(), distance_cells.end<float>(), distance_m_.begin(),
+                 [this](double d) { return static_cast<float>(std::sqrt(std::floor(d * d + 0.5)) * cell_m_); });
 }
 
-Cell DistanceField::cell_at(const Point& p_map) const { return cell_on_lattice(p_map, origin_m_, cell_m_); }
+Cell DistanceField::cell_at(const Point& p_map) const {
+  return cell_on_lattice(p_map, origin_m_, cell_m_);
+}
 
 Point DistanceField::centre_of(Cell cell) const {
   return {origin_m_.x() + (cell.x + 0.5) * cell_m_, origin_m_.y() + (cell.y + 0.5) * cell_m_};

@@ -16,7 +16,9 @@ bool is_finite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
 }
 
-std::string named(const char* kind, std::int64_t id) { return std::string(kind) + " " + std::to_string(id); }
+std::string named(const char* kind, std::int64_t id) {
+  return std::string(kind) + " " + std::to_string(id);
+}
 
 // Takes the next free id, or keeps the given one and moves the next beyond it.
 std::int64_t claim_id(const char* kind, std::int64_t id, std::int64_t& next) {

@@ -12,7 +12,9 @@ namespace {
 constexpr int kCompressionLevel = 6;
 constexpr std::size_t kMostRawBytesPerPacked = 1100;  // deflate's limit is 1032 : 1
 
-const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
+const Bytef* bytes_of(std::string_view text) {
+  return reinterpret_cast<const Bytef*>(text.data());
+}
 
 }  // namespace
 

@@ -19,7 +19,9 @@ namespace {
 constexpr std::size_t kHeaderBytes = 100;
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
-[[noreturn]] void fail(const char* what, int error) { throw StoreError(what + std::string(": ") + std::strerror(error)); }
+[[noreturn]] void fail(const char* what, int error) {
+  throw StoreError(what + std::string(": ") + std::strerror(error));
+}
 
 class Descriptor {
  public:
@@ -93,8 +95,8 @@ void check_size(const std::string& header, std::uintmax_t found) {
 void check_version(std::int64_t version) {
   const std::string known = std::to_string(kMapSchemaVersion);
   if (version > kMapSchemaVersion)
-    throw StoreError("was written with schema version " + std::to_string(version) + ", this Cairn reads up to version " +
-                     known + ": use a newer Cairn");
+    throw StoreError("was written with schema version " + std::to_string(version) +
+                     ", this Cairn reads up to version " + known + ": use a newer Cairn");
   if (version < 1)
     throw StoreError("has schema version " + std::to_string(version) + ", this Cairn reads versions 1 to " + known);
 }

@@ -34,10 +34,14 @@ void in_table(const std::string& table, Read read) {
   }
 }
 
-std::string numbered(const char* kind, std::int64_t id) { return std::string(kind) + " " + std::to_string(id); }
+std::string numbered(const char* kind, std::int64_t id) {
+  return std::string(kind) + " " + std::to_string(id);
+}
 
 // Grids and tiles of other floors are for later versions.
-void require_level_zero(const Statement& row, int column) { static_cast<void>(row.integer_within(column, 0, 0)); }
+void require_level_zero(const Statement& row, int column) {
+  static_cast<void>(row.integer_within(column, 0, 0));
+}
 
 // Unpacks a blob column with the checksum in the column behind it.
 std::string unpacked(const Statement& row, int column, std::size_t raw_size, const std::string& what) {
@@ -56,7 +60,8 @@ OccupancyGrid read_grid(Database& database) {
   require_level_zero(row, 0);
   const double cell_m = row.real(1);
   const double clamp_nat = row.real(4);
-  if (!(cell_m > 0.0) || cell_m > kMaxCellM) throw StoreError("cell_m must be in (0, 1000], is " + std::to_string(cell_m));
+  if (!(cell_m > 0.0) || cell_m > kMaxCellM)
+    throw StoreError("cell_m must be in (0, 1000], is " + std::to_string(cell_m));
   if (!(clamp_nat > 0.0) || clamp_nat > kMaxClampNat)
     throw StoreError("clamp_nat must be in (0, 127], is " + std::to_string(clamp_nat));
   const auto index = [&row](int column) {

@@ -42,9 +42,9 @@ constexpr std::array kTables{
           "number INTEGER PRIMARY KEY, x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL", ""},
 };
 
-constexpr Table kChecksums{
-    "checksums", "table_name",
-    "table_name TEXT NOT NULL PRIMARY KEY, row_count INTEGER NOT NULL, crc32 INTEGER NOT NULL", " WITHOUT ROWID"};
+constexpr Table kChecksums{"checksums", "table_name",
+                           "table_name TEXT NOT NULL PRIMARY KEY, row_count INTEGER NOT NULL, crc32 INTEGER NOT NULL",
+                           " WITHOUT ROWID"};
 
 struct Checksum {
   std::int64_t row_count = 0;
@@ -80,12 +80,15 @@ void check_table(Database& database, const Table& table) {
   if (found.row_count != stored.integer(0))
     throw StoreError(at + ": has " + std::to_string(found.row_count) + " rows, saved were " +
                      std::to_string(stored.integer(0)));
-  if (found.crc != stored.integer(1)) throw StoreError(at + ": its content does not match its checksum, it was damaged or edited");
+  if (found.crc != stored.integer(1))
+    throw StoreError(at + ": its content does not match its checksum, it was damaged or edited");
 }
 
 }  // namespace
 
-std::span<const Table> tables() { return kTables; }
+std::span<const Table> tables() {
+  return kTables;
+}
 
 void create_tables(Database& database) {
   for (const Table& table : kTables) database.execute(definition_of(table).c_str());

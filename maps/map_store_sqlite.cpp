@@ -13,17 +13,24 @@ constexpr int kMaxValueBytes = 256 << 20;
 
 const char* name_of(int type) {
   switch (type) {
-    case SQLITE_INTEGER: return "an integer";
-    case SQLITE_FLOAT: return "a number";
-    case SQLITE_TEXT: return "a text";
-    case SQLITE_BLOB: return "a blob";
-    default: return "nothing";
+    case SQLITE_INTEGER:
+      return "an integer";
+    case SQLITE_FLOAT:
+      return "a number";
+    case SQLITE_TEXT:
+      return "a text";
+    case SQLITE_BLOB:
+      return "a blob";
+    default:
+      return "nothing";
   }
 }
 
 }  // namespace
 
-void Database::Close::operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
+void Database::Close::operator()(sqlite3* handle) const {
+  sqlite3_close_v2(handle);
+}
 
 Database::Database(const std::string& name, int flags) {
   sqlite3* handle = nullptr;
@@ -37,7 +44,9 @@ Database::Database(const std::string& name, int flags) {
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
 }
 
-Database Database::in_memory() { return {":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE}; }
+Database Database::in_memory() {
+  return {":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
+}
 
 Database Database::read_only(const std::filesystem::path& file) {
   // Absolute, so that no file name reads as ":memory:" or as a URI.
@@ -56,9 +65,13 @@ std::string Database::serialized() const {
   return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
 }
 
-void Database::fail() const { throw StoreError(sqlite3_errmsg(handle_.get())); }
+void Database::fail() const {
+  throw StoreError(sqlite3_errmsg(handle_.get()));
+}
 
-void Statement::Finalize::operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }
+void Statement::Finalize::operator()(sqlite3_stmt* handle) const {
+  sqlite3_finalize(handle);
+}
 
 Statement::Statement(Database& database, const std::string& sql) : database_(&database) {
   sqlite3_stmt* handle = nullptr;

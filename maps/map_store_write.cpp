@@ -9,7 +9,9 @@ namespace {
 
 constexpr int kSide = OccupancyGrid::kTileSide;
 
-int tile_index(int cell) { return cell >> 6; }
+int tile_index(int cell) {
+  return cell >> 6;
+}
 
 void write_grid(Database& database, const OccupancyGrid& grid) {
   const CellBox box = grid.bounds().empty() ? CellBox{} : grid.bounds();
@@ -56,7 +58,12 @@ void write_landmarks(Database& database, const LandmarkGraph& graph) {
     insert.bind(access(&Pose2::x_m)).bind(access(&Pose2::y_m)).bind(access(&Pose2::theta_rad)).run();
     std::int64_t rank = 0;
     for (const TemplateDegree& match : landmark.templates)
-      insert_template.bind(id).bind(++rank).bind_text(match.category).bind(match.orientation_rad).bind(match.degree).run();
+      insert_template.bind(id)
+          .bind(++rank)
+          .bind_text(match.category)
+          .bind(match.orientation_rad)
+          .bind(match.degree)
+          .run();
   }
 }
 

@@ -9,16 +9,16 @@ namespace cairn {
 namespace {
 
 constexpr int kTableHalf = 32768;
-constexpr double kLatticeRim = 1 << 30;        // keeps sums of cell indices inside an int
-constexpr int kLargestCellIndex = 1 << 17;    // 6.5 km at 0.05 m: beyond it something else is wrong
+constexpr double kLatticeRim = 1 << 30;     // keeps sums of cell indices inside an int
+constexpr int kLargestCellIndex = 1 << 17;  // 6.5 km at 0.05 m: beyond it something else is wrong
 
 // OL of every int16 log-odds value: 64 KiB, computed once.
 const std::vector<std::uint8_t>& ol_table() {
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> t(2 * kTableHalf);
     for (int i = 0; i < 2 * kTableHalf; ++i)
-      t[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
-          std::floor(255.0 / (1.0 + std::exp(-(i - kTableHalf) / kLogOddsPerNat))));
+      t[static_cast<std::size_t>(i)] =
+          static_cast<std::uint8_t>(std::floor(255.0 / (1.0 + std::exp(-(i - kTableHalf) / kLogOddsPerNat))));
     return t;
   }();
   return table;
@@ -50,7 +50,9 @@ void for_each_run(const CellBox& box, const Visit& visit) {
 
 }  // namespace
 
-double probability_of(LogOdds log_odds) { return 1.0 / (1.0 + std::exp(-log_odds / kLogOddsPerNat)); }
+double probability_of(LogOdds log_odds) {
+  return 1.0 / (1.0 + std::exp(-log_odds / kLogOddsPerNat));
+}
 
 std::uint8_t ol_of(LogOdds log_odds) {
   static const std::uint8_t* const table = ol_table().data() + kTableHalf;
@@ -78,7 +80,10 @@ OccupancyGrid::OccupancyGrid(double cell_m, double clamp_nat, Point origin_m)
 }
 
 OccupancyGrid::OccupancyGrid(const OccupancyGrid& other)
-    : cell_m_(other.cell_m_), clamp_(other.clamp_), origin_m_(other.origin_m_), bounds_(other.bounds_),
+    : cell_m_(other.cell_m_),
+      clamp_(other.clamp_),
+      origin_m_(other.origin_m_),
+      bounds_(other.bounds_),
       tiles_box_(other.tiles_box_) {
   tiles_.reserve(other.tiles_.size());
   for (const auto& tile : other.tiles_) tiles_.push_back(tile ? std::make_unique<Tile>(*tile) : nullptr);
@@ -89,7 +94,9 @@ OccupancyGrid& OccupancyGrid::operator=(const OccupancyGrid& other) {
   return *this;
 }
 
-Cell OccupancyGrid::cell_at(const Point& p_map) const { return cell_on_lattice(p_map, origin_m_, cell_m_); }
+Cell OccupancyGrid::cell_at(const Point& p_map) const {
+  return cell_on_lattice(p_map, origin_m_, cell_m_);
+}
 
 Point OccupancyGrid::centre_of(Cell cell) const {
   return {origin_m_.x() + (cell.x + 0.5) * cell_m_, origin_m_.y() + (cell.y + 0.5) * cell_m_};
@@ -123,9 +130,9 @@ OccupancyGrid::Tile& OccupancyGrid::tile_for_writing(Cell cell) {
   if (!bounds_.contains(cell)) include({cell, {cell.x + 1, cell.y + 1}});
   const Cell tile{tile_index(cell.x), tile_index(cell.y)};
   if (!tiles_box_.contains(tile)) grow_directory({tile, {tile.x + 1, tile.y + 1}});
-  auto& slot = tiles_[static_cast<std::size_t>(tile.y - tiles_box_.min.y) *
-                          static_cast<std::size_t>(tiles_box_.width()) +
-                      static_cast<std::size_t>(tile.x - tiles_box_.min.x)];
+  auto& slot =
+      tiles_[static_cast<std::size_t>(tile.y - tiles_box_.min.y) * static_cast<std::size_t>(tiles_box_.width()) +
+             static_cast<std::size_t>(tile.x - tiles_box_.min.x)];
   if (!slot) {
     slot = std::make_unique<Tile>();
     slot->fill(0);
@@ -163,8 +170,8 @@ void OccupancyGrid::copy_log_odds(const CellBox& box, std::span<LogOdds> out) co
   auto to = out.begin();
   for_each_run(box, [&](Cell first, int run) {
     const Tile* const tile = tile_of(first);
-    to = tile == nullptr ? std::fill_n(to, run, LogOdds{0})
-                         : std::copy_n(tile->data() + offset_in_tile(first), run, to);
+    to =
+        tile == nullptr ? std::fill_n(to, run, LogOdds{0}) : std::copy_n(tile->data() + offset_in_tile(first), run, to);
   });
 }
 

@@ -18,7 +18,7 @@
 
 namespace cairn {
 
-using LogOdds = std::int16_t;                   // 1/256 nat
+using LogOdds = std::int16_t;  // 1/256 nat
 inline constexpr double kLogOddsPerNat = 256.0;
 inline constexpr std::uint8_t kUnknownOl = 127;
 

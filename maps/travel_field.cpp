@@ -86,8 +86,9 @@ TravelField::TravelField(const DistanceField& space, const Point& start_map, dou
     const Cell from{box_.min.x + here.index % box_.width(), box_.min.y + here.index / box_.width()};
     for (int k = 0; k < 8; ++k) {
       const Cell step = kNeighbours[k];
-      if (!box_.contains(from + step) || !step_is_free(from, step, is_free)) continue;
+      if (!box_.contains(from + step)) continue;
       const std::size_t to_index = index_of(from + step);
+      if (cost_m_[to_index] <= here.cost_m || !step_is_free(from, step, is_free)) continue;
       const float weight = 0.5F * (weights.at(from, from_index) + weights.at(from + step, to_index));
       const float cost = here.cost_m + length_m[step.x != 0 && step.y != 0] * weight;
       if (cost > cost_m_[to_index] || cost <= here.cost_m) continue;

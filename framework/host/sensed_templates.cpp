@@ -99,17 +99,22 @@ ModuleContext context_of(const Studio& studio, const RobotModel& robot, std::uin
   return context;
 }
 
+enum class Side { left, right };  // of the robot, where the landmark is
+
 // Maps one lap and adds its gradients. The landmark's centre is the centre of cell (0, 0).
-void add_lap(const Studio& studio, const LandmarkShape& shape, double orientation_rad, int lap,
+void add_lap(const Studio& studio, const LandmarkShape& shape, double orientation_rad, Side landmark_side, int lap,
              const std::vector<TemplateCell>& cells, std::vector<Gradient>& sums) {
   const double radius_m = 0.5 * shape.contour.outer_diameter_m() + studio.options.standoff_m;
   const RobotModel robot = calibrated(studio.robot, 2.0 * radius_m);
   const std::uint64_t seed = studio.options.seed + static_cast<std::uint64_t>(lap);
   const auto mapper = studio.modules.make<Mapper>(studio.map, context_of(studio, robot, seed, {}, nullptr));
+  if (std::abs(mapper->grid().cell_m() - cell_m) > 1e-9) {
+    throw std::invalid_argument("sensed templates for cells of " + std::to_string(cell_m) +
+                                " m need a mapper with such cells, not " + std::to_string(mapper->grid().cell_m()));
+  }
   const Point centre = mapper->grid().centre_of({0, 0});
   const World world = world_of(shape, {centre.x(), centre.y(), orientation_rad}, 2.0 * radius_m + 1.0);
-  // Laps begin on opposite sides and run in opposite directions, so that no side is favoured.
-  const double side = lap % 2 == 0 ? 1.0 : -1.0;
+  const double side = landmark_side == Side::left ? 1.0 : -1.0;
   const Pose2 T_map_start{centre.x() + side * radius_m, centre.y(), std::numbers::pi / 2.0};
   const auto sensor = studio.modules.make<Sensor>(studio.sensor, context_of(studio, robot, seed, T_map_start, &world));
   const double speed_mps = std::min(studio.options.speed_mps, robot.max_v_mps);
@@ -122,10 +127,12 @@ void add_lap(const Studio& studio, const LandmarkShape& shape, double orientatio
 }
 
 LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad,
-                               double cell_m, int first, int stride) {
+                               Side landmark_side, double cell_m) {
   std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, cell_m, studio.options);
   std::vector<Gradient> sums(cells.size());
-  for (int lap = 0; lap < studio.options.laps; ++lap) add_lap(studio, shape, orientation_rad, first + lap * stride, cells, sums);
+  for (int lap = 0; lap < studio.options.laps; ++lap) {
+    add_lap(studio, shape, orientation_rad, landmark_side, lap, cells, sums);
+  }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     cells[i].gradient_x = static_cast<std::int16_t>(std::lround(sums[i].x / studio.options.laps));
     cells[i].gradient_y = static_cast<std::int16_t>(std::lround(sums[i].y / studio.options.laps));
@@ -143,8 +150,9 @@ TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double s
   TemplateSet set{cell_m, step_rad, shapes, {}};
   for (const LandmarkShape& shape : shapes) {
     for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
-      for (int first = 0; first < (options.each_way ? 2 : 1); ++first)
-      set.templates.push_back(render_sensed(studio, shape, orientation_rad, cell_m, first, options.each_way ? 2 : 1));
+      for (const Side side : {Side::left, Side::right}) {
+        set.templates.push_back(render_sensed(studio, shape, orientation_rad, side, cell_m));
+      }
     }
   }
   return set;

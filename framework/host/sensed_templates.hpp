@@ -13,15 +13,17 @@ namespace cairn {
 struct SensedOptions {
   double standoff_m = 0.55;  // from the contour's outer circle to the robot's centre
   double speed_mps = 0.2;
-  int laps = 2;                     // the first with the landmark on the left, then by turns
+  int laps = 1;                     // each way round; averaged
   double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour
   double edge_outside_cells = 3.0;  // and this far outside
-  bool each_way = false;
   std::uint64_t seed = 1;
 };
 
 // Lets the simulated robot drive round each contour, at each distinct orientation, in free space; the
-// templates are the mean Sobel gradients of the maps that arise. The landmark stands with its centre
+// templates are the mean Sobel gradients of the maps that arise. Each orientation gets two templates,
+// first for laps with the landmark on the left, then for those with it on the right: sonars that look
+// ahead smear an outline in the direction of travel, so that maps of the two differ by 6 degrees or
+// so, and one template for both would miss the orientation by that much. The landmark stands with its centre
 // on the centre of a cell, the surface is rough, odometry and compass are free of error.
 // The same arguments give the same templates. Throws what the modules throw, and std::runtime_error
 // when the sensor cannot be driven or ends before the lap does.

@@ -28,15 +28,21 @@ double within_reach(double samples) {
 }
 
 cv::Rect clipped(const cv::Mat& target, const PixelBox& box, double margin_px) {
-  const auto low = [&](double value) { return static_cast<int>(std::floor(within_reach((value - margin_px) * kSamplesPerPixel))); };
-  const auto high = [&](double value) { return static_cast<int>(std::ceil(within_reach((value + margin_px) * kSamplesPerPixel))); };
+  const auto low = [&](double value) {
+    return static_cast<int>(std::floor(within_reach((value - margin_px) * kSamplesPerPixel)));
+  };
+  const auto high = [&](double value) {
+    return static_cast<int>(std::ceil(within_reach((value + margin_px) * kSamplesPerPixel)));
+  };
   const cv::Rect wanted(cv::Point(low(box.min.x()), low(box.min.y())), cv::Point(high(box.max.x()), high(box.max.y())));
   return wanted & cv::Rect(0, 0, target.cols, target.rows);
 }
 
 cv::Point fixed_point(const Pixel& p, const cv::Rect& part) {
   // A sample's centre is a whole number to OpenCV.
-  const auto fixed = [](double sample) { return static_cast<int>(std::lround(within_reach(sample - 0.5) * (1 << kShift))); };
+  const auto fixed = [](double sample) {
+    return static_cast<int>(std::lround(within_reach(sample - 0.5) * (1 << kShift)));
+  };
   return {fixed(p.x() * kSamplesPerPixel - part.x), fixed(p.y() * kSamplesPerPixel - part.y)};
 }
 
@@ -44,7 +50,9 @@ int fixed_length(double length_px) {
   return static_cast<int>(std::lround(length_px * kSamplesPerPixel * (1 << kShift)));
 }
 
-int thickness_of(double width_px) { return std::max(1, static_cast<int>(std::lround(width_px * kSamplesPerPixel))); }
+int thickness_of(double width_px) {
+  return std::max(1, static_cast<int>(std::lround(width_px * kSamplesPerPixel)));
+}
 
 PixelBox box_of(std::span<const Pixel> points) {
   PixelBox box{points.front(), points.front()};
@@ -162,8 +170,8 @@ void Canvas::fill_polygon(std::span<const Pixel> corners, const Fill& fill) {
 void Canvas::fill_disc(const Pixel& centre, double radius_px, const Fill& fill) {
   paint(view_of(samples_, width_px_, height_px_), {centre, centre}, radius_px, fill,
         [&](cv::Mat& mask, const cv::Rect& part) {
-          cv::circle(mask, fixed_point(centre, part), fixed_length(radius_px), cv::Scalar(255), cv::FILLED,
-                     cv::LINE_AA, kShift);
+          cv::circle(mask, fixed_point(centre, part), fixed_length(radius_px), cv::Scalar(255), cv::FILLED, cv::LINE_AA,
+                     kShift);
         });
 }
 

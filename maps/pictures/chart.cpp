@@ -49,10 +49,14 @@ std::string text_of(double value) {
 
 const char* style_of(SeriesStyle style) {
   switch (style) {
-    case SeriesStyle::points: return "points pointtype 7 pointsize 0.8";
-    case SeriesStyle::lines_and_points: return "linespoints pointtype 7 pointsize 0.7 linewidth 2";
-    case SeriesStyle::steps: return "steps linewidth 2";
-    default: return "lines linewidth 2";
+    case SeriesStyle::points:
+      return "points pointtype 7 pointsize 0.8";
+    case SeriesStyle::lines_and_points:
+      return "linespoints pointtype 7 pointsize 0.7 linewidth 2";
+    case SeriesStyle::steps:
+      return "steps linewidth 2";
+    default:
+      return "lines linewidth 2";
   }
 }
 
@@ -92,7 +96,8 @@ class MemoryFile {
   }
   [[nodiscard]] int fd() const { return fd_; }
   [[nodiscard]] bool fill(const std::string& text) const {
-    return ::write(fd_, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::lseek(fd_, 0, SEEK_SET) == 0;
+    return ::write(fd_, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+           ::lseek(fd_, 0, SEEK_SET) == 0;
   }
   [[nodiscard]] std::string first_line() const {
     std::string text(300, '\0');
@@ -119,12 +124,15 @@ int start_gnuplot(int script, int picture, int complaints, pid_t& child) {
   return error;
 }
 
-ChartOutcome failed(const std::string& what, int error) { return {false, what + ": " + std::strerror(error)}; }
+ChartOutcome failed(const std::string& what, int error) {
+  return {false, what + ": " + std::strerror(error)};
+}
 
 ChartOutcome run_gnuplot(const std::string& script_text, int picture) {
   const MemoryFile script("chart script");
   const MemoryFile complaints("chart complaints");
-  if (script.fd() < 0 || complaints.fd() < 0 || !script.fill(script_text)) return failed("no memory for a chart", errno);
+  if (script.fd() < 0 || complaints.fd() < 0 || !script.fill(script_text))
+    return failed("no memory for a chart", errno);
   pid_t child = 0;
   const int error = start_gnuplot(script.fd(), picture, complaints.fd(), child);
   if (error == ENOENT) return {false, "gnuplot is not installed, charts need it (package gnuplot-nox)"};

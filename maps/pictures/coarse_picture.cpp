@@ -82,10 +82,10 @@ void draw_value_bar(Canvas& canvas, const Pixel& upper_left) {
 std::vector<LegendEntry> legend_of(const CoarsePicture& picture) {
   std::vector<LegendEntry> entries;
   if (picture.trigger_ol)
-    entries.push_back({"above the trigger threshold " + trimmed_text(*picture.trigger_ol, 1),
-                       [](Canvas& canvas, const Pixel& at) {
-                         draw_trigger(canvas, {at - Pixel(8.0, 8.0), at + Pixel(8.0, 8.0)});
-                       }});
+    entries.push_back(
+        {"above the trigger threshold " + trimmed_text(*picture.trigger_ol, 1), [](Canvas& canvas, const Pixel& at) {
+           draw_trigger(canvas, {at - Pixel(8.0, 8.0), at + Pixel(8.0, 8.0)});
+         }});
   if (!picture.region.empty()) entries.push_back(swatch_entry("region to match", {242, 178, 90}));
   return entries;
 }

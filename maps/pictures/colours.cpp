@@ -7,7 +7,9 @@
 namespace cairn::pictures {
 namespace {
 
-std::uint8_t byte_of(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
+std::uint8_t byte_of(double value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+}
 
 Colour mixed(Colour a, Colour b, double share_of_b) {
   const auto mix = [share_of_b](int from, int to) { return byte_of(from + (to - from) * share_of_b); };

@@ -33,7 +33,9 @@ double outer_radius_m(const Contour& contour) {
   return radius_m;
 }
 
-Point end_of(const Landmark& landmark) { return landmark.access.value_or(landmark.T_map_landmark).position(); }
+Point end_of(const Landmark& landmark) {
+  return landmark.access.value_or(landmark.T_map_landmark).position();
+}
 
 Stroke stroke_of(const Route& route) {
   const double dash_px = route.trajectory.empty() || route.closed ? 7.0 : 0.0;
@@ -90,7 +92,8 @@ void GraphLayer::draw_routes(Canvas& canvas, const MapFrame& frame) const {
   for (const auto& [id, route] : graph_.routes()) {
     // There and back again is one line when both are straight.
     const Route* back = graph_.route_between(route.to, route.from);
-    if (!route.closed && route.trajectory.empty() && back != nullptr && back->trajectory.empty() && back->id < id) continue;
+    if (!route.closed && route.trajectory.empty() && back != nullptr && back->trajectory.empty() && back->id < id)
+      continue;
     canvas.line(frame.pixels_of(course_of(route)), stroke_of(route));
   }
 }
@@ -127,7 +130,7 @@ void GraphLayer::draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer&
     const double radius = radius_px(landmark, frame);
     placer.avoid({centre - Pixel(radius, radius), centre + Pixel(radius, radius)}, 6.0);
   }
-  for (const auto& [id, route] : graph_.routes()) placer.avoid_line(frame.pixels_of(course_of(route)), 0.5);
+  for (const auto& [id, route] : graph_.routes()) placer.avoid_line(frame.pixels_of(course_of(route)), 0.25);
   for (const auto& [id, landmark] : graph_.landmarks()) {
     const std::string words = words_about(landmark);
     const Colour colour = colour_of(landmark.category);
@@ -145,7 +148,8 @@ std::vector<LegendEntry> GraphLayer::legend() const {
   std::vector<LegendEntry> entries;
   for (const std::string& category : categories_)
     if (!graph_.of_category(category).empty())
-      entries.push_back(category_entry(category.empty() ? "place" : category, contour_of(category), colour_of(category)));
+      entries.push_back(
+          category_entry(category.empty() ? "place" : category, contour_of(category), colour_of(category)));
   bool open = false;
   bool closed = false;
   bool cost_only = false;

@@ -9,12 +9,15 @@ namespace {
 
 constexpr double kOutsideCost = 20.0;
 constexpr double kLabelCost = 10.0;
+constexpr double kRingCost = 150.0;  // of each step away from what the label names
 constexpr double kGapPx = 5.0;
 // Right, left, above, below, then the corners: the order breaks ties.
 constexpr std::array<std::array<double, 2>, 8> kDirections{
     {{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}}};
 
-double area_of(const PixelBox& box) { return std::max(0.0, box.width()) * std::max(0.0, box.height()); }
+double area_of(const PixelBox& box) {
+  return std::max(0.0, box.width()) * std::max(0.0, box.height());
+}
 
 double overlap_of(const PixelBox& a, const PixelBox& b) {
   const Pixel min = a.min.cwiseMax(b.min);
@@ -27,7 +30,9 @@ double overlap_of(const PixelBox& a, const PixelBox& b) {
 LabelPlacer::LabelPlacer(const PixelBox& area, std::function<double(const PixelBox&)> background_cost)
     : area_(area), background_cost_(std::move(background_cost)) {}
 
-void LabelPlacer::avoid(const PixelBox& box, double cost) { obstacles_.push_back({box, cost}); }
+void LabelPlacer::avoid(const PixelBox& box, double cost) {
+  obstacles_.push_back({box, cost});
+}
 
 void LabelPlacer::avoid_line(std::span<const Pixel> points, double cost) {
   constexpr double kStepPx = 6.0;
@@ -53,7 +58,7 @@ PixelBox LabelPlacer::place(const Pixel& about, double radius_px, const Pixel& s
       const Pixel direction(kDirections[i][0], kDirections[i][1]);
       const Pixel centre = about + direction.cwiseProduct(Pixel(share * reach_px, share * reach_px) + size_px / 2.0);
       const PixelBox box{centre - size_px / 2.0, centre + size_px / 2.0};
-      const double cost = cost_of(box) + ring * 40.0 + static_cast<double>(i) * 2.0;
+      const double cost = cost_of(box) + ring * kRingCost + static_cast<double>(i) * 2.0;
       if (cost < best_cost) {
         best = box;
         best_cost = cost;

@@ -28,7 +28,9 @@ Legend::Legend(std::vector<LegendEntry> entries, double width_px) {
   }
 }
 
-double Legend::height_px() const { return rows_ * kRowPx; }
+double Legend::height_px() const {
+  return rows_ * kRowPx;
+}
 
 void Legend::draw(Canvas& canvas, const Pixel& upper_left) const {
   for (const Placed& placed : placed_) {

@@ -26,7 +26,9 @@ double round_at_least(double value) {
   return 10.0 * decade;
 }
 
-int decimals_for(double step) { return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))); }
+int decimals_for(double step) {
+  return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+}
 
 // Mean OL of a block of cells.
 double mean_ol(const OccupancyGrid& grid, const CellBox& block) {
@@ -54,7 +56,9 @@ void draw_ticks(Canvas& canvas, const MapFrame& frame, bool along_x) {
 
 }  // namespace
 
-bool is_drawable(const Point& p_map) { return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < 1e6; }
+bool is_drawable(const Point& p_map) {
+  return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < 1e6;
+}
 
 void Extent::include(const Point& p, double margin_m) {
   if (!is_drawable(p)) return;
@@ -111,7 +115,9 @@ int page_width_px(const MapFrame& frame) {
   return std::max(kLeastPageWidthPx, static_cast<int>(std::ceil(frame.box.max.x() + kPageMarginPx)));
 }
 
-double below_frame_px(const MapFrame& frame) { return frame.box.max.y() + kTickRoomPx; }
+double below_frame_px(const MapFrame& frame) {
+  return frame.box.max.y() + kTickRoomPx;
+}
 
 CellImage image_of(const OccupancyGrid& grid, const CellBox& box) {
   const int block = 1 + (std::max(box.width(), box.height()) - 1) / kMaxImageSide;

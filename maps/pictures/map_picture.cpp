@@ -74,8 +74,8 @@ void draw_grid(Canvas& canvas, const MapFrame& frame, const OccupancyGrid* grid)
 void draw_start(Canvas& canvas, const Pixel& at) {
   canvas.fill_disc(at, 8.0, {kWhite});
   canvas.fill_disc(at, 6.5, {kStart});
-  canvas.fill_polygon(std::array{Pixel(at + Pixel(-2.2, -3.5)), Pixel(at + Pixel(3.8, 0.0)), Pixel(at + Pixel(-2.2, 3.5))},
-                      {kWhite});
+  canvas.fill_polygon(
+      std::array{Pixel(at + Pixel(-2.2, -3.5)), Pixel(at + Pixel(3.8, 0.0)), Pixel(at + Pixel(-2.2, 3.5))}, {kWhite});
 }
 
 void draw_goal(Canvas& canvas, const Pixel& at) {
@@ -176,8 +176,7 @@ std::string subtitle_of(const MapPicture& picture) {
 void write_map_picture(const std::filesystem::path& file, const MapPicture& picture) {
   const LandmarkGraph no_graph;
   const GraphLayer graph(picture.graph == nullptr ? no_graph : *picture.graph, picture.shapes);
-  const MapFrame frame =
-      frame_of(extent_of(picture, graph), picture.grid == nullptr ? 1.0 : picture.grid->cell_m());
+  const MapFrame frame = frame_of(extent_of(picture, graph), picture.grid == nullptr ? 1.0 : picture.grid->cell_m());
   const int width_px = page_width_px(frame);
   const Legend legend(legend_of(picture, graph), width_px - frame.box.min.x() - kPageMarginPx - kScaleBarRoomPx);
   const double legend_top_px = below_frame_px(frame) + 10.0;

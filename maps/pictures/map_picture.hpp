@@ -16,10 +16,10 @@
 namespace cairn {
 
 struct MapPicture {
-  const OccupancyGrid* grid = nullptr;   // none: a blank page
+  const OccupancyGrid* grid = nullptr;  // none: a blank page
   const LandmarkGraph* graph = nullptr;
-  std::vector<LandmarkShape> shapes;     // outlines of the graph's categories; a dot where there is none
-  std::vector<Point> driven;             // in the map frame, as all below
+  std::vector<LandmarkShape> shapes;  // outlines of the graph's categories; a dot where there is none
+  std::vector<Point> driven;          // in the map frame, as all below
   std::vector<Point> planned;
   std::optional<Point> start;
   std::optional<Point> goal;

@@ -23,20 +23,24 @@ constexpr double kLeftPx = 48.0;
 constexpr double kLegendPx = 84.0;
 constexpr Colour kTileGround{24, 28, 34};
 
-double magnitude_of(const TemplateCell& cell) { return std::hypot(cell.gradient_x, cell.gradient_y); }
+double magnitude_of(const TemplateCell& cell) {
+  return std::hypot(cell.gradient_x, cell.gradient_y);
+}
 
 Colour colour_of(double direction_rad, double steepness) {
   const double turn = direction_rad / (2.0 * std::numbers::pi);
   const Colour hue = colour_of_hue(turn - std::floor(turn), 1.0);
   // Even weak gradients stand out from the ground.
   const double share = 0.15 + 0.85 * steepness;
-  const auto mix = [share](int ground, int full) { return static_cast<std::uint8_t>(ground + (full - ground) * share); };
+  const auto mix = [share](int ground, int full) {
+    return static_cast<std::uint8_t>(ground + (full - ground) * share);
+  };
   return {mix(kTileGround.red, hue.red), mix(kTileGround.green, hue.green), mix(kTileGround.blue, hue.blue)};
 }
 
 struct Scale {
-  int reach_cells = 1;     // the farthest edge cell from the centre, in x or y
-  double steepest = 1.0;   // the greatest gradient magnitude
+  int reach_cells = 1;    // the farthest edge cell from the centre, in x or y
+  double steepest = 1.0;  // the greatest gradient magnitude
 };
 
 Scale scale_of(const TemplateSet& set) {
@@ -79,7 +83,8 @@ Layout lay_out(const TemplateSet& set) {
       ++layout.rows;
       column = 0;
     }
-    layout.tiles.emplace_back(kLeftPx + column * (kTilePx + kGapPx), kTopPx + (layout.rows - 1) * (kTilePx + kCaptionPx));
+    layout.tiles.emplace_back(kLeftPx + column * (kTilePx + kGapPx),
+                              kTopPx + (layout.rows - 1) * (kTilePx + kCaptionPx));
     ++column;
   }
   return layout;
@@ -96,8 +101,8 @@ void draw_legend(Canvas& canvas, const Pixel& left) {
     canvas.line(std::array{Pixel(centre + 11.0 * direction), Pixel(centre + kRadiusPx * direction)},
                 {colour_of(angle_rad, 1.0), 2.5});
   }
-  canvas.text(left + Pixel(2.0 * kRadiusPx + 14.0, -8.0),
-              "hue: where the gradient points, towards what is occupied", {kInk, 12.0});
+  canvas.text(left + Pixel(2.0 * kRadiusPx + 14.0, -8.0), "hue: where the gradient points, towards what is occupied",
+              {kInk, 12.0});
   canvas.text(left + Pixel(2.0 * kRadiusPx + 14.0, 10.0), "brightness: how steep it is", {kInk, 12.0});
 }
 

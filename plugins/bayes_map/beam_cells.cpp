@@ -35,7 +35,9 @@ void cut_to_left_of(Interval& x, double y, const Point& edge) {
   if (edge.y() < 0.0) x.low = std::max(x.low, edge.x() * y / edge.y());
 }
 
-Point direction_of(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+Point direction_of(double angle_rad) {
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
 
 // Lowest and highest y of the sector: its apex, its two corners, and the disc's poles it holds.
 Interval rows_of(double axis_rad, double half_beam_rad, double radius) {
@@ -51,7 +53,9 @@ Interval rows_of(double axis_rad, double half_beam_rad, double radius) {
   return y;
 }
 
-int floor_of(double cells) { return static_cast<int>(std::floor(cells)); }
+int floor_of(double cells) {
+  return static_cast<int>(std::floor(cells));
+}
 
 std::vector<CellSpan> spans_of_cone(const Beam& beam, const Point& apex, double reach) {
   const double axis = beam.T_map_sensor.theta_rad;

@@ -34,8 +34,7 @@ struct BeamPlace {
 // distance along the ray.
 class BeamFrame {
  public:
-  BeamFrame(const Beam& beam, double cell_m)
-      : beam_(beam), cell_m_(cell_m), ahead_(beam.T_map_sensor.direction()) {}
+  BeamFrame(const Beam& beam, double cell_m) : beam_(beam), cell_m_(cell_m), ahead_(beam.T_map_sensor.direction()) {}
 
   [[nodiscard]] BeamPlace place_of(Cell cell) const {
     const double dx = (cell.x + 0.5) * cell_m_ - beam_.T_map_sensor.x_m;

@@ -10,8 +10,12 @@ namespace {
 // Beyond these Phi is 1 and phi is 0 to the last bit of any increment; most cells of a cone are there.
 constexpr double kFarBefore = 8.5;
 
-double normal_density(double z) { return std::exp(-0.5 * z * z) * (0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2); }
-double normal_integral(double z) { return z > kFarBefore ? 1.0 : 0.5 * std::erfc(-z * (0.5 * std::numbers::sqrt2)); }
+double normal_density(double z) {
+  return std::exp(-0.5 * z * z) * (0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2);
+}
+double normal_integral(double z) {
+  return z > kFarBefore ? 1.0 : 0.5 * std::erfc(-z * (0.5 * std::numbers::sqrt2));
+}
 
 }  // namespace
 
@@ -35,6 +39,8 @@ double BeamModel::reach_of_echo_m(double echo_m) const {
   return std::min(alpha_range_m, (echo_m + 3.0 * delta_m) / (1.0 - 3.0 * delta_per_m));
 }
 
-double BeamModel::reach_of_silence_m(double max_m) const { return std::min(alpha_range_m, max_m); }
+double BeamModel::reach_of_silence_m(double max_m) const {
+  return std::min(alpha_range_m, max_m);
+}
 
 }  // namespace cairn::bayes_map

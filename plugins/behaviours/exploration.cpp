@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kTrace_m = 0.1;  // spacing of remembered poses
 constexpr double kTraceTurn_rad = radians(30.0);
-constexpr double kChoiceEvery_s = 2.0;
+constexpr double kChoiceEvery_s = 2.5;
+constexpr double kAroundHere_m = 8.0;
+constexpr double kEverywhere_m = 1e6;
 constexpr double kChoiceAtLeastApart_s = 0.5;
 constexpr double kLookAround_radps = radians(45.0);
 constexpr double kBlockedAhead_m = 0.8;
@@ -81,10 +83,15 @@ void Exploration::drive(const Twist& wanted, Orders& orders) {
   orders.drive(wanted);
 }
 
-FreeSpace Exploration::space_now(const WorldView& world) const {
-  return FreeSpace(near_echoes_.added_to(world.grid),
-                   {world.pose.T_map_robot.position(), world.robot.radius_m, config_.clearance_m}, memory_.trace,
-                   memory_.troubles);
+FreeSpace Exploration::space_now(const WorldView& world, double within_m) const {
+  const Point position = world.pose.T_map_robot.position();
+  const Cell here = world.grid.cell_at(position);
+  const CellBox all = world.grid.bounds();
+  const int reach =
+      static_cast<int>(std::min(within_m / world.grid.cell_m(), 1.0 + std::max(all.width(), all.height())));
+  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
+  return FreeSpace(near_echoes_.added_to(world.grid, part), {position, world.robot.radius_m, config_.clearance_m},
+                   memory_.trace, memory_.troubles);
 }
 
 // One turn on the spot, before the first choice: it costs no distance and opens the map all round.
@@ -105,21 +112,25 @@ bool Exploration::needs_choice(const WorldView& world) const {
   return since_s >= kChoiceEvery_s || !still_worthwhile(*task_, world.grid);
 }
 
+bool Exploration::choose_within(double within_m, const WorldView& world) {
+  const FreeSpace space = space_now(world, within_m);
+  const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
+  // Each turn of the loop either ends it or gives a part of a task up.
+  for (;;) {
+    task_ = next_task(space, world.pose.T_map_robot, frontiers_wanted, task_ ? &*task_ : nullptr, settings_, memory_);
+    if (!task_) return false;
+    const bool is_there = length_of(task_->path) < kThere_m;
+    if (!is_there || task_->kind == TaskKind::frontier) return true;
+    give_up(*task_, space, settings_, memory_);
+  }
+}
+
 bool Exploration::choose(const WorldView& world, Orders& orders) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   chosen_s_ = world.time_s;
   follow_state_ = {0.0, follow_state_.turning};
-  const FreeSpace space = space_now(world);
-  const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
-  const Pose2& pose = world.pose.T_map_robot;
-  // Each turn of the loop either ends it or gives a part of a task up.
-  for (;;) {
-    task_ = next_task(space, pose, frontiers_wanted, task_ ? &*task_ : nullptr, settings_, memory_);
-    if (!task_) return false;
-    const bool is_there = length_of(task_->path) < kThere_m;
-    if (!is_there || task_->kind == TaskKind::frontier) break;
-    give_up(*task_, space, settings_, memory_);
-  }
+  // The whole map only when there is nothing to do around here.
+  if (!choose_within(kAroundHere_m, world) && !choose_within(kEverywhere_m, world)) return false;
   if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
     said_about_ = task_->about;
     orders.say(sentence_of(*task_));
@@ -161,7 +172,7 @@ void Exploration::arrive(const WorldView& world) {
     faced_s_ = world.time_s;
     return;
   }
-  if (task_->kind == TaskKind::frontier) give_up(*task_, space_now(world), settings_, memory_);
+  if (task_->kind == TaskKind::frontier) give_up(*task_, space_now(world, kAroundHere_m), settings_, memory_);
   task_.reset();
 }
 
@@ -173,7 +184,7 @@ Status Exploration::face(const WorldView& world, Orders& orders) {
     faced_s_ = world.time_s;
     drive(turn_by(error_rad, limits_.max_w_radps), orders);
   } else if (world.time_s - faced_s_ >= kFaceDwell_s || !has_time || !still_worthwhile(*task_, world.grid)) {
-    give_up(*task_, space_now(world), settings_, memory_);
+    give_up(*task_, space_now(world, kAroundHere_m), settings_, memory_);
     task_.reset();
     set_mode(Mode::travel, world.time_s);
   }
@@ -194,7 +205,7 @@ Status Exploration::get_unstuck(const WorldView& world, Orders& orders) {
   if (task_) {
     const bool again = std::any_of(failed_lookouts_.begin(), failed_lookouts_.end(),
                                    [&](const Point& p) { return (p - task_->lookout).norm() < kFailedAgain_m; });
-    if (again) give_up(*task_, space_now(world), settings_, memory_);
+    if (again) give_up(*task_, space_now(world, kAroundHere_m), settings_, memory_);
     failed_lookouts_.push_back(task_->lookout);
     task_.reset();
   }
@@ -219,7 +230,7 @@ Status Exploration::back_off(const WorldView& world, Orders& orders) {
 
 Status Exploration::finished(const WorldView& world) const {
   const bool has_moved = driven_m_ > 0.05;
-  const FreeSpace space = space_now(world);
+  const FreeSpace space = space_now(world, kAroundHere_m);
   const Cell here = space.cell_at(world.pose.T_map_robot.position());
   const bool can_move = std::any_of(std::begin(kNeighbours), std::end(kNeighbours), [&](Cell step) {
     return space.reaches(here + step) || space.reaches(here + step + step);

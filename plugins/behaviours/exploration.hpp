@@ -30,7 +30,8 @@ class Exploration {
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   void drive(const Twist& wanted, Orders& orders);
-  [[nodiscard]] FreeSpace space_now(const WorldView& world) const;
+  [[nodiscard]] FreeSpace space_now(const WorldView& world, double within_m) const;
+  [[nodiscard]] bool choose_within(double within_m, const WorldView& world);
   [[nodiscard]] bool is_blocked(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
   [[nodiscard]] bool choose(const WorldView& world, Orders& orders);

@@ -13,9 +13,10 @@ namespace {
 constexpr double kLapBonus_m = 1.5;             // an object is circled when the robot first comes near
 constexpr double kFrontierBonus_m_per_m = 0.3;  // of the frontier's length
 constexpr double kMostFrontierBonus_m = 0.8;
-constexpr double kStayBonus_m = 0.4;
-constexpr double kSame_m = 0.5;  // lookouts this near are the same task
-constexpr double kLeastEdge_m = 0.2;
+constexpr int kNotWorthALap = 2;  // open sectors that are left alone once the robot is elsewhere
+constexpr double kStayBonus_m = 0.8;
+constexpr double kSame_m = 0.8;  // tasks this near are the same one, grown or shrunk
+constexpr double kLeastEdge_m = 0.3;
 // Things are looked at from a little nearer than needed, so that arriving is seeing.
 constexpr double kViewRatio = 0.85;
 
@@ -36,9 +37,12 @@ std::vector<CellGroup> groups_of(const std::vector<Cell>& cells, double least_ce
   return groups;
 }
 
+bool is_about_the_same(const ExploreTask& a, const ExploreTask& b) {
+  return a.kind == b.kind && ((a.lookout - b.lookout).norm() < kSame_m || (a.about - b.about).norm() < kSame_m);
+}
+
 void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* previous) {
-  if (previous != nullptr && previous->kind == task.kind && (previous->lookout - task.lookout).norm() < kSame_m)
-    bonus_m += kStayBonus_m;
+  if (previous != nullptr && is_about_the_same(*previous, task)) bonus_m += kStayBonus_m;
   if (task.cost_m - bonus_m >= best.score_m) return;
   best = {task.cost_m - bonus_m, std::move(task)};
 }
@@ -58,10 +62,16 @@ void offer_groups(Choice& best, TaskKind kind, std::vector<CellGroup> groups, do
 void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
                 const LapSettings& settings, const ExploreMemory& memory) {
   for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
+    // No lap begins nearer than this.
+    const double least_m =
+        (middle_of(space, object) - T_map_robot.position()).norm() - settings.largest_object_m - settings.look_closer_m;
+    if (least_m - kLapBonus_m - kStayBonus_m >= best.score_m) continue;
     const Lap lap = lap_round(space, object, memory.trace, memory.given_up_lookouts, settings);
     if (!lap.is_round_trip() || lap.count(SectorState::open) == 0) continue;
     LapRoute route = lap_route(space, lap, T_map_robot);
     ExploreTask task{TaskKind::lap, lap.centre, {}, space.centre_of(route.first), std::move(route.path), route.cost_m};
+    const bool has_begun = previous != nullptr && is_about_the_same(*previous, task);
+    if (!has_begun && lap.count(SectorState::open) <= kNotWorthALap) continue;
     offer(best, std::move(task), kLapBonus_m, previous);
   }
 }
@@ -73,7 +83,6 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
   Choice best;
   const double look_closer_m = settings.lap.look_closer_m;
   if (look_closer_m > 0.0) {
-    offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
     offer_groups(best, TaskKind::edge,
                  groups_of(unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges),
                            kLeastEdge_m / space.cell_m()),
@@ -86,6 +95,7 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
                            settings.smallest_frontier_m / space.cell_m()),
                  kViewRatio * sight.within_m, kFrontierBonus_m_per_m, space, previous);
   }
+  if (look_closer_m > 0.0) offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
   if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
   return std::move(best.task);

@@ -13,7 +13,7 @@ namespace cairn::behaviours {
 struct TaskSettings {
   LapSettings lap;  // lap.look_closer_m 0: no laps and no edges
   double smallest_frontier_m = 0.3;
-  double frontier_view_m = 0.8;  // a frontier is looked at from within this distance
+  Sight frontier_sight{1.0, radians(60.0)};  // a frontier is looked at from within it
 };
 
 // What exploring remembers between two choices.

@@ -15,6 +15,7 @@ constexpr double kTroubleCost = 20.0;
 constexpr double kTroubleRadius_m = 0.3;
 constexpr double kForbidden = 1e6;  // the step weight of cells that may not be crossed
 constexpr double kOutOfReach_m = 1e4;
+constexpr float kDearest = 1e5F;  // the start may lie where nothing may be crossed
 constexpr double kLongestWayOut_m = 0.8;
 constexpr std::size_t kLongestShortcut_cells = 60;
 constexpr int kStraightFirst[8] = {1, 3, 4, 6, 0, 2, 5, 7};  // of kNeighbours
@@ -90,7 +91,13 @@ std::vector<Point> FreeSpace::find_way_out() const {
 }
 
 TravelField FreeSpace::travel_from_way_out() const {
-  return TravelField(field_, way_out_.back(), least_m_, [this](Cell c) { return weights_.at(c); });
+  // Only what can be crossed, so that the search never leaves it.
+  OccupancyGrid crossable(field_.cell_m(), 4.0, field_.origin_m());
+  for (int y = box().min.y; y < box().max.y; ++y)
+    for (int x = box().min.x; x < box().max.x; ++x)
+      if (weights_.at({x, y}) < kForbidden) crossable.set_log_odds({x, y}, log_odds_of(0.01));
+  const DistanceField field(crossable, UnknownPolicy::avoid);
+  return TravelField(field, way_out_.back(), 0.0, [this](Cell c) { return std::min(weights_.at(c), kDearest); });
 }
 
 FreeSpace::FreeSpace(const OccupancyGrid& grid, const RobotSpace& robot, const std::vector<Pose2>& trace,

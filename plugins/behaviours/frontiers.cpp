@@ -1,15 +1,13 @@
 #include "plugins/behaviours/frontiers.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <numbers>
-#include <queue>
-#include <tuple>
 
 namespace cairn::behaviours {
 namespace {
 
+constexpr int kStraight = 5;
+constexpr int kDiagonal = 7;
 constexpr Cell kBeside[4] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}};
 
 bool has_beside(const FreeSpace& space, Cell cell, CellState state) {
@@ -44,39 +42,35 @@ std::vector<Cell> edge_cells(const FreeSpace& space) {
   return cells_where(space.box(), [&](Cell c) { return is_edge(space, c); });
 }
 
+// Dial's algorithm with steps of 5 and 7 fifths of a cell: one bucket a distance.
 std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vector<CellGroup>& groups,
                                           double within_m) {
-  struct Owner {
-    float way_m = std::numeric_limits<float>::infinity();
-    int group = -1;
+  struct Entry {
+    Cell cell;
+    int group;
   };
-  using Entry = std::tuple<float, Cell, int>;
-  CellLayer<Owner> owner(space.box(), {}, {});
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const int most = static_cast<int>(kStraight * within_m / space.cell_m() + 0.5);
+  std::vector<std::vector<Entry>> buckets(static_cast<std::size_t>(most) + 1);
   for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const Cell c : groups[g]) queue.emplace(0.0F, c, static_cast<int>(g));
+    for (const Cell c : groups[g]) buckets[0].push_back({c, static_cast<int>(g)});
 
   std::vector<std::optional<Cell>> best(groups.size());
   std::vector<double> best_cost_m(groups.size(), std::numeric_limits<double>::infinity());
-  const auto cell_m = static_cast<float>(space.cell_m());
-  const double most_m = within_m + 0.01 * space.cell_m();  // sums of cells, give or take rounding
-  while (!queue.empty()) {
-    const auto [way_m, cell, group] = queue.top();
-    queue.pop();
-    if (owner.at(cell).group >= 0) continue;
-    owner[cell] = {way_m, group};
-    const auto g = static_cast<std::size_t>(group);
-    if (const double cost_m = space.cost_m(cell); cost_m < best_cost_m[g]) {
-      best_cost_m[g] = cost_m;
-      best[g] = cell;
-    }
-    for (const Cell step : kNeighbours) {
-      const Cell next = cell + step;
-      const float next_m = way_m + cell_m * (step.x != 0 && step.y != 0 ? std::numbers::sqrt2_v<float> : 1.0F);
-      if (next_m > most_m || owner.at(next).group >= 0 || space.state(next) != CellState::free) continue;
-      if (next_m < owner.at(next).way_m) {
-        owner[next].way_m = next_m;
-        queue.emplace(next_m, next, group);
+  CellLayer<char> settled(space.box(), 0, 1);
+  for (int way = 0; way <= most; ++way) {
+    for (const Entry entry : buckets[static_cast<std::size_t>(way)]) {
+      if (settled.at(entry.cell)) continue;
+      settled[entry.cell] = 1;
+      const auto g = static_cast<std::size_t>(entry.group);
+      if (const double cost_m = space.cost_m(entry.cell); cost_m < best_cost_m[g]) {
+        best_cost_m[g] = cost_m;
+        best[g] = entry.cell;
+      }
+      for (const Cell step : kNeighbours) {
+        const int next_way = way + (step.x != 0 && step.y != 0 ? kDiagonal : kStraight);
+        const Cell next = entry.cell + step;
+        if (next_way <= most && !settled.at(next) && space.state(next) == CellState::free)
+          buckets[static_cast<std::size_t>(next_way)].push_back({next, entry.group});
       }
     }
   }

@@ -84,6 +84,17 @@ Sector look_along(const FreeSpace& space, const CellGroup& object, const Lap& la
   return result;
 }
 
+// Whether the robot can come near at all: most of what looks like an object in a noisy map is out of reach.
+bool is_near_reach(const FreeSpace& space, const Lap& lap, const LapSettings& settings) {
+  const double reach_m = lap.radius_m + settings.look_closer_m;
+  const Cell low = space.cell_at(lap.centre - Point{reach_m, reach_m});
+  const Cell high = space.cell_at(lap.centre + Point{reach_m, reach_m});
+  for (int y = low.y; y <= high.y; y += 3)
+    for (int x = low.x; x <= high.x; x += 3)
+      if (space.reaches({x, y})) return true;
+  return false;
+}
+
 void mark_covered(const FreeSpace& space, const CellGroup& object, const std::vector<Pose2>& trace,
                   double look_closer_m, Lap& lap) {
   for (const Pose2& pose : trace) {
@@ -154,6 +165,7 @@ Lap lap_round(const FreeSpace& space, const CellGroup& object, const std::vector
   for (const Cell c : object) lap.radius_m = std::max(lap.radius_m, (space.centre_of(c) - lap.centre).norm());
 
   lap.sectors.resize(kLapSectors);
+  if (!is_near_reach(space, lap, settings)) return lap;
   mark_covered(space, object, trace, settings.look_closer_m, lap);
   for (int i = 0; i < kLapSectors; ++i) {
     Sector& sector = lap.sectors[static_cast<std::size_t>(i)];

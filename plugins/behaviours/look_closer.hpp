@@ -47,7 +47,7 @@ struct Lap {
   double radius_m = 0.0;        // of the object
   std::vector<Sector> sectors;  // kLapSectors
 
-  [[nodiscard]] int count(SectorState state) const;
+  [[nodiscard]] int count(SectorState state) const;  // 0 when the object was out of reach
   // A thing that stands free, as far as can be told: nearly all the way round is known.
   [[nodiscard]] bool is_round_trip() const;
 };

@@ -71,13 +71,19 @@ void NearEchoes::stand_at(const Point& p_map, double radius_m) {
   }
 }
 
-OccupancyGrid NearEchoes::added_to(const OccupancyGrid& map) const {
-  OccupancyGrid all = map;
-  const CellBox box = votes_.bounds();
+OccupancyGrid NearEchoes::added_to(const OccupancyGrid& map, const CellBox& part) const {
+  OccupancyGrid all(map.cell_m(), map.clamp_nat(), map.origin_m());
   const LogOdds solid = log_odds_of(0.9);
-  for (int y = box.min.y; y < box.max.y; ++y)
-    for (int x = box.min.x; x < box.max.x; ++x)
-      if (votes_.state({x, y}) == CellState::occupied && map.log_odds({x, y}) < solid) all.set_log_odds({x, y}, solid);
+  const CellBox box = intersected(part, united(map.bounds(), votes_.bounds()));
+  std::vector<LogOdds> row(static_cast<std::size_t>(std::max(0, box.width())));
+  for (int y = box.min.y; y < box.max.y; ++y) {
+    map.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, row);
+    for (int x = box.min.x; x < box.max.x; ++x) {
+      const LogOdds mapped = row[static_cast<std::size_t>(x - box.min.x)];
+      const bool is_solid = votes_.state({x, y}) == CellState::occupied;
+      if (is_solid || mapped != 0) all.set_log_odds({x, y}, is_solid ? std::max(mapped, solid) : mapped);
+    }
+  }
   return all;
 }
 

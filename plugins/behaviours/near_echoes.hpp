@@ -24,8 +24,8 @@ class NearEchoes {
 
   // Occupied: solid. The rest says nothing.
   [[nodiscard]] const OccupancyGrid& votes() const { return votes_; }
-  // The map with everything solid occupied.
-  [[nodiscard]] OccupancyGrid added_to(const OccupancyGrid& map) const;
+  // A copy of this part of the map with everything solid occupied.
+  [[nodiscard]] OccupancyGrid added_to(const OccupancyGrid& map, const CellBox& part) const;
 
  private:
   void vote(const RangeReading& reading, const Pose2& T_map_sensor);

@@ -28,8 +28,8 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
     : config_(config),
       motion_noise_(motion_noise_of(config, robot)),
       compass_noise_rad_(std::max(config.least_compass_noise_rad, robot.compass_error.noise_rad)),
-      filter_(T_map_start, {config.start_position_m, config.start_heading_rad,
-                            robot.odometry_error.distance_bias_ratio, motion_noise_.bias_rad}) {}
+      filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
+                            motion_noise_.bias_rad}) {}
 
 PoseEstimate OdometryCompass::update(const Observation& observation, std::span<const LandmarkSighting> sightings) {
   follow_odometry(observation.T_odom_robot);
@@ -58,14 +58,13 @@ void OdometryCompass::follow_compass(double compass_rad) {
 
 void OdometryCompass::follow_landmark(const LandmarkSighting& sighting) {
   const Eigen::Matrix3d& seen = sighting.covariance;
-  const bool usable = is_finite(sighting.T_map_landmark) && is_finite(sighting.T_robot_landmark) &&
-                      seen.allFinite() && seen(0, 0) > 0.0 && seen.topLeftCorner<2, 2>().determinant() > 0.0;
+  const bool usable = is_finite(sighting.T_map_landmark) && is_finite(sighting.T_robot_landmark) && seen.allFinite() &&
+                      seen(0, 0) > 0.0 && seen.topLeftCorner<2, 2>().determinant() > 0.0;
   if (!usable) return;
   const double map_variance = config_.landmark_noise_m * config_.landmark_noise_m;
   const Eigen::Matrix2d noise = seen.topLeftCorner<2, 2>() + map_variance * Eigen::Matrix2d::Identity();
-  const bool same_place = filter_.correct_position(sighting.T_map_landmark.position(),
-                                                   sighting.T_robot_landmark.position(), noise,
-                                                   config_.landmark_gate_sigmas);
+  const bool same_place = filter_.correct_position(
+      sighting.T_map_landmark.position(), sighting.T_robot_landmark.position(), noise, config_.landmark_gate_sigmas);
   if (!same_place || !config_.use_landmark_heading || !(seen(2, 2) > 0.0)) return;
   (void)filter_.correct_orientation(sighting.T_map_landmark.theta_rad, sighting.T_robot_landmark.theta_rad,
                                     std::sqrt(seen(2, 2)), config_.landmark_gate_sigmas);

@@ -6,7 +6,9 @@
 namespace cairn::odometry_compass {
 namespace {
 
-constexpr double squared(double x) { return x * x; }
+constexpr double squared(double x) {
+  return x * x;
+}
 
 Eigen::Matrix2d rotation(double angle_rad) {
   const double c = std::cos(angle_rad);
@@ -44,8 +46,7 @@ void PoseFilter::predict(const Pose2& T_before_after, const MotionNoise& noise) 
   const Point sideways{-forward.y(), forward.x()};
   q.topLeftCorner<2, 2>() = distance_m * (squared(noise.along_ratio) * forward * forward.transpose() +
                                           squared(noise.across_ratio) * sideways * sideways.transpose());
-  q(kTheta, kTheta) =
-      squared(noise.heading_rad_per_m) * (distance_m + noise.turn_as_distance_m_per_rad * turn_rad);
+  q(kTheta, kTheta) = squared(noise.heading_rad_per_m) * (distance_m + noise.turn_as_distance_m_per_rad * turn_rad);
   q(kBias, kBias) = squared(noise.bias_rad) * (1.0 - kept * kept);
 
   state_.head<2>() += step;

@@ -13,12 +13,12 @@ namespace cairn::odometry_compass {
 
 // Standard deviations; _per_m ones grow with the root of the distance.
 struct MotionNoise {
-  double along_ratio = 0.0;             // of the distance, independent from metre to metre
+  double along_ratio = 0.0;  // of the distance, independent from metre to metre
   double across_ratio = 0.0;
   double heading_rad_per_m = 0.0;
   double turn_as_distance_m_per_rad = 0.0;
-  double bias_rad = 0.0;                // stationary deviation of the compass bias
-  double bias_scale_m = 1.0;            // distance over which it forgets itself
+  double bias_rad = 0.0;      // stationary deviation of the compass bias
+  double bias_scale_m = 1.0;  // distance over which it forgets itself
 };
 
 class PoseFilter {

@@ -16,7 +16,7 @@ struct EchoConfig {
   double far_side_lobe_db = -22.0;
   double threshold_db = -40.0;
   double absorption_db_per_m = 3.0;
-  double rough_db = -10.0;
+  double rough_db = -12.0;  // what a Lambert surface sends back of a 15 deg beam, against a mirror
   double edge_db = -20.0;
   double bounce_db = -2.0;
   int max_bounces = 4;

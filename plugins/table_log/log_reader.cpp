@@ -167,7 +167,10 @@ void check_columns(const TableLogConfig& config) {
 // Odometry from the first pose on; the heading in the log's frame stands in for a compass.
 void set_pose(const Pose2& T_log_robot, const TableLogConfig& config, RecordedLog& log, Observation& seen) {
   if (!log.T_log_start) log.T_log_start = T_log_robot;
-  seen.T_odom_robot = inverse(*log.T_log_start) * T_log_robot;
+  const Pose2& first = *log.T_log_start;
+  // The difference before the turn, so that the first pose is identity to the last bit.
+  seen.T_odom_robot = Pose2{0.0, 0.0, -first.theta_rad} *
+                      Pose2{T_log_robot.x_m - first.x_m, T_log_robot.y_m - first.y_m, T_log_robot.theta_rad};
   if (config.compass_from_pose) seen.compass_rad = T_log_robot.theta_rad;
 }
 

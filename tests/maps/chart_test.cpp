@@ -10,7 +10,9 @@ using testing::HasSubstr;
 class Charts : public Pictures {};
 
 Chart degrees_chart() {
-  return {"Lap round a square", "time (s)", "degree",
+  return {"Lap round a square",
+          "time (s)",
+          "degree",
           {{"square", {{0, 0.1}, {1, 0.5}, {2, kNan}, {3, 0.75}}, SeriesStyle::lines_and_points},
            {"it's a \"circle\"; `date`", {{0, 0.2}, {3, 0.4}}, SeriesStyle::points},
            {"nothing", {}, SeriesStyle::lines}},

@@ -97,9 +97,9 @@ inline SavedMap small_map() {
   SavedMap map;
   map.grid = small_grid();
   map.graph = small_graph();
-  map.shapes = {{"square", Contour::polygon({{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}})},
+  map.shapes = {{"square", Contour::polygon_in_place({{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}})},
                 {"circle", Contour::circle(0.55)},
-                {"wedge", Contour::polygon({{0, 0}, {1.0 / 3.0, 0}, {0.1, 0.7}})}};
+                {"wedge", Contour::polygon_in_place({{0, 0}, {1.0 / 3.0, 0}, {0.1, 0.7}})}};
   map.driven_path = {{0, 0, 0}, {0.1, 0.2, 0.3}, {-1e9, 1e-9, -3.0}};
   map.properties = {{"mission", "office"}, {"seed", "7"}, {"note", "two\nlines, \xC3\xA4"}, {"empty", ""}};
   return map;

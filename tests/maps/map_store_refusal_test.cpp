@@ -41,7 +41,7 @@ TEST_F(MapStore, RefusesATruncatedFileAtEveryLength) {
 TEST_F(MapStore, AFlippedByteIsRefusedOrChangesNothing) {
   const std::string& whole = small_map_bytes();
   int refused = 0;
-  for (std::size_t at = 0; at < whole.size(); at += 29) {
+  for (std::size_t at = 0; at < whole.size(); at += 47) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ (1 << (at % 8)));
     write_bytes(file(), flipped);
@@ -137,15 +137,15 @@ void forge_checksum(const fs::path& file, const std::string& table) {
   for (; sqlite3_step(row) == SQLITE_ROW; ++rows) bytes += canonical_row(row);
   sqlite3_finalize(row);
   sqlite3_close(database);
-  run_sql(file, "UPDATE checksums SET row_count = " + std::to_string(rows) + ", crc32 = " +
-                    std::to_string(crc32_by_bits(bytes)) + " WHERE table_name = '" + table + "'");
+  run_sql(file, "UPDATE checksums SET row_count = " + std::to_string(rows) +
+                    ", crc32 = " + std::to_string(crc32_by_bits(bytes)) + " WHERE table_name = '" + table + "'");
 }
 
 std::string ForgedMap::refusal_after_forging(const std::string& sql) const {
   write_bytes(file(), small_map_bytes());
   run_sql(file(), sql);
-  for (const char* table : {"meta", "grid", "tiles", "landmarks", "landmark_templates", "routes", "next_ids", "shapes",
-                            "driven_path"})
+  for (const char* table :
+       {"meta", "grid", "tiles", "landmarks", "landmark_templates", "routes", "next_ids", "shapes", "driven_path"})
     forge_checksum(file(), table);
   return refusal_of(file());
 }
@@ -156,7 +156,8 @@ TEST_F(ForgedMap, LoadsWhenNothingElseIsWrong) {
 }
 
 TEST_F(ForgedMap, RefusesImpossibleGrids) {
-  EXPECT_EQ(refusal_after_forging("UPDATE grid SET cell_m = 0"), "table grid: cell_m must be in (0, 1000], is 0.000000");
+  EXPECT_EQ(refusal_after_forging("UPDATE grid SET cell_m = 0"),
+            "table grid: cell_m must be in (0, 1000], is 0.000000");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET cell_m = 9e999"), "table grid: column cell_m is not finite");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET clamp_nat = -4"),
             "table grid: clamp_nat must be in (0, 127], is -4.000000");

@@ -145,7 +145,8 @@ TEST(OccupancyGrid, CopiesBoxesCellByCellInRowOrder) {
   std::mt19937_64 random(4);
   std::uniform_int_distribution<int> index(-150, 150);
   OccupancyGrid grid(0.05);
-  for (int i = 0; i < 400; ++i) grid.set_log_odds({index(random), index(random) / 3}, static_cast<LogOdds>(random() % 2000) );
+  for (int i = 0; i < 400; ++i)
+    grid.set_log_odds({index(random), index(random) / 3}, static_cast<LogOdds>(random() % 2000));
   for (int i = 0; i < 50; ++i) {
     const Cell a{index(random) * 2, index(random) * 2};
     const CellBox box{a, {a.x + static_cast<int>(random() % 200), a.y + static_cast<int>(random() % 100)}};
@@ -168,7 +169,8 @@ TEST(OccupancyGrid, FindsTheCellOfAPointAlsoBelowItsOrigin) {
   EXPECT_EQ(grid.cell_at({1.24, -1.76}), (Cell{0, 0}));
   EXPECT_EQ(grid.cell_at({1.25, -1.75}), (Cell{1, 1}));
   EXPECT_EQ(grid.cell_at({0.99, -2.01}), (Cell{-1, -1}));
-  for (const Cell cell : {Cell{0, 0}, Cell{-7, 12}, Cell{300, -41}}) EXPECT_EQ(grid.cell_at(grid.centre_of(cell)), cell);
+  for (const Cell cell : {Cell{0, 0}, Cell{-7, 12}, Cell{300, -41}})
+    EXPECT_EQ(grid.cell_at(grid.centre_of(cell)), cell);
 }
 
 TEST(OccupancyGrid, KeepsWildPointsAtTheRimOfTheLattice) {

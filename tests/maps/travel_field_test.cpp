@@ -15,26 +15,6 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-struct Drawing {
-  OccupancyGrid grid;
-  DistanceField space;
-  std::map<char, Point> at_m;  // centres of the lettered cells, which are free
-};
-
-Drawing read(std::vector<std::string> rows, double cell_m = 0.1) {
-  std::map<char, Cell> letters;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t x = 0; x < rows[i].size(); ++x)
-      if (std::isalpha(static_cast<unsigned char>(rows[i][x]))) {
-        letters[rows[i][x]] = {static_cast<int>(x), static_cast<int>(rows.size() - 1 - i)};
-        rows[i][x] = '.';
-      }
-  Drawing drawing{drawn(rows, cell_m), {}, {}};
-  drawing.space = DistanceField(drawing.grid, UnknownPolicy::avoid);
-  for (const auto& [letter, cell] : letters) drawing.at_m[letter] = drawing.grid.centre_of(cell);
-  return drawing;
-}
-
 // The field's path to a letter as a drawing of stars.
 std::vector<std::string> path_drawn(const Drawing& drawing, const TravelField& field, char to) {
   const CellBox box = drawing.grid.bounds();
@@ -42,18 +22,19 @@ std::vector<std::string> path_drawn(const Drawing& drawing, const TravelField& f
                                 std::string(static_cast<std::size_t>(box.width()), '.'));
   for (int y = 0; y < box.height(); ++y)
     for (int x = 0; x < box.width(); ++x)
-      if (drawing.space.is_blocked({x, y})) rows[static_cast<std::size_t>(box.height() - 1 - y)][static_cast<std::size_t>(x)] = '#';
+      if (drawing.space.is_blocked({x, y}))
+        rows[static_cast<std::size_t>(box.height() - 1 - y)][static_cast<std::size_t>(x)] = '#';
   for (const Cell c : field.path_to(drawing.grid.cell_at(drawing.at_m.at(to))))
     rows[static_cast<std::size_t>(box.height() - 1 - c.y)][static_cast<std::size_t>(c.x)] = '*';
   return rows;
 }
 
 TEST(TravelField, GoesRoundAWall) {
-  const Drawing d = read({".......",  //
-                          "...#...",  //
-                          ".a.#.b.",  //
-                          "...#...",  //
-                          "...#..."});
+  const Drawing d = read_drawing({".......",  //
+                                  "...#...",  //
+                                  ".a.#.b.",  //
+                                  "...#...",  //
+                                  "...#..."});
   const TravelField field(d.space, d.at_m.at('a'), 0.0);
   EXPECT_EQ(path_drawn(d, field, 'b'), (std::vector<std::string>{"..***..",  //
                                                                  ".*.#*..",  //
@@ -64,17 +45,17 @@ TEST(TravelField, GoesRoundAWall) {
 }
 
 TEST(TravelField, CutsNoCorners) {
-  const Drawing d = read({"..b",  //
-                          ".#.",  //
-                          "a.."});
+  const Drawing d = read_drawing({"..b",  //
+                                  ".#.",  //
+                                  "a.."});
   const TravelField field(d.space, d.at_m.at('a'), 0.0);
   EXPECT_FLOAT_EQ(field.cost_m({2, 2}), 0.4F);  // along the edges, not diagonally past the block
 }
 
 TEST(TravelField, DoesNotSlipBetweenTwoDiagonalBlocks) {
-  const Drawing d = read({"##b",  //
-                          "#.#",  //
-                          "a##"});
+  const Drawing d = read_drawing({"##b",  //
+                                  "#.#",  //
+                                  "a##"});
   const TravelField field(d.space, d.at_m.at('a'), 0.0);
   EXPECT_TRUE(field.reaches({0, 0}));
   EXPECT_FALSE(field.reaches({1, 1}));
@@ -83,22 +64,23 @@ TEST(TravelField, DoesNotSlipBetweenTwoDiagonalBlocks) {
 }
 
 TEST(TravelField, KeepsItsClearance) {
-  const Drawing d = read({"#########",  //
-                          "#.......#",  //
-                          "#.......#",  //
-                          "#a..#..b#",  //
-                          "#.......#",  //
-                          "#########"});
+  const Drawing d = read_drawing({"#########",  //
+                                  "#.......#",  //
+                                  "#.......#",  //
+                                  "#a..#..b#",  //
+                                  "#.......#",  //
+                                  "#########"});
   EXPECT_TRUE(TravelField(d.space, d.at_m.at('a'), 0.1).reaches({7, 2}));
   EXPECT_FALSE(TravelField(d.space, d.at_m.at('a'), 0.2).reaches({7, 2}));
 }
 
 TEST(TravelField, TakesTheClearanceItselfAsEnough) {
-  const Drawing d = read({"#####",  //
-                          "#...#",  //
-                          "#a.b#",  //
-                          "#...#",  //
-                          "#####"}, 0.05);
+  const Drawing d = read_drawing({"#####",  //
+                                  "#...#",  //
+                                  "#a.b#",  //
+                                  "#...#",  //
+                                  "#####"},
+                                 0.05);
   for (const double steps : {1.0, 2.0}) {
     const TravelField field(d.space, d.at_m.at('a'), steps * 0.05);
     EXPECT_TRUE(field.reaches({2, 2})) << steps;
@@ -106,9 +88,9 @@ TEST(TravelField, TakesTheClearanceItselfAsEnough) {
 }
 
 TEST(TravelField, CountsTheStartAsFree) {
-  const Drawing d = read({".....",  //
-                          "..#..",  //
-                          "....."});
+  const Drawing d = read_drawing({".....",  //
+                                  "..#..",  //
+                                  "....."});
   const TravelField inside_a_wall(d.space, d.grid.centre_of({2, 1}), 0.0);
   EXPECT_EQ(inside_a_wall.cost_m({2, 1}), 0.0F);
   EXPECT_TRUE(inside_a_wall.reaches({0, 0}));
@@ -116,7 +98,7 @@ TEST(TravelField, CountsTheStartAsFree) {
 }
 
 TEST(TravelField, ReachesNothingFromOutsideItsBox) {
-  const Drawing d = read({"..", ".."});
+  const Drawing d = read_drawing({"..", ".."});
   const TravelField field(d.space, {50.0, 50.0}, 0.0);
   EXPECT_FALSE(field.reaches({0, 0}));
   EXPECT_EQ(field.cost_m({1000, 1000}), kInfinity);
@@ -125,9 +107,9 @@ TEST(TravelField, ReachesNothingFromOutsideItsBox) {
 }
 
 TEST(TravelField, AvoidsDearCells) {
-  const Drawing d = read({".......",  //
-                          ".a...b.",  //
-                          "......."});
+  const Drawing d = read_drawing({".......",  //
+                                  ".a...b.",  //
+                                  "......."});
   const auto dear_middle = [](Cell c) { return c.y == 1 && c.x == 3 ? 10.0 : 1.0; };
   const TravelField field(d.space, d.at_m.at('a'), 0.0, dear_middle);
   EXPECT_EQ(path_drawn(d, field, 'b'), (std::vector<std::string>{".......",  //
@@ -138,18 +120,9 @@ TEST(TravelField, AvoidsDearCells) {
 }
 
 TEST(TravelField, RefusesWeightsBelowOne) {
-  const Drawing d = read({"...", "..."});
+  const Drawing d = read_drawing({"...", "..."});
   for (const double weight : {0.5, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(TravelField(d.space, {0.05, 0.05}, 0.0, [weight](Cell) { return weight; }), std::invalid_argument);
-}
-
-OccupancyGrid random_maze(std::mt19937_64& random) {
-  OccupancyGrid grid(0.05);
-  const int width = 4 + static_cast<int>(random() % 24);
-  const int height = 4 + static_cast<int>(random() % 24);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid.set_log_odds({x - 9, y - 5}, random() % 4 == 0 ? LogOdds{900} : LogOdds{-900});
-  return grid;
 }
 
 // Relaxes every edge until nothing gets cheaper.
@@ -166,8 +139,8 @@ std::map<Cell, float> bellman_ford(const DistanceField& space, Cell start, float
           const Cell to = from + Cell{dx, dy};
           const bool allowed = to != from && is_free(to) && is_free(from + Cell{dx, 0}) && is_free(from + Cell{0, dy});
           if (!allowed) continue;
-          const float length = static_cast<float>(space.cell_m()) *
-                               (dx != 0 && dy != 0 ? std::numbers::sqrt2_v<float> : 1.0F);
+          const float length =
+              static_cast<float>(space.cell_m()) * (dx != 0 && dy != 0 ? std::numbers::sqrt2_v<float> : 1.0F);
           const float step = length * 0.5F * static_cast<float>(weight(from) + weight(to));
           const auto known = cost.find(to);
           if (known != cost.end() && known->second <= from_cost + step) continue;
@@ -227,164 +200,17 @@ TEST(TravelField, PathsCostWhatTheFieldSays) {
 }
 
 TEST(TravelField, GivesTiesToTheSmallerRowThenColumn) {
-  const Drawing d = read({".....",  //
-                          ".....",  //
-                          "a.#.b",  //
-                          ".....",  //
-                          "....."});
+  const Drawing d = read_drawing({".....",  //
+                                  ".....",  //
+                                  "a.#.b",  //
+                                  ".....",  //
+                                  "....."});
   const TravelField field(d.space, d.at_m.at('a'), 0.0);
   EXPECT_EQ(path_drawn(d, field, 'b'), (std::vector<std::string>{".....",  //
                                                                  ".....",  //
                                                                  "*.#.*",  //
                                                                  ".***.",  //
                                                                  "....."}));
-}
-
-
-
-TEST(SegmentIsClear, SeesAWallOneCellThick) {
-  const Drawing d = read({"...#...",  //
-                          ".a.#.b.",  //
-                          "...#...",  //
-                          ".c...d."});
-  EXPECT_FALSE(segment_is_clear(d.space, d.at_m.at('a'), d.at_m.at('b'), 0.0));
-  EXPECT_TRUE(segment_is_clear(d.space, d.at_m.at('c'), d.at_m.at('d'), 0.0));
-  EXPECT_TRUE(segment_is_clear(d.space, d.at_m.at('a'), d.at_m.at('c'), 0.0));
-  EXPECT_TRUE(segment_is_clear(d.space, d.at_m.at('a'), d.at_m.at('a'), 0.0));
-}
-
-TEST(SegmentIsClear, DoesNotSlipThroughACorner) {
-  const Drawing d = read({".#b",  //
-                          ".a#",  //
-                          "..."});
-  EXPECT_FALSE(segment_is_clear(d.space, d.at_m.at('a'), d.at_m.at('b'), 0.0));
-  EXPECT_FALSE(segment_is_clear(d.space, d.at_m.at('b'), d.at_m.at('a'), 0.0));
-  const Drawing one_block = read({".#b",  //
-                                  ".a.",  //
-                                  "..."});
-  EXPECT_FALSE(segment_is_clear(one_block.space, one_block.at_m.at('a'), one_block.at_m.at('b'), 0.0));
-}
-
-TEST(SegmentIsClear, TouchesBothRowsAlongTheirCommonLine) {
-  const Drawing d = read({"..#..",  //
-                          "....."});
-  EXPECT_FALSE(segment_is_clear(d.space, {0.05, 0.1}, {0.45, 0.1}, 0.0));
-  EXPECT_TRUE(segment_is_clear(d.space, {0.05, 0.099}, {0.45, 0.099}, 0.0));
-}
-
-TEST(SegmentIsClear, KeepsTheClearanceAllTheWay) {
-  const Drawing d = read({".....",  //
-                          ".....",  //
-                          "a...b",  //
-                          ".....",  //
-                          "....."});
-  EXPECT_TRUE(segment_is_clear(d.space, d.at_m.at('a'), d.at_m.at('b'), 0.1));
-  EXPECT_FALSE(segment_is_clear(d.space, d.at_m.at('a'), d.at_m.at('b'), 0.11));
-}
-
-TEST(SegmentIsClear, IsFalseWhereTheSegmentLeavesTheBoxOrIsNotFinite) {
-  const Drawing d = read({"...", "..."});
-  const Point inside = d.grid.centre_of({1, 0});
-  EXPECT_FALSE(segment_is_clear(d.space, inside, {5.0, 0.05}, 0.0));
-  EXPECT_FALSE(segment_is_clear(d.space, {-1e300, 0.05}, inside, 0.0));
-  EXPECT_FALSE(segment_is_clear(d.space, inside, {std::nan(""), 0.05}, 0.0));
-  EXPECT_FALSE(segment_is_clear(DistanceField(), inside, inside, 0.0));
-}
-
-// Every cell whose closed square the segment meets, by clipping it against each square.
-bool naive_clear(const DistanceField& space, const Point& from, const Point& to, double clearance_m) {
-  const CellBox box = space.box();
-  for (int y = box.min.y; y < box.max.y; ++y)
-    for (int x = box.min.x; x < box.max.x; ++x) {
-      const Point low = space.centre_of({x, y}) - Point::Constant(space.cell_m() / 2.0);
-      double enter = 0.0;
-      double leave = 1.0;
-      for (int axis = 0; axis < 2; ++axis) {
-        const double d = to[axis] - from[axis];
-        const double a = low[axis] - from[axis];
-        const double b = a + space.cell_m();
-        if (d == 0.0 && (a > 0.0 || b < 0.0)) enter = 2.0;
-        if (d == 0.0) continue;
-        enter = std::max(enter, std::min(a / d, b / d));
-        leave = std::min(leave, std::max(a / d, b / d));
-      }
-      const float distance = space.distance_m({x, y});
-      if (enter <= leave && (distance <= 0.0F || distance < static_cast<float>(clearance_m))) return false;
-    }
-  return true;
-}
-
-TEST(SegmentIsClear, AgreesWithClippingAgainstEveryCell) {
-  std::mt19937_64 random(33);
-  int clear = 0;
-  for (int i = 0; i < 3000; ++i) {
-    OccupancyGrid grid(0.05);
-    for (int y = 0; y < 16; ++y)
-      for (int x = 0; x < 16; ++x) grid.set_log_odds({x - 8, y - 8}, random() % 20 == 0 ? LogOdds{900} : LogOdds{-900});
-    const DistanceField space(grid, UnknownPolicy::avoid);
-    std::uniform_real_distribution<double> metres(-0.4, 0.4);
-    const Point a{metres(random), metres(random)};
-    const Point b{metres(random), i % 10 == 0 ? a.y() : metres(random)};
-    const double clearance_m = i % 4 == 0 ? 0.08 : 0.0;
-    const bool expected = naive_clear(space, a, b, clearance_m);
-    ASSERT_EQ(segment_is_clear(space, a, b, clearance_m), expected) << a.transpose() << " to " << b.transpose() << drawing_of(grid);
-    ASSERT_EQ(segment_is_clear(space, b, a, clearance_m), expected);
-    clear += expected;
-  }
-  EXPECT_GT(clear, 500);
-  EXPECT_LT(clear, 2500);
-}
-
-
-
-TEST(Shortened, KeepsOnlyTheCornersItNeeds) {
-  const Drawing d = read({".........",  //
-                          "....#....",  //
-                          "a...#...b",  //
-                          "....#....",  //
-                          "....#...."});
-  const TravelField field(d.space, d.at_m.at('a'), 0.0);
-  std::vector<Point> path;
-  for (const Cell c : field.path_to(d.grid.cell_at(d.at_m.at('b')))) path.push_back(d.grid.centre_of(c));
-  const std::vector<Point> corners = shortened(d.space, path, 0.0);
-  EXPECT_EQ(corners.front(), path.front());
-  EXPECT_EQ(corners.back(), path.back());
-  EXPECT_EQ(corners.size(), 3U);  // the ends and one bend above the wall
-}
-
-TEST(Shortened, IsClearNoLongerAndCannotBeShortenedAgain) {
-  std::mt19937_64 random(34);
-  int compared = 0;
-  for (int i = 0; i < 40; ++i) {
-    const OccupancyGrid grid = random_maze(random);
-    const DistanceField space(grid, UnknownPolicy::avoid);
-    const Cell start{-8, -4};
-    if (space.is_blocked(start)) continue;
-    const TravelField field(space, grid.centre_of(start), 0.0);
-    const CellBox box = field.box();
-    for (int y = box.min.y; y < box.max.y; y += 3)
-      for (int x = box.min.x; x < box.max.x; x += 3) {
-        std::vector<Point> path;
-        for (const Cell c : field.path_to({x, y})) path.push_back(grid.centre_of(c));
-        if (path.empty()) continue;
-        const std::vector<Point> corners = shortened(space, path, 0.0);
-        ASSERT_EQ(corners.front(), path.front());
-        ASSERT_EQ(corners.back(), path.back());
-        for (std::size_t k = 1; k < corners.size(); ++k)
-          ASSERT_TRUE(segment_is_clear(space, corners[k - 1], corners[k], 0.0)) << drawing_of(grid);
-        for (std::size_t k = 2; k < corners.size(); ++k)
-          ASSERT_FALSE(segment_is_clear(space, corners[k - 2], corners[k], 0.0)) << drawing_of(grid);
-        ++compared;
-      }
-  }
-  EXPECT_GT(compared, 100);
-}
-
-TEST(Shortened, LeavesShortPathsAlone) {
-  const Drawing d = read({"...", "..."});
-  EXPECT_TRUE(shortened(d.space, {}, 0.0).empty());
-  EXPECT_EQ(shortened(d.space, {{0.05, 0.05}}, 0.0).size(), 1U);
-  EXPECT_EQ(shortened(d.space, {{0.05, 0.05}, {0.25, 0.15}}, 0.0).size(), 2U);
 }
 
 }  // namespace

@@ -24,14 +24,17 @@ Observation observed(std::vector<RangeReading> ranges) {
   return observation;
 }
 
-PoseEstimate at(const Pose2& T_map_robot) { return {T_map_robot, {}}; }
+PoseEstimate at(const Pose2& T_map_robot) {
+  return {T_map_robot, {}};
+}
 
 // METHOD 2.1, word by word, for one cell centre in sensor coordinates.
 int plain_increment(const Config& c, const RangeReading& reading, const Point& p) {
   const double r = p.norm();
   const double th = std::atan2(p.y(), p.x());
   if (std::abs(th) > reading.half_beam_rad) return 0;
-  const double alpha = c.alpha_max * (1.0 - std::min(1.0, r / c.alpha_range_m)) * (1.0 - std::pow(th / reading.half_beam_rad, 2));
+  const double alpha =
+      c.alpha_max * (1.0 - std::min(1.0, r / c.alpha_range_m)) * (1.0 - std::pow(th / reading.half_beam_rad, 2));
   const double delta = c.delta_m + c.delta_per_m * r;
   const auto Phi = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
   const auto phi = [](double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi); };
@@ -175,7 +178,8 @@ TEST(BayesMap, ReportsEveryCellThatChangedInTidyRows) {
   for (int i = 0; i < 60; ++i) {
     const OccupancyGrid before = map.grid();
     std::vector<RangeReading> ranges;
-    for (int k = 0; k <= i % 4; ++k) ranges.push_back(sonar(2.5 * std::abs(unit(random)), {0.1, 0.0, 3.0 * unit(random)}));
+    for (int k = 0; k <= i % 4; ++k)
+      ranges.push_back(sonar(2.5 * std::abs(unit(random)), {0.1, 0.0, 3.0 * unit(random)}));
     const CellChanges changes = map.integrate(observed(ranges), at({unit(random), unit(random), 3.0 * unit(random)}));
     for (std::size_t k = 1; k < changes.spans.size(); ++k) {
       const CellSpan& a = changes.spans[k - 1];
@@ -224,7 +228,8 @@ TEST(BayesMap, GivesTheSameGridForTheSameReadings) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     BayesMap map{Config{}};
     for (int i = 0; i < 50; ++i)
-      (void)map.integrate(observed({sonar(3.0 * std::abs(unit(random)))}), at({unit(random), unit(random), 3.0 * unit(random)}));
+      (void)map.integrate(observed({sonar(3.0 * std::abs(unit(random)))}),
+                          at({unit(random), unit(random), 3.0 * unit(random)}));
     return map.grid();
   };
   EXPECT_EQ(mapped(), mapped());
@@ -236,8 +241,8 @@ TEST(BayesMap, DescribesAllItsSettings) {
     keys.push_back(field.key);
     EXPECT_FALSE(field.meaning.empty()) << field.key;
   }
-  EXPECT_EQ(keys, (std::vector<std::string>{"cell_m", "clamp_nat", "alpha_max", "alpha_range_m", "delta_m", "delta_per_m",
-                                            "false_echo_per_m"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"cell_m", "clamp_nat", "alpha_max", "alpha_range_m", "delta_m",
+                                            "delta_per_m", "false_echo_per_m"}));
 }
 
 }  // namespace

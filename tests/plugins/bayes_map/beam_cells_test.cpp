@@ -59,15 +59,18 @@ TEST(BeamCells, OfAConeMatchALookAtEveryCell) {
   std::mt19937_64 random(41);
   std::uniform_real_distribution<double> metres(-1.0, 1.0);
   for (int i = 0; i < 400; ++i) {
-    const double half_beam_deg = i % 5 == 0 ? 90.0 + static_cast<double>(random() % 91) : 1.0 + static_cast<double>(random() % 89);
-    const Beam beam{{metres(random), metres(random), i % 7 == 0 ? radians(45.0 * (i % 8)) : wrap_angle(3.2 * metres(random))},
-                    radians(half_beam_deg),
-                    0.1 + std::abs(metres(random))};
+    const double half_beam_deg =
+        i % 5 == 0 ? 90.0 + static_cast<double>(random() % 91) : 1.0 + static_cast<double>(random() % 89);
+    const Beam beam{
+        {metres(random), metres(random), i % 7 == 0 ? radians(45.0 * (i % 8)) : wrap_angle(3.2 * metres(random))},
+        radians(half_beam_deg),
+        0.1 + std::abs(metres(random))};
     std::set<Cell> expected;
     for (int y = -50; y < 50; ++y)
       for (int x = -50; x < 50; ++x) {
         const Point p = inverse(beam.T_map_sensor) * Point((x + 0.5) * 0.05, (y + 0.5) * 0.05);
-        if (p.norm() <= beam.reach_m && std::abs(std::atan2(p.y(), p.x())) <= beam.half_beam_rad) expected.insert({x, y});
+        if (p.norm() <= beam.reach_m && std::abs(std::atan2(p.y(), p.x())) <= beam.half_beam_rad)
+          expected.insert({x, y});
       }
     ASSERT_EQ(cells_of(beam, 0.05), expected) << "beam " << i << ", half " << half_beam_deg << " deg";
   }

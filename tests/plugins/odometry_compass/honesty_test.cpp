@@ -22,7 +22,8 @@ class BiasField {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (Wave& wave : waves_) {
       const double direction_rad = 2.0 * std::numbers::pi * unit(random);
-      wave.number_radpm = (0.5 + unit(random)) / error.local_bias_scale_m * Point(std::cos(direction_rad), std::sin(direction_rad));
+      wave.number_radpm =
+          (0.5 + unit(random)) / error.local_bias_scale_m * Point(std::cos(direction_rad), std::sin(direction_rad));
       wave.phase_rad = 2.0 * std::numbers::pi * unit(random);
     }
   }
@@ -74,7 +75,8 @@ Ending drive(const RobotModel& robot, double way_m, std::uint64_t seed, bool com
                                         turn_rad + error.heading_rad_per_m * std::sqrt(counted_m) * normal(random)};
     Observation observation;
     observation.T_odom_robot = T_odom_robot;
-    const double seen_rad = truth.theta_rad + field.bias_rad(truth.position()) + robot.compass_error.noise_rad * normal(random);
+    const double seen_rad =
+        truth.theta_rad + field.bias_rad(truth.position()) + robot.compass_error.noise_rad * normal(random);
     if (compass) observation.compass_rad = wrap_angle(seen_rad);
     estimate = localizer.update(observation, {});
   }
@@ -90,8 +92,12 @@ RobotModel robot_with(const OdometryError& odometry, const CompassError& compass
   return robot;
 }
 
-RobotModel calibrated() { return robot_with({0.01, 0.0, radians(0.5)}, {radians(2.0), 0.0, 2.0}); }
-RobotModel worn() { return robot_with({0.03, 0.02, radians(2.0)}, {radians(2.0), radians(5.0), 2.0}); }
+RobotModel calibrated() {
+  return robot_with({0.01, 0.0, radians(0.5)}, {radians(2.0), 0.0, 2.0});
+}
+RobotModel worn() {
+  return robot_with({0.03, 0.02, radians(2.0)}, {radians(2.0), radians(5.0), 2.0});
+}
 
 struct Summary {
   double mean_nees = 0.0;

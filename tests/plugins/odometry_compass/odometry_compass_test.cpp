@@ -107,7 +107,7 @@ TEST(OdometryCompass, ForgetsRefusalsAfterAGoodReading) {
 TEST(OdometryCompass, IsPulledBackByAKnownLandmark) {
   OdometryCompass at = localizer();
   (void)at.update(observed({}), {});
-  const Pose2 truth{20.3, 0.1, 0.0};
+  const Pose2 truth{20.08, 0.15, 0.0};
   const PoseEstimate drifted = at.update(observed({20.0, 0.0, 0.0}), {});
   const LandmarkSighting seen = sighting({21.0, 1.0, 0.7}, truth);
   const PoseEstimate corrected = at.update(observed({20.0, 0.0, 0.0}), {&seen, 1});
@@ -160,7 +160,8 @@ TEST(OdometryCompass, HeedsALandmarksOrientationOnlyWhenToldTo) {
   turned.T_robot_landmark.theta_rad = radians(-5.0);
   turned.covariance.topLeftCorner<2, 2>() = Eigen::Matrix2d::Identity();
   turned.covariance(2, 2) = 1e-6;
-  EXPECT_NEAR(localizer({}, with_heading).update(observed({}), {&turned, 1}).T_map_robot.theta_rad, radians(5.0), 0.001);
+  EXPECT_NEAR(localizer({}, with_heading).update(observed({}), {&turned, 1}).T_map_robot.theta_rad, radians(5.0),
+              0.001);
   EXPECT_NEAR(localizer({}, without).update(observed({}), {&turned, 1}).T_map_robot.theta_rad, 0.0, 0.001);
 }
 

@@ -11,9 +11,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-MotionNoise some_noise() { return {0.02, 0.002, radians(1.0), 0.1, radians(3.0), 2.0}; }
+MotionNoise some_noise() {
+  return {0.02, 0.002, radians(1.0), 0.1, radians(3.0), 2.0};
+}
 
-double deviation(const PoseEstimate& estimate, int i) { return std::sqrt(estimate.covariance(i, i)); }
+double deviation(const PoseEstimate& estimate, int i) {
+  return std::sqrt(estimate.covariance(i, i));
+}
 
 TEST(PoseFilter, FollowsOdometryAsPosesCompose) {
   const Pose2 start{1.0, -2.0, 2.5};
@@ -53,7 +57,7 @@ TEST(PoseFilter, GrowsWithTheDistanceForAScaleError) {
   for (int i = 0; i < 100; ++i) filter.predict({0.1, 0.0, 0.0}, {});
   EXPECT_NEAR(deviation(filter.estimate(), 1), 0.2, 1e-9);
   for (int i = 0; i < 100; ++i) filter.predict({-0.1, 0.0, 0.0}, {});
-  EXPECT_NEAR(deviation(filter.estimate(), 1), 0.0, 1e-9);  // the way back undoes it
+  EXPECT_NEAR(filter.estimate().covariance(1, 1), 0.0, 1e-15);  // the way back undoes it
 }
 
 TEST(PoseFilter, LearnsTheHeadingFromAnUnbiasedCompass) {
@@ -109,7 +113,7 @@ TEST(PoseFilter, TurnsByALandmarksBearingAndByItsOrientation) {
   PoseFilter by_bearing({}, {1e-4, 0.2, 0.0, 0.0});
   const Pose2 truth{0.0, 0.0, 0.1};
   const Point seen = inverse(truth) * Point(3.0, 0.5);
-  EXPECT_TRUE(by_bearing.correct_position({3.0, 0.5}, seen, 1e-6 * Eigen::Matrix2d::Identity(), 3.5));
+  EXPECT_TRUE(by_bearing.correct_position({3.0, 0.5}, seen, 4e-4 * Eigen::Matrix2d::Identity(), 3.5));
   EXPECT_NEAR(by_bearing.estimate().T_map_robot.theta_rad, 0.1, 0.003);
 
   PoseFilter by_orientation({}, {1e-4, 0.2, 0.0, 0.0});

@@ -259,8 +259,8 @@ TEST_F(TableLogTest, LoadsItsSettingsFromAMissionFile) {
 
 TEST_F(TableLogTest, SurvivesAnyBytes) {
   std::mt19937_64 random(5);
-  const std::string alphabet = "0123456789.-+einfa \t,;#\n\r\x00\xff";
-  for (int round = 0; round < 300; ++round) {
+  const std::string alphabet = std::string("0123456789.-+einfa \t,;#\n\r\xff") + '\0';
+  for (int round = 0; round < 120; ++round) {
     std::string text;
     for (int i = 0; i < 200; ++i) text += alphabet[random() % alphabet.size()];
     config_.separator = static_cast<Separator>(round % 4);
