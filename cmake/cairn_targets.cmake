@@ -44,6 +44,7 @@ function(cairn_add_module name)
   target_link_libraries(${name}_core PUBLIC cairn_framework PRIVATE cairn_private_options ${arg_LINK})
   add_library(${name} MODULE module.cpp)
   target_link_libraries(${name} PRIVATE ${name}_core cairn_private_options)
+  target_link_options(${name} PRIVATE -Wl,--no-undefined)  # found when linking, not when loading
   set_target_properties(${name}_core ${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/cairn
                                            BUILD_RPATH "$ORIGIN/.." INSTALL_RPATH "$ORIGIN/..")

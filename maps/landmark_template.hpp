@@ -26,7 +26,8 @@ struct LandmarkTemplate {
   std::vector<TemplateCell> cells;  // sorted by (y, x)
 };
 
-// All templates of a mission in a fixed order: categories as given, orientations rising.
+// All templates of a mission in a fixed order: categories as given, orientations rising. An orientation
+// may have several templates, one after the other (sensed: one for each way round the landmark).
 struct TemplateSet {
   double cell_m = 0.05;
   double step_rad = 0.0;

@@ -1,7 +1,9 @@
 #include "maps/travel_field.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <queue>
 #include <stdexcept>
@@ -21,13 +23,18 @@ bool keeps_clear(const DistanceField& space, Cell cell, float clearance_m) {
   return d > 0.0F && d >= clearance_m;
 }
 
-struct Frontier {
-  float cost_m;
-  int index;  // row-major, so that equal costs are settled by rising (y, x)
-  bool operator>(const Frontier& other) const {
-    return cost_m != other.cost_m ? cost_m > other.cost_m : index > other.index;
-  }
-};
+// A cell to settle as one number: cost above, row-major index below. Costs are not negative, so their
+// bits order as they do, and equal costs are settled by rising (y, x).
+using Waiting = std::uint64_t;
+Waiting waiting(float cost_m, std::size_t index) {
+  return std::uint64_t{std::bit_cast<std::uint32_t>(cost_m)} << 32 | index;
+}
+float cost_of(Waiting cell) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(cell >> 32));
+}
+std::size_t index_of_waiting(Waiting cell) {
+  return static_cast<std::uint32_t>(cell);
+}
 
 // Step weights, each asked for once.
 class WeightCache {
@@ -74,26 +81,27 @@ TravelField::TravelField(const DistanceField& space, const Point& start_map, dou
   const auto cell_m = static_cast<float>(space.cell_m());
   const float length_m[2] = {cell_m, cell_m * std::numbers::sqrt2_v<float>};
   WeightCache weights(step_weight, box_);
-  std::priority_queue<Frontier, std::vector<Frontier>, std::greater<>> frontier;
+  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> frontier;
 
   cost_m_[index_of(start_)] = 0.0F;
-  frontier.push({0.0F, static_cast<int>(index_of(start_))});
+  frontier.push(waiting(0.0F, index_of(start_)));
   while (!frontier.empty()) {
-    const Frontier here = frontier.top();
+    const float here_m = cost_of(frontier.top());
+    const std::size_t from_index = index_of_waiting(frontier.top());
     frontier.pop();
-    const auto from_index = static_cast<std::size_t>(here.index);
-    if (here.cost_m > cost_m_[from_index]) continue;
-    const Cell from{box_.min.x + here.index % box_.width(), box_.min.y + here.index / box_.width()};
+    if (here_m > cost_m_[from_index]) continue;
+    const auto at = static_cast<int>(from_index);
+    const Cell from{box_.min.x + at % box_.width(), box_.min.y + at / box_.width()};
     for (int k = 0; k < 8; ++k) {
       const Cell step = kNeighbours[k];
       if (!box_.contains(from + step)) continue;
       const std::size_t to_index = index_of(from + step);
-      if (cost_m_[to_index] <= here.cost_m || !step_is_free(from, step, is_free)) continue;
+      if (cost_m_[to_index] <= here_m || !step_is_free(from, step, is_free)) continue;
       const float weight = 0.5F * (weights.at(from, from_index) + weights.at(from + step, to_index));
-      const float cost = here.cost_m + length_m[step.x != 0 && step.y != 0] * weight;
-      if (cost > cost_m_[to_index] || cost <= here.cost_m) continue;
+      const float cost = here_m + length_m[step.x != 0 && step.y != 0] * weight;
+      if (cost > cost_m_[to_index] || cost <= here_m) continue;
       if (cost < cost_m_[to_index]) {
-        frontier.push({cost, static_cast<int>(to_index)});
+        frontier.push(waiting(cost, to_index));
       } else if (7 - k >= came_from_[to_index]) {
         continue;  // as good as what is known, from a neighbour further up or right
       }

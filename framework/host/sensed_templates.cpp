@@ -15,6 +15,7 @@ struct Gradient {
 
 // What every lap needs.
 struct Studio {
+  double cell_m;
   const SensedOptions& options;
   const RobotModel& robot;
   const PluginChoice& sensor;
@@ -108,8 +109,8 @@ void add_lap(const Studio& studio, const LandmarkShape& shape, double orientatio
   const RobotModel robot = calibrated(studio.robot, 2.0 * radius_m);
   const std::uint64_t seed = studio.options.seed + static_cast<std::uint64_t>(lap);
   const auto mapper = studio.modules.make<Mapper>(studio.map, context_of(studio, robot, seed, {}, nullptr));
-  if (std::abs(mapper->grid().cell_m() - cell_m) > 1e-9) {
-    throw std::invalid_argument("sensed templates for cells of " + std::to_string(cell_m) +
+  if (std::abs(mapper->grid().cell_m() - studio.cell_m) > 1e-9) {
+    throw std::invalid_argument("sensed templates for cells of " + std::to_string(studio.cell_m) +
                                 " m need a mapper with such cells, not " + std::to_string(mapper->grid().cell_m()));
   }
   const Point centre = mapper->grid().centre_of({0, 0});
@@ -127,8 +128,8 @@ void add_lap(const Studio& studio, const LandmarkShape& shape, double orientatio
 }
 
 LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad,
-                               Side landmark_side, double cell_m) {
-  std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, cell_m, studio.options);
+                               Side landmark_side) {
+  std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, studio.cell_m, studio.options);
   std::vector<Gradient> sums(cells.size());
   for (int lap = 0; lap < studio.options.laps; ++lap) {
     add_lap(studio, shape, orientation_rad, landmark_side, lap, cells, sums);
@@ -146,12 +147,12 @@ TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double s
                               const SensedOptions& options, const RobotModel& robot, const PluginChoice& sensor,
                               const PluginChoice& map, const ModuleMaker& modules) {
   if (options.laps < 1) throw std::invalid_argument("sensed templates need a lap, not " + std::to_string(options.laps));
-  const Studio studio{options, robot, sensor, map, modules};
+  const Studio studio{cell_m, options, robot, sensor, map, modules};
   TemplateSet set{cell_m, step_rad, shapes, {}};
   for (const LandmarkShape& shape : shapes) {
     for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
       for (const Side side : {Side::left, Side::right}) {
-        set.templates.push_back(render_sensed(studio, shape, orientation_rad, side, cell_m));
+        set.templates.push_back(render_sensed(studio, shape, orientation_rad, side));
       }
     }
   }

@@ -30,7 +30,7 @@ Chart chart_of(const std::vector<DegreeSample>& samples) {
     for (const CategoryDegree& degree : sample.degrees) {
       Series& line = series[degree.category];
       line.name = degree.category;
-      line.style = SeriesStyle::lines_and_points;
+      line.style = SeriesStyle::points;
       line.points.emplace_back(sample.time_s, degree.degree);
     }
   Chart chart;

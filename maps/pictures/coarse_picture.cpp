@@ -23,9 +23,24 @@ PixelBox block_of(const MapFrame& frame, const CoarsePicture& picture, Cell coar
   return pixel_box_of(frame, *picture.grid, picture.coarse->fine_box(coarse));
 }
 
+// As on the map picture: what is occupied or surely free, not the faint traces behind the walls.
+CellBox shown_box(const CoarsePicture& picture) {
+  constexpr double kSurelyFreeOl = 30.0;
+  constexpr double kOccupiedOl = 165.0;
+  CellBox shown;
+  const CellBox bounds = picture.coarse->bounds();
+  for (int y = bounds.min.y; y < bounds.max.y; ++y)
+    for (int x = bounds.min.x; x < bounds.max.x; ++x) {
+      const double ol = picture.coarse->ol({x, y});
+      if (ol < kSurelyFreeOl || ol > kOccupiedOl) shown = united(shown, {{x, y}, {x + 1, y + 1}});
+    }
+  for (const Cell coarse : picture.region) shown = united(shown, {coarse, {coarse.x + 1, coarse.y + 1}});
+  return shown.empty() ? bounds : intersected(shown.grown(1), bounds);
+}
+
 Extent extent_of(const CoarsePicture& picture) {
   Extent extent;
-  const CellBox bounds = picture.coarse->bounds();
+  const CellBox bounds = shown_box(picture);
   if (bounds.empty()) return extent;
   const OccupancyGrid& grid = *picture.grid;
   const Point half(grid.cell_m() / 2.0, grid.cell_m() / 2.0);
@@ -51,7 +66,7 @@ void draw_trigger(Canvas& canvas, const PixelBox& box) {
 }
 
 void draw_blocks(Canvas& canvas, const MapFrame& frame, const CoarsePicture& picture) {
-  const CellBox bounds = picture.coarse->bounds();
+  const CellBox bounds = shown_box(picture);
   for (int y = bounds.min.y; y < bounds.max.y; ++y)
     for (int x = bounds.min.x; x < bounds.max.x; ++x) draw_block(canvas, frame, picture, {x, y});
   for (const Cell coarse : picture.region) canvas.fill_box(block_of(frame, picture, coarse), {kRegion, 0.35});

@@ -128,7 +128,7 @@ void GraphLayer::draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer&
   for (const auto& [id, landmark] : graph_.landmarks()) {
     const Pixel centre = frame.pixel_of(landmark.T_map_landmark.position());
     const double radius = radius_px(landmark, frame);
-    placer.avoid({centre - Pixel(radius, radius), centre + Pixel(radius, radius)}, 6.0);
+    placer.avoid({centre - Pixel(radius, radius), centre + Pixel(radius, radius)}, 20.0);
   }
   for (const auto& [id, route] : graph_.routes()) placer.avoid_line(frame.pixels_of(course_of(route)), 0.25);
   for (const auto& [id, landmark] : graph_.landmarks()) {

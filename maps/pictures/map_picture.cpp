@@ -12,19 +12,25 @@ namespace {
 
 using namespace pictures;
 
-constexpr int kMarginCells = 3;
+constexpr int kMarginCells = 5;
+constexpr double kSurelyFreeNat = 2.0;  // P < 0.12
 constexpr double kLandmarkMarginM = 0.1;
 constexpr Stroke kDrivenStroke{kDriven, 1.5, 0.9};
 constexpr Stroke kPlannedStroke{kPlanned, 3.5, 0.95};
 
-// The box of cells that anything is known about.
+// The box of cells that are worth showing: occupied or surely free. Single stray readings leave faint
+// traces far behind the walls, which would only make the map small. Of a map without such cells, all.
 CellBox known_box(const OccupancyGrid& grid) {
   CellBox known;
   const CellBox bounds = grid.bounds();
+  const double surely_free = -std::min(kSurelyFreeNat, grid.clamp_nat() / 2.0) * kLogOddsPerNat;
   for (int y = bounds.min.y; y < bounds.max.y; ++y)
-    for (int x = bounds.min.x; x < bounds.max.x; ++x)
-      if (grid.log_odds({x, y}) != 0) known = united(known, {{x, y}, {x + 1, y + 1}});
-  return known;
+    for (int x = bounds.min.x; x < bounds.max.x; ++x) {
+      const LogOdds value = grid.log_odds({x, y});
+      if (value < surely_free || OccupancyThresholds{}.state(value) == CellState::occupied)
+        known = united(known, {{x, y}, {x + 1, y + 1}});
+    }
+  return known.empty() ? bounds : known;
 }
 
 // All that is drawn; the grid's part in whole cells.
@@ -43,7 +49,6 @@ Extent extent_of(const MapPicture& picture, const GraphLayer& graph) {
 
   const OccupancyGrid& grid = *picture.grid;
   CellBox cells = known_box(grid);
-  if (cells.empty()) cells = grid.bounds();
   if (!extent.is_empty) {
     const Cell max = grid.cell_at(extent.max_m);
     cells = united(cells, {grid.cell_at(extent.min_m), {max.x + 1, max.y + 1}});

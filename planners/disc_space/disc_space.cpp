@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt2;  // of a cell of side 1
 
-constexpr int floor_divided(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
+constexpr int floor_divided(int a, int b) {
+  return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
 
 }  // namespace
 
 DiscSpace::DiscSpace(const OccupancyGrid& grid, const GroundRules& rules)
-    : rules_(rules),
-      field_(grid, rules.unknown, rules.thresholds),
-      lattice_{grid.origin_m(), grid.cell_m()} {}
+    : rules_(rules), field_(grid, rules.unknown, rules.thresholds), lattice_{grid.origin_m(), grid.cell_m()} {}
 
 DiscSpace::DiscSpace(const DiscSpace& coarse, int parts)
     : rules_(coarse.rules_), lattice_{coarse.lattice_.origin_m, coarse.lattice_.cell_m / parts} {
@@ -33,7 +33,8 @@ DiscSpace::DiscSpace(const DiscSpace& coarse, int parts)
 }
 
 DiscSpace DiscSpace::refined(int parts) const {
-  if (parts < 1) throw std::invalid_argument("DiscSpace::refined: parts must be positive, got " + std::to_string(parts));
+  if (parts < 1)
+    throw std::invalid_argument("DiscSpace::refined: parts must be positive, got " + std::to_string(parts));
   return DiscSpace(*this, parts);
 }
 

@@ -7,8 +7,8 @@ namespace cairn {
 namespace {
 
 Refusal start_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& at, double radius_m) {
-  return {PlanOutcome::start_blocked, "the start " + text_of(at) + " is blocked: " +
-                                          why_blocked(grid, space, at, radius_m) +
+  return {PlanOutcome::start_blocked, "the start " + text_of(at) +
+                                          " is blocked: " + why_blocked(grid, space, at, radius_m) +
                                           nearest_free_text(space, at, radius_m + kLeastRadius_m)};
 }
 
@@ -52,8 +52,8 @@ Refusal unreached(const Place& place, const WorldView& world, const EndRules& ru
 Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m) {
   char radius[32];
   std::snprintf(radius, sizeof radius, "%.2f", radius_m);
-  return {PlanOutcome::no_route, not_reached_text(goal, graph) +
-                                     ": the way there is too narrow for a robot of radius " + radius + " m"};
+  return {PlanOutcome::no_route,
+          not_reached_text(goal, graph) + ": the way there is too narrow for a robot of radius " + radius + " m"};
 }
 
 std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph, const std::string& end) {
@@ -76,8 +76,7 @@ std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& 
   if (place.pose) return start_at_pose(*place.pose, world, rules, spaces);
   const auto space = spaces.space_of(world.grid, rules.ground);
   for (const LandmarkId id : place.landmarks) {
-    const std::optional<Pose2> stand =
-        standing_place(*space, *world.graph.find(id), rules.radius_m + kLeastRadius_m);
+    const std::optional<Pose2> stand = standing_place(*space, *world.graph.find(id), rules.radius_m + kLeastRadius_m);
     if (!stand) continue;
     auto start = start_at_pose(*stand, world, rules, spaces);
     if (auto* found = std::get_if<StartPlace>(&start)) found->landmark = id;
@@ -98,13 +97,11 @@ std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const
   if (place.pose) {
     const Point at = place.pose->position();
     if (!space.fits(at, radius_m))
-      return Refusal{PlanOutcome::goal_blocked,
-                     "the goal " + text_of(at) + " is blocked: " +
-                         why_blocked(start.grid_of(world), space, at, rules.radius_m) +
-                         nearest_free_text(space, at, radius_m)};
+      return Refusal{PlanOutcome::goal_blocked, "the goal " + text_of(at) + " is blocked: " +
+                                                    why_blocked(start.grid_of(world), space, at, rules.radius_m) +
+                                                    nearest_free_text(space, at, radius_m)};
     if (!reached(space.field().cell_at(at))) return unreached(place, world, rules, start, {at});
-    const std::optional<double> heading =
-        place.heading_matters ? std::optional(place.pose->theta_rad) : std::nullopt;
+    const std::optional<double> heading = place.heading_matters ? std::optional(place.pose->theta_rad) : std::nullopt;
     return std::vector{GoalPlace{*place.pose, heading, 0}};
   }
   std::vector<GoalPlace> goals;

@@ -24,9 +24,9 @@ struct StartPlace {
   std::optional<OccupancyGrid> patched_grid;
   std::shared_ptr<const DiscSpace> space;
   Pose2 pose;
-  LandmarkId landmark = 0;               // when the start is one
-  std::optional<Escape> escape;          // when it is left with less clearance than the radius
-  Point leave_from{0.0, 0.0};            // the escape's end, else the pose
+  LandmarkId landmark = 0;       // when the start is one
+  std::optional<Escape> escape;  // when it is left with less clearance than the radius
+  Point leave_from{0.0, 0.0};    // the escape's end, else the pose
 
   [[nodiscard]] const OccupancyGrid& grid_of(const WorldView& world) const {
     return patched_grid ? *patched_grid : world.grid;
@@ -35,7 +35,7 @@ struct StartPlace {
 
 struct GoalPlace {
   Pose2 pose;
-  std::optional<double> heading_rad;     // when it matters
+  std::optional<double> heading_rad;  // when it matters
   LandmarkId landmark = 0;
 };
 

@@ -34,7 +34,9 @@ double distance_to_state_m(const OccupancyGrid& grid, const GroundRules& rules, 
 
 }  // namespace
 
-std::string text_of(const Point& p_map) { return "(" + metres(p_map.x()) + ", " + metres(p_map.y()) + ")"; }
+std::string text_of(const Point& p_map) {
+  return "(" + metres(p_map.x()) + ", " + metres(p_map.y()) + ")";
+}
 
 std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, double radius_m, double within_m,
                                  const std::function<bool(Cell)>& accept) {
@@ -93,8 +95,8 @@ bool robot_stands_at(const WorldView& world, const Point& p_map) {
   return world.observation != nullptr && (world.pose.T_map_robot.position() - p_map).norm() <= world.grid.cell_m();
 }
 
-std::optional<OccupancyGrid> with_ground_under(const OccupancyGrid& grid, const GroundRules& rules,
-                                               const Point& p_map, double radius_m) {
+std::optional<OccupancyGrid> with_ground_under(const OccupancyGrid& grid, const GroundRules& rules, const Point& p_map,
+                                               double radius_m) {
   if (rules.unknown == UnknownPolicy::allow) return std::nullopt;
   std::optional<OccupancyGrid> patched;
   const Cell at = grid.cell_at(p_map);
@@ -117,10 +119,9 @@ std::optional<Escape> escape_from(const OccupancyGrid& grid, const DiscSpace& sp
   if (occupied_m <= 0.0) return std::nullopt;
   // A hair less than the start keeps, so that the start itself passes the check.
   Escape escape{start, std::min(occupied_m, radius_m) - kLeastRadius_m};
-  const std::optional<Point> to =
-      nearest_fit(space, start, radius_m + kLeastRadius_m, tolerance_m, [&](Cell cell) {
-        return escape_is_free(grid, space.rules(), start, {space.field().centre_of(cell), escape.keep_m});
-      });
+  const std::optional<Point> to = nearest_fit(space, start, radius_m + kLeastRadius_m, tolerance_m, [&](Cell cell) {
+    return escape_is_free(grid, space.rules(), start, {space.field().centre_of(cell), escape.keep_m});
+  });
   if (!to) return std::nullopt;
   escape.to = *to;
   return escape;

@@ -43,8 +43,8 @@ struct Escape {
   double keep_m = 0.0;
 };
 // The nearest place that fits within tolerance_m; none when the start is on an occupied cell.
-[[nodiscard]] std::optional<Escape> escape_from(const OccupancyGrid& grid, const DiscSpace& space,
-                                                const Point& start, double radius_m, double tolerance_m);
+[[nodiscard]] std::optional<Escape> escape_from(const OccupancyGrid& grid, const DiscSpace& space, const Point& start,
+                                                double radius_m, double tolerance_m);
 [[nodiscard]] bool escape_is_free(const OccupancyGrid& grid, const GroundRules& rules, const Point& start,
                                   const Escape& escape);
 

@@ -11,8 +11,8 @@ namespace cairn {
 [[nodiscard]] double length_of(const std::vector<Point>& route);
 
 // Drops the corners that a straight free segment can skip; the first `keep` points and the last stay.
-[[nodiscard]] std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route,
-                                              double radius_m, std::size_t keep = 1);
+[[nodiscard]] std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
+                                              std::size_t keep = 1);
 
 // A route over the cells' centres, straightened; empty when the grid's coarseness hides the way.
 // Only tried where sampling found nothing: it sees passages as narrow as the disc plus about a cell.

@@ -41,8 +41,7 @@ double distance_to_square_m(const Point& from, const Point& to, const Point& squ
   if (meets_box(a, b, half_m)) return 0.0;
   double nearest_m = std::min(distance_to_box_m(a, half_m), distance_to_box_m(b, half_m));
   for (const double x : {-half_m, half_m})
-    for (const double y : {-half_m, half_m})
-      nearest_m = std::min(nearest_m, distance_to_segment_m({x, y}, a, b));
+    for (const double y : {-half_m, half_m}) nearest_m = std::min(nearest_m, distance_to_segment_m({x, y}, a, b));
   return nearest_m;
 }
 

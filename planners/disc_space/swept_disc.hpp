@@ -64,8 +64,7 @@ template <class IsBlocked>
     const auto [x_low, x_high] = std::minmax(x_a, x_b);
     const int x_end = index(x_high + reach_m, lattice.origin_m.x());
     for (int x = index(x_low - reach_m, lattice.origin_m.x()); x <= x_end; ++x)
-      if (is_blocked(Cell{x, y}) &&
-          distance_to_square_m(from, to, lattice.centre_of({x, y}), lattice.cell_m) < reach_m)
+      if (is_blocked(Cell{x, y}) && distance_to_square_m(from, to, lattice.centre_of({x, y}), lattice.cell_m) < reach_m)
         return true;
   }
   return false;

@@ -43,7 +43,12 @@ class Query {
  public:
   Query(const HybridConfig& config, UnknownPolicy unknown, const SpaceCache& spaces, const Planner& route,
         const Planner& graph, const PlanRequest& request, const WorldView& world, const Budget& budget)
-      : config_(config), spaces_(spaces), route_(route), graph_(graph), request_(request), world_(world),
+      : config_(config),
+        spaces_(spaces),
+        route_(route),
+        graph_(graph),
+        request_(request),
+        world_(world),
         budget_(budget) {
     ends_.ground.unknown = unknown;
     ends_.radius_m = request.radius_m;
@@ -78,16 +83,16 @@ class Query {
 
     // The robot's world as it is planned in: with the ground under the robot known, and the robot no
     // longer where a leg begins.
-    const WorldView planned_world{start.grid_of(world_), world_.graph, world_.robot, world_.pose, world_.time_s,
-                                  nullptr,              world_.held_back_ratio};
+    const WorldView planned_world{start.grid_of(world_), world_.graph, world_.robot,          world_.pose,
+                                  world_.time_s,         nullptr,      world_.held_back_ratio};
     const SymbolicQuery query{world_, start, goals, travel, ends_.radius_m + kLeastRadius_m, config_.detour_ratio};
     for (;;) {
       const SymbolicAnswer symbolic = search_graph(query);
       if (symbolic.stopped) return stopped(*symbolic.stopped);
       if (!symbolic.path) break;
       if (symbolic.path->cost_m > config_.detour_ratio * direct_m) {
-        why_direct_ = "directly: over landmarks it is " + metres(symbolic.path->cost_m) + ", the direct way " +
-                      metres(direct_m);
+        why_direct_ =
+            "directly: over landmarks it is " + metres(symbolic.path->cost_m) + ", the direct way " + metres(direct_m);
         break;
       }
       const GoalPlace& goal = goals[symbolic.path->goal];
@@ -118,8 +123,7 @@ class Query {
   Walk walk_along(const WorldView& planned_world, const StartPlace& start, const SymbolicPath& path,
                   const GoalPlace& goal) {
     const Time begin = Budget::Clock::now();
-    Walk walk =
-        Walker(planned_world, *start.space, legs_, route_, budget_).walk(start.leave_from, path, goal.pose);
+    Walk walk = Walker(planned_world, *start.space, legs_, route_, budget_).walk(start.leave_from, path, goal.pose);
     route_ms_ += ms_since(begin);
     return walk;
   }
@@ -194,8 +198,8 @@ class Query {
     route.erase(std::unique(route.begin(), route.end()), route.end());
     if (!route_is_free(start.grid_of(world_), ends_.ground, route, ends_.radius_m, start.escape))
       throw std::logic_error("hybrid: the re-check refused a path of " + std::to_string(route.size()) +
-                             " points from " + text_of(route.front()) + " to " + text_of(route.back()) +
-                             ", radius " + std::to_string(ends_.radius_m));
+                             " points from " + text_of(route.front()) + " to " + text_of(route.back()) + ", radius " +
+                             std::to_string(ends_.radius_m));
     PlanResult result;
     result.outcome = PlanOutcome::solved;
     result.length_m = length_of(route);
@@ -217,9 +221,7 @@ class Query {
            label_of(*world_.graph.find(route.to)) + ")";
   }
 
-  PlanOutcome stop_outcome() const {
-    return budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget;
-  }
+  PlanOutcome stop_outcome() const { return budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget; }
 
   const HybridConfig& config_;
   const SpaceCache& spaces_;

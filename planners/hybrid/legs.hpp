@@ -12,19 +12,19 @@
 namespace cairn {
 
 struct LegRules {
-  double radius_m = 0.22;      // of the request
-  double detour_ratio = 1.3;   // a leg planned anew may be this much longer than its stored cost
+  double radius_m = 0.22;     // of the request
+  double detour_ratio = 1.3;  // a leg planned anew may be this much longer than its stored cost
   std::uint64_t seed = 1;
 };
 
 struct Walk {
-  std::vector<Point> route;              // from StartPlace::leave_from to the goal
-  double cost_m = 0.0;                   // stored costs, or lengths where there was none to use
+  std::vector<Point> route;  // from StartPlace::leave_from to the goal
+  double cost_m = 0.0;       // stored costs, or lengths where there was none to use
   int stored_legs = 0;
   int planned_legs = 0;
-  std::optional<RouteId> blocked;        // the route that is not passable today; the walk ends there
-  bool mile_failed = false;              // no way to the first or from the last landmark
-  std::optional<PlanOutcome> stopped;    // cancelled or out_of_budget
+  std::optional<RouteId> blocked;      // the route that is not passable today; the walk ends there
+  bool mile_failed = false;            // no way to the first or from the last landmark
+  std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
 
   [[nodiscard]] bool complete() const { return !blocked && !mile_failed && !stopped; }
 };

@@ -1,6 +1,7 @@
+#include "framework/contracts/module.hpp"
+
 #include <stdexcept>
 
-#include "framework/contracts/module.hpp"
 #include "planners/hybrid/hybrid_planner.hpp"
 
 namespace {

@@ -5,7 +5,9 @@
 namespace cairn {
 namespace {
 
-bool is_pose(const GoalPlace& goal) { return goal.landmark == 0; }
+bool is_pose(const GoalPlace& goal) {
+  return goal.landmark == 0;
+}
 
 // The landmarks and open routes without their trajectories, which the search does not read.
 LandmarkGraph bare_copy(const LandmarkGraph& graph, const std::set<RouteId>& blocked) {
@@ -164,8 +166,8 @@ SymbolicAnswer answer_of(const PlanResult& found) {
 
 }  // namespace
 
-SymbolicAnswer symbolic_path(const SymbolicQuery& query, const std::set<RouteId>& blocked,
-                             const Planner& graph_planner, const Budget& budget) {
+SymbolicAnswer symbolic_path(const SymbolicQuery& query, const std::set<RouteId>& blocked, const Planner& graph_planner,
+                             const Budget& budget) {
   const WorldView& world = query.world;
   if (world.graph.routes().empty()) return {};
   if (const auto request = request_without_joining(query, blocked)) {

@@ -19,8 +19,8 @@ struct SymbolicPath {
 };
 
 struct SymbolicAnswer {
-  std::optional<SymbolicPath> path;   // none: no way over at least one stored route
-  std::optional<PlanOutcome> stopped; // cancelled or out_of_budget
+  std::optional<SymbolicPath> path;    // none: no way over at least one stored route
+  std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
   std::int64_t settled = 0;
 };
 

@@ -74,7 +74,9 @@ std::string labels_of(const std::vector<LandmarkId>& ids, const LandmarkGraph& g
   return text;
 }
 
-Pose2 standing_at(const Landmark& landmark) { return landmark.access.value_or(landmark.T_map_landmark); }
+Pose2 standing_at(const Landmark& landmark) {
+  return landmark.access.value_or(landmark.T_map_landmark);
+}
 
 // Dijkstra from all sources at once.
 Search search_from(const BoostLandmarkGraph& model, const std::vector<std::size_t>& sources,
@@ -88,11 +90,11 @@ Search search_from(const BoostLandmarkGraph& model, const std::vector<std::size_
   const auto index = boost::get(boost::vertex_index, model.graph);
   std::vector<boost::default_color_type> colour(model.ids.size(), boost::white_color);
   try {
-    boost::dijkstra_shortest_paths_no_init(
-        model.graph, sources.begin(), sources.end(), boost::dummy_property_map(),
-        boost::make_iterator_property_map(search.cost_m.begin(), index), boost::get(&RouteEdge::cost_m, model.graph),
-        index, std::less<>(), std::plus<>(), 0.0, EarlyStop(search, budget),
-        boost::make_iterator_property_map(colour.begin(), index));
+    boost::dijkstra_shortest_paths_no_init(model.graph, sources.begin(), sources.end(), boost::dummy_property_map(),
+                                           boost::make_iterator_property_map(search.cost_m.begin(), index),
+                                           boost::get(&RouteEdge::cost_m, model.graph), index, std::less<>(),
+                                           std::plus<>(), 0.0, EarlyStop(search, budget),
+                                           boost::make_iterator_property_map(colour.begin(), index));
   } catch (const Stop&) {
   }
   return search;
@@ -104,8 +106,7 @@ void append_trajectory(std::vector<Pose2>& path, const Route* route, const Landm
     if (path.empty() || !(path.back() == pose)) path.push_back(pose);
 }
 
-void fill_path(PlanResult& result, const Search& search, const BoostLandmarkGraph& model,
-               const LandmarkGraph& graph) {
+void fill_path(PlanResult& result, const Search& search, const BoostLandmarkGraph& model, const LandmarkGraph& graph) {
   std::vector<const Route*> routes;
   LandmarkId at = model.ids[search.goal];
   for (std::size_t v = search.goal; search.arrived_by[v] != nullptr; v = model.vertex_of(at)) {
@@ -159,8 +160,8 @@ PlanResult search_graph(const PlanRequest& request, const LandmarkGraph& graph, 
   }
   result.outcome = PlanOutcome::solved;
   fill_path(result, search, model, graph);
-  result.reason = "by " + std::to_string(result.routes.size()) + " stored route" +
-                  (result.routes.size() == 1 ? "" : "s");
+  result.reason =
+      "by " + std::to_string(result.routes.size()) + " stored route" + (result.routes.size() == 1 ? "" : "s");
   return result;
 }
 

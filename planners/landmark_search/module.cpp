@@ -1,4 +1,5 @@
 #include "framework/contracts/module.hpp"
+
 #include "planners/landmark_search/landmark_search.hpp"
 
 namespace {

@@ -7,7 +7,6 @@
 
 namespace cairn {
 
-[[nodiscard]] ompl::base::PlannerPtr make_algorithm(Algorithm algorithm,
-                                                    const ompl::base::SpaceInformationPtr& space);
+[[nodiscard]] ompl::base::PlannerPtr make_algorithm(Algorithm algorithm, const ompl::base::SpaceInformationPtr& space);
 
 }  // namespace cairn

@@ -24,9 +24,8 @@ class CountedPrm : public ompl::geometric::PRM {
     if (goalM_.empty()) return PlannerStatus::INVALID_GOAL;
 
     bestCost_ = opt_->infiniteCost();
-    growRoadmap(ompl::base::PlannerTerminationCondition([&] {
-      return enough || (stop_ == Stop::at_first_route && sameComponent(startM_.front(), goalM_.front()));
-    }));
+    growRoadmap(ompl::base::PlannerTerminationCondition(
+        [&] { return enough || (stop_ == Stop::at_first_route && sameComponent(startM_.front(), goalM_.front())); }));
     ompl::base::PathPtr route;
     maybeConstructSolution(startM_, goalM_, route);
     if (!route) return PlannerStatus::TIMEOUT;

@@ -1,4 +1,5 @@
 #include "framework/contracts/module.hpp"
+
 #include "planners/ompl/ompl_planner.hpp"
 
 namespace {

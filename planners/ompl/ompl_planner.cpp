@@ -29,7 +29,7 @@ struct Found {
   std::vector<Point> route;  // from StartPlace::leave_from; empty: none
   bool exact = false;        // otherwise it ends short of the goal
   bool interrupted = false;
-  bool impossible = false;   // proven
+  bool impossible = false;  // proven
   std::string how;
 };
 
@@ -108,7 +108,7 @@ class Query {
     if (config_.fall_back_to_grid) found.route = route_over_cells(space, from, to, radius_m());
     const CellBox box = space.field().box();
     const std::int64_t cells = std::int64_t{box.width()} * box.height() * kRefinedParts * kRefinedParts;
-    if (found.route.empty() && cells <= kMostRefinedCells) {
+    if (found.route.empty() && cells <= kMostRefinedCells && !budget_.exhausted()) {
       const DiscSpace fine = space.refined(kRefinedParts);
       found.impossible = !fine.travel_at_most(from, radius_m()).reaches(fine.field().cell_at(to));
       if (!found.impossible && config_.fall_back_to_grid) found.route = route_over_cells(fine, from, to, radius_m());
@@ -135,16 +135,17 @@ class Query {
   PlanResult checked(const StartPlace& start, const GoalPlace& goal, const Found& found) const {
     if (found.impossible) return refused(too_narrow(request_.to, world_.graph, rules_.radius_m));
     if (found.route.size() < (found.exact ? 1U : 2U)) {
-      return refused({PlanOutcome::out_of_budget, "no route was found in " + std::to_string(std::min(config_.iterations, budget_.iterations)) +
+      return refused({PlanOutcome::out_of_budget, "no route was found in " +
+                                                      std::to_string(std::min(config_.iterations, budget_.iterations)) +
                                                       " iterations; if there is one, it is hardly wider than the "
                                                       "robot"});
     }
     std::vector<Point> route = found.route;
     if (start.escape) route.insert(route.begin(), start.pose.position());
     if (!route_is_free(start.grid_of(world_), rules_.ground, route, rules_.radius_m, start.escape))
-      throw std::logic_error("ompl: the re-check refused a route of " + std::to_string(route.size()) +
-                             " points from " + text_of(route.front()) + " to " + text_of(route.back()) +
-                             ", radius " + std::to_string(rules_.radius_m));
+      throw std::logic_error("ompl: the re-check refused a route of " + std::to_string(route.size()) + " points from " +
+                             text_of(route.front()) + " to " + text_of(route.back()) + ", radius " +
+                             std::to_string(rules_.radius_m));
     return result_of(start, goal, found, route);
   }
 
@@ -157,8 +158,7 @@ class Query {
     result.clearance_m = clearance_along(*start.space, route, request_.radius_m);
     result.path = poses_along(route, start.pose.theta_rad, found.exact ? goal.heading_rad : std::nullopt);
     if (start.landmark != 0) result.landmarks.push_back(start.landmark);
-    if (found.exact && goal.landmark != 0 && goal.landmark != start.landmark)
-      result.landmarks.push_back(goal.landmark);
+    if (found.exact && goal.landmark != 0 && goal.landmark != start.landmark) result.landmarks.push_back(goal.landmark);
     result.reason = found.how;
     if (!found.exact) result.reason = "the route ends at " + text_of(route.back()) + ", short of the goal";
     if (found.interrupted) result.reason += "; the budget ended the search for a shorter one";

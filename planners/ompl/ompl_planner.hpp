@@ -24,8 +24,7 @@ struct OmplConfig {
     fields.integer("iterations", &OmplConfig::iterations, {1, 1e9},
                    "how often the search may ask whether to go on; a count, so that answers do not depend on the "
                    "machine's speed");
-    fields.choice("unknown", &OmplConfig::unknown,
-                  {{"avoid", UnknownPolicy::avoid}, {"allow", UnknownPolicy::allow}},
+    fields.choice("unknown", &OmplConfig::unknown, {{"avoid", UnknownPolicy::avoid}, {"allow", UnknownPolicy::allow}},
                   "whether routes may cross cells that have not been seen");
     fields.number("margin_m", &OmplConfig::margin_m, {0.0, 2.0}, "m", "added to the robot's radius");
     fields.number("start_tolerance_m", &OmplConfig::start_tolerance_m, {0.0, 1.0}, "m",

@@ -11,6 +11,8 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <random>
 
@@ -100,11 +102,43 @@ class CellSampler : public ob::StateSampler {
   std::mt19937_64 generator_;
 };
 
-// Held while any generator of OMPL may be made: their seeds come from one place in the process.
-std::timed_mutex& ompl_lock() {
-  static std::timed_mutex mutex;
-  return mutex;
-}
+// One holder at a time in the process, because the seeds of all of OMPL's generators come from one place.
+// Not a timed mutex: thread sanitizers of this compiler do not know those.
+class OmplTurn {
+ public:
+  // Waits for its turn until the budget is exhausted.
+  explicit OmplTurn(const Budget& budget) {
+    std::unique_lock lock(gate().mutex);
+    while (gate().taken && !budget.exhausted()) gate().freed.wait_for(lock, std::chrono::milliseconds(2));
+    is_mine_ = !gate().taken;
+    gate().taken = true;
+  }
+  ~OmplTurn() {
+    if (!is_mine_) return;
+    {
+      const std::lock_guard lock(gate().mutex);
+      gate().taken = false;
+    }
+    gate().freed.notify_one();
+  }
+  OmplTurn(const OmplTurn&) = delete;
+  OmplTurn& operator=(const OmplTurn&) = delete;
+
+  [[nodiscard]] bool is_mine() const { return is_mine_; }
+
+ private:
+  struct Gate {
+    std::mutex mutex;
+    std::condition_variable freed;
+    bool taken = false;
+  };
+  static Gate& gate() {
+    static Gate gate;
+    return gate;
+  }
+
+  bool is_mine_ = false;
+};
 
 ob::SpaceInformationPtr space_information(const SamplingTask& task) {
   const DistanceField& field = task.space.field();
@@ -167,7 +201,7 @@ bool takes(ob::Planner& planner, const std::string& name, const std::string& val
   }
 }
 
-SamplingAnswer search_locked(const SamplingTask& task, const Budget& budget) {
+SamplingAnswer search(const SamplingTask& task, const Budget& budget) {
   ompl::msg::noOutputHandler();
   ompl::RNG::setSeed(1 + mixed(task.seed) % 1'000'000'000U);
   const ob::SpaceInformationPtr info = space_information(task);
@@ -198,9 +232,9 @@ SamplingAnswer search_locked(const SamplingTask& task, const Budget& budget) {
 AlgorithmParameters checked_parameters(Algorithm algorithm, const ConfigValue& parameters) {
   if (parameters.kind == ConfigValue::Kind::null) return {};
   if (parameters.kind != ConfigValue::Kind::map)
-    throw ConfigError(parameters.place, "parameters must be a map of OMPL's parameter names, not " +
-                                            parameters.kind_name());
-  const std::lock_guard lock(ompl_lock());
+    throw ConfigError(parameters.place,
+                      "parameters must be a map of OMPL's parameter names, not " + parameters.kind_name());
+  const OmplTurn turn{Budget{}};
   ompl::msg::noOutputHandler();
   auto space = std::make_shared<Space>(2);
   space->setBounds(0.0, 1.0);
@@ -221,10 +255,9 @@ AlgorithmParameters checked_parameters(Algorithm algorithm, const ConfigValue& p
 }
 
 SamplingAnswer search_by_sampling(const SamplingTask& task, const Budget& budget) {
-  std::unique_lock lock(ompl_lock(), std::defer_lock);
-  while (!lock.try_lock_for(std::chrono::milliseconds(2)))
-    if (budget.exhausted()) return {{}, false, true};
-  return search_locked(task, budget);
+  const OmplTurn turn(budget);
+  if (!turn.is_mine()) return {{}, false, true};
+  return search(task, budget);
 }
 
 }  // namespace cairn

@@ -28,18 +28,18 @@ struct SamplingTask {
   double radius_m = 0.0;
   Point from{0.0, 0.0};
   Point to{0.0, 0.0};
-  std::vector<Cell> cells;            // to draw states from
+  std::vector<Cell> cells;  // to draw states from
   Algorithm algorithm = Algorithm::rrt_connect;
   const AlgorithmParameters& parameters;
-  std::int64_t iterations = 0;        // how often the termination condition may be asked
+  std::int64_t iterations = 0;  // how often the termination condition may be asked
   bool simplify = true;
   std::uint64_t seed = 1;
 };
 
 struct SamplingAnswer {
-  std::vector<Point> route;           // empty: none found
-  bool exact = false;                 // otherwise it ends short of the goal
-  bool interrupted = false;           // by the budget's deadline or cancel flag
+  std::vector<Point> route;  // empty: none found
+  bool exact = false;        // otherwise it ends short of the goal
+  bool interrupted = false;  // by the budget's deadline or cancel flag
 };
 
 [[nodiscard]] SamplingAnswer search_by_sampling(const SamplingTask& task, const Budget& budget);

@@ -11,6 +11,9 @@ constexpr double kTrace_m = 0.1;  // spacing of remembered poses
 constexpr double kTraceTurn_rad = radians(30.0);
 constexpr double kChoiceEvery_s = 2.5;
 constexpr double kAroundHere_m = 8.0;
+constexpr double kShutInRatio = 0.9;  // of the trace
+constexpr int kNearTrace_cells = 4;
+constexpr double kTightClearance_m = 0.02;
 constexpr double kEverywhere_m = 1e6;
 constexpr double kChoiceAtLeastApart_s = 0.5;
 constexpr double kLookAround_radps = radians(45.0);
@@ -25,6 +28,7 @@ constexpr double kBackOffAtMost_s = 3.0;
 constexpr double kTroubleFor_s = 60.0;
 constexpr double kFailedAgain_m = 0.4;
 constexpr int kMostStuckInARow = 8;
+constexpr double kMoved_m = 0.1;      // less is no exploring
 constexpr double kGettingOn_m = 0.5;  // driven between two hold-ups, they are not "in a row"
 
 }  // namespace
@@ -83,14 +87,14 @@ void Exploration::drive(const Twist& wanted, Orders& orders) {
   orders.drive(wanted);
 }
 
-FreeSpace Exploration::space_now(const WorldView& world, double within_m) const {
+FreeSpace Exploration::space_now(const WorldView& world, const Search& search) const {
   const Point position = world.pose.T_map_robot.position();
   const Cell here = world.grid.cell_at(position);
   const CellBox all = world.grid.bounds();
-  const int reach =
-      static_cast<int>(std::min(within_m / world.grid.cell_m(), 1.0 + std::max(all.width(), all.height())));
+  const double most_cells = 1.0 + std::max(all.width(), all.height());
+  const int reach = static_cast<int>(std::min(search.within_m / world.grid.cell_m(), most_cells));
   const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
-  return FreeSpace(near_echoes_.added_to(world.grid, part), {position, world.robot.radius_m, config_.clearance_m},
+  return FreeSpace(near_echoes_.applied_to(world.grid, part), {position, world.robot.radius_m, search.clearance_m},
                    memory_.trace, memory_.troubles);
 }
 
@@ -98,6 +102,7 @@ FreeSpace Exploration::space_now(const WorldView& world, double within_m) const 
 Status Exploration::look_around(const WorldView& world, Orders& orders) {
   const bool held = world.time_s - mode_since_s_ > 3.0 * 2.0 * std::numbers::pi / kLookAround_radps;
   if (turned_rad_ >= 2.0 * std::numbers::pi || held) {
+    looked_around_at_m_ = driven_m_;
     set_mode(Mode::travel, world.time_s);
     return travel(world, orders);
   }
@@ -112,8 +117,9 @@ bool Exploration::needs_choice(const WorldView& world) const {
   return since_s >= kChoiceEvery_s || !still_worthwhile(*task_, world.grid);
 }
 
-bool Exploration::choose_within(double within_m, const WorldView& world) {
-  const FreeSpace space = space_now(world, within_m);
+bool Exploration::choose_by(const Search& search, const WorldView& world) {
+  search_ = search;
+  const FreeSpace space = space_now(world, search);
   const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
   // Each turn of the loop either ends it or gives a part of a task up.
   for (;;) {
@@ -125,12 +131,30 @@ bool Exploration::choose_within(double within_m, const WorldView& world) {
   }
 }
 
+// Noise can wall the robot in where it just came through: it cannot go back to where it has been.
+bool Exploration::is_shut_in(const WorldView& world) const {
+  const FreeSpace space = space_now(world, {kEverywhere_m, config_.clearance_m});
+  const auto can_go_back = [&](const Pose2& pose) {
+    const Cell centre = space.cell_at(pose.position());
+    for (int dy = -kNearTrace_cells; dy <= kNearTrace_cells; ++dy)
+      for (int dx = -kNearTrace_cells; dx <= kNearTrace_cells; ++dx)
+        if (space.reaches(centre + Cell{dx, dy})) return true;
+    return false;
+  };
+  const auto back = std::count_if(memory_.trace.begin(), memory_.trace.end(), can_go_back);
+  return static_cast<double>(back) < kShutInRatio * static_cast<double>(memory_.trace.size());
+}
+
 bool Exploration::choose(const WorldView& world, Orders& orders) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   chosen_s_ = world.time_s;
   follow_state_ = {0.0, follow_state_.turning};
-  // The whole map only when there is nothing to do around here.
-  if (!choose_within(kAroundHere_m, world) && !choose_within(kEverywhere_m, world)) return false;
+  const double tight_m = std::min(config_.clearance_m, kTightClearance_m);
+  // The whole map only when there is nothing to do around here; less room only when shut in.
+  const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world) ||
+                     choose_by({kEverywhere_m, config_.clearance_m}, world) ||
+                     (is_shut_in(world) && choose_by({kEverywhere_m, tight_m}, world));
+  if (!found) return false;
   if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
     said_about_ = task_->about;
     orders.say(sentence_of(*task_));
@@ -140,10 +164,10 @@ bool Exploration::choose(const WorldView& world, Orders& orders) {
 
 bool Exploration::is_blocked(const WorldView& world) const {
   if (!task_) return false;
-  const double margin_m = world.robot.radius_m + 0.5 * config_.clearance_m;
+  const double margin_m = world.robot.radius_m + 0.5 * search_.clearance_m;
+  const auto is_occupied = [&](Cell c) { return near_echoes_.is_occupied(world.grid, c); };
   const auto blocks = [&](const std::vector<Point>& path, double along_m, double ahead_m) {
-    return path_is_blocked(world.grid, path, along_m, ahead_m, margin_m) ||
-           path_is_blocked(near_echoes_.votes(), path, along_m, ahead_m, margin_m);
+    return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, margin_m);
   };
   // A robot that already stands too near to something is on its way out and must not stop there.
   return blocks(task_->path, follow_state_.along_m, kBlockedAhead_m) &&
@@ -154,7 +178,7 @@ Status Exploration::travel(const WorldView& world, Orders& orders) {
   if (watch_.is_stuck(world, wanted_)) return get_unstuck(world, orders);
   const bool blocked = is_blocked(world);
   if (needs_choice(world) || (blocked && world.time_s - chosen_s_ >= kChoiceAtLeastApart_s)) {
-    if (!choose(world, orders)) return finished(world);
+    if (!choose(world, orders)) return nothing_left(world, orders);
   } else if (blocked) {
     drive({}, orders);
     return {Progress::running, "something has turned up on the path"};
@@ -172,7 +196,7 @@ void Exploration::arrive(const WorldView& world) {
     faced_s_ = world.time_s;
     return;
   }
-  if (task_->kind == TaskKind::frontier) give_up(*task_, space_now(world, kAroundHere_m), settings_, memory_);
+  if (task_->kind == TaskKind::frontier) give_up(*task_, space_now(world, search_), settings_, memory_);
   task_.reset();
 }
 
@@ -184,7 +208,7 @@ Status Exploration::face(const WorldView& world, Orders& orders) {
     faced_s_ = world.time_s;
     drive(turn_by(error_rad, limits_.max_w_radps), orders);
   } else if (world.time_s - faced_s_ >= kFaceDwell_s || !has_time || !still_worthwhile(*task_, world.grid)) {
-    give_up(*task_, space_now(world, kAroundHere_m), settings_, memory_);
+    give_up(*task_, space_now(world, search_), settings_, memory_);
     task_.reset();
     set_mode(Mode::travel, world.time_s);
   }
@@ -195,17 +219,12 @@ Status Exploration::get_unstuck(const WorldView& world, Orders& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   stuck_in_a_row_ = driven_m_ - driven_when_stuck_m_ < kGettingOn_m ? stuck_in_a_row_ + 1 : 1;
   driven_when_stuck_m_ = driven_m_;
-  if (stuck_in_a_row_ > kMostStuckInARow) {
-    char text[96];
-    std::snprintf(text, sizeof text, "cannot get away from (%.2f, %.2f): held back wherever it turns", pose.x_m,
-                  pose.y_m);
-    return {Progress::failure, text};
-  }
+  if (stuck_in_a_row_ > kMostStuckInARow) return cannot_get_away();
   memory_.troubles.push_back({pose * Point{world.robot.radius_m, 0.0}, world.time_s + kTroubleFor_s});
   if (task_) {
     const bool again = std::any_of(failed_lookouts_.begin(), failed_lookouts_.end(),
                                    [&](const Point& p) { return (p - task_->lookout).norm() < kFailedAgain_m; });
-    if (again) give_up(*task_, space_now(world, kAroundHere_m), settings_, memory_);
+    if (again) give_up(*task_, space_now(world, search_), settings_, memory_);
     failed_lookouts_.push_back(task_->lookout);
     task_.reset();
   }
@@ -228,20 +247,35 @@ Status Exploration::back_off(const WorldView& world, Orders& orders) {
   return {Progress::running, "backing off"};
 }
 
+// Once more round before the end: what seems to shut the robot in may be noise.
+Status Exploration::nothing_left(const WorldView& world, Orders& orders) {
+  const bool can_turn = limits_.min_turning_radius_m <= 0.0;
+  if (!can_turn || driven_m_ - looked_around_at_m_ < kMoved_m) return finished(world);
+  turned_rad_ = 0.0;
+  set_mode(Mode::look_around, world.time_s);
+  return look_around(world, orders);
+}
+
 Status Exploration::finished(const WorldView& world) const {
-  const bool has_moved = driven_m_ > 0.05;
-  const FreeSpace space = space_now(world, kAroundHere_m);
-  const Cell here = space.cell_at(world.pose.T_map_robot.position());
+  if (driven_m_ >= kMoved_m) return {Progress::success, "nothing left to explore: " + summary(world)};
+  if (stuck_in_a_row_ > 0) return cannot_get_away();
+  const FreeSpace space = space_now(world, search_);
+  const Cell here = space.cell_at(last_pose_.position());
   const bool can_move = std::any_of(std::begin(kNeighbours), std::end(kNeighbours), [&](Cell step) {
     return space.reaches(here + step) || space.reaches(here + step + step);
   });
-  if (!has_moved && !can_move) {
-    char text[128];
-    std::snprintf(text, sizeof text, "cannot move: no known free place with %.2f m of room is in reach of (%.2f, %.2f)",
-                  space.least_distance_m(), last_pose_.x_m, last_pose_.y_m);
-    return {Progress::failure, text};
-  }
-  return {Progress::success, "nothing left to explore: " + summary(world)};
+  if (can_move) return {Progress::success, "nothing left to explore: " + summary(world)};
+  char text[128];
+  std::snprintf(text, sizeof text, "cannot move: no known free place with %.2f m of room is in reach of (%.2f, %.2f)",
+                space.least_distance_m(), last_pose_.x_m, last_pose_.y_m);
+  return {Progress::failure, text};
+}
+
+Status Exploration::cannot_get_away() const {
+  char text[96];
+  std::snprintf(text, sizeof text, "cannot get away from (%.2f, %.2f): held back wherever it turns", last_pose_.x_m,
+                last_pose_.y_m);
+  return {Progress::failure, text};
 }
 
 std::string Exploration::summary(const WorldView& world) const {

@@ -30,17 +30,26 @@ class Exploration {
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   void drive(const Twist& wanted, Orders& orders);
-  [[nodiscard]] FreeSpace space_now(const WorldView& world, double within_m) const;
-  [[nodiscard]] bool choose_within(double within_m, const WorldView& world);
+  // Which part of the map is searched, and how much room is kept.
+  struct Search {
+    double within_m = 8.0;
+    double clearance_m = 0.1;
+  };
+  [[nodiscard]] FreeSpace space_now(const WorldView& world, const Search& search) const;
+  [[nodiscard]] bool is_shut_in(const WorldView& world) const;
+  [[nodiscard]] bool choose_by(const Search& search, const WorldView& world);
   [[nodiscard]] bool is_blocked(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
   [[nodiscard]] bool choose(const WorldView& world, Orders& orders);
+  Status nothing_left(const WorldView& world, Orders& orders);
   void arrive(const WorldView& world);
   Status get_unstuck(const WorldView& world, Orders& orders);
   [[nodiscard]] Status finished(const WorldView& world) const;
+  [[nodiscard]] Status cannot_get_away() const;
   [[nodiscard]] std::string summary(const WorldView& world) const;
 
   ExploreConfig config_;
+  Search search_;  // of the last choice
   TaskSettings settings_;
   FollowLimits limits_;
   Mode mode_;
@@ -49,6 +58,7 @@ class Exploration {
   double chosen_s_ = 0.0;
   double faced_s_ = 0.0;
   double turned_rad_ = 0.0;
+  double looked_around_at_m_ = 0.0;  // of the way driven
   double driven_m_ = 0.0;
   double driven_when_stuck_m_ = 0.0;
   int stuck_in_a_row_ = 0;

@@ -13,9 +13,10 @@ namespace {
 constexpr double kLapBonus_m = 1.5;             // an object is circled when the robot first comes near
 constexpr double kFrontierBonus_m_per_m = 0.3;  // of the frontier's length
 constexpr double kMostFrontierBonus_m = 0.8;
-constexpr int kNotWorthALap = 2;  // open sectors that are left alone once the robot is elsewhere
+constexpr int kNotWorthALap = 1;  // open sectors that are left alone once the robot is elsewhere
 constexpr double kStayBonus_m = 0.8;
-constexpr double kSame_m = 0.8;  // tasks this near are the same one, grown or shrunk
+constexpr double kSame_m = 0.8;                    // tasks this near are the same one, grown or shrunk
+constexpr double kMostWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
 constexpr double kLeastEdge_m = 0.3;
 // Things are looked at from a little nearer than needed, so that arriving is seeing.
 constexpr double kViewRatio = 0.85;
@@ -47,15 +48,28 @@ void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* pr
   best = {task.cost_m - bonus_m, std::move(task)};
 }
 
-void offer_groups(Choice& best, TaskKind kind, std::vector<CellGroup> groups, double view_m, double bonus_m_per_m,
-                  const FreeSpace& space, const ExploreTask* previous) {
-  const std::vector<std::optional<Cell>> stands = lookouts(space, groups, view_m);
+// What groups of cells of one kind are worth.
+struct Worth {
+  TaskKind kind = TaskKind::frontier;
+  double view_m = 1.0;                                            // looked at from within this distance
+  double bonus_m_per_m = 0.0;                                     // of the group's length
+  double most_m_per_m = std::numeric_limits<double>::infinity();  // no longer way for a metre of it
+};
+
+void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& worth, const FreeSpace& space,
+                  const ExploreTask* previous) {
+  const std::vector<std::optional<Cell>> stands = lookouts(space, groups, worth.view_m);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!stands[i]) continue;
     const double size_m = static_cast<double>(groups[i].size()) * space.cell_m();
-    ExploreTask task{kind, middle_of(space, groups[i]), std::move(groups[i]), space.centre_of(*stands[i]),
-                     {},   space.cost_m(*stands[i])};
-    offer(best, std::move(task), std::min(kMostFrontierBonus_m, bonus_m_per_m * size_m), previous);
+    ExploreTask task;
+    task.kind = worth.kind;
+    task.about = middle_of(space, groups[i]);
+    task.targets = std::move(groups[i]);
+    task.lookout = space.centre_of(*stands[i]);
+    task.cost_m = space.cost_m(*stands[i]);
+    if (task.cost_m > worth.most_m_per_m * size_m) continue;
+    offer(best, std::move(task), std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m), previous);
   }
 }
 
@@ -83,17 +97,15 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
   Choice best;
   const double look_closer_m = settings.lap.look_closer_m;
   if (look_closer_m > 0.0) {
-    offer_groups(best, TaskKind::edge,
-                 groups_of(unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges),
-                           kLeastEdge_m / space.cell_m()),
-                 kViewRatio * look_closer_m, 0.0, space, previous);
+    const std::vector<Cell> left = unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges);
+    const Worth worth{TaskKind::edge, kViewRatio * look_closer_m, 0.0, kMostWayForEdges_m_per_m};
+    offer_groups(best, groups_of(left, kLeastEdge_m / space.cell_m()), worth, space, previous);
   }
   if (frontiers_wanted) {
     const Sight& sight = settings.frontier_sight;
-    offer_groups(best, TaskKind::frontier,
-                 groups_of(unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers),
-                           settings.smallest_frontier_m / space.cell_m()),
-                 kViewRatio * sight.within_m, kFrontierBonus_m_per_m, space, previous);
+    const std::vector<Cell> left = unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers);
+    const Worth worth{TaskKind::frontier, kViewRatio * sight.within_m, kFrontierBonus_m_per_m};
+    offer_groups(best, groups_of(left, settings.smallest_frontier_m / space.cell_m()), worth, space, previous);
   }
   if (look_closer_m > 0.0) offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;

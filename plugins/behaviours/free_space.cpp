@@ -174,16 +174,22 @@ bool FreeSpace::sees(const Point& from, Cell cell) const {
 
 bool path_is_blocked(const OccupancyGrid& grid, const std::vector<Point>& path, double along_m, double ahead_m,
                      double radius_m) {
+  const auto is_occupied = [&](Cell c) { return grid.state(c) == CellState::occupied; };
+  return path_is_blocked(grid, is_occupied, path, along_m, ahead_m, radius_m);
+}
+
+bool path_is_blocked(const OccupancyGrid& space, const std::function<bool(Cell)>& is_occupied,
+                     const std::vector<Point>& path, double along_m, double ahead_m, double radius_m) {
   if (path.empty()) return false;
   const double end_m = std::min(along_m + ahead_m, length_of(path));
-  const double radius_cells = radius_m / grid.cell_m();
+  const double radius_cells = radius_m / space.cell_m();
   const int reach = static_cast<int>(radius_cells);
-  for (double s = along_m; s <= end_m; s += 2.0 * grid.cell_m()) {
-    const Cell centre = grid.cell_at(point_along(path, s));
+  for (double s = along_m; s <= end_m; s += 2.0 * space.cell_m()) {
+    const Cell centre = space.cell_at(point_along(path, s));
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
         if (dx * dx + dy * dy > radius_cells * radius_cells) continue;
-        if (grid.state(centre + Cell{dx, dy}) == CellState::occupied) return true;
+        if (is_occupied(centre + Cell{dx, dy})) return true;
       }
     }
   }

@@ -6,6 +6,7 @@
 // A robot that stands nearer to something than the clearance first takes the shortest way out.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "maps/distance_field.hpp"
@@ -73,7 +74,11 @@ class FreeSpace {
   TravelField travel_;
 };
 
-// True when an occupied cell lies within radius_m of the next ahead_m of a path.
+// True when an occupied cell's centre lies within radius_m of the next ahead_m of a path. space gives the
+// lattice only.
+[[nodiscard]] bool path_is_blocked(const OccupancyGrid& space, const std::function<bool(Cell)>& is_occupied,
+                                   const std::vector<Point>& path, double along_m, double ahead_m, double radius_m);
+// The same with what the grid says.
 [[nodiscard]] bool path_is_blocked(const OccupancyGrid& grid, const std::vector<Point>& path, double along_m,
                                    double ahead_m, double radius_m);
 

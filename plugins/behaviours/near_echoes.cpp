@@ -8,8 +8,11 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kNear_m = 1.0;
-constexpr int kHit = 100;  // two make a cell solid (OccupancyThresholds)
+constexpr int kHit = 100;
+constexpr int kSolid = 160;  // two hits
 constexpr int kPassed = -50;
+constexpr int kSurelyFree = -280;  // six echoes from behind it
+constexpr LogOdds kStoodThere = -400;
 constexpr double kMost_nat = 1.6;  // four hits
 constexpr double kMoved_m = 0.02;
 constexpr double kTurned_rad = radians(3.0);
@@ -62,26 +65,37 @@ void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
 
 void NearEchoes::stand_at(const Point& p_map, double radius_m) {
   const Cell centre = votes_.cell_at(p_map);
-  const int reach = static_cast<int>(radius_m / votes_.cell_m());
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const Cell c = centre + Cell{dx, dy};
-      if (dx * dx + dy * dy <= reach * reach && votes_.log_odds(c) > 0) votes_.set_log_odds(c, 0);
-    }
-  }
+  const double most_cells = radius_m / votes_.cell_m() + 0.5;
+  const int reach = static_cast<int>(most_cells);
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (dx * dx + dy * dy <= most_cells * most_cells) votes_.set_log_odds(centre + Cell{dx, dy}, kStoodThere);
 }
 
-OccupancyGrid NearEchoes::added_to(const OccupancyGrid& map, const CellBox& part) const {
+bool NearEchoes::is_solid(Cell cell) const {
+  return votes_.log_odds(cell) >= kSolid;
+}
+
+bool NearEchoes::is_surely_free(Cell cell) const {
+  return votes_.log_odds(cell) <= kSurelyFree;
+}
+
+OccupancyGrid NearEchoes::applied_to(const OccupancyGrid& map, const CellBox& part) const {
   OccupancyGrid all(map.cell_m(), map.clamp_nat(), map.origin_m());
   const LogOdds solid = log_odds_of(0.9);
+  const LogOdds free = log_odds_of(0.1);
   const CellBox box = intersected(part, united(map.bounds(), votes_.bounds()));
-  std::vector<LogOdds> row(static_cast<std::size_t>(std::max(0, box.width())));
+  const auto width = static_cast<std::size_t>(std::max(0, box.width()));
+  std::vector<LogOdds> mapped(width);
+  std::vector<LogOdds> voted(width);
   for (int y = box.min.y; y < box.max.y; ++y) {
-    map.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, row);
-    for (int x = box.min.x; x < box.max.x; ++x) {
-      const LogOdds mapped = row[static_cast<std::size_t>(x - box.min.x)];
-      const bool is_solid = votes_.state({x, y}) == CellState::occupied;
-      if (is_solid || mapped != 0) all.set_log_odds({x, y}, is_solid ? std::max(mapped, solid) : mapped);
+    map.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, mapped);
+    votes_.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, voted);
+    for (std::size_t i = 0; i < width; ++i) {
+      LogOdds value = mapped[i];
+      if (voted[i] >= kSolid) value = std::max(value, solid);
+      if (voted[i] <= kSurelyFree) value = std::min(value, free);
+      if (value != 0) all.set_log_odds({box.min.x + static_cast<int>(i), y}, value);
     }
   }
   return all;

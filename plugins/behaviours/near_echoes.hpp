@@ -1,8 +1,9 @@
-// What has echoed from near stays solid until something echoes from behind it.
+// What has echoed from near is solid, what echoes have passed through from near is free.
 //
 // Smooth walls bounce a slanting beam away, and the long reading that comes instead wipes them out of an
-// occupancy grid. Near echoes along the middle of a beam are the trustworthy part of a sonar: a wall that
-// the robot has passed is known, whatever is heard through it later. Only echoes count here, never silence.
+// occupancy grid; the width of a beam draws arcs beside everything that is seen from afar. Near echoes along
+// the middle of a beam are the trustworthy part of a sonar, and better still is where the robot has stood:
+// both outvote the map. Only echoes count here, never silence.
 #pragma once
 
 #include <vector>
@@ -22,10 +23,14 @@ class NearEchoes {
   // Where the robot stands is free.
   void stand_at(const Point& p_map, double radius_m);
 
-  // Occupied: solid. The rest says nothing.
-  [[nodiscard]] const OccupancyGrid& votes() const { return votes_; }
-  // A copy of this part of the map with everything solid occupied.
-  [[nodiscard]] OccupancyGrid added_to(const OccupancyGrid& map, const CellBox& part) const;
+  [[nodiscard]] bool is_solid(Cell cell) const;
+  [[nodiscard]] bool is_surely_free(Cell cell) const;
+  // What the map says where the votes do not know better.
+  [[nodiscard]] bool is_occupied(const OccupancyGrid& map, Cell cell) const {
+    return is_solid(cell) || (map.state(cell) == CellState::occupied && !is_surely_free(cell));
+  }
+  // A copy of this part of the map with the votes applied.
+  [[nodiscard]] OccupancyGrid applied_to(const OccupancyGrid& map, const CellBox& part) const;
 
  private:
   void vote(const RangeReading& reading, const Pose2& T_map_sensor);

@@ -67,7 +67,14 @@ std::vector<TemplateDegree> templates_above(std::span<const TemplateMatch> match
   }
   std::stable_sort(above.begin(), above.end(),
                    [](const TemplateDegree& a, const TemplateDegree& b) { return a.degree > b.degree; });
-  return above;
+  std::vector<TemplateDegree> distinct;
+  for (const TemplateDegree& t : above) {
+    const bool is_known = std::any_of(distinct.begin(), distinct.end(), [&](const TemplateDegree& d) {
+      return d.category == t.category && d.orientation_rad == t.orientation_rad;
+    });
+    if (!is_known) distinct.push_back(t);
+  }
+  return distinct;
 }
 
 }  // namespace cairn::template_matcher

@@ -33,7 +33,7 @@ struct ScoreRule {
                                                               const TemplateSet& set, const OccupancyGrid& grid,
                                                               const ScoreRule& rule);
 
-// All templates above tau_match, best first.
+// All templates above tau_match, best first. Of several templates of one orientation the best.
 [[nodiscard]] std::vector<TemplateDegree> templates_above(std::span<const TemplateMatch> matches,
                                                           std::span<const LandmarkTemplate> templates,
                                                           const ScoreRule& rule);

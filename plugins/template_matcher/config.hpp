@@ -20,13 +20,13 @@ struct Config {
 
   int coarse_cells = 5;
   double alpha_og2 = 3.0;
-  double tau_trigger = 140.0;
-  double tau_var = 12.0;
+  double tau_trigger = 150.0;
+  double tau_var = 20.0;
   TriggerRule trigger = TriggerRule::since_matching;
   double tau_grow = 140.0;
-  double tau_match = 0.6;
+  double tau_match = 0.69;
   MismatchScale mu = MismatchScale::sobel;
-  double min_margin = 0.0;
+  double min_margin = 0.04;
   Search search = Search::pruned;
 
   static void describe(Fields<Config>& fields);

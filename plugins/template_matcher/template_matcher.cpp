@@ -41,7 +41,8 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       template_reach_(reach_of(templates_->templates)),
       coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),
       trigger_(config.trigger, config.tau_trigger, config.tau_var),
-      matcher_(templates_->templates) {}
+      matcher_(templates_->templates),
+      neighbours_(*templates_) {}
 
 DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {
   if (std::abs(grid.cell_m() - templates_->cell_m) > 1e-9) {
@@ -61,6 +62,7 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   for (const Cell coarse : region) trigger_.matched(coarse, coarse_.ol(coarse));
   const std::vector<CellSpan> spans = fine_spans(coarse_, region);
   const CellBox box = CellChanges{spans}.box();
+  // One cell more than the templates reach, for the places around the best one.
   const GradientField field(grid, box.grown(template_reach_ + 1));
   const std::vector<TemplateMatch> matches = config_.search == Search::pruned
                                                  ? matcher_.match(field, spans)
@@ -77,14 +79,14 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
 std::optional<Detection> TemplateMatcher::detection_of(const GradientField& field,
                                                        std::span<const TemplateMatch> matches,
                                                        const OccupancyGrid& grid) const {
-  (void)field;
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
   const LandmarkTemplate& t = templates[best];
-  const Point at_m = grid.centre_of(matches[best].at);
+  const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * offset_in_cell(field, t, matches[best].at);
+  const double orientation_rad = t.orientation_rad + neighbours_.offset_rad(best, matches, templates);
   return Detection{t.category,
-                   {at_m.x(), at_m.y(), wrap_angle(t.orientation_rad)},
+                   {at_m.x(), at_m.y(), wrap_angle(orientation_rad)},
                    degree_of(matches[best].mismatch, t.cells.size(), rule_.mu),
                    templates_above(matches, templates, rule_)};
 }

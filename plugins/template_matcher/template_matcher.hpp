@@ -8,6 +8,7 @@
 #include "plugins/template_matcher/classify.hpp"
 #include "plugins/template_matcher/config.hpp"
 #include "plugins/template_matcher/match.hpp"
+#include "plugins/template_matcher/refine.hpp"
 #include "plugins/template_matcher/region.hpp"
 #include "plugins/template_matcher/trigger.hpp"
 
@@ -38,6 +39,7 @@ class TemplateMatcher : public Detector {
   CoarseGrid coarse_;
   Trigger trigger_;
   PrunedMatcher matcher_;
+  OrientationNeighbours neighbours_;
 };
 
 }  // namespace cairn::template_matcher

@@ -17,7 +17,7 @@ struct DrawnWorld {
   OccupancyGrid grid{0.1};
   LandmarkGraph graph;
   RobotModel robot;
-  std::map<char, Point> places;      // centres of the lettered blocks
+  std::map<char, Point> places;  // centres of the lettered blocks
   int scale = 1;
 
   [[nodiscard]] WorldView view() const { return {grid, graph, robot, {}, 0.0, nullptr, 0.0}; }

@@ -56,7 +56,8 @@ class Hybrid : public ::testing::Test {
       "#..........................#\n"
       "############################\n");
   HybridConfig config;
-  std::shared_ptr<CountingPlanner> router = std::make_shared<CountingPlanner>(std::make_shared<OmplPlanner>(OmplConfig{}));
+  std::shared_ptr<CountingPlanner> router =
+      std::make_shared<CountingPlanner>(std::make_shared<OmplPlanner>(OmplConfig{}));
   std::shared_ptr<CountingPlanner> searcher = std::make_shared<CountingPlanner>(std::make_shared<LandmarkSearch>());
 
   LandmarkId landmark(char place) {
@@ -71,9 +72,11 @@ class Hybrid : public ::testing::Test {
     route.from = from;
     route.to = to;
     for (const char place : places) route.trajectory.push_back(world.pose(place));
-    const Point straight = world.graph.find(to)->T_map_landmark.position() -
-                           world.graph.find(from)->T_map_landmark.position();
-    route.cost_m = cost_m >= 0.0 ? cost_m : route.trajectory.empty() ? straight.norm() : test::length_of(route.trajectory);
+    const Point straight =
+        world.graph.find(to)->T_map_landmark.position() - world.graph.find(from)->T_map_landmark.position();
+    route.cost_m = cost_m >= 0.0              ? cost_m
+                   : route.trajectory.empty() ? straight.norm()
+                                              : test::length_of(route.trajectory);
     return world.graph.add_route(route);
   }
   PlanResult plan(const PlanRequest& request, const Budget& budget = {}) const {
@@ -130,8 +133,7 @@ TEST_F(Hybrid, ABlockedLegClosesItsRouteAndTheLandmarksAreSearchedAgain) {
   config.detour_ratio = 2.0;  // legs by free travel as well
   EXPECT_THAT(plan(between(m, n)).routes, ElementsAre(upper));
   for (const int dx : {0, 1})
-    for (int dy = -2; dy <= 3; ++dy)
-      world.grid.set_log_odds(world.grid.cell_at(world.places['U']) + Cell{dx, dy}, 900);
+    for (int dy = -2; dy <= 3; ++dy) world.grid.set_log_odds(world.grid.cell_at(world.places['U']) + Cell{dx, dy}, 900);
 
   const PlanResult result = plan(between(m, n));
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;

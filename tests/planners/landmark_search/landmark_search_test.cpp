@@ -83,7 +83,9 @@ TEST(LandmarkSearch, WithSeveralGoalsTakesTheCheapest) {
   EXPECT_THAT(world.plan({1, 3}, {5}).landmarks, ElementsAre(3, 4, 5)) << "and of several starts";
 }
 
-TEST(LandmarkSearch, StopsAsSoonAsTheGoalIsSettled) { EXPECT_EQ(line_of(1000).plan({1}, {10}).settled, 10); }
+TEST(LandmarkSearch, StopsAsSoonAsTheGoalIsSettled) {
+  EXPECT_EQ(line_of(1000).plan({1}, {10}).settled, 10);
+}
 
 TEST(LandmarkSearch, FromALandmarkToItselfCostsNothing) {
   const PlanResult result = line_of(2).plan({2}, {2});
@@ -101,8 +103,7 @@ TEST(LandmarkSearch, JoinsStoredTrajectoriesAndFillsGapsWithStandingPlaces) {
   world.graph.find(3)->access = Pose2{3.5, 0.0, 0.0};
   world.route(1, 2, 2.0, {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}});
   world.route(2, 3, 2.0);
-  EXPECT_THAT(world.plan({1}, {3}).path,
-              ElementsAre(Pose2{0, 0, 0}, Pose2{1, 1, 0}, Pose2{2, 0, 0}, Pose2{3.5, 0, 0}));
+  EXPECT_THAT(world.plan({1}, {3}).path, ElementsAre(Pose2{0, 0, 0}, Pose2{1, 1, 0}, Pose2{2, 0, 0}, Pose2{3.5, 0, 0}));
 }
 
 TEST(LandmarkSearch, APlaceItCannotUseIsAnOutcomeWithASentence) {

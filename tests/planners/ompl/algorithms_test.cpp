@@ -27,7 +27,8 @@ TEST_P(EveryAlgorithm, FindsItsOwnWayRoundTheWalls) {
   const PlanRequest request = world.request('A', 'B', 0.15);
   const PlanResult result = planner("fall_back_to_grid: false\niterations: 5000").plan(request, world.view(), {});
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
-  EXPECT_TRUE(test::keeps_clear(world.grid, result.path, request.radius_m)) << test::drawing_of(world.grid, result.path);
+  EXPECT_TRUE(test::keeps_clear(world.grid, result.path, request.radius_m))
+      << test::drawing_of(world.grid, result.path);
   EXPECT_EQ(result.path.front().position(), world.places.at('A'));
   EXPECT_EQ(result.path.back().position(), world.places.at('B'));
   EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9);

@@ -17,8 +17,8 @@ OmplPlanner planner_of(Algorithm algorithm) {
 
 TEST(OmplDeterminism, SeveralThreadsAtOnceGetWhatOneGets) {
   const auto world = test::drawn_world(test::kOffice);
-  for (const Algorithm algorithm : {Algorithm::rrt_connect, Algorithm::bit_star, Algorithm::prm,
-                                    Algorithm::informed_rrt_star}) {
+  for (const Algorithm algorithm :
+       {Algorithm::rrt_connect, Algorithm::bit_star, Algorithm::prm, Algorithm::informed_rrt_star}) {
     const OmplPlanner planner = planner_of(algorithm);
     const auto path_for = [&](std::uint64_t seed) {
       PlanRequest request = world.request('A', 'B', 0.1);
@@ -30,8 +30,7 @@ TEST(OmplDeterminism, SeveralThreadsAtOnceGetWhatOneGets) {
 
     std::vector<std::vector<Pose2>> together(8);
     std::vector<std::thread> threads;
-    for (std::uint64_t seed = 0; seed < 8; ++seed)
-      threads.emplace_back([&, seed] { together[seed] = path_for(seed); });
+    for (std::uint64_t seed = 0; seed < 8; ++seed) threads.emplace_back([&, seed] { together[seed] = path_for(seed); });
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(alone, together);
     EXPECT_NE(alone[1], alone[2]) << "the seed has no effect";

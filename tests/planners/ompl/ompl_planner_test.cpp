@@ -183,8 +183,7 @@ TEST(OmplPlanner, AMapWithoutAGridAndABudgetOfNothingAreOutcomes) {
   const auto world = drawn_world(test::kOffice);
   Budget none;
   none.iterations = 0;
-  EXPECT_EQ(OmplPlanner({}).plan(world.request('A', 'B', 0.1), world.view(), none).outcome,
-            PlanOutcome::out_of_budget);
+  EXPECT_EQ(OmplPlanner({}).plan(world.request('A', 'B', 0.1), world.view(), none).outcome, PlanOutcome::out_of_budget);
   const test::DrawnWorld empty;
   PlanRequest request;
   request.from.pose = Pose2{};
@@ -284,7 +283,7 @@ TEST(OmplPlanner, RoutesAreNotMuchLongerThanTheShortest) {
     request.to.pose = Pose2{3.75, 3.75, 0.0};
     request.radius_m = 0.12;
     const DiscSpace space(world.grid, {});
-        const std::vector<Point> over_cells = route_over_cells(space, {0.25, 0.25}, {3.75, 3.75}, 0.12);
+    const std::vector<Point> over_cells = route_over_cells(space, {0.25, 0.25}, {3.75, 3.75}, 0.12);
     const PlanResult result = plan(world, request);
     const double over_cells_m = length_of(over_cells);
     if (over_cells.empty()) continue;

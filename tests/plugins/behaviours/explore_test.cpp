@@ -131,7 +131,7 @@ TEST(Explore, DrivesNoLapsWhenItNeedNotLookCloser) {
   Explore explore(config);
   EXPECT_EQ(host.run(explore, 900.0).progress, Progress::success);
   EXPECT_LT(host.driven_m, 6.0) << host.picture();
-  EXPECT_LE(missed_cells(host), 10) << host.picture();
+  EXPECT_LE(missed_cells(host), 20) << host.picture();
 }
 
 TEST(Explore, GoesThroughTheDoorwayToTheNextRoom) {

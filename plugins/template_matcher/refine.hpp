@@ -1,0 +1,39 @@
+// Between the cells and between the orientation steps: where the mismatch is least.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "plugins/template_matcher/match.hpp"
+
+namespace cairn::template_matcher {
+
+// Where the least value of a parabola lies that passes through these values at -1, 0 and 1; within
+// +-0.5, and 0 when they do not curve upwards.
+[[nodiscard]] double parabola_minimum(double before, double here, double after);
+
+// Offset of the best place from the centre of its cell, in cells. The field covers the template at the
+// cells around `at` too.
+[[nodiscard]] Point offset_in_cell(const GradientField& field, const LandmarkTemplate& shape, Cell at);
+
+// Which templates show the same category turned by one step, and were rendered the same way.
+class OrientationNeighbours {
+ public:
+  explicit OrientationNeighbours(const TemplateSet& set);
+  // Angle between a template's orientation and the one that its neighbours' mismatches point to;
+  // 0 for templates without two neighbours.
+  [[nodiscard]] double offset_rad(std::size_t index, std::span<const TemplateMatch> matches,
+                                  std::span<const LandmarkTemplate> templates) const;
+
+ private:
+  struct Pair {
+    std::size_t before = 0;  // equal to the template's own index where there is none
+    std::size_t after = 0;
+  };
+  void join(const TemplateSet& set, std::span<const std::size_t> family);
+
+  double step_rad_;
+  std::vector<Pair> pairs_;  // one a template
+};
+
+}  // namespace cairn::template_matcher
