@@ -138,6 +138,12 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
     cells[i].gradient_x = static_cast<std::int16_t>(std::lround(sums[i].x / studio.options.laps));
     cells[i].gradient_y = static_cast<std::int16_t>(std::lround(sums[i].y / studio.options.laps));
   }
+  std::erase_if(cells, [&](const TemplateCell& cell) {
+    return std::hypot(cell.gradient_x, cell.gradient_y) < studio.options.least_gradient;
+  });
+  if (cells.empty())
+    throw std::runtime_error("sensed templates: a lap round the " + shape.category +
+                             " left no edge in the map that is steep enough to be recognised");
   return {shape.category, orientation_rad, std::move(cells)};
 }
 

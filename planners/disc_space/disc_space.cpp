@@ -1,5 +1,6 @@
 #include "planners/disc_space/disc_space.hpp"
 
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -79,38 +80,20 @@ double DiscSpace::share_that_fits(const Point& from, const Point& to, double rad
   return good;
 }
 
-double DiscSpace::exactly_m(const Point& p_map) const {
-  const Cell cell = field_.cell_at(p_map);
-  const double nearest_m = field_.distance_m(cell) + (p_map - lattice_.centre_of(cell)).norm();
-  const int reach = static_cast<int>(std::ceil(nearest_m / lattice_.cell_m)) + 1;
-  double best_m = nearest_m;
-  for (int y = cell.y - reach; y <= cell.y + reach; ++y)
-    for (int x = cell.x - reach; x <= cell.x + reach; ++x)
-      if (is_blocked({x, y}))
-        best_m = std::min(best_m, distance_to_square_m(p_map, p_map, lattice_.centre_of({x, y}), lattice_.cell_m));
-  return best_m;
-}
-
 double DiscSpace::distance_m(const Point& from, const Point& to) const {
-  // Branch and bound on halves: the distance changes by at most a metre a metre.
-  struct Piece {
-    Point from;
-    Point to;
-  };
-  std::vector<Piece> open{{from, to}};
-  double best_m = std::min(exactly_m(from), exactly_m(to));
-  while (!open.empty()) {
-    const Piece piece = open.back();
-    open.pop_back();
-    const Point middle = 0.5 * (piece.from + piece.to);
-    const double half_m = 0.5 * (piece.to - piece.from).norm();
-    if (half_m < 1e-3 || at_least_m(middle) - half_m >= best_m) continue;
-    const double middle_m = exactly_m(middle);
-    best_m = std::min(best_m, middle_m);
-    if (middle_m - half_m >= best_m - 1e-3) continue;
-    open.push_back({middle, piece.to});
-    open.push_back({piece.from, middle});
+  // No further than what the field knows at any point; the cells within that decide.
+  double best_m = std::numeric_limits<double>::infinity();
+  const int steps = 1 + static_cast<int>((to - from).norm() / lattice_.cell_m);
+  for (int i = 0; i <= steps; ++i) {
+    const Point p = from + (to - from) * (static_cast<double>(i) / steps);
+    const Cell cell = field_.cell_at(p);
+    best_m = std::min(best_m, field_.distance_m(cell) + (p - lattice_.centre_of(cell)).norm());
   }
+  (void)any_cell_near(lattice_, from, to, best_m, [&](Cell cell) {
+    if (is_blocked(cell))
+      best_m = std::min(best_m, distance_to_square_m(from, to, lattice_.centre_of(cell), lattice_.cell_m));
+    return false;
+  });
   return best_m;
 }
 

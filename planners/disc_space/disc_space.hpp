@@ -28,7 +28,7 @@ class DiscSpace {
   [[nodiscard]] bool fits_along(const Point& from, const Point& to, double radius_m) const;
   // The end of the longest first part of the segment along which the disc fits, as a share of it.
   [[nodiscard]] double share_that_fits(const Point& from, const Point& to, double radius_m) const;
-  // Distance from the segment to the nearest blocked square, up to a millimetre.
+  // Distance from a segment inside the map to the nearest blocked square.
   [[nodiscard]] double distance_m(const Point& from, const Point& to) const;
 
   // The same ground on a lattice `parts` times as fine: the same answers, with narrower doubt below.
@@ -42,7 +42,6 @@ class DiscSpace {
   DiscSpace(const DiscSpace& coarse, int parts);
 
   [[nodiscard]] double at_least_m(const Point& p_map) const;  // to the nearest blocked square
-  [[nodiscard]] double exactly_m(const Point& p_map) const;
 
   GroundRules rules_;
   DistanceField field_;

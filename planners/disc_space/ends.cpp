@@ -1,7 +1,6 @@
 #include "planners/disc_space/ends.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 namespace cairn {
 namespace {
@@ -47,13 +46,19 @@ Refusal unreached(const Place& place, const WorldView& world, const EndRules& ru
           not_reached_text(place, world.graph) + ": what is free around the start ends before it"};
 }
 
+std::string note_on(const Pose2& stand, const Landmark& landmark) {
+  const Point usual = landmark.access.value_or(landmark.T_map_landmark).position();
+  const double away_m = (stand.position() - usual).norm();
+  if (away_m == 0.0) return {};
+  return "; it ends " + metres_text(away_m) + " from " + label_of(landmark) +
+         (landmark.access ? ", whose usual place is not free" : "");
+}
+
 }  // namespace
 
 Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m) {
-  char radius[32];
-  std::snprintf(radius, sizeof radius, "%.2f", radius_m);
-  return {PlanOutcome::no_route,
-          not_reached_text(goal, graph) + ": the way there is too narrow for a robot of radius " + radius + " m"};
+  return {PlanOutcome::no_route, not_reached_text(goal, graph) +
+                                     ": the way there is too narrow for a robot of radius " + metres_text(radius_m)};
 }
 
 std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph, const std::string& end) {
@@ -102,14 +107,14 @@ std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const
                                                     nearest_free_text(space, at, radius_m)};
     if (!reached(space.field().cell_at(at))) return unreached(place, world, rules, start, {at});
     const std::optional<double> heading = place.heading_matters ? std::optional(place.pose->theta_rad) : std::nullopt;
-    return std::vector{GoalPlace{*place.pose, heading, 0}};
+    return std::vector{GoalPlace{*place.pose, heading, 0, ""}};
   }
   std::vector<GoalPlace> goals;
   std::vector<Point> out_of_reach;
   for (const LandmarkId id : place.landmarks) {
     const Landmark& landmark = *world.graph.find(id);
     if (const auto stand = standing_place(space, landmark, radius_m, reached)) {
-      goals.push_back({*stand, std::nullopt, id});
+      goals.push_back({*stand, std::nullopt, id, note_on(*stand, landmark)});
     } else if (const auto anywhere = standing_place(space, landmark, radius_m)) {
       out_of_reach.push_back(anywhere->position());
     }

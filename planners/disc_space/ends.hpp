@@ -37,6 +37,7 @@ struct GoalPlace {
   Pose2 pose;
   std::optional<double> heading_rad;  // when it matters
   LandmarkId landmark = 0;
+  std::string note;  // for people, when it is not where one usually stands at the landmark
 };
 
 struct EndRules {

@@ -34,6 +34,10 @@ double distance_to_state_m(const OccupancyGrid& grid, const GroundRules& rules, 
 
 }  // namespace
 
+std::string metres_text(double value_m) {
+  return metres(value_m) + " m";
+}
+
 std::string text_of(const Point& p_map) {
   return "(" + metres(p_map.x()) + ", " + metres(p_map.y()) + ")";
 }

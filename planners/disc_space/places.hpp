@@ -29,6 +29,7 @@ inline constexpr double kStandNear_m = 1.5;  // a landmark without an access: ho
 // "; the nearest free place is (1.20, 0.85), 0.25 m away", or that there is none.
 [[nodiscard]] std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m);
 [[nodiscard]] std::string text_of(const Point& p_map);
+[[nodiscard]] std::string metres_text(double value_m);  // "0.25 m"
 
 // True when the robot itself is there now: its own body shows that the cells under it are free.
 [[nodiscard]] bool robot_stands_at(const WorldView& world, const Point& p_map);

@@ -42,11 +42,11 @@ struct Lattice {
   }
 };
 
-// True when is_blocked(Cell) holds for a cell that the disc touches. Work: the cells under the sweep.
-template <class IsBlocked>
-[[nodiscard]] bool sweep_touches(const Lattice& lattice, const Point& from, const Point& to, double radius_m,
-                                 IsBlocked is_blocked) {
-  const double reach_m = std::max(radius_m, kLeastRadius_m);
+// True when found(Cell) holds for a cell that comes within reach_m of the segment. Every such cell is
+// asked about, and some that lie a little further off. Work: the cells under the sweep.
+template <class Found>
+[[nodiscard]] bool any_cell_near(const Lattice& lattice, const Point& from, const Point& to, double reach_m,
+                                 Found found) {
   const auto index = [&](double at_m, double origin_m) {
     return static_cast<int>(std::floor((at_m - origin_m) / lattice.cell_m));
   };
@@ -64,10 +64,19 @@ template <class IsBlocked>
     const auto [x_low, x_high] = std::minmax(x_a, x_b);
     const int x_end = index(x_high + reach_m, lattice.origin_m.x());
     for (int x = index(x_low - reach_m, lattice.origin_m.x()); x <= x_end; ++x)
-      if (is_blocked(Cell{x, y}) && distance_to_square_m(from, to, lattice.centre_of({x, y}), lattice.cell_m) < reach_m)
-        return true;
+      if (found(Cell{x, y})) return true;
   }
   return false;
+}
+
+// True when is_blocked(Cell) holds for a cell that the disc touches.
+template <class IsBlocked>
+[[nodiscard]] bool sweep_touches(const Lattice& lattice, const Point& from, const Point& to, double radius_m,
+                                 IsBlocked is_blocked) {
+  const double reach_m = std::max(radius_m, kLeastRadius_m);
+  return any_cell_near(lattice, from, to, reach_m, [&](Cell cell) {
+    return is_blocked(cell) && distance_to_square_m(from, to, lattice.centre_of(cell), lattice.cell_m) < reach_m;
+  });
 }
 
 // The re-check of finished paths: straight from the grid, every cell under the sweep.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 
@@ -18,12 +17,6 @@ using Time = Budget::Clock::time_point;
 
 double ms_since(Time begin) {
   return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
-}
-
-std::string metres(double value_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f m", value_m);
-  return text;
 }
 
 PlanResult refused(const Refusal& refusal) {
@@ -91,8 +84,8 @@ class Query {
       if (symbolic.stopped) return stopped(*symbolic.stopped);
       if (!symbolic.path) break;
       if (symbolic.path->cost_m > config_.detour_ratio * direct_m) {
-        why_direct_ =
-            "directly: over landmarks it is " + metres(symbolic.path->cost_m) + ", the direct way " + metres(direct_m);
+        why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct way " +
+                      metres_text(direct_m);
         break;
       }
       const GoalPlace& goal = goals[symbolic.path->goal];
@@ -143,7 +136,7 @@ class Query {
     result.routes = path.routes;
     result.reason = "over " + std::to_string(path.landmarks.size()) + " landmarks, by " +
                     std::to_string(walk.stored_legs) + " stored and " + std::to_string(walk.planned_legs) +
-                    " newly planned legs" + escape_text(start);
+                    " newly planned legs" + goal.note + escape_text(start);
     return result;
   }
 
@@ -186,7 +179,8 @@ class Query {
     PlanResult result = finished(start, goal, route);
     for (const LandmarkId id : {start.landmark, goal.landmark})
       if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
-    result.reason = (why_direct_.empty() ? "directly" : why_direct_) + "; " + planned.reason + escape_text(start);
+    result.reason =
+        (why_direct_.empty() ? "directly" : why_direct_) + "; " + planned.reason + goal.note + escape_text(start);
     return result;
   }
 

@@ -159,7 +159,7 @@ class Query {
     result.path = poses_along(route, start.pose.theta_rad, found.exact ? goal.heading_rad : std::nullopt);
     if (start.landmark != 0) result.landmarks.push_back(start.landmark);
     if (found.exact && goal.landmark != 0 && goal.landmark != start.landmark) result.landmarks.push_back(goal.landmark);
-    result.reason = found.how;
+    result.reason = found.how + goal.note;
     if (!found.exact) result.reason = "the route ends at " + text_of(route.back()) + ", short of the goal";
     if (found.interrupted) result.reason += "; the budget ended the search for a shorter one";
     if (start.escape)

@@ -13,7 +13,7 @@ struct BeamModel {
   double alpha_range_m = 4.0;
   double delta_m = 0.01;
   double delta_per_m = 0.015;
-  double false_echo_per_m = 0.5;
+  double false_echo_per_m = 1.0;
 
   // Chance that a target at this range and bearing echoes; a ray (half_beam 0) has no bearing.
   [[nodiscard]] double alpha(double range_m, double bearing_rad, double half_beam_rad) const;

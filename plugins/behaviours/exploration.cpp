@@ -13,14 +13,17 @@ constexpr double kChoiceEvery_s = 2.5;
 constexpr double kAroundHere_m = 8.0;
 constexpr double kShutInRatio = 0.9;  // of the trace
 constexpr int kNearTrace_cells = 4;
+constexpr double kSqueezed_m = 0.12;  // an opening twice this wide is looked into
 constexpr double kTightClearance_m = 0.02;
 constexpr double kEverywhere_m = 1e6;
 constexpr double kChoiceAtLeastApart_s = 0.5;
 constexpr double kLookAround_radps = radians(45.0);
 constexpr double kBlockedAhead_m = 0.8;
+constexpr double kOnLap_m = 0.5;   // from its first lookout
 constexpr double kThere_m = 0.12;  // a lookout this near needs no drive
 constexpr double kFace_rad = radians(8.0);
 constexpr double kFaceDwell_s = 0.6;  // one round of the sonars, about
+constexpr double kOpeningDwell_s = 2.0;
 constexpr double kFaceAtMost_s = 8.0;
 constexpr double kBackOff_mps = 0.1;
 constexpr double kBackOff_m = 0.15;
@@ -126,9 +129,17 @@ bool Exploration::choose_by(const Search& search, const WorldView& world) {
     task_ = next_task(space, world.pose.T_map_robot, frontiers_wanted, task_ ? &*task_ : nullptr, settings_, memory_);
     if (!task_) return false;
     const bool is_there = length_of(task_->path) < kThere_m;
-    if (!is_there || task_->kind == TaskKind::frontier) return true;
+    if (!is_there || is_to_be_faced()) return true;
     give_up(*task_, space, settings_, memory_);
   }
+}
+
+bool Exploration::choose_opening(const WorldView& world) {
+  search_ = {kEverywhere_m, config_.clearance_m};
+  const FreeSpace space = space_now(world, search_);
+  const FreeSpace squeezed = space_now(world, {kEverywhere_m, kSqueezed_m - world.robot.radius_m});
+  task_ = opening_task(space, squeezed, memory_);
+  return task_.has_value();
 }
 
 // Noise can wall the robot in where it just came through: it cannot go back to where it has been.
@@ -153,7 +164,7 @@ bool Exploration::choose(const WorldView& world, Orders& orders) {
   // The whole map only when there is nothing to do around here; less room only when shut in.
   const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world) ||
                      choose_by({kEverywhere_m, config_.clearance_m}, world) ||
-                     (is_shut_in(world) && choose_by({kEverywhere_m, tight_m}, world));
+                     (is_shut_in(world) && choose_by({kEverywhere_m, tight_m}, world)) || choose_opening(world);
   if (!found) return false;
   if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
     said_about_ = task_->about;
@@ -174,6 +185,11 @@ bool Exploration::is_blocked(const WorldView& world) const {
          !blocks({world.pose.T_map_robot.position()}, 0.0, 0.0);
 }
 
+// Round the object, no longer on the way to it.
+bool Exploration::is_on_lap(const WorldView& world) const {
+  return (world.pose.T_map_robot.position() - task_->lookout).norm() < kOnLap_m || follow_state_.along_m > task_->way_m;
+}
+
 Status Exploration::travel(const WorldView& world, Orders& orders) {
   if (watch_.is_stuck(world, wanted_)) return get_unstuck(world, orders);
   const bool blocked = is_blocked(world);
@@ -183,20 +199,27 @@ Status Exploration::travel(const WorldView& world, Orders& orders) {
     drive({}, orders);
     return {Progress::running, "something has turned up on the path"};
   }
-  const FollowStep step = follow(world.pose.T_map_robot, task_->path, follow_state_, limits_);
+  FollowLimits limits = limits_;
+  if (task_->kind == TaskKind::lap && is_on_lap(world))
+    limits.speed_mps = std::min(limits.speed_mps, config_.lap_speed_mps);
+  const FollowStep step = follow(world.pose.T_map_robot, task_->path, follow_state_, limits);
   follow_state_ = step.state;
   if (step.arrived) arrive(world);
   drive(step.wanted, orders);
   return {Progress::running, task_ ? sentence_of(*task_) : "choosing what to do next"};
 }
 
+bool Exploration::is_to_be_faced() const {
+  return task_->kind == TaskKind::frontier || task_->kind == TaskKind::opening;
+}
+
 void Exploration::arrive(const WorldView& world) {
-  if (task_->kind == TaskKind::frontier && limits_.min_turning_radius_m <= 0.0) {
+  if (is_to_be_faced() && limits_.min_turning_radius_m <= 0.0) {
     set_mode(Mode::face, world.time_s);
     faced_s_ = world.time_s;
     return;
   }
-  if (task_->kind == TaskKind::frontier) give_up(*task_, space_now(world, search_), settings_, memory_);
+  if (is_to_be_faced()) give_up(*task_, space_now(world, search_), settings_, memory_);
   task_.reset();
 }
 
@@ -204,10 +227,11 @@ void Exploration::arrive(const WorldView& world) {
 Status Exploration::face(const WorldView& world, Orders& orders) {
   const double error_rad = heading_error(world.pose.T_map_robot, task_->about);
   const bool has_time = world.time_s - mode_since_s_ < kFaceAtMost_s;
+  const double dwell_s = task_->kind == TaskKind::opening ? kOpeningDwell_s : kFaceDwell_s;
   if (std::abs(error_rad) > kFace_rad && has_time) {
     faced_s_ = world.time_s;
     drive(turn_by(error_rad, limits_.max_w_radps), orders);
-  } else if (world.time_s - faced_s_ >= kFaceDwell_s || !has_time || !still_worthwhile(*task_, world.grid)) {
+  } else if (world.time_s - faced_s_ >= dwell_s || !has_time || !still_worthwhile(*task_, world.grid)) {
     give_up(*task_, space_now(world, search_), settings_, memory_);
     task_.reset();
     set_mode(Mode::travel, world.time_s);

@@ -39,8 +39,11 @@ class Exploration {
   [[nodiscard]] bool is_shut_in(const WorldView& world) const;
   [[nodiscard]] bool choose_by(const Search& search, const WorldView& world);
   [[nodiscard]] bool is_blocked(const WorldView& world) const;
+  [[nodiscard]] bool is_on_lap(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
   [[nodiscard]] bool choose(const WorldView& world, Orders& orders);
+  [[nodiscard]] bool choose_opening(const WorldView& world);
+  [[nodiscard]] bool is_to_be_faced() const;
   Status nothing_left(const WorldView& world, Orders& orders);
   void arrive(const WorldView& world);
   Status get_unstuck(const WorldView& world, Orders& orders);

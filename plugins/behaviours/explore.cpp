@@ -18,6 +18,8 @@ void ExploreConfig::describe(Fields<ExploreConfig>& fields) {
   fields.number("largest_object_m", &C::largest_object_m, {0.1, 20.0}, "m", "what is longer is a wall: no laps");
   fields.number("smallest_frontier_m", &C::smallest_frontier_m, {0.0, 10.0}, "m", "shorter frontiers are left alone");
   fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
+  fields.number("lap_speed_mps", &C::lap_speed_mps, {0.01, 5.0}, "m/s",
+                "the same on a lap: slower means more readings, and no more error of the odometry");
 }
 
 Explore::Explore(const ExploreConfig& config) : config_(config) {}

@@ -22,6 +22,7 @@ struct ExploreConfig {
   double largest_object_m = 1.5;
   double smallest_frontier_m = 0.3;
   double speed_mps = 0.2;
+  double lap_speed_mps = 0.1;
 
   static void describe(Fields<ExploreConfig>& fields);
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "plugins/behaviours/frontiers.hpp"
+#include "plugins/behaviours/openings.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -13,10 +14,13 @@ namespace {
 constexpr double kLapBonus_m = 1.5;             // an object is circled when the robot first comes near
 constexpr double kFrontierBonus_m_per_m = 0.3;  // of the frontier's length
 constexpr double kMostFrontierBonus_m = 0.8;
-constexpr int kNotWorthALap = 1;  // open sectors that are left alone once the robot is elsewhere
+constexpr int kLeastLap_sectors = 2;
+constexpr double kLapFrom_m = 1.5;
+constexpr double kMostWayForLaps_m = 1.0;  // for each open sector
 constexpr double kStayBonus_m = 0.8;
 constexpr double kSame_m = 0.8;                    // tasks this near are the same one, grown or shrunk
 constexpr double kMostWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
+constexpr double kSmallEdge_m = 0.6;
 constexpr double kLeastEdge_m = 0.3;
 // Things are looked at from a little nearer than needed, so that arriving is seeing.
 constexpr double kViewRatio = 0.85;
@@ -38,6 +42,12 @@ std::vector<CellGroup> groups_of(const std::vector<Cell>& cells, double least_ce
   return groups;
 }
 
+// A frontier that the robot does not fit through: a leak in a wall, the inside of an object.
+bool is_crack(const FreeSpace& space, const CellGroup& frontier) {
+  return std::none_of(frontier.begin(), frontier.end(),
+                      [&](Cell c) { return space.distance_m(c) >= space.radius_m(); });
+}
+
 bool is_about_the_same(const ExploreTask& a, const ExploreTask& b) {
   return a.kind == b.kind && ((a.lookout - b.lookout).norm() < kSame_m || (a.about - b.about).norm() < kSame_m);
 }
@@ -51,9 +61,10 @@ void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* pr
 // What groups of cells of one kind are worth.
 struct Worth {
   TaskKind kind = TaskKind::frontier;
-  double view_m = 1.0;                                            // looked at from within this distance
-  double bonus_m_per_m = 0.0;                                     // of the group's length
-  double most_m_per_m = std::numeric_limits<double>::infinity();  // no longer way for a metre of it
+  double view_m = 1.0;         // looked at from within this distance
+  double bonus_m_per_m = 0.0;  // of the group's length
+  double small_m = 0.0;        // shorter groups are worth ...
+  double most_m_per_m = 0.0;   // ... no longer way for each of their metres
 };
 
 void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& worth, const FreeSpace& space,
@@ -68,9 +79,17 @@ void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& wort
     task.targets = std::move(groups[i]);
     task.lookout = space.centre_of(*stands[i]);
     task.cost_m = space.cost_m(*stands[i]);
-    if (task.cost_m > worth.most_m_per_m * size_m) continue;
+    if (size_m < worth.small_m && task.cost_m > worth.most_m_per_m * size_m) continue;
     offer(best, std::move(task), std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m), previous);
   }
+}
+
+// An object that the robot has not been near to yet is an edge to look at: from afar a piece of wall looks the same.
+// And a small rest of a lap is worth a small detour only.
+bool is_worth_a_lap(const Lap& lap, double cost_m) {
+  const int open = lap.count(SectorState::open);
+  if (lap.count(SectorState::covered) == 0 && cost_m > kLapFrom_m) return false;
+  return open >= kLeastLap_sectors && cost_m <= kMostWayForLaps_m * open;
 }
 
 void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
@@ -83,9 +102,15 @@ void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, 
     const Lap lap = lap_round(space, object, memory.trace, memory.given_up_lookouts, settings);
     if (!lap.is_round_trip() || lap.count(SectorState::open) == 0) continue;
     LapRoute route = lap_route(space, lap, T_map_robot);
-    ExploreTask task{TaskKind::lap, lap.centre, {}, space.centre_of(route.first), std::move(route.path), route.cost_m};
-    const bool has_begun = previous != nullptr && is_about_the_same(*previous, task);
-    if (!has_begun && lap.count(SectorState::open) <= kNotWorthALap) continue;
+    ExploreTask task;
+    task.kind = TaskKind::lap;
+    task.about = lap.centre;
+    task.lookout = space.centre_of(route.first);
+    task.path = std::move(route.path);
+    task.way_m = route.way_m;
+    task.cost_m = route.cost_m;
+    const bool is_at_it = previous != nullptr && is_about_the_same(*previous, task);
+    if (!is_at_it && !is_worth_a_lap(lap, task.cost_m)) continue;
     offer(best, std::move(task), kLapBonus_m, previous);
   }
 }
@@ -98,14 +123,16 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
   const double look_closer_m = settings.lap.look_closer_m;
   if (look_closer_m > 0.0) {
     const std::vector<Cell> left = unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges);
-    const Worth worth{TaskKind::edge, kViewRatio * look_closer_m, 0.0, kMostWayForEdges_m_per_m};
+    const Worth worth{TaskKind::edge, kViewRatio * look_closer_m, 0.0, kSmallEdge_m, kMostWayForEdges_m_per_m};
     offer_groups(best, groups_of(left, kLeastEdge_m / space.cell_m()), worth, space, previous);
   }
   if (frontiers_wanted) {
     const Sight& sight = settings.frontier_sight;
     const std::vector<Cell> left = unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers);
+    std::vector<CellGroup> groups = groups_of(left, settings.smallest_frontier_m / space.cell_m());
+    std::erase_if(groups, [&](const CellGroup& group) { return is_crack(space, group); });
     const Worth worth{TaskKind::frontier, kViewRatio * sight.within_m, kFrontierBonus_m_per_m};
-    offer_groups(best, groups_of(left, settings.smallest_frontier_m / space.cell_m()), worth, space, previous);
+    offer_groups(best, std::move(groups), worth, space, previous);
   }
   if (look_closer_m > 0.0) offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
@@ -113,9 +140,26 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
   return std::move(best.task);
 }
 
+std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,
+                                        const ExploreMemory& memory) {
+  const std::optional<Opening> opening = nearest_opening(space, squeezed, memory.seen_openings);
+  if (!opening) return std::nullopt;
+  ExploreTask task;
+  task.kind = TaskKind::opening;
+  task.about = opening->at_m;
+  task.lookout = space.centre_of(opening->lookout);
+  task.path = space.path_to(opening->lookout);
+  task.cost_m = space.cost_m(opening->lookout);
+  return task;
+}
+
 void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory) {
   if (task.kind == TaskKind::lap) {
     memory.given_up_lookouts.push_back(task.lookout);
+    return;
+  }
+  if (task.kind == TaskKind::opening) {
+    memory.seen_openings.push_back(task.about);
     return;
   }
   const bool is_frontier_task = task.kind == TaskKind::frontier;
@@ -141,11 +185,21 @@ bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid) {
 }
 
 std::string sentence_of(const ExploreTask& task) {
-  const char* const what = task.kind == TaskKind::lap        ? "going round the object"
-                           : task.kind == TaskKind::frontier ? "going to the frontier"
-                                                             : "looking closer at the edge";
+  const auto what = [&] {
+    switch (task.kind) {
+      case TaskKind::lap:
+        return "going round the object";
+      case TaskKind::frontier:
+        return "going to the frontier";
+      case TaskKind::edge:
+        return "looking closer at the edge";
+      case TaskKind::opening:
+        break;
+    }
+    return "looking into the narrow opening";
+  };
   char text[96];
-  std::snprintf(text, sizeof text, "%s at (%.2f, %.2f)", what, task.about.x(), task.about.y());
+  std::snprintf(text, sizeof text, "%s at (%.2f, %.2f)", what(), task.about.x(), task.about.y());
   return text;
 }
 

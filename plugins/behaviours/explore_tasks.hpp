@@ -22,10 +22,11 @@ struct ExploreMemory {
   CellSet seen_edges;                    // or given up
   CellSet seen_frontiers;                // or given up
   std::vector<Point> given_up_lookouts;  // of laps
+  std::vector<Point> seen_openings;
   std::vector<TroubleSpot> troubles;
 };
 
-enum class TaskKind { lap, frontier, edge };
+enum class TaskKind { lap, frontier, edge, opening };
 
 struct ExploreTask {
   TaskKind kind = TaskKind::frontier;
@@ -33,6 +34,7 @@ struct ExploreTask {
   CellGroup targets;        // of frontiers and edges
   Point lookout{0.0, 0.0};  // the first place that the path leads to
   std::vector<Point> path;
+  double way_m = 0.0;  // of the path, to the lookout; a lap goes on behind it
   double cost_m = 0.0;
 };
 
@@ -40,6 +42,10 @@ struct ExploreTask {
 [[nodiscard]] std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot,
                                                    bool frontiers_wanted, const ExploreTask* previous,
                                                    const TaskSettings& settings, ExploreMemory& memory);
+
+// For when nothing else is left: an opening that looks too narrow, to be looked at head on.
+[[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,
+                                                      const ExploreMemory& memory);
 
 // Not to be chosen again: what the task has from its lookout.
 void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory);

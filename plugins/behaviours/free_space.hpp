@@ -42,6 +42,7 @@ class FreeSpace {
   // To the nearest occupied cell, between centres.
   [[nodiscard]] double distance_m(Cell cell) const { return field_.distance_m(cell); }
   [[nodiscard]] double least_distance_m() const { return least_m_; }
+  [[nodiscard]] double radius_m() const { return robot_.radius_m; }
 
   [[nodiscard]] bool reaches(Cell cell) const;
   // Length of the way, with dearer metres where there is little room; +inf when out of reach.

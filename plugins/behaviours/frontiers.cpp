@@ -15,6 +15,11 @@ bool has_beside(const FreeSpace& space, Cell cell, CellState state) {
                      [&](Cell step) { return space.box().contains(cell + step) && space.state(cell + step) == state; });
 }
 
+bool cuts_corner(const FreeSpace& space, Cell from, Cell step) {
+  return space.state(from + Cell{step.x, 0}) == CellState::occupied ||
+         space.state(from + Cell{0, step.y}) == CellState::occupied;
+}
+
 template <class Accept>
 std::vector<Cell> cells_where(const CellBox& box, const Accept& accept) {
   std::vector<Cell> cells;
@@ -67,8 +72,10 @@ std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vec
         best[g] = entry.cell;
       }
       for (const Cell step : kNeighbours) {
-        const int next_way = way + (step.x != 0 && step.y != 0 ? kDiagonal : kStraight);
+        const bool is_diagonal = step.x != 0 && step.y != 0;
+        const int next_way = way + (is_diagonal ? kDiagonal : kStraight);
         const Cell next = entry.cell + step;
+        if (is_diagonal && cuts_corner(space, entry.cell, step)) continue;
         if (next_way <= most && !settled.at(next) && space.state(next) == CellState::free)
           buckets[static_cast<std::size_t>(next_way)].push_back({next, entry.group});
       }

@@ -112,13 +112,15 @@ void mark_covered(const FreeSpace& space, const CellGroup& object, const std::ve
 
 std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells, const std::vector<Pose2>& trace,
                          const Sight& sight, CellSet& seen) {
+  const bool looks_all_round = sight.to_the_side_rad >= std::numbers::pi;
   std::vector<Cell> left;
   for (const Cell cell : cells) {
     if (seen.contains(cell)) continue;
     const Point p = space.centre_of(cell);
     const bool now_seen = std::any_of(trace.rbegin(), trace.rend(), [&](const Pose2& from) {
       return (p - from.position()).squaredNorm() <= sight.within_m * sight.within_m &&
-             std::abs(heading_error(from, p)) <= sight.to_the_side_rad && space.sees(from.position(), cell);
+             (looks_all_round || std::abs(heading_error(from, p)) <= sight.to_the_side_rad) &&
+             space.sees(from.position(), cell);
     });
     if (now_seen) {
       seen.insert(cell);
@@ -189,6 +191,7 @@ LapRoute lap_route(const FreeSpace& space, const Lap& lap, const Pose2& T_map_ro
   if (first < 0) return route;
   route.first = sector(first).lookout;
   route.path = space.path_to(route.first);
+  route.way_m = length_of(route.path);
 
   const auto run = [&](int step) {
     int length = 0;

@@ -64,6 +64,7 @@ struct Lap {
 struct LapRoute {
   Cell first;
   double cost_m = 0.0;
+  double way_m = 0.0;  // of the path, to the first sector
   std::vector<Point> path;
 };
 [[nodiscard]] LapRoute lap_route(const FreeSpace& space, const Lap& lap, const Pose2& T_map_robot);

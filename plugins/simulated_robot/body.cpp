@@ -36,7 +36,8 @@ Body::Body(const RobotModel& robot, const Scene& scene)
 double Body::clearance_m(const Pose2& T_map_robot) const {
   const Point at_m = T_map_robot.position();
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const Face& face : scene_.faces()) nearest_m = std::min(nearest_m, distance_to_segment(at_m, face.a_m, face.b_m));
+  for (const Face& face : scene_.faces())
+    nearest_m = std::min(nearest_m, distance_to_segment(at_m, face.a_m, face.b_m));
   for (const RoundFace& face : scene_.round_faces()) {
     nearest_m = std::min(nearest_m, (face.centre_m - at_m).norm() - face.radius_m);
   }
@@ -121,7 +122,7 @@ std::optional<std::string> blocker_at(const Pose2& T_map_robot, const RobotModel
     const Scene scene(alone);
     const bool inside = object.contour.signed_distance(inverse(object.T_map_object) * at_m) < 0.0;
     if (!inside && Body(robot, scene).clearance_m(T_map_robot) >= 0.0) continue;
-    const std::string kind = !object.category.empty()    ? object.category
+    const std::string kind = !object.category.empty()     ? object.category
                              : object.contour.is_circle() ? "a circle"
                                                           : "a polygon";
     return "object " + std::to_string(i + 1) + " (" + kind + ")";

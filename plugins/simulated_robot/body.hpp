@@ -16,7 +16,7 @@ namespace cairn {
 struct Move {
   double distance_m = 0.0;  // driven, with its sign
   double turn_rad = 0.0;
-  bool touched = false;     // something cut the move short
+  bool touched = false;  // something cut the move short
 };
 
 class Body {
@@ -29,8 +29,8 @@ class Body {
   [[nodiscard]] double clearance_m(const Pose2& T_map_robot) const;
 
   // Drives as far along the arc as the footprint stays clear, to less than a micrometre; never
-  // jumps anything, however thin (no step is longer than the clearance, or a fifth of a millimetre). What is left of the turn is
-  // then made on the spot, as far as that is free. A move that leads away is always possible.
+  // jumps anything, however thin (no step is longer than the clearance, or a fifth of a millimetre). What is left of
+  // the turn is then made on the spot, as far as that is free. A move that leads away is always possible.
   [[nodiscard]] Move drive(Pose2& T_map_robot, double distance_m, double turn_rad) const;
 
  private:

@@ -22,8 +22,7 @@ void Odometer::add(const Move& move) {
   const double distance_m = std::abs(move.distance_m);
   const double turn_m = turn_as_distance_m_per_rad_ * std::abs(move.turn_rad);
   const double seen_m = move.distance_m * scale_ + error_.distance_ratio * std::sqrt(distance_m) * noise_.normal();
-  const double seen_rad =
-      move.turn_rad + error_.heading_rad_per_m * std::sqrt(distance_m + turn_m) * noise_.normal();
+  const double seen_rad = move.turn_rad + error_.heading_rad_per_m * std::sqrt(distance_m + turn_m) * noise_.normal();
   T_odom_robot_ = T_odom_robot_ * along_arc(seen_m, seen_rad);
 }
 

@@ -1,4 +1,5 @@
 #include "framework/contracts/module.hpp"
+
 #include "plugins/simulated_robot/config.hpp"
 #include "plugins/simulated_robot/simulated_robot.hpp"
 

@@ -9,9 +9,10 @@ namespace cairn {
 class NoiseStream {
  public:
   // Streams of one seed with different purposes are independent (splitmix64 of both).
-  NoiseStream(std::uint64_t seed, std::uint64_t purpose) : engine_(mixed(seed + 0x9e3779b97f4a7c15ULL * (purpose + 1))) {}
+  NoiseStream(std::uint64_t seed, std::uint64_t purpose)
+      : engine_(mixed(seed + 0x9e3779b97f4a7c15ULL * (purpose + 1))) {}
 
-  [[nodiscard]] double normal() { return normal_(engine_); }  // mean 0, deviation 1
+  [[nodiscard]] double normal() { return normal_(engine_); }                                   // mean 0, deviation 1
   [[nodiscard]] double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }  // [0, 1)
 
  private:

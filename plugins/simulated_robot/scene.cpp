@@ -10,9 +10,13 @@ constexpr double kSamePlace_m = 1e-3;  // world files are written to the millime
 constexpr double kOverlap_ratio = 1e-9;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
-double bearing(const Point& d) { return wrap_angle(std::atan2(d.y(), d.x())); }
+double bearing(const Point& d) {
+  return wrap_angle(std::atan2(d.y(), d.x()));
+}
 
 // Distance along the ray to a segment, or infinity.
 double along_ray_to_face(const Point& from, const Point& direction, const Face& face) {

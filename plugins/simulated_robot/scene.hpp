@@ -43,7 +43,7 @@ struct RayHit {
   double distance_m = std::numeric_limits<double>::infinity();
   Point normal{0.0, 0.0};  // unit, against the ray
   bool rough = false;
-  double round_radius_m = 0.0;   // 0: a straight face
+  double round_radius_m = 0.0;  // 0: a straight face
 };
 
 class Scene {

@@ -13,7 +13,8 @@ constexpr std::uint64_t kRangePurpose = 100;
 
 const World& checked(const World* world) {
   if (world == nullptr) {
-    throw std::invalid_argument("simulated_robot needs a world (`world: FILE` in the mission); a log sensor needs none");
+    throw std::invalid_argument(
+        "simulated_robot needs a world (`world: FILE` in the mission); a log sensor needs none");
   }
   return *world;
 }
@@ -67,8 +68,8 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
 
 void SimulatedRobot::command(const Twist& twist) {
   if (!std::isfinite(twist.v_mps) || !std::isfinite(twist.w_radps)) {
-    throw std::invalid_argument("simulated_robot: command is not finite: v " + std::to_string(twist.v_mps) + " m/s, w " +
-                                std::to_string(twist.w_radps) + " rad/s");
+    throw std::invalid_argument("simulated_robot: command is not finite: v " + std::to_string(twist.v_mps) +
+                                " m/s, w " + std::to_string(twist.w_radps) + " rad/s");
   }
   wanted_ = twist;
 }

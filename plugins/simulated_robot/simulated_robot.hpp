@@ -48,7 +48,7 @@ class SimulatedRobot final : public Sensor, public Drive {
   RobotModel robot_;
   Scene scene_;
   Body body_;
-  std::vector<SonarEcho> echoes_;   // one a transducer
+  std::vector<SonarEcho> echoes_;  // one a transducer
   std::vector<int> firing_order_;
   double period_s_;
   bool fire_all_;

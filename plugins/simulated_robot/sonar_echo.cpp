@@ -7,9 +7,9 @@ namespace cairn {
 namespace {
 
 constexpr double kPolaroidHalfBeam_rad = radians(15.0);
-constexpr double kMainLobeRim_db = -12.0;   // a parabola that is 3 dB down at half the lobe
-constexpr double kNearField_m = 0.1;        // no louder than at this range
-constexpr double kLift_m = 1e-7;            // off a mirror, so that a bounced ray does not meet it again
+constexpr double kMainLobeRim_db = -12.0;  // a parabola that is 3 dB down at half the lobe
+constexpr double kNearField_m = 0.1;       // no louder than at this range
+constexpr double kLift_m = 1e-7;           // off a mirror, so that a bounced ray does not meet it again
 constexpr double kSilent_db = -1e9;
 
 }  // namespace
@@ -17,7 +17,7 @@ constexpr double kSilent_db = -1e9;
 struct SonarEcho::Ear {
   Point at_m;
   double axis_rad;
-  double best_m;   // shortest audible way so far, or the reach
+  double best_m;  // shortest audible way so far, or the reach
   bool heard = false;
 
   void hear(double way_m) {

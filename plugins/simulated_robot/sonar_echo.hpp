@@ -26,8 +26,8 @@ class SonarEcho {
  private:
   struct Ray {
     double offset_rad;
-    double gain_db;   // both ways
-    double reach_m;   // of the best target there is
+    double gain_db;  // both ways
+    double reach_m;  // of the best target there is
   };
   struct Ear;  // one call's eye point, axis and best echo so far
 

@@ -73,7 +73,8 @@ struct LogSonar {
   static void describe(Fields<LogSonar>& fields) {
     fields.number("x_m", &LogSonar::x_m, {-10, 10}, "m", "ahead of the robot's centre");
     fields.number("y_m", &LogSonar::y_m, {-10, 10}, "m", "to the left of the robot's centre");
-    fields.angle("angle_deg", &LogSonar::angle_rad, {-360, 360}, "of its axis, anticlockwise from ahead").required = true;
+    fields.angle("angle_deg", &LogSonar::angle_rad, {-360, 360}, "of its axis, anticlockwise from ahead").required =
+        true;
     fields.angle("half_beam_deg", &LogSonar::half_beam_rad, {0, 90}, "0: a ray");
     fields.number("min_m", &LogSonar::min_m, {0, 100}, "m", "shortest range");
     fields.number("max_m", &LogSonar::max_m, {0.01, 1000}, "m", "longest range");

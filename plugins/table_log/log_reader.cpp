@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double seconds_per(TimeUnit unit) { return unit == TimeUnit::seconds ? 1.0 : 1e-3; }
+double seconds_per(TimeUnit unit) {
+  return unit == TimeUnit::seconds ? 1.0 : 1e-3;
+}
 
 double metres_per(LengthUnit unit) {
   if (unit == LengthUnit::metres) return 1.0;
@@ -140,8 +142,9 @@ std::vector<int> range_columns(const TableLogConfig& config, std::size_t sonars)
     if (column != std::floor(column)) throw ConfigError(place, "range_columns must be whole numbers");
   }
   if (columns.size() != sonars) {
-    throw ConfigError(place, std::to_string(columns.size()) + " range columns (range_columns or first_range_column) for " +
-                                 std::to_string(sonars) + " sonars");
+    throw ConfigError(place, std::to_string(columns.size()) +
+                                 " range columns (range_columns or first_range_column) for " + std::to_string(sonars) +
+                                 " sonars");
   }
   return columns;
 }
@@ -188,7 +191,8 @@ RecordedLog read_log(const TableLogConfig& config, const RobotModel& robot) {
   Clock clock(config);
   rule.read(file, [&](const TableRow& row) {
     Observation seen;
-    seen.stamp_s = config.time_column > 0 ? clock.read(row) : config.period_s * static_cast<double>(log.observations.size());
+    seen.stamp_s =
+        config.time_column > 0 ? clock.read(row) : config.period_s * static_cast<double>(log.observations.size());
     seen.ranges = readings;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const double value = row.number(columns[i], "range " + std::to_string(i + 1));

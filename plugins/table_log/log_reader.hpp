@@ -14,7 +14,7 @@ struct RecordedLog {
   std::vector<Observation> observations;  // in order of time; T_odom_robot begins at identity
   std::optional<Pose2> T_log_start;       // the first pose, in the frame of the log
   int skipped_lines = 0;
-  std::string first_skipped;              // what was wrong with the first of them
+  std::string first_skipped;  // what was wrong with the first of them
 };
 
 // Reads everything at once. Ranges: a value of no_echo or one beyond max_m is +inf, nearer than min_m

@@ -1,4 +1,5 @@
 #include "framework/contracts/module.hpp"
+
 #include "plugins/table_log/table_log.hpp"
 
 namespace {

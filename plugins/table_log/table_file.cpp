@@ -50,7 +50,8 @@ std::string quoted(std::string_view text) {
 }  // namespace
 
 SourcePlace TableRow::place(int column) const {
-  if (column >= 1 && static_cast<std::size_t>(column) <= fields_.size()) return {file_, line_, fields_[column - 1].column};
+  if (column >= 1 && static_cast<std::size_t>(column) <= fields_.size())
+    return {file_, line_, fields_[column - 1].column};
   if (fields_.empty()) return {file_, line_, 1};
   return {file_, line_, fields_.back().column + static_cast<int>(fields_.back().text.size())};
 }

@@ -18,6 +18,11 @@ double degree_of(std::int32_t mismatch, std::size_t cells, double mu) {
   return std::max(0.0, 1.0 - mismatch / (kMismatchPerUnit * mu * static_cast<double>(cells)));
 }
 
+double above_unseen(std::int32_t mismatch, const LandmarkTemplate& shape) {
+  const std::int32_t unseen = unseen_mismatch(shape);
+  return unseen == 0 ? 0.0 : 1.0 - static_cast<double>(mismatch) / unseen;
+}
+
 std::size_t best_template(std::span<const TemplateMatch> matches, std::span<const LandmarkTemplate> templates) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < matches.size(); ++i) {
@@ -30,6 +35,7 @@ bool is_decided(std::size_t best, std::span<const TemplateMatch> matches, std::s
                 const ScoreRule& rule) {
   const double degree = degree_of(matches[best].mismatch, templates[best].cells.size(), rule.mu);
   if (degree <= rule.tau_match) return false;
+  if (above_unseen(matches[best].mismatch, templates[best]) < rule.min_above_unseen) return false;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (templates[i].category == templates[best].category) continue;
     const double other = degree_of(matches[i].mismatch, templates[i].cells.size(), rule.mu);

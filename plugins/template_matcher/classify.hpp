@@ -13,18 +13,25 @@ namespace cairn::template_matcher {
 struct ScoreRule {
   double mu = 0.0;  // gradient distance that counts as no match at all
   double tau_match = 0.0;
-  double min_margin = 0.0;  // by which the best category must lead the next one
+  double min_margin = 0.0;        // by which the best category must lead the next one
+  double min_above_unseen = 0.0;  // see above_unseen()
 };
 
 // 1 - mismatch / (cells * mu), at least 0.
 [[nodiscard]] double degree_of(std::int32_t mismatch, std::size_t cells, double mu);
 
+// The degree on a scale where unseen floor has 0 and a perfect match 1; negative below. What unseen
+// floor scores depends on the template (a sensed one has many faint cells), a believable match on this
+// scale does not.
+[[nodiscard]] double above_unseen(std::int32_t mismatch, const LandmarkTemplate& shape);
+
 // Index of the template that fits best; ties go to the first.
 [[nodiscard]] std::size_t best_template(std::span<const TemplateMatch> matches,
                                         std::span<const LandmarkTemplate> templates);
 
-// Whether the class of the best template may be believed: its degree is above tau_match, and no
-// template of another category reaches it or comes within the margin.
+// Whether the class of the best template may be believed: its degree is above tau_match, and above
+// that of unseen floor by enough, and no template of another category reaches it or comes within the
+// margin.
 [[nodiscard]] bool is_decided(std::size_t best, std::span<const TemplateMatch> matches,
                               std::span<const LandmarkTemplate> templates, const ScoreRule& rule);
 

@@ -25,6 +25,9 @@ void Config::describe(Fields<Config>& fields) {
                 "the mismatch that counts as degree 0: the largest gradient, or the largest gradient difference");
   fields.number("min_margin", &Config::min_margin, {0.0, 1.0}, "",
                 "the best category must lead the next one by this degree; 0 as in the paper");
+  fields.number("min_above_unseen", &Config::min_above_unseen, {0.0, 1.0}, "",
+                "the best template's degree d must reach this on the scale (d - u) / (1 - u), where u is its degree "
+                "over unseen floor; 0 as in the paper");
   fields.choice("search", &Config::search, {{"pruned", Search::pruned}, {"exhaustive", Search::exhaustive}},
                 "how the best places are found; the answers are the same");
 }

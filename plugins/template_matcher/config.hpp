@@ -19,14 +19,15 @@ struct Config {
   double step_rad = radians(15.0);
 
   int coarse_cells = 5;
-  double alpha_og2 = 3.0;
+  double alpha_og2 = 2.0;
   double tau_trigger = 150.0;
-  double tau_var = 20.0;
+  double tau_var = 12.0;
   TriggerRule trigger = TriggerRule::since_matching;
   double tau_grow = 140.0;
-  double tau_match = 0.69;
+  double tau_match = 0.55;
   MismatchScale mu = MismatchScale::sobel;
-  double min_margin = 0.04;
+  double min_margin = 0.02;
+  double min_above_unseen = 0.34;
   Search search = Search::pruned;
 
   static void describe(Fields<Config>& fields);

@@ -46,6 +46,14 @@ std::int32_t mismatch_at(const GradientField& field, const LandmarkTemplate& sha
   return sum;
 }
 
+std::int32_t unseen_mismatch(const LandmarkTemplate& shape) {
+  std::int32_t sum = 0;
+  for (const TemplateCell& cell : shape.cells) {
+    sum += gradient_distance(static_cast<float>(cell.gradient_x), static_cast<float>(cell.gradient_y));
+  }
+  return sum;
+}
+
 std::vector<TemplateMatch> match_exhaustively(const GradientField& field, std::span<const CellSpan> region,
                                               std::span<const LandmarkTemplate> templates) {
   std::vector<TemplateMatch> matches;

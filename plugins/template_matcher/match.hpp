@@ -33,6 +33,9 @@ struct TemplateMatch {
 // The mismatch of one template centred on one cell. The field covers the template there.
 [[nodiscard]] std::int32_t mismatch_at(const GradientField& field, const LandmarkTemplate& shape, Cell at);
 
+// The same over floor that nothing is known of.
+[[nodiscard]] std::int32_t unseen_mismatch(const LandmarkTemplate& shape);
+
 // Best place of every template over all cells of the spans, which are not empty and sorted by
 // (y, x). The field's box holds the spans grown by the templates' reach. The plain loop: the oracle.
 [[nodiscard]] std::vector<TemplateMatch> match_exhaustively(const GradientField& field,

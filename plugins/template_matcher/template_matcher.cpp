@@ -35,7 +35,7 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
     : config_(config),
       templates_(checked(std::move(templates))),
       rule_{config.mu == MismatchScale::sobel ? kSobelMagnitude : 2.0 * kSobelMagnitude, config.tau_match,
-            config.min_margin},
+            config.min_margin, config.min_above_unseen},
       reach_(RegionReach::of(templates_->smallest_diameter_m(), templates_->largest_diameter_m(),
                              config.coarse_cells * templates_->cell_m)),
       template_reach_(reach_of(templates_->templates)),

@@ -47,8 +47,7 @@ TEST(Odometer, ConstantPartGrowsWithTheDistance) {
 }
 
 TEST(Odometer, HeadingErrorGrowsWithTheRootOfTheDistance) {
-  const Moments found =
-      after_driving({0.0, 0.0, radians(2.0)}, 4.0, 0.1, [](const Pose2& p) { return p.theta_rad; });
+  const Moments found = after_driving({0.0, 0.0, radians(2.0)}, 4.0, 0.1, [](const Pose2& p) { return p.theta_rad; });
   EXPECT_NEAR(found.mean, 0.0, radians(0.2));
   EXPECT_NEAR(found.deviation, radians(4.0), radians(0.2));
 }

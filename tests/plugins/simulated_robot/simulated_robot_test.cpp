@@ -12,9 +12,9 @@
 namespace cairn {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::circle_at;
 using testing::exact_robot;
+using ::testing::HasSubstr;
 using testing::room;
 using testing::square_at;
 using testing::tilted_wall;
@@ -37,7 +37,7 @@ Observation drive_for(SimulatedRobot& robot, const Twist& twist, double time_s) 
 RobotModel pioneer() {
   RobotModel robot = exact_robot();
   robot.sonars.clear();
-  const double poses[7][3] = {{100, 100, 90},   {120, 80, 30},   {130, 40, 15},   {130, 0, 0},
+  const double poses[7][3] = {{100, 100, 90},  {120, 80, 30},   {130, 40, 15},   {130, 0, 0},
                               {130, -40, -15}, {120, -80, -30}, {100, -100, -90}};
   for (const auto& p : poses) {
     SonarModel sonar;
@@ -220,7 +220,8 @@ TEST(SimulatedRobot, NeverOverlapsAnythingOnAWildDrive) {
     const Body body(robot, scene);
     SimulatedRobot sensor({}, robot, &world, {3.0, 2.5, 0.0}, 1);
     for (int i = 0; i < 300; ++i) {
-      const Pose2 T_map_robot = *drive_for(sensor, {0.8 * std::sin(i * 1.7) + 0.2, 2.5 * std::cos(i * 2.3)}, 0.6).true_T_map_robot;
+      const Pose2 T_map_robot =
+          *drive_for(sensor, {0.8 * std::sin(i * 1.7) + 0.2, 2.5 * std::cos(i * 2.3)}, 0.6).true_T_map_robot;
       ASSERT_GE(body.clearance_m(T_map_robot), 0.0) << i << (with_polygon ? " polygon" : " disc");
     }
     EXPECT_GT(sensor.collisions(), 3);
@@ -278,7 +279,9 @@ RobotModel erring_robot() {
   return robot;
 }
 
-bool same_bytes(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bytes(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 TEST(SimulatedRobot, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
   const auto first = wander(erring_robot(), 7), again = wander(erring_robot(), 7), other = wander(erring_robot(), 8);

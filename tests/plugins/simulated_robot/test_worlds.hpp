@@ -34,7 +34,9 @@ inline WorldObject circle_at(const Point& at_m, double diameter_m, Surface surfa
 
 inline WorldObject square_at(const Point& at_m, double side_m, double angle_deg, Surface surface = Surface::rough) {
   const double h = 0.5 * side_m;
-  return {"square", Contour::polygon({{-h, -h}, {h, -h}, {h, h}, {-h, h}}), {at_m.x(), at_m.y(), radians(angle_deg)},
+  return {"square",
+          Contour::polygon({{-h, -h}, {h, -h}, {h, h}, {-h, h}}),
+          {at_m.x(), at_m.y(), radians(angle_deg)},
           surface};
 }
 

@@ -180,8 +180,7 @@ TEST_F(TableLogTest, JoinsTheLastPoseNotLaterWhenAsked) {
 
 TEST_F(TableLogTest, RefusesBadLinesWithTheirPlace) {
   EXPECT_EQ(error_of("1 1 1\n2 1\n"), "log.txt:2:4: the line has 2 columns, but column 3 is to be the range 2");
-  EXPECT_EQ(error_of("1 1 1\n2   far 1\n"),
-            "log.txt:2:5: the range 1 (column 2) must be a number, not \"far\"");
+  EXPECT_EQ(error_of("1 1 1\n2   far 1\n"), "log.txt:2:5: the range 1 (column 2) must be a number, not \"far\"");
   EXPECT_EQ(error_of("1 1 1m\n"), "log.txt:1:5: the range 2 (column 3) must be a number, not \"1m\"");
   EXPECT_EQ(error_of("# head\nnan 1 1\n"), "log.txt:2:1: the time (column 1) must be finite, not \"nan\"");
   EXPECT_EQ(error_of("2 1 1\n2 1 1\n1.5 1 1\n"), "log.txt:3:1: time goes backwards, from 2 s to 1.5 s");
@@ -275,8 +274,7 @@ TEST_F(TableLogTest, SurvivesAnyBytes) {
 
 std::filesystem::path data_folder() {
   const char* named = std::getenv("CAIRN_DATA");
-  return named != nullptr ? std::filesystem::path(named)
-                          : std::filesystem::path(CAIRN_SOURCE_DIR) / "../shared/data";
+  return named != nullptr ? std::filesystem::path(named) : std::filesystem::path(CAIRN_SOURCE_DIR) / "../shared/data";
 }
 
 TEST(TableLogOfCorridor8, PlaysBackTheWholeRunAsTheMissionDescribesIt) {

@@ -34,13 +34,13 @@ TEST(Degree, FallsFrom1To0WithTheMeanMismatch) {
 TEST(Classify, TakesTheBestTemplateOfAll) {
   const auto matches = matches_of(0.5, 0.7, 0.8, 0.6);
   EXPECT_EQ(best_template(matches, kTemplates), 2U);
-  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.0}));
+  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.0, 0.0}));
 }
 
 TEST(Classify, NeedsMoreThanTauMatch) {
   const auto matches = matches_of(0.2, 0.3, 0.6, 0.1);
-  EXPECT_FALSE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.0}));
-  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.59, 0.0}));
+  EXPECT_FALSE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.0, 0.0}));
+  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.59, 0.0, 0.0}));
 }
 
 TEST(Classify, StaysUndecidedWhenAnotherCategoryTies) {
@@ -48,19 +48,52 @@ TEST(Classify, StaysUndecidedWhenAnotherCategoryTies) {
   const auto matches = matches_of(0.8, 0.7, 0.5, 0.8);
   const std::size_t best = best_template(matches, kTemplates);
   EXPECT_EQ(best, 0U);
-  EXPECT_FALSE(is_decided(best, matches, kTemplates, {kMu, 0.6, 0.0}));
+  EXPECT_FALSE(is_decided(best, matches, kTemplates, {kMu, 0.6, 0.0, 0.0}));
 }
 
 TEST(Classify, DoesNotMindATieWithinOneCategory) {
   const auto matches = matches_of(0.5, 0.8, 0.8, 0.6);
   EXPECT_EQ(best_template(matches, kTemplates), 1U);
-  EXPECT_TRUE(is_decided(1, matches, kTemplates, {kMu, 0.6, 0.0}));
+  EXPECT_TRUE(is_decided(1, matches, kTemplates, {kMu, 0.6, 0.0, 0.0}));
 }
 
 TEST(Classify, WantsTheMarginToTheNextCategoryOnly) {
   const auto matches = matches_of(0.72, 0.79, 0.8, 0.6);
-  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.07}));
-  EXPECT_FALSE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.09}));
+  EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.07, 0.0}));
+  EXPECT_FALSE(is_decided(2, matches, kTemplates, {kMu, 0.6, 0.09, 0.0}));
+}
+
+// A template of two cells with gradients of 30 and 50: unseen floor misses 80.
+LandmarkTemplate faint_shape() {
+  return {"faint", 0.0, {{{0, 0}, 30, 0}, {{1, 0}, 30, 40}}};
+}
+
+TEST(AboveUnseen, Is0OverUnseenFloorAnd1ForAPerfectMatch) {
+  EXPECT_EQ(unseen_mismatch(faint_shape()), 80 * kMismatchPerUnit);
+  EXPECT_DOUBLE_EQ(above_unseen(80 * kMismatchPerUnit, faint_shape()), 0.0);
+  EXPECT_DOUBLE_EQ(above_unseen(0, faint_shape()), 1.0);
+  EXPECT_DOUBLE_EQ(above_unseen(20 * kMismatchPerUnit, faint_shape()), 0.75);
+  EXPECT_LT(above_unseen(100 * kMismatchPerUnit, faint_shape()), 0.0);
+}
+
+TEST(Classify, DoesNotBelieveAFaintTemplateThatExplainsLittle) {
+  // 60 of 200 missing is a degree of 0.7, but unseen floor already has 0.6 with this template.
+  const std::vector<LandmarkTemplate> templates = {faint_shape()};
+  const std::vector<TemplateMatch> matches = {{{0, 0}, 60 * kMismatchPerUnit}};
+  EXPECT_NEAR(degree_of(matches[0].mismatch, 2, kMu), 0.7, 1e-12);
+  EXPECT_TRUE(is_decided(0, matches, templates, {kMu, 0.6, 0.0, 0.0}));
+  EXPECT_TRUE(is_decided(0, matches, templates, {kMu, 0.6, 0.0, 0.25}));
+  EXPECT_FALSE(is_decided(0, matches, templates, {kMu, 0.6, 0.0, 0.26}));
+}
+
+TEST(Classify, KeepsOneEntryForSeveralTemplatesOfAnOrientation) {
+  const std::vector<LandmarkTemplate> templates = {shape_of("square", 15, 10), shape_of("square", 15, 10),
+                                                   shape_of("square", 30, 10)};
+  const std::vector<TemplateMatch> matches = {match_of(0.7, 10), match_of(0.9, 10), match_of(0.8, 10)};
+  const auto above = templates_above(matches, templates, {kMu, 0.6, 0.0, 0.0});
+  ASSERT_EQ(above.size(), 2U);
+  EXPECT_NEAR(above[0].degree, 0.9, 1e-3);
+  EXPECT_NEAR(degrees(above[1].orientation_rad), 30.0, 1e-9);
 }
 
 TEST(Classify, ListsTheBestOfEveryCategoryWithItsPlace) {
@@ -68,7 +101,7 @@ TEST(Classify, ListsTheBestOfEveryCategoryWithItsPlace) {
   set.shapes = {{"circle", {}}, {"square", {}}, {"triangle", {}}};
   set.templates = kTemplates;
   const OccupancyGrid grid(0.05);
-  const auto degrees = degrees_by_category(matches_of(0.5, 0.7, 0.8, 0.6), set, grid, {kMu, 0.6, 0.0});
+  const auto degrees = degrees_by_category(matches_of(0.5, 0.7, 0.8, 0.6), set, grid, {kMu, 0.6, 0.0, 0.0});
   ASSERT_EQ(degrees.size(), 3U);
   EXPECT_EQ(degrees[1].category, "square");
   EXPECT_NEAR(degrees[1].degree, 0.8, 1e-3);
@@ -77,7 +110,7 @@ TEST(Classify, ListsTheBestOfEveryCategoryWithItsPlace) {
 }
 
 TEST(Classify, KeepsAllTemplatesAboveTauMatchBestFirst) {
-  const auto above = templates_above(matches_of(0.65, 0.7, 0.8, 0.6), kTemplates, {kMu, 0.6, 0.0});
+  const auto above = templates_above(matches_of(0.65, 0.7, 0.8, 0.6), kTemplates, {kMu, 0.6, 0.0, 0.0});
   ASSERT_EQ(above.size(), 3U);
   EXPECT_NEAR(above[0].degree, 0.8, 1e-3);
   EXPECT_NEAR(above[1].degree, 0.7, 1e-3);

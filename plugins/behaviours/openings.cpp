@@ -1,0 +1,68 @@
+#include "plugins/behaviours/openings.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "plugins/behaviours/path_follower.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kRoomBehind_m2 = 1.0;
+constexpr double kSame_m = 0.5;
+
+// Roomy places that only the slimmer robot reaches, in connected groups.
+std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& squeezed) {
+  std::vector<Cell> behind;
+  const CellBox box = space.box();
+  for (int y = box.min.y; y < box.max.y; ++y) {
+    for (int x = box.min.x; x < box.max.x; ++x) {
+      const Cell c{x, y};
+      const bool is_roomy = space.state(c) == CellState::free && space.distance_m(c) >= space.least_distance_m();
+      if (is_roomy && squeezed.reaches(c) && !space.reaches(c)) behind.push_back(c);
+    }
+  }
+  std::vector<CellGroup> groups = grouped(behind, 1);
+  const double cell_m2 = space.cell_m() * space.cell_m();
+  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < kRoomBehind_m2; });
+  return groups;
+}
+
+// Where the slimmer robot's way to a place leaves what the robot itself can reach.
+std::optional<Opening> opening_on_way(const FreeSpace& space, const std::vector<Point>& way) {
+  std::optional<Opening> opening;
+  const double length_m = length_of(way);
+  for (double s = 0.0; s <= length_m; s += 0.5 * space.cell_m()) {
+    const Point p = point_along(way, s);
+    const Cell cell = space.cell_at(p);
+    if (space.reaches(cell)) {
+      opening = Opening{p, cell};
+    } else if (opening) {
+      opening->at_m = p;
+      return opening;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& squeezed,
+                                       const std::vector<Point>& seen) {
+  std::optional<Opening> best;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const CellGroup& place : places_behind(space, squeezed)) {
+    const Cell nearest = *std::min_element(place.begin(), place.end(),
+                                           [&](Cell a, Cell b) { return squeezed.cost_m(a) < squeezed.cost_m(b); });
+    const std::optional<Opening> opening = opening_on_way(space, squeezed.path_to(nearest));
+    if (!opening || space.cost_m(opening->lookout) >= best_m) continue;
+    const bool is_seen =
+        std::any_of(seen.begin(), seen.end(), [&](const Point& p) { return (p - opening->at_m).norm() < kSame_m; });
+    if (is_seen) continue;
+    best = opening;
+    best_m = space.cost_m(opening->lookout);
+  }
+  return best;
+}
+
+}  // namespace cairn::behaviours

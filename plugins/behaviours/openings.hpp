@@ -1,0 +1,23 @@
+// Openings that look too narrow for the robot, with room behind them.
+//
+// The width of a beam draws every wall's end into the doorway beside it, so a door passed along its wall
+// looks narrower than it is. Seen head on it opens.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plugins/behaviours/free_space.hpp"
+
+namespace cairn::behaviours {
+
+struct Opening {
+  Point at_m{0.0, 0.0};  // where the way gets too narrow
+  Cell lookout;          // in front of it, in reach
+};
+
+// The cheapest one to get to. squeezed is the same space for a slimmer robot. seen: not within 0.5 m of these.
+[[nodiscard]] std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& squeezed,
+                                                     const std::vector<Point>& seen);
+
+}  // namespace cairn::behaviours
