@@ -9,6 +9,8 @@ constexpr cairn::AbiStamp foreign_stamp() {
 }
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) extern const cairn::AbiStamp cairn_abi_stamp;
-extern "C" __attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp = foreign_stamp();
-extern "C" __attribute__((visibility("default"))) void cairn_register_module(cairn::Registrar&) {}
+extern "C" {
+extern const cairn::AbiStamp cairn_abi_stamp;
+__attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp = foreign_stamp();
+__attribute__((visibility("default"))) void cairn_register_module(cairn::Registrar&) {}
+}

@@ -86,7 +86,7 @@ Finished run_cairn(const std::vector<std::string>& arguments) { return start(arg
 Finished interrupt_cairn(const std::vector<std::string>& arguments) { return start(arguments, true); }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / ("cairn_" + name);
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("cairn_" + name + "_" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
