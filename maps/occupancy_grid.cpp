@@ -184,7 +184,12 @@ bool OccupancyGrid::operator==(const OccupancyGrid& other) const {
 }
 
 double known_ratio(const OccupancyGrid& grid, const OccupancyThresholds& thresholds) {
-  const CellBox box = grid.bounds();
+  CellBox walls;
+  const CellBox all = grid.bounds();
+  for (int y = all.min.y; y < all.max.y; ++y)
+    for (int x = all.min.x; x < all.max.x; ++x)
+      if (grid.state({x, y}, thresholds) == CellState::occupied) walls = united(walls, {{x, y}, {x + 1, y + 1}});
+  const CellBox box = walls.empty() ? all : walls;
   if (box.empty()) return 0.0;
   long known = 0;
   for (int y = box.min.y; y < box.max.y; ++y)

@@ -116,7 +116,9 @@ class OccupancyGrid {
   std::vector<std::unique_ptr<Tile>> tiles_;  // row-major over tiles_box_; null = all unknown
 };
 
-// Share of the cells of bounds() whose state is not unknown; 0 for an empty grid.
+// Share of known cells in the smallest box that holds every occupied cell: readings without an echo
+// reach out of a room through its doors and would count against it. All of bounds() as long as no cell
+// is occupied; 0 for an empty grid.
 [[nodiscard]] double known_ratio(const OccupancyGrid& grid, const OccupancyThresholds& thresholds = {});
 
 }  // namespace cairn

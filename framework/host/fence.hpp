@@ -16,13 +16,14 @@ class ModuleFault : public std::runtime_error {
       : std::runtime_error("module " + module + " failed in stage " + stage + ": " + what) {}
 };
 
-// Calls a module. ConfigError passes through: it is the user's file that is wrong, not the module.
+// Calls a module. ConfigError passes: it is the user's file that is wrong, not the module. It passes as
+// a copy, since the code of the thrown object may be unloaded with the module before anyone reads it.
 template <class Call>
 auto fenced(const char* stage, const std::string& module, Call&& call) -> decltype(call()) {
   try {
     return std::forward<Call>(call)();
-  } catch (const ConfigError&) {
-    throw;
+  } catch (const ConfigError& error) {
+    throw ConfigError(error);
   } catch (const ModuleFault&) {
     throw;
   } catch (const std::exception& error) {

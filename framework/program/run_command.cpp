@@ -64,6 +64,7 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
 
 int run(const RunCommand& command, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::atomic<bool>& interrupted = cancel_on_interrupt();
   const Mission mission = load_mission(command.mission, command.overrides, command.seed);
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
@@ -71,7 +72,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   std::ostream& people = common.json ? std::cerr : std::cout;
   const bool live = isatty(common.json ? STDERR_FILENO : STDOUT_FILENO) != 0;
   people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
-  MissionRunner runner(mission, library, {command.out, command.realtime, &cancel_on_interrupt()});
+  MissionRunner runner(mission, library, {command.out, command.realtime, &interrupted});
   RunReport report;
   MissionResult result;
   {

@@ -43,7 +43,7 @@ struct GoalPlace {
 struct EndRules {
   GroundRules ground;
   double radius_m = 0.22;
-  double start_tolerance_m = 0.15;
+  double start_tolerance_m = 0.3;
 };
 
 // Landmarks of a place that the graph lacks, non-finite numbers, a place that names nothing.

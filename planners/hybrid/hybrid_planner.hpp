@@ -13,7 +13,7 @@ struct HybridConfig {
   PluginChoice route = {"ompl", empty_map()};
   PluginChoice graph = {"landmark_search", empty_map()};
   double detour_ratio = 1.3;
-  double start_tolerance_m = 0.15;
+  double start_tolerance_m = 0.3;
   bool shortcut = true;
 
   static void describe(Fields<HybridConfig>& fields) {

@@ -14,7 +14,7 @@ struct OmplConfig {
   std::int64_t iterations = 3000;
   UnknownPolicy unknown = UnknownPolicy::avoid;
   double margin_m = 0.0;
-  double start_tolerance_m = 0.15;
+  double start_tolerance_m = 0.3;
   bool simplify = true;
   bool fall_back_to_grid = true;
   ConfigValue parameters;

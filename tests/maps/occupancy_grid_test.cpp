@@ -138,7 +138,17 @@ TEST(OccupancyGrid, IncludesABoxAsUnknown) {
   grid.set_log_odds({0, 0}, 500);
   grid.set_log_odds({1, 0}, -500);
   EXPECT_EQ(grid.bounds(), (CellBox{{-10, -20}, {30, 40}}));
-  EXPECT_DOUBLE_EQ(known_ratio(grid), 2.0 / (40 * 60));
+}
+
+TEST(OccupancyGrid, KnownRatioCountsWithinTheBoxOfTheOccupiedCells) {
+  OccupancyGrid grid(0.05);
+  grid.include({{-10, -20}, {30, 40}});
+  grid.set_log_odds({5, 5}, -500);
+  EXPECT_DOUBLE_EQ(known_ratio(grid), 1.0 / (40 * 60)) << "no wall yet: all of the map";
+  grid.set_log_odds({0, 0}, 500);
+  grid.set_log_odds({9, 4}, 500);
+  grid.set_log_odds({3, 3}, -500);
+  EXPECT_DOUBLE_EQ(known_ratio(grid), 3.0 / (10 * 5));
 }
 
 TEST(OccupancyGrid, CopiesBoxesCellByCellInRowOrder) {

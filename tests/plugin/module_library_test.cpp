@@ -56,7 +56,7 @@ TEST(ModuleLibrary, SaysWhatAModuleThrewWhileRegistering) {
 TEST(ModuleLibrary, SaysThatATextFileCannotBeOpened) {
   const fs::path folder = fs::path(testing::TempDir()) / "cairn_text_plugin";
   fs::create_directories(folder);
-  std::ofstream(folder / "text.so") << "hello\n";
+  std::ofstream(folder / "text.so") << std::string(4096, '#');
   const ModuleLibrary library({folder});
   EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("text.so: cannot be opened as a module"), HasSubstr("ELF"))));
 }

@@ -10,7 +10,7 @@ constexpr cairn::AbiStamp foreign_stamp() {
 }  // namespace
 
 extern "C" {
-extern const cairn::AbiStamp cairn_abi_stamp;
-__attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp = foreign_stamp();
+extern __attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp;
+const cairn::AbiStamp cairn_abi_stamp = foreign_stamp();
 __attribute__((visibility("default"))) void cairn_register_module(cairn::Registrar&) {}
 }

@@ -99,7 +99,7 @@ TEST(WorldFile, TheOfficeIsThePapersRoom) {
   for (const WorldObject& object : world.objects) categories.push_back(object.category);
   EXPECT_EQ(categories, (std::vector<std::string>{"square", "circle", "triangle", ""}));
   EXPECT_EQ(world.objects[0].T_map_object, (Pose2{1.5, 3.5, radians(15.0)}));
-  EXPECT_EQ(world.walls.at(0).surface, Surface::smooth);
+  EXPECT_EQ(world.walls.at(0).surface, Surface::rough);
   EXPECT_GE(clearance_m(world, {0.6, 0.6}), 0.5) << "the start";
 }
 
