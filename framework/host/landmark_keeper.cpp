@@ -45,11 +45,34 @@ std::optional<Pose2> standing_place(const DistanceField& space, const TravelFiel
   return Pose2{at.x(), at.y(), std::atan2(landmark.y() - at.y(), landmark.x() - at.x())};
 }
 
+Landmark first_seen(const Detection& detection) {
+  Landmark landmark;
+  landmark.category = detection.category;
+  landmark.T_map_landmark = detection.T_map_landmark;
+  landmark.degree = detection.degree;
+  landmark.templates = detection.templates;
+  landmark.sightings = 1;
+  return landmark;
+}
+
+// True when the detection is better than all before and corrects the landmark.
+bool see_again(Landmark& landmark, const Detection& detection) {
+  ++landmark.sightings;
+  if (detection.degree <= landmark.degree) return false;
+  landmark.category = detection.category;
+  landmark.T_map_landmark = detection.T_map_landmark;
+  landmark.degree = detection.degree;
+  landmark.templates = detection.templates;
+  return true;
+}
+
 }  // namespace
 
 void LandmarkKeeperConfig::describe(Fields<LandmarkKeeperConfig>& fields) {
   using C = LandmarkKeeperConfig;
   fields.number("merge_m", &C::merge_m, {0.01, 10.0}, "m", "a detection this near to a landmark is that landmark");
+  fields.integer("confirm_sightings", &C::confirm_sightings, {1.0, 1000.0},
+                 "matchings that must find it before it counts as a landmark");
   fields.integer("routes_per_landmark", &C::routes_per_landmark, {0.0, 100.0}, "joined to this many nearest others");
   fields.number("driven_detour_ratio", &C::driven_detour_ratio, {1.0, 100.0}, "",
                 "a driven way is kept when it is at most this much longer than the planned one");
@@ -61,26 +84,19 @@ LandmarkKeeper::LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotMo
     : config_(config), robot_(robot) {}
 
 LandmarkKeeper::Change LandmarkKeeper::fold(const Detection& detection) {
-  const Landmark* known = graph_.nearest(detection.T_map_landmark.position(), config_.merge_m);
-  if (known == nullptr) {
-    Landmark landmark;
-    landmark.category = detection.category;
-    landmark.T_map_landmark = detection.T_map_landmark;
-    landmark.degree = detection.degree;
-    landmark.templates = detection.templates;
-    landmark.sightings = 1;
-    return {graph_.add(std::move(landmark)), true, true};
+  const Point at = detection.T_map_landmark.position();
+  if (const Landmark* known = graph_.nearest(at, config_.merge_m))
+    return {known->id, false, see_again(*graph_.find(known->id), detection)};
+  const Landmark* candidate = candidates_.nearest(at, config_.merge_m);
+  Landmark landmark = candidate != nullptr ? *candidate : first_seen(detection);
+  if (candidate != nullptr) {
+    see_again(landmark, detection);
+    candidates_.remove(landmark.id);
   }
-  Landmark& landmark = *graph_.find(known->id);
-  ++landmark.sightings;
-  const bool improved = detection.degree > landmark.degree;
-  if (improved) {
-    landmark.category = detection.category;
-    landmark.T_map_landmark = detection.T_map_landmark;
-    landmark.degree = detection.degree;
-    landmark.templates = detection.templates;
-  }
-  return {landmark.id, false, improved};
+  landmark.id = 0;
+  if (landmark.sightings >= config_.confirm_sightings) return {graph_.add(std::move(landmark)), true, true};
+  candidates_.add(std::move(landmark));
+  return {};
 }
 
 void LandmarkKeeper::follow(const Pose2& T_map_robot) {

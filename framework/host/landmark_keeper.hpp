@@ -14,6 +14,7 @@ namespace cairn {
 
 struct LandmarkKeeperConfig {
   double merge_m = 0.4;              // a detection this near to a landmark is that landmark
+  int confirm_sightings = 3;         // matchings that must find it before it counts as a landmark
   int routes_per_landmark = 3;       // joined to this many nearest others
   double driven_detour_ratio = 1.3;  // a driven way is kept when it is at most this much longer than the planned one
   double access_margin_m = 0.05;     // free space kept round the robot that stands beside a landmark
@@ -24,10 +25,11 @@ class LandmarkKeeper {
  public:
   LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotModel& robot);
 
-  // What one detection does to the graph: the landmark it belongs to, and whether that is new.
-  // A better degree improves place, category and templates; a worse one only counts as a sighting.
+  // What one detection does to the graph: the landmark it belongs to, and whether that is new. Chance
+  // likenesses in a growing map come and go, so one that is not confirmed yet changes nothing (landmark
+  // 0). A better degree improves place, category and templates; a worse one only counts as a sighting.
   struct Change {
-    LandmarkId landmark = 0;
+    LandmarkId landmark = 0;  // 0: none yet
     bool is_new = false;
     bool improved = false;
   };
@@ -52,6 +54,7 @@ class LandmarkKeeper {
   LandmarkKeeperConfig config_;
   RobotModel robot_;
   LandmarkGraph graph_;
+  LandmarkGraph candidates_;  // seen, but not confirm_sightings times yet
   std::vector<Pose2> driven_path_;
 };
 

@@ -134,6 +134,12 @@ bool Exploration::choose_by(const Search& search, const WorldView& world) {
   }
 }
 
+bool Exploration::choose_again(const WorldView& world) {
+  if (!config_.second_look || config_.look_closer_m <= 0.0) return false;
+  const Search search{kEverywhere_m, config_.clearance_m};
+  return look_again(space_now(world, search), world.graph, settings_.lap, memory_) && choose_by(search, world);
+}
+
 bool Exploration::choose_opening(const WorldView& world) {
   search_ = {kEverywhere_m, config_.clearance_m};
   const FreeSpace space = space_now(world, search_);
@@ -164,7 +170,8 @@ bool Exploration::choose(const WorldView& world, Orders& orders) {
   // The whole map only when there is nothing to do around here; less room only when shut in.
   const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world) ||
                      choose_by({kEverywhere_m, config_.clearance_m}, world) ||
-                     (is_shut_in(world) && choose_by({kEverywhere_m, tight_m}, world)) || choose_opening(world);
+                     (is_shut_in(world) && choose_by({kEverywhere_m, tight_m}, world)) || choose_again(world) ||
+                     choose_opening(world);
   if (!found) return false;
   if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
     said_about_ = task_->about;

@@ -42,6 +42,7 @@ class Exploration {
   [[nodiscard]] bool is_on_lap(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
   [[nodiscard]] bool choose(const WorldView& world, Orders& orders);
+  [[nodiscard]] bool choose_again(const WorldView& world);
   [[nodiscard]] bool choose_opening(const WorldView& world);
   [[nodiscard]] bool is_to_be_faced() const;
   Status nothing_left(const WorldView& world, Orders& orders);

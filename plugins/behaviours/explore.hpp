@@ -20,6 +20,7 @@ struct ExploreConfig {
   double look_closer_m = 0.9;
   double lap_distance_m = 0.55;
   double largest_object_m = 1.5;
+  bool second_look = true;
   double smallest_frontier_m = 0.3;
   double speed_mps = 0.2;
   double lap_speed_mps = 0.1;

@@ -17,6 +17,7 @@ constexpr double kMostFrontierBonus_m = 0.8;
 constexpr int kLeastLap_sectors = 2;
 constexpr double kLapFrom_m = 1.5;
 constexpr double kMostWayForLaps_m = 1.0;  // for each open sector
+constexpr double kIsLandmark_m = 0.4;  // an object this near to a landmark's centre is that landmark
 constexpr double kStayBonus_m = 0.8;
 constexpr double kSame_m = 0.8;                    // tasks this near are the same one, grown or shrunk
 constexpr double kMostWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
@@ -92,6 +93,12 @@ bool is_worth_a_lap(const Lap& lap, double cost_m) {
   return open >= kLeastLap_sectors && cost_m <= kMostWayForLaps_m * open;
 }
 
+const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centre) {
+  const auto found = std::find_if(memory.second_looks.begin(), memory.second_looks.end(),
+                                  [&](const SecondLook& look) { return (look.about - centre).norm() < kSame_m; });
+  return found == memory.second_looks.end() ? nullptr : &*found;
+}
+
 void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
                 const LapSettings& settings, const ExploreMemory& memory) {
   for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
@@ -99,7 +106,9 @@ void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, 
     const double least_m =
         (middle_of(space, object) - T_map_robot.position()).norm() - settings.largest_object_m - settings.look_closer_m;
     if (least_m - kLapBonus_m - kStayBonus_m >= best.score_m) continue;
-    const Lap lap = lap_round(space, object, memory.trace, memory.given_up_lookouts, settings);
+    const SecondLook* again = second_look_at(memory, middle_of(space, object));
+    const auto trace = std::span(memory.trace).subspan(again == nullptr ? 0 : again->trace_from);
+    const Lap lap = lap_round(space, object, trace, memory.given_up_lookouts, settings);
     if (!lap.is_round_trip() || lap.count(SectorState::open) == 0) continue;
     LapRoute route = lap_route(space, lap, T_map_robot);
     ExploreTask task;
@@ -110,7 +119,7 @@ void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, 
     task.way_m = route.way_m;
     task.cost_m = route.cost_m;
     const bool is_at_it = previous != nullptr && is_about_the_same(*previous, task);
-    if (!is_at_it && !is_worth_a_lap(lap, task.cost_m)) continue;
+    if (!is_at_it && again == nullptr && !is_worth_a_lap(lap, task.cost_m)) continue;
     offer(best, std::move(task), kLapBonus_m, previous);
   }
 }
@@ -138,6 +147,19 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
   if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
   return std::move(best.task);
+}
+
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const LapSettings& settings,
+                ExploreMemory& memory) {
+  bool found = false;
+  for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
+    const Point centre = middle_of(space, object);
+    if (known.nearest(centre, kIsLandmark_m) != nullptr || second_look_at(memory, centre) != nullptr) continue;
+    if (!lap_round(space, object, memory.trace, {}, settings).is_round_trip()) continue;
+    memory.second_looks.push_back({centre, memory.trace.size()});
+    found = true;
+  }
+  return found;
 }
 
 std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "maps/landmark_graph.hpp"
 #include "plugins/behaviours/look_closer.hpp"
 
 namespace cairn::behaviours {
@@ -16,12 +17,19 @@ struct TaskSettings {
   Sight frontier_sight{1.0, radians(60.0)};  // a frontier is looked at from within it
 };
 
+// An object that is circled again: only the trace from here on counts as having looked at it.
+struct SecondLook {
+  Point about{0.0, 0.0};
+  std::size_t trace_from = 0;
+};
+
 // What exploring remembers between two choices.
 struct ExploreMemory {
   std::vector<Pose2> trace;              // where the robot has been, a pose each 10 cm
   CellSet seen_edges;                    // or given up
   CellSet seen_frontiers;                // or given up
   std::vector<Point> given_up_lookouts;  // of laps
+  std::vector<SecondLook> second_looks;
   std::vector<Point> seen_openings;
   std::vector<TroubleSpot> troubles;
 };
@@ -43,7 +51,11 @@ struct ExploreTask {
                                                    bool frontiers_wanted, const ExploreTask* previous,
                                                    const TaskSettings& settings, ExploreMemory& memory);
 
-// For when nothing else is left: an opening that looks too narrow, to be looked at head on.
+// For when nothing else is left: notes that a free-standing object which is no known landmark is to be
+// circled once more, since a second lap often shows what the first did not. False when there is none.
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const LapSettings& settings, ExploreMemory& memory);
+
+// For when nothing else is left either: an opening that looks too narrow, to be looked at head on.
 [[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,
                                                       const ExploreMemory& memory);
 

@@ -95,7 +95,7 @@ bool is_near_reach(const FreeSpace& space, const Lap& lap, const LapSettings& se
   return false;
 }
 
-void mark_covered(const FreeSpace& space, const CellGroup& object, const std::vector<Pose2>& trace,
+void mark_covered(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
                   double look_closer_m, Lap& lap) {
   for (const Pose2& pose : trace) {
     const Point p = pose.position();
@@ -158,7 +158,7 @@ std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_ob
   return groups;
 }
 
-Lap lap_round(const FreeSpace& space, const CellGroup& object, const std::vector<Pose2>& trace,
+Lap lap_round(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
               const std::vector<Point>& avoid, const LapSettings& settings) {
   Lap lap;
   CellBox extent;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "plugins/behaviours/free_space.hpp"
@@ -56,7 +57,7 @@ struct Lap {
 [[nodiscard]] std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_object_m);
 
 // avoid: lookouts within 0.25 m of these are no lookouts.
-[[nodiscard]] Lap lap_round(const FreeSpace& space, const CellGroup& object, const std::vector<Pose2>& trace,
+[[nodiscard]] Lap lap_round(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
                             const std::vector<Point>& avoid, const LapSettings& settings);
 
 // The lap's cheapest open sector, and the way on through the open sectors next to it, in the direction

@@ -39,7 +39,7 @@ OccupancyGrid floor_with_two_blocks() {
 class LandmarkKeeperTest : public testing::Test {
  protected:
   RobotModel robot_;
-  LandmarkKeeper keeper_{{}, robot_};
+  LandmarkKeeper keeper_{{.confirm_sightings = 1}, robot_};
   OccupancyGrid grid_ = floor_with_two_blocks();
 
   void connect() {
@@ -71,6 +71,20 @@ TEST_F(LandmarkKeeperTest, ADetectionFarAwayIsANewLandmark) {
   keeper_.fold(detection_at(1.5, 2.0, "square", 0.6));
   EXPECT_TRUE(keeper_.fold(detection_at(4.5, 2.0, "square", 0.6)).is_new);
   EXPECT_EQ(keeper_.graph().landmarks().size(), 2U);
+}
+
+TEST_F(LandmarkKeeperTest, WhatIsSeenTooSeldomIsNoLandmark) {
+  LandmarkKeeper keeper({.confirm_sightings = 3}, robot_);
+  EXPECT_EQ(keeper.fold(detection_at(1.5, 2.0, "square", 0.6)).landmark, 0);
+  EXPECT_FALSE(keeper.fold(detection_at(1.55, 2.0, "circle", 0.7)).is_new);
+  EXPECT_EQ(keeper.fold(detection_at(4.5, 2.0, "square", 0.6)).landmark, 0) << "another place, its first sighting";
+  EXPECT_TRUE(keeper.graph().landmarks().empty());
+  const auto third = keeper.fold(detection_at(1.5, 2.0, "square", 0.6));
+  EXPECT_TRUE(third.is_new);
+  ASSERT_NE(keeper.graph().find(third.landmark), nullptr);
+  EXPECT_EQ(keeper.graph().find(third.landmark)->category, "circle") << "the best of the three";
+  EXPECT_EQ(keeper.graph().find(third.landmark)->sightings, 3);
+  EXPECT_EQ(keeper.graph().landmarks().size(), 1U);
 }
 
 TEST_F(LandmarkKeeperTest, ConnectFindsStandingPlacesThatFitTheRobotAndLookAtTheLandmark) {
