@@ -16,8 +16,12 @@ struct Cell {
   auto operator<=>(const Cell&) const = default;
 };
 
-[[nodiscard]] constexpr Cell operator+(Cell a, Cell b) { return {a.x + b.x, a.y + b.y}; }
-[[nodiscard]] constexpr Cell operator-(Cell a, Cell b) { return {a.x - b.x, a.y - b.y}; }
+[[nodiscard]] constexpr Cell operator+(Cell a, Cell b) {
+  return {a.x + b.x, a.y + b.y};
+}
+[[nodiscard]] constexpr Cell operator-(Cell a, Cell b) {
+  return {a.x - b.x, a.y - b.y};
+}
 
 // Chessboard distance (the paper's Distance8).
 [[nodiscard]] constexpr int distance8(Cell a, Cell b) {

@@ -29,14 +29,14 @@ struct TemplateDegree {
 
 struct Landmark {
   LandmarkId id = 0;
-  std::string name;                       // may be empty; "L<id>" always names it too
-  std::string category;                   // empty for imported places without one
+  std::string name;      // may be empty; "L<id>" always names it too
+  std::string category;  // empty for imported places without one
   Pose2 T_map_landmark;
   double degree = 0.0;                    // of the best matching so far
   std::vector<TemplateDegree> templates;  // all above tau_match in that matching, best first
   int sightings = 0;
-  std::optional<Pose2> access;            // where a robot stands to be "at" the landmark; none: its position
-  int level = 0;                          // floor of a building
+  std::optional<Pose2> access;  // where a robot stands to be "at" the landmark; none: its position
+  int level = 0;                // floor of a building
   bool operator==(const Landmark&) const = default;
 };
 
@@ -45,9 +45,9 @@ struct Route {
   LandmarkId from = 0;
   LandmarkId to = 0;
   double cost_m = 0.0;
-  std::vector<Pose2> trajectory;          // from access to access; empty when only the cost is known
-  bool driven = false;                    // the robot has driven it; otherwise planned or imported
-  bool closed = false;                    // found blocked
+  std::vector<Pose2> trajectory;  // from access to access; empty when only the cost is known
+  bool driven = false;            // the robot has driven it; otherwise planned or imported
+  bool closed = false;            // found blocked
   int level = 0;
   bool operator==(const Route&) const = default;
 };
@@ -58,7 +58,7 @@ class LandmarkGraph {
   // negative id, an unknown end, a cost that is negative or not finite, a place that is not finite.
   LandmarkId add(Landmark landmark);
   RouteId add_route(Route route);
-  void remove(LandmarkId id);             // and the routes that touch it
+  void remove(LandmarkId id);  // and the routes that touch it
   void remove_route(RouteId id);
   void set_closed(RouteId id, bool closed);
   // The ids to be given next. A saved graph keeps them, so that removed ids stay retired after

@@ -31,7 +31,7 @@ struct LandmarkTemplate {
 struct TemplateSet {
   double cell_m = 0.05;
   double step_rad = 0.0;
-  std::vector<LandmarkShape> shapes;        // one a category
+  std::vector<LandmarkShape> shapes;  // one a category
   std::vector<LandmarkTemplate> templates;
 
   [[nodiscard]] double smallest_diameter_m() const;  // d_min: smallest outer diameter of the shapes

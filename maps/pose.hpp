@@ -18,8 +18,12 @@ using Point = Eigen::Vector2d;  // metres
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 
-[[nodiscard]] constexpr double radians(double angle_deg) { return angle_deg * std::numbers::pi / 180.0; }
-[[nodiscard]] constexpr double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+[[nodiscard]] constexpr double radians(double angle_deg) {
+  return angle_deg * std::numbers::pi / 180.0;
+}
+[[nodiscard]] constexpr double degrees(double angle_rad) {
+  return angle_rad * 180.0 / std::numbers::pi;
+}
 
 // A rigid motion of the plane. theta_rad is kept in (-pi, pi] by every function below.
 struct Pose2 {

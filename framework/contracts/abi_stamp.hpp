@@ -1,11 +1,10 @@
 // What must agree between the host and a module before one may call the other.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <string_view>
-
-#include <Eigen/Core>
 
 #include "framework/contracts/behaviour.hpp"
 #include "framework/contracts/detector.hpp"
@@ -16,13 +15,13 @@
 namespace cairn {
 
 struct AbiStamp {
-  std::uint32_t magic;          // kAbiMagic
-  std::uint32_t stamp_size;     // sizeof(AbiStamp)
+  std::uint32_t magic;       // kAbiMagic
+  std::uint32_t stamp_size;  // sizeof(AbiStamp)
   char cairn_version[16];
   char compiler[48];
-  char build[16];               // "release", "debug"
+  char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
-  std::uint32_t sizes[6];       // Observation, OccupancyGrid, LandmarkGraph, PlanResult, DetectionReport, WorldView
+  std::uint32_t sizes[6];  // Observation, OccupancyGrid, LandmarkGraph, PlanResult, DetectionReport, WorldView
 };
 
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"

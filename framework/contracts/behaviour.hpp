@@ -11,7 +11,7 @@ enum class Progress { running, success, failure };
 
 struct Status {
   Progress progress = Progress::running;
-  std::string reason;      // for people: what it is doing, or why it ended
+  std::string reason;  // for people: what it is doing, or why it ended
   bool operator==(const Status&) const = default;
 };
 
@@ -19,10 +19,10 @@ struct Status {
 class Orders {
  public:
   virtual ~Orders() = default;
-  virtual void drive(const Twist& wanted) = 0;               // for this tick; no call means stop
-  virtual PlanResult plan(const PlanRequest& request) = 0;   // by the mission's planner, at once
-  virtual void save(const std::string& file_name) = 0;       // the map so far, into the output folder
-  virtual void say(const std::string& sentence) = 0;         // an event for people
+  virtual void drive(const Twist& wanted) = 0;              // for this tick; no call means stop
+  virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once
+  virtual void save(const std::string& file_name) = 0;      // the map so far, into the output folder
+  virtual void say(const std::string& sentence) = 0;        // an event for people
 };
 
 class Behaviour {

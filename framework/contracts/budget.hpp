@@ -19,9 +19,7 @@ struct Budget {
   std::int64_t iterations = std::numeric_limits<std::int64_t>::max();
 
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
-  [[nodiscard]] bool past_deadline() const {
-    return deadline != Clock::time_point::max() && Clock::now() >= deadline;
-  }
+  [[nodiscard]] bool past_deadline() const { return deadline != Clock::time_point::max() && Clock::now() >= deadline; }
   [[nodiscard]] bool exhausted() const { return cancelled() || past_deadline(); }
 };
 

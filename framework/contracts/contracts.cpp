@@ -6,26 +6,40 @@ namespace cairn {
 
 std::string_view name_of(PluginKind kind) {
   switch (kind) {
-    case PluginKind::sensor: return "sensor";
-    case PluginKind::localizer: return "localizer";
-    case PluginKind::map: return "map";
-    case PluginKind::detector: return "detector";
-    case PluginKind::planner: return "planner";
-    case PluginKind::behaviour: return "behaviour";
+    case PluginKind::sensor:
+      return "sensor";
+    case PluginKind::localizer:
+      return "localizer";
+    case PluginKind::map:
+      return "map";
+    case PluginKind::detector:
+      return "detector";
+    case PluginKind::planner:
+      return "planner";
+    case PluginKind::behaviour:
+      return "behaviour";
   }
   return "?";
 }
 
 std::string_view name_of(PlanOutcome outcome) {
   switch (outcome) {
-    case PlanOutcome::solved: return "solved";
-    case PlanOutcome::approximate: return "approximate";
-    case PlanOutcome::start_blocked: return "start_blocked";
-    case PlanOutcome::goal_blocked: return "goal_blocked";
-    case PlanOutcome::no_route: return "no_route";
-    case PlanOutcome::out_of_budget: return "out_of_budget";
-    case PlanOutcome::cancelled: return "cancelled";
-    case PlanOutcome::unknown_place: return "unknown_place";
+    case PlanOutcome::solved:
+      return "solved";
+    case PlanOutcome::approximate:
+      return "approximate";
+    case PlanOutcome::start_blocked:
+      return "start_blocked";
+    case PlanOutcome::goal_blocked:
+      return "goal_blocked";
+    case PlanOutcome::no_route:
+      return "no_route";
+    case PlanOutcome::out_of_budget:
+      return "out_of_budget";
+    case PlanOutcome::cancelled:
+      return "cancelled";
+    case PlanOutcome::unknown_place:
+      return "unknown_place";
   }
   return "?";
 }

@@ -28,15 +28,15 @@ struct CategoryDegree {
 
 // One run of the template matcher: where, what it found of every category, and the class if any.
 struct Matching {
-  Cell trigger;                              // coarse cell
-  int region_cells = 0;                      // OG1 cells searched
+  Cell trigger;          // coarse cell
+  int region_cells = 0;  // OG1 cells searched
   Point region_centre_m{0.0, 0.0};
-  std::vector<CategoryDegree> degrees;       // best a category, in the order of the template set
+  std::vector<CategoryDegree> degrees;  // best a category, in the order of the template set
   std::optional<Detection> detection;
 };
 
 struct DetectionReport {
-  std::vector<Matching> matchings;           // in the order they ran
+  std::vector<Matching> matchings;  // in the order they ran
 };
 
 class Detector {

@@ -66,10 +66,10 @@ class ModuleMaker {
 // What a factory may use. References are valid during the call only: copy what you keep.
 struct ModuleContext {
   const RobotModel& robot;
-  const World* world = nullptr;                        // simulation only
-  Pose2 T_map_start{};                                 // where the mission says the robot begins
-  std::uint64_t seed = 1;                              // of this module alone
-  std::shared_ptr<const TemplateSet> templates{};      // rendered; for detectors
+  const World* world = nullptr;                    // simulation only
+  Pose2 T_map_start{};                             // where the mission says the robot begins
+  std::uint64_t seed = 1;                          // of this module alone
+  std::shared_ptr<const TemplateSet> templates{};  // rendered; for detectors
   const ModuleMaker* modules = nullptr;
 };
 
@@ -117,17 +117,17 @@ struct NoConfig {
 #if defined(CAIRN_STATIC_MODULE)
 #define CAIRN_MODULE_CONCAT2(a, b) a##b
 #define CAIRN_MODULE_CONCAT(a, b) CAIRN_MODULE_CONCAT2(a, b)
-#define CAIRN_MODULE(function) \
+#define CAIRN_MODULE(function)                                                                              \
   extern "C" void CAIRN_MODULE_CONCAT(cairn_register_, CAIRN_STATIC_MODULE)(cairn::Registrar & registrar) { \
-    function(registrar); \
+    function(registrar);                                                                                    \
   }
 #else
-#define CAIRN_MODULE(function)                                                                       \
-  extern "C" {                                                                                       \
-  extern __attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp;               \
-  const cairn::AbiStamp cairn_abi_stamp = cairn::this_abi_stamp();                                   \
-  __attribute__((visibility("default"))) void cairn_register_module(cairn::Registrar & registrar) {  \
-    function(registrar);                                                                             \
-  }                                                                                                  \
+#define CAIRN_MODULE(function)                                                                     \
+  extern "C" {                                                                                     \
+  extern __attribute__((visibility("default"))) const cairn::AbiStamp cairn_abi_stamp;             \
+  const cairn::AbiStamp cairn_abi_stamp = cairn::this_abi_stamp();                                 \
+  __attribute__((visibility("default"))) void cairn_register_module(cairn::Registrar& registrar) { \
+    function(registrar);                                                                           \
+  }                                                                                                \
   }
 #endif

@@ -17,16 +17,16 @@ struct RangeReading {
   double min_m = 0.0;
   double max_m = 0.0;
   double range_m = 0.0;
-  int sensor = 0;              // index of the transducer
+  int sensor = 0;  // index of the transducer
 };
 
 struct Observation {
   double stamp_s = 0.0;
-  Pose2 T_odom_robot;                       // dead reckoning since the start, with its drift
-  std::optional<double> compass_rad;        // heading in the map frame
+  Pose2 T_odom_robot;                 // dead reckoning since the start, with its drift
+  std::optional<double> compass_rad;  // heading in the map frame
   std::vector<RangeReading> ranges;
-  bool bumped = false;                      // the robot touches something and has been stopped
-  std::optional<Pose2> true_T_map_robot;    // simulation only; for reports, never for modules
+  bool bumped = false;                    // the robot touches something and has been stopped
+  std::optional<Pose2> true_T_map_robot;  // simulation only; for reports, never for modules
 };
 
 enum class SensorState { observation, end_of_data, fault };

@@ -17,22 +17,22 @@ struct SonarModel {
 
 // Standard deviations unless the name says otherwise.
 struct OdometryError {
-  double distance_ratio = 0.0;            // of the distance driven, independent from metre to metre
-  double distance_bias_ratio = 0.0;       // constant over a run, drawn once
-  double heading_rad_per_m = 0.0;         // independent from metre to metre
+  double distance_ratio = 0.0;       // of the distance driven, independent from metre to metre
+  double distance_bias_ratio = 0.0;  // constant over a run, drawn once
+  double heading_rad_per_m = 0.0;    // independent from metre to metre
 };
 
 struct CompassError {
-  double noise_rad = 0.0;                 // white, each reading
-  double local_bias_rad = 0.0;            // bound of a bias that wanders from place to place
-  double local_bias_scale_m = 2.0;        // distance over which that bias changes
+  double noise_rad = 0.0;           // white, each reading
+  double local_bias_rad = 0.0;      // bound of a bias that wanders from place to place
+  double local_bias_scale_m = 2.0;  // distance over which that bias changes
 };
 
 struct RangeError {
-  double noise_m = 0.005;                 // plus noise_ratio * range
+  double noise_m = 0.005;  // plus noise_ratio * range
   double noise_ratio = 0.005;
-  double dropped_ratio = 0.01;            // share of echoes lost
-  double crosstalk_ratio = 0.005;         // share of readings replaced by another transducer's echo
+  double dropped_ratio = 0.01;     // share of echoes lost
+  double crosstalk_ratio = 0.005;  // share of readings replaced by another transducer's echo
 };
 
 enum class Kinematics { differential, car };
@@ -40,16 +40,16 @@ enum class Kinematics { differential, car };
 struct RobotModel {
   std::string name;
   double radius_m = 0.22;
-  std::vector<Point> polygon_m;           // footprint when not round; radius_m then encloses it
+  std::vector<Point> polygon_m;  // footprint when not round; radius_m then encloses it
   double max_v_mps = 0.4;
   double max_w_radps = radians(100.0);
   double max_acceleration_mps2 = 0.5;
   double max_turn_acceleration_radps2 = radians(200.0);
-  double min_turning_radius_m = 0.0;      // car
+  double min_turning_radius_m = 0.0;  // car
   Kinematics kinematics = Kinematics::differential;
   std::vector<SonarModel> sonars;
-  std::vector<int> firing_order;          // indices into sonars; empty: as listed
-  double firing_period_s = 0.04;          // one transducer each period
+  std::vector<int> firing_order;  // indices into sonars; empty: as listed
+  double firing_period_s = 0.04;  // one transducer each period
   OdometryError odometry_error;
   CompassError compass_error;
   RangeError range_error;

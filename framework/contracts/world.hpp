@@ -18,7 +18,7 @@ struct WorldWall {
 };
 
 struct WorldObject {
-  std::string category;         // empty: an obstacle that no template describes
+  std::string category;  // empty: an obstacle that no template describes
   Contour contour;
   Pose2 T_map_object;
   Surface surface = Surface::rough;

@@ -16,8 +16,8 @@ struct WorldView {
   const LandmarkGraph& graph;
   const RobotModel& robot;
   PoseEstimate pose;
-  double time_s = 0.0;                      // of the mission's clock
-  const Observation* observation = nullptr; // the latest, null when planning against a saved map
+  double time_s = 0.0;                       // of the mission's clock
+  const Observation* observation = nullptr;  // the latest, null when planning against a saved map
   // The stop layer has cut this share of the last wanted speed: 0 none, 1 all.
   double held_back_ratio = 0.0;
 };

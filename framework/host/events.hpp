@@ -40,7 +40,8 @@ struct Said {
 };
 struct Bumped {};
 
-using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, PlanDone, StepStarted, StepEnded, MapSaved, Said, Bumped>;
+using Event =
+    std::variant<TickDone, MatchingDone, LandmarkChanged, PlanDone, StepStarted, StepEnded, MapSaved, Said, Bumped>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

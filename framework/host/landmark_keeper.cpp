@@ -10,7 +10,7 @@ namespace cairn {
 namespace {
 
 constexpr double kThinning_m = 0.05;
-constexpr double kVisit_m = 0.25;      // this near to a standing place counts as having been there
+constexpr double kVisit_m = 0.25;       // this near to a standing place counts as having been there
 constexpr double kAccessReach_m = 1.5;  // a standing place lies no further from the landmark's centre
 
 double length_of(const std::vector<Pose2>& path) {
@@ -113,8 +113,7 @@ void LandmarkKeeper::find_access(const WorldView& world) {
     graph_.find(id)->access = standing_place(space, reach, landmark.T_map_landmark.position());
 }
 
-void LandmarkKeeper::connect(const WorldView& world, const Planner& planner, const Budget& budget,
-                             std::uint64_t seed) {
+void LandmarkKeeper::connect(const WorldView& world, const Planner& planner, const Budget& budget, std::uint64_t seed) {
   while (!graph_.routes().empty()) graph_.remove_route(graph_.routes().begin()->first);
   find_access(world);
   for (const auto& [id, landmark] : graph_.landmarks()) {
@@ -126,8 +125,7 @@ void LandmarkKeeper::connect(const WorldView& world, const Planner& planner, con
     if (others.size() > static_cast<std::size_t>(config_.routes_per_landmark))
       others.resize(static_cast<std::size_t>(config_.routes_per_landmark));
     for (const auto& [distance, other] : others)
-      if (graph_.route_between(id, other) == nullptr)
-        join(landmark, *graph_.find(other), world, planner, budget, seed);
+      if (graph_.route_between(id, other) == nullptr) join(landmark, *graph_.find(other), world, planner, budget, seed);
   }
 }
 

@@ -16,11 +16,11 @@ MissionStep step_of(const ConfigValue& item) {
     return {item.scalar, {item.scalar, nothing}};
   }
   if (item.kind != ConfigValue::Kind::map || item.entries.size() != 1)
-    throw ConfigError(item.place, "a step is one behaviour with its settings, such as `goto: {landmark: nearest square}`, not " +
-                                      item.kind_name() +
-                                      (item.kind == ConfigValue::Kind::map
-                                           ? " with " + std::to_string(item.entries.size()) + " keys"
-                                           : ""));
+    throw ConfigError(
+        item.place,
+        "a step is one behaviour with its settings, such as `goto: {landmark: nearest square}`, not " +
+            item.kind_name() +
+            (item.kind == ConfigValue::Kind::map ? " with " + std::to_string(item.entries.size()) + " keys" : ""));
   const ConfigValue::Entry& entry = item.entries.front();
   PluginChoice choice{entry.key, entry.value};
   if (choice.config.kind == ConfigValue::Kind::null) choice.config.kind = ConfigValue::Kind::map;

@@ -51,7 +51,7 @@ struct MissionConfig {
 };
 
 struct MissionStep {
-  std::string name;   // of the behaviour
+  std::string name;  // of the behaviour
   PluginChoice choice;
 };
 

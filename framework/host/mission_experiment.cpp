@@ -28,7 +28,8 @@ ExperimentRow run_seed(const ExperimentConfig& config, const ModuleLibrary& libr
   row.result = runner.run();
   std::ofstream(folder / "report.json") << report.report_json(mission, row.result, runner.graph(), {});
   if (mission.world) row.score = score_against(*mission.world, runner.graph(), config.tolerance_m);
-  for (const LandmarkTruth& matched : row.score.matched) row.worst_error_m = std::max(row.worst_error_m, matched.error_m);
+  for (const LandmarkTruth& matched : row.score.matched)
+    row.worst_error_m = std::max(row.worst_error_m, matched.error_m);
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return row;
 }
@@ -90,16 +91,19 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
 }
 
 std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
-  std::string text = "| seed | outcome | found | missed | false | worst error m | driven m | time s | matchings | collisions | good |\n"
-                     "|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|---|\n";
+  std::string text =
+      "| seed | outcome | found | missed | false | worst error m | driven m | time s | matchings | collisions | good "
+      "|\n"
+      "|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|---|\n";
   for (const ExperimentRow& row : rows)
     text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.1f} | {:.0f} | {} | {} | {} |\n", row.seed,
                         name_of(row.result.outcome), row.score.matched.size(), row.score.missed_objects,
                         row.score.false_landmarks, row.worst_error_m, row.result.distance_m, row.result.time_s,
                         row.result.matchings, row.result.collisions, row.is_good() ? "yes" : "no");
-  return text + fmt::format("\n{} of {} runs found every landmark with the right category within {:.2f} m and nothing "
-                            "else, without a collision.\n",
-                            good_rows(rows), rows.size(), config.tolerance_m);
+  return text + fmt::format(
+                    "\n{} of {} runs found every landmark with the right category within {:.2f} m and nothing "
+                    "else, without a collision.\n",
+                    good_rows(rows), rows.size(), config.tolerance_m);
 }
 
 std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {

@@ -26,8 +26,8 @@ struct ExperimentConfig {
   ExperimentKind experiment = ExperimentKind::missions;
   std::filesystem::path mission;
   SeedRange seeds;
-  double tolerance_m = 0.10;            // a landmark further from the truth is false
-  double at_least_ratio = 0.0;          // share of good runs that makes the experiment a success
+  double tolerance_m = 0.10;    // a landmark further from the truth is false
+  double at_least_ratio = 0.0;  // share of good runs that makes the experiment a success
   std::vector<std::string> overrides;
   static void describe(Fields<ExperimentConfig>& fields);
 };

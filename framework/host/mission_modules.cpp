@@ -7,7 +7,8 @@ namespace cairn {
 namespace {
 
 template <class Interface>
-std::shared_ptr<Interface> build(const ModuleLibrary& library, const PluginChoice& choice, const ModuleContext& context) {
+std::shared_ptr<Interface> build(const ModuleLibrary& library, const PluginChoice& choice,
+                                 const ModuleContext& context) {
   return fenced("construction", choice.name, [&] { return library.make<Interface>(choice, context); });
 }
 
@@ -26,7 +27,8 @@ ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, 
 
 std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
   // splitmix64: neighbouring mission seeds give unrelated module seeds.
-  std::uint64_t z = static_cast<std::uint64_t>(mission_seed) * 1000003U + static_cast<std::uint64_t>(kind) * 101U + index;
+  std::uint64_t z =
+      static_cast<std::uint64_t>(mission_seed) * 1000003U + static_cast<std::uint64_t>(kind) * 101U + index;
   z += 0x9e3779b97f4a7c15U;
   z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
   z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;

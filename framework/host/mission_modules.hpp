@@ -13,9 +13,9 @@ struct MissionModules {
   std::shared_ptr<Sensor> sensor;
   std::shared_ptr<Localizer> localizer;
   std::shared_ptr<Mapper> mapper;
-  std::shared_ptr<const TemplateSet> templates;      // null without a detector
-  std::shared_ptr<Detector> detector;                // may be null
-  std::shared_ptr<Planner> planner;                  // may be null
+  std::shared_ptr<const TemplateSet> templates;        // null without a detector
+  std::shared_ptr<Detector> detector;                  // may be null
+  std::shared_ptr<Planner> planner;                    // may be null
   std::vector<std::shared_ptr<Behaviour>> behaviours;  // one a step
   Pose2 T_map_start;
 };

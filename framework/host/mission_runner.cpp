@@ -20,12 +20,18 @@ bool is_finite(const PoseEstimate& pose) {
 
 std::string_view name_of(MissionOutcome outcome) {
   switch (outcome) {
-    case MissionOutcome::done: return "done";
-    case MissionOutcome::step_failed: return "step_failed";
-    case MissionOutcome::out_of_time: return "out_of_time";
-    case MissionOutcome::cancelled: return "cancelled";
-    case MissionOutcome::sensor_fault: return "sensor_fault";
-    case MissionOutcome::module_fault: return "module_fault";
+    case MissionOutcome::done:
+      return "done";
+    case MissionOutcome::step_failed:
+      return "step_failed";
+    case MissionOutcome::out_of_time:
+      return "out_of_time";
+    case MissionOutcome::cancelled:
+      return "cancelled";
+    case MissionOutcome::sensor_fault:
+      return "sensor_fault";
+    case MissionOutcome::module_fault:
+      return "module_fault";
   }
   return "?";
 }
@@ -33,8 +39,11 @@ std::string_view name_of(MissionOutcome outcome) {
 class MissionRunner::Impl : private Orders {
  public:
   Impl(const Mission& mission, const ModuleLibrary& library, RunOptions options)
-      : mission_(mission), options_(std::move(options)), modules_(build_modules(mission_, library)),
-        keeper_(mission_.config.landmarks, mission_.robot), stop_layer_(mission_.config.stop_layer, mission_.robot) {
+      : mission_(mission),
+        options_(std::move(options)),
+        modules_(build_modules(mission_, library)),
+        keeper_(mission_.config.landmarks, mission_.robot),
+        stop_layer_(mission_.config.stop_layer, mission_.robot) {
     budget_.cancel = options_.cancel;
     pose_.T_map_robot = modules_.T_map_start;
   }
@@ -103,8 +112,7 @@ class MissionRunner::Impl : private Orders {
 
   PoseEstimate localize() {
     const std::string& name = mission_.config.localizer.name;
-    const PoseEstimate pose =
-        fenced("localizer", name, [&] { return modules_.localizer->update(observation_, {}); });
+    const PoseEstimate pose = fenced("localizer", name, [&] { return modules_.localizer->update(observation_, {}); });
     if (!is_finite(pose)) throw ModuleFault("localizer", name, "returned a pose that is not finite");
     return pose;
   }
@@ -207,8 +215,8 @@ class MissionRunner::Impl : private Orders {
   }
 
   [[nodiscard]] WorldView view() const {
-    return {modules_.mapper->grid(), keeper_.graph(),  mission_.robot,  pose_,
-            result_.time_s,          begun_ ? &observation_ : nullptr, held_back_ratio_};
+    return {modules_.mapper->grid(),          keeper_.graph(), mission_.robot, pose_, result_.time_s,
+            begun_ ? &observation_ : nullptr, held_back_ratio_};
   }
 
   void tell(const Event& event) const {
@@ -247,7 +255,8 @@ class MissionRunner::Impl : private Orders {
     try {
       save_map(options_.out / file_name, map);
     } catch (const StoreError& error) {
-      result_.reason += (result_.reason.empty() ? "" : "; ") + std::string("the map could not be saved: ") + error.what();
+      result_.reason +=
+          (result_.reason.empty() ? "" : "; ") + std::string("the map could not be saved: ") + error.what();
       return;
     }
     result_.map_file = file_name;
@@ -282,14 +291,26 @@ class MissionRunner::Impl : private Orders {
 MissionRunner::MissionRunner(const Mission& mission, const ModuleLibrary& library, RunOptions options)
     : impl_(std::make_unique<Impl>(mission, library, std::move(options))) {}
 MissionRunner::~MissionRunner() = default;
-void MissionRunner::subscribe(Listener& listener) { impl_->subscribe(listener); }
-MissionResult MissionRunner::run() { return impl_->run(); }
-const OccupancyGrid& MissionRunner::grid() const { return impl_->modules().mapper->grid(); }
+void MissionRunner::subscribe(Listener& listener) {
+  impl_->subscribe(listener);
+}
+MissionResult MissionRunner::run() {
+  return impl_->run();
+}
+const OccupancyGrid& MissionRunner::grid() const {
+  return impl_->modules().mapper->grid();
+}
 const CoarseGrid* MissionRunner::coarse_grid() const {
   return impl_->modules().detector ? impl_->modules().detector->coarse_grid() : nullptr;
 }
-const LandmarkGraph& MissionRunner::graph() const { return impl_->keeper().graph(); }
-const std::vector<Pose2>& MissionRunner::driven_path() const { return impl_->keeper().driven_path(); }
-const TemplateSet* MissionRunner::templates() const { return impl_->modules().templates.get(); }
+const LandmarkGraph& MissionRunner::graph() const {
+  return impl_->keeper().graph();
+}
+const std::vector<Pose2>& MissionRunner::driven_path() const {
+  return impl_->keeper().driven_path();
+}
+const TemplateSet* MissionRunner::templates() const {
+  return impl_->modules().templates.get();
+}
 
 }  // namespace cairn

@@ -18,8 +18,8 @@ enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fa
 [[nodiscard]] std::string_view name_of(MissionOutcome outcome);
 
 struct RunOptions {
-  std::filesystem::path out;                      // folder of everything written; must exist
-  bool realtime = false;                          // pace simulated time to the wall clock
+  std::filesystem::path out;  // folder of everything written; must exist
+  bool realtime = false;      // pace simulated time to the wall clock
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -32,14 +32,14 @@ struct StepReport {
 
 struct MissionResult {
   MissionOutcome outcome = MissionOutcome::done;
-  std::string reason;                             // a sentence for people; empty when all went well
+  std::string reason;  // a sentence for people; empty when all went well
   std::vector<StepReport> steps;
   std::int64_t readings = 0;
   std::int64_t matchings = 0;
   std::int64_t collisions = 0;
   double distance_m = 0.0;
-  double time_s = 0.0;                            // simulated or recorded
-  std::string map_file;                           // name in the output folder; empty: could not be saved
+  double time_s = 0.0;   // simulated or recorded
+  std::string map_file;  // name in the output folder; empty: could not be saved
 };
 
 class MissionRunner {
@@ -48,7 +48,7 @@ class MissionRunner {
   MissionRunner(const Mission& mission, const ModuleLibrary& library, RunOptions options);
   ~MissionRunner();
 
-  void subscribe(Listener& listener);             // the listener must outlive the runner
+  void subscribe(Listener& listener);  // the listener must outlive the runner
   MissionResult run();
 
   [[nodiscard]] const OccupancyGrid& grid() const;

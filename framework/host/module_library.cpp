@@ -75,8 +75,8 @@ const RegisteredModule& ModuleLibrary::find(PluginKind kind, const std::string& 
   const ModuleEntry* entry = find_any(name);
   if (entry != nullptr && entry->module->kind == kind) return *entry->module;
   if (entry != nullptr)
-    throw ConfigError(place, "\"" + name + "\" is a " + std::string(name_of(entry->module->kind)) + " plugin, not a " +
-                                 kind_text);
+    throw ConfigError(
+        place, "\"" + name + "\" is a " + std::string(name_of(entry->module->kind)) + " plugin, not a " + kind_text);
   std::string known;
   for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
   std::string sentence = "unknown " + kind_text + " plugin \"" + name + "\"" + did_you_mean(name, names) +

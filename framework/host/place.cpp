@@ -59,7 +59,8 @@ Place nearest_place(const std::string& category, const LandmarkGraph& graph) {
     if (!landmark.category.empty()) known.insert(landmark.category);
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-  throw PlaceError("no landmark of category \"" + category + "\"" + did_you_mean(category, {known.begin(), known.end()}) +
+  throw PlaceError("no landmark of category \"" + category + "\"" +
+                   did_you_mean(category, {known.begin(), known.end()}) +
                    "; the map holds: " + (list.empty() ? "none" : list));
 }
 

@@ -20,8 +20,8 @@ class PluginError : public std::runtime_error {
 // A loaded module. The library stays open as long as `library` or any object made from it lives.
 struct LoadedPlugin {
   std::filesystem::path file;
-  std::string version;                     // Cairn version it was built with
-  std::shared_ptr<void> library;           // before modules: destroyed after them
+  std::string version;            // Cairn version it was built with
+  std::shared_ptr<void> library;  // before modules: destroyed after them
   std::vector<RegisteredModule> modules;
 };
 

@@ -12,14 +12,15 @@ namespace {
 using nlohmann::ordered_json;
 
 // Figures are for people and scripts: micrometres and micro-degrees are enough.
-double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+double rounded(double value) {
+  return std::round(value * 1e6) / 1e6;
+}
 
 ordered_json json_of(const Landmark& landmark) {
   ordered_json templates = ordered_json::array();
   for (const TemplateDegree& t : landmark.templates)
-    templates.push_back({{"category", t.category},
-                         {"angle_deg", rounded(degrees(t.orientation_rad))},
-                         {"degree", rounded(t.degree)}});
+    templates.push_back(
+        {{"category", t.category}, {"angle_deg", rounded(degrees(t.orientation_rad))}, {"degree", rounded(t.degree)}});
   return {{"id", "L" + std::to_string(landmark.id)},
           {"category", landmark.category},
           {"x_m", rounded(landmark.T_map_landmark.x_m)},
@@ -63,7 +64,9 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
 
 ordered_json quantiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  const auto at = [&](double share) { return rounded(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]); };
+  const auto at = [&](double share) {
+    return rounded(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
+  };
   return {{"median", at(0.5)}, {"worst", at(1.0)}, {"last", rounded(values.back())}};
 }
 
@@ -79,17 +82,19 @@ struct Sentence {
   std::string operator()(const LandmarkChanged& e) const {
     std::ostringstream out;
     out << (e.is_new ? "found " : "improved ") << label_of(e.landmark) << ", " << e.landmark.category << " at ("
-        << std::fixed << std::setprecision(2) << e.landmark.T_map_landmark.x_m << ", "
-        << e.landmark.T_map_landmark.y_m << "), degree " << e.landmark.degree;
+        << std::fixed << std::setprecision(2) << e.landmark.T_map_landmark.x_m << ", " << e.landmark.T_map_landmark.y_m
+        << "), degree " << e.landmark.degree;
     return out.str();
   }
   std::string operator()(const PlanDone& e) const {
     return "plan: " + std::string(name_of(e.result.outcome)) + (e.result.reason.empty() ? "" : ", " + e.result.reason);
   }
-  std::string operator()(const StepStarted& e) const { return "step " + std::to_string(e.index + 1) + " (" + e.name + ") begins"; }
+  std::string operator()(const StepStarted& e) const {
+    return "step " + std::to_string(e.index + 1) + " (" + e.name + ") begins";
+  }
   std::string operator()(const StepEnded& e) const {
-    return "step " + std::to_string(e.index + 1) + " (" + e.name + ") ends: " +
-           (e.status.progress == Progress::success ? "success" : "failure") +
+    return "step " + std::to_string(e.index + 1) + " (" + e.name +
+           ") ends: " + (e.status.progress == Progress::success ? "success" : "failure") +
            (e.status.reason.empty() ? "" : ", " + e.status.reason);
   }
   std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
@@ -112,8 +117,7 @@ void RunReport::note_pose_error(const MissionView& view) {
   const Observation* observation = view.world.observation;
   if (observation == nullptr || !observation->true_T_map_robot || view.world.time_s < last_error_s_ + 1.0) return;
   last_error_s_ = view.world.time_s;
-  pose_errors_m_.push_back(
-      (observation->true_T_map_robot->position() - view.world.pose.T_map_robot.position()).norm());
+  pose_errors_m_.push_back((observation->true_T_map_robot->position() - view.world.pose.T_map_robot.position()).norm());
 }
 
 std::string RunReport::report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,

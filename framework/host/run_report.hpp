@@ -22,8 +22,8 @@ class RunReport : public Listener {
   void on(const Event& event, const MissionView& view) override;
 
   // The same bytes for the same build, mission and seed: no clock, no path of this machine.
-  [[nodiscard]] std::string report_json(const Mission& mission, const MissionResult& result,
-                                        const LandmarkGraph& graph, const std::vector<std::string>& pictures) const;
+  [[nodiscard]] std::string report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+                                        const std::vector<std::string>& pictures) const;
   // One line for `--json`: the report's main figures, where its files are, and the wall clock.
   [[nodiscard]] std::string summary_json(const Mission& mission, const MissionResult& result,
                                          const LandmarkGraph& graph, const std::filesystem::path& out,
@@ -36,8 +36,8 @@ class RunReport : public Listener {
   void note_pose_error(const MissionView& view);
 
   std::vector<DegreeSample> degrees_;
-  std::vector<double> pose_errors_m_;   // once a second, where the truth is known
-  std::vector<std::string> events_;     // sentences with their time
+  std::vector<double> pose_errors_m_;  // once a second, where the truth is known
+  std::vector<std::string> events_;    // sentences with their time
   double last_error_s_ = -1.0;
   double explored_ratio_ = 0.0;
 };
@@ -49,9 +49,9 @@ struct LandmarkTruth {
 };
 
 struct TruthScore {
-  std::vector<LandmarkTruth> matched;        // right category, within the tolerance; each object once
-  int false_landmarks = 0;                   // found, but no such object there
-  int missed_objects = 0;                    // standing there, but not found
+  std::vector<LandmarkTruth> matched;  // right category, within the tolerance; each object once
+  int false_landmarks = 0;             // found, but no such object there
+  int missed_objects = 0;              // standing there, but not found
 };
 [[nodiscard]] TruthScore score_against(const World& world, const LandmarkGraph& graph, double tolerance_m);
 

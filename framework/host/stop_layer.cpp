@@ -23,7 +23,8 @@ std::vector<Point> arc_of(const RangeReading& reading, const Pose2& T_odom_robot
 }  // namespace
 
 void StopLayerConfig::describe(Fields<StopLayerConfig>& fields) {
-  fields.number("margin_m", &StopLayerConfig::margin_m, {0.0, 1.0}, "m", "kept between the footprint and anything seen");
+  fields.number("margin_m", &StopLayerConfig::margin_m, {0.0, 1.0}, "m",
+                "kept between the footprint and anything seen");
   fields.number("stale_s", &StopLayerConfig::stale_s, {0.05, 10.0}, "s", "an echo older than this no longer counts");
   fields.number("blind_s", &StopLayerConfig::blind_s, {0.05, 10.0}, "s", "no driving after so long without a reading");
 }

@@ -13,9 +13,9 @@
 namespace cairn {
 
 struct StopLayerConfig {
-  double margin_m = 0.05;       // kept between the footprint and anything seen
-  double stale_s = 1.0;         // an echo older than this no longer counts
-  double blind_s = 1.0;         // without any reading for so long, no driving
+  double margin_m = 0.05;  // kept between the footprint and anything seen
+  double stale_s = 1.0;    // an echo older than this no longer counts
+  double blind_s = 1.0;    // without any reading for so long, no driving
   static void describe(Fields<StopLayerConfig>& fields);
 };
 

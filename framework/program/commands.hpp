@@ -32,7 +32,7 @@ struct PlanCommand {
   std::filesystem::path map;
   std::string from;
   std::string to;
-  std::string queries;                 // a file, "-" for standard input, empty for one query
+  std::string queries;  // a file, "-" for standard input, empty for one query
   std::string planner = "hybrid";
   std::optional<double> radius_m;
   std::optional<double> budget_ms;
@@ -51,7 +51,7 @@ int map_render(const MapCommand& command, const CommonOptions& common);
 
 struct TemplateCommand {
   std::filesystem::path folder;
-  std::filesystem::path robot;         // for `sensed` templates
+  std::filesystem::path robot;  // for `sensed` templates
   std::string rendering = "sensed";
   double cell_m = 0.05;
   double step_deg = 15.0;

@@ -21,10 +21,13 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   if (common.json) std::cout << json << "\n";
   std::ostream& people = common.json ? std::cerr : std::cout;
   double speed = 0.0;
-  for (const ExperimentRow& row : rows) speed += row.result.time_s / std::max(row.wall_s, 1e-9) / static_cast<double>(rows.size());
-  people << table << fmt::format("Mean speed {:.0f} times real time. Table: {}\n", speed, (command.out / "table.md").string());
+  for (const ExperimentRow& row : rows)
+    speed += row.result.time_s / std::max(row.wall_s, 1e-9) / static_cast<double>(rows.size());
+  people << table
+         << fmt::format("Mean speed {:.0f} times real time. Table: {}\n", speed, (command.out / "table.md").string());
   const auto good = std::count_if(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.is_good(); });
-  return static_cast<double>(good) >= config.at_least_ratio * static_cast<double>(rows.size()) ? kExitDone : kExitNotSolved;
+  return static_cast<double>(good) >= config.at_least_ratio * static_cast<double>(rows.size()) ? kExitDone
+                                                                                               : kExitNotSolved;
 }
 
 }  // namespace cairn

@@ -82,17 +82,18 @@ ordered_json json_of(const Query& query, const PlanResult& result) {
   for (const LandmarkId id : result.landmarks) landmarks.push_back("L" + std::to_string(id));
   ordered_json path = ordered_json::array();
   for (const Pose2& pose : result.path) path.push_back({pose.x_m, pose.y_m, pose.theta_rad});
-  return {{"id", query.id},
-          {"outcome", std::string(name_of(result.outcome))},
-          {"reason", result.reason},
-          {"cost_m", result.cost_m},
-          {"length_m", result.length_m},
-          {"landmarks", landmarks},
-          {"path", path},
-          {"clearance_m", result.clearance_m},
-          {"time_ms",
-           {{"graph", result.time_ms.graph_ms}, {"route", result.time_ms.route_ms}, {"total", result.time_ms.total_ms}}},
-          {"settled", result.settled}};
+  return {
+      {"id", query.id},
+      {"outcome", std::string(name_of(result.outcome))},
+      {"reason", result.reason},
+      {"cost_m", result.cost_m},
+      {"length_m", result.length_m},
+      {"landmarks", landmarks},
+      {"path", path},
+      {"clearance_m", result.clearance_m},
+      {"time_ms",
+       {{"graph", result.time_ms.graph_ms}, {"route", result.time_ms.route_ms}, {"total", result.time_ms.total_ms}}},
+      {"settled", result.settled}};
 }
 
 void tell_people(std::ostream& out, const Query& query, const PlanResult& result) {

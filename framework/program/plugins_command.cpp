@@ -1,5 +1,6 @@
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -27,8 +28,10 @@ void print_fields(const std::vector<FieldSpec>& fields, const std::string& inden
     std::string about = field.type;
     if (!field.unit.empty()) about += ", " + field.unit;
     if (const std::string allowed = allowed_text(field); !allowed.empty()) about += ", " + allowed;
-    if (field.required) about += ", required";
-    else if (!field.default_text.empty()) about += ", default " + field.default_text;
+    if (field.required)
+      about += ", required";
+    else if (!field.default_text.empty())
+      about += ", default " + field.default_text;
     std::cout << indent << field.key << "  (" << about << ")\n" << indent << "    " << field.meaning << "\n";
     print_fields(field.fields, indent + "    ");
   }
@@ -59,11 +62,14 @@ int plugins_list(const CommonOptions& common) {
     const std::string kind(name_of(entry.module->kind));
     const std::string file = entry.plugin->file.filename().string();
     if (common.json)
-      list.push_back({{"kind", kind}, {"name", entry.module->name}, {"module", file},
-                      {"version", entry.plugin->version}, {"summary", entry.module->summary}});
+      list.push_back({{"kind", kind},
+                      {"name", entry.module->name},
+                      {"module", file},
+                      {"version", entry.plugin->version},
+                      {"summary", entry.module->summary}});
     else
-      std::cout << fmt::format("{:<10} {:<18} {:<22} {:<8} {}\n", kind, entry.module->name, file,
-                               entry.plugin->version, entry.module->summary);
+      std::cout << fmt::format("{:<10} {:<18} {:<22} {:<8} {}\n", kind, entry.module->name, file, entry.plugin->version,
+                               entry.module->summary);
   }
   if (common.json) std::cout << ordered_json{{"modules", list}, {"faults", library.faults()}}.dump() << "\n";
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
@@ -80,16 +86,18 @@ int plugins_info(const std::string& name, const CommonOptions& common) {
   }
   const RegisteredModule& module = *entry->module;
   if (common.json) {
-    std::cout << ordered_json{{"kind", std::string(name_of(module.kind))}, {"name", module.name},
-                              {"summary", module.summary}, {"file", entry->plugin->file.string()},
-                              {"fields", json_of(module.schema.fields)}}.dump()
+    std::cout << ordered_json{{"kind", std::string(name_of(module.kind))},
+                              {"name", module.name},
+                              {"summary", module.summary},
+                              {"file", entry->plugin->file.string()},
+                              {"fields", json_of(module.schema.fields)}}
+                     .dump()
               << "\n";
     return kExitDone;
   }
-  std::cout << module.name << ": " << name_of(module.kind) << "\n" << module.summary << "\nfrom "
-            << entry->plugin->file.string() << "\n";
-  if (!module.schema.shorthand.empty())
-    std::cout << "a bare value stands for `" << module.schema.shorthand << "`\n";
+  std::cout << module.name << ": " << name_of(module.kind) << "\n"
+            << module.summary << "\nfrom " << entry->plugin->file.string() << "\n";
+  if (!module.schema.shorthand.empty()) std::cout << "a bare value stands for `" << module.schema.shorthand << "`\n";
   std::cout << "\n";
   print_fields(module.schema.fields, "  ");
   return kExitDone;

@@ -42,9 +42,8 @@ void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGr
   }
 }
 
-void print_summary(std::ostream& out, const Mission& mission, const MissionResult& result,
-                   const MissionRunner& runner, const RunPictures& pictures, const std::filesystem::path& folder,
-                   double wall_s) {
+void print_summary(std::ostream& out, const Mission& mission, const MissionResult& result, const MissionRunner& runner,
+                   const RunPictures& pictures, const std::filesystem::path& folder, double wall_s) {
   print_landmarks(out, mission, runner.graph());
   out << fmt::format("\n  outcome     {}{}\n", name_of(result.outcome),
                      result.reason.empty() ? "" : ": " + result.reason);

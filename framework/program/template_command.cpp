@@ -63,8 +63,9 @@ int template_preview(const TemplateCommand& command, const CommonOptions& common
   const TemplateSet set = render(command, common, load_landmark_shapes(command.folder));
   write_template_sheet(command.picture, set, command.folder.string() + ", " + command.rendering);
   if (common.json)
-    std::cout << nlohmann::ordered_json{{"picture", command.picture.string()}, {"templates", set.templates.size()}}.dump()
-              << "\n";
+    std::cout
+        << nlohmann::ordered_json{{"picture", command.picture.string()}, {"templates", set.templates.size()}}.dump()
+        << "\n";
   else
     std::cout << fmt::format("wrote {} templates to {}\n", set.templates.size(), command.picture.string());
   return kExitDone;

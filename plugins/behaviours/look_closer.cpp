@@ -95,8 +95,8 @@ bool is_near_reach(const FreeSpace& space, const Lap& lap, const LapSettings& se
   return false;
 }
 
-void mark_covered(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
-                  double look_closer_m, Lap& lap) {
+void mark_covered(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace, double look_closer_m,
+                  Lap& lap) {
   for (const Pose2& pose : trace) {
     const Point p = pose.position();
     const Point from_centre = p - lap.centre;

@@ -53,7 +53,9 @@ std::vector<Include> includes() {
   return found;
 }
 
-std::string room_of(const std::string& path) { return path.substr(0, path.find('/')); }
+std::string room_of(const std::string& path) {
+  return path.substr(0, path.find('/'));
+}
 
 std::string module_of(const std::string& path) {
   const std::size_t first = path.find('/');
@@ -99,7 +101,8 @@ TEST(Architecture, ModulesKnowContractsAndMapsButNeverEachOtherNorTheHost) {
 TEST(Architecture, TheProgramLinksNoModule) {
   for (const Include& include : includes())
     if (include.file.starts_with("framework/"))
-      EXPECT_FALSE(starts_with_any(include.header, {"plugins/", "planners/"})) << include.file << " includes " << include.header;
+      EXPECT_FALSE(starts_with_any(include.header, {"plugins/", "planners/"}))
+          << include.file << " includes " << include.header;
 }
 
 TEST(Architecture, EachLibraryIsTouchedOnlyWhereItBelongs) {
@@ -124,8 +127,8 @@ TEST(Architecture, PublicHeadersUseTheStandardLibraryAndEigenOnly) {
     const bool is_public = include.file.ends_with(".hpp") &&
                            starts_with_any(include.file, {"maps/", "framework/contracts/", "framework/config/"});
     if (!is_public || !include.angled) continue;
-    EXPECT_TRUE(include.header.starts_with("Eigen/") || include.header.find('/') == std::string::npos &&
-                                                            include.header.find('.') == std::string::npos)
+    EXPECT_TRUE(include.header.starts_with("Eigen/") ||
+                include.header.find('/') == std::string::npos && include.header.find('.') == std::string::npos)
         << include.file << " includes <" << include.header << ">";
   }
 }

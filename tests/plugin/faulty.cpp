@@ -95,9 +95,9 @@ void add_plain(Registrar& registrar, const char* name) {
 }
 
 void register_module(Registrar& registrar) {
-  registrar.add<Sensor, CountingConfig>("counting_sensor", "for tests", [](const CountingConfig& c, const ModuleContext&) {
-    return std::make_unique<CountingSensor>(c.readings);
-  });
+  registrar.add<Sensor, CountingConfig>(
+      "counting_sensor", "for tests",
+      [](const CountingConfig& c, const ModuleContext&) { return std::make_unique<CountingSensor>(c.readings); });
   add_plain<Localizer, StillLocalizer>(registrar, "still_localizer");
   add_plain<Localizer, NanLocalizer>(registrar, "nan_localizer");
   add_plain<Mapper, EmptyMapper>(registrar, "empty_map");

@@ -21,10 +21,10 @@ class FencedMission : public testing::Test {
   FencedMission() : folder_(fs::path(testing::TempDir()) / "cairn_fenced") { fs::create_directories(folder_); }
 
   Mission mission_with(const std::string& localizer, const std::string& map, const std::string& steps) {
-    std::ofstream(folder_ / "mission.yaml") << "mission: fenced\nrobot: " << CAIRN_SOURCE_DIR
-                                            << "/config/robots/pioneer1.yaml\nsensor: {plugin: counting_sensor}\n"
-                                            << "localizer: {plugin: " << localizer << "}\nmap: {plugin: " << map
-                                            << "}\nsteps: " << steps << "\n";
+    std::ofstream(folder_ / "mission.yaml")
+        << "mission: fenced\nrobot: " << CAIRN_SOURCE_DIR
+        << "/config/robots/pioneer1.yaml\nsensor: {plugin: counting_sensor}\n"
+        << "localizer: {plugin: " << localizer << "}\nmap: {plugin: " << map << "}\nsteps: " << steps << "\n";
     return load_mission(folder_ / "mission.yaml");
   }
 
@@ -90,7 +90,8 @@ TEST_F(FencedMission, AnUnknownStepIsAnErrorWithItsPlace) {
     (void)run("still_localizer", "empty_map", "[endles]");
     FAIL() << "no error";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("mission.yaml:6:"), HasSubstr("unknown behaviour plugin \"endles\" (did you mean \"endless\"?)")));
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("mission.yaml:6:"),
+                                    HasSubstr("unknown behaviour plugin \"endles\" (did you mean \"endless\"?)")));
   }
 }
 

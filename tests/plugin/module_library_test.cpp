@@ -15,7 +15,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-fs::path folder_of(const std::string& fault) { return fs::path(CAIRN_BINARY_DIR) / "tests" / "plugin" / fault; }
+fs::path folder_of(const std::string& fault) {
+  return fs::path(CAIRN_BINARY_DIR) / "tests" / "plugin" / fault;
+}
 
 PluginChoice choice_of(const std::string& name) {
   PluginChoice choice{name, {}};
@@ -42,15 +44,14 @@ TEST(ModuleLibrary, SaysThatALibraryIsNoModule) {
 
 TEST(ModuleLibrary, NamesBothSidesOfAWrongAbiStamp) {
   const ModuleLibrary library({folder_of("wrong_stamp")});
-  EXPECT_THAT(library.faults(),
-              ElementsAre(AllOf(HasSubstr("wrong_stamp.so: was built with another ABI"), HasSubstr("module:  cairn 0.1.0, gcc 99.0"),
-                                HasSubstr("program: " + text_of(this_abi_stamp())))));
+  EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("wrong_stamp.so: was built with another ABI"),
+                                                  HasSubstr("module:  cairn 0.1.0, gcc 99.0"),
+                                                  HasSubstr("program: " + text_of(this_abi_stamp())))));
 }
 
 TEST(ModuleLibrary, SaysWhatAModuleThrewWhileRegistering) {
   const ModuleLibrary library({folder_of("throws_at_load")});
-  EXPECT_THAT(library.faults(),
-              ElementsAre(HasSubstr("throws_at_load.so: threw while registering: no licence found")));
+  EXPECT_THAT(library.faults(), ElementsAre(HasSubstr("throws_at_load.so: threw while registering: no licence found")));
 }
 
 TEST(ModuleLibrary, SaysThatATextFileCannotBeOpened) {
@@ -58,7 +59,8 @@ TEST(ModuleLibrary, SaysThatATextFileCannotBeOpened) {
   fs::create_directories(folder);
   std::ofstream(folder / "text.so") << std::string(4096, '#');
   const ModuleLibrary library({folder});
-  EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("text.so: cannot be opened as a module"), HasSubstr("ELF"))));
+  EXPECT_THAT(library.faults(),
+              ElementsAre(AllOf(HasSubstr("text.so: cannot be opened as a module"), HasSubstr("ELF"))));
 }
 
 TEST(ModuleLibrary, AMissingFolderIsAFault) {

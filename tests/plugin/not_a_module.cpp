@@ -1,2 +1,4 @@
 // A shared library that is no Cairn module.
-extern "C" int unrelated_function() { return 42; }
+extern "C" int unrelated_function() {
+  return 42;
+}

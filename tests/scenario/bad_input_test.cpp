@@ -14,16 +14,21 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string config(const std::string& path) { return source_folder() + "/config/" + path; }
+std::string config(const std::string& path) {
+  return source_folder() + "/config/" + path;
+}
 
 // A mission file with one thing changed from a good one.
 class BadMission : public testing::Test {
  protected:
   Finished run(const std::string& from, const std::string& to) {
-    std::string text = "mission: bad\nrobot: " + config("robots/pioneer1.yaml") + "\nworld: " + config("worlds/office.yaml") +
+    std::string text = "mission: bad\nrobot: " + config("robots/pioneer1.yaml") +
+                       "\nworld: " + config("worlds/office.yaml") +
                        "\nstart: {at_m: [0.6, 0.6], angle_deg: 0}\nsensor: {plugin: simulated_robot}\n"
                        "localizer: {plugin: odometry_compass}\nmap: {plugin: bayes_map, cell_m: 0.05}\n"
-                       "detector: {plugin: template_matcher, templates: " + config("templates") + ", coarse_cells: 5}\n"
+                       "detector: {plugin: template_matcher, templates: " +
+                       config("templates") +
+                       ", coarse_cells: 5}\n"
                        "planner: {plugin: hybrid}\nsteps:\n  - wait: {for_s: 1}\n";
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
@@ -31,29 +36,36 @@ class BadMission : public testing::Test {
     write_text(folder_ / "bad.yaml", text);
     return run_cairn({"run", (folder_ / "bad.yaml").string(), "--out", (folder_ / "out").string()});
   }
-  std::string place(const std::string& line_and_column) const { return "cairn: " + (folder_ / "bad.yaml").string() + ":" + line_and_column; }
+  std::string place(const std::string& line_and_column) const {
+    return "cairn: " + (folder_ / "bad.yaml").string() + ":" + line_and_column;
+  }
 
   const std::filesystem::path folder_ = fresh_folder("bad_mission");
 };
 
-TEST_F(BadMission, AGoodOneRuns) { EXPECT_EQ(run("for_s: 1", "for_s: 1").exit_status, 0); }
+TEST_F(BadMission, AGoodOneRuns) {
+  EXPECT_EQ(run("for_s: 1", "for_s: 1").exit_status, 0);
+}
 
 TEST_F(BadMission, AMisspeltKeyNamesItsPlaceAndTheNearestKey) {
   const Finished finished = run("localizer:", "localiser:");
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_THAT(finished.err, AllOf(StartsWith(place("6:1: ")), HasSubstr("localiser"), HasSubstr("did you mean \"localizer\"?")));
+  EXPECT_THAT(finished.err,
+              AllOf(StartsWith(place("6:1: ")), HasSubstr("localiser"), HasSubstr("did you mean \"localizer\"?")));
 }
 
 TEST_F(BadMission, AMisspeltKeyOfAModuleDoesToo) {
   const Finished finished = run("cell_m: 0.05", "cel_m: 0.05");
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_THAT(finished.err, AllOf(StartsWith(place("7:26: ")), HasSubstr("cel_m"), HasSubstr("did you mean \"cell_m\"?")));
+  EXPECT_THAT(finished.err,
+              AllOf(StartsWith(place("7:26: ")), HasSubstr("cel_m"), HasSubstr("did you mean \"cell_m\"?")));
 }
 
 TEST_F(BadMission, AWrongTypeSaysWhatIsExpected) {
   const Finished finished = run("cell_m: 0.05", "cell_m: small");
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_THAT(finished.err, AllOf(StartsWith(place("7:34: ")), HasSubstr("cell_m"), HasSubstr("number"), HasSubstr("small")));
+  EXPECT_THAT(finished.err,
+              AllOf(StartsWith(place("7:34: ")), HasSubstr("cell_m"), HasSubstr("number"), HasSubstr("small")));
 }
 
 TEST_F(BadMission, AValueOutOfRangeSaysWhatIsAllowed) {
@@ -71,7 +83,8 @@ TEST_F(BadMission, AMissingFileIsNamed) {
 TEST_F(BadMission, AnUnknownPluginNamesTheNearestOne) {
   const Finished finished = run("plugin: bayes_map", "plugin: bayes_mop");
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_THAT(finished.err, AllOf(StartsWith(place("7:")), HasSubstr("unknown map plugin \"bayes_mop\" (did you mean \"bayes_map\"?)")));
+  EXPECT_THAT(finished.err, AllOf(StartsWith(place("7:")),
+                                  HasSubstr("unknown map plugin \"bayes_mop\" (did you mean \"bayes_map\"?)")));
 }
 
 TEST_F(BadMission, AnUnknownStepNamesTheNearestOne) {
@@ -111,7 +124,9 @@ TEST(BadCommand, AMissingMissionFileIsNamed) {
   EXPECT_THAT(finished.err, AllOf(HasSubstr("/nowhere/mission.yaml"), HasSubstr("no such file")));
 }
 
-TEST(BadCommand, AnUnknownCommandIsWrongUsage) { EXPECT_EQ(run_cairn({"runn"}).exit_status, 2); }
+TEST(BadCommand, AnUnknownCommandIsWrongUsage) {
+  EXPECT_EQ(run_cairn({"runn"}).exit_status, 2);
+}
 
 TEST(BadCommand, APlanWithoutPlacesIsWrongUsage) {
   EXPECT_EQ(run_cairn({"plan", "x.cairn"}).exit_status, 2);
@@ -132,14 +147,16 @@ TEST(BadCommand, AnUnknownModuleNamesTheNearestOne) {
 }
 
 TEST(BadPlugin, ALibraryThatIsNoModuleIsToldAndTheOthersStayUsable) {
-  const Finished finished = run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/not_a_module"});
+  const Finished finished =
+      run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/not_a_module"});
   EXPECT_EQ(finished.exit_status, 1);
   EXPECT_THAT(finished.err, HasSubstr("not_a_module.so: is no Cairn module"));
   EXPECT_THAT(finished.out, HasSubstr("simulated_robot"));
 }
 
 TEST(BadPlugin, AnotherAbiStampIsToldWithBothSides) {
-  const Finished finished = run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/wrong_stamp"});
+  const Finished finished =
+      run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/wrong_stamp"});
   EXPECT_THAT(finished.err, AllOf(HasSubstr("wrong_stamp.so: was built with another ABI"), HasSubstr("gcc 99.0")));
 }
 
@@ -166,9 +183,13 @@ class BadLog : public testing::Test {
   const std::filesystem::path folder_ = fresh_folder("bad_log");
 };
 
-TEST_F(BadLog, AGoodOneRuns) { EXPECT_EQ(run(good_).exit_status, 0); }
+TEST_F(BadLog, AGoodOneRuns) {
+  EXPECT_EQ(run(good_).exit_status, 0);
+}
 
-TEST_F(BadLog, AnEmptyOneIsRefused) { expect_refused("", " ", "the log holds no observation"); }
+TEST_F(BadLog, AnEmptyOneIsRefused) {
+  expect_refused("", " ", "the log holds no observation");
+}
 
 TEST_F(BadLog, TimeThatGoesBackwardsIsRefusedWithItsLine) {
   expect_refused(good_ + "0.05 0.04 0 0 1.0 1.2\n", "3:1: ", "time goes backwards, from 0.1 s to 0.05 s");
@@ -178,7 +199,9 @@ TEST_F(BadLog, APoseThatIsNoNumberIsRefusedWithItsPlace) {
   expect_refused(good_ + "0.2 nan 0 0 1.0 1.2\n", "3:5: ", "must be finite");
 }
 
-TEST_F(BadLog, ALineCutShortIsRefusedWithItsLine) { expect_refused(good_ + "0.2 0.04 0 0 1.0\n", "3:", "the line has 5 columns, but column 6 is to be the range 2"); }
+TEST_F(BadLog, ALineCutShortIsRefusedWithItsLine) {
+  expect_refused(good_ + "0.2 0.04 0 0 1.0\n", "3:", "the line has 5 columns, but column 6 is to be the range 2");
+}
 
 // A sonar that failed once is no reason to lose the drive.
 TEST_F(BadLog, ARangeThatIsNoNumberIsAnInvalidReading) {

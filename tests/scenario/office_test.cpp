@@ -95,10 +95,11 @@ TEST(Office, AGoalOutsideTheRoomIsNoSuccess) {
 
 TEST(Office, QueriesAreAnsweredALineEach) {
   const auto folder = fresh_folder("queries");
-  write_text(folder / "q.jsonl",
-             "{\"id\": \"a\", \"from\": \"0.6,0.6\", \"to\": \"L1\"}\n{\"id\": \"b\", \"from\": \"L1\", \"to\": \"L2\"}\n");
-  const Finished run = run_cairn({"plan", (office_run() / "office.cairn").string(), "--queries",
-                                  (folder / "q.jsonl").string(), "--json"});
+  write_text(
+      folder / "q.jsonl",
+      "{\"id\": \"a\", \"from\": \"0.6,0.6\", \"to\": \"L1\"}\n{\"id\": \"b\", \"from\": \"L1\", \"to\": \"L2\"}\n");
+  const Finished run = run_cairn(
+      {"plan", (office_run() / "office.cairn").string(), "--queries", (folder / "q.jsonl").string(), "--json"});
   EXPECT_EQ(run.exit_status, 0) << run.out << run.err;
   const std::size_t split = run.out.find('\n');
   EXPECT_EQ(json::parse(run.out.substr(0, split))["id"], "a");
@@ -114,7 +115,8 @@ TEST(Office, MapInfoAndRenderReadTheMap) {
   EXPECT_EQ(map["cell_m"], 0.05);
   EXPECT_GT(map["explored_ratio"], 0.5);
   const auto picture = office_run() / "rendered.png";
-  EXPECT_EQ(run_cairn({"map", "render", (office_run() / "office.cairn").string(), "-o", picture.string()}).exit_status, 0);
+  EXPECT_EQ(run_cairn({"map", "render", (office_run() / "office.cairn").string(), "-o", picture.string()}).exit_status,
+            0);
   EXPECT_TRUE(std::filesystem::exists(picture));
 }
 

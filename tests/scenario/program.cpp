@@ -1,15 +1,16 @@
 #include "tests/scenario/program.hpp"
 
-#include <csignal>
-#include <cstdio>
 #include <fcntl.h>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <sstream>
-#include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 
 namespace cairn::testing_program {
 namespace {
@@ -50,7 +51,8 @@ void drain(const Pipe& out, const Pipe& err, Finished& finished, OnOutput on_out
       if (ends[i].fd < 0 || ends[i].revents == 0) continue;
       char buffer[4096];
       const ssize_t count = read(ends[i].fd, buffer, sizeof buffer);
-      if (count > 0) texts[i]->append(buffer, static_cast<std::size_t>(count));
+      if (count > 0)
+        texts[i]->append(buffer, static_cast<std::size_t>(count));
       else {
         close(ends[i].fd);
         ends[i].fd = -1;
@@ -82,8 +84,12 @@ Finished start(const std::vector<std::string>& arguments, bool interrupt) {
 
 }  // namespace
 
-Finished run_cairn(const std::vector<std::string>& arguments) { return start(arguments, false); }
-Finished interrupt_cairn(const std::vector<std::string>& arguments) { return start(arguments, true); }
+Finished run_cairn(const std::vector<std::string>& arguments) {
+  return start(arguments, false);
+}
+Finished interrupt_cairn(const std::vector<std::string>& arguments) {
+  return start(arguments, true);
+}
 
 std::filesystem::path fresh_folder(const std::string& name) {
   const auto folder = std::filesystem::path(testing::TempDir()) / ("cairn_" + name + "_" + std::to_string(getpid()));
@@ -99,8 +105,12 @@ std::string text_of_file(const std::filesystem::path& file) {
   return text.str();
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
 
-std::string source_folder() { return CAIRN_SOURCE_DIR; }
+std::string source_folder() {
+  return CAIRN_SOURCE_DIR;
+}
 
 }  // namespace cairn::testing_program

@@ -54,9 +54,10 @@ TEST(Place, AnUnknownCategoryNamesTheNearestKnownOne) {
 }
 
 TEST(Place, AnUnknownPlaceSaysWhatAPlaceIs) {
-  EXPECT_EQ(error_of("desc"),
-            "unknown place \"desc\" (did you mean \"desk\"?); a place is x,y or x,y,angle_deg, a landmark's id or name, "
-            "or `nearest CATEGORY`");
+  EXPECT_EQ(
+      error_of("desc"),
+      "unknown place \"desc\" (did you mean \"desk\"?); a place is x,y or x,y,angle_deg, a landmark's id or name, "
+      "or `nearest CATEGORY`");
 }
 
 TEST(Place, FourNumbersAreTooMany) {
