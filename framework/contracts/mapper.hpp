@@ -10,9 +10,10 @@ namespace cairn {
 class Mapper {
  public:
   virtual ~Mapper() = default;
-  // Folds one observation in and says which cells may have changed. Readings that are NaN, negative
-  // or out of their sensor's range follow stated rules; none throws.
-  virtual CellChanges integrate(const Observation& observation, const PoseEstimate& pose) = 0;
+  // Folds one observation in and says which cells may have changed; the answer is valid until the next
+  // call. Readings that are NaN, negative or out of their sensor's range follow stated rules; none
+  // throws. Hot: no allocation once the grid covers what is seen.
+  virtual const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) = 0;
   [[nodiscard]] virtual const OccupancyGrid& grid() const = 0;
 };
 

@@ -86,8 +86,9 @@ class MissionRunner::Impl : private Orders {
     account_for(observation_);
     pose_ = localize();
     keeper_.follow(pose_.T_map_robot);
-    const CellChanges changes =
-        fenced("map", mission_.config.map.name, [&] { return modules_.mapper->integrate(observation_, pose_); });
+    const CellChanges& changes = fenced("map", mission_.config.map.name, [&]() -> const CellChanges& {
+      return modules_.mapper->integrate(observation_, pose_);
+    });
     detect(changes);
     stop_layer_.see(observation_);
     behave();

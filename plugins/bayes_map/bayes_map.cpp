@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "plugins/bayes_map/beam_cells.hpp"
+#include "maps/beam_cells.hpp"
 
 namespace cairn::bayes_map {
 namespace {
@@ -23,32 +23,33 @@ Meaning meaning_of(const RangeReading& reading) {
 }
 
 // Sorted, and joined where they overlap or meet.
-std::vector<CellSpan> tidied(std::vector<CellSpan> spans) {
+void tidy(std::vector<CellSpan>& spans) {
   std::sort(spans.begin(), spans.end(),
             [](const CellSpan& a, const CellSpan& b) { return a.y != b.y ? a.y < b.y : a.x_begin < b.x_begin; });
-  std::vector<CellSpan> tidy;
+  std::size_t kept = 0;
   for (const CellSpan& span : spans) {
-    if (!tidy.empty() && tidy.back().y == span.y && span.x_begin <= tidy.back().x_end)
-      tidy.back().x_end = std::max(tidy.back().x_end, span.x_end);
+    CellSpan* const last = kept == 0 ? nullptr : &spans[kept - 1];
+    if (last != nullptr && last->y == span.y && span.x_begin <= last->x_end)
+      last->x_end = std::max(last->x_end, span.x_end);
     else
-      tidy.push_back(span);
+      spans[kept++] = span;
   }
-  return tidy;
+  spans.resize(kept);
 }
 
 }  // namespace
 
 BayesMap::BayesMap(const Config& config) : beam_model_(config), grid_(config.cell_m, config.clamp_nat) {}
 
-CellChanges BayesMap::integrate(const Observation& observation, const PoseEstimate& pose) {
-  if (!is_finite(pose.T_map_robot)) return {};
-  std::vector<CellSpan> changed;
-  for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot, changed);
-  return {observation.ranges.size() > 1 ? tidied(std::move(changed)) : std::move(changed)};
+const CellChanges& BayesMap::integrate(const Observation& observation, const PoseEstimate& pose) {
+  changes_.spans.clear();
+  if (!is_finite(pose.T_map_robot)) return changes_;
+  for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
+  if (observation.ranges.size() > 1) tidy(changes_.spans);
+  return changes_;
 }
 
-void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map_robot,
-                                 std::vector<CellSpan>& changed) {
+void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map_robot) {
   const Meaning meaning = meaning_of(reading);
   if (meaning == Meaning::ignored) return;
   const bool echo = meaning == Meaning::echo;
@@ -62,7 +63,8 @@ void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map
                                : beam_model_.lambda_of_silence(alpha, place.range_m, reading.max_m);
     return static_cast<int>(std::lround(kLogOddsPerNat * std::log(lambda)));
   };
-  for (const CellSpan& span : spans_over(beam, grid_.cell_m())) {
+  spans_over(beam, grid_.cell_m(), spans_);
+  for (const CellSpan& span : spans_) {
     CellSpan moved{span.y, span.x_end, span.x_end};
     for (int x = span.x_begin; x < span.x_end; ++x) {
       const Cell cell{x, span.y};
@@ -72,7 +74,7 @@ void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map
       moved.x_begin = std::min(moved.x_begin, x);
       moved.x_end = x + 1;
     }
-    if (moved.x_begin < moved.x_end) changed.push_back(moved);
+    if (moved.x_begin < moved.x_end) changes_.spans.push_back(moved);
   }
 }
 

@@ -20,14 +20,16 @@ class BayesMap final : public Mapper {
   explicit BayesMap(const Config& config);
 
   // The spans cover the cells whose log-odds really changed. O(cells in the beams).
-  CellChanges integrate(const Observation& observation, const PoseEstimate& pose) override;
+  const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
 
  private:
-  void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot, std::vector<CellSpan>& changed);
+  void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);
 
   BeamModel beam_model_;
   OccupancyGrid grid_;
+  CellChanges changes_;  // of the latest call
+  std::vector<CellSpan> spans_;  // kept for its memory only
 };
 
 }  // namespace cairn::bayes_map

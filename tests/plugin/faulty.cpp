@@ -53,18 +53,19 @@ class NanLocalizer : public Localizer {
 
 class EmptyMapper : public Mapper {
  public:
-  CellChanges integrate(const Observation&, const PoseEstimate&) override { return {}; }
+  const CellChanges& integrate(const Observation&, const PoseEstimate&) override { return none_; }
   const OccupancyGrid& grid() const override { return grid_; }
 
  private:
   OccupancyGrid grid_{0.1};
+  CellChanges none_;
 };
 
 class ThrowingMapper : public EmptyMapper {
  public:
-  CellChanges integrate(const Observation&, const PoseEstimate&) override {
+  const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override {
     if (++calls_ == 3) throw std::runtime_error("the map is torn");
-    return {};
+    return EmptyMapper::integrate(observation, pose);
   }
 
  private:
@@ -73,7 +74,7 @@ class ThrowingMapper : public EmptyMapper {
 
 class NumberThrowingMapper : public EmptyMapper {
  public:
-  CellChanges integrate(const Observation&, const PoseEstimate&) override { throw 42; }
+  const CellChanges& integrate(const Observation&, const PoseEstimate&) override { throw 42; }
 };
 
 class FailingBehaviour : public Behaviour {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,9 @@ using testing::HasSubstr;
 
 class FencedMission : public testing::Test {
  protected:
-  FencedMission() : folder_(fs::path(testing::TempDir()) / "cairn_fenced") { fs::create_directories(folder_); }
+  FencedMission() : folder_(fs::path(testing::TempDir()) / ("cairn_fenced_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
 
   Mission mission_with(const std::string& localizer, const std::string& map, const std::string& steps) {
     std::ofstream(folder_ / "mission.yaml")

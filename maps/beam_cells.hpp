@@ -8,7 +8,7 @@
 #include "maps/cell.hpp"
 #include "maps/pose.hpp"
 
-namespace cairn::bayes_map {
+namespace cairn {
 
 // A sector of a disc on a lattice with its origin at the map's: apex and axis from T_map_sensor.
 // half_beam_rad 0 is a ray.
@@ -20,8 +20,9 @@ struct Beam {
 
 // Spans that hold every cell of the beam, one a row, rows rising. For a cone a cell is of the beam
 // when its centre is; for a ray, when the ray touches it and its centre is not beyond the reach.
-// A span may hold a few cells more, so ask BeamFrame::place_of().
-[[nodiscard]] std::vector<CellSpan> spans_over(const Beam& beam, double cell_m);
+// A span may hold a few cells more, so ask BeamFrame::place_of(). `spans` is replaced; it is the
+// caller's so that its memory serves again.
+void spans_over(const Beam& beam, double cell_m, std::vector<CellSpan>& spans);
 
 // A cell as the sensor sees it.
 struct BeamPlace {
@@ -53,4 +54,4 @@ class BeamFrame {
   Point ahead_;
 };
 
-}  // namespace cairn::bayes_map
+}  // namespace cairn

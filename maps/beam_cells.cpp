@@ -1,10 +1,10 @@
-#include "plugins/bayes_map/beam_cells.hpp"
+#include "maps/beam_cells.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <numbers>
 
-namespace cairn::bayes_map {
+namespace cairn {
 namespace {
 
 // In cells: more than all rounding here, less than matters. Spans may be too wide, never too narrow.
@@ -57,14 +57,13 @@ int floor_of(double cells) {
   return static_cast<int>(std::floor(cells));
 }
 
-std::vector<CellSpan> spans_of_cone(const Beam& beam, const Point& apex, double reach) {
+void spans_of_cone(const Beam& beam, const Point& apex, double reach, std::vector<CellSpan>& spans) {
   const double axis = beam.T_map_sensor.theta_rad;
   const Interval rows = rows_of(axis, beam.half_beam_rad, reach);
   const Point right_edge = direction_of(axis - beam.half_beam_rad);
   const Point left_edge = direction_of(axis + beam.half_beam_rad);
   const bool convex = beam.half_beam_rad <= 0.5 * std::numbers::pi;
 
-  std::vector<CellSpan> spans;
   const int y_last = floor_of(apex.y() + rows.high - 0.5 + kMargin_cells);
   for (int cell_y = floor_of(apex.y() + rows.low + 0.5 - kMargin_cells); cell_y <= y_last; ++cell_y) {
     const double y = cell_y + 0.5 - apex.y();
@@ -78,13 +77,11 @@ std::vector<CellSpan> spans_of_cone(const Beam& beam, const Point& apex, double 
     const int end = floor_of(apex.x() + x.high + 0.5 + kMargin_cells);
     if (first < end) spans.push_back({cell_y, first, end});
   }
-  return spans;
 }
 
-std::vector<CellSpan> spans_of_ray(const Beam& beam, const Point& apex, double reach) {
+void spans_of_ray(const Beam& beam, const Point& apex, double reach, std::vector<CellSpan>& spans) {
   const Point way = reach * beam.T_map_sensor.direction();
   const Point tip = apex + way;
-  std::vector<CellSpan> spans;
   const int y_last = floor_of(std::max(apex.y(), tip.y()));
   for (int y = floor_of(std::min(apex.y(), tip.y())); y <= y_last; ++y) {
     Interval x{std::min(apex.x(), tip.x()), std::max(apex.x(), tip.x())};
@@ -95,16 +92,19 @@ std::vector<CellSpan> spans_of_ray(const Beam& beam, const Point& apex, double r
     }
     if (x.low <= x.high) spans.push_back({y, floor_of(x.low), floor_of(x.high) + 1});
   }
-  return spans;
 }
 
 }  // namespace
 
-std::vector<CellSpan> spans_over(const Beam& beam, double cell_m) {
-  if (!(beam.reach_m > 0.0)) return {};
+void spans_over(const Beam& beam, double cell_m, std::vector<CellSpan>& spans) {
+  spans.clear();
+  if (!(beam.reach_m > 0.0)) return;
   const Point apex = beam.T_map_sensor.position() / cell_m;
   const double reach = beam.reach_m / cell_m;
-  return beam.half_beam_rad > 0.0 ? spans_of_cone(beam, apex, reach) : spans_of_ray(beam, apex, reach);
+  if (beam.half_beam_rad > 0.0)
+    spans_of_cone(beam, apex, reach, spans);
+  else
+    spans_of_ray(beam, apex, reach, spans);
 }
 
-}  // namespace cairn::bayes_map
+}  // namespace cairn

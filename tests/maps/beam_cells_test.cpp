@@ -1,4 +1,4 @@
-#include "plugins/bayes_map/beam_cells.hpp"
+#include "maps/beam_cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,14 +9,16 @@
 #include <set>
 #include <string>
 
-namespace cairn::bayes_map {
+namespace cairn {
 namespace {
 
 std::set<Cell> cells_of(const Beam& beam, double cell_m) {
   const BeamFrame frame(beam, cell_m);
   std::set<Cell> cells;
   int last_y = std::numeric_limits<int>::min();
-  for (const CellSpan& span : spans_over(beam, cell_m)) {
+  std::vector<CellSpan> spans;
+  spans_over(beam, cell_m, spans);
+  for (const CellSpan& span : spans) {
     EXPECT_GT(span.y, last_y) << "rows rise and each has one span";
     last_y = span.y;
     for (int x = span.x_begin; x < span.x_end; ++x)
@@ -96,9 +98,9 @@ TEST(BeamCells, OfARayMatchSmallStepsAlongIt) {
 }
 
 TEST(BeamCells, AreNoneWithoutReach) {
-  EXPECT_TRUE(spans_over({{}, radians(15.0), 0.0}, 0.05).empty());
-  EXPECT_TRUE(spans_over({{}, 0.0, -1.0}, 0.05).empty());
+  EXPECT_TRUE(cells_of({{}, radians(15.0), 0.0}, 0.05).empty());
+  EXPECT_TRUE(cells_of({{}, 0.0, -1.0}, 0.05).empty());
 }
 
 }  // namespace
-}  // namespace cairn::bayes_map
+}  // namespace cairn
