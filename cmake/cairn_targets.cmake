@@ -36,14 +36,21 @@ function(cairn_add_module name)
   set_property(GLOBAL APPEND PROPERTY CAIRN_MODULES ${name})
 endfunction()
 
-# cairn_add_test(NAME SOURCES ... [LINK ...]): one GoogleTest program, every case known to ctest.
+# cairn_add_test(NAME SOURCES ... [LINK ...] [TOGETHER SUITE]): one GoogleTest program, every case known
+# to ctest; the cases of SUITE as one, since they share something dear.
 function(cairn_add_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "TOGETHER" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest_main cairn_private_options ${arg_LINK})
   target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                              CAIRN_BINARY_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  set(filter)
+  if(arg_TOGETHER)
+    set(filter TEST_FILTER "-${arg_TOGETHER}.*")
+    add_test(NAME ${arg_TOGETHER} COMMAND ${name} "--gtest_filter=${arg_TOGETHER}.*")
+    set_tests_properties(${arg_TOGETHER} PROPERTIES TIMEOUT 300)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300 ${filter})
   add_dependencies(cairn_tests ${name})
 endfunction()

@@ -9,8 +9,7 @@ namespace cairn {
 namespace {
 
 constexpr int kTableHalf = 32768;
-constexpr double kLatticeRim = 1 << 30;     // keeps sums of cell indices inside an int
-constexpr int kLargestCellIndex = 1 << 17;  // 6.5 km at 0.05 m: beyond it something else is wrong
+constexpr double kLatticeRim = 1 << 30;  // keeps sums of cell indices inside an int
 
 // OL of every int16 log-odds value: 64 KiB, computed once.
 const std::vector<std::uint8_t>& ol_table() {
@@ -72,7 +71,7 @@ Cell cell_on_lattice(const Point& p_map, const Point& origin_m, double cell_m) {
   return {saturated_floor((p_map.x() - origin_m.x()) / cell_m), saturated_floor((p_map.y() - origin_m.y()) / cell_m)};
 }
 
-OccupancyGrid::OccupancyGrid(double cell_m, double clamp_nat, Point origin_m)
+OccupancyGrid::OccupancyGrid(double cell_m, double clamp_nat, const Point& origin_m)
     : cell_m_(cell_m), clamp_(checked_clamp(clamp_nat)), origin_m_(origin_m) {
   if (!(cell_m > 0.0) || !std::isfinite(cell_m))
     throw std::invalid_argument("OccupancyGrid: cell_m must be positive, got " + std::to_string(cell_m));
@@ -110,7 +109,12 @@ void OccupancyGrid::include(const CellBox& box) {
                             " cells to a side is too small for the cells (" + std::to_string(box.min.x) + ", " +
                             std::to_string(box.min.y) + ") to (" + std::to_string(box.max.x) + ", " +
                             std::to_string(box.max.y) + ")");
-  bounds_ = united(bounds_, box);
+  const CellBox all = united(bounds_, box);
+  if (std::int64_t{all.width()} * all.height() > kMostCells)
+    throw std::length_error("OccupancyGrid: a map of " + std::to_string(all.width()) + " x " +
+                            std::to_string(all.height()) + " cells is too large, at most " +
+                            std::to_string(kMostCells) + " cells are possible");
+  bounds_ = all;
 }
 
 void OccupancyGrid::set_log_odds(Cell cell, LogOdds value) {

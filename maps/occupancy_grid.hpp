@@ -48,11 +48,13 @@ struct OccupancyThresholds {
 
 class OccupancyGrid {
  public:
+  static constexpr int kLargestCellIndex = 1 << 17;  // 6.5 km at 0.05 m: beyond it something else is wrong
+  static constexpr std::int64_t kMostCells = std::int64_t{1} << 28;  // of bounds()
   static constexpr int kTileSide = 64;
 
   // origin_m: lower left corner of cell (0, 0) in the map frame. clamp_nat bounds |L|. Throws
   // std::invalid_argument unless cell_m > 0, 1/256 <= clamp_nat <= 127 and the origin is finite.
-  explicit OccupancyGrid(double cell_m, double clamp_nat = 4.0, Point origin_m = {0.0, 0.0});
+  explicit OccupancyGrid(double cell_m, double clamp_nat = 4.0, const Point& origin_m = {0.0, 0.0});
   OccupancyGrid(const OccupancyGrid& other);
   OccupancyGrid& operator=(const OccupancyGrid& other);
   OccupancyGrid(OccupancyGrid&&) noexcept = default;

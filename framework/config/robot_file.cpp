@@ -53,7 +53,8 @@ struct FiringConfig {
   static void describe(Fields<FiringConfig>& fields) {
     fields.raw("order", &FiringConfig::order, "list of integers",
                "which sonar fires when, by its number in the list (from 0); as listed when left out");
-    fields.number("period_s", &FiringConfig::period_s, {0.001, 10.0}, "s", "one sonar fires each period");
+    fields.number("period_s", &FiringConfig::period_s, {0.0, 10.0}, "s",
+                  "one sonar fires each period; 0: all fire at once");
   }
 };
 

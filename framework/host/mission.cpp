@@ -77,6 +77,9 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
   fields.group("stop_layer", &C::stop_layer, "what keeps the robot from driving into what it sees");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
+  fields.number(
+      "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
+      "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
   fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
 }
 

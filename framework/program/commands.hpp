@@ -10,6 +10,8 @@
 
 namespace cairn {
 
+inline constexpr double kMostRadius_m = 10.0;  // of a robot that a plan is for
+
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitNotSolved = 1;
 inline constexpr int kExitBadInput = 2;
@@ -60,8 +62,13 @@ struct TemplateCommand {
 int template_list(const TemplateCommand& command, const CommonOptions& common);
 int template_preview(const TemplateCommand& command, const CommonOptions& common);
 
+struct PluginsCommand {
+  std::string name;
+  std::filesystem::path file;
+};
 int plugins_list(const CommonOptions& common);
 int plugins_info(const std::string& name, const CommonOptions& common);
+int plugins_check(const std::filesystem::path& file, const CommonOptions& common);
 
 struct ExperimentCommand {
   std::filesystem::path file;

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -40,6 +41,13 @@ void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGr
       if (matched.landmark == id) out << fmt::format(" {:9.3f}", matched.error_m);
     out << "\n";
   }
+}
+
+void print_times(std::ostream& out, const std::vector<StageTime>& times) {
+  out << "\n  stage       module                  calls  median us     p99 us   worst us\n";
+  for (const StageTime& t : times)
+    out << fmt::format("  {:<11} {:<20} {:>8} {:>10.2f} {:>10.2f} {:>10.2f}\n", t.stage, t.module, t.count, t.median_us,
+                       t.p99_us, t.worst_us);
 }
 
 void print_summary(std::ostream& out, const Mission& mission, const MissionResult& result, const MissionRunner& runner,
@@ -81,11 +89,19 @@ int run(const RunCommand& command, const CommonOptions& common) {
     result = runner.run();
   }
   const RunPictures pictures = draw_run(command.out, mission, runner, report);
+  write_file(command.out / "timing.json", timing_json(runner.times()) + "\n");
   write_file(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  print_times(people, runner.times());
   print_summary(people, mission, result, runner, pictures, command.out, wall_s);
   if (common.json)
-    std::cout << report.summary_json(mission, result, runner.graph(), command.out, pictures.files, wall_s) << "\n";
+    std::cout << report.summary_json(mission, result, runner, command.out, pictures.files, wall_s) << "\n";
+  if (runner.gave_up()) {
+    // The lost call still runs: nothing that it may use can be torn down.
+    std::cout.flush();
+    std::cerr.flush();
+    std::_Exit(kExitNotSolved);
+  }
   return result.outcome == MissionOutcome::done ? kExitDone : kExitNotSolved;
 }
 

@@ -28,7 +28,7 @@ class BayesMap final : public Mapper {
 
   BeamModel beam_model_;
   OccupancyGrid grid_;
-  CellChanges changes_;  // of the latest call
+  CellChanges changes_;          // of the latest call
   std::vector<CellSpan> spans_;  // kept for its memory only
 };
 
