@@ -73,7 +73,8 @@ void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common
   preview->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
 }
 
-void add_plugins(CLI::App& app, std::string& name, const CommonOptions& common, Action& action) {
+void add_plugins(CLI::App& app, std::string& name, NewPluginCommand& fresh, const CommonOptions& common,
+                 Action& action) {
   CLI::App* plugins = app.add_subcommand("plugins", "List the modules, or one module's settings");
   plugins->callback([&] {
     if (!action) action = [&] { return plugins_list(common); };
@@ -81,6 +82,11 @@ void add_plugins(CLI::App& app, std::string& name, const CommonOptions& common, 
   CLI::App* info = plugins->add_subcommand("info", "Settings of one module");
   info->add_option("NAME", name, "module")->required();
   info->callback([&] { action = [&] { return plugins_info(name, common); }; });
+  CLI::App* made = plugins->add_subcommand("new", "Write a small complete project for a new module");
+  made->add_option("KIND", fresh.kind, "sensor, localizer, map, detector, planner or behaviour")->required();
+  made->add_option("NAME", fresh.name, "of the module, in lower_snake_case")->required();
+  made->add_option("--folder", fresh.folder, "of the new project; without it, NAME");
+  made->callback([&] { action = [&] { return plugins_new(fresh, common); }; });
 }
 
 void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& common, Action& action) {
@@ -105,12 +111,13 @@ int main_of(int argc, char** argv) {
   TemplateCommand template_options;
   ExperimentCommand experiment_options;
   std::string plugin_name;
+  NewPluginCommand new_plugin;
   Action action;
   add_run(app, run_options, common, action);
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
   add_template(app, template_options, common, action);
-  add_plugins(app, plugin_name, common, action);
+  add_plugins(app, plugin_name, new_plugin, common, action);
   add_experiment(app, experiment_options, common, action);
   try {
     app.parse(argc, argv);
