@@ -70,6 +70,13 @@ int plugins_list(const CommonOptions& common);
 int plugins_info(const std::string& name, const CommonOptions& common);
 int plugins_check(const std::filesystem::path& file, const CommonOptions& common);
 
+struct NewPluginCommand {
+  std::string kind;
+  std::string name;
+  std::filesystem::path folder;  // of the new project; empty: the module's name
+};
+int plugins_new(const NewPluginCommand& command, const CommonOptions& common);
+
 struct ExperimentCommand {
   std::filesystem::path file;
   std::filesystem::path out = "out/experiment";

@@ -88,6 +88,14 @@ void add_plugins(CLI::App& app, PluginsCommand& c, const CommonOptions& common, 
   check->callback([&] { action = [&] { return plugins_check(c.file, common); }; });
 }
 
+void add_plugins_new(CLI::App& app, NewPluginCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* made = app.get_subcommand("plugins")->add_subcommand("new", "Write a small complete project for a module");
+  made->add_option("KIND", c.kind, "sensor, localizer, map, detector, planner or behaviour")->required();
+  made->add_option("NAME", c.name, "of the module, in lower_snake_case")->required();
+  made->add_option("--folder", c.folder, "of the new project; without it, NAME");
+  made->callback([&] { action = [&] { return plugins_new(c, common); }; });
+}
+
 void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* sub = app.add_subcommand("experiment", "Run an experiment over many seeds and write its table");
   sub->add_option("FILE", c.file, "experiment file (config/experiments/*.yaml)")->required();
@@ -110,12 +118,14 @@ int main_of(int argc, char** argv) {
   TemplateCommand template_options;
   ExperimentCommand experiment_options;
   PluginsCommand plugins_options;
+  NewPluginCommand new_plugin_options;
   Action action;
   add_run(app, run_options, common, action);
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
   add_template(app, template_options, common, action);
   add_plugins(app, plugins_options, common, action);
+  add_plugins_new(app, new_plugin_options, common, action);
   add_experiment(app, experiment_options, common, action);
   try {
     app.parse(argc, argv);
