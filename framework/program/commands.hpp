@@ -63,6 +63,12 @@ int template_preview(const TemplateCommand& command, const CommonOptions& common
 int plugins_list(const CommonOptions& common);
 int plugins_info(const std::string& name, const CommonOptions& common);
 
+struct ReferenceCommand {
+  std::filesystem::path markdown;       // empty, and no folder either: to standard output
+  std::filesystem::path schema_folder;  // gets mission.schema.json and the like
+};
+int plugins_reference(const ReferenceCommand& command, const CommonOptions& common);
+
 struct ExperimentCommand {
   std::filesystem::path file;
   std::filesystem::path out = "out/experiment";

@@ -83,6 +83,13 @@ void add_plugins(CLI::App& app, std::string& name, const CommonOptions& common, 
   info->callback([&] { action = [&] { return plugins_info(name, common); }; });
 }
 
+void add_reference(CLI::App& app, ReferenceCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* sub = app.get_subcommand("plugins")->add_subcommand("reference", "Every setting of every file and module");
+  sub->add_option("--markdown", c.markdown, "write the configuration reference into this file");
+  sub->add_option("--schema-folder", c.schema_folder, "write the JSON schemas for editors into this folder");
+  sub->callback([&] { action = [&] { return plugins_reference(c, common); }; });
+}
+
 void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* sub = app.add_subcommand("experiment", "Run an experiment over many seeds and write its table");
   sub->add_option("FILE", c.file, "experiment file (config/experiments/*.yaml)")->required();
@@ -104,6 +111,7 @@ int main_of(int argc, char** argv) {
   MapCommand map_options;
   TemplateCommand template_options;
   ExperimentCommand experiment_options;
+  ReferenceCommand reference_options;
   std::string plugin_name;
   Action action;
   add_run(app, run_options, common, action);
@@ -111,6 +119,7 @@ int main_of(int argc, char** argv) {
   add_map(app, map_options, common, action);
   add_template(app, template_options, common, action);
   add_plugins(app, plugin_name, common, action);
+  add_reference(app, reference_options, common, action);
   add_experiment(app, experiment_options, common, action);
   try {
     app.parse(argc, argv);
