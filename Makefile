@@ -1,6 +1,6 @@
 # Each verb works alone on a fresh Debian 12 machine: it installs what packages.txt lists (only what
 # is missing), configures and builds.
-.PHONY: build demo test check bench deps experiment
+.PHONY: build demo test check bench deps experiment reference
 .DEFAULT_GOAL := build
 
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
@@ -36,3 +36,6 @@ bench: build
 
 experiment: build
 	$(CAIRN) experiment config/experiments/first_mission.yaml --out out/first_mission
+
+reference: build
+	$(CAIRN) plugins reference --markdown docs/configuration.md --schema-folder config/schema

@@ -122,11 +122,12 @@ struct RobotConfig {
     fields.group("odometry", &RobotConfig::odometry, "standard deviations of its dead reckoning");
     fields.group("compass", &RobotConfig::compass, "standard deviations of its compass");
     fields.group("ranges", &RobotConfig::ranges, "standard deviations of its ranges");
+    fields.one_of({"radius_m", "polygon_m"});
   }
 };
 
 void set_footprint(RobotModel& robot, const RobotConfig& config, const ConfigValue& root) {
-  if (config_detail::exactly_one_of(root, {"radius_m", "polygon_m"}, "robot") == "radius_m") {
+  if (config_detail::exactly_one_of(root, robot_file_schema().one_of, "robot") == "radius_m") {
     robot.radius_m = config.radius_m;
     return;
   }
@@ -182,6 +183,10 @@ void set_firing(RobotModel& robot, const FiringConfig& firing) {
 }
 
 }  // namespace
+
+Schema robot_file_schema() {
+  return schema_of<RobotConfig>();
+}
 
 RobotModel load_robot(const std::filesystem::path& file) {
   const ConfigValue root = read_config_file(file);

@@ -77,6 +77,12 @@ struct NewPluginCommand {
 };
 int plugins_new(const NewPluginCommand& command, const CommonOptions& common);
 
+struct ReferenceCommand {
+  std::filesystem::path markdown;       // empty, and no folder either: to standard output
+  std::filesystem::path schema_folder;  // gets mission.schema.json and the like
+};
+int plugins_reference(const ReferenceCommand& command, const CommonOptions& common);
+
 struct ExperimentCommand {
   std::filesystem::path file;
   std::filesystem::path out = "out/experiment";

@@ -96,6 +96,13 @@ void add_plugins_new(CLI::App& app, NewPluginCommand& c, const CommonOptions& co
   made->callback([&] { action = [&] { return plugins_new(c, common); }; });
 }
 
+void add_reference(CLI::App& app, ReferenceCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* sub = app.get_subcommand("plugins")->add_subcommand("reference", "Every setting of every file and module");
+  sub->add_option("--markdown", c.markdown, "write the configuration reference into this file");
+  sub->add_option("--schema-folder", c.schema_folder, "write the JSON schemas for editors into this folder");
+  sub->callback([&] { action = [&] { return plugins_reference(c, common); }; });
+}
+
 void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* sub = app.add_subcommand("experiment", "Run an experiment over many seeds and write its table");
   sub->add_option("FILE", c.file, "experiment file (config/experiments/*.yaml)")->required();
@@ -119,6 +126,7 @@ int main_of(int argc, char** argv) {
   ExperimentCommand experiment_options;
   PluginsCommand plugins_options;
   NewPluginCommand new_plugin_options;
+  ReferenceCommand reference_options;
   Action action;
   add_run(app, run_options, common, action);
   add_plan(app, plan_options, common, action);
@@ -126,6 +134,7 @@ int main_of(int argc, char** argv) {
   add_template(app, template_options, common, action);
   add_plugins(app, plugins_options, common, action);
   add_plugins_new(app, new_plugin_options, common, action);
+  add_reference(app, reference_options, common, action);
   add_experiment(app, experiment_options, common, action);
   try {
     app.parse(argc, argv);
