@@ -103,9 +103,9 @@ Point OccupancyGrid::centre_of(Cell cell) const {
 
 void OccupancyGrid::include(const CellBox& box) {
   if (box.empty() || intersected(bounds_, box) == box) return;
-  constexpr CellBox kAllowed{{-kLargestCellIndex, -kLargestCellIndex}, {kLargestCellIndex, kLargestCellIndex}};
+  constexpr CellBox kAllowed{{-kMostCells, -kMostCells}, {kMostCells, kMostCells}};
   if (intersected(kAllowed, box) != box)
-    throw std::length_error("OccupancyGrid: a map of " + std::to_string(kLargestCellIndex) +
+    throw std::length_error("OccupancyGrid: a map of " + std::to_string(kMostCells) +
                             " cells to a side is too small for the cells (" + std::to_string(box.min.x) + ", " +
                             std::to_string(box.min.y) + ") to (" + std::to_string(box.max.x) + ", " +
                             std::to_string(box.max.y) + ")");

@@ -51,6 +51,7 @@ class OccupancyGrid {
   static constexpr int kLargestCellIndex = 1 << 17;  // 6.5 km at 0.05 m: beyond it something else is wrong
   static constexpr std::int64_t kMostCells = std::int64_t{1} << 28;  // of bounds()
   static constexpr int kTileSide = 64;
+  static constexpr int kMostCells = 1 << 17;  // each way: 6.5 km at 0.05 m; beyond it something else is wrong
 
   // origin_m: lower left corner of cell (0, 0) in the map frame. clamp_nat bounds |L|. Throws
   // std::invalid_argument unless cell_m > 0, 1/256 <= clamp_nat <= 127 and the origin is finite.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "maps/beam_cells.hpp"
@@ -16,10 +17,17 @@ bool is_finite(const Pose2& pose) {
 }
 
 Meaning meaning_of(const RangeReading& reading) {
-  const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 && reading.max_m > 0.0;
+  const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 &&
+                    reading.half_beam_rad <= std::numbers::pi && reading.max_m > 0.0;
   if (!sane || std::isnan(reading.range_m)) return Meaning::ignored;
   if (reading.range_m >= reading.max_m) return Meaning::silence;
   return reading.range_m >= reading.min_m && reading.range_m > 0.0 ? Meaning::echo : Meaning::ignored;
+}
+
+// No grid has cells further out than this; one more on each side for rounding.
+bool is_within_reach(const Beam& beam, double cell_m) {
+  const double most_m = (OccupancyGrid::kMostCells - 1) * cell_m - beam.reach_m;
+  return beam.T_map_sensor.position().cwiseAbs().maxCoeff() < most_m;
 }
 
 // Sorted, and joined where they overlap or meet.
@@ -55,6 +63,7 @@ void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map
   const bool echo = meaning == Meaning::echo;
   const Beam beam{T_map_robot * reading.T_robot_sensor, reading.half_beam_rad,
                   echo ? beam_model_.reach_of_echo_m(reading.range_m) : beam_model_.reach_of_silence_m(reading.max_m)};
+  if (!is_within_reach(beam, grid_.cell_m())) return;
   const BeamFrame frame(beam, grid_.cell_m());
 
   const auto increment_of = [&](const BeamPlace& place) {

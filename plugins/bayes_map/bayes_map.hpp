@@ -6,8 +6,9 @@
 //   range >= max_m, or +inf         no echo
 //   range < min_m, negative, -inf   ignored: nearer than the sensor can tell
 //   NaN                             ignored: a bad reading
-// A reading whose own geometry is not finite, or whose half_beam is negative, is ignored too, and so is
-// an observation under a pose that is not finite. half_beam 0 is a ray.
+// A reading whose own geometry is not finite, whose half_beam is not in [0, pi], or whose beam leaves
+// what a grid can hold, is ignored too, and so is an observation under a pose that is not finite.
+// half_beam 0 is a ray.
 #pragma once
 
 #include "framework/contracts/mapper.hpp"

@@ -56,7 +56,9 @@ void BehaviourHost::say(const std::string& sentence) {
 
 Status BehaviourHost::tick(Behaviour& behaviour) {
   wanted_ = {};
-  const Observation seen = seen_in_room(T_map_robot, time_s, robot);
+  Observation seen = seen_in_room(T_map_robot, time_s, robot);
+  if (sees_oddly)
+    for (const auto& [what, reading] : odd_readings()) seen.ranges.push_back(reading);
   const WorldView world{grid,
                         graph,
                         robot,

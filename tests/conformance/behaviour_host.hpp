@@ -33,6 +33,7 @@ class BehaviourHost : public Orders {
   double time_s = 0.0;
   double tick_s = 0.05;
   bool sees = true;                // WorldView::observation is not null
+  bool sees_oddly = false;         // among its readings are those of odd_readings()
   bool holds_back = false;         // the stop layer lets nothing through
   bool finds_no_way = false;       // plan() answers no_route
   bool finds_empty_paths = false;  // plan() answers solved with no pose

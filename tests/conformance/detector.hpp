@@ -18,11 +18,14 @@ namespace cairn::conformance {
 class DetectorConformance : public Conformance<Detector> {
  protected:
   [[nodiscard]] double cell_m() const { return setup().templates->cell_m; }
-  // Each shape once, turned a little, far from the lattice's origin on both sides of it.
+  // A cell's centre for each shape, on both sides of the lattice's origin.
   [[nodiscard]] std::vector<Pose2> places() const {
     std::vector<Pose2> places;
-    for (std::size_t i = 0; i < setup().templates->shapes.size(); ++i)
-      places.push_back({i % 2 == 0 ? 5.0 : -5.0, 3.0 + static_cast<double>(i), 0.0});
+    const OccupancyGrid lattice(cell_m());
+    for (std::size_t i = 0; i < setup().templates->shapes.size(); ++i) {
+      const Point at = lattice.centre_of(lattice.cell_at({i % 2 == 0 ? 5.0 : -5.0, 3.0 + static_cast<double>(i)}));
+      places.push_back({at.x(), at.y(), 0.0});
+    }
     return places;
   }
   [[nodiscard]] OccupancyGrid landmark_grid(std::size_t shape = 0) const {

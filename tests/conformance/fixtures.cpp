@@ -15,6 +15,9 @@ constexpr double kStep_rad = radians(30.0);
 constexpr double kSpeed_mps = 0.2;
 constexpr double kTurn_radps = radians(60.0);
 constexpr LogOdds kSure = 1000;
+// The ring of occupied cells that ideal templates are drawn with; a tie counts as free.
+constexpr double kRingOutside_cells = 1.0 - 1e-6;
+constexpr double kRingInside_cells = -1.5;
 
 // Along a ray from inside the room, to the walls or to the post.
 double distance_along(const Pose2& T_map_sensor) {
@@ -144,9 +147,9 @@ OccupancyGrid grid_with_landmark(const LandmarkShape& shape, const Pose2& T_map_
   for (int y = low.y; y <= high.y; ++y)
     for (int x = low.x; x <= high.x; ++x) {
       const double out_m = shape.contour.signed_distance(inverse(T_map_landmark) * grid.centre_of({x, y}));
-      const bool is_free = out_m > cell_m;
-      const bool is_inside = out_m < 0.0;
-      grid.set_log_odds({x, y}, is_free ? static_cast<LogOdds>(-kSure) : is_inside ? LogOdds{0} : kSure);
+      const bool is_free = out_m > kRingOutside_cells * cell_m;
+      const bool is_unseen = out_m < kRingInside_cells * cell_m;
+      grid.set_log_odds({x, y}, is_free ? static_cast<LogOdds>(-kSure) : is_unseen ? LogOdds{0} : kSure);
     }
   return grid;
 }

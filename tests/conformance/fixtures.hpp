@@ -38,7 +38,8 @@ struct DriveStep {
 
 // Circle and square of 0.5 m, triangle of 0.6 m, for cells of 0.05 m.
 [[nodiscard]] TemplateSet three_templates();
-// A grid of the templates' cells: free ground of 3 x 3 m, the shape's outline occupied, inside unknown.
+// A grid of the templates' cells: free ground of 3 x 3 m, the shape's outline occupied, inside unknown:
+// as ideal templates have it when the landmark stands on the centre of a cell.
 [[nodiscard]] OccupancyGrid grid_with_landmark(const LandmarkShape& shape, const Pose2& T_map_landmark, double cell_m);
 [[nodiscard]] CellChanges everything_changed(const OccupancyGrid& grid);
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kScale = 2;  // cells a character
 constexpr LogOdds kSure = 1000;
-constexpr Cell kDoorLow{20, 15};
-constexpr Cell kDoorHigh{22, 21};
+constexpr Cell kDoorLow{20, 28};
+constexpr Cell kDoorHigh{22, 34};
 
 const std::vector<std::string> kRows{
     "#####################",  //
@@ -23,6 +23,12 @@ const std::vector<std::string> kRows{
     "#.........#.........#",  //
     "#.........#.........#",  //
     "#.........#.........#",  //
+    "#####################",  //
+    "#####################",  //
+    "#####################",  //
+    "#####################",  //
+    "#####################",  //
+    "#####################",  //
     "#####################",  //
     "#.......#############",  //
     "#.......#############",  //
@@ -65,7 +71,7 @@ PlannerWorld::PlannerWorld() {
   Route there;
   there.from = 1;
   there.to = 2;
-  there.trajectory = {left, {1.8, 1.8, 0.0}, {2.5, 1.8, 0.0}, right};
+  there.trajectory = {left, {1.8, 3.1, 0.0}, {2.5, 3.1, 0.0}, right};
   there.cost_m = length_of(there.trajectory);
   Route back = there;
   std::swap(back.from, back.to);

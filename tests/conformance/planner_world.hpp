@@ -23,10 +23,10 @@ struct PlannerWorld {
   OccupancyGrid grid{0.1};
   LandmarkGraph graph;
   RobotModel robot;
-  Pose2 left{0.9, 2.5, 0.0};
-  Pose2 right{3.3, 2.3, 0.0};
+  Pose2 left{0.9, 3.7, 0.0};
+  Pose2 right{3.3, 3.5, 0.0};
   Pose2 behind_walls{0.7, 0.4, 0.0};  // in the closed room
-  Pose2 in_the_wall{2.1, 2.7, 0.0};   // between the rooms
+  Pose2 in_the_wall{2.1, 3.9, 0.0};   // between the rooms
   Pose2 outside{40.0, 40.0, 0.0};     // unknown ground, far off
 };
 
