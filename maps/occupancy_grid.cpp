@@ -47,6 +47,12 @@ void for_each_run(const CellBox& box, const Visit& visit) {
     }
 }
 
+bool is_allowed(const CellBox& box) {
+  constexpr int kMost = OccupancyGrid::kLargestCellIndex;
+  constexpr CellBox kAllowed{{-kMost, -kMost}, {kMost, kMost}};
+  return intersected(kAllowed, box) == box && std::int64_t{box.width()} * box.height() <= OccupancyGrid::kMostCells;
+}
+
 }  // namespace
 
 double probability_of(LogOdds log_odds) {
@@ -103,18 +109,20 @@ Point OccupancyGrid::centre_of(Cell cell) const {
 
 void OccupancyGrid::include(const CellBox& box) {
   if (box.empty() || intersected(bounds_, box) == box) return;
-  constexpr CellBox kAllowed{{-kMostCells, -kMostCells}, {kMostCells, kMostCells}};
-  if (intersected(kAllowed, box) != box)
-    throw std::length_error("OccupancyGrid: a map of " + std::to_string(kMostCells) +
-                            " cells to a side is too small for the cells (" + std::to_string(box.min.x) + ", " +
-                            std::to_string(box.min.y) + ") to (" + std::to_string(box.max.x) + ", " +
-                            std::to_string(box.max.y) + ")");
   const CellBox all = united(bounds_, box);
-  if (std::int64_t{all.width()} * all.height() > kMostCells)
-    throw std::length_error("OccupancyGrid: a map of " + std::to_string(all.width()) + " x " +
-                            std::to_string(all.height()) + " cells is too large, at most " +
-                            std::to_string(kMostCells) + " cells are possible");
+  if (!is_allowed(all))
+    throw std::length_error("OccupancyGrid: the cells (" + std::to_string(all.min.x) + ", " +
+                            std::to_string(all.min.y) + ") to (" + std::to_string(all.max.x) + ", " +
+                            std::to_string(all.max.y) + ") are too many, at most " + std::to_string(kMostCells) +
+                            " are possible, with indices up to " + std::to_string(kLargestCellIndex));
   bounds_ = all;
+}
+
+bool OccupancyGrid::can_include(const Point& p_map, double around_m) const {
+  const Point around{around_m, around_m};
+  // Cells saturate far beyond what is allowed, so no overflow can pass for a small box.
+  return p_map.allFinite() && std::isfinite(around_m) &&
+         is_allowed(united(bounds_, {cell_at(p_map - around), cell_at(p_map + around) + Cell{2, 2}}));
 }
 
 void OccupancyGrid::set_log_odds(Cell cell, LogOdds value) {

@@ -24,12 +24,6 @@ Meaning meaning_of(const RangeReading& reading) {
   return reading.range_m >= reading.min_m && reading.range_m > 0.0 ? Meaning::echo : Meaning::ignored;
 }
 
-// No grid has cells further out than this; one more on each side for rounding.
-bool is_within_reach(const Beam& beam, double cell_m) {
-  const double most_m = (OccupancyGrid::kMostCells - 1) * cell_m - beam.reach_m;
-  return beam.T_map_sensor.position().cwiseAbs().maxCoeff() < most_m;
-}
-
 // Sorted, and joined where they overlap or meet.
 void tidy(std::vector<CellSpan>& spans) {
   std::sort(spans.begin(), spans.end(),
@@ -63,7 +57,7 @@ void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map
   const bool echo = meaning == Meaning::echo;
   const Beam beam{T_map_robot * reading.T_robot_sensor, reading.half_beam_rad,
                   echo ? beam_model_.reach_of_echo_m(reading.range_m) : beam_model_.reach_of_silence_m(reading.max_m)};
-  if (!is_within_reach(beam, grid_.cell_m())) return;
+  if (!grid_.can_include(beam.T_map_sensor.position(), beam.reach_m)) return;
   const BeamFrame frame(beam, grid_.cell_m());
 
   const auto increment_of = [&](const BeamPlace& place) {

@@ -26,12 +26,6 @@ bool has_moved(const Pose2& a, const Pose2& b) {
 
 constexpr int kMostSensors = 4096;  // an index beyond it is an error of the source, not a transducer
 
-// False for what is not finite, too.
-bool can_hold(const OccupancyGrid& grid, const Point& p_map, double around_m) {
-  const Point off_m = (p_map - grid.origin_m()).cwiseAbs();
-  return std::max(off_m.x(), off_m.y()) + around_m < (OccupancyGrid::kMostCells - 1) * grid.cell_m();
-}
-
 bool is_usable(const RangeReading& reading) {
   return reading.range_m > reading.min_m && reading.range_m > 0.0 && reading.range_m <= kNear_m &&
          reading.half_beam_rad >= 0.0 && reading.half_beam_rad <= std::numbers::pi && reading.sensor >= 0 &&
@@ -45,7 +39,7 @@ NearEchoes::NearEchoes(const OccupancyGrid& map) : votes_(map.cell_m(), kMost_na
 void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
   for (const RangeReading& reading : observation.ranges) {
     const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
-    if (!is_usable(reading) || !can_hold(votes_, T_map_sensor.position(), kNear_m)) continue;
+    if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), kNear_m)) continue;
     const auto sensor = static_cast<std::size_t>(reading.sensor);
     const Pose2 nowhere{std::numeric_limits<double>::max(), 0.0, 0.0};
     if (sensor >= last_voted_.size()) last_voted_.resize(sensor + 1, nowhere);
@@ -78,7 +72,7 @@ void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
 }
 
 void NearEchoes::stand_at(const Point& p_map, double radius_m) {
-  if (!can_hold(votes_, p_map, radius_m + votes_.cell_m())) return;
+  if (!votes_.can_include(p_map, radius_m + votes_.cell_m())) return;
   const Cell centre = votes_.cell_at(p_map);
   const double most_cells = radius_m / votes_.cell_m() + 0.5;
   const int reach = static_cast<int>(most_cells);
