@@ -46,8 +46,9 @@ PlanResult BehaviourHost::plan(const PlanRequest& request) {
   return result;
 }
 
-void BehaviourHost::save(const std::string& file_name) {
+Status BehaviourHost::save(const std::string& file_name) {
   record_ += "save " + file_name + "\n";
+  return {Progress::success, "saved " + file_name};
 }
 
 void BehaviourHost::say(const std::string& sentence) {

@@ -14,7 +14,7 @@ class BehaviourHost : public Orders {
 
   void drive(const Twist& wanted) override;
   PlanResult plan(const PlanRequest& request) override;
-  void save(const std::string& file_name) override;
+  Status save(const std::string& file_name) override;
   void say(const std::string& sentence) override;
 
   // One tick: the behaviour, then the motion it asked for, then the clock.
