@@ -311,7 +311,7 @@ class ForgetfulPlanner : public WrappedPlanner {
 };
 
 Subject<Planner> shipped_planner() {
-  return module<Planner>(kModules, "ompl");
+  return module<Planner>(kModules, "ompl", "{iterations: 300}");
 }
 INSTANTIATE_TEST_SUITE_P(Faulty, PlannerConformance,
                          testing::Values(wrapped<Planner, StubbornPlanner>("ignores cancel", shipped_planner()),
