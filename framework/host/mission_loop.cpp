@@ -249,10 +249,21 @@ WorldView MissionLoop::view() const {
           held_back_ratio_};
 }
 
-void MissionLoop::tell(const Event& event) const {
+void MissionLoop::tell(const Event& event) {
   const WorldView world = view();
   const MissionView seen{world, coarse_};
-  for (Listener* listener : listeners_) listener->on(event, seen);
+  std::erase_if(listeners_, [&](Listener* listener) {
+    // What a listener throws must not change the mission: it is told nothing more.
+    try {
+      listener->on(event, seen);
+      return false;
+    } catch (const std::exception& error) {
+      listener_faults_.emplace_back(error.what());
+    } catch (...) {
+      listener_faults_.emplace_back("something that is no std::exception");
+    }
+    return true;
+  });
 }
 
 // What behaviours order is the host's work again: it cannot be given up half-way.

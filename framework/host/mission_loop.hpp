@@ -32,6 +32,7 @@ class MissionLoop : private Orders {
   [[nodiscard]] const CoarseGrid* coarse_grid() const { return grid_is_lost_ ? nullptr : coarse_; }
   [[nodiscard]] const LandmarkKeeper& keeper() const { return keeper_; }
   [[nodiscard]] std::vector<StageTime> times() const { return clock_.times(); }
+  [[nodiscard]] const std::vector<std::string>& listener_faults() const { return listener_faults_; }
 
  private:
   template <class Call>
@@ -54,7 +55,7 @@ class MissionLoop : private Orders {
   void halt_step();
   Status write_map(const std::string& file_name);
   [[nodiscard]] WorldView view() const;
-  void tell(const Event& event) const;
+  void tell(const Event& event);
 
   void drive(const Twist& wanted) override;
   PlanResult plan(const PlanRequest& request) override;
@@ -67,6 +68,7 @@ class MissionLoop : private Orders {
   LandmarkKeeper keeper_;
   StopLayer stop_layer_;
   std::vector<Listener*> listeners_;
+  std::vector<std::string> listener_faults_;
   StageClock clock_;
   StageClock::Id sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0, drive_stage_ = 0;
   std::vector<StageClock::Id> behaviours_;  // one a step

@@ -42,6 +42,10 @@ void MissionRunner::subscribe(Listener& listener) {
   loop_->subscribe(listener);
 }
 
+const std::vector<std::string>& MissionRunner::listener_faults() const {
+  return loop_->listener_faults();
+}
+
 MissionResult MissionRunner::run() {
   if (longest_call_s_ <= 0.0) {
     loop_->run();

@@ -50,7 +50,10 @@ class MissionRunner {
   MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
   ~MissionRunner();
 
-  void subscribe(Listener& listener);  // the listener must outlive the runner
+  // The listener must outlive the runner. It cannot change what happens: one that throws is told
+  // nothing more, and what it threw is kept.
+  void subscribe(Listener& listener);
+  [[nodiscard]] const std::vector<std::string>& listener_faults() const;
   // The mission runs in a thread of its own, watched by this one: a module whose call does not return
   // within the mission's watchdog_s ends the mission (outcome module_fault) and is left behind.
   MissionResult run();

@@ -88,6 +88,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
     runner.subscribe(progress);
     result = runner.run();
   }
+  for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
   const RunPictures pictures = draw_run(command.out, mission, runner, report);
   write_file(command.out / "timing.json", timing_json(runner.times()) + "\n");
   write_file(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));

@@ -7,9 +7,11 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "framework/host/fence.hpp"
 #include "framework/host/mission_runner.hpp"
+#include "framework/host/run_report.hpp"
 
 namespace cairn {
 namespace {
@@ -73,6 +75,31 @@ TEST_F(FencedMission, ADetectionThatIsNotANumberEndsTheMission) {
 TEST_F(FencedMission, AVelocityThatIsNotANumberEndsTheMission) {
   EXPECT_EQ(run("still_localizer", "empty_map", "[drive_nan]").reason,
             "module drive_nan failed in stage behaviour: asked for a velocity that is not finite");
+}
+
+class ThrowingListener : public Listener {
+ public:
+  void on(const Event&, const MissionView&) override { throw std::runtime_error("no paper"); }
+};
+
+TEST_F(FencedMission, ListenersInAnyOrderOrFailingChangeNothing) {
+  const auto result_with = [&](const std::vector<Listener*>& listeners) {
+    MissionRunner runner(mission_with("still_localizer", "empty_map", "[fail]"), library_, {folder_, false, nullptr});
+    for (Listener* listener : listeners) runner.subscribe(*listener);
+    const MissionResult result = runner.run();
+    return std::tuple(result.outcome, result.reason, result.time_s, runner.listener_faults().size());
+  };
+  ThrowingListener throwing;
+  RunReport first, second, alone;
+  const auto plain = result_with({&alone});
+  EXPECT_EQ(result_with({&first, &throwing}),
+            std::tuple(std::get<0>(plain), std::get<1>(plain), std::get<2>(plain), 1U));
+  EXPECT_EQ(result_with({&throwing, &second}),
+            std::tuple(std::get<0>(plain), std::get<1>(plain), std::get<2>(plain), 1U));
+  const Mission mission = mission_with("still_localizer", "empty_map", "[fail]");
+  const LandmarkGraph none;
+  EXPECT_EQ(first.report_json(mission, {}, none, {}), alone.report_json(mission, {}, none, {}));
+  EXPECT_EQ(second.report_json(mission, {}, none, {}), alone.report_json(mission, {}, none, {}));
 }
 
 // A mission whose module hangs, given up after 0.2 s.
