@@ -1,10 +1,15 @@
 // The `cairn` program: reads the command line and hands over to the commands.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "framework/config/config_value.hpp"
 #include "framework/contracts/abi_stamp.hpp"
 #include "framework/program/commands.hpp"
 
@@ -110,6 +115,21 @@ void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& co
   sub->callback([&] { action = [&] { return experiment(c, common); }; });
 }
 
+// What the parser calls unexpected is most often a misspelt command.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* at = &app;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const std::vector<const CLI::App*> commands = at->get_subcommands([](const CLI::App*) { return true; });
+    if (commands.empty()) return std::nullopt;
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    const auto found = std::find(names.begin(), names.end(), argv[i]);
+    if (found == names.end()) return "unknown command \"" + std::string(argv[i]) + "\"" + did_you_mean(argv[i], names);
+    at = commands[static_cast<std::size_t>(found - names.begin())];
+  }
+  return std::nullopt;
+}
+
 int main_of(int argc, char** argv) {
   CLI::App app{"Cairn: landmark navigation for mobile robots", "cairn"};
   app.set_version_flag("--version", "cairn " CAIRN_VERSION);
@@ -139,6 +159,11 @@ int main_of(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::optional<std::string> unknown = unknown_command(app, argc, argv);
+        unknown && error.get_exit_code() != 0) {
+      std::cerr << "cairn: " << *unknown << "; cairn --help lists the commands\n";
+      return kExitBadInput;
+    }
     return app.exit(error) == 0 ? kExitDone : kExitBadInput;
   }
   return action();

@@ -35,9 +35,9 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
     return kExitDone;
   }
   const CellBox bounds = map.grid.bounds();
-  std::cout << fmt::format("{}: schema {}, {} x {} cells of {:g} m, {:.1f} % known\n", command.map.string(),
-                           kMapSchemaVersion, bounds.width(), bounds.height(), map.grid.cell_m(),
-                           100.0 * known_ratio(map.grid));
+  std::cout << fmt::format("{}: schema {}, {:.2f} x {:.2f} m in cells of {:g} m, {:.1f} % known\n",
+                           command.map.string(), kMapSchemaVersion, bounds.width() * map.grid.cell_m(),
+                           bounds.height() * map.grid.cell_m(), map.grid.cell_m(), 100.0 * known_ratio(map.grid));
   for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
   for (const auto& [id, landmark] : map.graph.landmarks())
     std::cout << fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),

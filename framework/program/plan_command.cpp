@@ -104,8 +104,8 @@ ordered_json json_of(const Query& query, const PlanResult& result) {
 void tell_people(std::ostream& out, const Query& query, const PlanResult& result) {
   out << fmt::format("{} -> {}: {}", query.from, query.to, name_of(result.outcome));
   if (result.outcome == PlanOutcome::solved)
-    out << fmt::format(", {:.2f} m, clearance {:.2f} m, {:.1f} ms", result.length_m, result.clearance_m,
-                       result.time_ms.total_ms);
+    out << fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest, {:.1f} ms", result.length_m,
+                       result.clearance_m, result.time_ms.total_ms);
   if (!result.landmarks.empty()) {
     out << ", by way of";
     for (const LandmarkId id : result.landmarks) out << " L" << id;

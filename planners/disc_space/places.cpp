@@ -88,6 +88,8 @@ std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const
   if (occupied_m == 0.0) return "it lies on an occupied cell";
   if (unknown_m == 0.0) return "it lies in unknown space";
   const bool occupied = occupied_m <= unknown_m;
+  if (std::min(occupied_m, unknown_m) > radius_m)  // the field keeps less than the squares do: by a cell's rounding
+    return "the map, to a cell's rounding, leaves less than the " + metres(radius_m) + " m that the robot needs";
   return std::string(occupied ? "an occupied cell is " : "unknown space is ") +
          metres(occupied ? occupied_m : unknown_m) + " m from its centre, and the robot needs " + metres(radius_m) +
          " m";
@@ -96,7 +98,10 @@ std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const
 std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m) {
   const std::optional<Point> free = nearest_fit(space, p_map, radius_m, kTextSearch_m);
   if (!free) return "; there is no free place for it within " + metres(kTextSearch_m) + " m";
-  return "; the nearest free place is " + text_of(*free) + ", " + metres((*free - p_map).norm()) + " m away";
+  // To the millimetre, so that what is printed is free too.
+  char place[64];
+  std::snprintf(place, sizeof place, "(%.3f, %.3f)", free->x(), free->y());
+  return std::string("; the nearest free place is ") + place + ", " + metres((*free - p_map).norm()) + " m away";
 }
 
 bool robot_stands_at(const WorldView& world, const Point& p_map) {

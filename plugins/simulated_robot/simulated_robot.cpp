@@ -36,10 +36,15 @@ std::vector<int> checked_order(const RobotModel& robot) {
 }
 
 std::string start_fault(const Pose2& T_map_start, const RobotModel& robot, const World& world) {
-  const std::optional<std::string> blocker = blocker_at(T_map_start, robot, world);
-  if (!blocker) return {};
   char place[80];
   std::snprintf(place, sizeof place, "(%.2f, %.2f) m", T_map_start.x_m, T_map_start.y_m);
+  // A world without an extent is an open field.
+  const bool bounded = (world.max_m.array() > world.min_m.array()).all();
+  const Point at_m = T_map_start.position();
+  if (bounded && ((at_m.array() < world.min_m.array()).any() || (at_m.array() > world.max_m.array()).any()))
+    return std::string("the robot cannot start at ") + place + ": it lies outside the world's bounds_m";
+  const std::optional<std::string> blocker = blocker_at(T_map_start, robot, world);
+  if (!blocker) return {};
   return std::string("the robot cannot start at ") + place + ": it would overlap " + *blocker;
 }
 

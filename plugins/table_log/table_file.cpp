@@ -83,8 +83,11 @@ double TableRow::finite_number(int column, const std::string& what) const {
 
 TableFile::TableFile(const TableConfig& config) : name_(config.file.string()) {
   std::ifstream in(config.file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(config.file)) {
-    throw ConfigError({name_, 0, 0}, "cannot read this table");
+  if (std::filesystem::is_directory(config.file)) throw ConfigError({name_, 0, 0}, "is a folder, not a table");
+  if (!in) {
+    throw ConfigError({name_, 0, 0}, std::filesystem::exists(config.file)
+                                         ? "cannot read this table"
+                                         : "there is no such table (recorded data is found through CAIRN_DATA)");
   }
   text_.assign(std::istreambuf_iterator<char>(in), {});
   std::string_view rest = text_;

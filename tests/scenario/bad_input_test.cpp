@@ -128,6 +128,12 @@ TEST(BadCommand, AnUnknownCommandIsWrongUsage) {
   EXPECT_EQ(run_cairn({"runn"}).exit_status, 2);
 }
 
+TEST(BadCommand, AMisspeltCommandNamesTheNearestOne) {
+  const Finished finished = run_cairn({"plugins", "chek", "x.so"});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, HasSubstr("unknown command \"chek\" (did you mean \"check\"?)"));
+}
+
 TEST(BadCommand, APlanWithoutPlacesIsWrongUsage) {
   EXPECT_EQ(run_cairn({"plan", "x.cairn"}).exit_status, 2);
 }

@@ -106,7 +106,7 @@ TEST(OmplPlanner, ABlockedGoalIsNamedWithTheNearestFreePlace) {
   EXPECT_EQ(result.outcome, PlanOutcome::goal_blocked);
   EXPECT_EQ(result.reason,
             "the goal (2.25, 1.05) is blocked: an occupied cell is 0.05 m from its centre, and the robot needs "
-            "0.14 m; the nearest free place is (2.15, 1.05), 0.10 m away");
+            "0.14 m; the nearest free place is (2.150, 1.050), 0.10 m away");
   request.to.pose = Pose2{9.0, 9.0, 0.0};
   EXPECT_EQ(plan(world, request).outcome, PlanOutcome::goal_blocked);
   EXPECT_THAT(plan(world, request).reason, HasSubstr("outside the map"));

@@ -256,6 +256,7 @@ TEST(SimulatedRobot, SaysWhatTheStartOverlaps) {
   EXPECT_EQ(reason_at({0.1, 2.0}), "the robot cannot start at (0.10, 2.00) m: it would overlap wall 1");
   EXPECT_EQ(reason_at({1.5, 3.5}), "the robot cannot start at (1.50, 3.50) m: it would overlap object 1 (square)");
   EXPECT_EQ(reason_at({4.2, 1.3}), "the robot cannot start at (4.20, 1.30) m: it would overlap object 2 (a circle)");
+  EXPECT_EQ(reason_at({-3.0, 2.0}), "the robot cannot start at (-3.00, 2.00) m: it lies outside the world's bounds_m");
   world.objects.push_back(square_at({3.0, 2.5}, 2.0, 0.0));
   EXPECT_THAT(reason_at({3.0, 2.5}), HasSubstr("object 3 (square)")) << "far from every face, but inside";
 }
