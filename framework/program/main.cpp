@@ -122,6 +122,7 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
     const std::vector<const CLI::App*> commands = at->get_subcommands([](const CLI::App*) { return true; });
     if (commands.empty()) return std::nullopt;
     std::vector<std::string> names;
+    names.reserve(commands.size());
     for (const CLI::App* command : commands) names.push_back(command->get_name());
     const auto found = std::find(names.begin(), names.end(), argv[i]);
     if (found == names.end()) return "unknown command \"" + std::string(argv[i]) + "\"" + did_you_mean(argv[i], names);
