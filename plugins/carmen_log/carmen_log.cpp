@@ -78,7 +78,7 @@ ScanLog Reader::read() {
       scans_.bad_line(error);
     }
   }
-  recording_.check_complete({text.name(), text.line_number(), 0});
+  recording_.check_complete({text.name(), text.line_number(), 1});
   scans_.finish();
   return std::move(scans_);
 }

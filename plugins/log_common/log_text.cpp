@@ -78,7 +78,7 @@ bool LogText::next(std::string_view& line) {
     if (fill()) continue;
     if (!damage_.empty()) {
       buffer_.clear();
-      throw ConfigError({name_, line_number_, 0}, std::exchange(damage_, {}));
+      throw ConfigError({name_, line_number_, 1}, std::exchange(damage_, {}));
     }
     if (buffer_.empty() && !too_long) {
       --line_number_;
@@ -88,7 +88,7 @@ bool LogText::next(std::string_view& line) {
     break;
   }
   if (too_long)
-    throw ConfigError({name_, line_number_, 0},
+    throw ConfigError({name_, line_number_, 1},
                       "the line is longer than " + std::to_string(kLongestLine) + " characters");
   return true;
 }

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kKindsNamed = 8;
 constexpr std::size_t kLongestKind = 32;
+constexpr std::size_t kFewestToJudge = 10;
 constexpr double kLeastChangingRatio = 0.1;
 
 std::string counted(int count, const std::string& what) {
@@ -58,7 +59,9 @@ void ScanLog::finish() {
   std::size_t changes = 0;
   for (std::size_t i = 1; i < scans_.size(); ++i)
     if (scans_[i].stamp_s != scans_[i - 1].stamp_s) ++changes;
-  if (static_cast<double>(changes) >= kLeastChangingRatio * static_cast<double>(scans_.size() - 1)) {
+  const bool unusable = scans_.size() >= kFewestToJudge &&
+                        static_cast<double>(changes) < kLeastChangingRatio * static_cast<double>(scans_.size());
+  if (!unusable) {
     bridge_jumps();
     return;
   }
@@ -77,7 +80,7 @@ void ScanLog::bridge_jumps() {
     const bool back = stamp_s < last_stamp_s;
     if (back || stamp_s - last_stamp_s > rules_.longest_gap_s) {
       if (rules_.on_clock_jump == ClockJump::refuse)
-        throw ConfigError({file_, scans_[i].line, 0}, "the clock jumps from " +
+        throw ConfigError({file_, scans_[i].line, 1}, "the clock jumps from " +
                                                           config_detail::number_text(last_stamp_s) + " s to " +
                                                           config_detail::number_text(stamp_s) + " s");
       ahead_s = last_s + rules_.period_s - stamp_s;

@@ -1,8 +1,8 @@
 // Recorded scans in memory, played back one observation after the other.
 //
 // Time. Stamps of logs lie: some stand still, some jump. The rule:
-//   stamps that hardly change           when fewer than one scan in ten has a stamp that differs from
-//                                       the one before, no stamp is used: scans are period_s apart
+//   stamps that hardly change           when, of ten scans or more, fewer than one in ten has a stamp that
+//                                       differs from the one before, none is used: scans are period_s apart
 //   a stamp before the last one, or     a clock jump: bridged (the scan is period_s after the last one,
 //   more than longest_gap_s after it    and time goes on from there) or refused
 // so that the observations' stamps never go back. Both are counted and told at the end of the log.

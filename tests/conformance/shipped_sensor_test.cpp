@@ -10,10 +10,14 @@ const std::string kLog = std::string("{file: \"") + CAIRN_SOURCE_DIR + R"(/tests
   time_column: 1, x_column: 2, y_column: 3, heading_column: 4, compass_from_pose: true, first_range_column: 5,
   sonars: [{angle_deg: 90}, {angle_deg: 0}, {angle_deg: -90}]})";
 
+const std::string kCarmen =
+    std::string("{file: \"") + CAIRN_SOURCE_DIR + "/tests/data/carmen.log\", compass_from_pose: true}";
+
 INSTANTIATE_TEST_SUITE_P(Shipped, SensorConformance,
                          testing::Values(module<Sensor>(kModules, "simulated_robot"),
                                          module<Sensor>(kModules, "simulated_robot", "{fire_all: true}"),
-                                         module<Sensor>(kModules, "table_log", kLog)));
+                                         module<Sensor>(kModules, "table_log", kLog),
+                                         module<Sensor>(kModules, "carmen_log", kCarmen)));
 
 }  // namespace
 }  // namespace cairn::conformance
