@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "plugins/carmen_log/lasers.hpp"
 #include "plugins/carmen_log/recording.hpp"
 #include "plugins/log_common/log_text.hpp"
-#include "plugins/log_common/range_rule.hpp"
 
 namespace cairn::carmen_log {
 namespace {
@@ -51,13 +49,9 @@ void check(const Config& config) {
     if (std::find(kRangeKinds.begin(), kRangeKinds.end(), kind) == kRangeKinds.end())
       throw ConfigError(place, "lines: there are no ranges in " + shown(kind) +
                                    did_you_mean(kind, {kRangeKinds.begin(), kRangeKinds.end()}));
-  const auto limits = [&](const std::string& what, double min_m, double max_m) {
-    if (min_m >= max_m) throw ConfigError(place, what + ": min_m must be less than max_m");
-  };
-  constexpr double kAny_m = std::numeric_limits<double>::infinity();
-  limits("laser", config.laser.min_m, config.laser.max_m.value_or(kAny_m));
-  limits("rear_laser", config.rear_laser.min_m, config.rear_laser.max_m.value_or(kAny_m));
-  limits("sonar", config.sonar.min_m, config.sonar.max_m);
+  log_common::check_limits(config.file, "laser", config.laser);
+  log_common::check_limits(config.file, "rear_laser", config.rear_laser);
+  log_common::check_limits(config.file, "sonar", config.sonar.min_m, config.sonar.max_m);
 }
 
 Reader::Reader(const Config& config) : config_(config), scans_(config.file.string(), config), recording_(scans_) {
@@ -116,23 +110,17 @@ void Reader::read_param(const LogLine& line) {
 }
 
 void Reader::read_laser(const LogLine& line, const LaserLine& laser, bool rear) {
-  const LaserConfig& config = rear ? config_.rear_laser : config_.laser;
-  const Pose2 T_robot_laser = place_of_laser(laser, config, params_, rear);
-  const Pose2 T_log_robot =
-      config_.poses == Poses::log ? laser.T_log_laser * inverse(T_robot_laser) : laser.T_odom_robot;
-  T_log_robot_ = T_log_robot;
+  const log_common::LaserConfig& config = rear ? config_.rear_laser : config_.laser;
+  const log_common::Fan fan = fan_of(laser, config, params_, rear);
+  T_log_robot_ = config_.poses == Poses::log ? laser.T_log_laser * inverse(fan.T_robot_laser) : laser.T_odom_robot;
   if (!wants(line.word(0))) return;
-  const double max_m = max_of_laser(laser, config, params_, rear);
-  std::string key = std::string(line.word(0)) + " " + std::to_string(laser.ranges);
-  for (const double value :
-       {T_robot_laser.x_m, T_robot_laser.y_m, T_robot_laser.theta_rad, max_m, laser.first_angle_rad, laser.step_rad})
-    key += " " + config_detail::number_text(value);
+  const std::string key = std::string(line.word(0)) + " " + log_common::key_of(fan, laser.ranges);
   const std::size_t source = scans_.source(key, [&] {
     const int first = next_sensor_;
     next_sensor_ += static_cast<int>(laser.ranges);
-    return fan_of(laser, config, T_robot_laser, max_m, first);
+    return log_common::readings_of(fan, laser.ranges, config, first);
   });
-  add_scan(line, laser.stamp_s, T_log_robot, source, laser.first_range);
+  add_scan(line, laser.stamp_s, *T_log_robot_, source, laser.first_range);
 }
 
 // SONAR cone_angle n r1..rn (x y theta)xn time host time
@@ -177,13 +165,8 @@ void Reader::add_scan(const LogLine& line, double stamp_s, const Pose2& T_log_ro
                       std::size_t first_range) {
   const std::vector<RangeReading>& readings = scans_.readings_of(source);
   ranges_m_.clear();
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    double range_m = log_common::range_from(line.range_m(first_range + i), 1.0, config_.no_echo, readings[i].min_m,
-                                            readings[i].max_m);
-    if (config_.no_echo_means == NoEcho::nothing && range_m == std::numeric_limits<double>::infinity())
-      range_m = std::numeric_limits<double>::quiet_NaN();
-    ranges_m_.push_back(range_m);
-  }
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    ranges_m_.push_back(log_common::recorded_range(line.range_m(first_range + i), config_, readings[i]));
   log_common::Scan scan;
   scan.stamp_s = stamp_s;
   scan.line = line.line();

@@ -26,14 +26,28 @@ double param(const Params& params, std::string_view name, double otherwise) {
   return value;
 }
 
-double step_of(std::size_t beams) {
-  if (beams == 180 || beams == 181) return radians(1.0);
-  if (beams == 360 || beams == 361) return radians(0.5);
-  return beams > 1 ? std::numbers::pi / static_cast<double>(beams - 1) : 0.0;
-}
-
 double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
+}
+
+Pose2 place_of_laser(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
+  if (line.says_fan && !config.x_m && !config.angle_rad) {
+    const Pose2 exact = inverse(line.T_odom_robot) * line.T_log_laser;
+    return {rounded(exact.x_m), rounded(exact.y_m), rounded(exact.theta_rad)};
+  }
+  const double offset_m = param(params, rear ? "robot_rearlaser_offset" : "robot_frontlaser_offset", 0.0);
+  const double in_range_m = std::abs(offset_m) <= 10.0 ? offset_m : 0.0;
+  return {config.x_m.value_or(in_range_m), config.y_m,
+          wrap_angle(config.angle_rad.value_or(rear ? std::numbers::pi : 0.0))};
+}
+
+double max_of_laser(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
+  constexpr double kUsual_m = log_common::kUsualLaserMax_m;
+  double max_m = config.max_m.value_or(kUsual_m);
+  if (!config.max_m && line.says_fan) max_m = line.max_m;
+  if (!config.max_m && !line.says_fan)
+    max_m = param(params, rear ? "robot_rear_laser_max" : "robot_front_laser_max", kUsual_m);
+  return max_m > config.min_m && max_m <= log_common::kFarthest_m ? max_m : std::max(kUsual_m, 2.0 * config.min_m);
 }
 
 }  // namespace
@@ -78,40 +92,12 @@ LaserLine read_robotlaser(const LogLine& line) {
   return laser;
 }
 
-Pose2 place_of_laser(const LaserLine& line, const LaserConfig& config, const Params& params, bool rear) {
-  if (line.says_fan && !config.x_m && !config.angle_rad) {
-    const Pose2 exact = inverse(line.T_odom_robot) * line.T_log_laser;
-    return {rounded(exact.x_m), rounded(exact.y_m), rounded(exact.theta_rad)};
-  }
-  const double offset_m = param(params, rear ? "robot_rearlaser_offset" : "robot_frontlaser_offset", 0.0);
-  const double in_range_m = std::abs(offset_m) <= 10.0 ? offset_m : 0.0;
-  return {config.x_m.value_or(in_range_m), config.y_m,
-          wrap_angle(config.angle_rad.value_or(rear ? std::numbers::pi : 0.0))};
-}
-
-double max_of_laser(const LaserLine& line, const LaserConfig& config, const Params& params, bool rear) {
-  constexpr double kUsual_m = 80.0;
-  double max_m = config.max_m.value_or(kUsual_m);
-  if (!config.max_m && line.says_fan) max_m = line.max_m;
-  if (!config.max_m && !line.says_fan)
-    max_m = param(params, rear ? "robot_rear_laser_max" : "robot_front_laser_max", kUsual_m);
-  return max_m > config.min_m && max_m <= log_common::kFarthest_m ? max_m : std::max(kUsual_m, 2.0 * config.min_m);
-}
-
-std::vector<RangeReading> fan_of(const LaserLine& line, const LaserConfig& config, const Pose2& T_robot_laser,
-                                 double max_m, int first_sensor) {
-  const double first_rad =
-      config.first_angle_rad.value_or(line.says_fan ? line.first_angle_rad : -0.5 * std::numbers::pi);
-  const double step_rad = config.step_rad.value_or(line.says_fan ? line.step_rad : step_of(line.ranges));
-  std::vector<RangeReading> fan(line.ranges);
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    const double angle_rad = wrap_angle(first_rad + static_cast<double>(i) * step_rad);
-    fan[i].T_robot_sensor = T_robot_laser * Pose2{0.0, 0.0, angle_rad};
-    fan[i].half_beam_rad = config.half_beam_rad;
-    fan[i].min_m = config.min_m;
-    fan[i].max_m = max_m;
-    fan[i].sensor = first_sensor + static_cast<int>(i);
-  }
+log_common::Fan fan_of(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
+  log_common::Fan fan;
+  fan.T_robot_laser = place_of_laser(line, config, params, rear);
+  fan.max_m = max_of_laser(line, config, params, rear);
+  if (line.says_fan) fan.first_angle_rad = line.first_angle_rad;
+  fan.step_rad = line.says_fan ? line.step_rad : log_common::usual_step(line.ranges);
   return fan;
 }
 

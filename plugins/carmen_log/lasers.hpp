@@ -33,12 +33,9 @@ struct LaserLine {
 // ROBOTLASER1 and 2, with remissions and turn axis, or without both.
 [[nodiscard]] LaserLine read_robotlaser(const log_common::LogLine& line);
 
-// Where the laser of a line sits on the robot: the settings, then the line itself (ROBOTLASER, to 0.1 mm,
-// since both poses are rounded), then PARAM.
-[[nodiscard]] Pose2 place_of_laser(const LaserLine& line, const LaserConfig& config, const Params& params, bool rear);
-[[nodiscard]] double max_of_laser(const LaserLine& line, const LaserConfig& config, const Params& params, bool rear);
-// One reading a beam, without ranges; numbered from first_sensor.
-[[nodiscard]] std::vector<RangeReading> fan_of(const LaserLine& line, const LaserConfig& config,
-                                               const Pose2& T_robot_laser, double max_m, int first_sensor);
+// Where the laser of a line sits on the robot (the settings, then the line itself, ROBOTLASER's to
+// 0.1 mm since both its poses are rounded, then PARAM), its beams and its longest range.
+[[nodiscard]] log_common::Fan fan_of(const LaserLine& line, const log_common::LaserConfig& config, const Params& params,
+                                     bool rear);
 
 }  // namespace cairn::carmen_log

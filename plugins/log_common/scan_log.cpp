@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+
+#include "plugins/log_common/range_rule.hpp"
 
 namespace cairn::log_common {
 namespace {
@@ -17,6 +20,12 @@ std::string counted(int count, const std::string& what) {
 }
 
 }  // namespace
+
+double recorded_range(double value, const LogRules& rules, const RangeReading& reading) {
+  const double range_m = range_from(value, 1.0, rules.no_echo, reading.min_m, reading.max_m);
+  const bool is_lost = std::isinf(range_m) && range_m > 0.0 && rules.no_echo_means == NoEcho::nothing;
+  return is_lost ? std::numeric_limits<double>::quiet_NaN() : range_m;
+}
 
 void ScanLog::add(const Scan& scan, std::size_t source, std::span<const double> ranges_m) {
   Kept kept;

@@ -23,6 +23,7 @@ namespace cairn::log_common {
 
 enum class BadLine { refuse, skip };
 enum class ClockJump { bridge, refuse };
+enum class NoEcho { silence, nothing };
 
 // The settings that every log has.
 struct LogRules {
@@ -31,6 +32,8 @@ struct LogRules {
   ClockJump on_clock_jump = ClockJump::bridge;
   BadLine on_bad_line = BadLine::refuse;
   bool compass_from_pose = false;
+  std::vector<double> no_echo;
+  NoEcho no_echo_means = NoEcho::silence;
 
   template <class Config>
   static void describe_rules(Fields<Config>& fields) {
@@ -49,6 +52,11 @@ struct LogRules {
                   "a line that cannot be read: an error, or left out and counted");
     fields.flag("compass_from_pose", static_cast<bool Config::*>(&Config::compass_from_pose),
                 "the pose's heading also serves as a compass");
+    fields.numbers("no_echo", static_cast<std::vector<double> Config::*>(&Config::no_echo), {}, "",
+                   "values, as they stand in the log, that mean no echo");
+    fields.choice("no_echo_means", static_cast<NoEcho Config::*>(&Config::no_echo_means),
+                  {{"silence", NoEcho::silence}, {"nothing", NoEcho::nothing}},
+                  "what no echo says: the beam is free, or nothing (a laser's lost beams)");
   }
 };
 
@@ -60,6 +68,9 @@ struct Scan {
   bool bumped = false;
   std::optional<Pose2> true_T_map_robot;
 };
+
+// What a recorded number means as a range of this reading: range_from() with these rules.
+[[nodiscard]] double recorded_range(double value, const LogRules& rules, const RangeReading& reading);
 
 class ScanLog {
  public:

@@ -143,7 +143,7 @@ TEST_F(CarmenLog, MarksOfNoEchoAndWhatTheyMean) {
   config_.no_echo = {32.77};
   const std::string text = flaser("2 32.77 5", "0 0 0 0 0 0");
   EXPECT_EQ(play(text)[0].ranges[0].range_m, kInfinity);
-  config_.no_echo_means = NoEcho::nothing;
+  config_.no_echo_means = log_common::NoEcho::nothing;
   EXPECT_TRUE(std::isnan(play(text)[0].ranges[0].range_m));
   EXPECT_DOUBLE_EQ(play(text)[0].ranges[1].range_m, 5.0);
 }
