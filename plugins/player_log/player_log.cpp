@@ -166,6 +166,7 @@ void Reader::read_sonar_ranges(const LogLine& line) {
     for (const double value : {pose.x_m, pose.y_m, pose.theta_rad}) key += " " + config_detail::number_text(value);
   const std::size_t source = scans_.source(key, [&] {
     std::vector<RangeReading> readings;
+    readings.reserve(poses.size());
     const SonarConfig& sonar = config_.sonar;
     for (const Pose2& pose : poses)
       readings.push_back({pose, sonar.half_beam_rad, sonar.min_m, sonar.max_m, 0.0, next_sensor_++});
