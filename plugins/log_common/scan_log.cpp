@@ -44,9 +44,16 @@ void ScanLog::set_pose(const Pose2& T_log_robot, Scan& scan) {
   if (rules_.compass_from_pose) scan.compass_rad = T_log_robot.theta_rad;
 }
 
+std::string ScanLog::name_of_file() const {
+  return std::filesystem::path(file_).filename().string();
+}
+
 void ScanLog::bad_line(const ConfigError& error) {
   if (rules_.on_bad_line == BadLine::refuse) throw error;
-  if (bad_lines_++ == 0) first_bad_ = error.what();
+  if (bad_lines_++ > 0) return;
+  first_bad_ = error.what();
+  // The report must not depend on where the log lies.
+  if (first_bad_.starts_with(file_)) first_bad_.replace(0, file_.size(), name_of_file());
 }
 
 void ScanLog::unknown_line(std::string_view kind) {
@@ -115,8 +122,7 @@ Observation ScanLog::observation(std::size_t i) const {
 }
 
 std::string ScanLog::end_sentence() const {
-  std::string text = "end of " + std::filesystem::path(file_).filename().string() + " after " +
-                     std::to_string(scans_.size()) + " observations";
+  std::string text = "end of " + name_of_file() + " after " + std::to_string(scans_.size()) + " observations";
   if (bad_lines_ > 0) text += "; " + counted(bad_lines_, "bad line") + " skipped, the first: " + first_bad_;
   if (unknown_lines_ > 0) {
     text += "; " + counted(unknown_lines_, "line") + " of kinds not read:";

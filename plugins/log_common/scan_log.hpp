@@ -115,6 +115,7 @@ class ScanLog {
     std::size_t first_range = 0;
   };
   void bridge_jumps();
+  [[nodiscard]] std::string name_of_file() const;
 
   std::string file_;
   LogRules rules_;

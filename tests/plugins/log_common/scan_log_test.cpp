@@ -88,6 +88,16 @@ TEST(ScanLog, TellsKindsItDidNotReadButNotAllOfThem) {
             "\"KIND3\" 2 \"KIND4\" 2 \"KIND5\" 2 \"KIND6\" 2 \"KIND7\" 2");
 }
 
+TEST(ScanLog, TellsTheFirstBadLineWithoutTheFolderItLiesIn) {
+  LogRules rules;
+  rules.on_bad_line = BadLine::skip;
+  ScanLog log = log_with_stamps({1}, rules);
+  for (int line = 3; line < 5; ++line) log.bad_line(ConfigError({"some/a.log", line, 7}, "no number"));
+  log.finish();
+  EXPECT_EQ(log.end_sentence(),
+            "end of a.log after 1 observations; 2 bad lines skipped, the first: a.log:3:7: no number");
+}
+
 TEST(ScanLog, ALogWithoutAScanIsRefused) {
   ScanLog log("a.log", {});
   log.unknown_line("X");
