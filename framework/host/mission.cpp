@@ -80,6 +80,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.number(
       "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
       "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
+  fields.text("record", &C::record,
+              "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
   fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
 }
 

@@ -32,6 +32,7 @@ class MissionLoop : private Orders {
   [[nodiscard]] const CoarseGrid* coarse_grid() const { return grid_is_lost_ ? nullptr : coarse_; }
   [[nodiscard]] const LandmarkKeeper& keeper() const { return keeper_; }
   [[nodiscard]] std::vector<StageTime> times() const { return clock_.times(); }
+  [[nodiscard]] const Pose2& T_map_start() const { return modules_.T_map_start; }
   [[nodiscard]] const std::vector<std::string>& listener_faults() const { return listener_faults_; }
 
  private:

@@ -46,6 +46,10 @@ const std::vector<std::string>& MissionRunner::listener_faults() const {
   return loop_->listener_faults();
 }
 
+const Pose2& MissionRunner::T_map_start() const {
+  return loop_->T_map_start();
+}
+
 MissionResult MissionRunner::run() {
   if (longest_call_s_ <= 0.0) {
     loop_->run();

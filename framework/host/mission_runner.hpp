@@ -54,6 +54,8 @@ class MissionRunner {
   // nothing more, and what it threw is kept.
   void subscribe(Listener& listener);
   [[nodiscard]] const std::vector<std::string>& listener_faults() const;
+  // Where the robot begins: as the mission says, or the sensor.
+  [[nodiscard]] const Pose2& T_map_start() const;
   // The mission runs in a thread of its own, watched by this one: a module whose call does not return
   // within the mission's watchdog_s ends the mission (outcome module_fault) and is left behind.
   MissionResult run();

@@ -11,6 +11,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// A sentence may quote a file that is no text.
+constexpr auto kBadText = ordered_json::error_handler_t::replace;
+
 // Figures are for people and scripts: micrometres and micro-degrees are enough.
 double rounded(double value) {
   return std::round(value * 1e6) / 1e6;
@@ -150,7 +153,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   }
   report["degrees"] = degrees;
   report["events"] = events_;
-  return report.dump(2) + "\n";
+  return report.dump(2, ' ', false, kBadText) + "\n";
 }
 
 std::string timing_json(const std::vector<StageTime>& times) {
@@ -169,7 +172,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   for (const std::string& picture : pictures) files.push_back((out / picture).string());
   summary["pictures"] = files;
   summary["timing"] = json_of(runner.times());
-  return summary.dump();
+  return summary.dump(-1, ' ', false, kBadText);
 }
 
 TruthScore score_against(const World& world, const LandmarkGraph& graph, double tolerance_m) {

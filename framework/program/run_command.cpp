@@ -5,9 +5,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "framework/host/fence.hpp"
 #include "framework/host/mission_runner.hpp"
+#include "framework/host/run_recording.hpp"
 #include "framework/host/run_report.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/interrupt.hpp"
@@ -27,6 +29,14 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+void finish(RunRecording& recording) {
+  try {
+    recording.close();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+  }
 }
 
 void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGraph& graph) {
@@ -61,6 +71,7 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
                      runner.graph().landmarks().size(), runner.graph().routes().size());
   out << fmt::format("  took        {:.1f} s, {:.0f} times faster than real time\n", wall_s,
                      result.time_s / std::max(wall_s, 1e-9));
+  if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
   if (!result.map_file.empty()) out << "  map         " << (folder / result.map_file).string() << "\n";
   out << "  report      " << (folder / "report.json").string() << "\n";
   for (const std::string& picture : pictures.files) out << "  picture     " << (folder / picture).string() << "\n";
@@ -82,13 +93,17 @@ int run(const RunCommand& command, const CommonOptions& common) {
   MissionRunner runner(mission, library, {command.out, command.realtime, &interrupted});
   RunReport report;
   MissionResult result;
+  std::optional<RunRecording> recording;
+  if (!mission.config.record.empty()) recording.emplace(command.out / mission.config.record, runner.T_map_start());
   {
     ProgressLine progress(people, live);
     runner.subscribe(report);
+    if (recording) runner.subscribe(*recording);
     runner.subscribe(progress);
     result = runner.run();
   }
   for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
+  if (recording) finish(*recording);
   const RunPictures pictures = draw_run(command.out, mission, runner, report);
   write_file(command.out / "timing.json", timing_json(runner.times()) + "\n");
   write_file(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));

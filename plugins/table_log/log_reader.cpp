@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "plugins/log_common/range_rule.hpp"
 #include "plugins/table_log/table_file.hpp"
 
 namespace cairn {
@@ -113,14 +114,6 @@ Pose2 pose_at(double stamp_s, const std::vector<StampedPose>& poses, PoseJoin jo
   return found.T_log_robot;
 }
 
-double range_in_metres(double value, double metres, const std::vector<double>& no_echo, const RangeReading& reading) {
-  if (std::find(no_echo.begin(), no_echo.end(), value) != no_echo.end()) return kInfinity;
-  if (std::isnan(value) || (value < 0.0 && !std::isinf(value))) return std::numeric_limits<double>::quiet_NaN();
-  const double range_m = value * metres;
-  if (range_m < reading.min_m) return -kInfinity;
-  return range_m > reading.max_m ? kInfinity : range_m;
-}
-
 std::vector<RangeReading> empty_readings(const TableLogConfig& config, const RobotModel& robot) {
   std::vector<RangeReading> readings;
   for (const LogSonar& s : config.sonars) {
@@ -201,7 +194,8 @@ RecordedLog read_log(const TableLogConfig& config, const RobotModel& robot) {
     seen.ranges = readings;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const double value = row.number(columns[i], "range " + std::to_string(i + 1));
-      seen.ranges[i].range_m = range_in_metres(value, metres, config.no_echo, seen.ranges[i]);
+      RangeReading& reading = seen.ranges[i];
+      reading.range_m = log_common::range_from(value, metres, config.no_echo, reading.min_m, reading.max_m);
     }
     if (config.poses) {
       set_pose(pose_at(seen.stamp_s, poses, config.join, row.place(config.time_column)), config, log, seen);

@@ -3,7 +3,8 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
+
+#include "plugins/log_common/log_text.hpp"
 
 namespace cairn {
 namespace {
@@ -89,7 +90,7 @@ TableFile::TableFile(const TableConfig& config) : name_(config.file.string()) {
                                          ? "cannot read this table"
                                          : "there is no such table (recorded data is found through CAIRN_DATA)");
   }
-  text_.assign(std::istreambuf_iterator<char>(in), {});
+  text_ = log_common::text_of_file(config.file);
   std::string_view rest = text_;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // a byte order mark
   for (int line_number = 1; !rest.empty(); ++line_number) {

@@ -38,7 +38,8 @@ class TableRow {
 
 class TableFile {
  public:
-  // Throws ConfigError when the file cannot be read. The rows view into this object.
+  // Plain or gzip. Throws ConfigError when the file cannot be read or its compressed data is damaged.
+  // The rows view into this object.
   explicit TableFile(const TableConfig& config);
   TableFile(const TableFile&) = delete;
   TableFile& operator=(const TableFile&) = delete;

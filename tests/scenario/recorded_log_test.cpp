@@ -35,5 +35,26 @@ TEST(RecordedLog, ARealSonarRobotsLogBecomesAMapOfBothCorridors) {
   EXPECT_FALSE(map.driven_path.empty());
 }
 
+TEST(RecordedLog, LaserLogsBecomeMapsOfTheirBuildings) {
+  struct Log {
+    std::string mission;
+    int readings;
+    double width_m, height_m;  // of what is not unknown, beams through windows and doors too
+  };
+  for (const Log& log : {Log{"intel", 910 * 180, 39.0, 36.0}, Log{"freiburg_079", 4791 * 360, 45.0, 16.5},
+                         Log{"belgioioso", 395 * 361, 34.5, 92.0}}) {
+    if (!std::filesystem::exists(data_folder() / "laser_carmen")) GTEST_SKIP() << "no data folder: laser_carmen";
+    const auto out = fresh_folder(log.mission);
+    const Finished run = run_cairn(
+        {"run", source_folder() + "/config/missions/" + log.mission + ".yaml", "--out", out.string(), "--json"});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    const auto summary = nlohmann::json::parse(run.out);
+    EXPECT_EQ(summary["readings"], log.readings) << log.mission;
+    const SavedMap map = load_map(summary["map"].get<std::string>());
+    EXPECT_NEAR(map.grid.bounds().width() * map.grid.cell_m(), log.width_m, 1.0) << log.mission;
+    EXPECT_NEAR(map.grid.bounds().height() * map.grid.cell_m(), log.height_m, 1.0) << log.mission;
+  }
+}
+
 }  // namespace
 }  // namespace cairn::testing_program

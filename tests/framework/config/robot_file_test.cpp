@@ -29,7 +29,8 @@ TEST(RobotFile, EveryShippedRobotLoads) {
     SCOPED_TRACE(entry.path());
     const RobotModel robot = load_robot(entry.path());
     EXPECT_FALSE(robot.name.empty());
-    EXPECT_FALSE(robot.sonars.empty());
+    // The beams of recorded lasers come with their logs.
+    EXPECT_EQ(robot.sonars.empty(), entry.path().stem() == "laser_robot");
     EXPECT_EQ(robot.firing_period_s, 0.04);
     EXPECT_EQ(robot.firing_order.size(), robot.sonars.size());
     for (const SonarModel& sonar : robot.sonars) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "framework/config/config_value.hpp"
+#include "tests/plugins/log_files.hpp"
 
 namespace cairn {
 namespace {
@@ -95,6 +96,12 @@ TEST_F(TableLogTest, ReadsTimesAndRangesInTheirUnits) {
   EXPECT_FALSE(seen[0].compass_rad.has_value());
   EXPECT_FALSE(seen[0].true_T_map_robot.has_value());
   EXPECT_EQ(reason_, "end of log.txt after 2 observations");
+}
+
+TEST_F(TableLogTest, ReadsAGzipTableAndRefusesACutOffOne) {
+  const std::string packed = log_files::LogFolder().gzip("1 1.5 2.5\n");
+  EXPECT_DOUBLE_EQ(play(packed)[0].ranges[1].range_m, 2.5);
+  EXPECT_EQ(error_of(packed.substr(0, packed.size() - 4)), "log.txt: the compressed log is cut off here");
 }
 
 TEST_F(TableLogTest, HasARuleForEveryOddRange) {

@@ -1,0 +1,184 @@
+#include "plugins/carmen_log/carmen_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <optional>
+
+#include "plugins/carmen_log/lasers.hpp"
+#include "plugins/carmen_log/recording.hpp"
+#include "plugins/log_common/log_text.hpp"
+
+namespace cairn::carmen_log {
+namespace {
+
+using log_common::LogLine;
+using log_common::LogText;
+using log_common::ScanLog;
+
+constexpr std::array<std::string_view, 5> kRangeKinds = {"FLASER", "RLASER", "ROBOTLASER1", "ROBOTLASER2", "SONAR"};
+
+class Reader {
+ public:
+  explicit Reader(const Config& config);
+  ScanLog read();
+
+ private:
+  void read_line(const LogLine& line);
+  void read_laser(const LogLine& line, const LaserLine& laser, bool rear);
+  void read_sonar(const LogLine& line);
+  void read_param(const LogLine& line);
+  void add_scan(const LogLine& line, double stamp_s, const Pose2& T_log_robot, std::size_t source,
+                std::size_t first_range);
+  [[nodiscard]] std::vector<RangeReading> sonars_of(const LogLine& line, std::size_t count);
+  [[nodiscard]] bool wants(std::string_view kind) const;
+
+  const Config& config_;
+  ScanLog scans_;
+  Recording recording_;
+  Params params_;
+  std::optional<Pose2> T_log_robot_;  // of the last line that has one
+  std::optional<Pose2> truth_;
+  int next_sensor_ = 0;  // transducers are numbered in the order of their sources
+  std::vector<double> ranges_m_;
+};
+
+void check(const Config& config) {
+  const SourcePlace place{config.file.string(), 0, 0};
+  for (const std::string& kind : config.lines)
+    if (std::find(kRangeKinds.begin(), kRangeKinds.end(), kind) == kRangeKinds.end())
+      throw ConfigError(place, "lines: there are no ranges in " + shown(kind) +
+                                   did_you_mean(kind, {kRangeKinds.begin(), kRangeKinds.end()}));
+  log_common::check_limits(config.file, "laser", config.laser);
+  log_common::check_limits(config.file, "rear_laser", config.rear_laser);
+  log_common::check_limits(config.file, "sonar", config.sonar.min_m, config.sonar.max_m);
+}
+
+Reader::Reader(const Config& config) : config_(config), scans_(config.file.string(), config), recording_(scans_) {
+  check(config);
+}
+
+ScanLog Reader::read() {
+  LogText text(config_.file);
+  LogLine line(text.name());
+  std::string_view content;
+  for (bool more = true; more;) {
+    try {
+      more = text.next(content);
+      if (!more) break;
+      line.cut(content, text.line_number());
+      if (line.size() > 0) read_line(line);
+    } catch (const ConfigError& error) {
+      scans_.bad_line(error);
+    }
+  }
+  recording_.check_complete({text.name(), text.line_number(), 1});
+  scans_.finish();
+  return std::move(scans_);
+}
+
+bool Reader::wants(std::string_view kind) const {
+  return config_.lines.empty() || std::find(config_.lines.begin(), config_.lines.end(), kind) != config_.lines.end();
+}
+
+void Reader::read_line(const LogLine& line) {
+  const std::string_view kind = line.word(0);
+  if (kind.starts_with('#') || kind == "SYNC") return;
+  if (kind == "PARAM") return read_param(line);
+  if (kind == "ODOM") {
+    recording_.read_odometry(line);
+    T_log_robot_ = Pose2{line.metres(1, "x"), line.metres(2, "y"), wrap_angle(line.finite(3, "heading"))};
+  } else if (kind == "TRUEPOS") {
+    truth_ = Pose2{line.metres(1, "x"), line.metres(2, "y"), line.finite(3, "heading")};
+    recording_.read_truth(*truth_);
+  } else if (kind == "FLASER" || kind == "RLASER") {
+    read_laser(line, read_flaser(line), kind == "RLASER");
+  } else if (kind == "ROBOTLASER1" || kind == "ROBOTLASER2") {
+    read_laser(line, read_robotlaser(line), kind == "ROBOTLASER2");
+  } else if (kind == "SONAR") {
+    read_sonar(line);
+  } else if (kind != "message" || line.line() != 1) {  // the logger's header, without its comment mark
+    scans_.unknown_line(kind);
+  }
+}
+
+void Reader::read_param(const LogLine& line) {
+  if (line.size() > 2 && line.word(1).starts_with("cairn_")) return recording_.read_param(line);
+  constexpr std::string_view kPrefix = "robot_";  // the only ones that are asked for
+  if (line.size() > 2 && line.word(1).starts_with(kPrefix))
+    params_.insert_or_assign(std::string(line.word(1)), std::string(line.word(2)));
+}
+
+void Reader::read_laser(const LogLine& line, const LaserLine& laser, bool rear) {
+  const log_common::LaserConfig& config = rear ? config_.rear_laser : config_.laser;
+  const log_common::Fan fan = fan_of(laser, config, params_, rear);
+  T_log_robot_ = config_.poses == Poses::log ? laser.T_log_laser * inverse(fan.T_robot_laser) : laser.T_odom_robot;
+  if (!wants(line.word(0))) return;
+  const std::string key = std::string(line.word(0)) + " " + log_common::key_of(fan, laser.ranges);
+  const std::size_t source = scans_.source(key, [&] {
+    const int first = next_sensor_;
+    next_sensor_ += static_cast<int>(laser.ranges);
+    return log_common::readings_of(fan, laser.ranges, config, first);
+  });
+  add_scan(line, laser.stamp_s, *T_log_robot_, source, laser.first_range);
+}
+
+// SONAR cone_angle n r1..rn (x y theta)xn time host time
+void Reader::read_sonar(const LogLine& line) {
+  constexpr std::size_t kFirstRange = 3;
+  constexpr std::size_t kBehind = 3;
+  const std::size_t count = line.count(2, "count of ranges");
+  const std::size_t behind = kFirstRange + 4 * count;
+  if (line.size() != behind + kBehind)
+    throw ConfigError(line.place(2), std::to_string(count) + " sonars, says the line, but " +
+                                         std::to_string(line.size() - kFirstRange) + " words follow, not " +
+                                         std::to_string(4 * count + kBehind));
+  if (recording_.take_sonar(line)) return;
+  if (!wants("SONAR")) return;
+  if (!T_log_robot_) throw ConfigError(line.place(0), "no line before this one says where the robot is");
+  const double stamp_s = line.finite(behind, "time");
+  std::string key = "SONAR " + std::string(line.word(1));
+  for (std::size_t i = kFirstRange + count; i < behind; ++i) key.append(" ").append(line.word(i));
+  const std::size_t source = scans_.source(key, [&] { return sonars_of(line, count); });
+  add_scan(line, stamp_s, *T_log_robot_, source, kFirstRange);
+}
+
+std::vector<RangeReading> Reader::sonars_of(const LogLine& line, std::size_t count) {
+  const double cone_rad = line.finite(1, "cone angle");
+  if (cone_rad < 0.0 || cone_rad > 2.0 * std::numbers::pi)
+    throw ConfigError(line.place(1), "the cone angle must be from 0 to 2 pi radians");
+  std::vector<RangeReading> sonars(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = 3 + count + 3 * i;
+    RangeReading& sonar = sonars[i];
+    sonar.T_robot_sensor = {line.metres(at, "x"), line.metres(at + 1, "y"), wrap_angle(line.finite(at + 2, "heading"))};
+    sonar.half_beam_rad = config_.sonar.half_beam_rad.value_or(0.5 * cone_rad);
+    sonar.min_m = config_.sonar.min_m;
+    sonar.max_m = config_.sonar.max_m;
+    sonar.sensor = next_sensor_ + static_cast<int>(i);
+  }
+  next_sensor_ += static_cast<int>(count);
+  return sonars;
+}
+
+void Reader::add_scan(const LogLine& line, double stamp_s, const Pose2& T_log_robot, std::size_t source,
+                      std::size_t first_range) {
+  const std::vector<RangeReading>& readings = scans_.readings_of(source);
+  ranges_m_.clear();
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    ranges_m_.push_back(log_common::recorded_range(line.range_m(first_range + i), config_, readings[i]));
+  log_common::Scan scan;
+  scan.stamp_s = stamp_s;
+  scan.line = line.line();
+  scan.true_T_map_robot = truth_;
+  scans_.set_pose(T_log_robot, scan);
+  scans_.add(scan, source, ranges_m_);
+}
+
+}  // namespace
+
+ScanLog read_carmen_log(const Config& config) {
+  return Reader(config).read();
+}
+
+}  // namespace cairn::carmen_log

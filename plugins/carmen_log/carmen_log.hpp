@@ -1,0 +1,22 @@
+// A CARMEN log played back. Plugin `carmen_log`, kind sensor; nothing to drive.
+//
+// Each line with ranges is one observation: FLASER, RLASER, ROBOTLASER1 and 2 (with and without
+// remissions), SONAR. ODOM, TRUEPOS and the laser lines say where the robot is; SONAR, which does not,
+// gets the pose of the last line before it that does. PARAM gives laser offsets and maximum ranges.
+// Comments (#) and SYNC say nothing, all other kinds are counted. What a recording of `record:` holds
+// beyond CARMEN (docs/logs.md) is read to the last bit.
+//
+// Bad lines, refused at their file:line:column or skipped and counted: a number that is none, a count
+// that does not fit the line, a pose or a finite range beyond 100 km, more than 1 MiB in a line,
+// compressed data that is cut off or damaged, SONAR before any pose.
+#pragma once
+
+#include "framework/contracts/sensor.hpp"
+#include "plugins/carmen_log/config.hpp"
+
+namespace cairn::carmen_log {
+
+// Reads the whole log. Throws ConfigError for what is refused and for a log without an observation.
+[[nodiscard]] log_common::ScanLog read_carmen_log(const Config& config);
+
+}  // namespace cairn::carmen_log

@@ -1,0 +1,104 @@
+#include "plugins/carmen_log/lasers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cairn::carmen_log {
+namespace {
+
+using log_common::LogLine;
+
+Pose2 pose_at(const LogLine& line, std::size_t i) {
+  return {line.metres(i, "x"), line.metres(i + 1, "y"), wrap_angle(line.finite(i + 2, "heading"))};
+}
+
+[[noreturn]] void refuse_count(const LogLine& line, std::size_t at, std::size_t n, std::size_t rest) {
+  throw ConfigError(line.place(at), std::to_string(n) + " ranges, says the line, but " +
+                                        std::to_string(line.size() - std::min(line.size(), at + 1)) +
+                                        " words follow, not " + std::to_string(n + rest));
+}
+
+double param(const Params& params, std::string_view name, double otherwise) {
+  const auto at = params.find(name);
+  double value = 0.0;
+  if (at == params.end() || !log_common::read_number(at->second, value) || !std::isfinite(value)) return otherwise;
+  return value;
+}
+
+double rounded(double value) {
+  return std::round(value * 1e4) / 1e4;
+}
+
+Pose2 place_of_laser(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
+  if (line.says_fan && !config.x_m && !config.angle_rad) {
+    const Pose2 exact = inverse(line.T_odom_robot) * line.T_log_laser;
+    return {rounded(exact.x_m), rounded(exact.y_m), rounded(exact.theta_rad)};
+  }
+  const double offset_m = param(params, rear ? "robot_rearlaser_offset" : "robot_frontlaser_offset", 0.0);
+  const double in_range_m = std::abs(offset_m) <= 10.0 ? offset_m : 0.0;
+  return {config.x_m.value_or(in_range_m), config.y_m,
+          wrap_angle(config.angle_rad.value_or(rear ? std::numbers::pi : 0.0))};
+}
+
+double max_of_laser(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
+  constexpr double kUsual_m = log_common::kUsualLaserMax_m;
+  double max_m = config.max_m.value_or(kUsual_m);
+  if (!config.max_m && line.says_fan) max_m = line.max_m;
+  if (!config.max_m && !line.says_fan)
+    max_m = param(params, rear ? "robot_rear_laser_max" : "robot_front_laser_max", kUsual_m);
+  return max_m > config.min_m && max_m <= log_common::kFarthest_m ? max_m : std::max(kUsual_m, 2.0 * config.min_m);
+}
+
+}  // namespace
+
+LaserLine read_flaser(const LogLine& line) {
+  constexpr std::size_t kBehind = 9;  // two poses, time host time
+  LaserLine laser;
+  laser.ranges = line.count(1, "count of ranges");
+  laser.first_range = 2;
+  const std::size_t behind = laser.first_range + laser.ranges;
+  if (line.size() != behind + kBehind) refuse_count(line, 1, laser.ranges, kBehind);
+  laser.T_log_laser = pose_at(line, behind);
+  laser.T_odom_robot = pose_at(line, behind + 3);
+  laser.stamp_s = line.finite(behind + 6, "time");
+  return laser;
+}
+
+LaserLine read_robotlaser(const LogLine& line) {
+  constexpr std::size_t kBehindOld = 13;  // two poses, two speeds, two distances, time host time
+  constexpr std::size_t kBehindNew = 14;  // and the turn axis
+  LaserLine laser;
+  laser.says_fan = true;
+  laser.first_angle_rad = line.finite(2, "start angle");
+  laser.step_rad = line.finite(4, "angular resolution");
+  laser.max_m = line.metres(5, "maximum range");
+  laser.ranges = line.count(8, "count of ranges");
+  laser.first_range = 9;
+  std::size_t behind = laser.first_range + laser.ranges;
+  if (line.size() != behind + kBehindOld) {
+    if (line.size() <= behind) refuse_count(line, 8, laser.ranges, kBehindOld);
+    const std::size_t remissions = line.count(behind, "count of remissions");
+    if (line.size() != behind + 1 + remissions + kBehindNew)
+      refuse_count(line, 8, laser.ranges, 1 + remissions + kBehindNew);
+    behind += 1 + remissions;
+  }
+  laser.T_log_laser = pose_at(line, behind);
+  laser.T_odom_robot = pose_at(line, behind + 3);
+  laser.stamp_s = line.finite(line.size() - 3, "time");
+  if (std::abs(laser.first_angle_rad) > 2.0 * std::numbers::pi || std::abs(laser.step_rad) > std::numbers::pi)
+    throw ConfigError(line.place(2), "angles of beams are radians, a turn at most");
+  if (laser.max_m <= 0.0) throw ConfigError(line.place(5), "the maximum range must be above 0");
+  return laser;
+}
+
+log_common::Fan fan_of(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
+  log_common::Fan fan;
+  fan.T_robot_laser = place_of_laser(line, config, params, rear);
+  fan.max_m = max_of_laser(line, config, params, rear);
+  if (line.says_fan) fan.first_angle_rad = line.first_angle_rad;
+  fan.step_rad = line.says_fan ? line.step_rad : log_common::usual_step(line.ranges);
+  return fan;
+}
+
+}  // namespace cairn::carmen_log

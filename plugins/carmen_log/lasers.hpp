@@ -1,0 +1,41 @@
+// Laser lines of a CARMEN log as numbers.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "framework/contracts/observation.hpp"
+#include "plugins/carmen_log/config.hpp"
+#include "plugins/log_common/log_line.hpp"
+
+namespace cairn::carmen_log {
+
+// The PARAM lines so far.
+using Params = std::map<std::string, std::string, std::less<>>;
+
+struct LaserLine {
+  std::size_t first_range = 0;  // words
+  std::size_t ranges = 0;
+  Pose2 T_log_laser;
+  Pose2 T_odom_robot;  // in the log's odometry
+  double stamp_s = 0.0;
+  // What only ROBOTLASER says.
+  bool says_fan = false;
+  double first_angle_rad = 0.0;
+  double step_rad = 0.0;
+  double max_m = 0.0;
+};
+
+// FLASER and RLASER: n r1..rn x y theta odom_x odom_y odom_theta time host time.
+// Throws ConfigError when the words do not fit the count or are no numbers.
+[[nodiscard]] LaserLine read_flaser(const log_common::LogLine& line);
+// ROBOTLASER1 and 2, with remissions and turn axis, or without both.
+[[nodiscard]] LaserLine read_robotlaser(const log_common::LogLine& line);
+
+// Where the laser of a line sits on the robot (the settings, then the line itself, ROBOTLASER's to
+// 0.1 mm since both its poses are rounded, then PARAM), its beams and its longest range.
+[[nodiscard]] log_common::Fan fan_of(const LaserLine& line, const log_common::LaserConfig& config, const Params& params,
+                                     bool rear);
+
+}  // namespace cairn::carmen_log

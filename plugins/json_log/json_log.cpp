@@ -1,0 +1,121 @@
+#include "plugins/json_log/json_log.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "plugins/log_common/log_line.hpp"
+#include "plugins/log_common/log_text.hpp"
+
+namespace cairn::json_log {
+namespace {
+
+using log_common::ScanLog;
+using nlohmann::json;
+
+json parsed(const std::filesystem::path& file) {
+  const std::string text = log_common::text_of_file(file);
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    const std::string_view before = std::string_view(text).substr(0, error.byte > 0 ? error.byte - 1 : 0);
+    const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+    throw ConfigError({file.string(), static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+                       static_cast<int>(before.size() - line_begin) + 1},
+                      "no JSON from here on");
+  } catch (const json::exception&) {
+    throw ConfigError({file.string(), 0, 0}, "a number in this JSON is too large");
+  }
+}
+
+class Reader {
+ public:
+  explicit Reader(const Config& config) : config_(config), scans_(config.file.string(), config) {
+    log_common::check_limits(config.file, "laser", config.laser);
+  }
+  ScanLog read();
+
+ private:
+  void read_scan(double stamp_s, const json& scan);
+  [[nodiscard]] ConfigError fault(const std::string& stamp, const std::string& sentence) const {
+    return {{config_.file.string(), 0, 0}, "at stamp " + shown(stamp) + ": " + sentence};
+  }
+
+  const Config& config_;
+  ScanLog scans_;
+  std::vector<double> ranges_m_;
+};
+
+double number_in(const json& value, const std::string& what) {
+  if (!value.is_number()) throw std::runtime_error(what + " must be a number");
+  const double number = value.get<double>();
+  if (std::abs(number) > log_common::kFarthest_m) throw std::runtime_error(what + " is beyond 100 km");
+  return number;
+}
+
+const json& member(const json& scan, const char* key) {
+  const auto at = scan.find(key);
+  if (at == scan.end()) throw std::runtime_error(std::string("no \"") + key + "\"");
+  return *at;
+}
+
+ScanLog Reader::read() {
+  const json root = parsed(config_.file);
+  const auto map = root.find("map");
+  if (!root.is_object() || map == root.end() || !map->is_object())
+    throw ConfigError({config_.file.string(), 0, 0}, "expected {\"map\": {STAMP: {range, x, y, theta}, ...}}");
+  std::vector<std::pair<double, json::const_iterator>> order;
+  for (auto scan = map->begin(); scan != map->end(); ++scan) {
+    double stamp_s = 0.0;
+    if (log_common::read_number(scan.key(), stamp_s) && std::isfinite(stamp_s))
+      order.emplace_back(stamp_s, scan);
+    else
+      scans_.bad_line(fault(scan.key(), "a stamp must be a number of seconds"));
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [stamp_s, scan] : order) {
+    try {
+      read_scan(stamp_s, *scan);
+    } catch (const std::runtime_error& error) {
+      scans_.bad_line(fault(scan.key(), error.what()));
+    }
+  }
+  scans_.finish();
+  return std::move(scans_);
+}
+
+void Reader::read_scan(double stamp_s, const json& scan) {
+  const json& ranges = member(scan, "range");
+  if (!ranges.is_array()) throw std::runtime_error("\"range\" must be a list");
+  const Pose2 T_log_laser{number_in(member(scan, "x"), "x"), number_in(member(scan, "y"), "y"),
+                          wrap_angle(number_in(member(scan, "theta"), "theta"))};
+  log_common::Fan fan;
+  fan.T_robot_laser = {config_.laser.x_m.value_or(0.0), config_.laser.y_m, config_.laser.angle_rad.value_or(0.0)};
+  fan.step_rad = log_common::usual_step(ranges.size());
+  fan.max_m = config_.laser.max_m.value_or(log_common::kUsualLaserMax_m);
+  const std::size_t source = scans_.source(log_common::key_of(fan, ranges.size()), [&] {
+    return log_common::readings_of(fan, ranges.size(), config_.laser, 0);
+  });
+  ranges_m_.clear();
+  for (const json& range : ranges)
+    ranges_m_.push_back(
+        log_common::recorded_range(number_in(range, "a range"), config_, scans_.readings_of(source)[ranges_m_.size()]));
+  log_common::Scan kept;
+  kept.stamp_s = stamp_s;
+  scans_.set_pose(T_log_laser * inverse(fan.T_robot_laser), kept);
+  scans_.add(kept, source, ranges_m_);
+}
+
+}  // namespace
+
+void Config::describe(Fields<Config>& fields) {
+  fields.file("file", &Config::file, "the log, plain or gzip").required = true;
+  fields.group("laser", &Config::laser, "the laser, of which the log says nothing");
+  LogRules::describe_rules(fields);
+}
+
+ScanLog read_json_log(const Config& config) {
+  return Reader(config).read();
+}
+
+}  // namespace cairn::json_log

@@ -1,0 +1,28 @@
+// Laser scans with poses in a JSON file, played back. Plugin `json_log`, kind sensor; nothing to drive.
+//
+//   {"map": {"976052890.244111": {"range": [1.09, ...], "x": 0.6, "y": -0.03, "theta": -0.35}, ...}}
+//
+// One observation a stamp, in order of time; x, y, theta is the laser's pose, the robot's is the laser's
+// less its offset. Bad scans (no such keys, a number that is none, a stamp that is none, a pose or a
+// finite range beyond 100 km) are refused, naming file and stamp, or skipped and counted. Text that is
+// no JSON is refused at its line and column in any case.
+#pragma once
+
+#include <filesystem>
+
+#include "plugins/log_common/laser.hpp"
+#include "plugins/log_common/scan_log.hpp"
+
+namespace cairn::json_log {
+
+struct Config : log_common::LogRules {
+  std::filesystem::path file;
+  log_common::LaserConfig laser;
+
+  static void describe(Fields<Config>& fields);
+};
+
+// Throws ConfigError for what is refused and for a log without an observation.
+[[nodiscard]] log_common::ScanLog read_json_log(const Config& config);
+
+}  // namespace cairn::json_log

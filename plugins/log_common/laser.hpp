@@ -1,0 +1,50 @@
+// Lasers as logs know them: fans of narrow beams.
+#pragma once
+
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/observation.hpp"
+
+namespace cairn::log_common {
+
+// Where a laser sits and what it can see, for logs that do not say so themselves.
+struct LaserConfig {
+  std::optional<double> x_m;
+  double y_m = 0.0;
+  std::optional<double> angle_rad;
+  std::optional<double> first_angle_rad;
+  std::optional<double> step_rad;
+  double half_beam_rad = 0.0;
+  double min_m = 0.05;
+  std::optional<double> max_m;
+
+  static void describe(Fields<LaserConfig>& fields);
+};
+
+inline constexpr double kUsualLaserMax_m = 80.0;
+
+struct Fan {
+  Pose2 T_robot_laser;
+  double first_angle_rad = -0.5 * std::numbers::pi;
+  double step_rad = 0.0;
+  double max_m = kUsualLaserMax_m;
+};
+
+// From beam to beam in the usual field of -90 to 90 deg: 1 deg for 180 and 181 beams, 0.5 for 360 and
+// 361, otherwise so that the last beam is at 90.
+[[nodiscard]] double usual_step(std::size_t beams);
+
+// One reading a beam, without ranges, numbered from first_sensor; the settings win over the fan's angles.
+[[nodiscard]] std::vector<RangeReading> readings_of(const Fan& fan, std::size_t beams, const LaserConfig& config,
+                                                    int first_sensor);
+// What tells one fan from another.
+[[nodiscard]] std::string key_of(const Fan& fan, std::size_t beams);
+
+// Throws ConfigError, naming the file, when min_m is not less than max_m.
+void check_limits(const std::filesystem::path& file, const std::string& what, double min_m, double max_m);
+void check_limits(const std::filesystem::path& file, const std::string& what, const LaserConfig& config);
+
+}  // namespace cairn::log_common

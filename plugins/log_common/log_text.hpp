@@ -1,0 +1,49 @@
+// A text file line by line, plain or gzip (its first bytes tell which), in bounded memory.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "framework/config/config_value.hpp"
+
+namespace cairn::log_common {
+
+class LogText {
+ public:
+  // Longer lines are no lines of any log we know.
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 20U;
+
+  // Throws ConfigError when the file cannot be read.
+  explicit LogText(const std::filesystem::path& file);
+  ~LogText();
+  LogText(const LogText&) = delete;
+  LogText& operator=(const LogText&) = delete;
+
+  // The next line without its end mark, valid until the next call; false at the end of the file.
+  // Throws ConfigError for a line that is too long (the next call goes on behind it) and where the
+  // gzip data is cut off or damaged (the half line there is dropped; the next call says end).
+  bool next(std::string_view& line);
+
+  [[nodiscard]] int line_number() const { return line_number_; }  // of the latest line, from 1
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  struct Reader;
+
+ private:
+  bool fill();
+  [[nodiscard]] std::string_view take(std::size_t end);
+
+  std::string name_;
+  std::unique_ptr<Reader> reader_;
+  std::string buffer_;
+  std::size_t begin_ = 0;  // of what has not been given out
+  int line_number_ = 0;
+  std::string damage_;  // what is wrong with the compressed data, until it has been told
+};
+
+// The whole of such a file. Throws ConfigError when it cannot be read, is damaged or is larger than 1 GiB.
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& file);
+
+}  // namespace cairn::log_common

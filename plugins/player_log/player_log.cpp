@@ -1,0 +1,236 @@
+#include "plugins/player_log/player_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "plugins/log_common/log_line.hpp"
+#include "plugins/log_common/log_text.hpp"
+
+namespace cairn::player_log {
+namespace {
+
+using log_common::LogLine;
+using log_common::ScanLog;
+
+constexpr std::array<std::string_view, 2> kRangeInterfaces = {"sonar", "laser"};
+constexpr std::size_t kPayload = 7;
+constexpr std::string_view kVersionMark = "File version:";
+constexpr std::string_view kVersion = "0.3.";
+
+// What a line is about.
+struct Header {
+  std::string_view interface;
+  int index = 0;
+  std::size_t type = 0;
+  std::size_t subtype = 0;
+
+  [[nodiscard]] bool is(std::string_view name, int at, std::size_t a_type, std::size_t a_subtype) const {
+    return interface == name && index == at && type == a_type && subtype == a_subtype;
+  }
+};
+
+class Reader {
+ public:
+  Reader(const Config& config, const RobotModel& robot);
+  ScanLog read();
+
+ private:
+  void read_line(const LogLine& line);
+  void read_sonar_geometry(const LogLine& line);
+  void read_sonar_ranges(const LogLine& line);
+  void read_laser_scan(const LogLine& line);
+  void add_scan(const LogLine& line, std::size_t source);
+  [[nodiscard]] bool wants(std::string_view interface) const;
+
+  const Config& config_;
+  ScanLog scans_;
+  std::vector<Pose2> robot_sonars_;
+  std::vector<Pose2> T_robot_sonars_;  // as the log says
+  std::optional<Pose2> T_robot_laser_;
+  std::optional<Pose2> T_log_robot_;
+  int next_sensor_ = 0;  // transducers are numbered in the order of their sources
+  std::vector<double> ranges_m_;
+};
+
+Pose2 pose_at(const LogLine& line, std::size_t i) {
+  return {line.metres(i, "x"), line.metres(i + 1, "y"), wrap_angle(line.finite(i + 2, "heading"))};
+}
+
+// The words behind the count must be `each` for each of them.
+std::size_t counted_words(const LogLine& line, std::size_t at, std::size_t each, std::string_view what) {
+  const std::size_t count = line.count(at, "count of " + std::string(what));
+  const std::size_t follow = line.size() - at - 1;
+  if (follow != each * count)
+    throw ConfigError(line.place(at), std::to_string(count) + " " + std::string(what) + ", says the line, but " +
+                                          std::to_string(follow) + " words follow, not " +
+                                          std::to_string(each * count));
+  return count;
+}
+
+void check_version(const LogLine& line, std::string_view comment) {
+  const std::size_t mark = comment.find(kVersionMark);
+  if (mark == std::string_view::npos) return;
+  const std::size_t begin = comment.find_first_not_of(' ', mark + kVersionMark.size());
+  const std::string_view version = comment.substr(std::min(begin, comment.size()));
+  if (!version.starts_with(kVersion))
+    throw ConfigError(line.place(0), "a Player log of file version " + shown(version) + "; 0.3.0 can be read");
+}
+
+Reader::Reader(const Config& config, const RobotModel& robot) : config_(config), scans_(config.file.string(), config) {
+  const SourcePlace place{config.file.string(), 0, 0};
+  for (const std::string& name : config.interfaces)
+    if (std::find(kRangeInterfaces.begin(), kRangeInterfaces.end(), name) == kRangeInterfaces.end())
+      throw ConfigError(place, "interfaces: no ranges are read from " + shown(name) +
+                                   did_you_mean(name, {kRangeInterfaces.begin(), kRangeInterfaces.end()}));
+  log_common::check_limits(config.file, "sonar", config.sonar.min_m, config.sonar.max_m);
+  log_common::check_limits(config.file, "laser", config.laser);
+  for (const SonarModel& sonar : robot.sonars) robot_sonars_.push_back(sonar.T_robot_sonar);
+}
+
+ScanLog Reader::read() {
+  log_common::LogText text(config_.file);
+  LogLine line(text.name());
+  std::string_view content;
+  for (bool more = true; more;) {
+    try {
+      more = text.next(content);
+      if (!more) break;
+      line.cut(content, text.line_number());
+    } catch (const ConfigError& error) {
+      scans_.bad_line(error);
+      continue;
+    }
+    if (line.size() == 0) continue;
+    if (line.word(0).starts_with('#')) {
+      check_version(line, content);
+      continue;
+    }
+    try {
+      read_line(line);
+    } catch (const ConfigError& error) {
+      scans_.bad_line(error);
+    }
+  }
+  scans_.finish();
+  return std::move(scans_);
+}
+
+bool Reader::wants(std::string_view interface) const {
+  const auto& names = config_.interfaces;
+  return names.empty() || std::find(names.begin(), names.end(), interface) != names.end();
+}
+
+void Reader::read_line(const LogLine& line) {
+  if (line.size() < kPayload)
+    throw ConfigError(line.place(line.size()),
+                      "the line ends before its payload: time host robot interface index type subtype payload");
+  const Header header{line.word(3), static_cast<int>(line.count(4, "index")), line.count(5, "type"),
+                      line.count(6, "subtype")};
+  if (header.is("position2d", config_.position_index, 1, 1)) {
+    T_log_robot_ = pose_at(line, kPayload);
+  } else if (header.is("sonar", config_.sonar_index, 1, 2) || header.is("sonar", config_.sonar_index, 4, 1)) {
+    read_sonar_geometry(line);
+  } else if (header.is("sonar", config_.sonar_index, 1, 1)) {
+    if (wants(header.interface)) read_sonar_ranges(line);
+  } else if (header.is("laser", config_.laser_index, 4, 1)) {
+    T_robot_laser_ = pose_at(line, kPayload);
+  } else if (header.is("laser", config_.laser_index, 1, 1)) {
+    if (wants(header.interface)) read_laser_scan(line);
+  } else {
+    scans_.unknown_line(std::string(header.interface) + ":" + std::to_string(header.type) + ":" +
+                        std::to_string(header.subtype));
+  }
+}
+
+// count x0 y0 a0 x1 y1 a1 ...
+void Reader::read_sonar_geometry(const LogLine& line) {
+  const std::size_t count = counted_words(line, kPayload, 3, "sonars");
+  std::vector<Pose2> poses;
+  for (std::size_t i = 0; i < count; ++i) poses.push_back(pose_at(line, kPayload + 1 + 3 * i));
+  T_robot_sonars_ = std::move(poses);
+}
+
+// count r0 r1 ...
+void Reader::read_sonar_ranges(const LogLine& line) {
+  const std::size_t count = counted_words(line, kPayload, 1, "ranges");
+  const std::vector<Pose2>& poses = T_robot_sonars_.empty() ? robot_sonars_ : T_robot_sonars_;
+  if (poses.size() != count)
+    throw ConfigError(line.place(kPayload),
+                      std::to_string(count) + " ranges, but " +
+                          (T_robot_sonars_.empty() ? "no sonar geometry so far, and the robot file has "
+                                                   : "the sonar geometry before has ") +
+                          std::to_string(poses.size()) + " sonars");
+  std::string key = "sonar";
+  for (const Pose2& pose : poses)
+    for (const double value : {pose.x_m, pose.y_m, pose.theta_rad}) key += " " + config_detail::number_text(value);
+  const std::size_t source = scans_.source(key, [&] {
+    std::vector<RangeReading> readings;
+    readings.reserve(poses.size());
+    const SonarConfig& sonar = config_.sonar;
+    for (const Pose2& pose : poses)
+      readings.push_back({pose, sonar.half_beam_rad, sonar.min_m, sonar.max_m, 0.0, next_sensor_++});
+    return readings;
+  });
+  ranges_m_.clear();
+  for (std::size_t i = 0; i < count; ++i) ranges_m_.push_back(line.range_m(kPayload + 1 + i));
+  add_scan(line, source);
+}
+
+// id min_angle max_angle resolution max_range count (range intensity)...
+void Reader::read_laser_scan(const LogLine& line) {
+  log_common::Fan fan;
+  fan.first_angle_rad = line.metres(kPayload + 1, "smallest angle");
+  fan.step_rad = line.metres(kPayload + 3, "resolution");
+  const double max_m = line.metres(kPayload + 4, "maximum range");
+  const std::size_t count = counted_words(line, kPayload + 5, 2, "ranges with intensities");
+  fan.max_m = config_.laser.max_m.value_or(max_m > config_.laser.min_m ? max_m : log_common::kUsualLaserMax_m);
+  const Pose2 said = T_robot_laser_.value_or(Pose2{});
+  fan.T_robot_laser = {config_.laser.x_m.value_or(said.x_m), config_.laser.x_m ? config_.laser.y_m : said.y_m,
+                       config_.laser.angle_rad.value_or(said.theta_rad)};
+  const std::size_t source = scans_.source("laser " + log_common::key_of(fan, count), [&] {
+    const int first = next_sensor_;
+    next_sensor_ += static_cast<int>(count);
+    return log_common::readings_of(fan, count, config_.laser, first);
+  });
+  ranges_m_.clear();
+  for (std::size_t i = 0; i < count; ++i) ranges_m_.push_back(line.range_m(kPayload + 6 + 2 * i));
+  add_scan(line, source);
+}
+
+void Reader::add_scan(const LogLine& line, std::size_t source) {
+  if (!T_log_robot_) throw ConfigError(line.place(0), "no position2d line before this one says where the robot is");
+  const std::vector<RangeReading>& readings = scans_.readings_of(source);
+  for (std::size_t i = 0; i < ranges_m_.size(); ++i)
+    ranges_m_[i] = log_common::recorded_range(ranges_m_[i], config_, readings[i]);
+  log_common::Scan scan;
+  scan.stamp_s = line.finite(0, "time");
+  scan.line = line.line();
+  scans_.set_pose(*T_log_robot_, scan);
+  scans_.add(scan, source, ranges_m_);
+}
+
+}  // namespace
+
+void SonarConfig::describe(Fields<SonarConfig>& fields) {
+  fields.angle("half_beam_deg", &SonarConfig::half_beam_rad, {0, 90}, "half the width of the beam");
+  fields.number("min_m", &SonarConfig::min_m, {0, 100}, "m", "shortest range");
+  fields.number("max_m", &SonarConfig::max_m, {0.01, 1000}, "m", "longest range, what is beyond is no echo");
+}
+
+void Config::describe(Fields<Config>& fields) {
+  fields.file("file", &Config::file, "the log, plain or gzip").required = true;
+  fields.texts("interfaces", &Config::interfaces, "whose ranges are read, of sonar and laser; left out: both");
+  fields.integer("position_index", &Config::position_index, {0, 1000000}, "which position2d device tells the odometry");
+  fields.integer("sonar_index", &Config::sonar_index, {0, 1000000}, "which sonar device is read");
+  fields.integer("laser_index", &Config::laser_index, {0, 1000000}, "which laser device is read");
+  fields.group("sonar", &Config::sonar, "what a Player log does not say about the sonars");
+  fields.group("laser", &Config::laser, "what wins over what the log says about the laser");
+  LogRules::describe_rules(fields);
+}
+
+ScanLog read_player_log(const Config& config, const RobotModel& robot) {
+  return Reader(config, robot).read();
+}
+
+}  // namespace cairn::player_log
