@@ -80,6 +80,9 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.number(
       "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
       "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
+  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6},
+                 "every so manieth range reading is withheld from the map, so that an experiment can ask how well the "
+                 "map foretells it; 0: none");
   fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
 }
 

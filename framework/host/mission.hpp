@@ -47,6 +47,7 @@ struct MissionConfig {
   StopLayerConfig stop_layer;
   double at_most_s = 36000.0;
   double watchdog_s = 30.0;
+  int withhold_every = 0;
   ConfigValue steps;
   static void describe(Fields<MissionConfig>& fields);
 };

@@ -47,7 +47,7 @@ ConfigValue scalar(const std::string& text) {
 TEST(Drive, PassesEveryPointInOrder) {
   FakeHost host(kHall);
   const std::vector<Point> points{{1.5, 0.6}, {1.5, 1.0}, {2.4, 0.5}};
-  DriveTo drive({.points_m = points});
+  DriveTo drive({.points_m = points}, 1);
   EXPECT_EQ(host.run(drive, 60.0), (Status{Progress::success, "drove all points"}));
   for (const Point& p : points) EXPECT_LT(nearest_m(host.driven, p), 0.06) << host.picture();
 }
@@ -59,14 +59,14 @@ TEST(Drive, DrivesThroughGentleBendsWithoutStopping) {
     const double a = 2.0 * std::numbers::pi * i / 36.0;
     points.push_back({1.2 + 0.3 * std::sin(a), 0.7 - 0.3 * std::cos(a)});
   }
-  DriveTo drive({.points_m = points});
+  DriveTo drive({.points_m = points}, 1);
   EXPECT_EQ(host.run(drive, 60.0).progress, Progress::success);
   EXPECT_LT(host.time_s, 2.0 * std::numbers::pi * 0.3 / 0.2 + 12.0);
 }
 
 TEST(Drive, FailsWhenItIsHeldBack) {
   FakeHost host(kHall);
-  DriveTo drive({.points_m = {{2.9, 0.65}}, .patience_s = 3.0});
+  DriveTo drive({.points_m = {{2.9, 0.65}}, .patience_s = 3.0}, 1);
   const Status status = host.run(drive, 60.0);
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_THAT(status.reason, HasSubstr("on the way to (2.90, 0.65)"));
@@ -74,7 +74,7 @@ TEST(Drive, FailsWhenItIsHeldBack) {
 
 TEST(Drive, WithoutPointsIsDoneAtOnce) {
   FakeHost host(kHall);
-  DriveTo drive(DriveConfig{});
+  DriveTo drive(DriveConfig{}, 1);
   EXPECT_EQ(host.tick(drive).progress, Progress::success);
 }
 
