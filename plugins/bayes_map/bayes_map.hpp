@@ -1,13 +1,8 @@
 // Mapper: recursive Bayes in log-odds, each reading on its own (METHOD 2, 2.1).
 //
 // Every cell in a reading's beam gets round(256 ln lambda), from its centre's range and bearing, up to
-// 3 delta behind the echo, or up to max_m without one. What a reading means:
-//   min_m <= range < max_m          an echo
-//   range >= max_m, or +inf         no echo
-//   range < min_m, negative, -inf   ignored: nearer than the sensor can tell
-//   NaN                             ignored: a bad reading
-// A reading whose own geometry is not finite, or whose half_beam is negative, is ignored too, and so is
-// an observation under a pose that is not finite. half_beam 0 is a ray.
+// 3 delta behind the echo, or up to max_m without one. What a reading means stands in
+// sonar_model/reading.hpp; an observation under a pose that is not finite is ignored. half_beam 0 is a ray.
 #pragma once
 
 #include "framework/contracts/mapper.hpp"
@@ -26,9 +21,9 @@ class BayesMap final : public Mapper {
  private:
   void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);
 
-  BeamModel beam_model_;
+  sonar_model::BeamModel beam_model_;
   OccupancyGrid grid_;
-  CellChanges changes_;  // of the latest call
+  CellChanges changes_;          // of the latest call
   std::vector<CellSpan> spans_;  // kept for its memory only
 };
 
