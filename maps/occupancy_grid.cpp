@@ -153,6 +153,18 @@ void OccupancyGrid::grow_directory(const CellBox& tiles) {
   tiles_box_ = box;
 }
 
+std::span<const LogOdds> OccupancyGrid::run_from(Cell first) const {
+  const Tile* const tile = tile_of(first);
+  if (tile == nullptr) return {};
+  return {tile->data() + offset_in_tile(first), static_cast<std::size_t>(kTileSide - (first.x & (kTileSide - 1)))};
+}
+
+std::span<LogOdds> OccupancyGrid::run_for_writing(Cell first, int cells) {
+  include({first, {first.x + cells, first.y + 1}});
+  Tile& tile = tile_for_writing(first);
+  return {tile.data() + offset_in_tile(first), static_cast<std::size_t>(kTileSide - (first.x & (kTileSide - 1)))};
+}
+
 void OccupancyGrid::copy_ol(const CellBox& box, std::span<std::uint8_t> out) const {
   auto to = out.begin();
   for_each_run(box, [&](Cell first, int run) {

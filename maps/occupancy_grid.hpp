@@ -83,6 +83,13 @@ class OccupancyGrid {
   // add_log_odds says whether the value changed.
   bool add_log_odds(Cell cell, int delta);
 
+  // A row's stored cells from `first` on, to the end of its tile: for the inner loops of maps.
+  // run_from() is empty where nothing was ever written. run_for_writing() grows the grid by the row's
+  // next `cells` cells (at most to the end of the tile); what is written must keep to the clamp.
+  [[nodiscard]] std::span<const LogOdds> run_from(Cell first) const;
+  [[nodiscard]] std::span<LogOdds> run_for_writing(Cell first, int cells);
+  [[nodiscard]] int clamp_quanta() const { return clamp_; }
+
   // Row-major copies of a box, row box.min.y first; out.size() == width * height.
   void copy_ol(const CellBox& box, std::span<std::uint8_t> out) const;
   void copy_log_odds(const CellBox& box, std::span<LogOdds> out) const;
