@@ -128,7 +128,10 @@ bool OccupancyGrid::add_log_odds(Cell cell, int delta) {
 
 OccupancyGrid::Tile& OccupancyGrid::tile_for_writing(Cell cell) {
   if (!bounds_.contains(cell)) include({cell, {cell.x + 1, cell.y + 1}});
-  const Cell tile{tile_index(cell.x), tile_index(cell.y)};
+  return tile_at({tile_index(cell.x), tile_index(cell.y)});
+}
+
+OccupancyGrid::Tile& OccupancyGrid::tile_at(Cell tile) {
   if (!tiles_box_.contains(tile)) grow_directory({tile, {tile.x + 1, tile.y + 1}});
   auto& slot =
       tiles_[static_cast<std::size_t>(tile.y - tiles_box_.min.y) * static_cast<std::size_t>(tiles_box_.width()) +
@@ -153,16 +156,8 @@ void OccupancyGrid::grow_directory(const CellBox& tiles) {
   tiles_box_ = box;
 }
 
-std::span<const LogOdds> OccupancyGrid::run_from(Cell first) const {
-  const Tile* const tile = tile_of(first);
-  if (tile == nullptr) return {};
-  return {tile->data() + offset_in_tile(first), static_cast<std::size_t>(kTileSide - (first.x & (kTileSide - 1)))};
-}
-
-std::span<LogOdds> OccupancyGrid::run_for_writing(Cell first, int cells) {
-  include({first, {first.x + cells, first.y + 1}});
-  Tile& tile = tile_for_writing(first);
-  return {tile.data() + offset_in_tile(first), static_cast<std::size_t>(kTileSide - (first.x & (kTileSide - 1)))};
+LogOdds* OccupancyGrid::cells_of_tile_for_writing(Cell tile) {
+  return tile_at(tile).data();
 }
 
 void OccupancyGrid::copy_ol(const CellBox& box, std::span<std::uint8_t> out) const {

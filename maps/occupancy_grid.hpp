@@ -83,11 +83,13 @@ class OccupancyGrid {
   // add_log_odds says whether the value changed.
   bool add_log_odds(Cell cell, int delta);
 
-  // A row's stored cells from `first` on, to the end of its tile: for the inner loops of maps.
-  // run_from() is empty where nothing was ever written. run_for_writing() grows the grid by the row's
-  // next `cells` cells (at most to the end of the tile); what is written must keep to the clamp.
-  [[nodiscard]] std::span<const LogOdds> run_from(Cell first) const;
-  [[nodiscard]] std::span<LogOdds> run_for_writing(Cell first, int cells);
+  // The stored cells of a tile, row-major, for the inner loops of maps: null where nothing was ever
+  // written. What is written must keep to the clamp, and be announced to include().
+  [[nodiscard]] const LogOdds* cells_of_tile(Cell tile) const {
+    const Tile* found = tile_of({tile.x * kTileSide, tile.y * kTileSide});
+    return found == nullptr ? nullptr : found->data();
+  }
+  [[nodiscard]] LogOdds* cells_of_tile_for_writing(Cell tile);
   [[nodiscard]] int clamp_quanta() const { return clamp_; }
 
   // Row-major copies of a box, row box.min.y first; out.size() == width * height.
@@ -113,6 +115,7 @@ class OccupancyGrid {
         .get();
   }
   Tile& tile_for_writing(Cell cell);
+  Tile& tile_at(Cell tile);
   void grow_directory(const CellBox& tiles);
 
   double cell_m_;

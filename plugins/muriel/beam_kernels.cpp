@@ -1,8 +1,7 @@
 #include "plugins/muriel/beam_kernels.hpp"
 
 #include <bit>
-#include <cmath>
-#include <cstdint>
+#include <cstring>
 
 #if defined(__x86_64__) && defined(__ELF__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
@@ -15,95 +14,226 @@
 namespace cairn::muriel {
 namespace {
 
+// Eight lanes in the compiler's own vectors: whatever the machine has, it makes of them what it can.
+using Floats = float __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+using Shorts = std::int16_t __attribute__((vector_size(16)));
+using Bytes = std::int8_t __attribute__((vector_size(8)));
+using Words = std::uint64_t __attribute__((vector_size(64)));
+
+constexpr Floats kLane = {0, 1, 2, 3, 4, 5, 6, 7};
 constexpr float kQuantaPerNat = 256.0F;
+constexpr float kPerSqrtTwoPi = 0.39894228F;
+constexpr float kFarBefore = 5.5F;  // z beyond which Phi is 1 and phi 0 to a hundredth of a quantum
 
-CAIRN_INLINE float larger(float a, float b) {
-  return a > b ? a : b;  // std::fmax minds NaN and does not vectorise
+template <class Vector, class T>
+CAIRN_INLINE Vector load(const T* from) {
+  Vector v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
 }
-CAIRN_INLINE float smaller(float a, float b) {
-  return a < b ? a : b;
+template <class Vector, class T>
+CAIRN_INLINE void store(T* to, const Vector& v) {
+  std::memcpy(to, &v, sizeof v);
+}
+CAIRN_INLINE Floats all(float x) {
+  return Floats{} + x;
+}
+CAIRN_INLINE Floats larger(const Floats& a, const Floats& b) {
+  return a > b ? a : b;
+}
+CAIRN_INLINE Ints to_ints(const Floats& x) {  // towards 0
+  return __builtin_convertvector(x, Ints);
+}
+CAIRN_INLINE Floats to_floats(const Ints& x) {
+  return __builtin_convertvector(x, Floats);
+}
+CAIRN_INLINE Floats bits_as_floats(const Ints& x) {
+  return reinterpret_cast<const Floats&>(x);
+}
+CAIRN_INLINE Ints bits_as_ints(const Floats& x) {
+  return reinterpret_cast<const Ints&>(x);
+}
+// A byte a lane.
+CAIRN_INLINE std::uint64_t bytes_of(const Ints& mask) {
+  const Bytes bytes = __builtin_convertvector(mask, Bytes);
+  std::uint64_t all_bytes;
+  std::memcpy(&all_bytes, &bytes, sizeof all_bytes);
+  return all_bytes;
+}
+CAIRN_INLINE bool any(const Ints& mask) {
+  return bytes_of(mask) != 0;
+}
+CAIRN_INLINE bool any(const Shorts& mask) {
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &mask, sizeof halves);
+  return (halves[0] | halves[1]) != 0;
+}
+CAIRN_INLINE Floats square_root(const Floats& x) {
+  Floats root;
+  for (int i = 0; i < kBlock_cells; ++i) root[i] = __builtin_sqrtf(x[i]);
+  return root;
 }
 
-// Angle squared from v = 1 - cos(angle): 2 sum (2v)^n / (n^2 C(2n, n)), good to 1e-7 up to 45 degrees.
-CAIRN_INLINE float angle2_of_versine(float v) {
-  return v * (2.0F + v * (0.33333333F +
-                          v * (0.088888889F +
-                               v * (0.028571429F + v * (0.01015873F + v * (0.0038480038F + v * 0.0015222872F))))));
+// Angle squared from v = 1 - cos(angle): 2 sum (2v)^n / (n^2 C(2n, n)), good to 2e-6 up to 45 degrees.
+CAIRN_INLINE Floats angle2_of_versine(const Floats& v) {
+  return v *
+         (2.0F + v * (0.33333333F + v * (0.088888889F + v * (0.028571429F + v * (0.01015873F + v * 0.0038480038F)))));
 }
 
 // e^x for -87 <= x <= 0, relative error 2e-7: a power of two times a short series.
-CAIRN_INLINE float exp_of(float x) {
-  const float scaled = x * 1.44269504F;
-  const float whole = static_cast<float>(static_cast<std::int32_t>(scaled - 0.5F));
-  const float rest = (scaled - whole) * 0.69314718F;
-  const float series =
+CAIRN_INLINE Floats exp_of(const Floats& x) {
+  const Floats scaled = x * 1.44269504F;
+  const Ints whole = to_ints(scaled - 0.5F);
+  const Floats rest = (scaled - to_floats(whole)) * 0.69314718F;
+  const Floats series =
       1.0F +
       rest * (1.0F + rest * (0.5F + rest * (0.16666667F +
                                             rest * (0.041666667F + rest * (0.0083333333F + rest * 0.0013888889F)))));
-  const auto power = static_cast<std::uint32_t>(static_cast<std::int32_t>(whole) + 127) << 23U;
-  return series * std::bit_cast<float>(power);
+  return series * bits_as_floats((whole + 127) << 23);
 }
 
 // ln x for positive normal x: the series of atanh around a power of two, error 2e-7.
-CAIRN_INLINE float ln_of(float x) {
-  const auto bits = std::bit_cast<std::int32_t>(x);
-  const std::int32_t exponent = (bits - 0x3f3504f3) >> 23;  // so that the rest lies within a factor sqrt(2) of 1
-  const float rest = std::bit_cast<float>(bits - (exponent << 23));
-  const float s = (rest - 1.0F) / (rest + 1.0F);
-  const float s2 = s * s;
-  const float series = s * (2.0F + s2 * (0.66666667F + s2 * (0.4F + s2 * (0.28571429F + s2 * 0.22222222F))));
-  return static_cast<float>(exponent) * 0.69314718F + series;
+CAIRN_INLINE Floats ln_of(const Floats& x) {
+  const Ints bits = bits_as_ints(x);
+  const Ints exponent = (bits - 0x3f3504f3) >> 23;  // so that the rest lies within a factor sqrt(2) of 1
+  const Floats rest = bits_as_floats(bits - (exponent << 23));
+  const Floats s = (rest - 1.0F) / (rest + 1.0F);
+  const Floats s2 = s * s;
+  return to_floats(exponent) * 0.69314718F +
+         s * (2.0F + s2 * (0.66666667F + s2 * (0.4F + s2 * (0.28571429F + s2 * 0.22222222F))));
 }
 
-// Abramowitz and Stegun 26.2.17 (error 7.5e-8), with phi(z) sqrt(2 pi) at hand.
-CAIRN_INLINE float normal_integral(float z, float bell) {
-  const float t = 1.0F / (1.0F + 0.2316419F * std::fabs(z));
-  const float tail = 0.39894228F * bell * t *
-                     (0.31938153F + t * (-0.356563782F + t * (1.781477937F + t * (-1.821255978F + t * 1.330274429F))));
+// Abramowitz and Stegun 26.2.17 (error 7.5e-8); bell = e^(-z^2 / 2).
+CAIRN_INLINE Floats normal_integral(const Floats& z, const Floats& bell) {
+  const Floats t = 1.0F / (1.0F + 0.2316419F * larger(z, -z));
+  const Floats tail = kPerSqrtTwoPi * bell * t *
+                      (0.31938153F + t * (-0.356563782F + t * (1.781477937F + t * (-1.821255978F + t * 1.330274429F))));
   return z >= 0.0F ? 1.0F - tail : tail;
+}
+
+struct BlockPlace {
+  Floats dx_m, dy_m;
+  Floats across;  // of the axis
+  Floats range_m;
+  Floats off2;  // (bearing / half_beam)^2
+  Floats alpha;
+};
+
+CAIRN_INLINE BlockPlace place_block(const KernelReading& r, float dx_m, float dy_m, int begin, int end) {
+  BlockPlace p;
+  p.dx_m = dx_m + kLane * static_cast<float>(r.cell_m);
+  p.dy_m = all(dy_m);
+  Floats along = r.ahead_x * p.dx_m + r.ahead_y * p.dy_m;
+  p.across = r.ahead_x * p.dy_m - r.ahead_y * p.dx_m;
+  Ints inside = (kLane >= static_cast<float>(begin)) & (kLane < static_cast<float>(end));
+  if (r.is_ray) {
+    p.across = Floats{};
+    p.range_m = larger(along, Floats{});
+    p.off2 = Floats{};
+  } else {
+    p.range_m = square_root(along * along + p.across * p.across);
+    const Floats versine = p.across * p.across / (p.range_m * (p.range_m + along) + 1e-20F);
+    p.off2 = angle2_of_versine(versine) * r.per_half_beam2;
+    inside &= (p.off2 <= 1.0F) & (along >= 0.0F);
+  }
+  inside &= p.range_m <= r.reach_m;
+  const Floats near = larger(1.0F - p.range_m * r.per_alpha_range, Floats{});
+  p.alpha = inside ? r.alpha_max * near * (1.0F - p.off2) : Floats{};
+  return p;
+}
+
+CAIRN_INLINE Ints shift_of(const KernelReading& r, const BlockPlace& p) {
+  Ints bucket = Ints{} + r.first_bucket;
+  for (int e = 0; e < r.edges; ++e)
+    bucket -= r.edge_x[static_cast<std::size_t>(e)] * p.dy_m >= r.edge_y[static_cast<std::size_t>(e)] * p.dx_m;
+  return 2 * (bucket - ((bucket >= r.bearings) & r.bearings));
+}
+
+CAIRN_INLINE int list_known(const KernelReading& r, const BlockPlace& p, const Floats& hit, const Shorts& log_odds,
+                            KnownTarget* known) {
+  int count = 0;
+  for (int i = 0; i < kBlock_cells; ++i) {
+    if (log_odds[i] < r.believed_from || p.alpha[i] <= 0.0F) continue;
+    const float off_axis = __builtin_sqrtf(p.off2[i]);
+    known[count++] = {p.range_m[i], __builtin_copysignf(off_axis, p.across[i]), p.alpha[i], hit[i], log_odds[i]};
+  }
+  return count;
 }
 
 }  // namespace
 
 CAIRN_FOR_EACH_MACHINE
-void evaluate_cells(const KernelReading& reading, const float* __restrict dx_m, const float* __restrict dy_m, int count,
-                    const KernelCells& out) {
+int evaluate_runs(const KernelReading& reading, const Run* runs, int count, const KernelCells& out,
+                  KnownTarget* known) {
   const KernelReading r = reading;
-  float* const __restrict out_range = out.range_m;
-  float* const __restrict out_off_axis = out.off_axis;
-  float* const __restrict out_alpha = out.alpha;
-  float* const __restrict out_miss = out.miss;
-  float* const __restrict out_hit = out.hit_per_m;
-  const float ray = r.is_ray ? 1.0F : 0.0F;
-  const float echo = r.is_echo ? 0.39894228F : 0.0F;
-  for (int i = 0; i < count; ++i) {
-    const float along = r.ahead_x * dx_m[i] + r.ahead_y * dy_m[i];
-    const float across = (r.ahead_x * dy_m[i] - r.ahead_y * dx_m[i]) * (1.0F - ray);
-    const float ahead = along > 0.0F ? along : 0.0F;
-    const float along_used = ray > 0.0F ? ahead : along;
-    const float range = std::sqrt(along_used * along_used + across * across);
-    const float versine = across * across / (range * (range + along_used) + 1e-20F);
-    const float off2 = angle2_of_versine(versine) * r.per_half_beam2;
-    const float inside = off2 <= 1.0F && range <= r.reach_m ? 1.0F : 0.0F;
-    const float near = larger(1.0F - range * r.per_alpha_range, 0.0F);
-    const float alpha = inside * r.alpha_max * near * (1.0F - off2);
-
-    const float per_delta = 1.0F / (r.delta_m + r.delta_per_m * range);
-    const float z = smaller(larger((r.range_m - range) * per_delta, -12.0F), 12.0F);
-    const float bell = exp_of(-0.5F * z * z);
-    out_range[i] = range;
-    out_off_axis[i] = std::copysign(std::sqrt(off2), across);
-    out_alpha[i] = alpha;
-    out_miss[i] = alpha * normal_integral(z, bell);
-    out_hit[i] = alpha * bell * per_delta * echo;
+  int found = 0;
+  std::size_t at = 0;
+  for (const Run* run = runs; run != runs + count; ++run) {
+    const auto dy_m = static_cast<float>((run->first.y + 0.5) * r.cell_m - r.apex_y_m);
+    for (int b = 0; b < run->blocks; ++b, at += kBlock_cells) {
+      const int offset = b * kBlock_cells;
+      const auto dx_m = static_cast<float>((run->first.x + offset + 0.5) * r.cell_m - r.apex_x_m);
+      const BlockPlace p = place_block(r, dx_m, dy_m, run->begin - offset, run->end - offset);
+      const Floats per_delta = 1.0F / (r.delta_m + r.delta_per_m * p.range_m);
+      Floats z = (r.range_m - p.range_m) * per_delta;
+      Floats miss = p.alpha;
+      Floats hit{};
+      if (any((z < kFarBefore) & (p.alpha > 0.0F))) {
+        z = z < 12.0F ? larger(z, all(-12.0F)) : all(12.0F);
+        const Floats bell = exp_of(-0.5F * z * z);
+        miss *= normal_integral(z, bell);
+        if (r.is_echo) hit = p.alpha * bell * per_delta * kPerSqrtTwoPi;
+      }
+      store(out.miss + at, miss);
+      store(out.hit_per_m + at, hit);
+      store(out.shift + at, shift_of(r, p));
+      const auto log_odds = load<Shorts>(run->cells + offset);
+      const Shorts believed = log_odds >= static_cast<std::int16_t>(r.believed_from);
+      if (any(believed)) found += list_known(r, p, hit, log_odds, known + found);
+    }
   }
+  return found;
 }
 
 CAIRN_FOR_EACH_MACHINE
-void weigh_cells(const float* __restrict miss, const float* __restrict hit_per_m, float weight, float per_false_echo_m,
-                 int count, float* __restrict increments) {
-  for (int i = 0; i < count; ++i)
-    increments[i] = kQuantaPerNat * ln_of(1.0F + weight * (hit_per_m[i] * per_false_echo_m - miss[i]));
+void weigh_cells(const float* miss, const float* hit_per_m, float weight, float per_false_echo_m, int count,
+                 float* increments) {
+  for (int i = 0; i < count; i += kBlock_cells)
+    store(increments + i, kQuantaPerNat * ln_of(1.0F + weight * (load<Floats>(hit_per_m + i) * per_false_echo_m -
+                                                                 load<Floats>(miss + i))));
+}
+
+CAIRN_FOR_EACH_MACHINE
+Changed apply_run(const float* increments, const std::int32_t* shift, int blocks, int clamp,
+                  const KernelWeights& weights, LogOdds* cells, std::uint64_t* words) {
+  Changed changed;
+  const auto weight_of_count = load<Floats>(weights.data());
+  for (int at = 0; at < blocks * kBlock_cells; at += kBlock_cells) {
+    Floats change = load<Floats>(increments + at);
+    Ints taken = (change >= 0.5F) | (change <= -0.5F);
+    if (!any(taken)) continue;
+    if (words != nullptr) {
+      auto log = load<Words>(words + at);
+      const Words shifts = __builtin_convertvector(load<Ints>(shift + at), Words);
+      const Floats weight = __builtin_shuffle(weight_of_count, __builtin_convertvector((log >> shifts) & 3, Ints));
+      taken &= weight > 0.0F;
+      log += __builtin_convertvector(taken & 1, Words) << shifts;
+      store(words + at, log);
+      change *= weight;
+    }
+    change = taken ? change : Floats{};
+    const Ints before = __builtin_convertvector(load<Shorts>(cells + at), Ints);
+    Ints after = before + to_ints(change + (change < 0.0F ? all(-0.5F) : all(0.5F)));
+    after = after > clamp ? Ints{} + clamp : after;
+    after = after < -clamp ? Ints{} - clamp : after;
+    store(cells + at, __builtin_convertvector(after, Shorts));
+    if (const std::uint64_t moved = bytes_of(after != before); moved != 0) {
+      if (changed.last < 0) changed.first = at + std::countr_zero(moved) / 8;
+      changed.last = at + 7 - std::countl_zero(moved) / 8;
+    }
+  }
+  return changed;
 }
 
 }  // namespace cairn::muriel

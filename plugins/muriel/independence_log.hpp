@@ -29,7 +29,8 @@ class IndependenceLog {
     const Tile* const tile = tiles_.find(sonar_model::tile_holding(cell));
     return tile == nullptr ? 0 : (*tile)[sonar_model::place_in_tile(cell)];
   }
-  // Grows where needed; a row's next cells, to the end of the tile, lie behind it.
+  // Both grow where needed.
+  [[nodiscard]] Tile& tile(Cell tile) { return tiles_.at(tile); }
   [[nodiscard]] LogWord& word_for_writing(Cell cell) {
     return tiles_.at(sonar_model::tile_holding(cell))[sonar_model::place_in_tile(cell)];
   }

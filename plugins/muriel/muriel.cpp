@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "plugins/muriel/plain_muriel.hpp"
 #include "plugins/sonar_model/reading.hpp"
@@ -9,38 +11,52 @@
 namespace cairn::muriel {
 namespace {
 
-KernelReading kernel_reading(const Config& config, const PlacedReading& reading) {
-  const double half_beam = reading.beam.half_beam_rad;
-  const Point ahead = reading.beam.T_map_sensor.direction();
+constexpr int kTileSide = OccupancyGrid::kTileSide;
+// The kernels' series are good up to here, and the beam crosses at most kMostEdges edges of 32 buckets.
+constexpr double kWidestHalfBeam_rad = 0.25 * std::numbers::pi;
+
+constexpr std::array<LogOdds, kTileSide> kUnseenRow{};
+
+KernelReading kernel_reading(const Config& config, const PlacedReading& reading, LogOdds believed_from) {
+  const Beam& beam = reading.beam;
+  const Point ahead = beam.T_map_sensor.direction();
   KernelReading result;
+  result.apex_x_m = beam.T_map_sensor.x_m;
+  result.apex_y_m = beam.T_map_sensor.y_m;
+  result.cell_m = config.cell_m;
   result.ahead_x = static_cast<float>(ahead.x());
   result.ahead_y = static_cast<float>(ahead.y());
-  result.is_ray = half_beam <= 0.0;
-  result.per_half_beam2 = result.is_ray ? 0.0F : static_cast<float>(1.0 / (half_beam * half_beam));
+  result.is_ray = beam.half_beam_rad <= 0.0;
+  result.per_half_beam2 = result.is_ray ? 0.0F : static_cast<float>(1.0 / (beam.half_beam_rad * beam.half_beam_rad));
   result.alpha_max = static_cast<float>(config.alpha_max);
   result.per_alpha_range = static_cast<float>(1.0 / config.alpha_range_m);
   result.delta_m = static_cast<float>(config.delta_m);
   result.delta_per_m = static_cast<float>(config.delta_per_m);
   result.range_m = static_cast<float>(std::min(reading.range_m, 1e6));
-  result.reach_m = static_cast<float>(reading.beam.reach_m);
+  result.reach_m = static_cast<float>(beam.reach_m);
   result.is_echo = reading.is_echo;
+  result.believed_from = config.specular ? believed_from : std::numeric_limits<LogOdds>::max();
   return result;
 }
 
-int rounded(float quanta) {
-  return static_cast<int>(quanta + (quanta < 0.0F ? -0.5F : 0.5F));
+void add_edges(KernelReading& result, const Beam& beam, int bearings) {
+  result.bearings = bearings;
+  const double axis = beam.T_map_sensor.theta_rad;
+  result.first_bucket = bucket_of(axis - beam.half_beam_rad, bearings);
+  const int last_bucket = bucket_of(axis + beam.half_beam_rad, bearings);
+  result.edges = (last_bucket - result.first_bucket + bearings) % bearings;
+  for (int e = 0; e < result.edges; ++e) {
+    const double angle = (result.first_bucket + e + 0.5) * 2.0 * std::numbers::pi / bearings;
+    result.edge_x[static_cast<std::size_t>(e)] = static_cast<float>(std::cos(angle));
+    result.edge_y[static_cast<std::size_t>(e)] = static_cast<float>(std::sin(angle));
+  }
 }
 
 }  // namespace
 
 Muriel::Muriel(const Config& config)
-    : config_(config),
-      weights_(weights_of(config)),
-      believed_(log_odds_of(config.believed_p)),
-      grid_(config.cell_m, config.clamp_nat),
-      pieces_(config.log == LogPolicy::off ? 0 : config.log_bearings) {
-  for (int l = believed_; l <= grid_.clamp_quanta(); ++l)
-    probability_.push_back(static_cast<float>(probability_of(static_cast<LogOdds>(l))));
+    : config_(config), believed_(log_odds_of(config.believed_p)), grid_(config.cell_m, config.clamp_nat) {
+  std::ranges::copy(weights_of(config), weights_.begin());
 }
 
 const CellChanges& Muriel::integrate(const Observation& observation, const PoseEstimate& pose) {
@@ -48,100 +64,103 @@ const CellChanges& Muriel::integrate(const Observation& observation, const PoseE
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges)
     if (const auto news = placed(config_, reading, pose.T_map_robot)) integrate_reading(*news);
-  sonar_model::tidy(changes_.spans);
+  join_rows();
   return changes_;
 }
 
 void Muriel::integrate_reading(const PlacedReading& reading) {
-  if (reading.beam.half_beam_rad > kWidestFastHalfBeam_rad)
-    return integrate_plainly(config_, reading, grid_, log_, spans_, changes_.spans);
-  place_cells(reading);
-  evaluate_cells(kernel_reading(config_, reading), dx_m_, dy_m_, pieces_.cells(), cells_);
-  const double s = config_.specular ? specular_p(reading) : 0.0;
+  if (reading.beam.half_beam_rad > kWidestHalfBeam_rad) {
+    integrate_plainly(config_, reading, grid_, log_, spans_, changes_.spans);
+    return;
+  }
+  find_runs(reading);
+  KernelReading kernel = kernel_reading(config_, reading, believed_);
+  if (config_.log != LogPolicy::off) add_edges(kernel, reading.beam, config_.log_bearings);
+  const int known = evaluate_runs(kernel, runs_.data(), static_cast<int>(runs_.size()), cells_, known_.data());
+  const double s = config_.specular ? specular_p(reading, known) : 0.0;
   weigh_cells(cells_.miss, cells_.hit_per_m, static_cast<float>(1.0 - s),
-              static_cast<float>(1.0 / config_.false_echo_per_m), pieces_.cells(), increments_);
+              static_cast<float>(1.0 / config_.false_echo_per_m), static_cast<int>(count_), increments_);
   apply();
 }
 
-void Muriel::place_cells(const PlacedReading& reading) {
-  pieces_.cover(reading.beam, config_.cell_m);
-  const auto count = static_cast<std::size_t>(pieces_.cells());
-  constexpr std::size_t kArrays = 8;
-  if (scratch_.size() < kArrays * count) scratch_.resize(kArrays * count);
-  float* next = scratch_.data();
-  for (float** array : {&dx_m_, &dy_m_, &increments_, &cells_.range_m, &cells_.off_axis, &cells_.alpha, &cells_.miss,
-                        &cells_.hit_per_m})
-    next = (*array = next) + count;
-
-  std::size_t at = 0;
-  const auto step = static_cast<float>(config_.cell_m);
-  for (const Piece& piece : pieces_.pieces()) {
-    const auto dx = static_cast<float>((piece.first.x + 0.5) * config_.cell_m - reading.beam.T_map_sensor.x_m);
-    const auto dy = static_cast<float>((piece.first.y + 0.5) * config_.cell_m - reading.beam.T_map_sensor.y_m);
-    for (int i = 0; i < piece.cells; ++i, ++at) {
-      dx_m_[at] = dx + step * static_cast<float>(i);
-      dy_m_[at] = dy;
+void Muriel::find_runs(const PlacedReading& reading) {
+  spans_over(reading.beam, config_.cell_m, spans_);
+  runs_.clear();
+  std::size_t cells = 0;
+  for (const CellSpan& span : spans_)
+    for (int x = span.x_begin; x < span.x_end;) {
+      const int first = x & ~(kBlock_cells - 1);
+      const int end = std::min(span.x_end, (x | (kTileSide - 1)) + 1);
+      const Cell cell{first, span.y};
+      const LogOdds* const tile = grid_.cells_of_tile(sonar_model::tile_holding(cell));
+      const int blocks = (end - first + kBlock_cells - 1) / kBlock_cells;
+      runs_.push_back({cell, blocks, x - first, end - first,
+                       tile == nullptr ? kUnseenRow.data() : tile + sonar_model::place_in_tile(cell), tile != nullptr});
+      cells += static_cast<std::size_t>(blocks * kBlock_cells);
+      x = end;
     }
-  }
+  make_room(cells);
 }
 
-double Muriel::specular_p(const PlacedReading& reading) {
+void Muriel::make_room(std::size_t cells) {
+  count_ = cells;
+  if (known_.size() < cells) {
+    known_.resize(cells);
+    shift_.resize(cells);
+    scratch_.resize(3 * cells);
+  }
+  increments_ = scratch_.data();
+  cells_ = {increments_ + cells, increments_ + 2 * cells, shift_.data()};
+}
+
+double Muriel::specular_p(const PlacedReading& reading, int known) const {
   KnownTargets targets(config_.specular_sectors);
-  const auto range_m = static_cast<float>(reading.range_m);
-  std::size_t at = 0;
-  for (const Piece& piece : pieces_.pieces()) {
-    const std::span<const LogOdds> run = grid_.run_from(piece.first);
-    const auto cells = static_cast<std::size_t>(piece.cells);
-    for (std::size_t i = 0; !run.empty() && i < cells; ++i) {
-      const LogOdds log_odds = run[i];
-      if (log_odds < believed_) continue;
-      const std::size_t k = at + i;
-      const float p = probability_[static_cast<std::size_t>(log_odds - believed_)];
-      const auto delta = static_cast<float>(config_.delta(cells_.range_m[k]));
-      if (cells_.range_m[k] < range_m - 3.0F * delta) targets.add_blocker(cells_.off_axis[k], p * cells_.alpha[k]);
-      targets.add_source(cells_.off_axis[k], p * cells_.hit_per_m[k]);
-    }
-    at += cells;
+  for (int i = 0; i < known; ++i) {
+    const KnownTarget& target = known_[static_cast<std::size_t>(i)];
+    const double p = probability_of(static_cast<LogOdds>(target.log_odds));
+    if (target.range_m < reading.range_m - 3.0 * config_.delta(target.range_m))
+      targets.add_blocker(target.off_axis, p * target.alpha);
+    targets.add_source(target.off_axis, p * target.hit_per_m);
   }
   return targets.specular_p(config_, reading.is_echo);
 }
 
 void Muriel::apply() {
-  const float* increments = increments_;
-  for (const Piece& piece : pieces_.pieces()) {
-    int begin = 0;
-    int end = piece.cells;
-    while (begin < end && rounded(increments[begin]) == 0) ++begin;  // 0 must not grow the grid
-    while (begin < end && rounded(increments[end - 1]) == 0) --end;
-    if (begin < end)
-      apply_piece({{piece.first.x + begin, piece.first.y}, end - begin, piece.bucket}, increments + begin);
-    increments += piece.cells;
+  const auto says_something = [](float increment) { return std::abs(increment) >= 0.5F; };
+  CellBox box;
+  std::size_t at = 0;
+  for (const Run& run : runs_) {
+    const auto cells = static_cast<std::size_t>(run.blocks * kBlock_cells);
+    const float* const increments = increments_ + at;
+    at += cells;
+    // What says nothing must not grow the grid.
+    if (!run.is_seen && std::none_of(increments, increments + cells, says_something)) continue;
+    const Cell tile = sonar_model::tile_holding(run.first);
+    const std::size_t place = sonar_model::place_in_tile(run.first);
+    LogWord* const words = config_.log == LogPolicy::off ? nullptr : log_.tile(tile).data() + place;
+    const Changed changed = apply_run(increments, shift_.data() + (at - cells), run.blocks, grid_.clamp_quanta(),
+                                      weights_, grid_.cells_of_tile_for_writing(tile) + place, words);
+    if (changed.last < 0) continue;
+    const CellSpan span{run.first.y, run.first.x + changed.first, run.first.x + changed.last + 1};
+    box = united(box, {{span.x_begin, span.y}, {span.x_end, span.y + 1}});
+    changes_.spans.push_back(span);
   }
+  grid_.include(box);
 }
 
-void Muriel::apply_piece(const Piece& piece, const float* increments) {
-  LogOdds* const cells = grid_.run_for_writing(piece.first, piece.cells).data();
-  const int clamp = grid_.clamp_quanta();
-  LogWord* const words = config_.log == LogPolicy::off ? nullptr : &log_.word_for_writing(piece.first);
-  const std::array<float, 4> weights{static_cast<float>(weights_[0]), static_cast<float>(weights_[1]),
-                                     static_cast<float>(weights_[2]), static_cast<float>(weights_[3])};
-  int first = piece.cells;
-  int last = -1;
-  for (int i = 0; i < piece.cells; ++i) {
-    float change = increments[i];
-    if (words != nullptr) {
-      const float weight = weights[static_cast<std::size_t>(count_in(words[i], piece.bucket))];
-      const bool counts = weight > 0.0F && rounded(change) != 0;
-      words[i] += static_cast<LogWord>(counts) << (2 * piece.bucket);
-      change = counts ? change * weight : 0.0F;
-    }
-    const int value = std::clamp(cells[i] + rounded(change), -clamp, clamp);
-    if (value == cells[i]) continue;
-    cells[i] = static_cast<LogOdds>(value);
-    first = std::min(first, i);
-    last = i;
+// One span a row, rows rising.
+void Muriel::join_rows() {
+  if (changes_.spans.empty()) return;
+  const auto [low, high] = std::ranges::minmax(changes_.spans, {}, &CellSpan::y);
+  hull_.assign(static_cast<std::size_t>(high.y - low.y + 1), {0, std::numeric_limits<int>::max(), 0});
+  for (const CellSpan& span : changes_.spans) {
+    CellSpan& row = hull_[static_cast<std::size_t>(span.y - low.y)];
+    const bool is_first = row.x_begin > row.x_end;
+    row = {span.y, std::min(row.x_begin, span.x_begin), is_first ? span.x_end : std::max(row.x_end, span.x_end)};
   }
-  if (last >= 0) changes_.spans.push_back({piece.first.y, piece.first.x + first, piece.first.x + last + 1});
+  changes_.spans.clear();
+  for (const CellSpan& row : hull_)
+    if (row.x_begin < row.x_end) changes_.spans.push_back(row);
 }
 
 }  // namespace cairn::muriel

@@ -19,7 +19,6 @@
 
 #include "framework/contracts/mapper.hpp"
 #include "plugins/muriel/beam_kernels.hpp"
-#include "plugins/muriel/beam_pieces.hpp"
 #include "plugins/muriel/independence_log.hpp"
 #include "plugins/muriel/reading_model.hpp"
 
@@ -29,7 +28,7 @@ class Muriel final : public Mapper {
  public:
   explicit Muriel(const Config& config);
 
-  // The spans cover the cells whose log-odds really changed. O(cells in the beams).
+  // One span a row, from the first cell whose log-odds changed to the last. O(cells in the beams).
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
 
@@ -38,27 +37,29 @@ class Muriel final : public Mapper {
 
  private:
   void integrate_reading(const PlacedReading& reading);
-  void place_cells(const PlacedReading& reading);
-  [[nodiscard]] double specular_p(const PlacedReading& reading);
+  void find_runs(const PlacedReading& reading);
+  void make_room(std::size_t cells);
+  [[nodiscard]] double specular_p(const PlacedReading& reading, int known) const;
   void apply();
-  void apply_piece(const Piece& piece, const float* increments);
+  void join_rows();
 
   Config config_;
-  Weights weights_;
+  KernelWeights weights_{};
   LogOdds believed_;
-  std::vector<float> probability_;  // by log-odds, from believed_ on
   OccupancyGrid grid_;
   IndependenceLog log_;
   CellChanges changes_;  // of the latest call
 
   // Of one reading; kept for their memory.
-  BeamPieces pieces_;
   std::vector<CellSpan> spans_;
+  std::vector<Run> runs_;
+  std::size_t count_ = 0;  // cells of all runs
   std::vector<float> scratch_;
-  float* dx_m_ = nullptr;
-  float* dy_m_ = nullptr;
+  std::vector<std::int32_t> shift_;
+  std::vector<KnownTarget> known_;
   float* increments_ = nullptr;
   KernelCells cells_{};
+  std::vector<CellSpan> hull_;
 };
 
 }  // namespace cairn::muriel
