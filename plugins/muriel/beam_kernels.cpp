@@ -18,13 +18,13 @@ namespace {
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
 using Shorts = std::int16_t __attribute__((vector_size(16)));
-using Bytes = std::int8_t __attribute__((vector_size(8)));
+using Quads = std::uint64_t __attribute__((vector_size(32), may_alias));
+using Halves = std::uint64_t __attribute__((vector_size(16), may_alias));
 using Words = std::uint64_t __attribute__((vector_size(64)));
 
 constexpr Floats kLane = {0, 1, 2, 3, 4, 5, 6, 7};
 constexpr float kQuantaPerNat = 256.0F;
 constexpr float kPerSqrtTwoPi = 0.39894228F;
-constexpr float kFarBefore = 5.5F;  // z beyond which Phi is 1 and phi 0 to a hundredth of a quantum
 
 template <class Vector, class T>
 CAIRN_INLINE Vector load(const T* from) {
@@ -54,31 +54,26 @@ CAIRN_INLINE Floats bits_as_floats(const Ints& x) {
 CAIRN_INLINE Ints bits_as_ints(const Floats& x) {
   return reinterpret_cast<const Ints&>(x);
 }
-// A byte a lane.
-CAIRN_INLINE std::uint64_t bytes_of(const Ints& mask) {
-  const Bytes bytes = __builtin_convertvector(mask, Bytes);
-  std::uint64_t all_bytes;
-  std::memcpy(&all_bytes, &bytes, sizeof all_bytes);
-  return all_bytes;
-}
 CAIRN_INLINE bool any(const Ints& mask) {
-  return bytes_of(mask) != 0;
+  const Quads quads = reinterpret_cast<const Quads&>(mask);
+  return (quads[0] | quads[1] | quads[2] | quads[3]) != 0;
 }
 CAIRN_INLINE bool any(const Shorts& mask) {
-  std::array<std::uint64_t, 2> halves;
-  std::memcpy(halves.data(), &mask, sizeof halves);
+  const Halves halves = reinterpret_cast<const Halves&>(mask);
   return (halves[0] | halves[1]) != 0;
 }
 CAIRN_INLINE Floats square_root(const Floats& x) {
-  Floats root;
-  for (int i = 0; i < kBlock_cells; ++i) root[i] = __builtin_sqrtf(x[i]);
-  return root;
+  alignas(32) float lanes[kBlock_cells];
+  store(lanes, x);
+  for (float& lane : lanes) lane = __builtin_sqrtf(lane);
+  return load<Floats>(lanes);
 }
 
 // Angle squared from v = 1 - cos(angle): 2 sum (2v)^n / (n^2 C(2n, n)), good to 2e-6 up to 45 degrees.
 CAIRN_INLINE Floats angle2_of_versine(const Floats& v) {
+  const Floats v2 = v * v;
   return v *
-         (2.0F + v * (0.33333333F + v * (0.088888889F + v * (0.028571429F + v * (0.01015873F + v * 0.0038480038F)))));
+         ((2.0F + 0.33333333F * v) + v2 * ((0.088888889F + 0.028571429F * v) + v2 * (0.01015873F + 0.0038480038F * v)));
 }
 
 // e^x for -87 <= x <= 0, relative error 2e-7: a power of two times a short series.
@@ -86,10 +81,10 @@ CAIRN_INLINE Floats exp_of(const Floats& x) {
   const Floats scaled = x * 1.44269504F;
   const Ints whole = to_ints(scaled - 0.5F);
   const Floats rest = (scaled - to_floats(whole)) * 0.69314718F;
+  const Floats rest2 = rest * rest;
   const Floats series =
-      1.0F +
-      rest * (1.0F + rest * (0.5F + rest * (0.16666667F +
-                                            rest * (0.041666667F + rest * (0.0083333333F + rest * 0.0013888889F)))));
+      (1.0F + rest) +
+      rest2 * ((0.5F + 0.16666667F * rest) + rest2 * ((0.041666667F + 0.0083333333F * rest) + 0.0013888889F * rest2));
   return series * bits_as_floats((whole + 127) << 23);
 }
 
@@ -101,14 +96,15 @@ CAIRN_INLINE Floats ln_of(const Floats& x) {
   const Floats s = (rest - 1.0F) / (rest + 1.0F);
   const Floats s2 = s * s;
   return to_floats(exponent) * 0.69314718F +
-         s * (2.0F + s2 * (0.66666667F + s2 * (0.4F + s2 * (0.28571429F + s2 * 0.22222222F))));
+         s * ((2.0F + 0.66666667F * s2) + s2 * s2 * ((0.4F + 0.28571429F * s2) + 0.22222222F * (s2 * s2)));
 }
 
 // Abramowitz and Stegun 26.2.17 (error 7.5e-8); bell = e^(-z^2 / 2).
 CAIRN_INLINE Floats normal_integral(const Floats& z, const Floats& bell) {
   const Floats t = 1.0F / (1.0F + 0.2316419F * larger(z, -z));
+  const Floats t2 = t * t;
   const Floats tail = kPerSqrtTwoPi * bell * t *
-                      (0.31938153F + t * (-0.356563782F + t * (1.781477937F + t * (-1.821255978F + t * 1.330274429F))));
+                      ((0.31938153F - 0.356563782F * t) + t2 * ((1.781477937F - 1.821255978F * t) + 1.330274429F * t2));
   return z >= 0.0F ? 1.0F - tail : tail;
 }
 
@@ -179,7 +175,7 @@ int evaluate_runs(const KernelReading& reading, const Run* runs, int count, cons
       Floats z = (r.range_m - p.range_m) * per_delta;
       Floats miss = p.alpha;
       Floats hit{};
-      if (any((z < kFarBefore) & (p.alpha > 0.0F))) {
+      if (any((p.range_m > r.near_m) & (p.range_m <= r.reach_m))) {
         z = z < 12.0F ? larger(z, all(-12.0F)) : all(12.0F);
         const Floats bell = exp_of(-0.5F * z * z);
         miss *= normal_integral(z, bell);
@@ -228,10 +224,12 @@ Changed apply_run(const float* increments, const std::int32_t* shift, int blocks
     after = after > clamp ? Ints{} + clamp : after;
     after = after < -clamp ? Ints{} - clamp : after;
     store(cells + at, __builtin_convertvector(after, Shorts));
-    if (const std::uint64_t moved = bytes_of(after != before); moved != 0) {
-      if (changed.last < 0) changed.first = at + std::countr_zero(moved) / 8;
-      changed.last = at + 7 - std::countl_zero(moved) / 8;
-    }
+    const Shorts moved = __builtin_convertvector(after != before, Shorts);
+    const Halves halves = reinterpret_cast<const Halves&>(moved);
+    if ((halves[0] | halves[1]) == 0) continue;
+    if (changed.last < 0)
+      changed.first = at + (halves[0] != 0 ? std::countr_zero(halves[0]) : 64 + std::countr_zero(halves[1])) / 16;
+    changed.last = at + (halves[1] != 0 ? 127 - std::countl_zero(halves[1]) : 63 - std::countl_zero(halves[0])) / 16;
   }
   return changed;
 }

@@ -39,6 +39,7 @@ struct KernelReading {
   float delta_per_m = 0.0F;
   float range_m = 0.0F;
   float reach_m = 0.0F;
+  float near_m = 0.0F;  // up to here Phi is 1 and phi 0
   bool is_ray = false;
   bool is_echo = false;
   int believed_from = 0;  // log-odds of a known target

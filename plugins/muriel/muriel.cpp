@@ -15,6 +15,9 @@ constexpr int kTileSide = OccupancyGrid::kTileSide;
 // The kernels' series are good up to here, and the beam crosses at most kMostEdges edges of 32 buckets.
 constexpr double kWidestHalfBeam_rad = 0.25 * std::numbers::pi;
 
+// So many range errors before the echo, Phi is 1 and phi 0 to a hundredth of a quantum.
+constexpr float kSharp_sigmas = 5.5F;
+
 constexpr std::array<LogOdds, kTileSide> kUnseenRow{};
 
 KernelReading kernel_reading(const Config& config, const PlacedReading& reading, LogOdds believed_from) {
@@ -34,6 +37,7 @@ KernelReading kernel_reading(const Config& config, const PlacedReading& reading,
   result.delta_per_m = static_cast<float>(config.delta_per_m);
   result.range_m = static_cast<float>(std::min(reading.range_m, 1e6));
   result.reach_m = static_cast<float>(beam.reach_m);
+  result.near_m = (result.range_m - kSharp_sigmas * result.delta_m) / (1.0F + kSharp_sigmas * result.delta_per_m);
   result.is_echo = reading.is_echo;
   result.believed_from = config.specular ? believed_from : std::numeric_limits<LogOdds>::max();
   return result;
