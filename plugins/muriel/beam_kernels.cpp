@@ -108,35 +108,42 @@ CAIRN_INLINE Floats normal_integral(const Floats& z, const Floats& bell) {
   return z >= 0.0F ? 1.0F - tail : tail;
 }
 
+// One loop a step, each with few dependent operations, so that the machine can work at several blocks at once.
+
 struct BlockPlace {
   Floats dx_m, dy_m;
-  Floats across;  // of the axis
-  Floats range_m;
-  Floats off2;  // (bearing / half_beam)^2
-  Floats alpha;
+  Ints inside;  // the run
 };
 
-CAIRN_INLINE BlockPlace place_block(const KernelReading& r, float dx_m, float dy_m, int begin, int end) {
+CAIRN_INLINE BlockPlace place_of(const KernelReading& r, const Run& run, int offset) {
   BlockPlace p;
-  p.dx_m = dx_m + kLane * static_cast<float>(r.cell_m);
-  p.dy_m = all(dy_m);
-  Floats along = r.ahead_x * p.dx_m + r.ahead_y * p.dy_m;
-  p.across = r.ahead_x * p.dy_m - r.ahead_y * p.dx_m;
-  Ints inside = (kLane >= static_cast<float>(begin)) & (kLane < static_cast<float>(end));
-  if (r.is_ray) {
-    p.across = Floats{};
-    p.range_m = larger(along, Floats{});
-    p.off2 = Floats{};
-  } else {
-    p.range_m = square_root(along * along + p.across * p.across);
-    const Floats versine = p.across * p.across / (p.range_m * (p.range_m + along) + 1e-20F);
-    p.off2 = angle2_of_versine(versine) * r.per_half_beam2;
-    inside &= (p.off2 <= 1.0F) & (along >= 0.0F);
-  }
-  inside &= p.range_m <= r.reach_m;
-  const Floats near = larger(1.0F - p.range_m * r.per_alpha_range, Floats{});
-  p.alpha = inside ? r.alpha_max * near * (1.0F - p.off2) : Floats{};
+  p.dx_m =
+      static_cast<float>((run.first.x + offset + 0.5) * r.cell_m - r.apex_x_m) + kLane * static_cast<float>(r.cell_m);
+  p.dy_m = all(static_cast<float>((run.first.y + 0.5) * r.cell_m - r.apex_y_m));
+  p.inside = (kLane >= static_cast<float>(run.begin - offset)) & (kLane < static_cast<float>(run.end - offset));
   return p;
+}
+
+CAIRN_INLINE void place_block(const KernelReading& r, const BlockPlace& p, std::size_t at, const KernelCells& out) {
+  const Floats along = r.ahead_x * p.dx_m + r.ahead_y * p.dy_m;
+  const Floats across = r.ahead_x * p.dy_m - r.ahead_y * p.dx_m;
+  Floats range = larger(along, Floats{});
+  Floats off2{};
+  Ints inside = p.inside;
+  if (!r.is_ray) {
+    range = square_root(along * along + across * across);
+    const Floats versine = across * across / (range * (range + along) + 1e-20F);
+    off2 = angle2_of_versine(versine) * r.per_half_beam2;
+    inside &= (off2 <= 1.0F) & (along >= 0.0F);
+  }
+  inside &= range <= r.reach_m;
+  const Floats near = larger(1.0F - range * r.per_alpha_range, Floats{});
+  const Floats alpha = inside ? r.alpha_max * near * (1.0F - off2) : Floats{};
+  store(out.range_m + at, range);
+  store(out.off2 + at, across < 0.0F ? -off2 : off2);
+  store(out.alpha + at, alpha);
+  store(out.miss + at, alpha);
+  store(out.hit_per_m + at, Floats{});
 }
 
 CAIRN_INLINE Ints shift_of(const KernelReading& r, const BlockPlace& p) {
@@ -146,13 +153,26 @@ CAIRN_INLINE Ints shift_of(const KernelReading& r, const BlockPlace& p) {
   return 2 * (bucket - ((bucket >= r.bearings) & r.bearings));
 }
 
-CAIRN_INLINE int list_known(const KernelReading& r, const BlockPlace& p, const Floats& hit, const Shorts& log_odds,
-                            KnownTarget* known) {
+// Where the echo is near: miss and hit.
+CAIRN_INLINE void compare_block(const KernelReading& r, std::size_t at, const KernelCells& out) {
+  const auto range = load<Floats>(out.range_m + at);
+  const auto alpha = load<Floats>(out.alpha + at);
+  const Floats per_delta = 1.0F / (r.delta_m + r.delta_per_m * range);
+  Floats z = (r.range_m - range) * per_delta;
+  z = z < 12.0F ? larger(z, all(-12.0F)) : all(12.0F);
+  const Floats bell = exp_of(-0.5F * z * z);
+  store(out.miss + at, alpha * normal_integral(z, bell));
+  if (r.is_echo) store(out.hit_per_m + at, alpha * bell * per_delta * kPerSqrtTwoPi);
+}
+
+int list_known(const KernelReading& r, const LogOdds* log_odds, std::size_t at, const KernelCells& cells,
+               KnownTarget* known) {
   int count = 0;
-  for (int i = 0; i < kBlock_cells; ++i) {
-    if (log_odds[i] < r.believed_from || p.alpha[i] <= 0.0F) continue;
-    const float off_axis = __builtin_sqrtf(p.off2[i]);
-    known[count++] = {p.range_m[i], __builtin_copysignf(off_axis, p.across[i]), p.alpha[i], hit[i], log_odds[i]};
+  for (std::size_t i = 0; i < kBlock_cells; ++i) {
+    if (log_odds[i] < r.believed_from || cells.alpha[at + i] <= 0.0F) continue;
+    const float off2 = cells.off2[at + i];
+    const float off_axis = __builtin_copysignf(__builtin_sqrtf(__builtin_fabsf(off2)), off2);
+    known[count++] = {cells.range_m[at + i], off_axis, cells.alpha[at + i], cells.hit_per_m[at + i], log_odds[i]};
   }
   return count;
 }
@@ -163,32 +183,27 @@ CAIRN_FOR_EACH_MACHINE
 int evaluate_runs(const KernelReading& reading, const Run* runs, int count, const KernelCells& out,
                   KnownTarget* known) {
   const KernelReading r = reading;
-  int found = 0;
+  std::int32_t* const near_blocks = out.blocks;
+  int near_count = 0;
   std::size_t at = 0;
-  for (const Run* run = runs; run != runs + count; ++run) {
-    const auto dy_m = static_cast<float>((run->first.y + 0.5) * r.cell_m - r.apex_y_m);
-    for (int b = 0; b < run->blocks; ++b, at += kBlock_cells) {
-      const int offset = b * kBlock_cells;
-      const auto dx_m = static_cast<float>((run->first.x + offset + 0.5) * r.cell_m - r.apex_x_m);
-      const BlockPlace p = place_block(r, dx_m, dy_m, run->begin - offset, run->end - offset);
-      const Floats per_delta = 1.0F / (r.delta_m + r.delta_per_m * p.range_m);
-      Floats z = (r.range_m - p.range_m) * per_delta;
-      Floats miss = p.alpha;
-      Floats hit{};
-      if (any((p.range_m > r.near_m) & (p.range_m <= r.reach_m))) {
-        z = z < 12.0F ? larger(z, all(-12.0F)) : all(12.0F);
-        const Floats bell = exp_of(-0.5F * z * z);
-        miss *= normal_integral(z, bell);
-        if (r.is_echo) hit = p.alpha * bell * per_delta * kPerSqrtTwoPi;
-      }
-      store(out.miss + at, miss);
-      store(out.hit_per_m + at, hit);
+  for (const Run* run = runs; run != runs + count; ++run)
+    for (int offset = 0; offset < run->blocks * kBlock_cells; offset += kBlock_cells, at += kBlock_cells) {
+      const BlockPlace p = place_of(r, *run, offset);
+      place_block(r, p, at, out);
       store(out.shift + at, shift_of(r, p));
-      const auto log_odds = load<Shorts>(run->cells + offset);
-      const Shorts believed = log_odds >= static_cast<std::int16_t>(r.believed_from);
-      if (any(believed)) found += list_known(r, p, hit, log_odds, known + found);
+      const auto range = load<Floats>(out.range_m + at);
+      near_blocks[near_count] = static_cast<std::int32_t>(at);
+      near_count += any((range > r.near_m) & (range <= r.reach_m)) ? 1 : 0;
     }
-  }
+  for (int i = 0; i < near_count; ++i) compare_block(r, static_cast<std::size_t>(near_blocks[i]), out);
+
+  int found = 0;
+  at = 0;
+  for (const Run* run = runs; run != runs + count; ++run)
+    for (int offset = 0; offset < run->blocks * kBlock_cells; offset += kBlock_cells, at += kBlock_cells) {
+      const Shorts believed = load<Shorts>(run->cells + offset) >= static_cast<std::int16_t>(r.believed_from);
+      if (any(believed)) found += list_known(r, run->cells + offset, at, out, known + found);
+    }
   return found;
 }
 

@@ -58,6 +58,10 @@ struct KernelCells {
   float* miss;          // alpha Phi(z)
   float* hit_per_m;     // alpha phi(z) / delta; 0 without an echo
   std::int32_t* shift;  // of the cell's count in its log word
+  float* range_m;
+  float* off2;  // (bearing / half_beam)^2, with the sign of the bearing
+  float* alpha;
+  std::int32_t* blocks;  // room for two numbers a block
 };
 
 // A target that the map knows.

@@ -61,6 +61,8 @@ void add_edges(KernelReading& result, const Beam& beam, int bearings) {
 Muriel::Muriel(const Config& config)
     : config_(config), believed_(log_odds_of(config.believed_p)), grid_(config.cell_m, config.clamp_nat) {
   std::ranges::copy(weights_of(config), weights_.begin());
+  for (int l = believed_; l <= grid_.clamp_quanta(); ++l)
+    probability_.push_back(probability_of(static_cast<LogOdds>(l)));
 }
 
 const CellChanges& Muriel::integrate(const Observation& observation, const PoseEstimate& pose) {
@@ -110,18 +112,25 @@ void Muriel::make_room(std::size_t cells) {
   count_ = cells;
   if (known_.size() < cells) {
     known_.resize(cells);
-    shift_.resize(cells);
-    scratch_.resize(3 * cells);
+    integers_.resize(2 * cells);
+    floats_.resize(6 * cells);
   }
-  increments_ = scratch_.data();
-  cells_ = {increments_ + cells, increments_ + 2 * cells, shift_.data()};
+  increments_ = floats_.data();
+  float* const next = increments_ + cells;
+  cells_ = {next,
+            next + cells,
+            integers_.data(),
+            next + 2 * cells,
+            next + 3 * cells,
+            next + 4 * cells,
+            integers_.data() + cells};
 }
 
 double Muriel::specular_p(const PlacedReading& reading, int known) const {
   KnownTargets targets(config_.specular_sectors);
   for (int i = 0; i < known; ++i) {
     const KnownTarget& target = known_[static_cast<std::size_t>(i)];
-    const double p = probability_of(static_cast<LogOdds>(target.log_odds));
+    const double p = probability_[static_cast<std::size_t>(target.log_odds - believed_)];
     if (target.range_m < reading.range_m - 3.0 * config_.delta(target.range_m))
       targets.add_blocker(target.off_axis, p * target.alpha);
     targets.add_source(target.off_axis, p * target.hit_per_m);
@@ -142,7 +151,7 @@ void Muriel::apply() {
     const Cell tile = sonar_model::tile_holding(run.first);
     const std::size_t place = sonar_model::place_in_tile(run.first);
     LogWord* const words = config_.log == LogPolicy::off ? nullptr : log_.tile(tile).data() + place;
-    const Changed changed = apply_run(increments, shift_.data() + (at - cells), run.blocks, grid_.clamp_quanta(),
+    const Changed changed = apply_run(increments, cells_.shift + (at - cells), run.blocks, grid_.clamp_quanta(),
                                       weights_, grid_.cells_of_tile_for_writing(tile) + place, words);
     if (changed.last < 0) continue;
     const CellSpan span{run.first.y, run.first.x + changed.first, run.first.x + changed.last + 1};

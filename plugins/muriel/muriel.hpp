@@ -46,6 +46,7 @@ class Muriel final : public Mapper {
   Config config_;
   KernelWeights weights_{};
   LogOdds believed_;
+  std::vector<double> probability_;  // by log-odds, from believed_ on
   OccupancyGrid grid_;
   IndependenceLog log_;
   CellChanges changes_;  // of the latest call
@@ -54,8 +55,8 @@ class Muriel final : public Mapper {
   std::vector<CellSpan> spans_;
   std::vector<Run> runs_;
   std::size_t count_ = 0;  // cells of all runs
-  std::vector<float> scratch_;
-  std::vector<std::int32_t> shift_;
+  std::vector<float> floats_;
+  std::vector<std::int32_t> integers_;
   std::vector<KnownTarget> known_;
   float* increments_ = nullptr;
   KernelCells cells_{};
