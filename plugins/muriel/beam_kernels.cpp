@@ -69,11 +69,12 @@ CAIRN_INLINE Floats square_root(const Floats& x) {
   return load<Floats>(lanes);
 }
 
-// Angle squared from v = 1 - cos(angle): 2 sum (2v)^n / (n^2 C(2n, n)), good to 2e-6 up to 45 degrees.
-CAIRN_INLINE Floats angle2_of_versine(const Floats& v) {
-  const Floats v2 = v * v;
-  return v *
-         ((2.0F + 0.33333333F * v) + v2 * ((0.088888889F + 0.028571429F * v) + v2 * (0.01015873F + 0.0038480038F * v)));
+// Angle squared from its tangent squared: a fit to atan(t)^2 / t^2 in t^2, good to 1e-5 up to 45 degrees.
+CAIRN_INLINE Floats angle2_of_tangent2(const Floats& t) {
+  const Floats t2 = t * t;
+  return t *
+         ((0.999997295F + -0.666399155F * t) +
+          t2 * ((0.506630091F + -0.389583447F * t) + t2 * ((0.258316266F + -0.117268741F * t) + 0.025159398F * t2)));
 }
 
 // e^x for -87 <= x <= 0, relative error 2e-7: a power of two times a short series.
@@ -110,47 +111,57 @@ CAIRN_INLINE Floats normal_integral(const Floats& z, const Floats& bell) {
 
 // One loop a step, each with few dependent operations, so that the machine can work at several blocks at once.
 
-struct BlockPlace {
-  Floats dx_m, dy_m;
-  Ints inside;  // the run
-};
-
-CAIRN_INLINE BlockPlace place_of(const KernelReading& r, const Run& run, int offset) {
-  BlockPlace p;
-  p.dx_m =
-      static_cast<float>((run.first.x + offset + 0.5) * r.cell_m - r.apex_x_m) + kLane * static_cast<float>(r.cell_m);
-  p.dy_m = all(static_cast<float>((run.first.y + 0.5) * r.cell_m - r.apex_y_m));
-  p.inside = (kLane >= static_cast<float>(run.begin - offset)) & (kLane < static_cast<float>(run.end - offset));
-  return p;
-}
-
-CAIRN_INLINE void place_block(const KernelReading& r, const BlockPlace& p, std::size_t at, const KernelCells& out) {
-  const Floats along = r.ahead_x * p.dx_m + r.ahead_y * p.dy_m;
-  const Floats across = r.ahead_x * p.dy_m - r.ahead_y * p.dx_m;
-  Floats range = larger(along, Floats{});
-  Floats off2{};
-  Ints inside = p.inside;
-  if (!r.is_ray) {
-    range = square_root(along * along + across * across);
-    const Floats versine = across * across / (range * (range + along) + 1e-20F);
-    off2 = angle2_of_versine(versine) * r.per_half_beam2;
-    inside &= (off2 <= 1.0F) & (along >= 0.0F);
+// Ranges, bearings and alphas of all runs, as if no echo were near; counts the blocks where one is.
+template <bool is_ray>
+CAIRN_INLINE int place_runs(const KernelReading& r, const Run* runs, int count, const KernelCells& out) {
+  const Floats ahead_x = all(r.ahead_x);
+  const Floats ahead_y = all(r.ahead_y);
+  const Floats per_half_beam2 = all(r.per_half_beam2);
+  const Floats per_alpha_range = all(r.per_alpha_range);
+  const Floats alpha_max = all(r.alpha_max);
+  const Floats near_m = all(r.near_m);
+  const Floats reach_m = all(r.reach_m);
+  const Floats lanes_m = kLane * static_cast<float>(r.cell_m);
+  const auto block_m = static_cast<float>(kBlock_cells * r.cell_m);
+  int near_count = 0;
+  std::size_t at = 0;
+  for (const Run* run = runs; run != runs + count; ++run) {
+    const Floats dy_m = all(static_cast<float>((run->first.y + 0.5) * r.cell_m - r.apex_y_m));
+    Floats dx_m = static_cast<float>((run->first.x + 0.5) * r.cell_m - r.apex_x_m) + lanes_m;
+    Floats lane = kLane - static_cast<float>(run->begin);
+    const Floats cells = all(static_cast<float>(run->end - run->begin));
+    for (int b = 0; b < run->blocks; ++b, at += kBlock_cells, dx_m += block_m, lane += kBlock_cells) {
+      const Floats along = ahead_x * dx_m + ahead_y * dy_m;
+      Ints inside = (lane >= 0.0F) & (lane < cells);
+      Floats range = larger(along, Floats{});
+      Floats alpha = alpha_max;
+      if constexpr (!is_ray) {
+        const Floats across = ahead_x * dy_m - ahead_y * dx_m;
+        const Floats along2 = along * along;
+        const Floats across2 = across * across;
+        range = square_root(along2 + across2);
+        const Floats off2 = angle2_of_tangent2(across2 / (along2 + 1e-12F)) * per_half_beam2;
+        inside &= (off2 <= 1.0F) & (along > 0.0F);
+        alpha *= 1.0F - off2;
+        store(out.off2 + at, across < 0.0F ? -off2 : off2);
+      } else {
+        store(out.off2 + at, Floats{});
+      }
+      const Ints reached = range <= reach_m;
+      alpha = inside & reached ? alpha * larger(1.0F - range * per_alpha_range, Floats{}) : Floats{};
+      store(out.range_m + at, range);
+      store(out.alpha + at, alpha);
+      store(out.miss + at, alpha);
+      store(out.hit_per_m + at, Floats{});
+      Ints bucket = Ints{} + r.first_bucket;
+      for (int e = 0; e < r.edges; ++e)
+        bucket -= r.edge_x[static_cast<std::size_t>(e)] * dy_m >= r.edge_y[static_cast<std::size_t>(e)] * dx_m;
+      store(out.shift + at, 2 * (bucket - ((bucket >= r.bearings) & r.bearings)));
+      out.blocks[near_count] = static_cast<std::int32_t>(at);
+      near_count += any((range > near_m) & reached) ? 1 : 0;
+    }
   }
-  inside &= range <= r.reach_m;
-  const Floats near = larger(1.0F - range * r.per_alpha_range, Floats{});
-  const Floats alpha = inside ? r.alpha_max * near * (1.0F - off2) : Floats{};
-  store(out.range_m + at, range);
-  store(out.off2 + at, across < 0.0F ? -off2 : off2);
-  store(out.alpha + at, alpha);
-  store(out.miss + at, alpha);
-  store(out.hit_per_m + at, Floats{});
-}
-
-CAIRN_INLINE Ints shift_of(const KernelReading& r, const BlockPlace& p) {
-  Ints bucket = Ints{} + r.first_bucket;
-  for (int e = 0; e < r.edges; ++e)
-    bucket -= r.edge_x[static_cast<std::size_t>(e)] * p.dy_m >= r.edge_y[static_cast<std::size_t>(e)] * p.dx_m;
-  return 2 * (bucket - ((bucket >= r.bearings) & r.bearings));
+  return near_count;
 }
 
 // Where the echo is near: miss and hit.
@@ -183,22 +194,11 @@ CAIRN_FOR_EACH_MACHINE
 int evaluate_runs(const KernelReading& reading, const Run* runs, int count, const KernelCells& out,
                   KnownTarget* known) {
   const KernelReading r = reading;
-  std::int32_t* const near_blocks = out.blocks;
-  int near_count = 0;
-  std::size_t at = 0;
-  for (const Run* run = runs; run != runs + count; ++run)
-    for (int offset = 0; offset < run->blocks * kBlock_cells; offset += kBlock_cells, at += kBlock_cells) {
-      const BlockPlace p = place_of(r, *run, offset);
-      place_block(r, p, at, out);
-      store(out.shift + at, shift_of(r, p));
-      const auto range = load<Floats>(out.range_m + at);
-      near_blocks[near_count] = static_cast<std::int32_t>(at);
-      near_count += any((range > r.near_m) & (range <= r.reach_m)) ? 1 : 0;
-    }
-  for (int i = 0; i < near_count; ++i) compare_block(r, static_cast<std::size_t>(near_blocks[i]), out);
+  const int near_count = r.is_ray ? place_runs<true>(r, runs, count, out) : place_runs<false>(r, runs, count, out);
+  for (int i = 0; i < near_count; ++i) compare_block(r, static_cast<std::size_t>(out.blocks[i]), out);
 
   int found = 0;
-  at = 0;
+  std::size_t at = 0;
   for (const Run* run = runs; run != runs + count; ++run)
     for (int offset = 0; offset < run->blocks * kBlock_cells; offset += kBlock_cells, at += kBlock_cells) {
       const Shorts believed = load<Shorts>(run->cells + offset) >= static_cast<std::int16_t>(r.believed_from);

@@ -11,11 +11,10 @@
 
 namespace cairn::muriel {
 
-// A block begins where x is a multiple of it, so it never leaves its tile's row.
 inline constexpr int kBlock_cells = 8;
 
-// Cells of one row in one tile: `blocks` blocks from `first` on, of which the cells first.x + begin to
-// first.x + end - 1 are the beam's.
+// Cells of one row in one tile, none of its blocks beyond that: `blocks` blocks from `first` on, of which the cells
+// first.x + begin to first.x + end - 1 are the beam's.
 struct Run {
   Cell first;
   int blocks = 0;

@@ -95,13 +95,14 @@ void Muriel::find_runs(const PlacedReading& reading) {
   std::size_t cells = 0;
   for (const CellSpan& span : spans_)
     for (int x = span.x_begin; x < span.x_end;) {
-      const int first = x & ~(kBlock_cells - 1);
-      const int end = std::min(span.x_end, (x | (kTileSide - 1)) + 1);
-      const Cell cell{first, span.y};
-      const LogOdds* const tile = grid_.cells_of_tile(sonar_model::tile_holding(cell));
-      const int blocks = (end - first + kBlock_cells - 1) / kBlock_cells;
-      runs_.push_back({cell, blocks, x - first, end - first,
-                       tile == nullptr ? kUnseenRow.data() : tile + sonar_model::place_in_tile(cell), tile != nullptr});
+      const int tile_end = (x | (kTileSide - 1)) + 1;
+      const int end = std::min(span.x_end, tile_end);
+      const int blocks = (end - x + kBlock_cells - 1) / kBlock_cells;
+      const Cell first{std::min(x, tile_end - blocks * kBlock_cells), span.y};
+      const LogOdds* const tile = grid_.cells_of_tile(sonar_model::tile_holding(first));
+      runs_.push_back({first, blocks, x - first.x, end - first.x,
+                       tile == nullptr ? kUnseenRow.data() : tile + sonar_model::place_in_tile(first),
+                       tile != nullptr});
       cells += static_cast<std::size_t>(blocks * kBlock_cells);
       x = end;
     }
