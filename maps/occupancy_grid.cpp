@@ -160,6 +160,12 @@ LogOdds* OccupancyGrid::cells_of_tile_for_writing(Cell tile) {
   return tile_at(tile).data();
 }
 
+std::size_t OccupancyGrid::bytes() const {
+  std::size_t sum = tiles_.capacity() * sizeof(tiles_[0]);
+  for (const auto& tile : tiles_) sum += tile ? sizeof(Tile) : 0;
+  return sum;
+}
+
 void OccupancyGrid::copy_ol(const CellBox& box, std::span<std::uint8_t> out) const {
   auto to = out.begin();
   for_each_run(box, [&](Cell first, int run) {

@@ -90,6 +90,8 @@ class OccupancyGrid {
     return found == nullptr ? nullptr : found->data();
   }
   [[nodiscard]] LogOdds* cells_of_tile_for_writing(Cell tile);
+  // Memory held by tiles and their directory.
+  [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] int clamp_quanta() const { return clamp_; }
 
   // Row-major copies of a box, row box.min.y first; out.size() == width * height.

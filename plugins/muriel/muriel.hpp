@@ -32,6 +32,10 @@ class Muriel final : public Mapper {
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
 
+  // Memory of OG1 and the log.
+  [[nodiscard]] std::size_t bytes() const { return grid_.bytes() + log_.bytes(); }
+
+  // For tests that begin in the middle.
   [[nodiscard]] IndependenceLog& log() { return log_; }
   [[nodiscard]] OccupancyGrid& grid() { return grid_; }
 
