@@ -5,7 +5,7 @@
 
 #if defined(__x86_64__) && defined(__ELF__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define CAIRN_FOR_EACH_MACHINE __attribute__((target_clones("avx2", "default")))
+#define CAIRN_FOR_EACH_MACHINE __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define CAIRN_FOR_EACH_MACHINE
 #endif
@@ -188,6 +188,14 @@ int list_known(const KernelReading& r, const LogOdds* log_odds, std::size_t at, 
   return count;
 }
 
+CAIRN_INLINE void note_changes(const Shorts& moved, int at, Run& run) {
+  const Halves halves = reinterpret_cast<const Halves&>(moved);
+  if ((halves[0] | halves[1]) == 0) return;
+  if (run.last_changed < 0)
+    run.first_changed = at + (halves[0] != 0 ? std::countr_zero(halves[0]) : 64 + std::countr_zero(halves[1])) / 16;
+  run.last_changed = at + (halves[1] != 0 ? 127 - std::countl_zero(halves[1]) : 63 - std::countl_zero(halves[0])) / 16;
+}
+
 }  // namespace
 
 CAIRN_FOR_EACH_MACHINE
@@ -216,37 +224,35 @@ void weigh_cells(const float* miss, const float* hit_per_m, float weight, float 
 }
 
 CAIRN_FOR_EACH_MACHINE
-Changed apply_run(const float* increments, const std::int32_t* shift, int blocks, int clamp,
-                  const KernelWeights& weights, LogOdds* cells, std::uint64_t* words) {
-  Changed changed;
+void apply_runs(const float* increments, const std::int32_t* shift, int clamp, const KernelWeights& weights, Run* runs,
+                int count) {
   const auto weight_of_count = load<Floats>(weights.data());
-  for (int at = 0; at < blocks * kBlock_cells; at += kBlock_cells) {
-    Floats change = load<Floats>(increments + at);
-    Ints taken = (change >= 0.5F) | (change <= -0.5F);
-    if (!any(taken)) continue;
-    if (words != nullptr) {
-      auto log = load<Words>(words + at);
-      const Words shifts = __builtin_convertvector(load<Ints>(shift + at), Words);
-      const Floats weight = __builtin_shuffle(weight_of_count, __builtin_convertvector((log >> shifts) & 3, Ints));
-      taken &= weight > 0.0F;
-      log += __builtin_convertvector(taken & 1, Words) << shifts;
-      store(words + at, log);
-      change *= weight;
+  const Ints highest = Ints{} + clamp;
+  const Ints lowest = -highest;
+  for (Run* run = runs; run != runs + count; ++run)
+    for (int at = 0; at < run->blocks * kBlock_cells;
+         at += kBlock_cells, increments += kBlock_cells, shift += kBlock_cells) {
+      Floats change = load<Floats>(increments);
+      Ints taken = (change >= 0.5F) | (change <= -0.5F);
+      if (run->cells_to_write == nullptr || !any(taken)) continue;
+      if (run->words != nullptr) {
+        auto log = load<Words>(run->words + at);
+        const Words shifts = __builtin_convertvector(load<Ints>(shift), Words);
+        const Floats weight = __builtin_shuffle(weight_of_count, __builtin_convertvector((log >> shifts) & 3, Ints));
+        taken &= weight > 0.0F;
+        if (!any(taken)) continue;
+        log += __builtin_convertvector(taken & 1, Words) << shifts;
+        store(run->words + at, log);
+        change *= weight;
+      }
+      change = taken ? change : Floats{};
+      const Ints before = __builtin_convertvector(load<Shorts>(run->cells_to_write + at), Ints);
+      Ints after = before + to_ints(change + (change < 0.0F ? all(-0.5F) : all(0.5F)));
+      after = after > highest ? highest : after;
+      after = after < lowest ? lowest : after;
+      store(run->cells_to_write + at, __builtin_convertvector(after, Shorts));
+      note_changes(__builtin_convertvector(after != before, Shorts), at, *run);
     }
-    change = taken ? change : Floats{};
-    const Ints before = __builtin_convertvector(load<Shorts>(cells + at), Ints);
-    Ints after = before + to_ints(change + (change < 0.0F ? all(-0.5F) : all(0.5F)));
-    after = after > clamp ? Ints{} + clamp : after;
-    after = after < -clamp ? Ints{} - clamp : after;
-    store(cells + at, __builtin_convertvector(after, Shorts));
-    const Shorts moved = __builtin_convertvector(after != before, Shorts);
-    const Halves halves = reinterpret_cast<const Halves&>(moved);
-    if ((halves[0] | halves[1]) == 0) continue;
-    if (changed.last < 0)
-      changed.first = at + (halves[0] != 0 ? std::countr_zero(halves[0]) : 64 + std::countr_zero(halves[1])) / 16;
-    changed.last = at + (halves[1] != 0 ? 127 - std::countl_zero(halves[1]) : 63 - std::countl_zero(halves[0])) / 16;
-  }
-  return changed;
 }
 
 }  // namespace cairn::muriel

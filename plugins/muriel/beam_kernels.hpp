@@ -22,6 +22,13 @@ struct Run {
   int end = 0;
   const LogOdds* cells = nullptr;  // of `first`
   bool is_seen = true;             // the map has that tile
+
+  // For apply_runs(); null: leave the run alone. Without a log words is null.
+  LogOdds* cells_to_write = nullptr;
+  std::uint64_t* words = nullptr;
+  // What apply_runs() changed, from the first to the last such cell counted from `first`; none: last < 0.
+  int first_changed = 0;
+  int last_changed = -1;
 };
 
 // One reading's numbers, lengths in metres.
@@ -83,14 +90,8 @@ void weigh_cells(const float* miss, const float* hit_per_m, float weight, float 
 // Weight of a reading by the cell's count, 0 to 3; the rest is filling.
 using KernelWeights = std::array<float, kBlock_cells>;
 
-// The first and the last cell that changed, counted from the run's own first; none: last < first.
-struct Changed {
-  int first = 1 << 30;
-  int last = -1;
-};
-
-// Adds a run's increments to its cells and counts them in its log words (null: no log).
-Changed apply_run(const float* increments, const std::int32_t* shift, int blocks, int clamp,
-                  const KernelWeights& weights, LogOdds* cells, std::uint64_t* words);
+// Adds the increments to the runs' cells and counts them in their log words.
+void apply_runs(const float* increments, const std::int32_t* shift, int clamp, const KernelWeights& weights, Run* runs,
+                int count);
 
 }  // namespace cairn::muriel

@@ -93,16 +93,27 @@ void Muriel::find_runs(const PlacedReading& reading) {
   spans_over(reading.beam, config_.cell_m, spans_);
   runs_.clear();
   std::size_t cells = 0;
+  Cell known_tile{};
+  const LogOdds* tile_cells = nullptr;
+  bool is_looked_up = false;
   for (const CellSpan& span : spans_)
     for (int x = span.x_begin; x < span.x_end;) {
       const int tile_end = (x | (kTileSide - 1)) + 1;
       const int end = std::min(span.x_end, tile_end);
       const int blocks = (end - x + kBlock_cells - 1) / kBlock_cells;
       const Cell first{std::min(x, tile_end - blocks * kBlock_cells), span.y};
-      const LogOdds* const tile = grid_.cells_of_tile(sonar_model::tile_holding(first));
-      runs_.push_back({first, blocks, x - first.x, end - first.x,
-                       tile == nullptr ? kUnseenRow.data() : tile + sonar_model::place_in_tile(first),
-                       tile != nullptr});
+      if (const Cell tile = sonar_model::tile_holding(first); !is_looked_up || tile != known_tile) {
+        tile_cells = grid_.cells_of_tile(tile);
+        known_tile = tile;
+        is_looked_up = true;
+      }
+      Run& run = runs_.emplace_back();
+      run.first = first;
+      run.blocks = blocks;
+      run.begin = x - first.x;
+      run.end = end - first.x;
+      run.is_seen = tile_cells != nullptr;
+      run.cells = run.is_seen ? tile_cells + sonar_model::place_in_tile(first) : kUnseenRow.data();
       cells += static_cast<std::size_t>(blocks * kBlock_cells);
       x = end;
     }
@@ -139,23 +150,37 @@ double Muriel::specular_p(const PlacedReading& reading, int known) const {
   return targets.specular_p(config_, reading.is_echo);
 }
 
-void Muriel::apply() {
+// What says nothing must not grow the grid.
+void Muriel::open_runs() {
   const auto says_something = [](float increment) { return std::abs(increment) >= 0.5F; };
+  const float* increments = increments_;
+  Cell open_tile{};
+  LogOdds* cells = nullptr;
+  LogWord* words = nullptr;
+  for (Run& run : runs_) {
+    const float* const next = increments + run.blocks * kBlock_cells;
+    if (run.is_seen || std::any_of(increments, next, says_something)) {
+      const Cell tile = sonar_model::tile_holding(run.first);
+      if (cells == nullptr || tile != open_tile) {
+        cells = grid_.cells_of_tile_for_writing(tile);
+        words = config_.log == LogPolicy::off ? nullptr : log_.tile(tile).data();
+        open_tile = tile;
+      }
+      const std::size_t place = sonar_model::place_in_tile(run.first);
+      run.cells_to_write = cells + place;
+      run.words = words == nullptr ? nullptr : words + place;
+    }
+    increments = next;
+  }
+}
+
+void Muriel::apply() {
+  open_runs();
+  apply_runs(increments_, cells_.shift, grid_.clamp_quanta(), weights_, runs_.data(), static_cast<int>(runs_.size()));
   CellBox box;
-  std::size_t at = 0;
   for (const Run& run : runs_) {
-    const auto cells = static_cast<std::size_t>(run.blocks * kBlock_cells);
-    const float* const increments = increments_ + at;
-    at += cells;
-    // What says nothing must not grow the grid.
-    if (!run.is_seen && std::none_of(increments, increments + cells, says_something)) continue;
-    const Cell tile = sonar_model::tile_holding(run.first);
-    const std::size_t place = sonar_model::place_in_tile(run.first);
-    LogWord* const words = config_.log == LogPolicy::off ? nullptr : log_.tile(tile).data() + place;
-    const Changed changed = apply_run(increments, cells_.shift + (at - cells), run.blocks, grid_.clamp_quanta(),
-                                      weights_, grid_.cells_of_tile_for_writing(tile) + place, words);
-    if (changed.last < 0) continue;
-    const CellSpan span{run.first.y, run.first.x + changed.first, run.first.x + changed.last + 1};
+    if (run.last_changed < 0) continue;
+    const CellSpan span{run.first.y, run.first.x + run.first_changed, run.first.x + run.last_changed + 1};
     box = united(box, {{span.x_begin, span.y}, {span.x_end, span.y + 1}});
     changes_.spans.push_back(span);
   }

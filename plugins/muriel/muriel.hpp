@@ -44,6 +44,7 @@ class Muriel final : public Mapper {
   void find_runs(const PlacedReading& reading);
   void make_room(std::size_t cells);
   [[nodiscard]] double specular_p(const PlacedReading& reading, int known) const;
+  void open_runs();
   void apply();
   void join_rows();
 
