@@ -176,14 +176,12 @@ CAIRN_INLINE void compare_block(const KernelReading& r, std::size_t at, const Ke
   if (r.is_echo) store(out.hit_per_m + at, alpha * bell * per_delta * kPerSqrtTwoPi);
 }
 
-int list_known(const KernelReading& r, const LogOdds* log_odds, std::size_t at, const KernelCells& cells,
-               KnownTarget* known) {
+CAIRN_INLINE int list_known(const KernelReading& r, const LogOdds* log_odds, std::size_t at, const float* alpha,
+                            KnownTarget* known) {
   int count = 0;
   for (std::size_t i = 0; i < kBlock_cells; ++i) {
-    if (log_odds[i] < r.believed_from || cells.alpha[at + i] <= 0.0F) continue;
-    const float off2 = cells.off2[at + i];
-    const float off_axis = __builtin_copysignf(__builtin_sqrtf(__builtin_fabsf(off2)), off2);
-    known[count++] = {cells.range_m[at + i], off_axis, cells.alpha[at + i], cells.hit_per_m[at + i], log_odds[i]};
+    known[count] = {static_cast<std::int32_t>(at + i), log_odds[i]};
+    count += static_cast<int>(log_odds[i] >= r.believed_from) & static_cast<int>(alpha[at + i] > 0.0F);
   }
   return count;
 }
@@ -210,7 +208,7 @@ int evaluate_runs(const KernelReading& reading, const Run* runs, int count, cons
   for (const Run* run = runs; run != runs + count; ++run)
     for (int offset = 0; offset < run->blocks * kBlock_cells; offset += kBlock_cells, at += kBlock_cells) {
       const Shorts believed = load<Shorts>(run->cells + offset) >= static_cast<std::int16_t>(r.believed_from);
-      if (any(believed)) found += list_known(r, run->cells + offset, at, out, known + found);
+      if (any(believed)) found += list_known(r, run->cells + offset, at, out.alpha, known + found);
     }
   return found;
 }

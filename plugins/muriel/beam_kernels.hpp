@@ -70,17 +70,14 @@ struct KernelCells {
   std::int32_t* blocks;  // room for two numbers a block
 };
 
-// A target that the map knows.
+// A cell that the map believes occupied.
 struct KnownTarget {
-  float range_m;
-  float off_axis;  // bearing / half_beam
-  float alpha;
-  float hit_per_m;
-  int log_odds;
+  std::int32_t index;  // into KernelCells
+  std::int32_t log_odds;
 };
 
 // Evaluates all runs, one block after the other; cells that are not the beam's get 0 and 0. known must
-// have room for every cell; returns how many it got.
+// have room for every cell and one more; returns how many it got.
 int evaluate_runs(const KernelReading& reading, const Run* runs, int count, const KernelCells& out, KnownTarget* known);
 
 // increments[i] = 256 ln(1 + weight (hit / F - miss)), quanta.

@@ -15,8 +15,8 @@ constexpr int kTileSide = OccupancyGrid::kTileSide;
 // The kernels' series are good up to here, and the beam crosses at most kMostEdges edges of 32 buckets.
 constexpr double kWidestHalfBeam_rad = 0.25 * std::numbers::pi;
 
-// So many range errors before the echo, Phi is 1 and phi 0 to a hundredth of a quantum.
-constexpr float kSharp_sigmas = 5.5F;
+// So many range errors before the echo, Phi is 1 and phi 0 to a tenth of a quantum.
+constexpr float kSharp_sigmas = 5.0F;
 
 constexpr std::array<LogOdds, kTileSide> kUnseenRow{};
 
@@ -122,8 +122,8 @@ void Muriel::find_runs(const PlacedReading& reading) {
 
 void Muriel::make_room(std::size_t cells) {
   count_ = cells;
-  if (known_.size() < cells) {
-    known_.resize(cells);
+  if (known_.size() <= cells) {
+    known_.resize(cells + 1);
     integers_.resize(2 * cells);
     floats_.resize(6 * cells);
   }
@@ -143,9 +143,12 @@ double Muriel::specular_p(const PlacedReading& reading, int known) const {
   for (int i = 0; i < known; ++i) {
     const KnownTarget& target = known_[static_cast<std::size_t>(i)];
     const double p = probability_[static_cast<std::size_t>(target.log_odds - believed_)];
-    if (target.range_m < reading.range_m - 3.0 * config_.delta(target.range_m))
-      targets.add_blocker(target.off_axis, p * target.alpha);
-    targets.add_source(target.off_axis, p * target.hit_per_m);
+    const float off2 = cells_.off2[target.index];
+    const double off_axis = std::copysign(std::sqrt(std::abs(off2)), off2);
+    const double range_m = cells_.range_m[target.index];
+    if (range_m < reading.range_m - 3.0 * config_.delta(range_m))
+      targets.add_blocker(off_axis, p * cells_.alpha[target.index]);
+    targets.add_source(off_axis, p * cells_.hit_per_m[target.index]);
   }
   return targets.specular_p(config_, reading.is_echo);
 }
