@@ -153,15 +153,32 @@ CAIRN_INLINE int place_runs(const KernelReading& r, const Run* runs, int count, 
       store(out.alpha + at, alpha);
       store(out.miss + at, alpha);
       store(out.hit_per_m + at, Floats{});
-      Ints bucket = Ints{} + r.first_bucket;
-      for (int e = 0; e < r.edges; ++e)
-        bucket -= r.edge_x[static_cast<std::size_t>(e)] * dy_m >= r.edge_y[static_cast<std::size_t>(e)] * dx_m;
-      store(out.shift + at, 2 * (bucket - ((bucket >= r.bearings) & r.bearings)));
       out.blocks[near_count] = static_cast<std::int32_t>(at);
       near_count += any((range > near_m) & reached) ? 1 : 0;
     }
   }
   return near_count;
+}
+
+// Where each cell's count stands in its log word.
+CAIRN_INLINE void shift_runs(const KernelReading& r, const Run* runs, int count, std::int32_t* shift) {
+  Floats edge_x[KernelReading::kMostEdges];
+  Floats edge_y[KernelReading::kMostEdges];
+  for (int e = 0; e < r.edges; ++e) {
+    edge_x[e] = all(r.edge_x[static_cast<std::size_t>(e)]);
+    edge_y[e] = all(r.edge_y[static_cast<std::size_t>(e)]);
+  }
+  const Floats lanes_m = kLane * static_cast<float>(r.cell_m);
+  const auto block_m = static_cast<float>(kBlock_cells * r.cell_m);
+  for (const Run* run = runs; run != runs + count; ++run) {
+    const Floats dy_m = all(static_cast<float>((run->first.y + 0.5) * r.cell_m - r.apex_y_m));
+    Floats dx_m = static_cast<float>((run->first.x + 0.5) * r.cell_m - r.apex_x_m) + lanes_m;
+    for (int b = 0; b < run->blocks; ++b, shift += kBlock_cells, dx_m += block_m) {
+      Ints bucket = Ints{} + r.first_bucket;
+      for (int e = 0; e < r.edges; ++e) bucket -= edge_x[e] * dy_m >= edge_y[e] * dx_m;
+      store(shift, 2 * (bucket - ((bucket >= r.bearings) & r.bearings)));
+    }
+  }
 }
 
 // Where the echo is near: miss and hit.
@@ -201,6 +218,7 @@ int evaluate_runs(const KernelReading& reading, const Run* runs, int count, cons
                   KnownTarget* known) {
   const KernelReading r = reading;
   const int near_count = r.is_ray ? place_runs<true>(r, runs, count, out) : place_runs<false>(r, runs, count, out);
+  shift_runs(r, runs, count, out.shift);
   for (int i = 0; i < near_count; ++i) compare_block(r, static_cast<std::size_t>(out.blocks[i]), out);
 
   int found = 0;

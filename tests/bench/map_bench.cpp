@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "plugins/bayes_map/bayes_map.hpp"
@@ -72,6 +73,24 @@ void laser_muriel_plain(benchmark::State& state) {
   integrate<muriel::PlainMuriel>(state, laser_scan(), muriel::Config{});
 }
 
+// A drive over 400 x 400 m into unseen ground; the longest single reading stands beside the mean.
+void grow_to_400_m(benchmark::State& state) {
+  const Observation observation = one_sonar().observation();
+  double longest_us = 0.0;
+  for (auto _ : state) {
+    muriel::Muriel map(muriel::Config{});
+    for (double along_m = -200.0; along_m <= 200.0; along_m += 0.5)
+      for (const Pose2& T_map_robot : {Pose2{along_m, along_m, 0.3}, Pose2{-along_m, along_m, 2.0}}) {
+        const auto begin = std::chrono::steady_clock::now();
+        benchmark::DoNotOptimize(map.integrate(observation, {T_map_robot, {}}));
+        const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
+        longest_us = std::max(longest_us, took.count());
+      }
+  }
+  state.counters["longest_us"] = longest_us;
+}
+
+BENCHMARK(grow_to_400_m)->Unit(benchmark::kMillisecond);
 BENCHMARK(sonar_muriel_plain)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sonar_muriel)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sonar_bayes)->Unit(benchmark::kMicrosecond);
