@@ -203,6 +203,10 @@ CAIRN_INLINE int list_known(const KernelReading& r, const LogOdds* log_odds, std
   return count;
 }
 
+CAIRN_INLINE Floats increment_of(const Floats& miss, const Floats& hit_per_m, const KernelScale& scale) {
+  return kQuantaPerNat * ln_of(1.0F + scale.weight * (hit_per_m * scale.per_false_echo_m - miss));
+}
+
 CAIRN_INLINE void note_changes(const Shorts& moved, int at, Run& run) {
   const Halves halves = reinterpret_cast<const Halves&>(moved);
   if ((halves[0] | halves[1]) == 0) return;
@@ -232,23 +236,28 @@ int evaluate_runs(const KernelReading& reading, const Run* runs, int count, cons
 }
 
 CAIRN_FOR_EACH_MACHINE
-void weigh_cells(const float* miss, const float* hit_per_m, float weight, float per_false_echo_m, int count,
-                 float* increments) {
-  for (int i = 0; i < count; i += kBlock_cells)
-    store(increments + i, kQuantaPerNat * ln_of(1.0F + weight * (load<Floats>(hit_per_m + i) * per_false_echo_m -
-                                                                 load<Floats>(miss + i))));
+bool says_something(const float* miss, const float* hit_per_m, const KernelScale& scale, int count) {
+  for (int i = 0; i < count; i += kBlock_cells) {
+    const Floats increment = increment_of(load<Floats>(miss + i), load<Floats>(hit_per_m + i), scale);
+    if (any((increment >= 0.5F) | (increment <= -0.5F))) return true;
+  }
+  return false;
 }
 
 CAIRN_FOR_EACH_MACHINE
-void apply_runs(const float* increments, const std::int32_t* shift, int clamp, const KernelWeights& weights, Run* runs,
+void apply_runs(const KernelCells& cells, const KernelScale& scale, const KernelWeights& weights, Run* runs,
                 int count) {
+  const KernelScale by = scale;
   const auto weight_of_count = load<Floats>(weights.data());
-  const Ints highest = Ints{} + clamp;
+  const Ints highest = Ints{} + by.clamp;
   const Ints lowest = -highest;
+  const float* miss = cells.miss;
+  const float* hit = cells.hit_per_m;
+  const std::int32_t* shift = cells.shift;
   for (Run* run = runs; run != runs + count; ++run)
     for (int at = 0; at < run->blocks * kBlock_cells;
-         at += kBlock_cells, increments += kBlock_cells, shift += kBlock_cells) {
-      Floats change = load<Floats>(increments);
+         at += kBlock_cells, miss += kBlock_cells, hit += kBlock_cells, shift += kBlock_cells) {
+      Floats change = increment_of(load<Floats>(miss), load<Floats>(hit), by);
       Ints taken = (change >= 0.5F) | (change <= -0.5F);
       if (run->cells_to_write == nullptr || !any(taken)) continue;
       if (run->words != nullptr) {

@@ -80,15 +80,20 @@ struct KnownTarget {
 // have room for every cell and one more; returns how many it got.
 int evaluate_runs(const KernelReading& reading, const Run* runs, int count, const KernelCells& out, KnownTarget* known);
 
-// increments[i] = 256 ln(1 + weight (hit / F - miss)), quanta.
-void weigh_cells(const float* miss, const float* hit_per_m, float weight, float per_false_echo_m, int count,
-                 float* increments);
+// How a reading's parts become an increment: 256 ln(1 + weight (hit / F - miss)), quanta.
+struct KernelScale {
+  float weight = 1.0F;  // 1 - s
+  float per_false_echo_m = 1.0F;
+  int clamp = 1024;  // of the grid
+};
+
+// Whether any of `count` cells gets an increment that does not round to 0.
+bool says_something(const float* miss, const float* hit_per_m, const KernelScale& scale, int count);
 
 // Weight of a reading by the cell's count, 0 to 3; the rest is filling.
 using KernelWeights = std::array<float, kBlock_cells>;
 
 // Adds the increments to the runs' cells and counts them in their log words.
-void apply_runs(const float* increments, const std::int32_t* shift, int clamp, const KernelWeights& weights, Run* runs,
-                int count);
+void apply_runs(const KernelCells& cells, const KernelScale& scale, const KernelWeights& weights, Run* runs, int count);
 
 }  // namespace cairn::muriel

@@ -84,9 +84,7 @@ void Muriel::integrate_reading(const PlacedReading& reading) {
   if (config_.log != LogPolicy::off) add_edges(kernel, reading.beam, config_.log_bearings);
   const int known = evaluate_runs(kernel, runs_.data(), static_cast<int>(runs_.size()), cells_, known_.data());
   const double s = config_.specular ? specular_p(reading, known) : 0.0;
-  weigh_cells(cells_.miss, cells_.hit_per_m, static_cast<float>(1.0 - s),
-              static_cast<float>(1.0 / config_.false_echo_per_m), static_cast<int>(count_), increments_);
-  apply();
+  apply({static_cast<float>(1.0 - s), static_cast<float>(1.0 / config_.false_echo_per_m), grid_.clamp_quanta()});
 }
 
 void Muriel::find_runs(const PlacedReading& reading) {
@@ -121,20 +119,18 @@ void Muriel::find_runs(const PlacedReading& reading) {
 }
 
 void Muriel::make_room(std::size_t cells) {
-  count_ = cells;
   if (known_.size() <= cells) {
     known_.resize(cells + 1);
     integers_.resize(2 * cells);
-    floats_.resize(6 * cells);
+    floats_.resize(5 * cells);
   }
-  increments_ = floats_.data();
-  float* const next = increments_ + cells;
-  cells_ = {next,
-            next + cells,
+  float* const floats = floats_.data();
+  cells_ = {floats,
+            floats + cells,
             integers_.data(),
-            next + 2 * cells,
-            next + 3 * cells,
-            next + 4 * cells,
+            floats + 2 * cells,
+            floats + 3 * cells,
+            floats + 4 * cells,
             integers_.data() + cells};
 }
 
@@ -154,15 +150,14 @@ double Muriel::specular_p(const PlacedReading& reading, int known) const {
 }
 
 // What says nothing must not grow the grid.
-void Muriel::open_runs() {
-  const auto says_something = [](float increment) { return std::abs(increment) >= 0.5F; };
-  const float* increments = increments_;
+void Muriel::open_runs(const KernelScale& scale) {
+  std::size_t at = 0;
   Cell open_tile{};
   LogOdds* cells = nullptr;
   LogWord* words = nullptr;
   for (Run& run : runs_) {
-    const float* const next = increments + run.blocks * kBlock_cells;
-    if (run.is_seen || std::any_of(increments, next, says_something)) {
+    const int count = run.blocks * kBlock_cells;
+    if (run.is_seen || says_something(cells_.miss + at, cells_.hit_per_m + at, scale, count)) {
       const Cell tile = sonar_model::tile_holding(run.first);
       if (cells == nullptr || tile != open_tile) {
         cells = grid_.cells_of_tile_for_writing(tile);
@@ -173,13 +168,13 @@ void Muriel::open_runs() {
       run.cells_to_write = cells + place;
       run.words = words == nullptr ? nullptr : words + place;
     }
-    increments = next;
+    at += static_cast<std::size_t>(count);
   }
 }
 
-void Muriel::apply() {
-  open_runs();
-  apply_runs(increments_, cells_.shift, grid_.clamp_quanta(), weights_, runs_.data(), static_cast<int>(runs_.size()));
+void Muriel::apply(const KernelScale& scale) {
+  open_runs(scale);
+  apply_runs(cells_, scale, weights_, runs_.data(), static_cast<int>(runs_.size()));
   CellBox box;
   for (const Run& run : runs_) {
     if (run.last_changed < 0) continue;

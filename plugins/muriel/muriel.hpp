@@ -44,8 +44,8 @@ class Muriel final : public Mapper {
   void find_runs(const PlacedReading& reading);
   void make_room(std::size_t cells);
   [[nodiscard]] double specular_p(const PlacedReading& reading, int known) const;
-  void open_runs();
-  void apply();
+  void open_runs(const KernelScale& scale);
+  void apply(const KernelScale& scale);
   void join_rows();
 
   Config config_;
@@ -59,11 +59,9 @@ class Muriel final : public Mapper {
   // Of one reading; kept for their memory.
   std::vector<CellSpan> spans_;
   std::vector<Run> runs_;
-  std::size_t count_ = 0;  // cells of all runs
   std::vector<float> floats_;
   std::vector<std::int32_t> integers_;
   std::vector<KnownTarget> known_;
-  float* increments_ = nullptr;
   KernelCells cells_{};
   std::vector<CellSpan> hull_;
 };
