@@ -1,6 +1,6 @@
 # Each verb works alone on a fresh Debian 12 machine: it installs what packages.txt lists (only what
 # is missing), configures and builds.
-.PHONY: build demo test check bench deps experiment
+.PHONY: build demo test check package bench deps experiment reference
 .DEFAULT_GOAL := build
 
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
@@ -27,6 +27,13 @@ test: build
 	@cmake --build --preset release --target cairn_tests
 	@ctest --test-dir build/release --output-on-failure -j $(JOBS)
 
+package: build
+	@cmake --build --preset release --target cairn_conformance
+	@rm -f build/release/*.deb
+	@cd build/release && cpack >package.log 2>&1 || { cat package.log; exit 1; }
+	@tests/consumer/package_smoke.sh build/release/*.deb
+	@ls -l build/release/*.deb
+
 check: build
 	@cmake/check.sh
 
@@ -37,3 +44,6 @@ bench: build
 
 experiment: build
 	$(CAIRN) experiment config/experiments/first_mission.yaml --out out/first_mission
+
+reference: build
+	$(CAIRN) plugins reference --markdown docs/configuration.md --schema-folder config/schema

@@ -11,39 +11,38 @@ if(CAIRN_SANITIZERS)
   target_link_options(cairn_private_options INTERFACE -fsanitize=${CAIRN_SANITIZERS})
 endif()
 
-# cairn_add_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): a shared library of a room.
+# cairn_add_library(cairn_NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): a shared library of a room, for
+# others cairn::NAME.
 function(cairn_add_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} SHARED ${arg_SOURCES})
-  add_library(cairn::${name} ALIAS ${name})
-  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  string(REGEX REPLACE "^cairn_" "" short_name ${name})
+  add_library(cairn::${short_name} ALIAS ${name})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                            $<INSTALL_INTERFACE:include/cairn>)
   target_link_libraries(${name} PUBLIC Eigen3::Eigen ${arg_PUBLIC} PRIVATE cairn_private_options ${arg_PRIVATE})
-  set_target_properties(${name} PROPERTIES BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN")
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short_name} BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN"
+                                           SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()
 
-# cairn_add_module(NAME CORE sources... [LINK ...]): NAME.so from module.cpp, and NAME_core, a static
-# library of the algorithm files that tests link.
-function(cairn_add_module name)
-  cmake_parse_arguments(arg "" "" "CORE;LINK" ${ARGN})
-  add_library(${name}_core STATIC ${arg_CORE})
-  target_link_libraries(${name}_core PUBLIC cairn_framework PRIVATE cairn_private_options ${arg_LINK})
-  add_library(${name} MODULE module.cpp)
-  target_link_libraries(${name} PRIVATE ${name}_core cairn_private_options)
-  target_link_options(${name} PRIVATE -Wl,--no-undefined)  # found when linking, not when loading
-  set_target_properties(${name}_core ${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/cairn
-                                           BUILD_RPATH "$ORIGIN/.." INSTALL_RPATH "$ORIGIN/..")
-  set_property(GLOBAL APPEND PROPERTY CAIRN_MODULES ${name})
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/cairn_add_module.cmake)
 
-# cairn_add_test(NAME SOURCES ... [LINK ...]): one GoogleTest program, every case known to ctest.
+# cairn_add_test(NAME SOURCES ... [LINK ...] [TOGETHER SUITE]): one GoogleTest program, every case known
+# to ctest; the cases of SUITE as one, since they share something dear.
 function(cairn_add_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "TOGETHER" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest_main cairn_private_options ${arg_LINK})
   target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                              CAIRN_BINARY_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  set(filter)
+  if(arg_TOGETHER)
+    set(filter TEST_FILTER "-${arg_TOGETHER}.*")
+    add_test(NAME ${arg_TOGETHER} COMMAND ${name} "--gtest_filter=${arg_TOGETHER}.*")
+    set_tests_properties(${arg_TOGETHER} PROPERTIES TIMEOUT 300)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300 ${filter})
   add_dependencies(cairn_tests ${name})
 endfunction()

@@ -13,7 +13,7 @@ namespace cairn {
 struct Cell {
   int x = 0;
   int y = 0;
-  auto operator<=>(const Cell&) const = default;
+  auto operator<=>(const Cell&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 [[nodiscard]] constexpr Cell operator+(Cell a, Cell b) {

@@ -26,12 +26,22 @@ CoarseGrid::CoarseGrid(int n, double alpha) : n_(n), alpha_(alpha) {
 }
 
 std::vector<Cell> CoarseGrid::update(const OccupancyGrid& grid, const CellChanges& changes) {
-  include(grid.bounds(), grid);
   std::vector<Cell> touched;
+  update(grid, changes, touched);
+  return touched;
+}
+
+void CoarseGrid::update(const OccupancyGrid& grid, const CellChanges& changes, std::vector<Cell>& touched) {
+  include(grid.bounds(), grid);
+  touched.clear();
+  const CellBox fine_bounds =
+      bounds_.empty() ? CellBox{} : CellBox{fine_box(bounds_.min).min, fine_box(bounds_.max).min};
   for (const CellSpan& span : changes.spans) {
-    if (span.x_begin >= span.x_end) continue;
-    const Cell first = coarse_of({span.x_begin, span.y});
-    const Cell last = coarse_of({span.x_end - 1, span.y});
+    const int begin = std::max(span.x_begin, fine_bounds.min.x);
+    const int end = std::min(span.x_end, fine_bounds.max.x);
+    if (begin >= end || span.y < fine_bounds.min.y || span.y >= fine_bounds.max.y) continue;
+    const Cell first = coarse_of({begin, span.y});
+    const Cell last = coarse_of({end - 1, span.y});
     // Spans come row by row, so most repeats are the ones of the row before; sort and unique do the rest.
     for (int x = first.x; x <= last.x; ++x) touched.push_back({x, first.y});
   }
@@ -39,9 +49,7 @@ std::vector<Cell> CoarseGrid::update(const OccupancyGrid& grid, const CellChange
   std::sort(touched.begin(), touched.end(), by_row);
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
 
-  std::erase_if(touched, [this](Cell c) { return !bounds_.contains(c); });
   for (const Cell c : touched) sums_[index_of(c)] = sums_of(grid, c);
-  return touched;
 }
 
 void CoarseGrid::rebuild(const OccupancyGrid& grid) {

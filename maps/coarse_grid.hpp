@@ -21,6 +21,8 @@ class CoarseGrid {
   // Spans that reach beyond the grid's bounds hold nothing there and are cut. Coarse cells that are
   // new because OG1 grew are computed whole. Costs n^2 reads a coarse cell touched.
   std::vector<Cell> update(const OccupancyGrid& grid, const CellChanges& changes);
+  // The same into the caller's vector, whose memory serves again.
+  void update(const OccupancyGrid& grid, const CellChanges& changes, std::vector<Cell>& touched);
   // Recomputes everything within the grid's bounds.
   void rebuild(const OccupancyGrid& grid);
 

@@ -12,8 +12,8 @@ constexpr std::size_t kTileBytes = 2 * kSide * kSide;
 constexpr std::size_t kPoseBytes = 3 * sizeof(double);
 
 // A grid beyond these would only exhaust the memory of whoever works with it.
-constexpr std::int64_t kMaxCellIndex = 1 << 24;
-constexpr std::int64_t kMaxCells = std::int64_t{1} << 28;
+constexpr std::int64_t kMaxCellIndex = OccupancyGrid::kLargestCellIndex;
+constexpr std::int64_t kMaxCells = OccupancyGrid::kMostCells;
 constexpr double kMaxCellM = 1000.0;
 constexpr double kMaxClampNat = 127.0;
 constexpr std::int64_t kMaxPoses = 10'000'000;

@@ -47,7 +47,9 @@ void write_tiles(Database& database, const OccupancyGrid& grid) {
 void write_landmarks(Database& database, const LandmarkGraph& graph) {
   Statement insert(database, "INSERT INTO landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   Statement insert_template(database, "INSERT INTO landmark_templates VALUES (?, ?, ?, ?, ?)");
-  for (const auto& [id, landmark] : graph.landmarks()) {
+  for (const auto& entry : graph.landmarks()) {
+    const LandmarkId id = entry.first;
+    const Landmark& landmark = entry.second;
     const Pose2& pose = landmark.T_map_landmark;
     insert.bind(id).bind(std::int64_t{landmark.level}).bind_text(landmark.name).bind_text(landmark.category);
     insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).bind(landmark.degree);

@@ -9,8 +9,7 @@ namespace cairn {
 namespace {
 
 constexpr int kTableHalf = 32768;
-constexpr double kLatticeRim = 1 << 30;     // keeps sums of cell indices inside an int
-constexpr int kLargestCellIndex = 1 << 17;  // 6.5 km at 0.05 m: beyond it something else is wrong
+constexpr double kLatticeRim = 1 << 30;  // keeps sums of cell indices inside an int
 
 // OL of every int16 log-odds value: 64 KiB, computed once.
 const std::vector<std::uint8_t>& ol_table() {
@@ -48,6 +47,12 @@ void for_each_run(const CellBox& box, const Visit& visit) {
     }
 }
 
+bool is_allowed(const CellBox& box) {
+  constexpr int kMost = OccupancyGrid::kLargestCellIndex;
+  constexpr CellBox kAllowed{{-kMost, -kMost}, {kMost, kMost}};
+  return intersected(kAllowed, box) == box && std::int64_t{box.width()} * box.height() <= OccupancyGrid::kMostCells;
+}
+
 }  // namespace
 
 double probability_of(LogOdds log_odds) {
@@ -72,7 +77,7 @@ Cell cell_on_lattice(const Point& p_map, const Point& origin_m, double cell_m) {
   return {saturated_floor((p_map.x() - origin_m.x()) / cell_m), saturated_floor((p_map.y() - origin_m.y()) / cell_m)};
 }
 
-OccupancyGrid::OccupancyGrid(double cell_m, double clamp_nat, Point origin_m)
+OccupancyGrid::OccupancyGrid(double cell_m, double clamp_nat, const Point& origin_m)
     : cell_m_(cell_m), clamp_(checked_clamp(clamp_nat)), origin_m_(origin_m) {
   if (!(cell_m > 0.0) || !std::isfinite(cell_m))
     throw std::invalid_argument("OccupancyGrid: cell_m must be positive, got " + std::to_string(cell_m));
@@ -104,13 +109,20 @@ Point OccupancyGrid::centre_of(Cell cell) const {
 
 void OccupancyGrid::include(const CellBox& box) {
   if (box.empty() || intersected(bounds_, box) == box) return;
-  constexpr CellBox kAllowed{{-kLargestCellIndex, -kLargestCellIndex}, {kLargestCellIndex, kLargestCellIndex}};
-  if (intersected(kAllowed, box) != box)
-    throw std::length_error("OccupancyGrid: a map of " + std::to_string(kLargestCellIndex) +
-                            " cells to a side is too small for the cells (" + std::to_string(box.min.x) + ", " +
-                            std::to_string(box.min.y) + ") to (" + std::to_string(box.max.x) + ", " +
-                            std::to_string(box.max.y) + ")");
-  bounds_ = united(bounds_, box);
+  const CellBox all = united(bounds_, box);
+  if (!is_allowed(all))
+    throw std::length_error("OccupancyGrid: the cells (" + std::to_string(all.min.x) + ", " +
+                            std::to_string(all.min.y) + ") to (" + std::to_string(all.max.x) + ", " +
+                            std::to_string(all.max.y) + ") are too many, at most " + std::to_string(kMostCells) +
+                            " are possible, with indices up to " + std::to_string(kLargestCellIndex));
+  bounds_ = all;
+}
+
+bool OccupancyGrid::can_include(const Point& p_map, double around_m) const {
+  const Point around{around_m, around_m};
+  // Cells saturate far beyond what is allowed, so no overflow can pass for a small box.
+  return p_map.allFinite() && std::isfinite(around_m) &&
+         is_allowed(united(bounds_, {cell_at(p_map - around), cell_at(p_map + around) + Cell{2, 2}}));
 }
 
 void OccupancyGrid::set_log_odds(Cell cell, LogOdds value) {

@@ -15,6 +15,7 @@
 // allowed and the nearest known name. Angles are degrees in files and radians in structs.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -48,13 +49,19 @@ struct FieldSpec {
   std::string meaning;
   std::string default_text;
   bool required = false;
-  std::vector<FieldSpec> fields;  // of a nested struct
+  std::string plugin_kind;        // of a plugin: "planner", ...
+  std::vector<FieldSpec> fields;  // of a nested struct, with its shorthand and its one_of
+  std::string shorthand;
+  std::vector<std::string> one_of;
   std::function<void(void* config, const ConfigValue& value)> load;
 };
 
 struct Schema {
   std::vector<FieldSpec> fields;
   std::string shorthand;  // the field that a scalar or list in place of the map stands for
+  // Exactly one of these must be given. Told to readers of the reference and the schema; whoever loads
+  // the struct asks config_detail::exactly_one_of which one it is.
+  std::vector<std::string> one_of;
 
   // Loads a map (or the shorthand) into a config object. what: "robot", "plugin explore", ...
   void load_into(void* config, const ConfigValue& value, const std::string& what) const;
@@ -247,7 +254,7 @@ class Fields {
   FieldSpec& group(std::string key, Sub Config::*member, std::string meaning) {
     FieldSpec& f = add(std::move(key), "map", std::move(meaning), "");
     Schema schema = schema_of<Sub>();
-    f.fields = schema.fields;
+    take_nested(f, schema);
     f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
       schema.load_into(&(static_cast<Config*>(c)->*member), v, key);
     };
@@ -257,7 +264,7 @@ class Fields {
   FieldSpec& group(std::string key, std::optional<Sub> Config::*member, std::string meaning) {
     FieldSpec& f = add(std::move(key), "map", std::move(meaning), "");
     Schema schema = schema_of<Sub>();
-    f.fields = schema.fields;
+    take_nested(f, schema);
     f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
       Sub sub;
       schema.load_into(&sub, v, key);
@@ -269,7 +276,7 @@ class Fields {
   FieldSpec& list(std::string key, std::vector<Sub> Config::*member, std::string meaning) {
     FieldSpec& f = add(std::move(key), "list of maps", std::move(meaning), "");
     Schema schema = schema_of<Sub>();
-    f.fields = schema.fields;
+    take_nested(f, schema);
     f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
       auto& out = static_cast<Config*>(c)->*member;
       out.clear();
@@ -280,8 +287,10 @@ class Fields {
     };
     return f;
   }
-  FieldSpec& plugin(std::string key, PluginChoice Config::*member, std::string meaning) {
+  // A module of a kind (as name_of(PluginKind) says it) with its settings.
+  FieldSpec& plugin(std::string key, PluginChoice Config::*member, std::string kind, std::string meaning) {
     FieldSpec& f = add(std::move(key), "plugin", std::move(meaning), (defaults_.*member).name);
+    f.plugin_kind = std::move(kind);
     f.load = [member, key = f.key](void* c, const ConfigValue& v) {
       static_cast<Config*>(c)->*member = config_detail::to_plugin(v, key);
     };
@@ -294,6 +303,12 @@ class Fields {
     return f;
   }
   void shorthand(std::string key) { schema_.shorthand = std::move(key); }
+  // Such a field has no default: what is left out does not apply.
+  void one_of(std::vector<std::string> keys) {
+    for (FieldSpec& f : schema_.fields)
+      if (std::find(keys.begin(), keys.end(), f.key) != keys.end()) f.default_text.clear();
+    schema_.one_of = std::move(keys);
+  }
 
   [[nodiscard]] Schema take() && { return std::move(schema_); }
 
@@ -306,6 +321,12 @@ class Fields {
     f.default_text = std::move(default_text);
     schema_.fields.push_back(std::move(f));
     return schema_.fields.back();
+  }
+
+  static void take_nested(FieldSpec& field, const Schema& schema) {
+    field.fields = schema.fields;
+    field.shorthand = schema.shorthand;
+    field.one_of = schema.one_of;
   }
 
   Config defaults_{};

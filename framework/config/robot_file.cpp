@@ -53,7 +53,8 @@ struct FiringConfig {
   static void describe(Fields<FiringConfig>& fields) {
     fields.raw("order", &FiringConfig::order, "list of integers",
                "which sonar fires when, by its number in the list (from 0); as listed when left out");
-    fields.number("period_s", &FiringConfig::period_s, {0.001, 10.0}, "s", "one sonar fires each period");
+    fields.number("period_s", &FiringConfig::period_s, {0.0, 10.0}, "s",
+                  "one sonar fires each period; 0: all fire at once");
   }
 };
 
@@ -121,11 +122,12 @@ struct RobotConfig {
     fields.group("odometry", &RobotConfig::odometry, "standard deviations of its dead reckoning");
     fields.group("compass", &RobotConfig::compass, "standard deviations of its compass");
     fields.group("ranges", &RobotConfig::ranges, "standard deviations of its ranges");
+    fields.one_of({"radius_m", "polygon_m"});
   }
 };
 
 void set_footprint(RobotModel& robot, const RobotConfig& config, const ConfigValue& root) {
-  if (config_detail::exactly_one_of(root, {"radius_m", "polygon_m"}, "robot") == "radius_m") {
+  if (config_detail::exactly_one_of(root, robot_file_schema().one_of, "robot") == "radius_m") {
     robot.radius_m = config.radius_m;
     return;
   }
@@ -181,6 +183,10 @@ void set_firing(RobotModel& robot, const FiringConfig& firing) {
 }
 
 }  // namespace
+
+Schema robot_file_schema() {
+  return schema_of<RobotConfig>();
+}
 
 RobotModel load_robot(const std::filesystem::path& file) {
   const ConfigValue root = read_config_file(file);

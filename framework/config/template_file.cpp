@@ -27,6 +27,7 @@ struct TemplateConfig {
     fields.group("circle", &TemplateConfig::circle, "a round shape");
     fields.points("polygon_m", &TemplateConfig::polygon_m, "m",
                   "the corners of any other shape, in a frame of its own");
+    fields.one_of({"circle", "polygon_m"});
   }
 };
 
@@ -44,7 +45,7 @@ void check_category(const std::string& category, const SourcePlace& place) {
 LandmarkShape shape_of(const ConfigValue& root) {
   const auto config = load_config<TemplateConfig>(root, "template");
   check_category(config.category, root.find("category")->place);
-  const std::string outline = config_detail::exactly_one_of(root, {"circle", "polygon_m"}, "template");
+  const std::string outline = config_detail::exactly_one_of(root, template_file_schema().one_of, "template");
   try {
     return {config.category,
             outline == "circle" ? Contour::circle(config.circle.diameter_m) : Contour::polygon(config.polygon_m)};
@@ -72,6 +73,10 @@ std::vector<std::filesystem::path> template_files(const std::filesystem::path& f
 }
 
 }  // namespace
+
+Schema template_file_schema() {
+  return schema_of<TemplateConfig>();
+}
 
 LandmarkShape load_landmark_shape(const std::filesystem::path& file) {
   return shape_of(read_config_file(file));

@@ -37,6 +37,7 @@ struct ObjectConfig {
     fields.point("at_m", &ObjectConfig::at_m, "m", "where its centre is");
     fields.angle("angle_deg", &ObjectConfig::angle_rad, {-360.0, 360.0}, "how it is turned, anticlockwise");
     fields.choice("surface", &ObjectConfig::surface, surfaces(), "smooth sides bounce slanting beams away");
+    fields.one_of({"template", "circle_diameter_m", "polygon_m"});
   }
 };
 
@@ -119,8 +120,7 @@ Contour contour_of(const ObjectConfig& config, const std::string& outline, const
 
 WorldObject object_of(const World& world, const ObjectConfig& config, const ConfigValue& value,
                       const std::vector<LandmarkShape>& shapes) {
-  const std::string outline =
-      config_detail::exactly_one_of(value, {"template", "circle_diameter_m", "polygon_m"}, "an object");
+  const std::string outline = config_detail::exactly_one_of(value, schema_of<ObjectConfig>().one_of, "an object");
   WorldObject object;
   object.category = config.template_category;
   object.contour = contour_of(config, outline, value, shapes);
@@ -140,6 +140,10 @@ WorldObject object_of(const World& world, const ObjectConfig& config, const Conf
 }
 
 }  // namespace
+
+Schema world_file_schema() {
+  return schema_of<WorldConfig>();
+}
 
 World load_world(const std::filesystem::path& file, const std::vector<LandmarkShape>& shapes) {
   const ConfigValue root = read_config_file(file);

@@ -6,9 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "framework/contracts/behaviour.hpp"
-#include "framework/contracts/detector.hpp"
-#include "framework/contracts/mapper.hpp"
+#include "framework/contracts/registrar.hpp"
 
 #define CAIRN_VERSION "0.1.0"
 
@@ -21,7 +19,7 @@ struct AbiStamp {
   char compiler[48];
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
-  std::uint32_t sizes[6];  // Observation, OccupancyGrid, LandmarkGraph, PlanResult, DetectionReport, WorldView
+  std::uint32_t sizes[12];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
@@ -49,12 +47,13 @@ constexpr void copy(char (&out)[N], std::string_view text) {
   abi_detail::copy(stamp.build, "debug");
 #endif
   stamp.eigen_align = EIGEN_MAX_ALIGN_BYTES;
-  stamp.sizes[0] = sizeof(Observation);
-  stamp.sizes[1] = sizeof(OccupancyGrid);
-  stamp.sizes[2] = sizeof(LandmarkGraph);
-  stamp.sizes[3] = sizeof(PlanResult);
-  stamp.sizes[4] = sizeof(DetectionReport);
-  stamp.sizes[5] = sizeof(WorldView);
+  const std::uint32_t sizes[] = {
+      sizeof(Observation), sizeof(OccupancyGrid),    sizeof(LandmarkGraph), sizeof(PlanResult),
+      sizeof(PlanRequest), sizeof(DetectionReport),  sizeof(WorldView),     sizeof(RobotModel),
+      sizeof(World),       sizeof(RegisteredModule), sizeof(FieldSpec),     sizeof(ModuleContext),
+  };
+  static_assert(sizeof sizes == sizeof stamp.sizes);
+  for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];
   return stamp;
 }
 

@@ -21,15 +21,17 @@ class Orders {
   virtual ~Orders() = default;
   virtual void drive(const Twist& wanted) = 0;              // for this tick; no call means stop
   virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once
-  virtual void save(const std::string& file_name) = 0;      // the map so far, into the output folder
-  virtual void say(const std::string& sentence) = 0;        // an event for people
+  // The map so far, into the output folder; success, or failure with its reason.
+  virtual Status save(const std::string& file_name) = 0;
+  virtual void say(const std::string& sentence) = 0;  // an event for people
 };
 
 class Behaviour {
  public:
   virtual ~Behaviour() = default;
   virtual Status tick(const WorldView& world, Orders& orders) = 0;
-  // Called when the step is left before it ended; it must not ask for anything afterwards.
+  // Called when the step is left before it ended; it must not ask for anything. A tick
+  // after it begins the step afresh.
   virtual void halt() = 0;
 };
 

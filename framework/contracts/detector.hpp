@@ -42,6 +42,9 @@ struct DetectionReport {
 class Detector {
  public:
   virtual ~Detector() = default;
+  // Recognises what the changes have made visible; what has not changed is not reported again. Begins
+  // no matching once the budget is exhausted. Hot: changes that lead to no matching, on ground that it
+  // has seen, allocate nothing.
   virtual DetectionReport detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) = 0;
   // OG2, for pictures and reports; null when the detector keeps none.
   [[nodiscard]] virtual const CoarseGrid* coarse_grid() const { return nullptr; }

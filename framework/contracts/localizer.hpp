@@ -25,6 +25,8 @@ struct LandmarkSighting {
 class Localizer {
  public:
   virtual ~Localizer() = default;
+  // Numbers that are not finite, or beyond all maps, do not spoil the estimate: it stays finite and its
+  // covariance symmetric and positive semi-definite. Hot: no allocation.
   virtual PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) = 0;
 };
 

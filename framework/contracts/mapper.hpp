@@ -14,6 +14,7 @@ class Mapper {
   // call. Readings that are NaN, negative or out of their sensor's range follow stated rules; none
   // throws. Hot: no allocation once the grid covers what is seen.
   virtual const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) = 0;
+  // One and the same object as long as the mapper lives.
   [[nodiscard]] virtual const OccupancyGrid& grid() const = 0;
 };
 

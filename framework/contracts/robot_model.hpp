@@ -32,7 +32,7 @@ struct RangeError {
   double noise_m = 0.005;  // plus noise_ratio * range
   double noise_ratio = 0.005;
   double dropped_ratio = 0.01;     // share of echoes lost
-  double crosstalk_ratio = 0.005;  // share of readings replaced by another transducer's echo
+  double crosstalk_ratio = 0.005;  // share of readings replaced by a random range, as another transducer's echo would
 };
 
 enum class Kinematics { differential, car };

@@ -10,6 +10,7 @@ class Drive {
  public:
   virtual ~Drive() = default;
   // Wanted velocity from now on; the source keeps to the robot's limits. Twist{} stops.
+  // What is not finite is refused by an exception or ignored. Hot: no allocation.
   virtual void command(const Twist& twist) = 0;
 };
 

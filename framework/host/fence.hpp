@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/config/config_value.hpp"
+#include "framework/host/stage_clock.hpp"
 
 namespace cairn {
 
@@ -16,20 +17,40 @@ class ModuleFault : public std::runtime_error {
       : std::runtime_error("module " + module + " failed in stage " + stage + ": " + what) {}
 };
 
-// Calls a module. ConfigError passes: it is the user's file that is wrong, not the module. It passes as
-// a copy, since the code of the thrown object may be unloaded with the module before anyone reads it.
+// Calls a module. What the host itself throws below the module (a fault of another module that it
+// asked for, the end of a mission that was given up) passes.
 template <class Call>
-auto fenced(const char* stage, const std::string& module, Call&& call) -> decltype(call()) {
+auto fenced(const std::string& stage, const std::string& module, Call&& call) -> decltype(call()) {
   try {
     return std::forward<Call>(call)();
-  } catch (const ConfigError& error) {
-    throw ConfigError(error);
+  } catch (const GivenUp&) {
+    throw;
   } catch (const ModuleFault&) {
     throw;
   } catch (const std::exception& error) {
     throw ModuleFault(stage, module, error.what());
   } catch (...) {
     throw ModuleFault(stage, module, "threw something that is no std::exception");
+  }
+}
+
+// The same for making a module, where ConfigError passes: it is the user's file that is wrong. It
+// passes as a copy made here, so that nothing of the module is needed to read it.
+template <class Call>
+auto fenced_making(const std::string& module, Call&& call) -> decltype(call()) {
+  std::exception_ptr user_error;
+  try {
+    return fenced("construction", module, [&]() -> decltype(call()) {
+      try {
+        return std::forward<Call>(call)();
+      } catch (const ConfigError& error) {
+        user_error = std::make_exception_ptr(ConfigError(error));
+        throw;
+      }
+    });
+  } catch (const ModuleFault&) {
+    if (user_error) std::rethrow_exception(user_error);
+    throw;
   }
 }
 

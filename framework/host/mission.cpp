@@ -69,14 +69,17 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.file("robot", &C::robot, "robot file").required = true;
   fields.file("world", &C::world, "world file; leave out when the sensor is a log");
   fields.group("start", &C::start, "where the robot begins; a log with poses may know better");
-  fields.plugin("sensor", &C::sensor, "source of observations").required = true;
-  fields.plugin("localizer", &C::localizer, "where the robot is").required = true;
-  fields.plugin("map", &C::map, "builds the occupancy grid").required = true;
-  fields.plugin("detector", &C::detector, "recognises landmarks");
-  fields.plugin("planner", &C::planner, "finds ways");
+  fields.plugin("sensor", &C::sensor, "sensor", "source of observations").required = true;
+  fields.plugin("localizer", &C::localizer, "localizer", "where the robot is").required = true;
+  fields.plugin("map", &C::map, "map", "builds the occupancy grid").required = true;
+  fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
+  fields.plugin("planner", &C::planner, "planner", "finds ways");
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
   fields.group("stop_layer", &C::stop_layer, "what keeps the robot from driving into what it sees");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
+  fields.number(
+      "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
+      "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
   fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
 }
 

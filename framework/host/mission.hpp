@@ -46,6 +46,7 @@ struct MissionConfig {
   LandmarkKeeperConfig landmarks;
   StopLayerConfig stop_layer;
   double at_most_s = 36000.0;
+  double watchdog_s = 30.0;
   ConfigValue steps;
   static void describe(Fields<MissionConfig>& fields);
 };

@@ -69,6 +69,10 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
                                           const std::filesystem::path& out, const std::atomic<bool>& cancel) {
   const auto count = static_cast<std::size_t>(config.seeds.count);
   std::vector<ExperimentRow> rows(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    rows[i].seed = config.seeds.from + static_cast<std::int64_t>(i);
+    rows[i].result.outcome = MissionOutcome::cancelled;  // until it has run
+  }
   std::vector<std::exception_ptr> errors(count);
   std::atomic<std::size_t> next{0};
   const auto work = [&] {

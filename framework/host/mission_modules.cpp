@@ -9,7 +9,7 @@ namespace {
 template <class Interface>
 std::shared_ptr<Interface> build(const ModuleLibrary& library, const PluginChoice& choice,
                                  const ModuleContext& context) {
-  return fenced("construction", choice.name, [&] { return library.make<Interface>(choice, context); });
+  return fenced_making(choice.name, [&] { return library.make<Interface>(choice, context); });
 }
 
 ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, const MissionModules& built,
@@ -55,14 +55,14 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     return context_for(mission, library, built, kind, index);
   };
   built.sensor = build<Sensor>(library, config.sensor, context(PluginKind::sensor));
-  if (const auto start = built.sensor->start()) built.T_map_start = *start;
+  const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
+  if (start) built.T_map_start = *start;
   built.localizer = build<Localizer>(library, config.localizer, context(PluginKind::localizer));
   built.mapper = build<Mapper>(library, config.map, context(PluginKind::map));
   if (!config.detector.name.empty()) {
     (void)library.find(PluginKind::detector, config.detector.name, config.detector.config.place);
-    built.templates = std::make_shared<TemplateSet>(fenced("template rendering", config.map.name, [&] {
-      return render_templates(mission, built.mapper->grid().cell_m(), library);
-    }));
+    built.templates = std::make_shared<TemplateSet>(fenced_making(
+        config.map.name, [&] { return render_templates(mission, built.mapper->grid().cell_m(), library); }));
     built.detector = build<Detector>(library, config.detector, context(PluginKind::detector));
   }
   if (!config.planner.name.empty())

@@ -10,11 +10,11 @@
 #include "framework/host/events.hpp"
 #include "framework/host/mission.hpp"
 #include "framework/host/module_library.hpp"
-#include "maps/map_store.hpp"
+#include "framework/host/stage_clock.hpp"
 
 namespace cairn {
 
-enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fault, module_fault };
+enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fault, module_fault, map_not_saved };
 [[nodiscard]] std::string_view name_of(MissionOutcome outcome);
 
 struct RunOptions {
@@ -42,24 +42,36 @@ struct MissionResult {
   std::string map_file;  // name in the output folder; empty: could not be saved
 };
 
+class MissionLoop;
+
 class MissionRunner {
  public:
   // Builds every module. Throws ConfigError (the user's files) or ModuleFault (a module's fault).
-  MissionRunner(const Mission& mission, const ModuleLibrary& library, RunOptions options);
+  MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
   ~MissionRunner();
 
-  void subscribe(Listener& listener);  // the listener must outlive the runner
+  // The listener must outlive the runner. It cannot change what happens: one that throws is told
+  // nothing more, and what it threw is kept.
+  void subscribe(Listener& listener);
+  [[nodiscard]] const std::vector<std::string>& listener_faults() const;
+  // The mission runs in a thread of its own, watched by this one: a module whose call does not return
+  // within the mission's watchdog_s ends the mission (outcome module_fault) and is left behind.
   MissionResult run();
+  // A module was left behind: its thread may still be in there, so the process should end without
+  // tearing anything down (std::_Exit).
+  [[nodiscard]] bool gave_up() const { return gave_up_; }
 
-  [[nodiscard]] const OccupancyGrid& grid() const;
+  // After run(). The grids are null when the module that was left behind was working on them.
+  [[nodiscard]] const OccupancyGrid* grid() const;
   [[nodiscard]] const CoarseGrid* coarse_grid() const;
   [[nodiscard]] const LandmarkGraph& graph() const;
   [[nodiscard]] const std::vector<Pose2>& driven_path() const;
-  [[nodiscard]] const TemplateSet* templates() const;
+  [[nodiscard]] std::vector<StageTime> times() const;  // wall clock: differs from run to run
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<MissionLoop> loop_;
+  double longest_call_s_ = 0.0;
+  bool gave_up_ = false;
 };
 
 }  // namespace cairn

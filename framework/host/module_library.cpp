@@ -14,15 +14,6 @@ std::vector<std::filesystem::path> module_files(const std::filesystem::path& fol
   return files;
 }
 
-// The object first, then the library whose code destroys it.
-std::shared_ptr<void> keeping_library(std::shared_ptr<void> object, std::shared_ptr<void> library) {
-  void* const address = object.get();
-  return {address, [object = std::move(object), library = std::move(library)](void*) mutable {
-            object.reset();
-            library.reset();
-          }};
-}
-
 }  // namespace
 
 ModuleLibrary::ModuleLibrary(const std::vector<std::filesystem::path>& folders) {
@@ -39,6 +30,14 @@ ModuleLibrary::ModuleLibrary(const std::vector<std::filesystem::path>& folders) 
       }
     }
   }
+}
+
+void ModuleLibrary::add(const std::string& origin, const Registrar& registrar) {
+  auto plugin = std::make_unique<LoadedPlugin>();
+  plugin->file = origin;
+  plugin->stamp = this_abi_stamp();
+  plugin->modules = registrar.modules();
+  adopt(std::move(plugin));
 }
 
 void ModuleLibrary::adopt(std::unique_ptr<LoadedPlugin> plugin) {
@@ -88,8 +87,7 @@ const RegisteredModule& ModuleLibrary::find(PluginKind kind, const std::string& 
 std::shared_ptr<void> ModuleLibrary::make_any(PluginKind kind, const PluginChoice& choice,
                                               const ModuleContext& context) const {
   const RegisteredModule& module = find(kind, choice.name, choice.config.place);
-  std::shared_ptr<void> object = module.make(choice.config, context);
-  return keeping_library(std::move(object), find_any(choice.name)->plugin->library);
+  return module.make(choice.config, context);
 }
 
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesystem::path>& given) {

@@ -22,6 +22,9 @@ class ModuleLibrary : public ModuleMaker {
   // that is taken, become faults; the others stay usable. A folder that does not exist is a fault.
   explicit ModuleLibrary(const std::vector<std::filesystem::path>& folders);
 
+  // Modules linked into the program (CAIRN_STATIC_MODULE); origin: what `cairn plugins` calls the file.
+  void add(const std::string& origin, const Registrar& registrar);
+
   [[nodiscard]] std::vector<ModuleEntry> entries() const;  // by kind, then name
   // Throws ConfigError at the place of the choice: unknown name (nearest one), wrong kind.
   [[nodiscard]] const RegisteredModule& find(PluginKind kind, const std::string& name, const SourcePlace& place) const;

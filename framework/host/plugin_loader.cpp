@@ -1,32 +1,54 @@
 #include "framework/host/plugin_loader.hpp"
 
+#include <algorithm>
+#include <boost/dll/library_info.hpp>
 #include <boost/dll/shared_library.hpp>
 #include <cstring>
+#include <deque>
 #include <exception>
+#include <mutex>
 
 namespace cairn {
 namespace {
 
 using boost::dll::shared_library;
 
-std::shared_ptr<shared_library> open(const std::filesystem::path& file) {
+constexpr const char* kStampSymbol = "cairn_abi_stamp";
+constexpr const char* kRegisterSymbol = "cairn_register_module";
+
+// Reads the file's symbol table; runs nothing of it.
+void check_symbols(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) throw PluginError(file.string() + ": no such file");
-  auto library = std::make_shared<shared_library>();
+  std::vector<std::string> symbols;
   try {
-    library->load(boost::dll::fs::path(std::filesystem::absolute(file).string()),
-                  boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+    symbols = boost::dll::library_info(boost::dll::fs::path(file.string())).symbols();
+  } catch (const std::exception& error) {
+    throw PluginError(file.string() + ": cannot be opened as a module: it is no ELF shared library");
+  }
+  for (const char* symbol : {kStampSymbol, kRegisterSymbol})
+    if (std::find(symbols.begin(), symbols.end(), symbol) == symbols.end())
+      throw PluginError(file.string() + ": is no Cairn module (it exports no " + symbol +
+                        "; end its module.cpp with CAIRN_MODULE)");
+}
+
+// Never unloaded: exceptions, type information and thread-local objects of a module may outlive all
+// that was made from it.
+const shared_library& open(const std::filesystem::path& file) {
+  static std::mutex mutex;
+  static auto& kept = *new std::deque<shared_library>;
+  shared_library library;
+  try {
+    library.load(boost::dll::fs::path(std::filesystem::absolute(file).string()),
+                 boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
   } catch (const std::exception& error) {
     throw PluginError(file.string() + ": cannot be opened as a module: " + error.what());
   }
-  return library;
+  const std::lock_guard lock(mutex);
+  return kept.emplace_back(std::move(library));
 }
 
 void check_stamp(const std::filesystem::path& file, const shared_library& library) {
-  if (!library.has("cairn_abi_stamp") || !library.has("cairn_register_module"))
-    throw PluginError(file.string() + ": is no Cairn module (it exports no " +
-                      (library.has("cairn_abi_stamp") ? "cairn_register_module" : "cairn_abi_stamp") +
-                      "; end its module.cpp with CAIRN_MODULE)");
-  const auto& theirs = library.get<const AbiStamp>("cairn_abi_stamp");
+  const auto& theirs = library.get<const AbiStamp>(kStampSymbol);
   const AbiStamp ours = this_abi_stamp();
   if (theirs.magic != ours.magic || theirs.stamp_size != ours.stamp_size)
     throw PluginError(file.string() + ": its ABI stamp has another form; build it against cairn " + CAIRN_VERSION);
@@ -38,15 +60,15 @@ void check_stamp(const std::filesystem::path& file, const shared_library& librar
 }  // namespace
 
 LoadedPlugin load_plugin(const std::filesystem::path& file) {
-  const std::shared_ptr<shared_library> library = open(file);
-  check_stamp(file, *library);
+  check_symbols(file);
+  const shared_library& library = open(file);
+  check_stamp(file, library);
   LoadedPlugin plugin;
   plugin.file = file;
-  plugin.library = library;
-  plugin.version = library->get<const AbiStamp>("cairn_abi_stamp").cairn_version;
+  plugin.stamp = library.get<const AbiStamp>(kStampSymbol);
   Registrar registrar;
   try {
-    library->get<void(Registrar&)>("cairn_register_module")(registrar);
+    library.get<void(Registrar&)>(kRegisterSymbol)(registrar);
   } catch (const std::exception& error) {
     throw PluginError(file.string() + ": threw while registering: " + error.what());
   } catch (...) {

@@ -17,15 +17,14 @@ class PluginError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A loaded module. The library stays open as long as `library` or any object made from it lives.
+// A loaded module. Its library stays open until the program ends.
 struct LoadedPlugin {
   std::filesystem::path file;
-  std::string version;            // Cairn version it was built with
-  std::shared_ptr<void> library;  // before modules: destroyed after them
+  AbiStamp stamp{};  // what it was built with
   std::vector<RegisteredModule> modules;
 };
 
-// Throws PluginError.
+// Throws PluginError. Code of the file runs only when it has the symbols of a module.
 [[nodiscard]] LoadedPlugin load_plugin(const std::filesystem::path& file);
 
 }  // namespace cairn

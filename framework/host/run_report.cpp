@@ -48,6 +48,19 @@ ordered_json json_of(const std::vector<StepReport>& steps) {
   return list;
 }
 
+ordered_json json_of(const std::vector<StageTime>& times) {
+  ordered_json list = ordered_json::array();
+  for (const StageTime& t : times)
+    list.push_back({{"stage", t.stage},
+                    {"module", t.module},
+                    {"count", t.count},
+                    {"median_us", rounded(t.median_us)},
+                    {"p99_us", rounded(t.p99_us)},
+                    {"worst_us", rounded(t.worst_us)},
+                    {"total_s", rounded(t.total_s)}});
+  return list;
+}
+
 ordered_json main_figures(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph) {
   return {{"mission", mission.config.mission},
           {"seed", mission.config.seed},
@@ -63,11 +76,12 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
 }
 
 ordered_json quantiles(std::vector<double> values) {
+  const double last = values.back();
   std::sort(values.begin(), values.end());
   const auto at = [&](double share) {
     return rounded(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
   };
-  return {{"median", at(0.5)}, {"worst", at(1.0)}, {"last", rounded(values.back())}};
+  return {{"median", at(0.5)}, {"worst", at(1.0)}, {"last", rounded(last)}};
 }
 
 std::string at_time(double time_s, const std::string& sentence) {
@@ -139,10 +153,14 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   return report.dump(2) + "\n";
 }
 
-std::string RunReport::summary_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+std::string timing_json(const std::vector<StageTime>& times) {
+  return json_of(times).dump(2);
+}
+
+std::string RunReport::summary_json(const Mission& mission, const MissionResult& result, const MissionRunner& runner,
                                     const std::filesystem::path& out, const std::vector<std::string>& pictures,
                                     double wall_s) const {
-  ordered_json summary = main_figures(mission, result, graph);
+  ordered_json summary = main_figures(mission, result, runner.graph());
   summary["explored_ratio"] = rounded(explored_ratio_);
   summary["wall_s"] = rounded(wall_s);
   summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();
@@ -150,6 +168,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   ordered_json files = ordered_json::array();
   for (const std::string& picture : pictures) files.push_back((out / picture).string());
   summary["pictures"] = files;
+  summary["timing"] = json_of(runner.times());
   return summary.dump();
 }
 

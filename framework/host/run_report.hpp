@@ -24,13 +24,13 @@ class RunReport : public Listener {
   // The same bytes for the same build, mission and seed: no clock, no path of this machine.
   [[nodiscard]] std::string report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
                                         const std::vector<std::string>& pictures) const;
-  // One line for `--json`: the report's main figures, where its files are, and the wall clock.
+  // One line for `--json`: the report's main figures, where its files are, and the wall clock (of the
+  // whole run, and a stage and module).
   [[nodiscard]] std::string summary_json(const Mission& mission, const MissionResult& result,
-                                         const LandmarkGraph& graph, const std::filesystem::path& out,
+                                         const MissionRunner& runner, const std::filesystem::path& out,
                                          const std::vector<std::string>& pictures, double wall_s) const;
 
   [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
-  [[nodiscard]] double explored_ratio() const { return explored_ratio_; }
 
  private:
   void note_pose_error(const MissionView& view);
@@ -41,6 +41,9 @@ class RunReport : public Listener {
   double last_error_s_ = -1.0;
   double explored_ratio_ = 0.0;
 };
+
+// Wall-clock times of modules as JSON; not in the report, which is the same in every run.
+[[nodiscard]] std::string timing_json(const std::vector<StageTime>& times);
 
 // One landmark against the world it was found in: the nearest true object of its category.
 struct LandmarkTruth {

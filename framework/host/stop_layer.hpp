@@ -26,7 +26,7 @@ class StopLayer {
   void see(const Observation& observation);
   // The wanted velocity, within the robot's limits and what the sensors allow.
   [[nodiscard]] Twist limit(const Twist& wanted) const;
-  // Share of the speed that the last limit() would cut from a wanted velocity: 0 none, 1 all.
+  // Share of a wanted speed that an allowed one leaves out: 0 none, 1 all.
   [[nodiscard]] double held_back_ratio(const Twist& wanted, const Twist& allowed) const;
 
  private:

@@ -10,6 +10,8 @@
 
 namespace cairn {
 
+inline constexpr double kMostRadius_m = 10.0;  // of a robot that a plan is for
+
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitNotSolved = 1;
 inline constexpr int kExitBadInput = 2;
@@ -60,8 +62,26 @@ struct TemplateCommand {
 int template_list(const TemplateCommand& command, const CommonOptions& common);
 int template_preview(const TemplateCommand& command, const CommonOptions& common);
 
+struct PluginsCommand {
+  std::string name;
+  std::filesystem::path file;
+};
 int plugins_list(const CommonOptions& common);
 int plugins_info(const std::string& name, const CommonOptions& common);
+int plugins_check(const std::filesystem::path& file, const CommonOptions& common);
+
+struct NewPluginCommand {
+  std::string kind;
+  std::string name;
+  std::filesystem::path folder;  // of the new project; empty: the module's name
+};
+int plugins_new(const NewPluginCommand& command, const CommonOptions& common);
+
+struct ReferenceCommand {
+  std::filesystem::path markdown;       // empty, and no folder either: to standard output
+  std::filesystem::path schema_folder;  // gets mission.schema.json and the like
+};
+int plugins_reference(const ReferenceCommand& command, const CommonOptions& common);
 
 struct ExperimentCommand {
   std::filesystem::path file;

@@ -17,7 +17,8 @@ void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& 
   CLI::App* sub = app.add_subcommand("run", "Run a mission: map, recognise, plan and drive");
   sub->add_option("MISSION", c.mission, "mission file (config/missions/*.yaml)")->required();
   sub->add_option("--out", c.out, "folder for map, pictures and report")->capture_default_str();
-  sub->add_option("--seed", c.seed, "seed, in place of the mission's");
+  sub->add_option("--seed", c.seed, "seed, in place of the mission's")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{9000000000000000}));
   sub->add_option("--set", c.overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
       ->allow_extra_args(false);
   sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
@@ -31,8 +32,9 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
   sub->add_option("--to", c.to, "as --from");
   sub->add_option("--queries", c.queries, "file of queries, one {\"id\",\"from\",\"to\"} a line, or -");
   sub->add_option("--planner", c.planner, "planner module")->capture_default_str();
-  sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map");
-  sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time");
+  sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map")
+      ->check(CLI::Range(0.0, kMostRadius_m));
+  sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time")->check(CLI::Range(0.0, 1e9));
   sub->add_option("--seed", c.seed, "seed of the planner")->capture_default_str();
   sub->add_option("--picture", c.picture, "draw the route into this PNG file");
   sub->callback([&] { action = [&] { return plan(c, common); }; });
@@ -73,14 +75,32 @@ void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common
   preview->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
 }
 
-void add_plugins(CLI::App& app, std::string& name, const CommonOptions& common, Action& action) {
+void add_plugins(CLI::App& app, PluginsCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* plugins = app.add_subcommand("plugins", "List the modules, or one module's settings");
   plugins->callback([&] {
     if (!action) action = [&] { return plugins_list(common); };
   });
   CLI::App* info = plugins->add_subcommand("info", "Settings of one module");
-  info->add_option("NAME", name, "module")->required();
-  info->callback([&] { action = [&] { return plugins_info(name, common); }; });
+  info->add_option("NAME", c.name, "module")->required();
+  info->callback([&] { action = [&] { return plugins_info(c.name, common); }; });
+  CLI::App* check = plugins->add_subcommand("check", "Whether a file is a module that this program can use");
+  check->add_option("FILE", c.file, "shared library (*.so)")->required();
+  check->callback([&] { action = [&] { return plugins_check(c.file, common); }; });
+}
+
+void add_plugins_new(CLI::App& app, NewPluginCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* made = app.get_subcommand("plugins")->add_subcommand("new", "Write a small complete project for a module");
+  made->add_option("KIND", c.kind, "sensor, localizer, map, detector, planner or behaviour")->required();
+  made->add_option("NAME", c.name, "of the module, in lower_snake_case")->required();
+  made->add_option("--folder", c.folder, "of the new project; without it, NAME");
+  made->callback([&] { action = [&] { return plugins_new(c, common); }; });
+}
+
+void add_reference(CLI::App& app, ReferenceCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* sub = app.get_subcommand("plugins")->add_subcommand("reference", "Every setting of every file and module");
+  sub->add_option("--markdown", c.markdown, "write the configuration reference into this file");
+  sub->add_option("--schema-folder", c.schema_folder, "write the JSON schemas for editors into this folder");
+  sub->callback([&] { action = [&] { return plugins_reference(c, common); }; });
 }
 
 void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& common, Action& action) {
@@ -104,13 +124,17 @@ int main_of(int argc, char** argv) {
   MapCommand map_options;
   TemplateCommand template_options;
   ExperimentCommand experiment_options;
-  std::string plugin_name;
+  PluginsCommand plugins_options;
+  NewPluginCommand new_plugin_options;
+  ReferenceCommand reference_options;
   Action action;
   add_run(app, run_options, common, action);
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
   add_template(app, template_options, common, action);
-  add_plugins(app, plugin_name, common, action);
+  add_plugins(app, plugins_options, common, action);
+  add_plugins_new(app, new_plugin_options, common, action);
+  add_reference(app, reference_options, common, action);
   add_experiment(app, experiment_options, common, action);
   try {
     app.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -19,7 +20,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Query {
-  std::string id;
+  nlohmann::json id = "";  // as it came: text or number
   std::string from;
   std::string to;
 };
@@ -30,15 +31,13 @@ class MapPlanner {
   MapPlanner(const PlanCommand& command, const CommonOptions& common)
       : command_(command), library_(plugin_folders(common.plugin_folders)), map_(load_map(command.map)) {
     robot_.radius_m = command.radius_m.value_or(saved_radius());
-    if (!std::isfinite(robot_.radius_m) || robot_.radius_m < 0.0)
-      throw std::runtime_error(fmt::format("--radius-m: expected a number >= 0, found {}", robot_.radius_m));
     PluginChoice choice{command.planner, {}};
     choice.config.kind = ConfigValue::Kind::map;
     choice.config.place.file = "--planner";
     ModuleContext context{robot_};
     context.seed = static_cast<std::uint64_t>(command.seed);
     context.modules = &library_;
-    planner_ = library_.make<Planner>(choice, context);
+    planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
   }
 
   PlanResult answer(const Query& query) const {
@@ -67,7 +66,13 @@ class MapPlanner {
  private:
   double saved_radius() const {
     const auto found = map_.properties.find("robot_radius_m");
-    return found == map_.properties.end() ? RobotModel{}.radius_m : std::strtod(found->second.c_str(), nullptr);
+    if (found == map_.properties.end()) return RobotModel{}.radius_m;
+    double radius_m = -1.0;
+    const std::string& text = found->second;
+    const auto end = std::from_chars(text.data(), text.data() + text.size(), radius_m).ptr;
+    if (end != text.data() + text.size() || !(radius_m >= 0.0 && radius_m <= kMostRadius_m))
+      throw StoreError(command_.map.string() + ": robot_radius_m must be a number of 0 to 10 m, is \"" + text + "\"");
+    return radius_m;
   }
 
   const PlanCommand& command_;
@@ -118,7 +123,7 @@ Query query_of(const std::string& line, const std::string& file, int number) {
     if (!json.contains(key) || !json[key].is_string())
       throw ConfigError(place, std::string("a query needs the text \"") + key + "\"");
   Query query{"", json["from"], json["to"]};
-  if (json.contains("id")) query.id = json["id"].is_string() ? json["id"].get<std::string>() : json["id"].dump();
+  if (json.contains("id")) query.id = json["id"];
   return query;
 }
 

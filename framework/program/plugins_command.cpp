@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "framework/host/module_library.hpp"
 #include "framework/program/commands.hpp"
@@ -53,6 +55,30 @@ ordered_json json_of(const std::vector<FieldSpec>& fields) {
   return list;
 }
 
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+// What is wrong with a module that loads: its names, and those that other modules have already.
+std::vector<std::string> faults_of(const LoadedPlugin& plugin, const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::string> faults;
+  if (plugin.modules.empty()) faults.emplace_back("it registers nothing");
+  const ModuleLibrary others(folders);
+  std::set<std::string> own;
+  for (const RegisteredModule& module : plugin.modules) {
+    if (!is_plain_name(module.name))
+      faults.push_back("the name \"" + module.name + "\" is not of lower-case letters, digits and _");
+    if (module.summary.empty()) faults.push_back(module.name + " has no one-line description");
+    if (!own.insert(module.name).second) faults.push_back("it registers the name \"" + module.name + "\" twice");
+    const ModuleEntry* other = others.find_any(module.name);
+    if (other != nullptr && !std::filesystem::equivalent(other->plugin->file, plugin.file))
+      faults.push_back("the name \"" + module.name + "\" is taken by " + other->plugin->file.string());
+  }
+  return faults;
+}
+
 }  // namespace
 
 int plugins_list(const CommonOptions& common) {
@@ -65,15 +91,41 @@ int plugins_list(const CommonOptions& common) {
       list.push_back({{"kind", kind},
                       {"name", entry.module->name},
                       {"module", file},
-                      {"version", entry.plugin->version},
+                      {"version", std::string(entry.plugin->stamp.cairn_version)},
                       {"summary", entry.module->summary}});
     else
-      std::cout << fmt::format("{:<10} {:<18} {:<22} {:<8} {}\n", kind, entry.module->name, file, entry.plugin->version,
-                               entry.module->summary);
+      std::cout << fmt::format("{:<10} {:<18} {:<22} {:<8} {}\n", kind, entry.module->name, file,
+                               std::string(entry.plugin->stamp.cairn_version), entry.module->summary);
   }
   if (common.json) std::cout << ordered_json{{"modules", list}, {"faults", library.faults()}}.dump() << "\n";
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   return library.faults().empty() ? kExitDone : kExitNotSolved;
+}
+
+int plugins_check(const std::filesystem::path& file, const CommonOptions& common) {
+  ordered_json answer = {{"file", file.string()}, {"stamp", ""}, {"modules", ordered_json::array()}};
+  std::vector<std::string> faults;
+  std::string text;
+  try {
+    const LoadedPlugin plugin = load_plugin(file);
+    answer["stamp"] = text_of(plugin.stamp);
+    text = "symbols   cairn_abi_stamp, cairn_register_module\nstamp     " + text_of(plugin.stamp) + "\n";
+    for (const RegisteredModule& module : plugin.modules) {
+      const std::string kind(name_of(module.kind));
+      text += fmt::format("registers {} {}: {}\n", kind, module.name, module.summary);
+      answer["modules"].push_back({{"kind", kind}, {"name", module.name}, {"summary", module.summary}});
+    }
+    faults = faults_of(plugin, plugin_folders(common.plugin_folders));
+  } catch (const PluginError& error) {
+    faults.emplace_back(error.what());
+  }
+  answer["faults"] = faults;
+  if (common.json) std::cout << answer.dump() << "\n";
+  std::ostream& people = common.json ? std::cerr : std::cout;
+  people << text;
+  for (const std::string& fault : faults) people << "wrong     " << fault << "\n";
+  if (faults.empty()) people << "usable\n";
+  return faults.empty() ? kExitDone : kExitNotSolved;
 }
 
 int plugins_info(const std::string& name, const CommonOptions& common) {

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -42,6 +43,13 @@ void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGr
   }
 }
 
+void print_times(std::ostream& out, const std::vector<StageTime>& times) {
+  out << "\n  stage       module                  calls  median us     p99 us   worst us\n";
+  for (const StageTime& t : times)
+    out << fmt::format("  {:<11} {:<20} {:>8} {:>10.2f} {:>10.2f} {:>10.2f}\n", t.stage, t.module, t.count, t.median_us,
+                       t.p99_us, t.worst_us);
+}
+
 void print_summary(std::ostream& out, const Mission& mission, const MissionResult& result, const MissionRunner& runner,
                    const RunPictures& pictures, const std::filesystem::path& folder, double wall_s) {
   print_landmarks(out, mission, runner.graph());
@@ -80,12 +88,21 @@ int run(const RunCommand& command, const CommonOptions& common) {
     runner.subscribe(progress);
     result = runner.run();
   }
+  for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
   const RunPictures pictures = draw_run(command.out, mission, runner, report);
+  write_file(command.out / "timing.json", timing_json(runner.times()) + "\n");
   write_file(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  print_times(people, runner.times());
   print_summary(people, mission, result, runner, pictures, command.out, wall_s);
   if (common.json)
-    std::cout << report.summary_json(mission, result, runner.graph(), command.out, pictures.files, wall_s) << "\n";
+    std::cout << report.summary_json(mission, result, runner, command.out, pictures.files, wall_s) << "\n";
+  if (runner.gave_up()) {
+    // The lost call still runs: nothing that it may use can be torn down.
+    std::cout.flush();
+    std::cerr.flush();
+    std::_Exit(kExitNotSolved);
+  }
   return result.outcome == MissionOutcome::done ? kExitDone : kExitNotSolved;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 void draw_map(const std::filesystem::path& file, const Mission& mission, const MissionRunner& runner) {
   MapPicture picture;
-  picture.grid = &runner.grid();
+  picture.grid = runner.grid();
   picture.graph = &runner.graph();
   picture.shapes = mission.shapes;
   for (const Pose2& pose : runner.driven_path()) picture.driven.push_back(pose.position());
@@ -46,22 +46,33 @@ Chart chart_of(const std::vector<DegreeSample>& samples) {
 RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, const MissionRunner& runner,
                      const RunReport& report) {
   RunPictures pictures;
-  draw_map(out / "map.png", mission, runner);
-  pictures.files.emplace_back("map.png");
-  if (runner.coarse_grid() != nullptr) {
-    CoarsePicture coarse;
-    coarse.coarse = runner.coarse_grid();
-    coarse.grid = &runner.grid();
-    coarse.title = "OG2 of " + mission.config.mission;
-    write_coarse_picture(out / "coarse.png", coarse);
-    pictures.files.emplace_back("coarse.png");
+  // A picture that cannot be drawn must not cost the report.
+  const auto attempt = [&](const std::string& name, auto draw) {
+    try {
+      draw(out / name);
+      pictures.files.push_back(name);
+    } catch (const std::exception& error) {
+      pictures.missing.push_back(name + ": " + error.what());
+    }
+  };
+  if (runner.grid() == nullptr) {
+    pictures.missing.emplace_back("map.png: the module that held the map was given up");
+  } else {
+    attempt("map.png", [&](const std::filesystem::path& file) { draw_map(file, mission, runner); });
   }
-  if (report.degrees().empty()) return pictures;
-  const ChartOutcome chart = write_chart(out / "degrees.png", chart_of(report.degrees()));
-  if (chart.drawn)
-    pictures.files.emplace_back("degrees.png");
-  else
-    pictures.missing.push_back("degrees.png: " + chart.reason);
+  if (runner.coarse_grid() != nullptr)
+    attempt("coarse.png", [&](const std::filesystem::path& file) {
+      CoarsePicture coarse;
+      coarse.coarse = runner.coarse_grid();
+      coarse.grid = runner.grid();
+      coarse.title = "OG2 of " + mission.config.mission;
+      write_coarse_picture(file, coarse);
+    });
+  if (!report.degrees().empty())
+    attempt("degrees.png", [&](const std::filesystem::path& file) {
+      const ChartOutcome chart = write_chart(file, chart_of(report.degrees()));
+      if (!chart.drawn) throw std::runtime_error(chart.reason);
+    });
   return pictures;
 }
 

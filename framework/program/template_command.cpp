@@ -6,6 +6,7 @@
 
 #include "framework/config/robot_file.hpp"
 #include "framework/config/template_file.hpp"
+#include "framework/host/fence.hpp"
 #include "framework/host/mission_modules.hpp"
 #include "framework/program/commands.hpp"
 #include "maps/pictures/template_sheet.hpp"
@@ -35,7 +36,7 @@ TemplateSet render(const TemplateCommand& command, const CommonOptions& common, 
   mission.config.map = plain("bayes_map");
   apply_override(mission.config.map.config, fmt::format("cell_m={}", command.cell_m));
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
-  return render_templates(mission, command.cell_m, library);
+  return fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); });
 }
 
 }  // namespace

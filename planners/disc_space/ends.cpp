@@ -28,6 +28,12 @@ std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldVi
   return start;
 }
 
+// Such a disc can stand nowhere, and looking at every cell it would cover takes for ever.
+bool is_larger_than(const OccupancyGrid& grid, double radius_m) {
+  const CellBox box = grid.bounds();
+  return radius_m > std::hypot(box.width(), box.height()) * grid.cell_m();
+}
+
 std::string not_reached_text(const Place& goal, const LandmarkGraph& graph) {
   if (goal.pose) return "the goal " + text_of(goal.pose->position()) + " cannot be reached";
   const std::string first = label_of(*graph.find(goal.landmarks.front()));
@@ -78,6 +84,9 @@ std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& 
   if (const auto refusal = refusal_of_place(place, world.graph, "start")) return *refusal;
   if (world.grid.bounds().empty())
     return Refusal{PlanOutcome::start_blocked, "the map holds no grid to plan a route on"};
+  if (is_larger_than(world.grid, rules.radius_m))
+    return Refusal{PlanOutcome::start_blocked,
+                   "a robot of radius " + metres_text(rules.radius_m) + " is larger than the map"};
   if (place.pose) return start_at_pose(*place.pose, world, rules, spaces);
   const auto space = spaces.space_of(world.grid, rules.ground);
   for (const LandmarkId id : place.landmarks) {

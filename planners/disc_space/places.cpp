@@ -23,10 +23,14 @@ GroundRules only_occupied(GroundRules rules) {
 double distance_to_state_m(const OccupancyGrid& grid, const GroundRules& rules, const Point& p_map, double reach_m,
                            CellState state) {
   const Cell at = grid.cell_at(p_map);
-  const int reach = static_cast<int>(std::ceil(reach_m / grid.cell_m())) + 1;
+  // All beyond one cell outside the map is as unknown as that cell.
+  const CellBox map = grid.bounds().grown(1);
+  const double most = 2.0 * (map.width() + map.height());
+  const int reach = static_cast<int>(std::min(std::ceil(reach_m / grid.cell_m()), most)) + 1;
+  const CellBox box = intersected(map, CellBox{at, {at.x + 1, at.y + 1}}.grown(reach));
   double best_m = std::numeric_limits<double>::infinity();
-  for (int y = at.y - reach; y <= at.y + reach; ++y)
-    for (int x = at.x - reach; x <= at.x + reach; ++x)
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
       if (grid.state({x, y}, rules.thresholds) == state)
         best_m = std::min(best_m, distance_to_square_m(p_map, p_map, grid.centre_of({x, y}), grid.cell_m()));
   return best_m <= reach_m ? best_m : std::numeric_limits<double>::infinity();

@@ -17,9 +17,9 @@ struct HybridConfig {
   bool shortcut = true;
 
   static void describe(Fields<HybridConfig>& fields) {
-    fields.plugin("route", &HybridConfig::route,
+    fields.plugin("route", &HybridConfig::route, "planner",
                   "planner of routes on the grid; its `unknown` holds for stored routes too");
-    fields.plugin("graph", &HybridConfig::graph, "planner over the landmark graph");
+    fields.plugin("graph", &HybridConfig::graph, "planner", "planner over the landmark graph");
     fields.number("detour_ratio", &HybridConfig::detour_ratio, {1.0, 100.0}, "",
                   "a way over landmarks is taken when it is at most this much longer than the direct one, and a "
                   "leg planned anew likewise against its stored cost");

@@ -32,6 +32,8 @@ namespace cairn {
 
 namespace og = ompl::geometric;
 
+// One line an algorithm.
+// NOLINTNEXTLINE(readability-function-size)
 ompl::base::PlannerPtr make_algorithm(Algorithm algorithm, const ompl::base::SpaceInformationPtr& space) {
   switch (algorithm) {
     case Algorithm::abit_star:

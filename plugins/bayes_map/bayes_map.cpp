@@ -9,6 +9,7 @@
 namespace cairn::bayes_map {
 
 using sonar_model::Meaning;
+
 BayesMap::BayesMap(const Config& config) : beam_model_(config), grid_(config.cell_m, config.clamp_nat) {}
 
 const CellChanges& BayesMap::integrate(const Observation& observation, const PoseEstimate& pose) {
@@ -25,6 +26,7 @@ void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map
   const bool echo = meaning == Meaning::echo;
   const Beam beam{T_map_robot * reading.T_robot_sensor, reading.half_beam_rad,
                   echo ? beam_model_.reach_of_echo_m(reading.range_m) : beam_model_.reach_of_silence_m(reading.max_m)};
+  if (!grid_.can_include(beam.T_map_sensor.position(), beam.reach_m)) return;
   const BeamFrame frame(beam, grid_.cell_m());
 
   const auto increment_of = [&](const BeamPlace& place) {

@@ -2,7 +2,8 @@
 //
 // Every cell in a reading's beam gets round(256 ln lambda), from its centre's range and bearing, up to
 // 3 delta behind the echo, or up to max_m without one. What a reading means stands in
-// sonar_model/reading.hpp; an observation under a pose that is not finite is ignored. half_beam 0 is a ray.
+// sonar_model/reading.hpp. Ignored are also a reading whose beam leaves what a grid can hold, and an
+// observation under a pose that is not finite. half_beam 0 is a ray.
 #pragma once
 
 #include "framework/contracts/mapper.hpp"

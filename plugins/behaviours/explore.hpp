@@ -2,7 +2,7 @@
 //
 // Ends with success when the wanted share is known and nothing is left to look closer at, when nothing
 // in reach is left, or when its time is up; with failure only when the robot cannot move.
-// The map is searched at most about once a second and after an obstacle has turned up; every other
+// The map is searched at most twice a second; every other
 // tick costs microseconds. Deterministic.
 #pragma once
 

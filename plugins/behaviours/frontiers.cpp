@@ -54,7 +54,7 @@ std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vec
     Cell cell;
     int group;
   };
-  const int most = static_cast<int>(kStraight * within_m / space.cell_m() + 0.5);
+  const int most = static_cast<int>(std::lround(kStraight * within_m / space.cell_m()));
   std::vector<std::vector<Entry>> buckets(static_cast<std::size_t>(most) + 1);
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Cell c : groups[g]) buckets[0].push_back({c, static_cast<int>(g)});

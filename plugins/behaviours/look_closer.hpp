@@ -61,7 +61,7 @@ struct Lap {
                             const std::vector<Point>& avoid, const LapSettings& settings);
 
 // The lap's cheapest open sector, and the way on through the open sectors next to it, in the direction
-// with more of them (towards heading_rad when equal). Empty when no sector is open.
+// with more of them (towards the robot's heading when equal). Empty when no sector is open.
 struct LapRoute {
   Cell first;
   double cost_m = 0.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace cairn::behaviours {
 namespace {
@@ -23,18 +24,25 @@ bool has_moved(const Pose2& a, const Pose2& b) {
          std::abs(wrap_angle(a.theta_rad - b.theta_rad)) >= kTurned_rad;
 }
 
+constexpr int kMostSensors = 4096;  // an index beyond it is an error of the source, not a transducer
+
+bool is_usable(const RangeReading& reading) {
+  return reading.range_m > reading.min_m && reading.range_m > 0.0 && reading.range_m <= kNear_m &&
+         reading.half_beam_rad >= 0.0 && reading.half_beam_rad <= std::numbers::pi && reading.sensor >= 0 &&
+         reading.sensor < kMostSensors;
+}
+
 }  // namespace
 
 NearEchoes::NearEchoes(const OccupancyGrid& map) : votes_(map.cell_m(), kMost_nat, map.origin_m()) {}
 
 void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
   for (const RangeReading& reading : observation.ranges) {
-    const bool is_near_echo = reading.range_m > reading.min_m && reading.range_m <= kNear_m;
-    if (!is_near_echo || reading.sensor < 0) continue;
+    const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
+    if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), kNear_m)) continue;
     const auto sensor = static_cast<std::size_t>(reading.sensor);
     const Pose2 nowhere{std::numeric_limits<double>::max(), 0.0, 0.0};
     if (sensor >= last_voted_.size()) last_voted_.resize(sensor + 1, nowhere);
-    const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
     if (!has_moved(T_map_sensor, last_voted_[sensor])) continue;
     last_voted_[sensor] = T_map_sensor;
     vote(reading, T_map_sensor);
@@ -64,6 +72,7 @@ void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
 }
 
 void NearEchoes::stand_at(const Point& p_map, double radius_m) {
+  if (!votes_.can_include(p_map, radius_m + votes_.cell_m())) return;
   const Cell centre = votes_.cell_at(p_map);
   const double most_cells = radius_m / votes_.cell_m() + 0.5;
   const int reach = static_cast<int>(most_cells);

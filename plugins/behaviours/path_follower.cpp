@@ -61,7 +61,7 @@ Twist pursuit(double error_rad, double aim_m, double v_mps, const FollowLimits& 
 FollowLimits follow_limits(const RobotModel& robot, double speed_mps) {
   FollowLimits limits;
   limits.speed_mps = std::min(speed_mps, robot.max_v_mps);
-  // Half of what it can do: turns faster than the sonars' round leave blind spots in the map.
+  // Turns faster than the sonars' round leave blind spots in the map.
   limits.max_w_radps = std::min(radians(50.0), robot.max_w_radps);
   limits.slow_down_mps2 = 0.5 * robot.max_acceleration_mps2;
   limits.lookahead_m = std::clamp(1.2 * limits.speed_mps, 0.2, 0.5);

@@ -91,8 +91,7 @@ Save::Save(const SaveConfig& config) : file_name_(config_detail::to_text(config.
 }
 
 Status Save::tick(const WorldView&, Orders& orders) {
-  orders.save(file_name_);
-  return {Progress::success, "saved " + file_name_};
+  return orders.save(file_name_);
 }
 
 }  // namespace cairn::behaviours

@@ -40,6 +40,7 @@ void HimmMap::integrate_reading(const RangeReading& reading, const Pose2& T_map_
   const bool echo = meaning == Meaning::echo;
   const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
   const double length_m = echo ? reading.range_m : std::min(reading.max_m, config_.range_m);
+  if (!grid_.can_include(T_map_sensor.position(), length_m)) return;
   const Cell hit = grid_.cell_at(T_map_sensor.position() + length_m * T_map_sensor.direction());
   spans_over({T_map_sensor, 0.0, length_m}, grid_.cell_m(), spans_);
   for (const CellSpan& span : spans_)

@@ -75,6 +75,7 @@ const CellChanges& Muriel::integrate(const Observation& observation, const PoseE
 }
 
 void Muriel::integrate_reading(const PlacedReading& reading) {
+  if (!grid_.can_include(reading.beam.T_map_sensor.position(), reading.beam.reach_m)) return;
   if (reading.beam.half_beam_rad > kWidestHalfBeam_rad) {
     integrate_plainly(config_, reading, grid_, log_, spans_, changes_.spans);
     return;

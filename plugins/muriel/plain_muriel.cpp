@@ -44,6 +44,7 @@ double specular_p(const Config& config, const PlacedReading& reading, const Occu
 
 void integrate_plainly(const Config& config, const PlacedReading& reading, OccupancyGrid& grid, IndependenceLog& log,
                        std::vector<CellSpan>& spans, std::vector<CellSpan>& changed) {
+  if (!grid.can_include(reading.beam.T_map_sensor.position(), reading.beam.reach_m)) return;
   spans_over(reading.beam, config.cell_m, spans);
   const double s = config.specular ? specular_p(config, reading, grid, spans) : 0.0;
   const Weights weights = weights_of(config);

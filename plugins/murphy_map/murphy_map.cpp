@@ -39,6 +39,7 @@ void MurphyMap::integrate_reading(const RangeReading& reading, const Pose2& T_ma
   const double echo_m = meaning == Meaning::echo ? reading.range_m : std::numeric_limits<double>::infinity();
   const Beam beam{T_map_robot * reading.T_robot_sensor, reading.half_beam_rad,
                   std::min(range_m, echo_m + config_.tolerance_m)};
+  if (!grid_.can_include(beam.T_map_sensor.position(), beam.reach_m)) return;
   const BeamFrame frame(beam, grid_.cell_m());
   const auto increment_at = [&](Cell cell) {
     const BeamPlace place = frame.place_of(cell);

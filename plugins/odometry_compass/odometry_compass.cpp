@@ -7,8 +7,17 @@
 namespace cairn::odometry_compass {
 namespace {
 
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+// Further out than any robot gets; squares of what is beyond would drown every covariance.
+constexpr double kFarthest_m = 1e6;
+
+bool is_usable(const Pose2& pose) {
+  return std::abs(pose.x_m) <= kFarthest_m && std::abs(pose.y_m) <= kFarthest_m && std::isfinite(pose.theta_rad);
+}
+
+// A covariance of a position: symmetric, positive definite.
+bool is_usable(const Eigen::Matrix2d& c) {
+  return c.allFinite() && std::abs(c(0, 1) - c(1, 0)) <= 1e-9 * c.cwiseAbs().maxCoeff() && c(0, 0) > 0.0 &&
+         c.determinant() > 0.0;
 }
 
 MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
@@ -39,7 +48,7 @@ PoseEstimate OdometryCompass::update(const Observation& observation, std::span<c
 }
 
 void OdometryCompass::follow_odometry(const Pose2& T_odom_robot) {
-  if (!is_finite(T_odom_robot)) return;
+  if (!is_usable(T_odom_robot)) return;
   if (T_odom_robot_) filter_.predict(inverse(*T_odom_robot_) * T_odom_robot, motion_noise_);
   T_odom_robot_ = T_odom_robot;
 }
@@ -58,8 +67,8 @@ void OdometryCompass::follow_compass(double compass_rad) {
 
 void OdometryCompass::follow_landmark(const LandmarkSighting& sighting) {
   const Eigen::Matrix3d& seen = sighting.covariance;
-  const bool usable = is_finite(sighting.T_map_landmark) && is_finite(sighting.T_robot_landmark) && seen.allFinite() &&
-                      seen(0, 0) > 0.0 && seen.topLeftCorner<2, 2>().determinant() > 0.0;
+  const bool usable = is_usable(sighting.T_map_landmark) && is_usable(sighting.T_robot_landmark) && seen.allFinite() &&
+                      is_usable(Eigen::Matrix2d(seen.topLeftCorner<2, 2>()));
   if (!usable) return;
   const double map_variance = config_.landmark_noise_m * config_.landmark_noise_m;
   const Eigen::Matrix2d noise = seen.topLeftCorner<2, 2>() + map_variance * Eigen::Matrix2d::Identity();

@@ -3,12 +3,14 @@
 // Promises a covariance that is honest for the errors the robot's file states (METHOD 11): white and
 // constant odometry errors, white compass noise, and a compass bias that wanders from place to place.
 // The first observation's odometry is the reference; whatever it says is the start pose. Rules:
-//   odometry that is not finite       the step is skipped, the next one counts from the last good one
+//   odometry that is not finite, or   the step is skipped, the next one counts from the last good one
+//   beyond 1000 km
 //   no compass, or not finite         odometry alone
 //   compass beyond the gate           refused; after `compass_refusals` in a row it is believed
 //   landmark beyond the gate          refused (the wrong landmark, most likely)
 //   landmark not finite, or without   refused
-//   a positive definite covariance
+//   a symmetric, positive definite
+//   covariance
 // Landmarks are taken in the order given, after the compass.
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cairn::sonar_model {
 
@@ -10,7 +11,8 @@ bool is_finite(const Pose2& pose) {
 }
 
 Meaning meaning_of(const RangeReading& reading) {
-  const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 && reading.max_m > 0.0;
+  const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 &&
+                    reading.half_beam_rad <= std::numbers::pi && reading.max_m > 0.0;
   if (!sane || std::isnan(reading.range_m)) return Meaning::ignored;
   if (reading.range_m >= reading.max_m) return Meaning::silence;
   return reading.range_m >= reading.min_m && reading.range_m > 0.0 ? Meaning::echo : Meaning::ignored;

@@ -3,7 +3,9 @@
 //   range >= max_m, or +inf         no echo
 //   range < min_m, negative, -inf   ignored: nearer than the sensor can tell
 //   NaN                             ignored: a bad reading
-// A reading whose own geometry is not finite, or whose half_beam is negative, is ignored too.
+// A reading whose own geometry is not finite, or whose half_beam is not in [0, pi], is ignored too; and
+// every map ignores one whose beam leaves what a grid can hold, and observations under a pose that is
+// not finite.
 #pragma once
 
 #include <vector>

@@ -25,9 +25,13 @@ double radians_per(AngleUnit unit) {
   return radians(unit == AngleUnit::degrees ? 1.0 : 0.1);
 }
 
+constexpr double kFarthest_m = 1e5;
+
 Pose2 pose_in(const TableRow& row, const TableConfig& table) {
   const double metres = metres_per(table.length_unit);
   Pose2 pose{metres * row.finite_number(table.x_column, "x"), metres * row.finite_number(table.y_column, "y"), 0.0};
+  if (std::abs(pose.x_m) > kFarthest_m || std::abs(pose.y_m) > kFarthest_m)
+    throw ConfigError(row.place(table.x_column), "a pose farther than 100 km from the log's origin");
   if (table.heading_column > 0) {
     pose.theta_rad = wrap_angle(radians_per(table.angle_unit) * row.finite_number(table.heading_column, "heading"));
   }
@@ -189,10 +193,11 @@ RecordedLog read_log(const TableLogConfig& config, const RobotModel& robot) {
   const std::vector<StampedPose> poses = config.poses ? read_poses(*config.poses, rule) : std::vector<StampedPose>{};
   const TableFile file(config);
   Clock clock(config);
+  std::int64_t rows_so_far = 0;
   rule.read(file, [&](const TableRow& row) {
     Observation seen;
-    seen.stamp_s =
-        config.time_column > 0 ? clock.read(row) : config.period_s * static_cast<double>(log.observations.size());
+    // Skipped lines took their time too.
+    seen.stamp_s = config.time_column > 0 ? clock.read(row) : config.period_s * static_cast<double>(rows_so_far++);
     seen.ranges = readings;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const double value = row.number(columns[i], "range " + std::to_string(i + 1));

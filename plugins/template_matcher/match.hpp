@@ -17,7 +17,9 @@ inline constexpr int kMismatchPerUnit = 16;
 // |gradient difference| in 1/16. dx and dy are whole numbers within +-2040, so the sum of squares
 // and the scaling are exact and the root is correctly rounded: the same on every machine.
 [[nodiscard]] inline std::int32_t gradient_distance(float dx, float dy) {
-  return static_cast<std::int32_t>(kMismatchPerUnit * std::sqrt(dx * dx + dy * dy) + 0.5F);
+  // Not lround, which cannot be vectorised.
+  return static_cast<std::int32_t>(kMismatchPerUnit * std::sqrt(dx * dx + dy * dy) +
+                                   0.5F);  // NOLINT(bugprone-incorrect-roundings)
 }
 
 // The place where one template fits best: least mismatch, ties to the smaller (y, x).

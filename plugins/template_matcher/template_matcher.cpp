@@ -50,7 +50,8 @@ DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellCha
                                 " m, the templates were rendered for " + std::to_string(templates_->cell_m) + " m");
   }
   DetectionReport report;
-  for (const Cell coarse : coarse_.update(grid, changes)) {
+  coarse_.update(grid, changes, touched_);
+  for (const Cell coarse : touched_) {
     if (static_cast<std::int64_t>(report.matchings.size()) >= budget.iterations || budget.exhausted()) break;
     if (trigger_.fires(coarse, coarse_.ol(coarse))) report.matchings.push_back(match(grid, coarse));
   }

@@ -40,6 +40,7 @@ class TemplateMatcher : public Detector {
   Trigger trigger_;
   PrunedMatcher matcher_;
   OrientationNeighbours neighbours_;
+  std::vector<Cell> touched_;  // kept for its memory only
 };
 
 }  // namespace cairn::template_matcher

@@ -161,12 +161,12 @@ TEST_F(ForgedMap, RefusesImpossibleGrids) {
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET cell_m = 9e999"), "table grid: column cell_m is not finite");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET clamp_nat = -4"),
             "table grid: clamp_nat must be in (0, 127], is -4.000000");
-  EXPECT_EQ(refusal_after_forging("UPDATE grid SET max_x = 1e6, max_y = 1e6"),
-            "table grid: bounds of 1000070 x 1000003 cells are not possible, at most 268435456 cells are");
+  EXPECT_EQ(refusal_after_forging("UPDATE grid SET max_x = 1e5, max_y = 1e5"),
+            "table grid: bounds of 100070 x 100003 cells are not possible, at most 268435456 cells are");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET max_x = -71"),
             "table grid: bounds of -1 x 73 cells are not possible, at most 268435456 cells are");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET max_y = 9223372036854775807"),
-            "table grid: column max_y holds 9223372036854775807, allowed is -16777216 to 16777216");
+            "table grid: column max_y holds 9223372036854775807, allowed is -131072 to 131072");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET origin_x_m = 'left'"),
             "table grid: column origin_x_m holds a text where a number belongs");
   EXPECT_EQ(refusal_after_forging("DELETE FROM grid"), "table grid: has no row");
@@ -178,7 +178,7 @@ TEST_F(ForgedMap, RefusesImpossibleTiles) {
   EXPECT_EQ(refusal_after_forging("UPDATE tiles SET tx = 1000 WHERE tx = 0 AND ty = 0"),
             "table tiles: tile (1000, 0) has known cells outside the grid's bounds");
   EXPECT_EQ(refusal_after_forging("UPDATE tiles SET tx = 4611686018427387904 WHERE tx = 0 AND ty = 0"),
-            "table tiles: column tx holds 4611686018427387904, allowed is -262144 to 262144");
+            "table tiles: column tx holds 4611686018427387904, allowed is -2048 to 2048");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET clamp_nat = 1"),
             "table tiles: tile (-1, -1) holds log-odds beyond the grid's clamp");
   EXPECT_EQ(refusal_after_forging("UPDATE tiles SET crc32 = 5 WHERE tx = 0 AND ty = 0"),

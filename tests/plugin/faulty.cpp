@@ -1,13 +1,20 @@
 // Modules that fail in every way that a mission must survive, and a small sensor that works.
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "framework/contracts/module.hpp"
 
 namespace {
 
 using namespace cairn;
+
+// Long enough to be given up, short enough for a test program to end after it.
+void hang() {
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+}
 
 struct CountingConfig {
   int readings = 5;
@@ -72,9 +79,46 @@ class ThrowingMapper : public EmptyMapper {
   int calls_ = 0;
 };
 
+class HangingMapper : public EmptyMapper {
+ public:
+  const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override {
+    hang();
+    return EmptyMapper::integrate(observation, pose);
+  }
+};
+
 class NumberThrowingMapper : public EmptyMapper {
  public:
   const CellChanges& integrate(const Observation&, const PoseEstimate&) override { throw 42; }
+};
+
+class NanDetector : public Detector {
+ public:
+  DetectionReport detect(const OccupancyGrid&, const CellChanges&, const Budget&) override {
+    Matching matching;
+    matching.detection = Detection{"ghost", {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}, 0.9, {}};
+    return {{matching}};
+  }
+};
+
+class HangingBehaviour : public Behaviour {
+ public:
+  Status tick(const WorldView&, Orders& orders) override {
+    orders.drive({0.1, 0.0});
+    hang();
+    orders.say("back again");
+    return {};
+  }
+  void halt() override {}
+};
+
+class NanBehaviour : public Behaviour {
+ public:
+  Status tick(const WorldView&, Orders& orders) override {
+    orders.drive({std::numeric_limits<double>::quiet_NaN(), 0.0});
+    return {};
+  }
+  void halt() override {}
 };
 
 class FailingBehaviour : public Behaviour {
@@ -105,6 +149,10 @@ void register_module(Registrar& registrar) {
   add_plain<Mapper, ThrowingMapper>(registrar, "throwing_map");
   add_plain<Mapper, NumberThrowingMapper>(registrar, "number_throwing_map");
   add_plain<Behaviour, FailingBehaviour>(registrar, "fail");
+  add_plain<Mapper, HangingMapper>(registrar, "hanging_map");
+  add_plain<Detector, NanDetector>(registrar, "nan_detector");
+  add_plain<Behaviour, HangingBehaviour>(registrar, "hang");
+  add_plain<Behaviour, NanBehaviour>(registrar, "drive_nan");
   add_plain<Behaviour, EndlessBehaviour>(registrar, "endless");
   registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",
                                      [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Localizer> {

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "framework/host/fence.hpp"
 #include "framework/host/mission_runner.hpp"
+#include "framework/host/run_report.hpp"
 
 namespace cairn {
 namespace {
@@ -23,11 +26,13 @@ class FencedMission : public testing::Test {
     fs::create_directories(folder_);
   }
 
-  Mission mission_with(const std::string& localizer, const std::string& map, const std::string& steps) {
+  Mission mission_with(const std::string& localizer, const std::string& map, const std::string& steps,
+                       const std::string& more = "") {
     std::ofstream(folder_ / "mission.yaml")
         << "mission: fenced\nrobot: " << CAIRN_SOURCE_DIR
         << "/config/robots/pioneer1.yaml\nsensor: {plugin: counting_sensor}\n"
-        << "localizer: {plugin: " << localizer << "}\nmap: {plugin: " << map << "}\nsteps: " << steps << "\n";
+        << "localizer: {plugin: " << localizer << "}\nmap: {plugin: " << map << "}\nsteps: " << steps << "\n"
+        << more;
     return load_mission(folder_ / "mission.yaml");
   }
 
@@ -57,6 +62,75 @@ TEST_F(FencedMission, SomethingThatIsNoExceptionIsFencedToo) {
 TEST_F(FencedMission, APoseThatIsNotANumberEndsTheMission) {
   EXPECT_EQ(run("nan_localizer", "empty_map").reason,
             "module nan_localizer failed in stage localizer: returned a pose that is not finite");
+}
+
+TEST_F(FencedMission, ADetectionThatIsNotANumberEndsTheMission) {
+  const Mission mission =
+      mission_with("still_localizer", "empty_map", "[endless]", "detector: {plugin: nan_detector}\n");
+  const MissionResult result = MissionRunner(mission, library_, {folder_, false, nullptr}).run();
+  EXPECT_EQ(result.reason, "module nan_detector failed in stage detector: returned a detection that is not finite");
+  EXPECT_TRUE(fs::exists(folder_ / result.map_file));
+}
+
+TEST_F(FencedMission, AVelocityThatIsNotANumberEndsTheMission) {
+  EXPECT_EQ(run("still_localizer", "empty_map", "[drive_nan]").reason,
+            "module drive_nan failed in stage behaviour: asked for a velocity that is not finite");
+}
+
+class ThrowingListener : public Listener {
+ public:
+  void on(const Event&, const MissionView&) override { throw std::runtime_error("no paper"); }
+};
+
+TEST_F(FencedMission, ListenersInAnyOrderOrFailingChangeNothing) {
+  const auto result_with = [&](const std::vector<Listener*>& listeners) {
+    MissionRunner runner(mission_with("still_localizer", "empty_map", "[fail]"), library_, {folder_, false, nullptr});
+    for (Listener* listener : listeners) runner.subscribe(*listener);
+    const MissionResult result = runner.run();
+    return std::tuple(result.outcome, result.reason, result.time_s, runner.listener_faults().size());
+  };
+  ThrowingListener throwing;
+  RunReport first, second, alone;
+  const auto plain = result_with({&alone});
+  EXPECT_EQ(result_with({&first, &throwing}),
+            std::tuple(std::get<0>(plain), std::get<1>(plain), std::get<2>(plain), 1U));
+  EXPECT_EQ(result_with({&throwing, &second}),
+            std::tuple(std::get<0>(plain), std::get<1>(plain), std::get<2>(plain), 1U));
+  const Mission mission = mission_with("still_localizer", "empty_map", "[fail]");
+  const LandmarkGraph none;
+  EXPECT_EQ(first.report_json(mission, {}, none, {}), alone.report_json(mission, {}, none, {}));
+  EXPECT_EQ(second.report_json(mission, {}, none, {}), alone.report_json(mission, {}, none, {}));
+}
+
+// A mission whose module hangs, given up after 0.2 s.
+class HangingMission : public FencedMission {
+ protected:
+  MissionRunner runner_of(const std::string& map, const std::string& steps) {
+    return {mission_with("still_localizer", map, steps, "watchdog_s: 0.2\n"), library_, {folder_, false, nullptr}};
+  }
+};
+
+TEST_F(HangingMission, ABehaviourThatNeverReturnsIsGivenUpAndTheMapIsSaved) {
+  fs::remove(folder_ / "fenced.cairn");
+  MissionRunner runner = runner_of("empty_map", "[hang]");
+  const auto begin = std::chrono::steady_clock::now();
+  const MissionResult result = runner.run();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_TRUE(runner.gave_up());
+  EXPECT_EQ(result.outcome, MissionOutcome::module_fault);
+  EXPECT_EQ(result.reason, "module hang has not returned from stage behaviour for 200 ms and was given up");
+  EXPECT_EQ(result.steps.at(0).status.progress, Progress::failure);
+  EXPECT_TRUE(fs::exists(folder_ / "fenced.cairn"));
+  EXPECT_NE(runner.grid(), nullptr);
+}
+
+TEST_F(HangingMission, TheMapOfAMapperThatNeverReturnsIsLeftAlone) {
+  fs::remove(folder_ / "fenced.cairn");
+  MissionRunner runner = runner_of("hanging_map", "[endless]");
+  const MissionResult result = runner.run();
+  EXPECT_THAT(result.reason, testing::StartsWith("module hanging_map has not returned from stage map for 200 ms"));
+  EXPECT_EQ(runner.grid(), nullptr);
+  EXPECT_FALSE(fs::exists(folder_ / "fenced.cairn"));
 }
 
 TEST_F(FencedMission, AConstructorThatThrowsIsNamed) {

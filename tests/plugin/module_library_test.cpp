@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+extern "C" void cairn_register_odometry_compass(cairn::Registrar& registrar);
+
 namespace cairn {
 namespace {
 
@@ -63,6 +65,22 @@ TEST(ModuleLibrary, SaysThatATextFileCannotBeOpened) {
               ElementsAre(AllOf(HasSubstr("text.so: cannot be opened as a module"), HasSubstr("ELF"))));
 }
 
+TEST(ModuleLibrary, SaysWhichLibraryAModuleMisses) {
+  const ModuleLibrary library({folder_of("needs_missing_library")});
+  EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("needs_missing_library.so: cannot be opened as a module"),
+                                                  HasSubstr("libcairn_test_missing.so"))));
+}
+
+TEST(ModuleLibrary, TakesModulesThatAreLinkedIn) {
+  Registrar registrar;
+  cairn_register_odometry_compass(registrar);
+  ModuleLibrary library({});
+  library.add("(linked in)", registrar);
+  const RobotModel robot;
+  EXPECT_NE(library.make<Localizer>(choice_of("odometry_compass"), ModuleContext{robot}), nullptr);
+  EXPECT_EQ(library.find_any("odometry_compass")->plugin->file, "(linked in)");
+}
+
 TEST(ModuleLibrary, AMissingFolderIsAFault) {
   const ModuleLibrary library({"/nowhere/at/all"});
   EXPECT_THAT(library.faults(), ElementsAre("/nowhere/at/all: no such plugin folder"));
@@ -104,7 +122,10 @@ TEST(ModuleLibrary, UnknownConfigKeysAreRefused) {
   value.kind = ConfigValue::Kind::scalar;
   value.scalar = "3";
   value.place = {"mission.yaml", 8, 15};
-  choice.config.entries.push_back({"reading", {"mission.yaml", 8, 5}, value});
+  ConfigValue::Entry& entry = choice.config.entries.emplace_back();
+  entry.key = "reading";
+  entry.key_place = {"mission.yaml", 8, 5};
+  entry.value = value;
   try {
     (void)library.make<Sensor>(choice, ModuleContext{robot});
     FAIL() << "no error";

@@ -154,6 +154,21 @@ TEST(BadPlugin, ALibraryThatIsNoModuleIsToldAndTheOthersStayUsable) {
   EXPECT_THAT(finished.out, HasSubstr("simulated_robot"));
 }
 
+TEST(BadPlugin, CheckNamesWhatASystemLibraryLacks) {
+  const Finished finished = run_cairn({"plugins", "check", "/lib/x86_64-linux-gnu/libc.so.6"});
+  EXPECT_EQ(finished.exit_status, 1);
+  EXPECT_THAT(finished.out, HasSubstr("libc.so.6: is no Cairn module (it exports no cairn_abi_stamp"));
+}
+
+TEST(BadPlugin, CheckFindsAShippedModuleUsable) {
+  const Finished finished =
+      run_cairn({"plugins", "check", std::string(CAIRN_BINARY_DIR) + "/lib/cairn/bayes_map.so", "--json"});
+  EXPECT_EQ(finished.exit_status, 0) << finished.err;
+  const auto answer = nlohmann::json::parse(finished.out);
+  EXPECT_EQ(answer["modules"][0]["name"], "bayes_map");
+  EXPECT_TRUE(answer["faults"].empty());
+}
+
 TEST(BadPlugin, AnotherAbiStampIsToldWithBothSides) {
   const Finished finished =
       run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/wrong_stamp"});

@@ -60,7 +60,7 @@ struct Example {
     fields.group("inner", &Example::inner, "what is inside");
     fields.group("extra", &Example::extra, "what may be there");
     fields.list("many", &Example::many, "many of them");
-    fields.plugin("planner", &Example::planner, "who plans");
+    fields.plugin("planner", &Example::planner, "planner", "who plans");
     fields.raw("rest", &Example::rest, "anything", "anything else");
   }
 };

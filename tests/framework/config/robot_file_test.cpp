@@ -155,8 +155,8 @@ TEST(RobotFile, SaysWhatIsWrongWithItsSonars) {
   EXPECT_EQ(error_in("name: a\nradius_m: 1\nfiring: {order: [0]}\n"),
             "r.yaml:3:18: order names a sonar, but the robot has none");
   EXPECT_EQ(error_in("name: a\nradius_m: 1\nfiring: {order: 0}\n"), "r.yaml:3:17: order must be a list, found \"0\"");
-  EXPECT_EQ(error_in("name: a\nradius_m: 1\nfiring: {period_s: 0}\n"),
-            "r.yaml:3:20: period_s must be a number from 0.001 to 10 s, found \"0\"");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nfiring: {period_s: -1}\n"),
+            "r.yaml:3:20: period_s must be a number from 0 to 10 s, found \"-1\"");
 }
 
 }  // namespace

@@ -26,7 +26,10 @@ class FakeHost : public Orders {
 
   void drive(const Twist& wanted) override { wanted_ = wanted; }
   PlanResult plan(const PlanRequest& request) override;
-  void save(const std::string& file_name) override { saved.push_back(file_name); }
+  Status save(const std::string& file_name) override {
+    saved.push_back(file_name);
+    return {Progress::success, "saved " + file_name};
+  }
   void say(const std::string& sentence) override { said.push_back(sentence); }
 
   // Ticks until the behaviour ends or the time is up (then its status is still running).

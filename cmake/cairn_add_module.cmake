@@ -1,0 +1,29 @@
+# cairn_add_module(NAME [CORE sources...] [LINK ...]): NAME.so from module.cpp. CORE gives the algorithm
+# files, which become NAME_core, a static library that tests can link; LINK goes with them.
+#
+# The same function makes Cairn's own modules and, installed with the CMake package, everybody else's.
+# The module lands in ${CMAKE_BINARY_DIR}/lib/cairn, for `cairn --plugins`; installed under the prefix
+# of Cairn, the program finds it by itself.
+function(cairn_add_module name)
+  cmake_parse_arguments(arg "" "" "CORE;LINK" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "cairn_add_module(${name}): what is \"${arg_UNPARSED_ARGUMENTS}\"? It knows CORE and LINK")
+  endif()
+  set(own_options $<$<TARGET_EXISTS:cairn_private_options>:cairn_private_options>)
+  add_library(${name} MODULE module.cpp)
+  if(arg_CORE)
+    add_library(${name}_core STATIC ${arg_CORE})
+    target_link_libraries(${name}_core PUBLIC cairn::framework PRIVATE ${own_options} ${arg_LINK})
+    target_link_libraries(${name} PRIVATE ${name}_core ${own_options})
+    set_target_properties(${name}_core PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+                                                  POSITION_INDEPENDENT_CODE ON)
+  else()
+    target_link_libraries(${name} PRIVATE cairn::framework ${own_options} ${arg_LINK})
+  endif()
+  target_link_options(${name} PRIVATE -Wl,--no-undefined)  # found when linking, not when loading
+  set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+                                           LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/cairn
+                                           BUILD_RPATH "$ORIGIN/.." INSTALL_RPATH "$ORIGIN/..")
+  install(TARGETS ${name} LIBRARY DESTINATION lib/cairn)
+  set_property(GLOBAL APPEND PROPERTY CAIRN_MODULES ${name})
+endfunction()

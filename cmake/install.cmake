@@ -1,0 +1,51 @@
+# What `cmake --install` puts where, the files by which others find it, and the Debian package.
+#
+# The layout is fixed, bin lib include share under one prefix: the program finds its modules, its
+# configuration and its scaffold beside itself, so the installed tree can be moved as a whole.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS cairn RUNTIME DESTINATION bin)
+install(TARGETS cairn_maps cairn_framework EXPORT cairn LIBRARY DESTINATION lib)
+install(TARGETS cairn_pictures LIBRARY DESTINATION lib NAMELINK_SKIP)  # the program's alone
+
+# Headers keep the paths that sources include them by. The saved map's inner headers stay home.
+install(DIRECTORY maps DESTINATION include/cairn FILES_MATCHING PATTERN *.hpp
+        PATTERN pictures EXCLUDE PATTERN map_store_*.hpp EXCLUDE)
+foreach(folder contracts config host)
+  install(DIRECTORY framework/${folder} DESTINATION include/cairn/framework FILES_MATCHING PATTERN *.hpp)
+endforeach()
+install(DIRECTORY config framework/scaffold DESTINATION share/cairn)
+# The build tree has the same shape.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/cairn)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/config ${CMAKE_BINARY_DIR}/share/cairn/config SYMBOLIC)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/framework/scaffold ${CMAKE_BINARY_DIR}/share/cairn/scaffold SYMBOLIC)
+
+set(package_folder lib/cmake/cairn)
+install(EXPORT cairn NAMESPACE cairn:: FILE cairnTargets.cmake DESTINATION ${package_folder})
+configure_package_config_file(cmake/cairnConfig.cmake.in ${CMAKE_BINARY_DIR}/cairnConfig.cmake
+                              INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/cairnConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/cairnConfig.cmake ${CMAKE_BINARY_DIR}/cairnConfigVersion.cmake
+              cmake/cairn_add_module.cmake DESTINATION ${package_folder})
+configure_file(cmake/cairn.pc.in ${CMAKE_BINARY_DIR}/cairn.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/cairn.pc DESTINATION lib/pkgconfig)
+
+# The suites are a test target: installed when they have been built, found as a component.
+if(TARGET cairn_conformance)
+  set_target_properties(cairn_conformance PROPERTIES EXPORT_NAME conformance)
+  target_include_directories(cairn_conformance INTERFACE $<INSTALL_INTERFACE:include/cairn>)
+  install(TARGETS cairn_conformance EXPORT cairn_conformance ARCHIVE DESTINATION lib OPTIONAL)
+  install(EXPORT cairn_conformance NAMESPACE cairn:: FILE cairnConformanceTargets.cmake DESTINATION ${package_folder})
+  install(DIRECTORY tests/conformance DESTINATION include/cairn/tests FILES_MATCHING PATTERN *.hpp)
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The Cairn authors <cairn@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, libgtest-dev")  # to write modules
+include(CPack)

@@ -1,0 +1,319 @@
+#include "framework/host/mission_loop.hpp"
+
+#include <cmath>
+#include <thread>
+
+#include "framework/host/fence.hpp"
+#include "maps/map_store.hpp"
+
+namespace cairn {
+namespace {
+
+bool is_finite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+}
+
+}  // namespace
+
+MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
+    : mission_(mission),
+      options_(options),
+      modules_(build_modules(mission_, library)),
+      keeper_(mission_.config.landmarks, mission_.robot),
+      stop_layer_(mission_.config.stop_layer, mission_.robot) {
+  budget_.cancel = options_.cancel;
+  pose_.T_map_robot = modules_.T_map_start;
+  const MissionConfig& config = mission_.config;
+  sensor_ = clock_.add("sensor", config.sensor.name);
+  localizer_ = clock_.add("localizer", config.localizer.name);
+  mapper_ = clock_.add("map", config.map.name);
+  if (modules_.detector) detector_ = clock_.add("detector", config.detector.name);
+  if (modules_.planner) {
+    planner_ = clock_.add("planner", config.planner.name);
+    routes_ = clock_.add("routes", config.planner.name);
+  }
+  for (const MissionStep& step : mission_.steps) behaviours_.push_back(clock_.add("behaviour", step.name));
+  drive_stage_ = clock_.add("drive", config.sensor.name);
+}
+
+template <class Call>
+auto MissionLoop::in_stage(StageClock::Id stage, Call&& call) -> decltype(call()) {
+  try {
+    const StageClock::Visit visit(clock_, stage);
+    return fenced(clock_.stage_of(stage), clock_.module_of(stage), std::forward<Call>(call));
+  } catch (const ModuleFault&) {
+    clock_.check();
+    throw;
+  }
+}
+
+void MissionLoop::run() {
+  try {
+    drive_ = in_stage(sensor_, [&] { return modules_.sensor->drive(); });
+    grid_ = &in_stage(mapper_, [&]() -> const OccupancyGrid& { return modules_.mapper->grid(); });
+    result_.outcome = loop();
+  } catch (const GivenUp&) {
+    return;  // the one who gave up tells
+  } catch (const std::exception& fault) {
+    result_.outcome = MissionOutcome::module_fault;
+    result_.reason = fault.what();
+  }
+  try {
+    finish();
+  } catch (const GivenUp&) {
+  }
+}
+
+bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
+  const StageClock::Id stage = clock_.give_up_after(longest);
+  if (stage == StageClock::kHost) return false;
+  // From here on this thread is the only one that touches the mission; only what the lost call works
+  // on may still change.
+  result_.outcome = MissionOutcome::module_fault;
+  result_.reason = "module " + clock_.module_of(stage) + " has not returned from stage " + clock_.stage_of(stage) +
+                   " for " + std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(longest).count()) +
+                   " ms and was given up";
+  if (step_begun_) {
+    result_.steps.back().status = {Progress::failure, "given up: " + result_.reason};
+    result_.steps.back().end_s = result_.time_s;
+  }
+  if (drive_ != nullptr && stage != sensor_ && stage != drive_stage_) stop();
+  grid_is_lost_ = stage == mapper_ || grid_ == nullptr;
+  if (grid_is_lost_)
+    result_.reason += "; the map it works on could not be saved";
+  else
+    (void)write_map(mission_.config.mission + ".cairn");
+  return true;
+}
+
+MissionOutcome MissionLoop::loop() {
+  if (mission_.steps.empty() && drive_ != nullptr) return MissionOutcome::done;
+  while (true) {
+    if (budget_.cancelled()) return ended(MissionOutcome::cancelled, "cancelled by the user");
+    SensorStep step = in_stage(sensor_, [&] { return modules_.sensor->next(budget_); });
+    if (step.state == SensorState::fault) return ended(MissionOutcome::sensor_fault, step.reason);
+    if (step.state == SensorState::end_of_data) return at_end_of_data(step.reason);
+    observation_ = std::move(step.observation);
+    tick();
+    if (failed_step_) return ended(MissionOutcome::step_failed, failure_);
+    if (!mission_.steps.empty() && step_ == mission_.steps.size()) return MissionOutcome::done;
+    if (result_.time_s >= mission_.config.at_most_s)
+      return ended(MissionOutcome::out_of_time, "the mission's at_most_s has passed");
+  }
+}
+
+// One tick: a list of sentences, each stage a value in and a value out.
+void MissionLoop::tick() {
+  account_for(observation_);
+  pose_ = localize();
+  keeper_.follow(pose_.T_map_robot);
+  const CellChanges& changes = build_map();
+  detect(changes);
+  stop_layer_.see(observation_);
+  behave();
+  drive_on();
+  tell(TickDone{});
+}
+
+void MissionLoop::account_for(const Observation& observation) {
+  if (!begun_) begin_s_ = observation.stamp_s;
+  if (begun_) result_.distance_m += (observation.T_odom_robot.position() - T_odom_last_.position()).norm();
+  begun_ = true;
+  T_odom_last_ = observation.T_odom_robot;
+  result_.time_s = observation.stamp_s - begin_s_;
+  result_.readings += static_cast<std::int64_t>(observation.ranges.size());
+  if (observation.bumped && !bumped_) {
+    ++result_.collisions;
+    tell(Bumped{});
+  }
+  bumped_ = observation.bumped;
+  if (options_.realtime) std::this_thread::sleep_until(wall_begin_ + std::chrono::duration<double>(result_.time_s));
+}
+
+PoseEstimate MissionLoop::localize() {
+  PoseEstimate pose = in_stage(localizer_, [&] { return modules_.localizer->update(observation_, {}); });
+  if (!is_finite(pose.T_map_robot) || !pose.covariance.allFinite())
+    throw ModuleFault("localizer", clock_.module_of(localizer_), "returned a pose that is not finite");
+  return pose;
+}
+
+const CellChanges& MissionLoop::build_map() {
+  return in_stage(mapper_, [&]() -> const CellChanges& { return modules_.mapper->integrate(observation_, pose_); });
+}
+
+void MissionLoop::detect(const CellChanges& changes) {
+  if (!modules_.detector) return;
+  const DetectionReport report = in_stage(detector_, [&] {
+    DetectionReport found = modules_.detector->detect(*grid_, changes, budget_);
+    coarse_ = modules_.detector->coarse_grid();
+    return found;
+  });
+  for (const Matching& matching : report.matchings) {
+    ++result_.matchings;
+    tell(MatchingDone{matching});
+    if (!matching.detection) continue;
+    if (!is_finite(matching.detection->T_map_landmark) || !std::isfinite(matching.detection->degree))
+      throw ModuleFault("detector", clock_.module_of(detector_), "returned a detection that is not finite");
+    const LandmarkKeeper::Change change = keeper_.fold(*matching.detection);
+    if (change.improved) tell(LandmarkChanged{*keeper_.graph().find(change.landmark), change.is_new});
+  }
+}
+
+void MissionLoop::behave() {
+  wanted_ = Twist{};
+  if (step_ >= modules_.behaviours.size()) return;
+  const std::string& name = mission_.steps[step_].name;
+  if (!step_begun_) begin_step(name);
+  const Status status = in_stage(behaviours_[step_], [&] { return modules_.behaviours[step_]->tick(view(), *this); });
+  if (status.progress != Progress::running) end_step(name, status);
+}
+
+void MissionLoop::begin_step(const std::string& name) {
+  step_begun_ = true;
+  result_.steps.push_back({name, {}, result_.time_s, result_.time_s});
+  tell(StepStarted{static_cast<int>(step_), name});
+}
+
+void MissionLoop::end_step(const std::string& name, const Status& status) {
+  result_.steps.back().status = status;
+  result_.steps.back().end_s = result_.time_s;
+  tell(StepEnded{static_cast<int>(step_), name, status});
+  wanted_ = Twist{};
+  step_begun_ = false;
+  ++step_;
+  failed_step_ = status.progress == Progress::failure;
+  failure_ = "step " + std::to_string(step_) + " (" + name + "): " + status.reason;
+  connect_landmarks();
+}
+
+void MissionLoop::drive_on() {
+  if (drive_ == nullptr) return;
+  const Twist allowed = stop_layer_.limit(wanted_);
+  held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, allowed);
+  in_stage(drive_stage_, [&] { drive_->command(allowed); });
+}
+
+void MissionLoop::connect_landmarks() {
+  if (!modules_.planner || keeper_.graph().landmarks().empty()) return;
+  in_stage(routes_, [&] {
+    keeper_.connect(view(), *modules_.planner, budget_, module_seed(mission_.config.seed, PluginKind::planner, 1));
+  });
+}
+
+MissionOutcome MissionLoop::at_end_of_data(const std::string& reason) {
+  if (mission_.steps.empty()) return ended(MissionOutcome::done, reason);
+  return ended(MissionOutcome::step_failed, "the sensor's data ended before the steps did");
+}
+
+MissionOutcome MissionLoop::ended(MissionOutcome outcome, std::string reason) {
+  result_.reason = std::move(reason);
+  return outcome;
+}
+
+// Whatever happened: the robot stops, and the map so far is saved.
+void MissionLoop::finish() {
+  if (drive_ != nullptr) stop();
+  if (step_begun_) halt_step();
+  try {
+    if (result_.outcome != MissionOutcome::cancelled) connect_landmarks();
+  } catch (const ModuleFault& fault) {
+    result_.reason += (result_.reason.empty() ? "" : "; ") + std::string(fault.what());
+    result_.outcome = MissionOutcome::module_fault;
+  }
+  const Status saved = write_map(mission_.config.mission + ".cairn");
+  if (saved.progress == Progress::success) return;
+  result_.reason += (result_.reason.empty() ? "" : "; ") + saved.reason;
+  if (result_.outcome == MissionOutcome::done) result_.outcome = MissionOutcome::map_not_saved;
+}
+
+void MissionLoop::stop() {
+  try {
+    drive_->command(Twist{});
+  } catch (...) {
+    // The module has failed already and is being left; there is no one else to tell.
+  }
+}
+
+void MissionLoop::halt_step() {
+  result_.steps.back().status = {Progress::failure, "halted: " + result_.reason};
+  result_.steps.back().end_s = result_.time_s;
+  try {
+    in_stage(behaviours_[step_], [&] { modules_.behaviours[step_]->halt(); });
+  } catch (const ModuleFault& fault) {
+    result_.reason += std::string("; ") + fault.what();
+  }
+}
+
+WorldView MissionLoop::view() const {
+  return {*grid_,          keeper_.graph(), mission_.robot, pose_, result_.time_s, begun_ ? &observation_ : nullptr,
+          held_back_ratio_};
+}
+
+void MissionLoop::tell(const Event& event) {
+  const WorldView world = view();
+  const MissionView seen{world, coarse_};
+  std::erase_if(listeners_, [&](Listener* listener) {
+    // What a listener throws must not change the mission: it is told nothing more.
+    try {
+      listener->on(event, seen);
+      return false;
+    } catch (const std::exception& error) {
+      listener_faults_.emplace_back(error.what());
+    } catch (...) {
+      listener_faults_.emplace_back("something that is no std::exception");
+    }
+    return true;
+  });
+}
+
+// What behaviours order is the host's work again: it cannot be given up half-way.
+
+void MissionLoop::drive(const Twist& wanted) {
+  const StageClock::Visit visit(clock_, StageClock::kHost);
+  if (drive_ == nullptr)
+    throw std::runtime_error("wants to drive, but the sensor " + mission_.config.sensor.name + " cannot be driven");
+  if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps))
+    throw std::runtime_error("asked for a velocity that is not finite");
+  wanted_ = wanted;
+}
+
+PlanResult MissionLoop::plan(const PlanRequest& request) {
+  if (!modules_.planner) throw std::runtime_error("asked for a plan, but the mission names no planner");
+  PlanResult result = in_stage(planner_, [&] { return modules_.planner->plan(request, view(), budget_); });
+  const StageClock::Visit visit(clock_, StageClock::kHost);
+  tell(PlanDone{result});
+  return result;
+}
+
+Status MissionLoop::save(const std::string& file_name) {
+  const StageClock::Visit visit(clock_, StageClock::kHost);
+  return write_map(file_name);
+}
+
+Status MissionLoop::write_map(const std::string& file_name) {
+  if (grid_ == nullptr) return {Progress::failure, "there is no map to save"};
+  SavedMap map;
+  map.grid = *grid_;
+  map.graph = keeper_.graph();
+  map.shapes = mission_.shapes;
+  map.driven_path = keeper_.driven_path();
+  map.properties = {{"mission", mission_.config.mission},
+                    {"seed", std::to_string(mission_.config.seed)},
+                    {"robot", mission_.robot.name},
+                    {"robot_radius_m", std::to_string(mission_.robot.radius_m)}};
+  try {
+    save_map(options_.out / file_name, map);
+  } catch (const std::exception& error) {
+    return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
+  }
+  result_.map_file = file_name;
+  tell(MapSaved{file_name});
+  return {Progress::success, "saved " + file_name};
+}
+
+void MissionLoop::say(const std::string& sentence) {
+  const StageClock::Visit visit(clock_, StageClock::kHost);
+  tell(Said{sentence});
+}
+
+}  // namespace cairn

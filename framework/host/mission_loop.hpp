@@ -1,0 +1,96 @@
+// The one thread of control of a mission: one tick after the other (DESIGN, "One tick, as data").
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "framework/host/landmark_keeper.hpp"
+#include "framework/host/mission_modules.hpp"
+#include "framework/host/mission_runner.hpp"
+#include "framework/host/stage_clock.hpp"
+#include "framework/host/stop_layer.hpp"
+
+namespace cairn {
+
+class MissionLoop : private Orders {
+ public:
+  // Throws ConfigError or ModuleFault.
+  MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
+
+  void subscribe(Listener& listener) { listeners_.push_back(&listener); }
+  // To the end, whatever happens. Throws nothing.
+  void run();
+  // From another thread, while run() runs: when one call of a module has lasted longer than that, ends
+  // the mission in its place (stops the robot, saves the map) and returns true. run() then returns as
+  // soon as the lost call does, if ever, and touches nothing more.
+  bool give_up_after(std::chrono::nanoseconds longest);
+
+  // After run(), or after give_up_after() returned true.
+  [[nodiscard]] const MissionResult& result() const { return result_; }
+  [[nodiscard]] const OccupancyGrid* grid() const { return grid_is_lost_ ? nullptr : grid_; }
+  [[nodiscard]] const CoarseGrid* coarse_grid() const { return grid_is_lost_ ? nullptr : coarse_; }
+  [[nodiscard]] const LandmarkKeeper& keeper() const { return keeper_; }
+  [[nodiscard]] std::vector<StageTime> times() const { return clock_.times(); }
+  [[nodiscard]] const std::vector<std::string>& listener_faults() const { return listener_faults_; }
+
+ private:
+  template <class Call>
+  auto in_stage(StageClock::Id stage, Call&& call) -> decltype(call());
+  MissionOutcome loop();
+  void tick();
+  void account_for(const Observation& observation);
+  PoseEstimate localize();
+  const CellChanges& build_map();
+  void detect(const CellChanges& changes);
+  void behave();
+  void begin_step(const std::string& name);
+  void end_step(const std::string& name, const Status& status);
+  void drive_on();
+  void connect_landmarks();
+  MissionOutcome at_end_of_data(const std::string& reason);
+  MissionOutcome ended(MissionOutcome outcome, std::string reason);
+  void finish();
+  void stop();
+  void halt_step();
+  Status write_map(const std::string& file_name);
+  [[nodiscard]] WorldView view() const;
+  void tell(const Event& event);
+
+  void drive(const Twist& wanted) override;
+  PlanResult plan(const PlanRequest& request) override;
+  Status save(const std::string& file_name) override;
+  void say(const std::string& sentence) override;
+
+  const Mission mission_;
+  const RunOptions options_;
+  MissionModules modules_;
+  LandmarkKeeper keeper_;
+  StopLayer stop_layer_;
+  std::vector<Listener*> listeners_;
+  std::vector<std::string> listener_faults_;
+  StageClock clock_;
+  StageClock::Id sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0, drive_stage_ = 0;
+  std::vector<StageClock::Id> behaviours_;  // one a step
+  MissionResult result_;
+  Budget budget_;
+  Drive* drive_ = nullptr;               // of the sensor; null for a log
+  const OccupancyGrid* grid_ = nullptr;  // of the mapper
+  const CoarseGrid* coarse_ = nullptr;   // of the detector
+  bool grid_is_lost_ = false;            // its module was given up while it worked on it
+  Observation observation_;
+  PoseEstimate pose_;
+  Pose2 T_odom_last_;
+  Twist wanted_;
+  double begin_s_ = 0.0;
+  double held_back_ratio_ = 0.0;
+  std::size_t step_ = 0;
+  bool begun_ = false;
+  bool bumped_ = false;
+  bool step_begun_ = false;
+  bool failed_step_ = false;
+  std::string failure_;
+  const std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace cairn

@@ -1,0 +1,89 @@
+// Which module the mission is in, since when, and how long its calls take.
+//
+// The thread that runs the mission enters and leaves stages; another thread may watch and, when a call
+// does not return, give the mission up. Exactly one of the two wins: a stage that was given up cannot
+// be left any more, so the mission's thread never touches anything of the mission again.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cairn {
+
+// How long the calls of one module in one stage took. Median and p99 are good to 6 %.
+struct StageTime {
+  std::string stage;
+  std::string module;
+  std::int64_t count = 0;
+  double median_us = 0.0;
+  double p99_us = 0.0;
+  double worst_us = 0.0;
+  double total_s = 0.0;
+};
+
+// Thrown in the mission's thread when the mission was given up. No std::exception: no module shall
+// take it for one of its own.
+struct GivenUp {};
+
+class StageClock {
+ public:
+  using Id = std::size_t;
+  static constexpr Id kHost = 0;  // the host itself; never given up
+
+  StageClock();
+
+  // Before the run. The same stage and module give the same id.
+  Id add(const std::string& stage, const std::string& module);
+  [[nodiscard]] const std::string& stage_of(Id id) const { return stages_[id].name; }
+  [[nodiscard]] const std::string& module_of(Id id) const { return stages_[id].module; }
+
+  // Being in a stage, from construction to destruction; nested ones come back to the outer one. The
+  // constructor throws GivenUp.
+  class Visit {
+   public:
+    Visit(StageClock& clock, Id id);
+    ~Visit();
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+
+   private:
+    StageClock& clock_;
+    const Id id_;
+    const std::int64_t begin_ns_;
+    std::uint64_t outer_ = 0;
+  };
+  // Throws GivenUp.
+  void check() const;
+
+  // From any thread: gives the mission up when one call has lasted longer than that. Returns the
+  // stage it was in, or kHost when all is well.
+  Id give_up_after(std::chrono::nanoseconds longest);
+
+  [[nodiscard]] std::vector<StageTime> times() const;  // stages that were entered, in order of add()
+
+ private:
+  static constexpr int kBuckets = 64 * 8;  // eight to each doubling
+  struct Stage {
+    std::string name;
+    std::string module;
+    std::int64_t count = 0;
+    std::int64_t total_ns = 0;
+    std::int64_t worst_ns = 0;
+    std::array<std::uint32_t, kBuckets> histogram{};
+  };
+  [[nodiscard]] static double quantile_us(const Stage& stage, double share);
+  static int bucket_of(std::int64_t ns);
+  void note(Id id, std::int64_t ns);
+
+  std::vector<Stage> stages_;
+  std::uint64_t entered_ = 0;  // stages entered so far: tells two visits of one stage apart
+  // Entry number and stage of the current visit, or kGivenUp; and when it was entered.
+  std::atomic<std::uint64_t> current_{0};
+  std::atomic<std::int64_t> since_ns_{0};
+};
+
+}  // namespace cairn

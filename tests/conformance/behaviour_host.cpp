@@ -1,0 +1,90 @@
+#include "tests/conformance/behaviour_host.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "maps/travel_field.hpp"
+#include "tests/conformance/fixtures.hpp"
+#include "tests/conformance/texts.hpp"
+
+namespace cairn::conformance {
+
+BehaviourHost::BehaviourHost()
+    : robot(eight_sonar_robot()), grid(grid_of_room(0.05)), T_map_robot(kRoomStart), room_(grid) {
+  Landmark landmark;
+  landmark.category = "square";
+  landmark.T_map_landmark = {4.5, 4.0, 0.0};
+  landmark.access = {4.5, 3.5, 0.0};
+  graph.add(landmark);
+}
+
+void BehaviourHost::drive(const Twist& wanted) {
+  if (fault_.empty() && !(std::isfinite(wanted.v_mps) && std::isfinite(wanted.w_radps)))
+    fault_ = "drive(" + text_of(wanted) + ") at " + text_of(time_s) + " s";
+  wanted_ = wanted;
+  record_ += "drive " + text_of(wanted) + "\n";
+}
+
+PlanResult BehaviourHost::plan(const PlanRequest& request) {
+  record_ += "plan, seed " + std::to_string(request.seed) + "\n";
+  PlanResult result;
+  result.reason = "no way leads there";
+  if (finds_no_way || !request.from.pose) return result;
+  result.outcome = PlanOutcome::solved;
+  if (finds_empty_paths) return result;
+  Pose2 to = request.to.pose.value_or(Pose2{});
+  if (!request.to.landmarks.empty()) {
+    const Landmark* const landmark = graph.find(request.to.landmarks.front());
+    if (landmark != nullptr) to = landmark->access.value_or(landmark->T_map_landmark);
+    result.landmarks = request.to.landmarks;
+  }
+  const DistanceField space(grid, UnknownPolicy::avoid);
+  const TravelField travel(space, request.from.pose->position(), request.radius_m + grid.cell_m());
+  for (const Cell cell : travel.path_to(space.cell_at(to.position())))
+    result.path.push_back({space.centre_of(cell).x(), space.centre_of(cell).y(), 0.0});
+  if (result.path.empty()) result.outcome = PlanOutcome::no_route;
+  return result;
+}
+
+Status BehaviourHost::save(const std::string& file_name) {
+  record_ += "save " + file_name + "\n";
+  return {Progress::success, "saved " + file_name};
+}
+
+void BehaviourHost::say(const std::string& sentence) {
+  record_ += "say " + sentence + "\n";
+}
+
+Status BehaviourHost::tick(Behaviour& behaviour) {
+  wanted_ = {};
+  Observation seen = seen_in_room(T_map_robot, time_s, robot);
+  if (sees_oddly)
+    for (const auto& [what, reading] : odd_readings()) seen.ranges.push_back(reading);
+  const WorldView world{grid,
+                        graph,
+                        robot,
+                        {T_map_robot, 1e-4 * Eigen::Matrix3d::Identity()},
+                        time_s,
+                        sees ? &seen : nullptr,
+                        held_back_ratio_};
+  const Status status = behaviour.tick(world, *this);
+  record_ += text_of(status) + "\n";
+  held_back_ratio_ = holds_back && wanted_.v_mps != 0.0 ? 1.0 : 0.0;
+  if (!holds_back && is_finite(T_map_robot)) {
+    const double v_mps = std::clamp(wanted_.v_mps, -robot.max_v_mps, robot.max_v_mps);
+    const double w_radps = std::clamp(wanted_.w_radps, -robot.max_w_radps, robot.max_w_radps);
+    const Pose2 next = T_map_robot * Pose2{v_mps * tick_s, 0.0, w_radps * tick_s};
+    if (room_.state(room_.cell_at(next.position())) == CellState::free) T_map_robot = next;
+  }
+  time_s += tick_s;
+  return status;
+}
+
+Status BehaviourHost::run(Behaviour& behaviour, double at_most_s) {
+  Status status;
+  for (int ticks = static_cast<int>(at_most_s / 0.05); ticks > 0 && status.progress == Progress::running; --ticks)
+    status = tick(behaviour);
+  return status;
+}
+
+}  // namespace cairn::conformance

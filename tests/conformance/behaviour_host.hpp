@@ -1,0 +1,49 @@
+// The host's side of a behaviour: a robot that does as it is told in the room of fixtures.hpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/contracts/behaviour.hpp"
+
+namespace cairn::conformance {
+
+class BehaviourHost : public Orders {
+ public:
+  BehaviourHost();
+
+  void drive(const Twist& wanted) override;
+  PlanResult plan(const PlanRequest& request) override;
+  Status save(const std::string& file_name) override;
+  void say(const std::string& sentence) override;
+
+  // One tick: the behaviour, then the motion it asked for, then the clock.
+  Status tick(Behaviour& behaviour);
+  // Until the behaviour ends or the time is up; then the status is still running.
+  Status run(Behaviour& behaviour, double at_most_s);
+
+  // Everything asked for and answered so far, a line each: equal texts are equal runs.
+  [[nodiscard]] const std::string& record() const { return record_; }
+  [[nodiscard]] const std::string& fault() const { return fault_; }  // the first order that is not finite
+
+  RobotModel robot;
+  LandmarkGraph graph;  // landmark 1, a square
+  OccupancyGrid grid;   // the whole room, known
+  Pose2 T_map_robot;
+  double time_s = 0.0;
+  double tick_s = 0.05;
+  bool sees = true;                // WorldView::observation is not null
+  bool sees_oddly = false;         // among its readings are those of odd_readings()
+  bool holds_back = false;         // the stop layer lets nothing through
+  bool finds_no_way = false;       // plan() answers no_route
+  bool finds_empty_paths = false;  // plan() answers solved with no pose
+
+ private:
+  OccupancyGrid room_;
+  Twist wanted_;
+  double held_back_ratio_ = 0.0;
+  std::string record_;
+  std::string fault_;
+};
+
+}  // namespace cairn::conformance

@@ -1,0 +1,12 @@
+// Every shipped module of kind `detector` passes the suite of its kind.
+#include "tests/conformance/detector.hpp"
+
+namespace cairn::conformance {
+namespace {
+
+const std::filesystem::path kModules = std::filesystem::path(CAIRN_BINARY_DIR) / "lib" / "cairn";
+
+INSTANTIATE_TEST_SUITE_P(Shipped, DetectorConformance, testing::Values(module<Detector>(kModules, "template_matcher")));
+
+}  // namespace
+}  // namespace cairn::conformance

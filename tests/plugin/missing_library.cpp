@@ -1,0 +1,3 @@
+int answer_of_missing_library() {
+  return 42;
+}

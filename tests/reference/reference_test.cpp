@@ -1,0 +1,68 @@
+// The reference and the schemas in the tree say what the program says today.
+
+#include "framework/host/reference.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace cairn {
+namespace {
+
+const std::filesystem::path kSource = CAIRN_SOURCE_DIR;
+constexpr const char* kUpdate = " is out of date; `make reference` writes it anew";
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+const ModuleLibrary& shipped_modules() {
+  static const ModuleLibrary library({std::filesystem::path(CAIRN_BINARY_DIR) / "lib" / "cairn"});
+  return library;
+}
+
+TEST(Reference, TheMarkdownIsCurrent) {
+  EXPECT_THAT(shipped_modules().faults(), testing::IsEmpty());
+  EXPECT_TRUE(text_of(kSource / "docs/configuration.md") == reference_markdown(shipped_modules()))
+      << "docs/configuration.md" << kUpdate;
+}
+
+TEST(Reference, TheSchemasAreCurrent) {
+  for (const SchemaFile& schema : reference_schemas(shipped_modules()))
+    EXPECT_TRUE(text_of(kSource / "config/schema" / schema.file_name) == schema.text)
+        << "config/schema/" << schema.file_name << kUpdate;
+}
+
+TEST(Reference, EveryModuleAndEveryOneOfItsSettingsStandsInTheMarkdown) {
+  const std::string text = reference_markdown(shipped_modules());
+  ASSERT_FALSE(shipped_modules().entries().empty());
+  for (const ModuleEntry& entry : shipped_modules().entries()) {
+    const std::size_t at = text.find("\n#### " + entry.module->name + "\n");
+    ASSERT_NE(at, std::string::npos) << entry.module->name;
+    const std::string section = text.substr(at, text.find("\n#", at + 2) - at);
+    EXPECT_THAT(section, testing::HasSubstr(entry.module->summary));
+    for (const FieldSpec& field : entry.module->schema.fields)
+      EXPECT_THAT(section, testing::HasSubstr("| `" + field.key + "` |")) << entry.module->name;
+  }
+}
+
+// An editor offers what the schema names: a detector's own settings, with meaning, bounds and default.
+TEST(Reference, TheMissionSchemaOffersAModulesOwnSettings) {
+  const auto files = reference_schemas(shipped_modules());
+  ASSERT_EQ(files.front().file_name, "mission.schema.json");
+  const auto schema = nlohmann::json::parse(files.front().text);
+  const auto& setting = schema["definitions"]["detector.template_matcher"]["properties"]["tau_match"];
+  EXPECT_EQ(setting["type"], "number");
+  EXPECT_EQ(setting["minimum"], 0);
+  EXPECT_EQ(setting["maximum"], 1);
+  EXPECT_EQ(setting["default"], 0.55);
+  EXPECT_EQ(setting["description"], "a template fits when its degree is above this");
+}
+
+}  // namespace
+}  // namespace cairn
