@@ -43,6 +43,12 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
   return load_mission(job.mission, overrides, job.seed);
 }
 
+// A fault in the last variant's settings is told before the first one has run for an hour.
+void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<Job>& jobs) {
+  for (const Job& job : jobs)
+    if (job.seed == config.seeds.from) MissionRunner(mission_of(config, job), library, {job.out, false, nullptr});
+}
+
 ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
                       const Job& job) {
   const auto begin = std::chrono::steady_clock::now();
@@ -125,6 +131,7 @@ ExperimentConfig load_experiment(const std::filesystem::path& file) {
 std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
                                           const std::filesystem::path& out, const std::atomic<bool>& cancel) {
   const std::vector<Job> jobs = jobs_of(config, out);
+  check(config, library, jobs);
   std::vector<ExperimentRow> rows(jobs.size());
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     rows[i].mission = jobs[i].mission.stem();

@@ -72,6 +72,19 @@ TEST(Drive, FailsWhenItIsHeldBack) {
   EXPECT_THAT(status.reason, HasSubstr("on the way to (2.90, 0.65)"));
 }
 
+TEST(Drive, ScatteredPointsDifferBySeedAndStayNear) {
+  const auto end_of = [](std::uint64_t seed) {
+    FakeHost host(kHall);
+    DriveTo drive({.points_m = {{1.6, 0.7}}, .scatter_m = 0.2}, seed);
+    EXPECT_EQ(host.run(drive, 60.0).progress, Progress::success);
+    return host.driven.back().position();
+  };
+  for (const std::uint64_t seed : {1U, 2U, 3U})
+    EXPECT_LT((end_of(seed) - Point(1.6, 0.7)).cwiseAbs().maxCoeff(), 0.26) << seed;
+  EXPECT_EQ(end_of(1), end_of(1));
+  EXPECT_GT((end_of(1) - end_of(2)).norm(), 0.01);
+}
+
 TEST(Drive, WithoutPointsIsDoneAtOnce) {
   FakeHost host(kHall);
   DriveTo drive(DriveConfig{}, 1);
