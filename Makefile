@@ -40,6 +40,7 @@ check: build
 bench: build
 	@cmake --build --preset release --target cairn_benches
 	@build/release/tests/cairn_bench
+	@build/release/tests/map_bench
 
 experiment: build
 	$(CAIRN) experiment config/experiments/first_mission.yaml --out out/first_mission

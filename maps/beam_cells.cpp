@@ -28,11 +28,18 @@ void cut_to_disc(Interval& x, double y, double radius) {
   x.cut(-half, half);
 }
 
-// x of the points of the row at height y to the left of the line through the apex along `edge`.
-void cut_to_left_of(Interval& x, double y, const Point& edge) {
-  // cross(edge, p) = edge.x y - edge.y x >= 0
-  if (edge.y() > 0.0) x.high = std::min(x.high, edge.x() * y / edge.y());
-  if (edge.y() < 0.0) x.low = std::max(x.low, edge.x() * y / edge.y());
+// A line through the apex: the points p with cross(direction, p) >= 0 are to its left.
+struct Edge {
+  Point direction;
+  double dx_per_dy = 0.0;
+
+  explicit Edge(const Point& d) : direction(d), dx_per_dy(d.y() != 0.0 ? d.x() / d.y() : 0.0) {}
+};
+
+// x of the points of the row at height y to the left of the edge.
+void cut_to_left_of(Interval& x, double y, const Edge& edge) {
+  if (edge.direction.y() > 0.0) x.high = std::min(x.high, edge.dx_per_dy * y);
+  if (edge.direction.y() < 0.0) x.low = std::max(x.low, edge.dx_per_dy * y);
 }
 
 Point direction_of(double angle_rad) {
@@ -40,28 +47,27 @@ Point direction_of(double angle_rad) {
 }
 
 // Lowest and highest y of the sector: its apex, its two corners, and the disc's poles it holds.
-Interval rows_of(double axis_rad, double half_beam_rad, double radius) {
-  Interval y{0.0, 0.0};
-  const auto add = [&](double angle_rad) {
-    y.low = std::min(y.low, radius * std::sin(angle_rad));
-    y.high = std::max(y.high, radius * std::sin(angle_rad));
-  };
-  add(axis_rad - half_beam_rad);
-  add(axis_rad + half_beam_rad);
-  for (const double pole_rad : {0.5 * std::numbers::pi, -0.5 * std::numbers::pi})
-    if (std::abs(wrap_angle(pole_rad - axis_rad)) <= half_beam_rad) add(pole_rad);
+Interval rows_of(const Beam& beam, const Point& right, const Point& left, double radius) {
+  Interval y{radius * std::min({0.0, right.y(), left.y()}), radius * std::max({0.0, right.y(), left.y()})};
+  const double half_cosine = std::cos(beam.half_beam_rad);
+  const double sine = std::sin(beam.T_map_sensor.theta_rad);  // cosine of the angle between the axis and the upper pole
+  if (sine >= half_cosine) y.high = radius;
+  if (-sine >= half_cosine) y.low = -radius;
   return y;
 }
 
 int floor_of(double cells) {
-  return static_cast<int>(std::floor(cells));
+  const int whole = static_cast<int>(cells);  // std::floor is a call on machines of the oldest kind
+  return whole - (static_cast<double>(whole) > cells ? 1 : 0);
 }
 
 void spans_of_cone(const Beam& beam, const Point& apex, double reach, std::vector<CellSpan>& spans) {
   const double axis = beam.T_map_sensor.theta_rad;
-  const Interval rows = rows_of(axis, beam.half_beam_rad, reach);
-  const Point right_edge = direction_of(axis - beam.half_beam_rad);
-  const Point left_edge = direction_of(axis + beam.half_beam_rad);
+  const Point right = direction_of(axis - beam.half_beam_rad);
+  const Point left = direction_of(axis + beam.half_beam_rad);
+  const Interval rows = rows_of(beam, right, left, reach);
+  const Edge right_edge(right);
+  const Edge left_edge(-left);
   const bool convex = beam.half_beam_rad <= 0.5 * std::numbers::pi;
 
   const int y_last = floor_of(apex.y() + rows.high - 0.5 + kMargin_cells);
@@ -71,7 +77,7 @@ void spans_of_cone(const Beam& beam, const Point& apex, double reach, std::vecto
     cut_to_disc(x, y, reach + kMargin_cells);
     if (convex) {
       cut_to_left_of(x, y, right_edge);
-      cut_to_left_of(x, y, -left_edge);
+      cut_to_left_of(x, y, left_edge);
     }
     const int first = floor_of(apex.x() + x.low + 0.5 - kMargin_cells);
     const int end = floor_of(apex.x() + x.high + 0.5 + kMargin_cells);

@@ -140,7 +140,10 @@ bool OccupancyGrid::add_log_odds(Cell cell, int delta) {
 
 OccupancyGrid::Tile& OccupancyGrid::tile_for_writing(Cell cell) {
   if (!bounds_.contains(cell)) include({cell, {cell.x + 1, cell.y + 1}});
-  const Cell tile{tile_index(cell.x), tile_index(cell.y)};
+  return tile_at({tile_index(cell.x), tile_index(cell.y)});
+}
+
+OccupancyGrid::Tile& OccupancyGrid::tile_at(Cell tile) {
   if (!tiles_box_.contains(tile)) grow_directory({tile, {tile.x + 1, tile.y + 1}});
   auto& slot =
       tiles_[static_cast<std::size_t>(tile.y - tiles_box_.min.y) * static_cast<std::size_t>(tiles_box_.width()) +
@@ -163,6 +166,16 @@ void OccupancyGrid::grow_directory(const CellBox& tiles) {
             static_cast<std::size_t>(x - box.min.x)] = std::move(tiles_[from++]);
   tiles_ = std::move(grown);
   tiles_box_ = box;
+}
+
+LogOdds* OccupancyGrid::cells_of_tile_for_writing(Cell tile) {
+  return tile_at(tile).data();
+}
+
+std::size_t OccupancyGrid::bytes() const {
+  std::size_t sum = tiles_.capacity() * sizeof(tiles_[0]);
+  for (const auto& tile : tiles_) sum += tile ? sizeof(Tile) : 0;
+  return sum;
 }
 
 void OccupancyGrid::copy_ol(const CellBox& box, std::span<std::uint8_t> out) const {

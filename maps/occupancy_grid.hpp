@@ -87,6 +87,17 @@ class OccupancyGrid {
   // add_log_odds says whether the value changed.
   bool add_log_odds(Cell cell, int delta);
 
+  // The stored cells of a tile, row-major, for the inner loops of maps: null where nothing was ever
+  // written. What is written must keep to the clamp, and be announced to include().
+  [[nodiscard]] const LogOdds* cells_of_tile(Cell tile) const {
+    const Tile* found = tile_of({tile.x * kTileSide, tile.y * kTileSide});
+    return found == nullptr ? nullptr : found->data();
+  }
+  [[nodiscard]] LogOdds* cells_of_tile_for_writing(Cell tile);
+  // Memory held by tiles and their directory.
+  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] int clamp_quanta() const { return clamp_; }
+
   // Row-major copies of a box, row box.min.y first; out.size() == width * height.
   void copy_ol(const CellBox& box, std::span<std::uint8_t> out) const;
   void copy_log_odds(const CellBox& box, std::span<LogOdds> out) const;
@@ -110,6 +121,7 @@ class OccupancyGrid {
         .get();
   }
   Tile& tile_for_writing(Cell cell);
+  Tile& tile_at(Cell tile);
   void grow_directory(const CellBox& tiles);
 
   double cell_m_;

@@ -204,6 +204,18 @@ class Fields {
     };
     return f;
   }
+  FieldSpec& files(std::string key, std::vector<std::filesystem::path> Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), "list of files", std::move(meaning), "");
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      auto& out = static_cast<Config*>(c)->*member;
+      out.clear();
+      for (const ConfigValue& item : config_detail::to_list(v, key)) {
+        (void)config_detail::to_text(item, key);
+        out.push_back(resolve_path(item));
+      }
+    };
+    return f;
+  }
   FieldSpec& point(std::string key, Point Config::*member, std::string unit, std::string meaning) {
     FieldSpec& f = add(std::move(key), "point", std::move(meaning),
                        "[" + config_detail::number_text((defaults_.*member).x()) + ", " +

@@ -82,6 +82,9 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
       "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
   fields.text("record", &C::record,
               "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
+  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6},
+                 "every n-th range reading is withheld from the map, so that an experiment can ask how well the "
+                 "map foretells it; 0: none");
   fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
 }
 

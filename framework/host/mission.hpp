@@ -48,6 +48,7 @@ struct MissionConfig {
   double at_most_s = 36000.0;
   double watchdog_s = 30.0;
   std::string record;
+  int withhold_every = 0;
   ConfigValue steps;
   static void describe(Fields<MissionConfig>& fields);
 };

@@ -1,41 +1,78 @@
 #include "framework/host/mission_experiment.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "framework/host/mission.hpp"
+#include "framework/host/withheld.hpp"
 
 namespace cairn {
 namespace {
 
-ExperimentRow run_seed(const ExperimentConfig& config, const ModuleLibrary& library, const std::filesystem::path& out,
-                       const std::atomic<bool>& cancel, std::int64_t seed) {
+struct Job {
+  std::filesystem::path mission;
+  ExperimentVariant variant;
+  std::int64_t seed = 0;
+  std::filesystem::path out;
+};
+
+std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::path& out) {
+  std::vector<Job> jobs;
+  for (const std::filesystem::path& mission : config.missions) {
+    const bool is_log = !load_mission(mission, config.overrides).world;
+    const int seeds = is_log ? std::min(config.seeds.count, std::max(config.withhold_every, 1)) : config.seeds.count;
+    for (const ExperimentVariant& variant : config.variants)
+      for (int i = 0; i < seeds; ++i) {
+        const std::int64_t seed = config.seeds.from + i;
+        const std::string name = "seed_" + std::to_string(seed);
+        // One mission as it stands needs no folders of its own.
+        const bool alone = config.missions.size() == 1 && config.variants.size() == 1;
+        jobs.push_back({mission, variant, seed, alone ? out / name : out / mission.stem() / variant.name / name});
+      }
+  }
+  return jobs;
+}
+
+Mission mission_of(const ExperimentConfig& config, const Job& job) {
+  std::vector<std::string> overrides = config.overrides;
+  overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
+  if (config.withhold_every > 0) overrides.push_back("withhold_every=" + std::to_string(config.withhold_every));
+  return load_mission(job.mission, overrides, job.seed);
+}
+
+// A fault in the last variant's settings is told before the first one has run for an hour.
+void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<Job>& jobs) {
+  for (const Job& job : jobs)
+    if (job.seed == config.seeds.from) MissionRunner(mission_of(config, job), library, {job.out, false, nullptr});
+}
+
+ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
+                      const Job& job) {
   const auto begin = std::chrono::steady_clock::now();
-  const Mission mission = load_mission(config.mission, config.overrides, seed);
-  const std::filesystem::path folder = out / ("seed_" + std::to_string(seed));
-  std::filesystem::create_directories(folder);
-  MissionRunner runner(mission, library, {folder, false, &cancel});
+  const Mission mission = mission_of(config, job);
+  std::filesystem::create_directories(job.out);
+  MissionRunner runner(mission, library, {job.out, false, &cancel});
   RunReport report;
+  TruePath path;
+  WithheldReadings withheld(mission.config.withhold_every, mission.config.seed);
   runner.subscribe(report);
-  ExperimentRow row;
-  row.seed = seed;
-  row.result = runner.run();
-  std::ofstream(folder / "report.json") << report.report_json(mission, row.result, runner.graph(), {});
+  runner.subscribe(path);
+  runner.subscribe(withheld);
+  ExperimentRow row{job.mission.stem(), job.variant.name, job.seed, runner.run(), {}, 0.0, {}, 0, 0.0, 0.0};
+  std::ofstream(job.out / "report.json") << report.report_json(mission, row.result, runner.graph(), {});
   if (mission.world) row.score = score_against(*mission.world, runner.graph(), config.tolerance_m);
   for (const LandmarkTruth& matched : row.score.matched)
     row.worst_error_m = std::max(row.worst_error_m, matched.error_m);
+  if (config.experiment == ExperimentKind::maps && runner.grid() != nullptr) {
+    if (mission.world) row.quality = map_quality(*runner.grid(), *mission.world, path.places_m());
+    row.withheld = withheld.count();
+    row.withheld_log_likelihood = withheld.mean_log_likelihood(*runner.grid());
+  }
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return row;
-}
-
-int good_rows(const std::vector<ExperimentRow>& rows) {
-  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const ExperimentRow& r) { return r.is_good(); }));
 }
 
 }  // namespace
@@ -45,15 +82,27 @@ void SeedRange::describe(Fields<SeedRange>& fields) {
   fields.integer("count", &SeedRange::count, {1.0, 100000.0}, "how many seeds");
 }
 
+void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
+  fields.text("name", &ExperimentVariant::name, "what it is called in tables").required = true;
+  fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
+}
+
 void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   using C = ExperimentConfig;
-  fields.choice("experiment", &C::experiment, {{"missions", ExperimentKind::missions}}, "what is done").required = true;
-  fields.file("mission", &C::mission, "mission file").required = true;
+  fields
+      .choice("experiment", &C::experiment, {{"missions", ExperimentKind::missions}, {"maps", ExperimentKind::maps}},
+              "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
+              "the true world, and how well it foretells readings that were withheld from it")
+      .required = true;
+  fields.files("missions", &C::missions, "mission files").required = true;
+  fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
+  fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
   fields.group("seeds", &C::seeds, "which seeds");
+  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
   fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
   fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
                 "share of good runs that makes the experiment a success");
-  fields.texts("set", &C::overrides, "settings of the mission to override, each `key=value`");
+  fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
 }
 
 bool ExperimentRow::is_good() const {
@@ -62,23 +111,40 @@ bool ExperimentRow::is_good() const {
 }
 
 ExperimentConfig load_experiment(const std::filesystem::path& file) {
-  return load_config<ExperimentConfig>(read_config_file(file), "experiment");
+  const ConfigValue root = read_config_file(file);
+  auto config = load_config<ExperimentConfig>(root, "experiment");
+  if (config.missions.empty()) throw ConfigError(root.find("missions")->place, "missions must list at least one file");
+  if (config.variants.empty()) config.variants.push_back({"as_is", {}});
+  std::vector<std::string> names;
+  for (const ExperimentVariant& variant : config.variants) {
+    if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
+      throw ConfigError(root.find("variants")->place,
+                        "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
+    names.push_back(variant.name);
+  }
+  if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
+    throw ConfigError(root.find("baseline")->place,
+                      "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
+  return config;
 }
 
 std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
                                           const std::filesystem::path& out, const std::atomic<bool>& cancel) {
-  const auto count = static_cast<std::size_t>(config.seeds.count);
-  std::vector<ExperimentRow> rows(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    rows[i].seed = config.seeds.from + static_cast<std::int64_t>(i);
+  const std::vector<Job> jobs = jobs_of(config, out);
+  check(config, library, jobs);
+  std::vector<ExperimentRow> rows(jobs.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    rows[i].mission = jobs[i].mission.stem();
+    rows[i].variant = jobs[i].variant.name;
+    rows[i].seed = jobs[i].seed;
     rows[i].result.outcome = MissionOutcome::cancelled;  // until it has run
   }
-  std::vector<std::exception_ptr> errors(count);
+  std::vector<std::exception_ptr> errors(jobs.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t i = next++; i < count && !cancel.load(); i = next++) {
+    for (std::size_t i = next++; i < jobs.size() && !cancel.load(); i = next++) {
       try {
-        rows[i] = run_seed(config, library, out, cancel, config.seeds.from + static_cast<std::int64_t>(i));
+        rows[i] = run_job(config, library, cancel, jobs[i]);
       } catch (...) {
         errors[i] = std::current_exception();
       }
@@ -86,50 +152,12 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
   };
   {
     std::vector<std::jthread> workers;
-    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, count);
+    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, jobs.size());
     for (std::size_t i = 0; i < threads; ++i) workers.emplace_back(work);
   }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
   return rows;
-}
-
-std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
-  std::string text =
-      "| seed | outcome | found | missed | false | worst error m | driven m | time s | matchings | collisions | good "
-      "|\n"
-      "|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|---|\n";
-  for (const ExperimentRow& row : rows)
-    text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.1f} | {:.0f} | {} | {} | {} |\n", row.seed,
-                        name_of(row.result.outcome), row.score.matched.size(), row.score.missed_objects,
-                        row.score.false_landmarks, row.worst_error_m, row.result.distance_m, row.result.time_s,
-                        row.result.matchings, row.result.collisions, row.is_good() ? "yes" : "no");
-  return text + fmt::format(
-                    "\n{} of {} runs found every landmark with the right category within {:.2f} m and nothing "
-                    "else, without a collision.\n",
-                    good_rows(rows), rows.size(), config.tolerance_m);
-}
-
-std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ExperimentRow& row : rows)
-    list.push_back({{"seed", row.seed},
-                    {"outcome", std::string(name_of(row.result.outcome))},
-                    {"found", row.score.matched.size()},
-                    {"missed", row.score.missed_objects},
-                    {"false", row.score.false_landmarks},
-                    {"worst_error_m", row.worst_error_m},
-                    {"distance_m", row.result.distance_m},
-                    {"time_s", row.result.time_s},
-                    {"matchings", row.result.matchings},
-                    {"collisions", row.result.collisions},
-                    {"good", row.is_good()}});
-  const nlohmann::ordered_json all = {{"experiment", "missions"},
-                                      {"tolerance_m", config.tolerance_m},
-                                      {"good", good_rows(rows)},
-                                      {"runs", rows.size()},
-                                      {"rows", list}};
-  return all.dump();
 }
 
 }  // namespace cairn

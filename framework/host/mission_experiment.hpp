@@ -1,19 +1,22 @@
-// An experiment over missions: the same mission on many seeds, each judged against the true world.
+// An experiment: missions, each in several variants and on many seeds, and what is measured of every run.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/config/fields.hpp"
+#include "framework/host/map_quality.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/run_report.hpp"
 
 namespace cairn {
 
-enum class ExperimentKind { missions };
+// What is asked of the runs: were the landmarks found; how good are the maps.
+enum class ExperimentKind { missions, maps };
 
 struct SeedRange {
   std::int64_t from = 1;
@@ -21,11 +24,20 @@ struct SeedRange {
   static void describe(Fields<SeedRange>& fields);
 };
 
+struct ExperimentVariant {
+  std::string name;
+  std::vector<std::string> overrides;
+  static void describe(Fields<ExperimentVariant>& fields);
+};
+
 // config/experiments/*.yaml
 struct ExperimentConfig {
   ExperimentKind experiment = ExperimentKind::missions;
-  std::filesystem::path mission;
+  std::vector<std::filesystem::path> missions;
+  std::vector<ExperimentVariant> variants;  // after loading at least one
+  std::string baseline;                     // a variant's name
   SeedRange seeds;
+  int withhold_every = 0;
   double tolerance_m = 0.10;    // a landmark further from the truth is false
   double at_least_ratio = 0.0;  // share of good runs that makes the experiment a success
   std::vector<std::string> overrides;
@@ -33,26 +45,29 @@ struct ExperimentConfig {
 };
 
 struct ExperimentRow {
+  std::string mission;
+  std::string variant;
   std::int64_t seed = 0;
   MissionResult result;
   TruthScore score;
   double worst_error_m = 0.0;
+  std::optional<MapQuality> quality;  // where there is a true world
+  std::int64_t withheld = 0;
+  double withheld_log_likelihood = 0.0;  // mean, nat
   double wall_s = 0.0;
 
   // All landmarks of the world found within the tolerance, none besides, nothing bumped into.
   [[nodiscard]] bool is_good() const;
 };
 
+// Throws ConfigError.
 [[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file);
 
-// Runs every seed, two at a time where the machine has two cores; rows come in the order of seeds.
-// Each run writes its map and report into out/seed_N. Throws ConfigError or ModuleFault.
+// Runs everything, two at a time where the machine has two cores; rows come by mission, variant and seed.
+// A recorded log is the same in each run: it is run on as many seeds as withhold other readings. Each run
+// writes its map and report into a folder of its own under out. Throws ConfigError or ModuleFault.
 [[nodiscard]] std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
                                                         const std::filesystem::path& out,
                                                         const std::atomic<bool>& cancel);
-
-// A table in Markdown and the same as JSON; neither holds wall clock times.
-[[nodiscard]] std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
-[[nodiscard]] std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
 
 }  // namespace cairn

@@ -20,7 +20,8 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       options_(options),
       modules_(build_modules(mission_, library)),
       keeper_(mission_.config.landmarks, mission_.robot),
-      stop_layer_(mission_.config.stop_layer, mission_.robot) {
+      stop_layer_(mission_.config.stop_layer, mission_.robot),
+      withholding_(mission_.config.withhold_every, mission_.config.seed) {
   budget_.cancel = options_.cancel;
   pose_.T_map_robot = modules_.T_map_start;
   const MissionConfig& config = mission_.config;
@@ -138,7 +139,13 @@ PoseEstimate MissionLoop::localize() {
 }
 
 const CellChanges& MissionLoop::build_map() {
-  return in_stage(mapper_, [&]() -> const CellChanges& { return modules_.mapper->integrate(observation_, pose_); });
+  const bool all = mission_.config.withhold_every == 0;
+  if (!all) {
+    for_map_ = observation_;
+    std::erase_if(for_map_.ranges, [&](const RangeReading&) { return withholding_.next(); });
+  }
+  const Observation& seen = all ? observation_ : for_map_;
+  return in_stage(mapper_, [&]() -> const CellChanges& { return modules_.mapper->integrate(seen, pose_); });
 }
 
 void MissionLoop::detect(const CellChanges& changes) {

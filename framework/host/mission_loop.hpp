@@ -10,6 +10,7 @@
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/stage_clock.hpp"
 #include "framework/host/stop_layer.hpp"
+#include "framework/host/withheld.hpp"
 
 namespace cairn {
 
@@ -80,6 +81,8 @@ class MissionLoop : private Orders {
   const CoarseGrid* coarse_ = nullptr;   // of the detector
   bool grid_is_lost_ = false;            // its module was given up while it worked on it
   Observation observation_;
+  Withholding withholding_;
+  Observation for_map_;  // without what is withheld
   PoseEstimate pose_;
   Pose2 T_odom_last_;
   Twist wanted_;

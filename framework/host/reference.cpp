@@ -137,7 +137,9 @@ std::vector<DescribedFile> described_files() {
       {"robot", "config/robots", "A robot's body, limits and sonars, and how well it measures.", robot_file_schema()},
       {"world", "config/worlds", "The walls and things of a simulation.", world_file_schema()},
       {"template", "config/templates", "The shape of one category of landmarks.", template_file_schema()},
-      {"experiment", "config/experiments", "A mission repeated over many seeds.", schema_of<ExperimentConfig>()}};
+      {"experiment", "config/experiments",
+       "Missions repeated in several variants and over many seeds, and what is measured of them.",
+       schema_of<ExperimentConfig>()}};
 }
 
 std::string reference_markdown(const ModuleLibrary& library) {

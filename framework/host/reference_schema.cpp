@@ -51,7 +51,7 @@ ordered_json shape_of(const FieldSpec& field) {
   if (field.type == "list of points") return list_of(point);
   if (field.type == "list of numbers") return list_of(bounded("number", field.range));
   if (field.type == "list of integers") return list_of(bounded("integer", field.range));
-  if (field.type == "list of texts") return list_of(kText);
+  if (field.type == "list of texts" || field.type == "list of files") return list_of(kText);
   if (field.type == "map") return map_of(field);
   if (field.type == "list of maps") return list_of(map_of(field));
   if (field.type == "plugin") return reference_to(field.plugin_kind);

@@ -1,13 +1,59 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 
-#include "framework/host/mission_experiment.hpp"
+#include "framework/host/experiment_report.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/interrupt.hpp"
+#include "maps/pictures/chart.hpp"
 
 namespace cairn {
+namespace {
+
+// A chart a measure: a place a mission, a series a variant, bars for the 95 % intervals.
+Chart chart_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows, const RunMeasure& measure) {
+  Chart chart;
+  chart.title = measure.name + ", mean and 95 % interval";
+  chart.y_label = measure.name;
+  const auto variants = static_cast<double>(config.variants.size());
+  for (std::size_t v = 0; v < config.variants.size(); ++v) {
+    Series series{config.variants[v].name, {}, SeriesStyle::points, {}};
+    const double beside = 0.7 * ((static_cast<double>(v) + 0.5) / variants - 0.5);
+    chart.x_names.clear();
+    for (const std::string& mission : missions_of(rows)) {
+      std::vector<double> values;
+      for (const ExperimentRow* row : rows_of(rows, mission, series.name))
+        if (!measure.needs_truth || row->quality) values.push_back(measure.of(*row));
+      if (values.empty()) continue;
+      const Estimate estimate = estimate_of(values);
+      series.points.emplace_back(static_cast<double>(chart.x_names.size()) + beside, estimate.mean);
+      series.half_widths.push_back(estimate.half_width);
+      chart.x_names.push_back(mission);
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+std::string file_name_of(const std::string& measure) {
+  std::string name = measure + ".png";
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+void write_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
+                  const std::filesystem::path& out) {
+  for (const RunMeasure& measure : map_measures()) {
+    const Chart chart = chart_of(config, rows, measure);
+    if (chart.x_names.empty() || (!measure.needs_truth && config.withhold_every == 0)) continue;
+    const ChartOutcome outcome = write_chart(out / file_name_of(measure.name), chart);
+    if (!outcome.drawn) std::cerr << "cairn: " << outcome.reason << "\n";
+  }
+}
+
+}  // namespace
 
 int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   const ExperimentConfig config = load_experiment(command.file);
@@ -18,6 +64,7 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   const std::string json = json_of(config, rows);
   std::ofstream(command.out / "table.md") << table;
   std::ofstream(command.out / "table.json") << json << "\n";
+  if (config.experiment == ExperimentKind::maps) write_charts(config, rows, command.out);
   if (common.json) std::cout << json << "\n";
   std::ostream& people = common.json ? std::cerr : std::cout;
   double speed = 0.0;
@@ -25,9 +72,15 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
     speed += row.result.time_s / std::max(row.wall_s, 1e-9) / static_cast<double>(rows.size());
   people << table
          << fmt::format("Mean speed {:.0f} times real time. Table: {}\n", speed, (command.out / "table.md").string());
-  const auto good = std::count_if(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.is_good(); });
-  return static_cast<double>(good) >= config.at_least_ratio * static_cast<double>(rows.size()) ? kExitDone
-                                                                                               : kExitNotSolved;
+  const auto share = [&](auto is_well) {
+    return static_cast<double>(std::count_if(rows.begin(), rows.end(), is_well)) / static_cast<double>(rows.size());
+  };
+  if (config.experiment == ExperimentKind::maps)
+    return share([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::done; }) == 1.0
+               ? kExitDone
+               : kExitNotSolved;
+  return share([](const ExperimentRow& row) { return row.is_good(); }) >= config.at_least_ratio ? kExitDone
+                                                                                                : kExitNotSolved;
 }
 
 }  // namespace cairn

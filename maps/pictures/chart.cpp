@@ -64,19 +64,25 @@ const char* style_of(SeriesStyle style) {
 std::string data_of(const Series& series, std::size_t number) {
   std::string data = "$data" + std::to_string(number) + " << END_OF_DATA\n";
   bool any = false;
-  for (const Point& p : series.points) {
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    const Point& p = series.points[i];
     any = any || p.allFinite();
-    data += p.allFinite() ? text_of(p.x()) + " " + text_of(p.y()) + "\n" : "\n";
+    const double half_width = i < series.half_widths.size() ? series.half_widths[i] : 0.0;
+    data += p.allFinite() ? text_of(p.x()) + " " + text_of(p.y()) + " " + text_of(half_width) + "\n" : "\n";
   }
-  if (!any) data += "NaN NaN\n";
+  if (!any) data += "NaN NaN NaN\n";
   return data + "END_OF_DATA\n";
 }
 
 std::string plot_of(const Chart& chart) {
   std::string plot = "plot ";
-  for (std::size_t i = 0; i < chart.series.size(); ++i)
-    plot += "$data" + std::to_string(i) + " using 1:2 with " + style_of(chart.series[i].style) + " linecolor '" +
-            kColours[i % kColours.size()] + "' title " + quoted(chart.series[i].name) + ", ";
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    const bool bars = !chart.series[i].half_widths.empty();
+    plot += "$data" + std::to_string(i) +
+            (bars ? " using 1:2:3 with yerrorbars pointtype 7 pointsize 0.8 linewidth 1.5"
+                  : std::string(" using 1:2 with ") + style_of(chart.series[i].style)) +
+            " linecolor '" + kColours[i % kColours.size()] + "' title " + quoted(chart.series[i].name) + ", ";
+  }
   for (const HorizontalLine& line : chart.horizontal_lines)
     if (std::isfinite(line.y))
       plot += text_of(line.y) + " with lines dashtype 2 linewidth 1.5 linecolor '#5f6b73' title " + quoted(line.name) +
@@ -151,6 +157,13 @@ std::string gnuplot_script(const Chart& chart) {
   script += "set title " + quoted(chart.title) + " noenhanced font ',14' textcolor '#26323a'\n";
   script += "set xlabel " + quoted(chart.x_label) + " noenhanced textcolor '#26323a'\n";
   script += "set ylabel " + quoted(chart.y_label) + " noenhanced textcolor '#26323a'\n";
+  if (!chart.x_names.empty()) {
+    script +=
+        "set xrange [-0.5:" + text_of(static_cast<double>(chart.x_names.size()) - 0.5) + "]\nset xtics rotate by -20 noenhanced (";
+    for (std::size_t i = 0; i < chart.x_names.size(); ++i)
+      script += (i == 0 ? "" : ", ") + quoted(chart.x_names[i]) + " " + std::to_string(i);
+    script += ")\n";
+  }
   if (chart.log_x) script += "set logscale x\n";
   if (chart.log_y) script += "set logscale y\n";
   for (std::size_t i = 0; i < chart.series.size(); ++i) script += data_of(chart.series[i], i);

@@ -16,6 +16,7 @@ struct Series {
   std::string name;
   std::vector<Point> points;  // (x, y); a point that is not finite leaves a gap
   SeriesStyle style = SeriesStyle::lines;
+  std::vector<double> half_widths;  // of error bars, one a point; empty: none
 };
 
 struct HorizontalLine {
@@ -29,6 +30,7 @@ struct Chart {
   std::string y_label;
   std::vector<Series> series;
   std::vector<HorizontalLine> horizontal_lines;  // dashed
+  std::vector<std::string> x_names;              // in place of numbers, at x = 0, 1, ...
   bool log_x = false;
   bool log_y = false;
 };

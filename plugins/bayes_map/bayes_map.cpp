@@ -1,58 +1,27 @@
 #include "plugins/bayes_map/bayes_map.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
 
 #include "maps/beam_cells.hpp"
+#include "plugins/sonar_model/reading.hpp"
 
 namespace cairn::bayes_map {
-namespace {
 
-enum class Meaning { ignored, echo, silence };
-
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
-
-Meaning meaning_of(const RangeReading& reading) {
-  const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 &&
-                    reading.half_beam_rad <= std::numbers::pi && reading.max_m > 0.0;
-  if (!sane || std::isnan(reading.range_m)) return Meaning::ignored;
-  if (reading.range_m >= reading.max_m) return Meaning::silence;
-  return reading.range_m >= reading.min_m && reading.range_m > 0.0 ? Meaning::echo : Meaning::ignored;
-}
-
-// Sorted, and joined where they overlap or meet.
-void tidy(std::vector<CellSpan>& spans) {
-  std::sort(spans.begin(), spans.end(),
-            [](const CellSpan& a, const CellSpan& b) { return a.y != b.y ? a.y < b.y : a.x_begin < b.x_begin; });
-  std::size_t kept = 0;
-  for (const CellSpan& span : spans) {
-    CellSpan* const last = kept == 0 ? nullptr : &spans[kept - 1];
-    if (last != nullptr && last->y == span.y && span.x_begin <= last->x_end)
-      last->x_end = std::max(last->x_end, span.x_end);
-    else
-      spans[kept++] = span;
-  }
-  spans.resize(kept);
-}
-
-}  // namespace
+using sonar_model::Meaning;
 
 BayesMap::BayesMap(const Config& config) : beam_model_(config), grid_(config.cell_m, config.clamp_nat) {}
 
 const CellChanges& BayesMap::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
-  if (!is_finite(pose.T_map_robot)) return changes_;
+  if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
-  if (observation.ranges.size() > 1) tidy(changes_.spans);
+  if (observation.ranges.size() > 1) sonar_model::tidy(changes_.spans);
   return changes_;
 }
 
 void BayesMap::integrate_reading(const RangeReading& reading, const Pose2& T_map_robot) {
-  const Meaning meaning = meaning_of(reading);
+  const Meaning meaning = sonar_model::meaning_of(reading);
   if (meaning == Meaning::ignored) return;
   const bool echo = meaning == Meaning::echo;
   const Beam beam{T_map_robot * reading.T_robot_sensor, reading.half_beam_rad,

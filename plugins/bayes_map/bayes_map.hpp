@@ -1,14 +1,9 @@
 // Mapper: recursive Bayes in log-odds, each reading on its own (METHOD 2, 2.1).
 //
 // Every cell in a reading's beam gets round(256 ln lambda), from its centre's range and bearing, up to
-// 3 delta behind the echo, or up to max_m without one. What a reading means:
-//   min_m <= range < max_m          an echo
-//   range >= max_m, or +inf         no echo
-//   range < min_m, negative, -inf   ignored: nearer than the sensor can tell
-//   NaN                             ignored: a bad reading
-// A reading whose own geometry is not finite, whose half_beam is not in [0, pi], or whose beam leaves
-// what a grid can hold, is ignored too, and so is an observation under a pose that is not finite.
-// half_beam 0 is a ray.
+// 3 delta behind the echo, or up to max_m without one. What a reading means stands in
+// sonar_model/reading.hpp. Ignored are also a reading whose beam leaves what a grid can hold, and an
+// observation under a pose that is not finite. half_beam 0 is a ray.
 #pragma once
 
 #include "framework/contracts/mapper.hpp"
@@ -27,7 +22,7 @@ class BayesMap final : public Mapper {
  private:
   void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);
 
-  BeamModel beam_model_;
+  sonar_model::BeamModel beam_model_;
   OccupancyGrid grid_;
   CellChanges changes_;          // of the latest call
   std::vector<CellSpan> spans_;  // kept for its memory only

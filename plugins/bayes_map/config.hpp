@@ -2,12 +2,12 @@
 #pragma once
 
 #include "framework/config/fields.hpp"
-#include "plugins/bayes_map/beam_model.hpp"
+#include "plugins/sonar_model/beam_model.hpp"
 
 namespace cairn::bayes_map {
 
 // A beam model whose settings stand beside the grid's in the mission file.
-struct Config : BeamModel {
+struct Config : sonar_model::BeamModel {
   double cell_m = 0.05;
   double clamp_nat = 4.0;
 

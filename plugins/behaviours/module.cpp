@@ -17,9 +17,10 @@ void register_module(Registrar& registrar) {
                                        [](const GoToConfig& config, const ModuleContext& context) {
                                          return std::make_unique<GoTo>(config, context.seed);
                                        });
-  registrar.add<Behaviour, DriveConfig>(
-      "drive", "drives straight from point to point",
-      [](const DriveConfig& config, const ModuleContext&) { return std::make_unique<DriveTo>(config); });
+  registrar.add<Behaviour, DriveConfig>("drive", "drives straight from point to point",
+                                        [](const DriveConfig& config, const ModuleContext& context) {
+                                          return std::make_unique<DriveTo>(config, context.seed);
+                                        });
   registrar.add<Behaviour, WaitConfig>(
       "wait", "stands still for a time",
       [](const WaitConfig& config, const ModuleContext&) { return std::make_unique<Wait>(config); });

@@ -1,6 +1,7 @@
 #include "plugins/behaviours/simple_steps.hpp"
 
 #include <cstdio>
+#include <random>
 
 namespace cairn::behaviours {
 namespace {
@@ -13,6 +14,16 @@ double corner_at(const Point& before, const Point& corner, const Point& after) {
   return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
 }
 
+std::vector<Point> scattered(std::vector<Point> points_m, double most_m, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto offset_m = [&] { return most_m * (static_cast<double>(random() >> 11) * 0x1.0p-52 - 1.0); };
+  for (Point& p_m : points_m) {
+    const double x_m = offset_m();  // in this order on every compiler
+    p_m += Point(x_m, offset_m());
+  }
+  return points_m;
+}
+
 }  // namespace
 
 void DriveConfig::describe(Fields<DriveConfig>& fields) {
@@ -23,27 +34,34 @@ void DriveConfig::describe(Fields<DriveConfig>& fields) {
   fields.number("tolerance_m", &C::tolerance_m, {0.01, 1.0}, "m", "this near to a point is there");
   fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s",
                 "held back for longer than this, the step has failed");
+  fields.number("scatter_m", &C::scatter_m, {0.0, 100.0}, "m",
+                "each point is moved by up to this in x and in y, by chance of the seed: for experiments over many "
+                "paths");
   fields.shorthand("points_m");
 }
 
-DriveTo::DriveTo(const DriveConfig& config) : config_(config), watch_(config.patience_s) {}
+DriveTo::DriveTo(const DriveConfig& config, std::uint64_t seed)
+    : config_(config),
+      seed_(seed),
+      points_m_(scattered(config.points_m, config.scatter_m, seed)),
+      watch_(config.patience_s) {}
 
 void DriveTo::halt() {
-  *this = DriveTo(config_);
+  *this = DriveTo(config_, seed_);
 }
 
 void DriveTo::begin_stretch(const Point& from) {
   stretch_ = {from};
   do {
-    stretch_.push_back(config_.points_m[next_++]);
-  } while (next_ < config_.points_m.size() &&
-           corner_at(stretch_[stretch_.size() - 2], stretch_.back(), config_.points_m[next_]) < kSharp_rad);
+    stretch_.push_back(points_m_[next_++]);
+  } while (next_ < points_m_.size() &&
+           corner_at(stretch_[stretch_.size() - 2], stretch_.back(), points_m_[next_]) < kSharp_rad);
   follow_state_ = {};
 }
 
 Status DriveTo::tick(const WorldView& world, Orders& orders) {
   const Pose2& pose = world.pose.T_map_robot;
-  if (!begun_ && !config_.points_m.empty()) begin_stretch(pose.position());
+  if (!begun_ && !points_m_.empty()) begin_stretch(pose.position());
   begun_ = true;
   char text[96];
   if (watch_.is_stuck(world, wanted_)) {
@@ -55,7 +73,7 @@ Status DriveTo::tick(const WorldView& world, Orders& orders) {
   limits.arrive_m = config_.tolerance_m;
   FollowStep step = follow(pose, stretch_, follow_state_, limits);
   if (step.arrived) {
-    if (next_ >= config_.points_m.size()) return {Progress::success, "drove all points"};
+    if (next_ >= points_m_.size()) return {Progress::success, "drove all points"};
     begin_stretch(stretch_.back());
     step = follow(pose, stretch_, follow_state_, limits);
   }

@@ -1,6 +1,7 @@
 // The simple steps of a mission: drive to given points, wait, save.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct DriveConfig {
   double speed_mps = 0.2;
   double tolerance_m = 0.05;
   double patience_s = 10.0;
+  double scatter_m = 0.0;
 
   static void describe(Fields<DriveConfig>& fields);
 };
@@ -23,7 +25,8 @@ struct DriveConfig {
 // Drives straight from point to point, whatever the map says; only the host's stop layer holds it back.
 class DriveTo : public Behaviour {
  public:
-  explicit DriveTo(const DriveConfig& config);
+  // The seed decides where scattered points go.
+  DriveTo(const DriveConfig& config, std::uint64_t seed);
   Status tick(const WorldView& world, Orders& orders) override;
   void halt() override;
 
@@ -31,7 +34,9 @@ class DriveTo : public Behaviour {
   void begin_stretch(const Point& from);
 
   DriveConfig config_;
-  std::size_t next_ = 0;  // the first point of the next stretch
+  std::uint64_t seed_;
+  std::vector<Point> points_m_;  // the configured ones, scattered
+  std::size_t next_ = 0;         // the first point of the next stretch
   bool begun_ = false;
   std::vector<Point> stretch_;  // points that are driven through without stopping to turn
   FollowState follow_state_;

@@ -47,7 +47,7 @@ ConfigValue scalar(const std::string& text) {
 TEST(Drive, PassesEveryPointInOrder) {
   FakeHost host(kHall);
   const std::vector<Point> points{{1.5, 0.6}, {1.5, 1.0}, {2.4, 0.5}};
-  DriveTo drive({.points_m = points});
+  DriveTo drive({.points_m = points}, 1);
   EXPECT_EQ(host.run(drive, 60.0), (Status{Progress::success, "drove all points"}));
   for (const Point& p : points) EXPECT_LT(nearest_m(host.driven, p), 0.06) << host.picture();
 }
@@ -59,22 +59,35 @@ TEST(Drive, DrivesThroughGentleBendsWithoutStopping) {
     const double a = 2.0 * std::numbers::pi * i / 36.0;
     points.push_back({1.2 + 0.3 * std::sin(a), 0.7 - 0.3 * std::cos(a)});
   }
-  DriveTo drive({.points_m = points});
+  DriveTo drive({.points_m = points}, 1);
   EXPECT_EQ(host.run(drive, 60.0).progress, Progress::success);
   EXPECT_LT(host.time_s, 2.0 * std::numbers::pi * 0.3 / 0.2 + 12.0);
 }
 
 TEST(Drive, FailsWhenItIsHeldBack) {
   FakeHost host(kHall);
-  DriveTo drive({.points_m = {{2.9, 0.65}}, .patience_s = 3.0});
+  DriveTo drive({.points_m = {{2.9, 0.65}}, .patience_s = 3.0}, 1);
   const Status status = host.run(drive, 60.0);
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_THAT(status.reason, HasSubstr("on the way to (2.90, 0.65)"));
 }
 
+TEST(Drive, ScatteredPointsDifferBySeedAndStayNear) {
+  const auto end_of = [](std::uint64_t seed) {
+    FakeHost host(kHall);
+    DriveTo drive({.points_m = {{1.6, 0.7}}, .scatter_m = 0.2}, seed);
+    EXPECT_EQ(host.run(drive, 60.0).progress, Progress::success);
+    return host.driven.back().position();
+  };
+  for (const std::uint64_t seed : {1U, 2U, 3U})
+    EXPECT_LT((end_of(seed) - Point(1.6, 0.7)).cwiseAbs().maxCoeff(), 0.26) << seed;
+  EXPECT_EQ(end_of(1), end_of(1));
+  EXPECT_GT((end_of(1) - end_of(2)).norm(), 0.01);
+}
+
 TEST(Drive, WithoutPointsIsDoneAtOnce) {
   FakeHost host(kHall);
-  DriveTo drive(DriveConfig{});
+  DriveTo drive(DriveConfig{}, 1);
   EXPECT_EQ(host.tick(drive).progress, Progress::success);
 }
 

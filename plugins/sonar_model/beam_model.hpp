@@ -6,7 +6,9 @@
 //   lambda(no echo)   = 1 - alpha Phi((R_max - r) / delta)
 #pragma once
 
-namespace cairn::bayes_map {
+#include "framework/config/fields.hpp"
+
+namespace cairn::sonar_model {
 
 struct BeamModel {
   double alpha_max = 0.6;
@@ -27,4 +29,17 @@ struct BeamModel {
   [[nodiscard]] double reach_of_silence_m(double max_m) const;
 };
 
-}  // namespace cairn::bayes_map
+// The model's settings, for configurations that have a BeamModel as their base.
+template <class Config>
+void describe_beam_model(Fields<Config>& fields) {
+  fields.number("alpha_max", &Config::alpha_max, {0.01, 0.99}, "",
+                "chance that a target on the axis, close by, echoes");
+  fields.number("alpha_range_m", &Config::alpha_range_m, {0.1, 100.0}, "m",
+                "range at which that chance has fallen to 0; cells beyond learn nothing");
+  fields.number("delta_m", &Config::delta_m, {0.001, 1.0}, "m", "range error at range 0, standard deviation");
+  fields.number("delta_per_m", &Config::delta_per_m, {0.0, 0.3}, "", "what the range error grows by each metre");
+  fields.number("false_echo_per_m", &Config::false_echo_per_m, {0.01, 100.0}, "1/m",
+                "density F of echoes that come from anything else than the cell; smaller makes echoes count more");
+}
+
+}  // namespace cairn::sonar_model

@@ -1,4 +1,4 @@
-#include "plugins/bayes_map/beam_model.hpp"
+#include "plugins/sonar_model/beam_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "maps/pose.hpp"
 
-namespace cairn::bayes_map {
+namespace cairn::sonar_model {
 namespace {
 
 const double kHalfBeam = radians(15.0);
@@ -70,4 +70,4 @@ TEST(BeamModel, ReachesThreeRangeErrorsBehindTheEcho) {
 }
 
 }  // namespace
-}  // namespace cairn::bayes_map
+}  // namespace cairn::sonar_model

@@ -1,10 +1,10 @@
-#include "plugins/bayes_map/beam_model.hpp"
+#include "plugins/sonar_model/beam_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace cairn::bayes_map {
+namespace cairn::sonar_model {
 namespace {
 
 // Beyond these Phi is 1 and phi is 0 to the last bit of any increment; most cells of a cone are there.
@@ -43,4 +43,4 @@ double BeamModel::reach_of_silence_m(double max_m) const {
   return std::min(alpha_range_m, max_m);
 }
 
-}  // namespace cairn::bayes_map
+}  // namespace cairn::sonar_model

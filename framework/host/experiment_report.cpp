@@ -1,0 +1,195 @@
+#include "framework/host/experiment_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace cairn {
+namespace {
+
+using nlohmann::ordered_json;
+
+int good_rows(const std::vector<ExperimentRow>& rows) {
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const ExperimentRow& r) { return r.is_good(); }));
+}
+
+std::string seed_row(const ExperimentRow& row) {
+  return fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.1f} | {:.0f} | {} | {} | {} |\n", row.seed,
+                     name_of(row.result.outcome), row.score.matched.size(), row.score.missed_objects,
+                     row.score.false_landmarks, row.worst_error_m, row.result.distance_m, row.result.time_s,
+                     row.result.matchings, row.result.collisions, row.is_good() ? "yes" : "no");
+}
+
+std::string missions_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::string text;
+  for (const std::string& mission : missions_of(rows))
+    for (const ExperimentVariant& variant : config.variants) {
+      if (rows.size() != rows_of(rows, mission, variant.name).size())
+        text += fmt::format("## {}, {}\n\n", mission, variant.name);
+      text +=
+          "| seed | outcome | found | missed | false | worst error m | driven m | time s | matchings | collisions | "
+          "good |\n"
+          "|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|---|\n";
+      for (const ExperimentRow* row : rows_of(rows, mission, variant.name)) text += seed_row(*row);
+      text += "\n";
+    }
+  return text + fmt::format(
+                    "{} of {} runs found every landmark with the right category within {:.2f} m and nothing else, "
+                    "without a collision.\n",
+                    good_rows(rows), rows.size(), config.tolerance_m);
+}
+
+std::vector<double> values_of(const std::vector<const ExperimentRow*>& rows, const RunMeasure& measure) {
+  std::vector<double> values;
+  for (const ExperimentRow* row : rows) values.push_back(measure.of(*row));
+  return values;
+}
+
+// Seed by seed, so that what makes a seed hard for every variant falls out.
+Estimate difference(const std::vector<const ExperimentRow*>& rows, const std::vector<const ExperimentRow*>& baseline,
+                    const RunMeasure& measure) {
+  std::vector<double> values = values_of(rows, measure);
+  const std::vector<double> from = values_of(baseline, measure);
+  if (values.size() != from.size()) return {};
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= from[i];
+  return estimate_of(values);
+}
+
+std::string cell_text(const Estimate& estimate) {
+  return fmt::format(" {:.4f} ± {:.4f} |", estimate.mean, estimate.half_width);
+}
+
+bool has_truth(const std::vector<const ExperimentRow*>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const ExperimentRow* row) { return row->quality.has_value(); });
+}
+
+std::vector<RunMeasure> measures_for(const ExperimentConfig& config, const std::vector<const ExperimentRow*>& rows) {
+  std::vector<RunMeasure> measures;
+  for (const RunMeasure& measure : map_measures())
+    if (measure.needs_truth ? has_truth(rows) : config.withhold_every > 0) measures.push_back(measure);
+  return measures;
+}
+
+std::string map_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
+                      const std::string& mission) {
+  const auto first = rows_of(rows, mission, config.variants.front().name);
+  const std::vector<RunMeasure> measures = measures_for(config, first);
+  if (measures.empty()) return "Nothing to measure: no true world, and no reading withheld.\n";
+  const bool compared = !config.baseline.empty();
+  std::string head = "| variant |";
+  std::string rule = "|---|";
+  for (const RunMeasure& measure : measures) {
+    head += " " + measure.name + " |";
+    rule += "---:|";
+  }
+  if (compared) {
+    head += " " + measures.front().name + " less " + config.baseline + "'s |";
+    rule += "---:|";
+  }
+  std::string text = head + "\n" + rule + "\n";
+  const auto baseline = rows_of(rows, mission, config.baseline);
+  for (const ExperimentVariant& variant : config.variants) {
+    const auto of_variant = rows_of(rows, mission, variant.name);
+    text += "| " + variant.name + " |";
+    for (const RunMeasure& measure : measures) text += cell_text(estimate_of(values_of(of_variant, measure)));
+    if (compared) text += cell_text(difference(of_variant, baseline, measures.front()));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string maps_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::string text;
+  for (const std::string& mission : missions_of(rows)) {
+    const std::size_t runs = rows_of(rows, mission, config.variants.front().name).size();
+    text += fmt::format("## {}\n\n{} {}; mean and 95 % interval.\n\n", mission, runs, runs == 1 ? "run" : "runs");
+    text += map_table(config, rows, mission) + "\n";
+  }
+  return text;
+}
+
+ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
+  ordered_json json = {{"mission", row.mission},
+                       {"variant", row.variant},
+                       {"seed", row.seed},
+                       {"outcome", std::string(name_of(row.result.outcome))},
+                       {"reason", row.result.reason},
+                       {"found", row.score.matched.size()},
+                       {"missed", row.score.missed_objects},
+                       {"false", row.score.false_landmarks},
+                       {"worst_error_m", row.worst_error_m},
+                       {"distance_m", row.result.distance_m},
+                       {"time_s", row.result.time_s},
+                       {"matchings", row.result.matchings},
+                       {"collisions", row.result.collisions},
+                       {"good", row.is_good()}};
+  if (config.experiment != ExperimentKind::maps) return json;
+  for (const RunMeasure& measure : map_measures())
+    if (!measure.needs_truth || row.quality) json[measure.name] = measure.of(row);
+  json["withheld"] = row.withheld;
+  return json;
+}
+
+}  // namespace
+
+Estimate estimate_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const auto count = static_cast<double>(values.size());
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  const double mean = sum / count;
+  if (values.size() == 1) return {mean, 0.0};
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const boost::math::students_t distribution(count - 1.0);
+  return {mean, boost::math::quantile(distribution, 0.975) * std::sqrt(squares / (count - 1.0) / count)};
+}
+
+const std::vector<RunMeasure>& map_measures() {
+  using Row = ExperimentRow;
+  static const std::vector<RunMeasure> kMeasures{
+      {"log loss", [](const Row& row) { return row.quality->log_loss; }, true},
+      {"of walls", [](const Row& row) { return row.quality->wall_log_loss; }, true},
+      {"of free cells", [](const Row& row) { return row.quality->free_log_loss; }, true},
+      {"Brier score", [](const Row& row) { return row.quality->brier; }, true},
+      {"ghost share", [](const Row& row) { return row.quality->ghost_ratio; }, true},
+      {"missed share", [](const Row& row) { return row.quality->missed_ratio; }, true},
+      {"withheld log-likelihood", [](const Row& row) { return row.withheld_log_likelihood; }, false}};
+  return kMeasures;
+}
+
+std::vector<const ExperimentRow*> rows_of(const std::vector<ExperimentRow>& rows, const std::string& mission,
+                                          const std::string& variant) {
+  std::vector<const ExperimentRow*> found;
+  for (const ExperimentRow& row : rows)
+    if (row.mission == mission && row.variant == variant) found.push_back(&row);
+  return found;
+}
+
+std::vector<std::string> missions_of(const std::vector<ExperimentRow>& rows) {
+  std::vector<std::string> names;
+  for (const ExperimentRow& row : rows)
+    if (std::find(names.begin(), names.end(), row.mission) == names.end()) names.push_back(row.mission);
+  return names;
+}
+
+std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  return config.experiment == ExperimentKind::maps ? maps_table(config, rows) : missions_table(config, rows);
+}
+
+std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  ordered_json list = ordered_json::array();
+  for (const ExperimentRow& row : rows) list.push_back(json_of(row, config));
+  const char* kind = config.experiment == ExperimentKind::maps ? "maps" : "missions";
+  const ordered_json all = {{"experiment", kind},
+                            {"tolerance_m", config.tolerance_m},
+                            {"good", good_rows(rows)},
+                            {"runs", rows.size()},
+                            {"rows", list}};
+  return all.dump();
+}
+
+}  // namespace cairn

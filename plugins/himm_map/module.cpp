@@ -1,0 +1,17 @@
+#include "framework/contracts/module.hpp"
+
+#include "plugins/himm_map/himm_map.hpp"
+
+namespace {
+
+void register_module(cairn::Registrar& registrar) {
+  using cairn::himm_map::Config;
+  using cairn::himm_map::HimmMap;
+  registrar.add<cairn::Mapper, Config>(
+      "himm", "occupancy grid from sonar, for comparison: histogrammic in-motion mapping (HIMM)",
+      [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<HimmMap>(config); });
+}
+
+}  // namespace
+
+CAIRN_MODULE(register_module)

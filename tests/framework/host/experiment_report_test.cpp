@@ -1,0 +1,59 @@
+#include "framework/host/experiment_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cairn {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+ExperimentRow row_of(const std::string& variant, std::int64_t seed, double log_loss) {
+  ExperimentRow row;
+  row.mission = "hallway";
+  row.variant = variant;
+  row.seed = seed;
+  row.quality = MapQuality{};
+  row.quality->log_loss = log_loss;
+  return row;
+}
+
+ExperimentConfig maps_of_two() {
+  ExperimentConfig config;
+  config.experiment = ExperimentKind::maps;
+  config.variants = {{"plain", {}}, {"better", {}}};
+  config.baseline = "plain";
+  return config;
+}
+
+TEST(Estimate, IsStudentsInterval) {
+  const Estimate estimate = estimate_of({1.0, 2.0, 3.0});
+  EXPECT_DOUBLE_EQ(estimate.mean, 2.0);
+  EXPECT_NEAR(estimate.half_width, 4.30265 / std::sqrt(3.0), 1e-4);  // t of 2 degrees of freedom at 97.5 %
+  EXPECT_EQ(estimate_of({5.0}).half_width, 0.0);
+}
+
+TEST(ExperimentReport, TheDifferenceIsTakenSeedBySeed) {
+  const std::vector<ExperimentRow> rows{row_of("plain", 1, 0.2), row_of("plain", 2, 0.8), row_of("better", 1, 0.1),
+                                        row_of("better", 2, 0.7)};
+  const std::string table = table_of(maps_of_two(), rows);
+  EXPECT_THAT(table, HasSubstr("log loss less plain's"));
+  EXPECT_THAT(table, HasSubstr("-0.1000 ± 0.0000 |")) << table;
+  EXPECT_THAT(table, Not(HasSubstr("withheld"))) << "nothing was withheld";
+}
+
+TEST(ExperimentReport, WithoutATrueWorldOnlyWithheldReadingsCount) {
+  ExperimentConfig config = maps_of_two();
+  config.withhold_every = 5;
+  std::vector<ExperimentRow> rows{row_of("plain", 1, 0.0), row_of("better", 1, 0.0)};
+  for (ExperimentRow& row : rows) row.quality.reset();
+  rows[1].withheld_log_likelihood = -1.5;
+  const std::string table = table_of(config, rows);
+  EXPECT_THAT(table, HasSubstr("| variant | withheld log-likelihood |"));
+  EXPECT_THAT(table, HasSubstr("| better | -1.5000"));
+  EXPECT_THAT(table, Not(HasSubstr("Brier")));
+}
+
+}  // namespace
+}  // namespace cairn

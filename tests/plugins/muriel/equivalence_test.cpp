@@ -1,0 +1,95 @@
+// The fast evaluation against the plain one.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "plugins/muriel/muriel.hpp"
+#include "plugins/muriel/plain_muriel.hpp"
+#include "tests/plugins/muriel/test_readings.hpp"
+
+namespace cairn::muriel {
+namespace {
+
+// More than any beam of the Dice reaches at 0.05 m a cell.
+constexpr int kReach_cells = 180;
+constexpr CellBox kEverything{{-kReach_cells, -kReach_cells}, {kReach_cells, kReach_cells}};
+
+template <class Visit>
+void for_each_cell(const Visit& visit) {
+  for (int y = kEverything.min.y; y < kEverything.max.y; ++y)
+    for (int x = kEverything.min.x; x < kEverything.max.x; ++x) visit(Cell{x, y});
+}
+
+// The same random map and logs in both: mostly free, walls here and there, some of it unknown.
+void fill(Dice& dice, Muriel& fast, PlainMuriel& plain) {
+  for_each_cell([&](Cell cell) {
+    const bool wall = dice.below(12) == 0;
+    const auto value = static_cast<LogOdds>(dice.below(5) == 0 ? 0 : (wall ? 1 : -1) * dice.below(1500));
+    const LogWord word = dice.word() & dice.word() & dice.word();
+    fast.grid().set_log_odds(cell, value);
+    plain.grid().set_log_odds(cell, value);
+    fast.log().word_for_writing(cell) = word;
+    plain.log().word_for_writing(cell) = word;
+  });
+}
+
+bool holds(const CellChanges& changes, Cell cell) {
+  for (const CellSpan& span : changes.spans)
+    if (span.y == cell.y && cell.x >= span.x_begin && cell.x < span.x_end) return true;
+  return false;
+}
+
+TEST(MurielEquivalence, OneReadingGivesTheSameCellsAndValuesToOneQuantum) {
+  Dice dice(71);
+  for (int run = 0; run < 24; ++run) {
+    const Config config = dice.config();
+    Muriel fast(config);
+    PlainMuriel plain(config);
+    fill(dice, fast, plain);
+    for (int i = 0; i < 12; ++i) {
+      const OccupancyGrid before = fast.grid();
+      const IndependenceLog& fast_log = fast.log();
+      const RangeReading reading = dice.reading();
+      const Pose2 pose = dice.pose();
+      const CellChanges changes = fast.integrate(observed({reading}), at(pose));
+      plain.integrate(observed({reading}), at(pose));
+      for_each_cell([&](Cell cell) {
+        const int was = before.log_odds(cell);
+        const int has = fast.grid().log_odds(cell);
+        const int wanted = plain.grid().log_odds(cell);
+        ASSERT_LE(std::abs(has - wanted), 1)
+            << cell.x << ", " << cell.y << " run " << run << " reading " << i << " was " << was << " range "
+            << reading.range_m << " half " << degrees(reading.half_beam_rad);
+        // A log may differ only where an increment was so near to half a quantum that one of the two rounded it to 0.
+        const bool same_log = fast_log.word(cell) == plain.log().word(cell);
+        ASSERT_TRUE(same_log || std::abs(wanted - was) + std::abs(has - was) <= 1) << cell.x << ", " << cell.y;
+        ASSERT_TRUE(has == was || holds(changes, cell)) << cell.x << ", " << cell.y;
+        plain.grid().set_log_odds(cell, static_cast<LogOdds>(has));
+        plain.log().word_for_writing(cell) = fast_log.word(cell);
+      });
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(MurielEquivalence, AFreshMapGrowsToTheSameBounds) {
+  Dice dice(72);
+  for (int run = 0; run < 40; ++run) {
+    const Config config = dice.config();
+    Muriel fast(config);
+    PlainMuriel plain(config);
+    for (int i = 0; i < 5; ++i) {
+      const Observation observation = observed({dice.reading()});
+      const Pose2 pose = dice.pose();
+      fast.integrate(observation, at(pose));
+      plain.integrate(observation, at(pose));
+    }
+    const CellBox a = fast.grid().bounds();
+    const CellBox b = plain.grid().bounds();
+    EXPECT_LE(std::max(distance8(a.min, b.min), distance8(a.max, b.max)), 1) << run;
+  }
+}
+
+}  // namespace
+}  // namespace cairn::muriel

@@ -1,0 +1,94 @@
+// Experiments as the program runs them, and the files that ship.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/host/mission.hpp"
+#include "framework/host/mission_experiment.hpp"
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ShippedFiles, EveryExperimentLoadsWithAllItsMissionsAndVariants) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/config/experiments")) {
+    const ExperimentConfig config = load_experiment(entry.path());
+    for (const std::filesystem::path& mission : config.missions)
+      for (const ExperimentVariant& variant : config.variants)
+        EXPECT_NO_THROW((void)load_mission(mission, variant.overrides)) << mission << " as " << variant.name;
+    ++files;
+  }
+  EXPECT_GE(files, 2);
+}
+
+TEST(ShippedFiles, EveryMissionLoads) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/config/missions"))
+    EXPECT_NO_THROW((void)load_mission(entry.path())) << entry.path();
+}
+
+// A short drive along a wall in a corner of the hallway.
+std::filesystem::path small_experiment(const std::filesystem::path& folder, const std::string& baseline) {
+  const std::string config = source_folder() + "/config";
+  write_text(folder / "drive.yaml", "mission: drive\nrobot: " + config +
+                                        "/robots/pioneer1_true_pose.yaml\nworld: " + config +
+                                        "/worlds/mapping_smooth_hallway.yaml\nstart: {at_m: [1.727, 1.774]}\n"
+                                        "sensor: {plugin: simulated_robot}\nlocalizer: {plugin: odometry_compass}\n"
+                                        "map: {plugin: bayes_map}\nsteps:\n  - drive: [[3.2, 1.9]]\n");
+  write_text(
+      folder / "maps.yaml",
+      "experiment: maps\nmissions: [drive.yaml]\nseeds: {from: 5, count: 2}\nwithhold_every: 5\nbaseline: " + baseline +
+          "\nvariants:\n  - {name: textbook, set: [map.clamp_nat=100]}\n  - {name: clamped, set: "
+          "[map.clamp_nat=3]}\n");
+  return folder / "maps.yaml";
+}
+
+TEST(Experiment, OfMapsJudgesEveryVariantOnEverySeed) {
+  const auto folder = fresh_folder("experiment");
+  const std::vector<std::string> command{"experiment", small_experiment(folder, "textbook").string(), "--out",
+                                         (folder / "out").string(), "--json"};
+  const Finished finished = run_cairn(command);
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto rows = nlohmann::json::parse(finished.out)["rows"];
+  ASSERT_EQ(rows.size(), 4U);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row["outcome"], "done") << row;
+    EXPECT_GT(row["log loss"], 0.0);
+    EXPECT_LT(row["log loss"], 3.0);
+    EXPECT_GT(row["withheld"], 10);
+    EXPECT_LT(row["withheld log-likelihood"], 0.0);
+  }
+  EXPECT_EQ(rows[0]["variant"], "textbook");
+  EXPECT_NE(rows[0]["log loss"], rows[1]["log loss"]) << "another seed is another drive";
+  EXPECT_NE(rows[0]["log loss"], rows[2]["log loss"]) << "another variant is another map";
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/drive/clamped/seed_6/drive.cairn"));
+  EXPECT_THAT(text_of_file(folder / "out/table.md"), HasSubstr("| clamped |"));
+  EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
+}
+
+TEST(Experiment, AnUnknownBaselineNamesTheNearestVariant) {
+  const auto folder = fresh_folder("experiment_baseline");
+  const Finished finished =
+      run_cairn({"experiment", small_experiment(folder, "clampd").string(), "--out", (folder / "out").string()});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, HasSubstr("maps.yaml:5:11: no variant is called \"clampd\" (did you mean \"clamped\"?)"));
+}
+
+TEST(Experiment, AFaultInTheLastVariantIsToldBeforeAnythingRuns) {
+  const auto folder = fresh_folder("experiment_fault");
+  const std::filesystem::path file = small_experiment(folder, "textbook");
+  std::string text = text_of_file(file);
+  text.replace(text.find("map.clamp_nat=3"), 15, "map.plugin=bays");
+  write_text(file, text);
+  const Finished finished = run_cairn({"experiment", file.string(), "--out", (folder / "out").string()});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, HasSubstr("unknown map plugin \"bays\""));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/drive"));
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
