@@ -34,7 +34,7 @@ struct KernelReading {
   float ahead_x = 1.0F;  // the beam's axis, map frame
   float ahead_y = 0.0F;
   float per_half_beam = 0.0F;    // 0 for a ray
-  float widest_tangent2 = 0.0F;  // a little beyond the beam's edge, where the series still holds
+  float widest_tangent2 = 0.0F;  // of the beam's edge
   float alpha_max = 0.0F;
   float per_alpha_range = 0.0F;
   float delta_m = 0.0F;
@@ -49,14 +49,22 @@ struct KernelReading {
   int sectors = 1;
 };
 
+// Room for find_targets(), a block longer than there are blocks.
+struct TargetList {
+  float* value;
+  std::int32_t* sector;
+};
+
 // What one reading says of each cell, kBlock_cells entries a block, and two lists of blocks.
 struct KernelCells {
   float* news;  // lambda0 - 1
   float* range_m;
-  float* off;            // bearing / half_beam
-  std::int32_t* near;    // where the echo is near
-  std::int32_t* known;   // where the map believes in a target
-  std::uint64_t* moved;  // one number a block, a byte a cell: what apply_blocks() changed
+  float* off;           // bearing / half_beam
+  std::int32_t* near;   // where the echo is near
+  std::int32_t* known;  // where the map believes in a target
+  TargetList blockers;
+  TargetList sources;
+  std::uint8_t* moved;  // one number a block, a bit a cell: what apply_blocks() changed
 };
 struct ListLengths {
   int near = 0;

@@ -40,7 +40,7 @@ CAIRN_INLINE ListLengths place(const KernelReading& r, const Block* blocks, int 
       range = square_root(along * along + across * across);
       off = (width == Width::narrow ? atan_narrow(tangent, tangent2) : atan_wide(tangent, tangent2)) * r.per_half_beam;
       const Floats off2 = off * off;
-      inside = (tangent2 <= r.widest_tangent2) & (off2 <= 1.0F);
+      inside = tangent2 <= r.widest_tangent2;
       alpha -= alpha * off2;
     }
     inside &= range <= r.reach_m;
@@ -61,44 +61,48 @@ ListLengths place_blocks(const KernelReading& reading, const Block* blocks, int 
   return place<Width::wide>(r, blocks, count, cells);
 }
 
-// The largest values by sector, lane by lane.
-CAIRN_INLINE void raise(Floats* best, int sectors, const Ints& sector, const Floats& value) {
-  if (!any(value > 0.0F)) return;
-  for (int k = 0; k < sectors; ++k) best[k] = larger(best[k], where(sector == k, value));
+// Appends without branches, like list_if().
+CAIRN_INLINE void append_if_any(const Floats& value, const Ints& sector, TargetList list, int& length) {
+  store(list.value + length * kBlock_cells, value);
+  store(list.sector + length * kBlock_cells, sector);
+  length += any(value > 0.0F) ? 1 : 0;
 }
-CAIRN_INLINE float largest(const Floats& x) {
+CAIRN_INLINE float largest_of(TargetList list, int length, int sector) {
+  Floats lanes{};
+  for (int i = 0; i < length; ++i)
+    lanes = larger(lanes, where(load<Ints>(list.sector + i * kBlock_cells) == sector,
+                                load<Floats>(list.value + i * kBlock_cells)));
   float best = 0.0F;
-  for (int lane = 0; lane < kBlock_cells; ++lane) best = best > x[lane] ? best : x[lane];
+  for (int lane = 0; lane < kBlock_cells; ++lane) best = best > lanes[lane] ? best : lanes[lane];
   return best;
 }
 
 void find_targets(const KernelReading& reading, const Block* blocks, int known, const KernelCells& cells,
                   SectorTargets& best) {
   const KernelReading r = reading;
+  const KernelCells c = cells;
   const float density_scale = r.is_echo ? kPerSqrtTwoPi : 0.0F;
   const auto sectors = static_cast<float>(r.sectors);
-  Floats blocking[kMostSectors];
-  Floats density[kMostSectors];
-  for (int k = 0; k < r.sectors; ++k) blocking[k] = density[k] = Floats{};
+  int blockers = 0;
+  int sources = 0;
   for (int i = 0; i < known; ++i) {
-    const int at = cells.known[i] * kBlock_cells;
-    const Ints log_odds = __builtin_convertvector(load<Shorts>(blocks[cells.known[i]].cells), Ints);
+    const int at = c.known[i] * kBlock_cells;
+    const Ints log_odds = widened(load<Shorts>(blocks[c.known[i]].cells));
     const Floats p = 1.0F / (1.0F + exp_of(larger(to_floats(log_odds) * (-1.0F / 256.0F), all(-80.0F))));
-    const Floats answer = where(log_odds >= r.believed_from, -p * load<Floats>(cells.news + at));
-    const auto range = load<Floats>(cells.range_m + at);
+    const Floats answer = where(log_odds >= r.believed_from, -p * load<Floats>(c.news + at));
+    const auto range = load<Floats>(c.range_m + at);
     const Floats per_delta = 1.0F / (r.delta_m + r.delta_per_m * range);
     const Floats z = (r.range_m - range) * per_delta;
     const Floats bounded = smaller(larger(z, all(-12.0F)), all(12.0F));
-    const Floats place = (0.5F * sectors) * (load<Floats>(cells.off + at) + 1.0F);
+    const Floats density = answer * density_scale * per_delta * exp_of(-0.5F * bounded * bounded);
+    const Floats place = (0.5F * sectors) * (load<Floats>(c.off + at) + 1.0F);
     const Ints sector = to_ints(larger(smaller(place, all(sectors - 0.5F)), Floats{}));
-    raise(blocking, r.sectors, sector, where(z > 3.0F, answer));
-    // Beyond 6 range errors the density is nothing beside that of false echoes.
-    raise(density, r.sectors, sector,
-          where((z < 6.0F) & (z > -6.0F), answer * density_scale * per_delta * exp_of(-0.5F * bounded * bounded)));
+    append_if_any(where(z > 3.0F, answer), sector, c.blockers, blockers);
+    append_if_any(density, sector, c.sources, sources);
   }
   for (int k = 0; k < r.sectors; ++k) {
-    best.blocking[k] = largest(blocking[k]);
-    best.density_per_m[k] = largest(density[k]);
+    best.blocking[k] = largest_of(c.blockers, blockers, k);
+    best.density_per_m[k] = largest_of(c.sources, sources, k);
   }
 }
 
@@ -133,15 +137,15 @@ template <bool two_planes>
 CAIRN_INLINE Floats logged(const KernelLog& log, const Floats& off, const Floats& weight_of_count,
                            std::uint16_t* counts, const Floats& change) {
   const Ints shift = (2 * to_ints(off * log.buckets_per_off + log.buckets_to_axis) + log.shift) & 31;
-  const Words& shifts = reinterpret_cast<const Words&>(shift);
-  Words words = __builtin_convertvector(load<Counts>(counts), Words);
-  if constexpr (two_planes) words |= __builtin_convertvector(load<Counts>(counts + log.plane_step), Words) << 16;
+  const auto shifts = reinterpret_cast<Words>(shift);
+  Words words = widened(load<Counts>(counts));
+  if constexpr (two_planes) words |= widened(load<Counts>(counts + log.plane_step)) << 16;
   const Words count = (words >> shifts) & 3;
-  const Floats weight = entry(weight_of_count, reinterpret_cast<const Ints&>(count));
+  const Floats weight = entry(weight_of_count, reinterpret_cast<Ints>(count));
   const Ints taken = (larger(change, -change) >= 0.5F) & (weight > 0.0F) & 1;
-  words += reinterpret_cast<const Words&>(taken) << shifts;
-  store(counts, __builtin_convertvector(words, Counts));
-  if constexpr (two_planes) store(counts + log.plane_step, __builtin_convertvector(words >> 16, Counts));
+  words += reinterpret_cast<Words>(taken) << shifts;
+  store(counts, narrowed(words & 0xffff));
+  if constexpr (two_planes) store(counts + log.plane_step, narrowed(words >> 16));
   return change * weight;
 }
 
@@ -158,11 +162,11 @@ CAIRN_INLINE void apply(const KernelScale& by, const KernelLog& log, const Block
     if constexpr (has_log)
       change = logged<two_planes>(log, load<Floats>(cells.off + b * kBlock_cells), weight_of_count, block.log, change);
     const Shorts before = load<Shorts>(block.cells);
-    Shorts after = before + __builtin_convertvector(rounded(change), Shorts);
+    Shorts after = before + narrowed(rounded(change));
     after = after > highest ? highest : after;
     after = after < lowest ? lowest : after;
     store(block.cells, after);
-    store(cells.moved + b, __builtin_convertvector(after != before, Bytes));
+    cells.moved[b] = bits_of(after != before);
   }
 }
 

@@ -21,7 +21,6 @@ using Ints = std::int32_t __attribute__((vector_size(32)));
 using Words = std::uint32_t __attribute__((vector_size(32)));
 using Shorts = std::int16_t __attribute__((vector_size(16)));
 using Counts = std::uint16_t __attribute__((vector_size(16)));
-using Bytes = std::int8_t __attribute__((vector_size(8)));
 
 constexpr Floats kLane = {0, 1, 2, 3, 4, 5, 6, 7};
 
@@ -65,8 +64,54 @@ CAIRN_INLINE Floats entry(Floats table, Ints index) {
   return _mm256_permutevar8x32_ps(table, reinterpret_cast<__m256i>(index));
 }
 
+// To the nearest, the even one of two.
+CAIRN_INLINE Ints rounded(Floats x) {
+  return reinterpret_cast<Ints>(_mm256_cvtps_epi32(x));
+}
+CAIRN_INLINE Ints widened(Shorts x) {
+  return reinterpret_cast<Ints>(_mm256_cvtepi16_epi32(reinterpret_cast<__m128i>(x)));
+}
+CAIRN_INLINE Words widened(Counts x) {
+  return reinterpret_cast<Words>(_mm256_cvtepu16_epi32(reinterpret_cast<__m128i>(x)));
+}
+// For what fits.
+CAIRN_INLINE Shorts narrowed(Ints x) {
+  const auto wide = reinterpret_cast<__m256i>(x);
+  return reinterpret_cast<Shorts>(_mm_packs_epi32(_mm256_castsi256_si128(wide), _mm256_extracti128_si256(wide, 1)));
+}
+CAIRN_INLINE Counts narrowed(Words x) {
+  const auto wide = reinterpret_cast<__m256i>(x);
+  return reinterpret_cast<Counts>(_mm_packus_epi32(_mm256_castsi256_si128(wide), _mm256_extracti128_si256(wide, 1)));
+}
+// A bit a lane.
+CAIRN_INLINE std::uint8_t bits_of(Shorts mask) {
+  const auto lanes = reinterpret_cast<__m128i>(mask);
+  return static_cast<std::uint8_t>(_mm_movemask_epi8(_mm_packs_epi16(lanes, lanes)));
+}
+
 #else
 
+CAIRN_INLINE Ints rounded(Floats x) {  // for less than 2^22: there a float's last bit is a whole
+  const Floats moved = x + 12582912.0F;
+  return reinterpret_cast<Ints>(moved) - 0x4b400000;
+}
+CAIRN_INLINE Ints widened(Shorts x) {
+  return __builtin_convertvector(x, Ints);
+}
+CAIRN_INLINE Words widened(Counts x) {
+  return __builtin_convertvector(x, Words);
+}
+CAIRN_INLINE Shorts narrowed(Ints x) {
+  return __builtin_convertvector(x, Shorts);
+}
+CAIRN_INLINE Counts narrowed(Words x) {
+  return __builtin_convertvector(x, Counts);
+}
+CAIRN_INLINE std::uint8_t bits_of(Shorts mask) {
+  int bits = 0;
+  for (int lane = 0; lane < 8; ++lane) bits |= mask[lane] & (1 << lane);
+  return static_cast<std::uint8_t>(bits);
+}
 CAIRN_INLINE Floats larger(Floats a, Floats b) {
   return a > b ? a : b;
 }
@@ -98,17 +143,12 @@ CAIRN_INLINE Ints to_ints(const Floats& x) {  // towards 0
 CAIRN_INLINE Floats to_floats(const Ints& x) {
   return __builtin_convertvector(x, Floats);
 }
-CAIRN_INLINE Floats bits_as_floats(const Ints& x) {
-  return reinterpret_cast<const Floats&>(x);
+CAIRN_INLINE Floats bits_as_floats(Ints x) {
+  return reinterpret_cast<Floats>(x);
 }
-CAIRN_INLINE Ints bits_as_ints(const Floats& x) {
-  return reinterpret_cast<const Ints&>(x);
+CAIRN_INLINE Ints bits_as_ints(Floats x) {
+  return reinterpret_cast<Ints>(x);
 }
-// To the nearest, for less than 2^22: there a float's last bit is a whole.
-CAIRN_INLINE Ints rounded(const Floats& x) {
-  return bits_as_ints(x + 12582912.0F) - 0x4b400000;
-}
-
 // atan(t) for |t| <= tan(20.5 deg), good to 1e-7; t2 = t * t.
 CAIRN_INLINE Floats atan_narrow(const Floats& t, const Floats& t2) {
   return t * ((0.999999734F - 0.333272128F * t2) + (t2 * t2) * (0.197768828F - 0.116075268F * t2));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -72,7 +73,7 @@ KernelReading Muriel::kernel_reading(const PlacedReading& reading) const {
   result.ahead_y = static_cast<float>(ahead.y());
   result.is_ray = beam.half_beam_rad <= 0.0;
   if (!result.is_ray) {
-    const double widest_tangent = std::tan(beam.half_beam_rad + 0.001);
+    const double widest_tangent = std::tan(beam.half_beam_rad);
     result.per_half_beam = static_cast<float>(1.0 / beam.half_beam_rad);
     result.widest_tangent2 = static_cast<float>(widest_tangent * widest_tangent);
   }
@@ -168,15 +169,23 @@ void Muriel::find_blocks(const Beam& beam, int first_plane) {
 }
 
 void Muriel::make_room() {
-  const auto count = static_cast<std::size_t>(block_count_);
-  if (blocks_.size() >= count) return;
-  blocks_.resize(2 * count);
-  moved_.resize(2 * count);
-  lists_.resize(4 * count + 2);
-  floats_.resize(6 * kBlock_cells * count);
+  if (blocks_.size() >= static_cast<std::size_t>(block_count_)) return;
+  const auto blocks = static_cast<std::size_t>(2 * block_count_);
+  const std::size_t cells = (blocks + 1) * kBlock_cells;
+  blocks_.resize(blocks);
+  moved_.resize(blocks + sizeof(std::uint64_t));
+  floats_.resize(5 * cells);
+  integers_.resize(2 * cells + 2 * (blocks + 1));
   float* const floats = floats_.data();
-  cells_ = {floats,        floats + 2 * kBlock_cells * count, floats + 4 * kBlock_cells * count,
-            lists_.data(), lists_.data() + 2 * count + 1,     moved_.data()};
+  std::int32_t* const integers = integers_.data();
+  cells_.news = floats;
+  cells_.range_m = floats + cells;
+  cells_.off = floats + 2 * cells;
+  cells_.blockers = {floats + 3 * cells, integers};
+  cells_.sources = {floats + 4 * cells, integers + cells};
+  cells_.near = integers + 2 * cells;
+  cells_.known = integers + 2 * cells + blocks + 1;
+  cells_.moved = moved_.data();
 }
 
 double Muriel::specular_p(const KernelReading& reading, int known) const {
@@ -210,18 +219,14 @@ void Muriel::open_unseen(const KernelScale& scale, int first_plane) {
 }
 
 void Muriel::note_changes() {
+  static_assert(kTileSide <= 64 && std::endian::native == std::endian::little, "a run's bits are a word");
   CellBox box;
   for (const Run& run : runs_) {
-    int first = kTileSide;
-    int last = -1;
-    for (int b = 0; b < run.blocks; ++b) {
-      const std::uint64_t moved = moved_[static_cast<std::size_t>(run.first_block + b)];
-      if (moved == 0) continue;
-      first = std::min(first, b * kBlock_cells + std::countr_zero(moved) / 8);
-      last = b * kBlock_cells + 7 - std::countl_zero(moved) / 8;
-    }
-    if (last < 0) continue;
-    const CellSpan span{run.first.y, run.first.x + first, run.first.x + last + 1};
+    std::uint64_t moved = 0;
+    std::memcpy(&moved, moved_.data() + run.first_block, sizeof moved);  // the blocks' bits, then others'
+    moved &= ~std::uint64_t{0} >> (64 - kBlock_cells * run.blocks);
+    if (moved == 0) continue;
+    const CellSpan span{run.first.y, run.first.x + std::countr_zero(moved), run.first.x + 64 - std::countl_zero(moved)};
     box = united(box, {{span.x_begin, span.y}, {span.x_end, span.y + 1}});
     changes_.spans.push_back(span);
   }

@@ -78,8 +78,8 @@ class Muriel final : public Mapper {
   std::vector<Block> blocks_;  // the first block_count_
   int block_count_ = 0;
   std::vector<float> floats_;
-  std::vector<std::int32_t> lists_;
-  std::vector<std::uint64_t> moved_;
+  std::vector<std::int32_t> integers_;
+  std::vector<std::uint8_t> moved_;
   KernelCells cells_{};
   std::vector<CellSpan> hull_;
   // What stands for cells of tiles that are not there; it stays 0, for only blocks that say nothing keep to it.
