@@ -132,7 +132,9 @@ CAIRN_INLINE Floats where(Ints mask, Floats x) {
   return mask ? x : Floats{};
 }
 CAIRN_INLINE Floats entry(Floats table, Ints index) {
-  return __builtin_shuffle(table, index);
+  Floats entries;
+  for (int lane = 0; lane < 8; ++lane) entries[lane] = table[index[lane]];
+  return entries;
 }
 
 #endif

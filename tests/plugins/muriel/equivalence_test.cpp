@@ -80,6 +80,23 @@ TEST(MurielEquivalence, OneReadingGivesTheSameCellsAndValuesToOneQuantum) {
   }
 }
 
+TEST(MurielEquivalence, EveryInstructionSetGivesTheSameBits) {
+  if (&kernels() == &base_kernels()) GTEST_SKIP() << "this machine has one set only";
+  Dice dice(73);
+  for (int run = 0; run < 40; ++run) {
+    const Config config = dice.config();
+    Muriel best(config);
+    Muriel base(config, base_kernels());
+    for (int i = 0; i < 30; ++i) {
+      const Observation observation = observed({dice.reading()});
+      const Pose2 pose = dice.pose();
+      best.integrate(observation, at(pose));
+      base.integrate(observation, at(pose));
+      ASSERT_EQ(best.grid(), base.grid()) << "run " << run << " reading " << i;
+    }
+  }
+}
+
 TEST(MurielEquivalence, AFreshMapGrowsToTheSameBounds) {
   Dice dice(72);
   for (int run = 0; run < 40; ++run) {
