@@ -59,6 +59,17 @@ Drive laser_scan() {
 void sonar_muriel(benchmark::State& state) {
   integrate(state, one_sonar(), muriel::Muriel(muriel::Config{}));
 }
+// What its parts cost.
+void sonar_muriel_without_specular(benchmark::State& state) {
+  muriel::Config config;
+  config.specular = false;
+  integrate(state, one_sonar(), muriel::Muriel(config));
+}
+void sonar_muriel_without_log(benchmark::State& state) {
+  muriel::Config config;
+  config.log = muriel::LogPolicy::off;
+  integrate(state, one_sonar(), muriel::Muriel(config));
+}
 // The same on machines without AVX2.
 void sonar_muriel_base(benchmark::State& state) {
   integrate(state, one_sonar(), muriel::Muriel(muriel::Config{}, muriel::base_kernels()));
@@ -97,6 +108,8 @@ void grow_to_400_m(benchmark::State& state) {
 BENCHMARK(grow_to_400_m)->Unit(benchmark::kMillisecond);
 BENCHMARK(sonar_muriel_plain)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sonar_muriel)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sonar_muriel_without_specular)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sonar_muriel_without_log)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sonar_muriel_base)->Unit(benchmark::kMicrosecond);
 BENCHMARK(sonar_bayes)->Unit(benchmark::kMicrosecond);
 BENCHMARK(laser_muriel_plain)->Unit(benchmark::kMicrosecond);
