@@ -136,8 +136,9 @@ bool says_something(const float* news, const KernelScale& scale, int count) {
 template <bool two_planes>
 CAIRN_INLINE Floats logged(const KernelLog& log, const Floats& off, const Floats& weight_of_count,
                            std::uint16_t* counts, const Floats& change) {
-  const Ints shift = (2 * to_ints(off * log.buckets_per_off + log.buckets_to_axis) + log.shift) & 31;
-  const auto shifts = reinterpret_cast<Words>(shift);
+  // Unsigned, for cells that are not of the beam have any bearing.
+  const auto bucket = reinterpret_cast<Words>(to_ints(off * log.buckets_per_off + log.buckets_to_axis));
+  const Words shifts = (2 * bucket + static_cast<std::uint32_t>(log.shift)) & 31;
   Words words = widened(load<Counts>(counts));
   if constexpr (two_planes) words |= widened(load<Counts>(counts + log.plane_step)) << 16;
   const Words count = (words >> shifts) & 3;

@@ -45,12 +45,12 @@ bool holds(const CellChanges& changes, Cell cell) {
 
 TEST(MurielEquivalence, OneReadingGivesTheSameCellsAndValuesToOneQuantum) {
   Dice dice(71);
-  for (int run = 0; run < 24; ++run) {
+  for (int run = 0; run < 16; ++run) {
     const Config config = dice.config();
     Muriel fast(config);
     PlainMuriel plain(config);
     fill(dice, fast, plain);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 8; ++i) {
       const OccupancyGrid before = fast.grid();
       const IndependenceLog& fast_log = fast.log();
       const RangeReading reading = dice.reading();
