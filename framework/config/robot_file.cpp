@@ -42,8 +42,12 @@ struct SonarConfig {
     fields.angle("angle_deg", &SonarConfig::angle_rad, {-360.0, 360.0}, "beam axis, anticlockwise from ahead")
         .required = true;
     fields.angle("half_beam_deg", &SonarConfig::half_beam_rad, {0.0, 90.0}, "half the width of the beam");
-    fields.number("min_m", &SonarConfig::min_m, {0.0, 100.0}, "m", "nearest distance that it can measure");
-    fields.number("max_m", &SonarConfig::max_m, {0.01, 100.0}, "m", "farthest distance that it can measure");
+    fields.number(
+        "min_m", &SonarConfig::min_m, {0.0, 100.0}, "m",
+        "nearest distance that it can measure; a nearer reading, a negative one and NaN say nothing to any map");
+    fields.number(
+        "max_m", &SonarConfig::max_m, {0.01, 100.0}, "m",
+        "farthest distance that it can measure; a reading this far or farther, or +inf, means no echo up to here");
   }
 };
 

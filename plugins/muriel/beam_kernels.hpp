@@ -1,99 +1,116 @@
 // The inner loops of the fast evaluation: METHOD 2.1 over blocks of eight cells, in single precision.
 //
-// Compiled for several instruction sets, chosen when the program starts; all give the same bits.
+// Compiled for several instruction sets, chosen when the program starts; all give the same bits. Plain arrays, for
+// what a file compiled for one set shares with others must not hold functions.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 
-#include "maps/cell.hpp"
 #include "maps/occupancy_grid.hpp"
+#include "plugins/muriel/config.hpp"
 
 namespace cairn::muriel {
 
 inline constexpr int kBlock_cells = 8;
 
-// Cells of one row in one tile, none of its blocks beyond that: `blocks` blocks from `first` on, of which the cells
-// first.x + begin to first.x + end - 1 are the beam's.
-struct Run {
-  Cell first;
-  int blocks = 0;
-  int begin = 0;
-  int end = 0;
-  const LogOdds* cells = nullptr;  // of `first`
-  bool is_seen = true;             // the map has that tile
-
-  // For apply_runs(); null: leave the run alone. Without a log words is null.
-  LogOdds* cells_to_write = nullptr;
-  std::uint64_t* words = nullptr;
-  // What apply_runs() changed, from the first to the last such cell counted from `first`; none: last < 0.
-  int first_changed = 0;
-  int last_changed = -1;
+// Eight neighbouring cells of one row in one tile. Those that are not of the beam get no news, by their
+// bearing and range; in a ray, which has no bearings, by their place: lanes begin to end - 1 are of it.
+struct Block {
+  float dx_m = 0.0F;  // the first cell's centre from the apex
+  float dy_m = 0.0F;
+  LogOdds* cells = nullptr;
+  std::uint16_t* log = nullptr;  // counts, in the reading's first plane (independence_log.hpp)
+  float begin = 0.0F;
+  float end = 0.0F;
 };
+
+// Beams up to here, half a beam of 20 degrees, take the shorter series.
+inline constexpr float kNarrowTangent2 = 0.1325F;
 
 // One reading's numbers, lengths in metres.
 struct KernelReading {
-  double apex_x_m = 0.0;
-  double apex_y_m = 0.0;
-  double cell_m = 0.05;
+  float cell_m = 0.05F;
   float ahead_x = 1.0F;  // the beam's axis, map frame
   float ahead_y = 0.0F;
-  float per_half_beam2 = 0.0F;  // 1 / half_beam^2; 0 for a ray
+  float per_half_beam = 0.0F;    // 0 for a ray
+  float widest_tangent2 = 0.0F;  // of the beam's edge
   float alpha_max = 0.0F;
   float per_alpha_range = 0.0F;
   float delta_m = 0.0F;
   float delta_per_m = 0.0F;
+  float per_false_echo_m = 1.0F;
   float range_m = 0.0F;
   float reach_m = 0.0F;
   float near_m = 0.0F;  // up to here Phi is 1 and phi 0
   bool is_ray = false;
   bool is_echo = false;
   int believed_from = 0;  // log-odds of a known target
-
-  // Directions of sight: buckets first_bucket to first_bucket + edges, modulo bearings.
-  static constexpr int kMostEdges = 9;
-  int bearings = 1;
-  int first_bucket = 0;
-  int edges = 0;
-  std::array<float, kMostEdges> edge_x{};
-  std::array<float, kMostEdges> edge_y{};
+  int sectors = 1;
 };
 
-// What the reading says of each cell, before weighting: kBlock_cells entries a block.
+// Room for find_targets(), a block longer than there are blocks.
+struct TargetList {
+  float* value;
+  std::int32_t* sector;
+};
+
+// What one reading says of each cell, kBlock_cells entries a block, and two lists of blocks.
 struct KernelCells {
-  float* miss;          // alpha Phi(z)
-  float* hit_per_m;     // alpha phi(z) / delta; 0 without an echo
-  std::int32_t* shift;  // of the cell's count in its log word
+  float* news;  // lambda0 - 1
   float* range_m;
-  float* off2;  // (bearing / half_beam)^2, with the sign of the bearing
-  float* alpha;
-  std::int32_t* blocks;  // room for two numbers a block
+  float* off;           // bearing / half_beam
+  std::int32_t* near;   // where the echo is near
+  std::int32_t* known;  // where the map believes in a target
+  TargetList blockers;
+  TargetList sources;
+  std::uint8_t* moved;  // one number a block, a bit a cell: what apply_blocks() changed
+};
+struct ListLengths {
+  int near = 0;
+  int known = 0;
 };
 
-// A cell that the map believes occupied.
-struct KnownTarget {
-  std::int32_t index;  // into KernelCells
-  std::int32_t log_odds;
+// The best targets of each sector among the known blocks: alpha p before the echo, alpha p N(D; r, delta) anywhere.
+struct SectorTargets {
+  float blocking[kMostSectors];
+  float density_per_m[kMostSectors];
 };
 
-// Evaluates all runs, one block after the other; cells that are not the beam's get 0 and 0. known must
-// have room for every cell and one more; returns how many it got.
-int evaluate_runs(const KernelReading& reading, const Run* runs, int count, const KernelCells& out, KnownTarget* known);
-
-// How a reading's parts become an increment: 256 ln(1 + weight (hit / F - miss)), quanta.
+// How news becomes a change: round(weight of the cell's count * 256 ln(1 + weight news)), quanta.
 struct KernelScale {
-  float weight = 1.0F;  // 1 - s
-  float per_false_echo_m = 1.0F;
-  int clamp = 1024;  // of the grid
+  float weight = 1.0F;                       // 1 - s
+  int clamp = 1024;                          // of the grid, at most 100 nat
+  float weight_of_count[kBlock_cells] = {};  // counts 0 to 3; the rest is filling
 };
 
-// Whether any of `count` cells gets an increment that does not round to 0.
-bool says_something(const float* miss, const float* hit_per_m, const KernelScale& scale, int count);
+// Where a reading's counts stand in the log: the first and, plane_step on, the second plane of 16 bits a
+// cell make 32 bits, from `shift` on two a bucket.
+struct KernelLog {
+  bool is_on = false;
+  std::ptrdiff_t plane_step = 0;  // 0: one plane is enough
+  int shift = 0;                  // of the beam's first bucket
+  float buckets_per_off = 0.0F;
+  float buckets_to_axis = 0.0F;  // from the beginning of the first bucket
+};
 
-// Weight of a reading by the cell's count, 0 to 3; the rest is filling.
-using KernelWeights = std::array<float, kBlock_cells>;
+struct Kernels {
+  // News as if no echo were near, and the lists.
+  ListLengths (*place_blocks)(const KernelReading& reading, const Block* blocks, int count, const KernelCells& cells);
+  // Between place_blocks() and compare_blocks(). The entries up to reading.sectors.
+  void (*find_targets)(const KernelReading& reading, const Block* blocks, int known, const KernelCells& cells,
+                       SectorTargets& best);
+  // The echo, or its absence, in the near blocks' news.
+  void (*compare_blocks)(const KernelReading& reading, int near, const KernelCells& cells);
+  // Whether any of `count` cells gets an increment that does not round to 0.
+  bool (*says_something)(const float* news, const KernelScale& scale, int count);
+  // Changes the blocks' cells and counts the reading in their logs.
+  void (*apply_blocks)(const KernelScale& scale, const KernelLog& log, const Block* blocks, int count,
+                       const KernelCells& cells);
+};
 
-// Adds the increments to the runs' cells and counts them in their log words.
-void apply_runs(const KernelCells& cells, const KernelScale& scale, const KernelWeights& weights, Run* runs, int count);
+// The best for this machine, and those for any.
+[[nodiscard]] const Kernels& kernels();
+[[nodiscard]] const Kernels& base_kernels();
 
 }  // namespace cairn::muriel

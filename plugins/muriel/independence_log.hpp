@@ -1,7 +1,8 @@
 // The independence log: how many readings a cell has taken from each bearing (METHOD 2.3; paper 2.2).
 //
 // The pose that a cell was read from is kept as the direction of sight, one of `bearings` buckets; the
-// bucket of direction 0 has 0 in its middle. One word a cell: 32 buckets of 2 bits.
+// bucket of direction 0 has 0 in its middle. 32 buckets of 2 bits a cell: 8 bytes. A tile keeps them in
+// four planes of eight buckets, 16 bits a cell each: one reading needs one or two planes only.
 #pragma once
 
 #include <array>
@@ -13,30 +14,35 @@
 
 namespace cairn::muriel {
 
-using LogWord = std::uint64_t;
 inline constexpr int kMostBearings = 32;
 inline constexpr int kMostReadings = 3;  // what 2 bits count
-
-[[nodiscard]] constexpr int count_in(LogWord word, int bucket) {
-  return static_cast<int>((word >> (2 * bucket)) & kMostReadings);
-}
+inline constexpr int kBucketsInPlane = 8;
+inline constexpr int kPlanes = kMostBearings / kBucketsInPlane;
 
 class IndependenceLog {
  public:
-  using Tile = std::array<LogWord, sonar_model::kCellsInTile>;
+  // Plane after plane.
+  using Tile = std::array<std::uint16_t, kPlanes * sonar_model::kCellsInTile>;
 
-  [[nodiscard]] LogWord word(Cell cell) const {
+  [[nodiscard]] int count(Cell cell, int bucket) const {
     const Tile* const tile = tiles_.find(sonar_model::tile_holding(cell));
-    return tile == nullptr ? 0 : (*tile)[sonar_model::place_in_tile(cell)];
+    return tile == nullptr ? 0 : ((*tile)[place_of(cell, bucket)] >> shift_of(bucket)) & kMostReadings;
   }
-  // Both grow where needed.
+  // count: 0 to kMostReadings. Grows where needed, and so does tile().
+  void set_count(Cell cell, int bucket, int count) {
+    std::uint16_t& counts = tiles_.at(sonar_model::tile_holding(cell))[place_of(cell, bucket)];
+    counts = static_cast<std::uint16_t>((counts & ~(kMostReadings << shift_of(bucket))) | (count << shift_of(bucket)));
+  }
   [[nodiscard]] Tile& tile(Cell tile) { return tiles_.at(tile); }
-  [[nodiscard]] LogWord& word_for_writing(Cell cell) {
-    return tiles_.at(sonar_model::tile_holding(cell))[sonar_model::place_in_tile(cell)];
-  }
   [[nodiscard]] std::size_t bytes() const { return tiles_.bytes(); }
 
  private:
+  static std::size_t place_of(Cell cell, int bucket) {
+    return static_cast<std::size_t>(bucket / kBucketsInPlane) * sonar_model::kCellsInTile +
+           sonar_model::place_in_tile(cell);
+  }
+  static int shift_of(int bucket) { return 2 * (bucket % kBucketsInPlane); }
+
   sonar_model::TileMap<Tile> tiles_;
 };
 

@@ -15,6 +15,8 @@
 // 10 bytes a cell: 2 in OG1, 8 in the log.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "framework/contracts/mapper.hpp"
@@ -26,7 +28,8 @@ namespace cairn::muriel {
 
 class Muriel final : public Mapper {
  public:
-  explicit Muriel(const Config& config);
+  // kernels: for tests of those that this machine would not choose.
+  explicit Muriel(const Config& config, const Kernels& kernels = muriel::kernels());
 
   // One span a row, from the first cell whose log-odds changed to the last. O(cells in the beams).
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
@@ -40,18 +43,31 @@ class Muriel final : public Mapper {
   [[nodiscard]] OccupancyGrid& grid() { return grid_; }
 
  private:
+  // Cells of one row in one tile, as blocks; none of these lies beyond that.
+  struct Run {
+    Cell first;
+    int begin = 0;  // the beam's part of it, counted from `first`
+    int end = 0;
+    int first_block = 0;
+    int blocks = 0;
+    bool is_seen = true;  // the map has that tile
+  };
+
   void integrate_reading(const PlacedReading& reading);
-  void find_runs(const PlacedReading& reading);
-  void make_room(std::size_t cells);
-  [[nodiscard]] double specular_p(const PlacedReading& reading, int known) const;
-  void open_runs(const KernelScale& scale);
-  void apply(const KernelScale& scale);
+  void find_runs(const Beam& beam);
+  void find_blocks(const Beam& beam, int first_plane);
+  void make_room();
+  [[nodiscard]] KernelReading kernel_reading(const PlacedReading& reading) const;
+  [[nodiscard]] std::optional<KernelLog> kernel_log(const Beam& beam) const;
+  [[nodiscard]] double specular_p(const KernelReading& reading, int known) const;
+  void open_unseen(const KernelScale& scale, int first_plane);
+  void note_changes();
   void join_rows();
 
   Config config_;
-  KernelWeights weights_{};
+  const Kernels& kernels_;
+  Weights weights_;
   LogOdds believed_;
-  std::vector<double> probability_;  // by log-odds, from believed_ on
   OccupancyGrid grid_;
   IndependenceLog log_;
   CellChanges changes_;  // of the latest call
@@ -59,11 +75,16 @@ class Muriel final : public Mapper {
   // Of one reading; kept for their memory.
   std::vector<CellSpan> spans_;
   std::vector<Run> runs_;
+  std::vector<Block> blocks_;  // the first block_count_
+  int block_count_ = 0;
   std::vector<float> floats_;
   std::vector<std::int32_t> integers_;
-  std::vector<KnownTarget> known_;
+  std::vector<std::uint8_t> moved_;
   KernelCells cells_{};
   std::vector<CellSpan> hull_;
+  // What stands for cells of tiles that are not there; it stays 0, for only blocks that say nothing keep to it.
+  std::array<LogOdds, kBlock_cells> unseen_cells_{};
+  std::array<std::uint16_t, kPlanes * sonar_model::kCellsInTile> unseen_log_{};
 };
 
 }  // namespace cairn::muriel

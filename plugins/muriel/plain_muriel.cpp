@@ -56,8 +56,9 @@ void integrate_plainly(const Config& config, const PlacedReading& reading, Occup
     double weight = 1.0;
     if (config.log != LogPolicy::off) {
       const int bucket = bucket_of(reading.beam.T_map_sensor.theta_rad + place.bearing_rad, config.log_bearings);
-      weight = weights[static_cast<std::size_t>(count_in(log.word(cell), bucket))];
-      if (weight > 0.0) log.word_for_writing(cell) += LogWord{1} << (2 * bucket);
+      const int count = log.count(cell, bucket);
+      weight = weights[static_cast<std::size_t>(count)];
+      if (weight > 0.0) log.set_count(cell, bucket, count + 1);
     }
     const int change = static_cast<int>(std::lround(weight * increment));
     if (change != 0 && grid.add_log_odds(cell, change)) changed.push_back({cell.y, cell.x, cell.x + 1});

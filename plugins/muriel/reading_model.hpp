@@ -35,6 +35,11 @@ class KnownTargets {
   void add_blocker(double off_axis, double answer) { raise(blocking_[sector_of(off_axis)], answer); }
   void add_source(double off_axis, double density_per_m) { raise(density_per_m_[sector_of(off_axis)], density_per_m); }
 
+  void add_blocker_in(int sector, double answer) { raise(blocking_[static_cast<std::size_t>(sector)], answer); }
+  void add_source_in(int sector, double density_per_m) {
+    raise(density_per_m_[static_cast<std::size_t>(sector)], density_per_m);
+  }
+
   // Probability that the reading is specular (METHOD 2.2).
   [[nodiscard]] double specular_p(const Config& config, bool is_echo) const;
 

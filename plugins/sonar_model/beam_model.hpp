@@ -35,7 +35,8 @@ void describe_beam_model(Fields<Config>& fields) {
   fields.number("alpha_max", &Config::alpha_max, {0.01, 0.99}, "",
                 "chance that a target on the axis, close by, echoes");
   fields.number("alpha_range_m", &Config::alpha_range_m, {0.1, 100.0}, "m",
-                "range at which that chance has fallen to 0; cells beyond learn nothing");
+                "range at which that chance has fallen to 0; cells beyond learn nothing. A reading without an echo "
+                "frees the beam as far as this and the sensor's max_m; readings under its min_m and NaN say nothing");
   fields.number("delta_m", &Config::delta_m, {0.001, 1.0}, "m", "range error at range 0, standard deviation");
   fields.number("delta_per_m", &Config::delta_per_m, {0.0, 0.3}, "", "what the range error grows by each metre");
   fields.number("false_echo_per_m", &Config::false_echo_per_m, {0.01, 100.0}, "1/m",

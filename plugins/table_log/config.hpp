@@ -76,8 +76,10 @@ struct LogSonar {
     fields.angle("angle_deg", &LogSonar::angle_rad, {-360, 360}, "of its axis, anticlockwise from ahead").required =
         true;
     fields.angle("half_beam_deg", &LogSonar::half_beam_rad, {0, 90}, "0: a ray");
-    fields.number("min_m", &LogSonar::min_m, {0, 100}, "m", "shortest range");
-    fields.number("max_m", &LogSonar::max_m, {0.01, 1000}, "m", "longest range");
+    fields.number("min_m", &LogSonar::min_m, {0, 100}, "m",
+                  "shortest range; a nearer reading, a negative one and NaN say nothing to any map");
+    fields.number("max_m", &LogSonar::max_m, {0.01, 1000}, "m",
+                  "longest range; a reading this far or farther means no echo up to here");
   }
 };
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -48,6 +49,20 @@ TEST(Reference, EveryModuleAndEveryOneOfItsSettingsStandsInTheMarkdown) {
     EXPECT_THAT(section, testing::HasSubstr(entry.module->summary));
     for (const FieldSpec& field : entry.module->schema.fields)
       EXPECT_THAT(section, testing::HasSubstr("| `" + field.key + "` |")) << entry.module->name;
+  }
+}
+
+// A mission that names one of the two takes the other by `--set map.plugin=...`.
+TEST(Reference, EverySettingOfThePlainBayesMapIsOneOfMurielToo) {
+  const std::vector<FieldSpec>& wanted = shipped_modules().find_any("bayes_map")->module->schema.fields;
+  const std::vector<FieldSpec>& known = shipped_modules().find_any("muriel")->module->schema.fields;
+  for (const FieldSpec& field : wanted) {
+    const auto found = std::ranges::find(known, field.key, &FieldSpec::key);
+    ASSERT_NE(found, known.end()) << field.key;
+    EXPECT_EQ(found->type, field.type) << field.key;
+    EXPECT_EQ(found->unit, field.unit) << field.key;
+    EXPECT_EQ(found->range.min, field.range.min) << field.key;
+    EXPECT_EQ(found->range.max, field.range.max) << field.key;
   }
 }
 

@@ -9,13 +9,14 @@ namespace {
 
 TEST(IndependenceLog, CountsEachBearingOfEachCellOnItsOwn) {
   IndependenceLog log;
-  log.word_for_writing({-1, 64}) += LogWord{1} << (2 * 31);
-  log.word_for_writing({-1, 64}) += LogWord{1} << (2 * 31);
-  log.word_for_writing({-1, 64}) += LogWord{1} << (2 * 5);
-  for (int bucket = 0; bucket < kMostBearings; ++bucket)
-    EXPECT_EQ(count_in(log.word({-1, 64}), bucket), bucket == 31 ? 2 : bucket == 5 ? 1 : 0);
-  EXPECT_EQ(log.word({0, 64}), 0U);
-  EXPECT_EQ(log.word({1000, 1000}), 0U);
+  log.set_count({-1, 64}, 31, 3);
+  log.set_count({-1, 64}, 31, 2);
+  log.set_count({-1, 64}, 5, 1);
+  for (int bucket = 0; bucket < kMostBearings; ++bucket) {
+    EXPECT_EQ(log.count({-1, 64}, bucket), bucket == 31 ? 2 : bucket == 5 ? 1 : 0);
+    EXPECT_EQ(log.count({0, 64}, bucket), 0);
+    EXPECT_EQ(log.count({1000, 1000}, bucket), 0);
+  }
 }
 
 TEST(IndependenceLog, BucketsTurnAnticlockwiseWithDirectionZeroInTheMiddleOfTheFirst) {

@@ -48,7 +48,8 @@ class Dice {
     config.specular_sectors = 1 + below(12);
     config.believed_p = between(0.5, 0.9);
     config.log = static_cast<LogPolicy>(below(3));
-    config.log_bearings = 4 + below(29);
+    // In whole planes of the log, as usual, or any number.
+    config.log_bearings = below(2) == 0 ? 8 * (1 + below(4)) : 4 + below(29);
     config.log_readings = 1 + below(3);
     config.log_fall = between(0.2, 1.0);
     return config;
