@@ -33,7 +33,7 @@ TemplateSet render(const TemplateCommand& command, const CommonOptions& common, 
     mission.robot = load_robot(command.robot);
   }
   mission.config.sensor = plain("simulated_robot");
-  mission.config.map = plain("bayes_map");
+  mission.config.map = plain("bayes");
   apply_override(mission.config.map.config, fmt::format("cell_m={}", command.cell_m));
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   return fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); });

@@ -62,15 +62,17 @@ const char* style_of(SeriesStyle style) {
 
 // A data block a series; the script has no other file to read.
 std::string data_of(const Series& series, std::size_t number) {
+  const bool bars = !series.half_widths.empty();
   std::string data = "$data" + std::to_string(number) + " << END_OF_DATA\n";
   bool any = false;
   for (std::size_t i = 0; i < series.points.size(); ++i) {
     const Point& p = series.points[i];
     any = any || p.allFinite();
-    const double half_width = i < series.half_widths.size() ? series.half_widths[i] : 0.0;
-    data += p.allFinite() ? text_of(p.x()) + " " + text_of(p.y()) + " " + text_of(half_width) + "\n" : "\n";
+    if (p.allFinite())
+      data += text_of(p.x()) + " " + text_of(p.y()) + (bars ? " " + text_of(series.half_widths[i]) : "");
+    data += "\n";
   }
-  if (!any) data += "NaN NaN NaN\n";
+  if (!any) data += bars ? "NaN NaN NaN\n" : "NaN NaN\n";
   return data + "END_OF_DATA\n";
 }
 
@@ -158,8 +160,8 @@ std::string gnuplot_script(const Chart& chart) {
   script += "set xlabel " + quoted(chart.x_label) + " noenhanced textcolor '#26323a'\n";
   script += "set ylabel " + quoted(chart.y_label) + " noenhanced textcolor '#26323a'\n";
   if (!chart.x_names.empty()) {
-    script +=
-        "set xrange [-0.5:" + text_of(static_cast<double>(chart.x_names.size()) - 0.5) + "]\nset xtics rotate by -20 noenhanced (";
+    script += "set xrange [-0.5:" + text_of(static_cast<double>(chart.x_names.size()) - 0.5) +
+              "]\nset xtics rotate by -20 noenhanced (";
     for (std::size_t i = 0; i < chart.x_names.size(); ++i)
       script += (i == 0 ? "" : ", ") + quoted(chart.x_names[i]) + " " + std::to_string(i);
     script += ")\n";

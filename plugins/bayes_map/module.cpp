@@ -8,7 +8,7 @@ void register_module(cairn::Registrar& registrar) {
   using cairn::bayes_map::BayesMap;
   using cairn::bayes_map::Config;
   registrar.add<cairn::Mapper, Config>(
-      "bayes_map", "occupancy grid from sonar: recursive Bayes in log-odds, each reading on its own",
+      "bayes", "occupancy grid from sonar: recursive Bayes in log-odds, each reading on its own",
       [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<BayesMap>(config); });
 }
 

@@ -78,7 +78,7 @@ class TrustingMapper : public WrappedMapper {
 };
 
 Subject<Mapper> shipped_map() {
-  return module<Mapper>(kModules, "bayes_map");
+  return module<Mapper>(kModules, "bayes");
 }
 INSTANTIATE_TEST_SUITE_P(Faulty, MapperConformance,
                          testing::Values(wrapped<Mapper, SilentMapper>("forgets a span", shipped_map()),

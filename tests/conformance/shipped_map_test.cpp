@@ -8,7 +8,7 @@ const std::filesystem::path kModules = std::filesystem::path(CAIRN_BINARY_DIR) /
 
 // The textbook as printed believes in targets at the rim of a beam that heard nothing; hence keep_sign.
 INSTANTIATE_TEST_SUITE_P(Shipped, MapperConformance,
-                         testing::Values(module<Mapper>(kModules, "bayes_map"), module<Mapper>(kModules, "himm"),
+                         testing::Values(module<Mapper>(kModules, "bayes"), module<Mapper>(kModules, "himm"),
                                          module<Mapper>(kModules, "muriel"),
                                          module<Mapper>(kModules, "murphy", "{keep_sign: true}")));
 

@@ -13,10 +13,11 @@ Chart degrees_chart() {
   return {"Lap round a square",
           "time (s)",
           "degree",
-          {{"square", {{0, 0.1}, {1, 0.5}, {2, kNan}, {3, 0.75}}, SeriesStyle::lines_and_points},
-           {"it's a \"circle\"; `date`", {{0, 0.2}, {3, 0.4}}, SeriesStyle::points},
-           {"nothing", {}, SeriesStyle::lines}},
-          {{"tau_match", 0.6}}};
+          {{"square", {{0, 0.1}, {1, 0.5}, {2, kNan}, {3, 0.75}}, SeriesStyle::lines_and_points, {}},
+           {"it's a \"circle\"; `date`", {{0, 0.2}, {3, 0.4}}, SeriesStyle::points, {}},
+           {"nothing", {}, SeriesStyle::lines, {}}},
+          {{"tau_match", 0.6}},
+          {}};
 }
 
 TEST_F(Charts, HaveAScriptThatCarriesItsDataAndQuotesEveryName) {
@@ -25,6 +26,17 @@ TEST_F(Charts, HaveAScriptThatCarriesItsDataAndQuotesEveryName) {
   EXPECT_THAT(script, HasSubstr("title 'it''s a \"circle\"; `date`'"));
   EXPECT_THAT(script, HasSubstr("0.6 with lines dashtype 2"));
   EXPECT_THAT(script, HasSubstr("$data2 << END_OF_DATA\nNaN NaN\nEND_OF_DATA\n"));
+}
+
+TEST_F(Charts, NamePlacesAndDrawErrorBarsWhereTheyAreGiven) {
+  Chart chart;
+  chart.series = {{"muriel", {{0, 0.2}, {1, 0.3}}, SeriesStyle::points, {0.01, 0.02}}};
+  chart.x_names = {"office", "hall's"};
+  const std::string script = gnuplot_script(chart);
+  EXPECT_THAT(script, HasSubstr("0 0.2 0.01\n1 0.3 0.02\n"));
+  EXPECT_THAT(script, HasSubstr("using 1:2:3 with yerrorbars"));
+  EXPECT_THAT(script, HasSubstr("('office' 0, 'hall''s' 1)"));
+  EXPECT_TRUE(write_chart(file("bars.png"), chart).drawn);
 }
 
 TEST_F(Charts, AreDrawnAndTheSameEachTime) {

@@ -54,7 +54,7 @@ TEST(Reference, EveryModuleAndEveryOneOfItsSettingsStandsInTheMarkdown) {
 
 // A mission that names one of the two takes the other by `--set map.plugin=...`.
 TEST(Reference, EverySettingOfThePlainBayesMapIsOneOfMurielToo) {
-  const std::vector<FieldSpec>& wanted = shipped_modules().find_any("bayes_map")->module->schema.fields;
+  const std::vector<FieldSpec>& wanted = shipped_modules().find_any("bayes")->module->schema.fields;
   const std::vector<FieldSpec>& known = shipped_modules().find_any("muriel")->module->schema.fields;
   for (const FieldSpec& field : wanted) {
     const auto found = std::ranges::find(known, field.key, &FieldSpec::key);

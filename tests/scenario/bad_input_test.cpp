@@ -25,7 +25,7 @@ class BadMission : public testing::Test {
     std::string text = "mission: bad\nrobot: " + config("robots/pioneer1.yaml") +
                        "\nworld: " + config("worlds/office.yaml") +
                        "\nstart: {at_m: [0.6, 0.6], angle_deg: 0}\nsensor: {plugin: simulated_robot}\n"
-                       "localizer: {plugin: odometry_compass}\nmap: {plugin: bayes_map, cell_m: 0.05}\n"
+                       "localizer: {plugin: odometry_compass}\nmap: {plugin: bayes, cell_m: 0.05}\n"
                        "detector: {plugin: template_matcher, templates: " +
                        config("templates") +
                        ", coarse_cells: 5}\n"
@@ -81,10 +81,10 @@ TEST_F(BadMission, AMissingFileIsNamed) {
 }
 
 TEST_F(BadMission, AnUnknownPluginNamesTheNearestOne) {
-  const Finished finished = run("plugin: bayes_map", "plugin: bayes_mop");
+  const Finished finished = run("plugin: bayes", "plugin: bayse");
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_THAT(finished.err, AllOf(StartsWith(place("7:")),
-                                  HasSubstr("unknown map plugin \"bayes_mop\" (did you mean \"bayes_map\"?)")));
+  EXPECT_THAT(finished.err,
+              AllOf(StartsWith(place("7:")), HasSubstr("unknown map plugin \"bayse\" (did you mean \"bayes\"?)")));
 }
 
 TEST_F(BadMission, AnUnknownStepNamesTheNearestOne) {
@@ -171,7 +171,7 @@ TEST(BadPlugin, CheckFindsAShippedModuleUsable) {
       run_cairn({"plugins", "check", std::string(CAIRN_BINARY_DIR) + "/lib/cairn/bayes_map.so", "--json"});
   EXPECT_EQ(finished.exit_status, 0) << finished.err;
   const auto answer = nlohmann::json::parse(finished.out);
-  EXPECT_EQ(answer["modules"][0]["name"], "bayes_map");
+  EXPECT_EQ(answer["modules"][0]["name"], "bayes");
   EXPECT_TRUE(answer["faults"].empty());
 }
 
@@ -191,7 +191,7 @@ class BadLog : public testing::Test {
                    "\nsensor:\n  plugin: table_log\n  file: log.txt\n  time_column: 1\n  x_column: 2\n  y_column: 3\n"
                    "  heading_column: 4\n  first_range_column: 5\n  compass_from_pose: true\n"
                    "  sonars:\n    - {angle_deg: 90}\n    - {angle_deg: -90}\n"
-                   "localizer: {plugin: odometry_compass}\nmap: {plugin: bayes_map}\n");
+                   "localizer: {plugin: odometry_compass}\nmap: {plugin: bayes}\n");
     return run_cairn({"run", (folder_ / "log.yaml").string(), "--out", (folder_ / "out").string()});
   }
   void expect_refused(const std::string& table, const std::string& line_and_column, const std::string& what) {

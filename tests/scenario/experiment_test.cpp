@@ -38,7 +38,7 @@ std::filesystem::path small_experiment(const std::filesystem::path& folder, cons
                                         "/robots/pioneer1_true_pose.yaml\nworld: " + config +
                                         "/worlds/mapping_smooth_hallway.yaml\nstart: {at_m: [1.727, 1.774]}\n"
                                         "sensor: {plugin: simulated_robot}\nlocalizer: {plugin: odometry_compass}\n"
-                                        "map: {plugin: bayes_map}\nsteps:\n  - drive: [[3.2, 1.9]]\n");
+                                        "map: {plugin: bayes}\nsteps:\n  - drive: [[3.2, 1.9]]\n");
   write_text(
       folder / "maps.yaml",
       "experiment: maps\nmissions: [drive.yaml]\nseeds: {from: 5, count: 2}\nwithhold_every: 5\nbaseline: " + baseline +
