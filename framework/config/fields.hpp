@@ -21,6 +21,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -114,18 +115,12 @@ template <class Integer>
 template <class Config>
 class Fields {
  public:
-  FieldSpec& number(std::string key, double Config::*member, Range range, std::string unit, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "number", std::move(meaning), config_detail::number_text(defaults_.*member));
-    f.unit = std::move(unit);
-    f.range = range;
-    f.load = [member, key = f.key, range, unit = f.unit](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_number(v, key, range, unit);
-    };
-    return f;
-  }
-  FieldSpec& number(std::string key, std::optional<double> Config::*member, Range range, std::string unit,
-                    std::string meaning) {
-    FieldSpec& f = add(std::move(key), "number", std::move(meaning), "");
+  // Number: double or std::optional<double>, which has no default. Owner: Config or a base of it.
+  template <class Number, class Owner>
+  FieldSpec& number(std::string key, Number Owner::*member, Range range, std::string unit, std::string meaning) {
+    std::string default_text;
+    if constexpr (std::is_same_v<Number, double>) default_text = config_detail::number_text(defaults_.*member);
+    FieldSpec& f = add(std::move(key), "number", std::move(meaning), std::move(default_text));
     f.unit = std::move(unit);
     f.range = range;
     f.load = [member, key = f.key, range, unit = f.unit](void* c, const ConfigValue& v) {
@@ -134,20 +129,12 @@ class Fields {
     return f;
   }
   // Degrees in the file, radians in the struct; the range is in degrees, the unit may be "deg/s" and the like.
-  FieldSpec& angle(std::string key, double Config::*member, Range range_deg, std::string meaning,
+  template <class Number, class Owner>
+  FieldSpec& angle(std::string key, Number Owner::*member, Range range_deg, std::string meaning,
                    std::string unit = "deg") {
-    FieldSpec& f =
-        add(std::move(key), "number", std::move(meaning), config_detail::number_text(degrees(defaults_.*member)));
-    f.unit = std::move(unit);
-    f.range = range_deg;
-    f.load = [member, key = f.key, range_deg, unit = f.unit](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, unit));
-    };
-    return f;
-  }
-  FieldSpec& angle(std::string key, std::optional<double> Config::*member, Range range_deg, std::string meaning,
-                   std::string unit = "deg") {
-    FieldSpec& f = add(std::move(key), "number", std::move(meaning), "");
+    std::string default_text;
+    if constexpr (std::is_same_v<Number, double>) default_text = config_detail::number_text(degrees(defaults_.*member));
+    FieldSpec& f = add(std::move(key), "number", std::move(meaning), std::move(default_text));
     f.unit = std::move(unit);
     f.range = range_deg;
     f.load = [member, key = f.key, range_deg, unit = f.unit](void* c, const ConfigValue& v) {

@@ -58,20 +58,20 @@ TEST_F(BadMission, AMisspeltKeyOfAModuleDoesToo) {
   const Finished finished = run("cell_m: 0.05", "cel_m: 0.05");
   EXPECT_EQ(finished.exit_status, 2);
   EXPECT_THAT(finished.err,
-              AllOf(StartsWith(place("7:26: ")), HasSubstr("cel_m"), HasSubstr("did you mean \"cell_m\"?")));
+              AllOf(StartsWith(place("7:22: ")), HasSubstr("cel_m"), HasSubstr("did you mean \"cell_m\"?")));
 }
 
 TEST_F(BadMission, AWrongTypeSaysWhatIsExpected) {
   const Finished finished = run("cell_m: 0.05", "cell_m: small");
   EXPECT_EQ(finished.exit_status, 2);
   EXPECT_THAT(finished.err,
-              AllOf(StartsWith(place("7:34: ")), HasSubstr("cell_m"), HasSubstr("number"), HasSubstr("small")));
+              AllOf(StartsWith(place("7:30: ")), HasSubstr("cell_m"), HasSubstr("number"), HasSubstr("small")));
 }
 
 TEST_F(BadMission, AValueOutOfRangeSaysWhatIsAllowed) {
   const Finished finished = run("cell_m: 0.05", "cell_m: -1");
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_THAT(finished.err, AllOf(StartsWith(place("7:34: ")), HasSubstr("cell_m"), HasSubstr("-1")));
+  EXPECT_THAT(finished.err, AllOf(StartsWith(place("7:30: ")), HasSubstr("cell_m"), HasSubstr("-1")));
 }
 
 TEST_F(BadMission, AMissingFileIsNamed) {
