@@ -20,6 +20,9 @@ struct ScoreRule {
 // 1 - mismatch / (cells * mu), at least 0.
 [[nodiscard]] double degree_of(std::int32_t mismatch, std::size_t cells, double mu);
 
+// The smallest mismatch that gives no more than this degree.
+[[nodiscard]] std::int32_t mismatch_ceiling(double degree, std::size_t cells, double mu);
+
 // The degree on a scale where unseen floor has 0 and a perfect match 1; negative below. What unseen
 // floor scores depends on the template (a sensed one has many faint cells), a believable match on this
 // scale does not.
@@ -35,7 +38,8 @@ struct ScoreRule {
 [[nodiscard]] bool is_decided(std::size_t best, std::span<const TemplateMatch> matches,
                               std::span<const LandmarkTemplate> templates, const ScoreRule& rule);
 
-// The best degree of every category, in the order of the set, with its place.
+// The best degree of every category, in the order of the set, with its place; without the categories that
+// are unmatched.
 [[nodiscard]] std::vector<CategoryDegree> degrees_by_category(std::span<const TemplateMatch> matches,
                                                               const TemplateSet& set, const OccupancyGrid& grid,
                                                               const ScoreRule& rule);
