@@ -3,16 +3,11 @@
 #include <algorithm>
 
 namespace cairn::template_matcher {
-namespace {
-
-// Mean mismatches compared without division, so that equal is equal.
 bool fits_better(const TemplateMatch& a, const LandmarkTemplate& shape_a, const TemplateMatch& b,
                  const LandmarkTemplate& shape_b) {
   return static_cast<std::int64_t>(a.mismatch) * static_cast<std::int64_t>(shape_b.cells.size()) <
          static_cast<std::int64_t>(b.mismatch) * static_cast<std::int64_t>(shape_a.cells.size());
 }
-
-}  // namespace
 
 double degree_of(std::int32_t mismatch, std::size_t cells, double mu) {
   return std::max(0.0, 1.0 - mismatch / (kMismatchPerUnit * mu * static_cast<double>(cells)));

@@ -28,6 +28,10 @@ struct ScoreRule {
 // scale does not.
 [[nodiscard]] double above_unseen(std::int32_t mismatch, const LandmarkTemplate& shape);
 
+// By mean mismatch, compared without division, so that equal is equal.
+[[nodiscard]] bool fits_better(const TemplateMatch& a, const LandmarkTemplate& shape_a, const TemplateMatch& b,
+                               const LandmarkTemplate& shape_b);
+
 // Index of the template that fits best; ties go to the first.
 [[nodiscard]] std::size_t best_template(std::span<const TemplateMatch> matches,
                                         std::span<const LandmarkTemplate> templates);

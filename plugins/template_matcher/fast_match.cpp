@@ -161,18 +161,25 @@ std::uint16_t FastMatcher::limit_in(std::int64_t unit, const Search& search) {
   return static_cast<std::uint16_t>(std::min<std::int64_t>((search.most + cells) / unit + 1, kOutside));
 }
 
-std::vector<TemplateMatch> FastMatcher::match(const GradientField& field, std::span<const CellSpan> region,
-                                              std::span<const std::int32_t> ceilings) {
+void FastMatcher::look_at(const GradientField& field, std::span<const CellSpan> region) {
+  field_ = &field;
   places_ = {};
   for (const CellSpan& s : region) places_ = united(places_, {{s.x_begin, s.y}, {s.x_end, s.y + 1}});
   prepare_maps(field);
   prepare_places(region);
+}
+
+TemplateMatch FastMatcher::best_of(std::size_t index, std::int32_t ceiling) {
+  Search search{*field_, templates_[index], std::int64_t{ceiling} - 1};
+  if (search.most >= 0) search_template(search);
+  return search.best;
+}
+
+std::vector<TemplateMatch> FastMatcher::match(const GradientField& field, std::span<const CellSpan> region,
+                                              std::span<const std::int32_t> ceilings) {
+  look_at(field, region);
   std::vector<TemplateMatch> matches;
-  for (std::size_t i = 0; i < templates_.size(); ++i) {
-    Search search{field, templates_[i], std::int64_t{ceilings[i]} - 1};
-    if (search.most >= 0) search_template(search);
-    matches.push_back(search.best);
-  }
+  for (std::size_t i = 0; i < templates_.size(); ++i) matches.push_back(best_of(i, ceilings[i]));
   return matches;
 }
 

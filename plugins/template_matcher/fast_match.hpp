@@ -23,9 +23,14 @@ class FastMatcher {
   explicit FastMatcher(std::span<const LandmarkTemplate> templates);
   static constexpr std::size_t kMostCells = 20000;
 
-  // For every template what match_exhaustively() gives, if the mismatch there is below the template's
-  // ceiling, and kUnmatched if not. One ceiling a template: kUnmatched asks for the best place however
-  // bad it is, 0 for nothing. Field and region as for match_exhaustively().
+  // Where to search from now on. The field must outlive the searches. Field and region as for
+  // match_exhaustively().
+  void look_at(const GradientField& field, std::span<const CellSpan> region);
+  // What match_exhaustively() gives for a template, if the mismatch there is below the ceiling, and
+  // kUnmatched if not. kUnmatched as the ceiling asks for the best place however bad it is.
+  [[nodiscard]] TemplateMatch best_of(std::size_t index, std::int32_t ceiling);
+
+  // Both for every template; one ceiling a template.
   [[nodiscard]] std::vector<TemplateMatch> match(const GradientField& field, std::span<const CellSpan> region,
                                                  std::span<const std::int32_t> ceilings);
 
@@ -63,8 +68,9 @@ class FastMatcher {
   std::uint16_t offset_ = 0;
   std::vector<PreparedTemplate> templates_;
 
-  // Of the current call. Places are cells of `places_`, numbered row by row, place_maps_.stride a row;
+  // Of the current region. Places are cells of `places_`, numbered row by row, place_maps_.stride a row;
   // blocks are 2 x 2 places, block_maps_.stride a row.
+  const GradientField* field_ = nullptr;
   CellBox places_;
   std::size_t block_count_ = 0;
   std::vector<std::uint16_t> place_values_;  // of the maps

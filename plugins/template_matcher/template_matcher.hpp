@@ -27,12 +27,12 @@ class TemplateMatcher : public Detector {
 
  private:
   [[nodiscard]] Matching match(const OccupancyGrid& grid, Cell trigger);
-  [[nodiscard]] std::vector<TemplateMatch> search(const GradientField& field, std::span<const CellSpan> region,
-                                                  std::span<const std::int32_t> ceilings);
-  void complete_neighbours(const GradientField& field, std::span<const CellSpan> region, std::size_t index,
-                           std::vector<TemplateMatch>& matches);
-  [[nodiscard]] std::optional<Detection> detection_of(const GradientField& field, std::span<const CellSpan> region,
-                                                      std::vector<TemplateMatch> matches, const OccupancyGrid& grid);
+  // Of every template that matters the best place: those that may be above tau_match and, when all degrees
+  // are asked for, the best of each category.
+  [[nodiscard]] std::vector<TemplateMatch> search(const GradientField& field, std::span<const CellSpan> region);
+  void complete_neighbours(std::size_t index, std::vector<TemplateMatch>& matches);
+  [[nodiscard]] std::optional<Detection> detection_of(const GradientField& field, std::vector<TemplateMatch> matches,
+                                                      const OccupancyGrid& grid);
 
   Config config_;
   std::shared_ptr<const TemplateSet> templates_;
@@ -42,7 +42,7 @@ class TemplateMatcher : public Detector {
   CoarseGrid coarse_;
   Trigger trigger_;
   FastMatcher matcher_;
-  std::vector<std::int32_t> ceilings_;  // one a template: mismatches from there on do not matter
+  std::vector<std::int32_t> ceilings_;  // one a template: from there on below every threshold
   OrientationNeighbours neighbours_;
   std::vector<Cell> touched_;  // kept for its memory only
 };
