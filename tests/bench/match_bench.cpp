@@ -4,12 +4,14 @@
 // than the plain loop and than OpenCV that is.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <ctime>
 #include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "plugins/template_matcher/classify.hpp"
+#include "plugins/template_matcher/config.hpp"
 #include "plugins/template_matcher/fast_match.hpp"
 #include "tests/bench/matching_scenes.hpp"
 
@@ -129,18 +131,17 @@ void time_fast(benchmark::State& state, const std::string& name, const std::vect
 }
 
 void match_above_threshold(benchmark::State& state) {
-  constexpr double kTauMatch = 0.55;
-  constexpr double kMinMargin = 0.02;
-  constexpr double kMu = 1140.39;
+  const Config config;  // as missions have it by default
+  const double mu = 255.0 * std::sqrt(20.0);
   std::vector<std::int32_t> ceilings;
   for (const LandmarkTemplate& t : templates()) {
-    ceilings.push_back(mismatch_ceiling(kTauMatch - kMinMargin, t.cells.size(), kMu));
+    ceilings.push_back(mismatch_ceiling(config.tau_match - config.min_margin, t.cells.size(), mu));
   }
   time_fast(state, "above_threshold", ceilings);
 }
 
-void match_all(benchmark::State& state) {
-  time_fast(state, "all", std::vector<std::int32_t>(templates().size(), kUnmatched));
+void match_every_template(benchmark::State& state) {
+  time_fast(state, "every_template", std::vector<std::int32_t>(templates().size(), kUnmatched));
 }
 
 void gradients_of_a_region(benchmark::State& state) {
@@ -154,7 +155,7 @@ void gradients_of_a_region(benchmark::State& state) {
 BENCHMARK(match_plain)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(match_opencv)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(match_above_threshold)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
-BENCHMARK(match_all)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(match_every_template)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(gradients_of_a_region)->Arg(0)->Unit(benchmark::kMillisecond);
 
 }  // namespace
