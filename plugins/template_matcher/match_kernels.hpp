@@ -9,11 +9,11 @@
 
 namespace cairn::template_matcher {
 
-// Directions on which gradients are projected. Of 8, 16 and 32 the fastest in `make bench`.
+// Directions on which gradients are projected: 8 leave more to be computed, 32 hardly less.
 inline constexpr int kDirections = 16;
-// sum_shortfalls() works on this many places at once; arrays are padded to whole groups.
+// sum_block_shortfalls() works on at most this many at once; arrays are padded to whole groups.
 inline constexpr std::size_t kPlacesPerGroup = 128;
-inline constexpr std::size_t kPlacesPerPiece = 32;       // of sum_row_shortfalls()
+inline constexpr std::size_t kPlacesPerPiece = 32;       // of sum_piece_shortfalls()
 inline constexpr std::size_t kPlacesPerExactPiece = 16;  // of sum_distances()
 
 // Unit vector k in 1/16384, rounded towards zero: never longer than 1.
