@@ -179,6 +179,7 @@ std::size_t OccupancyGrid::bytes() const {
 }
 
 void OccupancyGrid::copy_ol(const CellBox& box, std::span<std::uint8_t> out) const {
+  const std::uint8_t* const table = ol_table().data() + kTableHalf;
   auto to = out.begin();
   for_each_run(box, [&](Cell first, int run) {
     const Tile* const tile = tile_of(first);
@@ -186,7 +187,7 @@ void OccupancyGrid::copy_ol(const CellBox& box, std::span<std::uint8_t> out) con
       to = std::fill_n(to, run, kUnknownOl);
     } else {
       const LogOdds* const from = tile->data() + offset_in_tile(first);
-      to = std::transform(from, from + run, to, ol_of);
+      to = std::transform(from, from + run, to, [table](LogOdds log_odds) { return table[log_odds]; });
     }
   });
 }

@@ -31,7 +31,8 @@ struct Matching {
   Cell trigger;          // coarse cell
   int region_cells = 0;  // OG1 cells searched
   Point region_centre_m{0.0, 0.0};
-  std::vector<CategoryDegree> degrees;  // best a category, in the order of the template set
+  // Best a category, in the order of the template set; a detector may leave out categories that hardly fit.
+  std::vector<CategoryDegree> degrees;
   std::optional<Detection> detection;
 };
 

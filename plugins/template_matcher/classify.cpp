@@ -3,19 +3,23 @@
 #include <algorithm>
 
 namespace cairn::template_matcher {
-namespace {
-
-// Mean mismatches compared without division, so that equal is equal.
 bool fits_better(const TemplateMatch& a, const LandmarkTemplate& shape_a, const TemplateMatch& b,
                  const LandmarkTemplate& shape_b) {
   return static_cast<std::int64_t>(a.mismatch) * static_cast<std::int64_t>(shape_b.cells.size()) <
          static_cast<std::int64_t>(b.mismatch) * static_cast<std::int64_t>(shape_a.cells.size());
 }
 
-}  // namespace
-
 double degree_of(std::int32_t mismatch, std::size_t cells, double mu) {
   return std::max(0.0, 1.0 - mismatch / (kMismatchPerUnit * mu * static_cast<double>(cells)));
+}
+
+std::int32_t mismatch_ceiling(double degree, std::size_t cells, double mu) {
+  const double exact = (1.0 - degree) * kMismatchPerUnit * mu * static_cast<double>(cells);
+  auto mismatch = static_cast<std::int32_t>(std::clamp(exact, 1.0, kUnmatched - 1.0));
+  // Rounding must not decide: the degree itself does.
+  while (mismatch > 0 && degree_of(mismatch - 1, cells, mu) <= degree) --mismatch;
+  while (mismatch < kUnmatched && degree_of(mismatch, cells, mu) > degree) ++mismatch;
+  return mismatch;
 }
 
 double above_unseen(std::int32_t mismatch, const LandmarkTemplate& shape) {
@@ -51,7 +55,7 @@ std::vector<CategoryDegree> degrees_by_category(std::span<const TemplateMatch> m
   for (const LandmarkShape& shape : set.shapes) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (set.templates[i].category != shape.category) continue;
+      if (set.templates[i].category != shape.category || matches[i].mismatch == kUnmatched) continue;
       if (!best || fits_better(matches[i], set.templates[i], matches[*best], set.templates[*best])) best = i;
     }
     if (!best) continue;

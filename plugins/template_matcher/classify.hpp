@@ -20,10 +20,17 @@ struct ScoreRule {
 // 1 - mismatch / (cells * mu), at least 0.
 [[nodiscard]] double degree_of(std::int32_t mismatch, std::size_t cells, double mu);
 
+// The smallest mismatch that gives no more than this degree.
+[[nodiscard]] std::int32_t mismatch_ceiling(double degree, std::size_t cells, double mu);
+
 // The degree on a scale where unseen floor has 0 and a perfect match 1; negative below. What unseen
 // floor scores depends on the template (a sensed one has many faint cells), a believable match on this
 // scale does not.
 [[nodiscard]] double above_unseen(std::int32_t mismatch, const LandmarkTemplate& shape);
+
+// By mean mismatch, compared without division, so that equal is equal.
+[[nodiscard]] bool fits_better(const TemplateMatch& a, const LandmarkTemplate& shape_a, const TemplateMatch& b,
+                               const LandmarkTemplate& shape_b);
 
 // Index of the template that fits best; ties go to the first.
 [[nodiscard]] std::size_t best_template(std::span<const TemplateMatch> matches,
@@ -35,7 +42,8 @@ struct ScoreRule {
 [[nodiscard]] bool is_decided(std::size_t best, std::span<const TemplateMatch> matches,
                               std::span<const LandmarkTemplate> templates, const ScoreRule& rule);
 
-// The best degree of every category, in the order of the set, with its place.
+// The best degree of every category, in the order of the set, with its place; without the categories that
+// are unmatched.
 [[nodiscard]] std::vector<CategoryDegree> degrees_by_category(std::span<const TemplateMatch> matches,
                                                               const TemplateSet& set, const OccupancyGrid& grid,
                                                               const ScoreRule& rule);

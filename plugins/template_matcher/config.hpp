@@ -10,6 +10,7 @@ namespace cairn::template_matcher {
 enum class TriggerRule { since_matching, since_update };
 enum class MismatchScale { sobel, literal };
 enum class Search { pruned, exhaustive };
+enum class Degrees { all, above_threshold };
 enum class TemplateRendering { sensed, ideal };
 
 struct Config {
@@ -28,6 +29,7 @@ struct Config {
   MismatchScale mu = MismatchScale::sobel;
   double min_margin = 0.02;
   double min_above_unseen = 0.34;
+  Degrees degrees = Degrees::all;
   Search search = Search::pruned;
 
   static void describe(Fields<Config>& fields);

@@ -7,22 +7,22 @@ GradientField::GradientField(const OccupancyGrid& grid, const CellBox& box) : bo
   const auto stride = static_cast<std::size_t>(read.width());
   std::vector<std::uint8_t> ol(stride * static_cast<std::size_t>(read.height()));
   grid.copy_ol(read, ol);
-  const std::size_t size = static_cast<std::size_t>(box.width() + kPadding) * static_cast<std::size_t>(box.height());
-  x_.assign(size, 0.0F);
-  y_.assign(size, 0.0F);
+  const std::size_t size = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()) + kPadding;
+  x_.assign(size, 0);
+  y_.assign(size, 0);
   for (int row = 0; row < box.height(); ++row) {
-    const std::uint8_t* below = ol.data() + static_cast<std::size_t>(row) * stride;
-    const std::uint8_t* level = below + stride;
-    const std::uint8_t* above = level + stride;
-    float* x = x_.data() + index_of({box.min.x, box.min.y + row});
-    float* y = y_.data() + index_of({box.min.x, box.min.y + row});
+    const std::uint8_t* __restrict below = ol.data() + static_cast<std::size_t>(row) * stride;
+    const std::uint8_t* __restrict level = below + stride;
+    const std::uint8_t* __restrict above = level + stride;
+    std::int16_t* __restrict x = x_.data() + index_of({box.min.x, box.min.y + row});
+    std::int16_t* __restrict y = y_.data() + index_of({box.min.x, box.min.y + row});
     for (int i = 0; i < box.width(); ++i) {
       const int right = below[i + 2] + 2 * level[i + 2] + above[i + 2];
       const int left = below[i] + 2 * level[i] + above[i];
       const int upper = above[i] + 2 * above[i + 1] + above[i + 2];
       const int lower = below[i] + 2 * below[i + 1] + below[i + 2];
-      x[i] = static_cast<float>(right - left);
-      y[i] = static_cast<float>(upper - lower);
+      x[i] = static_cast<std::int16_t>(right - left);
+      y[i] = static_cast<std::int16_t>(upper - lower);
     }
   }
 }

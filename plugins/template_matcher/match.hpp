@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,10 +23,13 @@ inline constexpr int kMismatchPerUnit = 16;
                                    0.5F);  // NOLINT(bugprone-incorrect-roundings)
 }
 
-// The place where one template fits best: least mismatch, ties to the smaller (y, x).
+inline constexpr std::int32_t kUnmatched = std::numeric_limits<std::int32_t>::max();
+
+// The place where one template fits best: least mismatch, ties to the smaller (y, x). kUnmatched where
+// no place fits well enough for the question asked.
 struct TemplateMatch {
   Cell at;
-  std::int32_t mismatch = 0;
+  std::int32_t mismatch = kUnmatched;
   bool operator==(const TemplateMatch&) const = default;
 };
 
@@ -43,26 +47,5 @@ struct TemplateMatch {
 [[nodiscard]] std::vector<TemplateMatch> match_exhaustively(const GradientField& field,
                                                             std::span<const CellSpan> region,
                                                             std::span<const LandmarkTemplate> templates);
-
-// The same answer to the bit, sooner: a whole row of places is summed at once, and given up as soon
-// as none of its partial sums can beat the template's best so far.
-class PrunedMatcher {
- public:
-  explicit PrunedMatcher(std::span<const LandmarkTemplate> templates);
-  [[nodiscard]] std::vector<TemplateMatch> match(const GradientField& field, std::span<const CellSpan> region) const;
-
- private:
-  struct PreparedCell {
-    Cell offset;
-    float gradient_x;
-    float gradient_y;
-  };
-  using PreparedTemplate = std::vector<PreparedCell>;  // in an order that spreads round the contour
-
-  static void match_span(const GradientField& field, const CellSpan& span, const PreparedTemplate& shape,
-                         std::vector<std::int32_t>& sums, TemplateMatch& best);
-
-  std::vector<PreparedTemplate> templates_;
-};
 
 }  // namespace cairn::template_matcher

@@ -20,16 +20,18 @@ namespace cairn::template_matcher {
 class OrientationNeighbours {
  public:
   explicit OrientationNeighbours(const TemplateSet& set);
+  // The templates turned by one step to either side; the template's own index where there is none.
+  struct Pair {
+    std::size_t before = 0;
+    std::size_t after = 0;
+  };
+  [[nodiscard]] Pair of(std::size_t index) const { return pairs_[index]; }
   // Angle between a template's orientation and the one that its neighbours' mismatches point to;
   // 0 for templates without two neighbours.
   [[nodiscard]] double offset_rad(std::size_t index, std::span<const TemplateMatch> matches,
                                   std::span<const LandmarkTemplate> templates) const;
 
  private:
-  struct Pair {
-    std::size_t before = 0;  // equal to the template's own index where there is none
-    std::size_t after = 0;
-  };
   void join(const TemplateSet& set, std::span<const std::size_t> family);
 
   double step_rad_;

@@ -1,5 +1,6 @@
 #include "plugins/template_matcher/template_matcher.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,23 @@ int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
   return coarse_cells;
 }
 
+// What keeps the class from being believed has at least this degree: see is_decided().
+std::vector<std::int32_t> ceilings_of(const ScoreRule& rule, std::span<const LandmarkTemplate> templates) {
+  const double least = std::max(0.0, rule.tau_match - rule.min_margin);
+  std::vector<std::int32_t> ceilings;
+  for (const LandmarkTemplate& t : templates) ceilings.push_back(mismatch_ceiling(least, t.cells.size(), rule.mu));
+  return ceilings;
+}
+
+// Above this mismatch a template fits worse than the other one does.
+std::int32_t ceiling_beside(const TemplateMatch& other, const LandmarkTemplate& other_shape,
+                            const LandmarkTemplate& shape) {
+  if (other.mismatch == kUnmatched) return kUnmatched;
+  const auto scaled = std::int64_t{other.mismatch} * static_cast<std::int64_t>(shape.cells.size()) /
+                      static_cast<std::int64_t>(other_shape.cells.size());
+  return static_cast<std::int32_t>(std::min<std::int64_t>(scaled + 1, kUnmatched));
+}
+
 }  // namespace
 
 TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const TemplateSet> templates)
@@ -42,6 +60,7 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),
       trigger_(config.trigger, config.tau_trigger, config.tau_var),
       matcher_(templates_->templates),
+      ceilings_(ceilings_of(rule_, templates_->templates)),
       neighbours_(*templates_) {}
 
 DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {
@@ -65,31 +84,58 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   const CellBox box = CellChanges{spans}.box();
   // One cell more than the templates reach, for the places around the best one.
   const GradientField field(grid, box.grown(template_reach_ + 1));
-  const std::vector<TemplateMatch> matches = config_.search == Search::pruned
-                                                 ? matcher_.match(field, spans)
-                                                 : match_exhaustively(field, spans, templates_->templates);
+  const std::vector<TemplateMatch> matches = search(field, spans);
   Matching matching;
   matching.trigger = trigger;
   matching.region_cells = static_cast<int>(region.size()) * coarse_.n() * coarse_.n();
   matching.region_centre_m = 0.5 * (grid.centre_of(box.min) + grid.centre_of(box.max - Cell{1, 1}));
   matching.degrees = degrees_by_category(matches, *templates_, grid, rule_);
+  if (config_.degrees == Degrees::above_threshold) {
+    std::erase_if(matching.degrees, [&](const CategoryDegree& d) { return d.degree <= rule_.tau_match; });
+  }
   matching.detection = detection_of(field, matches, grid);
   return matching;
 }
 
-std::optional<Detection> TemplateMatcher::detection_of(const GradientField& field,
-                                                       std::span<const TemplateMatch> matches,
-                                                       const OccupancyGrid& grid) const {
+std::vector<TemplateMatch> TemplateMatcher::search(const GradientField& field, std::span<const CellSpan> region) {
+  const std::vector<LandmarkTemplate>& templates = templates_->templates;
+  if (config_.search == Search::exhaustive) return match_exhaustively(field, region, templates);
+  matcher_.look_at(field, region);
+  std::vector<TemplateMatch> matches;
+  std::size_t best = 0;  // of the category; one after the other in a set
+  for (std::size_t i = 0; i < templates.size(); ++i) {
+    std::int32_t ceiling = ceilings_[i];
+    if (config_.degrees == Degrees::all) {
+      const bool is_first = i == 0 || templates[i].category != templates[best].category;
+      ceiling = is_first ? kUnmatched : std::max(ceiling, ceiling_beside(matches[best], templates[best], templates[i]));
+      if (is_first) best = i;
+    }
+    matches.push_back(matcher_.best_of(i, ceiling));
+    if (fits_better(matches[i], templates[i], matches[best], templates[best])) best = i;
+  }
+  return matches;
+}
+
+std::optional<Detection> TemplateMatcher::detection_of(const GradientField& field, std::vector<TemplateMatch> matches,
+                                                       const OccupancyGrid& grid) {
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
   const LandmarkTemplate& t = templates[best];
   const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * offset_in_cell(field, t, matches[best].at);
+  const double degree = degree_of(matches[best].mismatch, t.cells.size(), rule_.mu);
+  std::vector<TemplateDegree> above = templates_above(matches, templates, rule_);
+  complete_neighbours(best, matches);
   const double orientation_rad = t.orientation_rad + neighbours_.offset_rad(best, matches, templates);
-  return Detection{t.category,
-                   {at_m.x(), at_m.y(), wrap_angle(orientation_rad)},
-                   degree_of(matches[best].mismatch, t.cells.size(), rule_.mu),
-                   templates_above(matches, templates, rule_)};
+  return Detection{t.category, {at_m.x(), at_m.y(), wrap_angle(orientation_rad)}, degree, std::move(above)};
+}
+
+// The orientation between the steps needs the mismatches of both neighbours, however bad they are.
+void TemplateMatcher::complete_neighbours(std::size_t index, std::vector<TemplateMatch>& matches) {
+  const OrientationNeighbours::Pair pair = neighbours_.of(index);
+  for (const std::size_t i : {pair.before, pair.after}) {
+    if (matches[i].mismatch == kUnmatched) matches[i] = matcher_.best_of(i, kUnmatched);
+  }
 }
 
 }  // namespace cairn::template_matcher

@@ -7,7 +7,7 @@
 #include "framework/contracts/detector.hpp"
 #include "plugins/template_matcher/classify.hpp"
 #include "plugins/template_matcher/config.hpp"
-#include "plugins/template_matcher/match.hpp"
+#include "plugins/template_matcher/fast_match.hpp"
 #include "plugins/template_matcher/refine.hpp"
 #include "plugins/template_matcher/region.hpp"
 #include "plugins/template_matcher/trigger.hpp"
@@ -27,9 +27,12 @@ class TemplateMatcher : public Detector {
 
  private:
   [[nodiscard]] Matching match(const OccupancyGrid& grid, Cell trigger);
-  [[nodiscard]] std::optional<Detection> detection_of(const GradientField& field,
-                                                      std::span<const TemplateMatch> matches,
-                                                      const OccupancyGrid& grid) const;
+  // Of every template that matters the best place: those that may be above tau_match and, when all degrees
+  // are asked for, the best of each category.
+  [[nodiscard]] std::vector<TemplateMatch> search(const GradientField& field, std::span<const CellSpan> region);
+  void complete_neighbours(std::size_t index, std::vector<TemplateMatch>& matches);
+  [[nodiscard]] std::optional<Detection> detection_of(const GradientField& field, std::vector<TemplateMatch> matches,
+                                                      const OccupancyGrid& grid);
 
   Config config_;
   std::shared_ptr<const TemplateSet> templates_;
@@ -38,7 +41,8 @@ class TemplateMatcher : public Detector {
   int template_reach_;
   CoarseGrid coarse_;
   Trigger trigger_;
-  PrunedMatcher matcher_;
+  FastMatcher matcher_;
+  std::vector<std::int32_t> ceilings_;  // one a template: from there on below every threshold
   OrientationNeighbours neighbours_;
   std::vector<Cell> touched_;  // kept for its memory only
 };

@@ -31,6 +31,31 @@ TEST(Degree, FallsFrom1To0WithTheMeanMismatch) {
   EXPECT_DOUBLE_EQ(degree_of(10 * 150 * kMismatchPerUnit, 10, kMu), 0.0);
 }
 
+TEST(MismatchCeiling, IsTheLeastMismatchWithNoMoreThanTheDegree) {
+  for (const double degree : {0.0, 0.1, 0.53, 0.55, 1.0 / 3.0, 0.999999}) {
+    for (const std::size_t cells : {1U, 7U, 118U, 999U}) {
+      const std::int32_t ceiling = mismatch_ceiling(degree, cells, 1140.39);
+      EXPECT_LE(degree_of(ceiling, cells, 1140.39), degree);
+      EXPECT_GT(degree_of(ceiling - 1, cells, 1140.39), degree);
+    }
+  }
+  EXPECT_EQ(mismatch_ceiling(1.0, 10, kMu), 0);
+}
+
+TEST(Classify, LeavesOutCategoriesWithoutAMatch) {
+  TemplateSet set;
+  set.shapes = {{"circle", {}}, {"square", {}}, {"triangle", {}}};
+  set.templates = kTemplates;
+  auto matches = matches_of(0.5, 0.7, 0.8, 0.6);
+  matches[0] = {};
+  matches[2] = {};
+  const auto degrees = degrees_by_category(matches, set, OccupancyGrid(0.05), {kMu, 0.6, 0.0, 0.0});
+  ASSERT_EQ(degrees.size(), 2U);
+  EXPECT_EQ(degrees[0].category, "square");
+  EXPECT_NEAR(degrees[0].degree, 0.7, 1e-3);
+  EXPECT_TRUE(is_decided(1, matches, kTemplates, {kMu, 0.6, 0.0, 0.0}));
+}
+
 TEST(Classify, TakesTheBestTemplateOfAll) {
   const auto matches = matches_of(0.5, 0.7, 0.8, 0.6);
   EXPECT_EQ(best_template(matches, kTemplates), 2U);

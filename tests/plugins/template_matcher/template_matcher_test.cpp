@@ -75,22 +75,81 @@ TEST(TemplateMatcher, ReportsEveryCategoryInEveryMatching) {
   }
 }
 
-TEST(TemplateMatcher, FindsTheSameByEitherSearch) {
-  OccupancyGrid grid(0.05);
-  paint(grid, triangle_shape().contour, {0.013, 0.021, 0.7}, {{-25, -25}, {25, 25}});
-  Config exhaustive = plain();
-  exhaustive.search = Search::exhaustive;
-  const auto a = TemplateMatcher(plain(), paper_templates()).detect(grid, all_of(grid.bounds()), {});
-  const auto b = TemplateMatcher(exhaustive, paper_templates()).detect(grid, all_of(grid.bounds()), {});
-  ASSERT_EQ(a.matchings.size(), b.matchings.size());
-  for (std::size_t i = 0; i < a.matchings.size(); ++i) {
-    EXPECT_EQ(a.matchings[i].trigger, b.matchings[i].trigger);
-    ASSERT_EQ(a.matchings[i].detection.has_value(), b.matchings[i].detection.has_value());
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(a.matchings[i].degrees[k].degree, b.matchings[i].degrees[k].degree);
-      EXPECT_EQ(a.matchings[i].degrees[k].at_m, b.matchings[i].degrees[k].at_m);
+void expect_same_detection(const Matching& a, const Matching& b) {
+  ASSERT_EQ(a.detection.has_value(), b.detection.has_value());
+  if (!a.detection) return;
+  EXPECT_EQ(a.detection->category, b.detection->category);
+  EXPECT_EQ(a.detection->degree, b.detection->degree);
+  EXPECT_EQ(a.detection->T_map_landmark.x_m, b.detection->T_map_landmark.x_m);
+  EXPECT_EQ(a.detection->T_map_landmark.y_m, b.detection->T_map_landmark.y_m);
+  EXPECT_EQ(a.detection->T_map_landmark.theta_rad, b.detection->T_map_landmark.theta_rad);
+  ASSERT_EQ(a.detection->templates.size(), b.detection->templates.size());
+  for (std::size_t i = 0; i < a.detection->templates.size(); ++i) {
+    EXPECT_EQ(a.detection->templates[i].category, b.detection->templates[i].category);
+    EXPECT_EQ(a.detection->templates[i].orientation_rad, b.detection->templates[i].orientation_rad);
+    EXPECT_EQ(a.detection->templates[i].degree, b.detection->templates[i].degree);
+  }
+}
+
+TEST(TemplateMatcher, FindsTheSameLandmarksByEitherSearchAndWithEitherDegrees) {
+  int detections = 0;
+  for (const LandmarkShape& shape : paper_set().shapes) {
+    for (const double margin : {0.0, 0.1}) {
+      OccupancyGrid grid(0.05);
+      paint(grid, shape.contour, {0.013, 0.021, 0.7}, {{-25, -25}, {25, 25}});
+      std::vector<DetectionReport> reports;
+      for (const Search search : {Search::exhaustive, Search::pruned}) {
+        for (const Degrees degrees : {Degrees::all, Degrees::above_threshold}) {
+          Config config = plain();
+          config.search = search;
+          config.degrees = degrees;
+          config.min_margin = margin;
+          reports.push_back(TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {}));
+        }
+      }
+      for (const DetectionReport& report : reports) {
+        ASSERT_EQ(report.matchings.size(), reports[0].matchings.size());
+        for (std::size_t i = 0; i < report.matchings.size(); ++i) {
+          EXPECT_EQ(report.matchings[i].trigger, reports[0].matchings[i].trigger);
+          expect_same_detection(report.matchings[i], reports[0].matchings[i]);
+          detections += report.matchings[i].detection ? 1 : 0;
+        }
+      }
+      for (std::size_t i = 0; i < reports[0].matchings.size(); ++i) {
+        const auto& expected = reports[0].matchings[i].degrees;
+        const auto& found = reports[2].matchings[i].degrees;
+        ASSERT_EQ(found.size(), 3U);
+        for (std::size_t k = 0; k < 3; ++k) {
+          EXPECT_EQ(found[k].degree, expected[k].degree);
+          EXPECT_EQ(found[k].at_m, expected[k].at_m);
+        }
+      }
     }
   }
+  EXPECT_GE(detections, 12);
+}
+
+TEST(TemplateMatcher, ReportsOnlyDegreesAboveTauMatchWhenAskedTo) {
+  OccupancyGrid grid(0.05);
+  paint(grid, square_shape().contour, {}, {{-25, -25}, {25, 25}});
+  Config config = plain();
+  const auto all = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  config.degrees = Degrees::above_threshold;
+  const auto above = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  ASSERT_EQ(above.matchings.size(), all.matchings.size());
+  std::size_t left_out = 0;
+  for (std::size_t i = 0; i < all.matchings.size(); ++i) {
+    std::vector<CategoryDegree> expected = all.matchings[i].degrees;
+    std::erase_if(expected, [&](const CategoryDegree& d) { return d.degree <= config.tau_match; });
+    ASSERT_EQ(above.matchings[i].degrees.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_EQ(above.matchings[i].degrees[k].category, expected[k].category);
+      EXPECT_EQ(above.matchings[i].degrees[k].degree, expected[k].degree);
+      EXPECT_EQ(above.matchings[i].degrees[k].orientation_rad, expected[k].orientation_rad);
+    }
+    left_out += 3 - expected.size();
+  }
+  EXPECT_GT(left_out, 0U);
 }
 
 TEST(TemplateMatcher, MatchesNothingOnAnEmptyGrid) {
