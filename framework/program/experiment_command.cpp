@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <limits>
 
 #include "framework/host/experiment_report.hpp"
 #include "framework/program/commands.hpp"
@@ -17,6 +18,8 @@ Chart chart_of(const ExperimentConfig& config, const std::vector<ExperimentRow>&
   Chart chart;
   chart.title = measure.name + ", mean and 95 % interval";
   chart.y_label = measure.name;
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
   const auto variants = static_cast<double>(config.variants.size());
   for (std::size_t v = 0; v < config.variants.size(); ++v) {
     Series series{config.variants[v].name, {}, SeriesStyle::points, {}};
@@ -32,8 +35,13 @@ Chart chart_of(const ExperimentConfig& config, const std::vector<ExperimentRow>&
       series.half_widths.push_back(estimate.half_width);
       chart.x_names.push_back(mission);
     }
+    for (const Point& p : series.points) {
+      least = std::min(least, p.y());
+      most = std::max(most, p.y());
+    }
     chart.series.push_back(std::move(series));
   }
+  chart.log_y = least > 0.0 && most > 10.0 * least;
   return chart;
 }
 

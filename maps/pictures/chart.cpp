@@ -21,6 +21,9 @@ namespace {
 // The colours of the categories on the map pictures, in the same order.
 constexpr std::array kColours{"#d33c4b", "#1976d2", "#388e3c", "#8e44ad", "#e69100", "#00838f", "#8d5a3c", "#c21882"};
 
+// Filled disc, square, triangle, diamond: where the colours begin again.
+constexpr std::array kMarks{7, 5, 9, 13};
+
 constexpr const char* kHead =
     "set terminal pngcairo size 1000,560 enhanced font 'DejaVu Sans,11' background '#fafaf8'\n"
     "set encoding utf8\n"
@@ -81,7 +84,8 @@ std::string plot_of(const Chart& chart) {
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const bool bars = !chart.series[i].half_widths.empty();
     plot += "$data" + std::to_string(i) +
-            (bars ? " using 1:2:3 with yerrorbars pointtype 7 pointsize 0.8 linewidth 1.5"
+            (bars ? " using 1:2:3 with yerrorbars pointsize 0.9 linewidth 1.5 pointtype " +
+                        std::to_string(kMarks[i / kColours.size() % kMarks.size()])
                   : std::string(" using 1:2 with ") + style_of(chart.series[i].style)) +
             " linecolor '" + kColours[i % kColours.size()] + "' title " + quoted(chart.series[i].name) + ", ";
   }

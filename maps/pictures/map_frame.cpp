@@ -93,7 +93,9 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
                  {kFrame, 1.0});
   draw_ticks(canvas, frame, true);
   draw_ticks(canvas, frame, false);
-  canvas.text({box.max.x(), box.min.y() - 11.0}, "x, y in metres", {kFaintInk, 11.0, Align::right});
+  constexpr double kBesideSubtitlePx = 480.0;  // a narrower map has no room for both
+  if (box.max.x() - box.min.x() > kBesideSubtitlePx)
+    canvas.text({box.max.x(), box.min.y() - 11.0}, "x, y in metres", {kFaintInk, 11.0, Align::right});
 }
 
 void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle) {

@@ -27,7 +27,7 @@ struct Config : sonar_model::BeamModel {
   int log_readings = 3;
   double log_fall = 0.5;
 
-  Config() { false_echo_per_m = 1.5; }
+  Config() { false_echo_per_m = 2.0; }
   static void describe(Fields<Config>& fields);
 };
 
