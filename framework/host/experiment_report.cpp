@@ -44,6 +44,7 @@ std::string missions_table(const ExperimentConfig& config, const std::vector<Exp
 
 std::vector<double> values_of(const std::vector<const ExperimentRow*>& rows, const RunMeasure& measure) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const ExperimentRow* row : rows) values.push_back(measure.of(*row));
   return values;
 }
