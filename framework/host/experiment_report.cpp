@@ -42,43 +42,36 @@ std::string missions_table(const ExperimentConfig& config, const std::vector<Exp
                     good_rows(rows), rows.size(), config.tolerance_m);
 }
 
-std::vector<double> values_of(const std::vector<const ExperimentRow*>& rows, const RunMeasure& measure) {
-  std::vector<double> values;
-  values.reserve(rows.size());
-  for (const ExperimentRow* row : rows) values.push_back(measure.of(*row));
-  return values;
-}
-
 // Seed by seed, so that what makes a seed hard for every variant falls out.
 Estimate difference(const std::vector<const ExperimentRow*>& rows, const std::vector<const ExperimentRow*>& baseline,
                     const RunMeasure& measure) {
-  std::vector<double> values = values_of(rows, measure);
-  const std::vector<double> from = values_of(baseline, measure);
-  if (values.size() != from.size()) return {};
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= from[i];
-  return estimate_of(values);
+  std::vector<double> differences;
+  for (const ExperimentRow* row : rows)
+    for (const ExperimentRow* from : baseline)
+      if (row->seed == from->seed && measure.is_known(*row) && measure.is_known(*from))
+        differences.push_back(measure.of(*row) - measure.of(*from));
+  return estimate_of(differences);
 }
 
 std::string cell_text(const Estimate& estimate) {
   return fmt::format(" {:.4f} ± {:.4f} |", estimate.mean, estimate.half_width);
 }
 
-bool has_truth(const std::vector<const ExperimentRow*>& rows) {
-  return std::all_of(rows.begin(), rows.end(), [](const ExperimentRow* row) { return row->quality.has_value(); });
-}
-
-std::vector<RunMeasure> measures_for(const ExperimentConfig& config, const std::vector<const ExperimentRow*>& rows) {
+// What can be said of a mission: of some run at least.
+std::vector<RunMeasure> measures_for(const std::vector<ExperimentRow>& rows, const std::string& mission) {
   std::vector<RunMeasure> measures;
   for (const RunMeasure& measure : map_measures())
-    if (measure.needs_truth ? has_truth(rows) : config.withhold_every > 0) measures.push_back(measure);
+    if (std::any_of(rows.begin(), rows.end(),
+                    [&](const ExperimentRow& row) { return row.mission == mission && measure.is_known(row); }))
+      measures.push_back(measure);
   return measures;
 }
 
 std::string map_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
                       const std::string& mission) {
-  const auto first = rows_of(rows, mission, config.variants.front().name);
-  const std::vector<RunMeasure> measures = measures_for(config, first);
-  if (measures.empty()) return "Nothing to measure: no true world, and no reading withheld.\n";
+  const std::vector<RunMeasure> measures = measures_for(rows, mission);
+  if (measures.empty())
+    return "Nothing to measure: no true world and no reading withheld, or no run that ended well.\n";
   const bool compared = !config.baseline.empty();
   std::string head = "| variant |";
   std::string rule = "|---|";
@@ -95,7 +88,7 @@ std::string map_table(const ExperimentConfig& config, const std::vector<Experime
   for (const ExperimentVariant& variant : config.variants) {
     const auto of_variant = rows_of(rows, mission, variant.name);
     text += "| " + variant.name + " |";
-    for (const RunMeasure& measure : measures) text += cell_text(estimate_of(values_of(of_variant, measure)));
+    for (const RunMeasure& measure : measures) text += cell_text(estimate_of(known_values(of_variant, measure)));
     if (compared) text += cell_text(difference(of_variant, baseline, measures.front()));
     text += "\n";
   }
@@ -106,7 +99,12 @@ std::string maps_table(const ExperimentConfig& config, const std::vector<Experim
   std::string text;
   for (const std::string& mission : missions_of(rows)) {
     const std::size_t runs = rows_of(rows, mission, config.variants.front().name).size();
-    text += fmt::format("## {}\n\n{} {}; mean and 95 % interval.\n\n", mission, runs, runs == 1 ? "run" : "runs");
+    const auto left_out = std::count_if(rows.begin(), rows.end(), [&](const ExperimentRow& row) {
+      return row.mission == mission && row.result.outcome != MissionOutcome::done;
+    });
+    text += fmt::format("## {}\n\n{} {} of each variant; mean and 95 % interval.{}\n\n", mission, runs,
+                        runs == 1 ? "run" : "runs",
+                        left_out == 0 ? "" : fmt::format(" {} that did not end well left out.", left_out));
     text += map_table(config, rows, mission) + "\n";
   }
   return text;
@@ -129,12 +127,24 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
                        {"good", row.is_good()}};
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
-    if (!measure.needs_truth || row.quality) json[measure.name] = measure.of(row);
+    if (measure.is_known(row)) json[measure.name] = measure.of(row);
   json["withheld"] = row.withheld;
   return json;
 }
 
 }  // namespace
+
+bool RunMeasure::is_known(const ExperimentRow& row) const {
+  return row.result.outcome == MissionOutcome::done && (needs_truth ? row.quality.has_value() : row.withheld > 0);
+}
+
+std::vector<double> known_values(const std::vector<const ExperimentRow*>& rows, const RunMeasure& measure) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const ExperimentRow* row : rows)
+    if (measure.is_known(*row)) values.push_back(measure.of(*row));
+  return values;
+}
 
 Estimate estimate_of(const std::vector<double>& values) {
   if (values.empty()) return {};

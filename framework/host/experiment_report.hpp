@@ -20,8 +20,14 @@ struct RunMeasure {
   std::string name;
   double (*of)(const ExperimentRow& row);
   bool needs_truth = true;
+
+  // Only of a run that ended well: half a drive makes half a map.
+  [[nodiscard]] bool is_known(const ExperimentRow& row) const;
 };
 [[nodiscard]] const std::vector<RunMeasure>& map_measures();
+
+[[nodiscard]] std::vector<double> known_values(const std::vector<const ExperimentRow*>& rows,
+                                               const RunMeasure& measure);
 
 // Rows of one mission in one variant, in the order of seeds.
 [[nodiscard]] std::vector<const ExperimentRow*> rows_of(const std::vector<ExperimentRow>& rows,

@@ -61,7 +61,12 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   runner.subscribe(report);
   runner.subscribe(path);
   runner.subscribe(withheld);
-  ExperimentRow row{job.mission.stem(), job.variant.name, job.seed, runner.run(), {}, 0.0, {}, 0, 0.0, 0.0};
+  const MissionResult result = runner.run();
+  ExperimentRow row{job.mission.stem(), job.variant.name, job.seed, result, {}, 0.0, {}, 0, 0.0, 0.0, runner.gave_up()};
+  for (const std::string& fault : runner.listener_faults()) {
+    row.result.outcome = MissionOutcome::module_fault;  // what was measured is not of the whole run
+    row.result.reason += "; a listener failed: " + fault;
+  }
   std::ofstream(job.out / "report.json") << report.report_json(mission, row.result, runner.graph(), {});
   if (mission.world) row.score = score_against(*mission.world, runner.graph(), config.tolerance_m);
   for (const LandmarkTruth& matched : row.score.matched)
@@ -120,7 +125,17 @@ ExperimentConfig load_experiment(const std::filesystem::path& file) {
     if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
       throw ConfigError(root.find("variants")->place,
                         "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
+    if (std::find(names.begin(), names.end(), variant.name) != names.end())
+      throw ConfigError(root.find("variants")->place, "two variants are called \"" + variant.name + "\"");
     names.push_back(variant.name);
+  }
+  std::vector<std::string> stems;
+  for (const std::filesystem::path& mission : config.missions) {
+    if (std::find(stems.begin(), stems.end(), mission.stem()) != stems.end())
+      throw ConfigError(root.find("missions")->place, "two missions have the file name \"" + mission.stem().string() +
+                                                          "\"; tables and folders are "
+                                                          "named by it");
+    stems.push_back(mission.stem());
   }
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
     throw ConfigError(root.find("baseline")->place,
@@ -147,12 +162,14 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
         rows[i] = run_job(config, library, cancel, jobs[i]);
       } catch (...) {
         errors[i] = std::current_exception();
+        next = jobs.size();
       }
     }
   };
   {
     std::vector<std::jthread> workers;
-    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, jobs.size());
+    const std::size_t threads =
+        std::min<std::size_t>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U), jobs.size());
     for (std::size_t i = 0; i < threads; ++i) workers.emplace_back(work);
   }
   for (const std::exception_ptr& error : errors)

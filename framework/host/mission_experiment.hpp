@@ -55,6 +55,7 @@ struct ExperimentRow {
   std::int64_t withheld = 0;
   double withheld_log_likelihood = 0.0;  // mean, nat
   double wall_s = 0.0;
+  bool gave_up = false;  // a module was left behind: see MissionRunner::gave_up()
 
   // All landmarks of the world found within the tolerance, none besides, nothing bumped into.
   [[nodiscard]] bool is_good() const;
@@ -63,9 +64,10 @@ struct ExperimentRow {
 // Throws ConfigError.
 [[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file);
 
-// Runs everything, two at a time where the machine has two cores; rows come by mission, variant and seed.
-// A recorded log is the same in each run: it is run on as many seeds as withhold other readings. Each run
-// writes its map and report into a folder of its own under out. Throws ConfigError or ModuleFault.
+// Runs everything, as many at a time as the machine has cores, but at most eight; rows come by mission, variant and
+// seed. A recorded log is the same in each run: it is run on as many seeds as withhold other readings. Each run writes
+// its map and report into a folder of its own under out. Throws ConfigError or ModuleFault; the first fault stops the
+// runs that have not begun.
 [[nodiscard]] std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
                                                         const std::filesystem::path& out,
                                                         const std::atomic<bool>& cancel);

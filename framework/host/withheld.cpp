@@ -61,7 +61,7 @@ double log_likelihood(const OccupancyGrid& grid, const Pose2& T_map_sensor, cons
     density_per_m += silent * answers_here * normal_density(reading.range_m - range_m, 0.01 + 0.015 * range_m);
     silent *= 1.0 - answers_here;
   }
-  if (std::isinf(reading.range_m)) return std::log((1.0 - kAnythingRatio) * silent + kAnythingRatio / 2.0);
+  if (reading.range_m >= reading.max_m) return std::log((1.0 - kAnythingRatio) * silent + kAnythingRatio / 2.0);
   return std::log((1.0 - kAnythingRatio) * density_per_m + kAnythingRatio / (2.0 * reading.max_m));
 }
 
@@ -69,9 +69,8 @@ void WithheldReadings::on(const Event& event, const MissionView& view) {
   if (!std::holds_alternative<TickDone>(event) || view.world.observation == nullptr) return;
   for (const RangeReading& reading : view.world.observation->ranges) {
     if (!withholding_.next()) continue;
-    const double range_m = reading.range_m;
-    const bool no_echo = std::isinf(range_m) && range_m > 0.0;
-    if (!no_echo && !(range_m >= reading.min_m && range_m <= reading.max_m)) continue;
+    const bool measures = std::isfinite(reading.max_m) && reading.max_m > 0.0 && reading.half_beam_rad >= 0.0;
+    if (!measures || !(reading.range_m >= reading.min_m)) continue;
     readings_.push_back({view.world.pose.T_map_robot * reading.T_robot_sensor, reading});
   }
 }

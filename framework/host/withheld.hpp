@@ -22,7 +22,8 @@ class Withholding {
   std::int64_t count_;
 };
 
-// Collects what a mission withholds. Readings that say nothing (NaN, nearer than min_m) are left out.
+// Collects what a mission withholds. Readings that say nothing (NaN, nearer than min_m) are left out; as
+// for every map, a range of max_m or more is no echo.
 class WithheldReadings : public Listener {
  public:
   WithheldReadings(int every, std::int64_t seed) : withholding_(every, seed) {}

@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cstdlib>
 #include <iostream>
 #include <limits>
 
 #include "framework/host/experiment_report.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/interrupt.hpp"
+#include "framework/program/output_files.hpp"
 #include "maps/pictures/chart.hpp"
 
 namespace cairn {
@@ -18,26 +19,21 @@ Chart chart_of(const ExperimentConfig& config, const std::vector<ExperimentRow>&
   Chart chart;
   chart.title = measure.name + ", mean and 95 % interval";
   chart.y_label = measure.name;
+  chart.x_names = missions_of(rows);
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
   const auto variants = static_cast<double>(config.variants.size());
   for (std::size_t v = 0; v < config.variants.size(); ++v) {
     Series series{config.variants[v].name, {}, SeriesStyle::points, {}};
     const double beside = 0.7 * ((static_cast<double>(v) + 0.5) / variants - 0.5);
-    chart.x_names.clear();
-    for (const std::string& mission : missions_of(rows)) {
-      std::vector<double> values;
-      for (const ExperimentRow* row : rows_of(rows, mission, series.name))
-        if (!measure.needs_truth || row->quality) values.push_back(measure.of(*row));
+    for (std::size_t m = 0; m < chart.x_names.size(); ++m) {
+      const std::vector<double> values = known_values(rows_of(rows, chart.x_names[m], series.name), measure);
       if (values.empty()) continue;
       const Estimate estimate = estimate_of(values);
-      series.points.emplace_back(static_cast<double>(chart.x_names.size()) + beside, estimate.mean);
+      series.points.emplace_back(static_cast<double>(m) + beside, estimate.mean);
       series.half_widths.push_back(estimate.half_width);
-      chart.x_names.push_back(mission);
-    }
-    for (const Point& p : series.points) {
-      least = std::min(least, p.y());
-      most = std::max(most, p.y());
+      least = std::min(least, estimate.mean);
+      most = std::max(most, estimate.mean);
     }
     chart.series.push_back(std::move(series));
   }
@@ -55,10 +51,25 @@ void write_charts(const ExperimentConfig& config, const std::vector<ExperimentRo
                   const std::filesystem::path& out) {
   for (const RunMeasure& measure : map_measures()) {
     const Chart chart = chart_of(config, rows, measure);
-    if (chart.x_names.empty() || (!measure.needs_truth && config.withhold_every == 0)) continue;
+    if (std::all_of(chart.series.begin(), chart.series.end(), [](const Series& s) { return s.points.empty(); }))
+      continue;
     const ChartOutcome outcome = write_chart(out / file_name_of(measure.name), chart);
     if (!outcome.drawn) std::cerr << "cairn: " << outcome.reason << "\n";
   }
+}
+
+// Done when every run was, and of missions when enough of them were good.
+int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  const auto count = [&](auto is_so) { return std::count_if(rows.begin(), rows.end(), is_so); };
+  const auto runs = static_cast<double>(rows.size());
+  const bool cancelled =
+      count([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::cancelled; }) > 0;
+  const auto done = count([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::done; });
+  const auto good = count([](const ExperimentRow& row) { return row.is_good(); });
+  const bool enough = config.experiment == ExperimentKind::maps
+                          ? static_cast<double>(done) == runs
+                          : static_cast<double>(good) >= config.at_least_ratio * runs;
+  return enough && !cancelled ? kExitDone : kExitNotSolved;
 }
 
 }  // namespace
@@ -66,12 +77,12 @@ void write_charts(const ExperimentConfig& config, const std::vector<ExperimentRo
 int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   const ExperimentConfig config = load_experiment(command.file);
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
-  std::filesystem::create_directories(command.out);
+  make_folder(command.out);
   const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel_on_interrupt());
   const std::string table = table_of(config, rows);
   const std::string json = json_of(config, rows);
-  std::ofstream(command.out / "table.md") << table;
-  std::ofstream(command.out / "table.json") << json << "\n";
+  write_file(command.out / "table.md", table);
+  write_file(command.out / "table.json", json + "\n");
   if (config.experiment == ExperimentKind::maps) write_charts(config, rows, command.out);
   if (common.json) std::cout << json << "\n";
   std::ostream& people = common.json ? std::cerr : std::cout;
@@ -80,15 +91,14 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
     speed += row.result.time_s / std::max(row.wall_s, 1e-9) / static_cast<double>(rows.size());
   people << table
          << fmt::format("Mean speed {:.0f} times real time. Table: {}\n", speed, (command.out / "table.md").string());
-  const auto share = [&](auto is_well) {
-    return static_cast<double>(std::count_if(rows.begin(), rows.end(), is_well)) / static_cast<double>(rows.size());
-  };
-  if (config.experiment == ExperimentKind::maps)
-    return share([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::done; }) == 1.0
-               ? kExitDone
-               : kExitNotSolved;
-  return share([](const ExperimentRow& row) { return row.is_good(); }) >= config.at_least_ratio ? kExitDone
-                                                                                                : kExitNotSolved;
+  const int status = exit_status_of(config, rows);
+  if (std::any_of(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.gave_up; })) {
+    // A lost call still runs: nothing that it may use can be torn down.
+    std::cout.flush();
+    std::cerr.flush();
+    std::_Exit(status);
+  }
+  return status;
 }
 
 }  // namespace cairn

@@ -13,23 +13,12 @@
 #include "framework/host/run_report.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/interrupt.hpp"
+#include "framework/program/output_files.hpp"
 #include "framework/program/progress_line.hpp"
 #include "framework/program/run_pictures.hpp"
 
 namespace cairn {
 namespace {
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": the output folder cannot be made: " + error.message());
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
 
 void finish(RunRecording& recording) {
   try {

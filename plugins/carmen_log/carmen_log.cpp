@@ -39,7 +39,8 @@ class Reader {
   Params params_;
   std::optional<Pose2> T_log_robot_;  // of the last line that has one
   std::optional<Pose2> truth_;
-  int next_sensor_ = 0;  // transducers are numbered in the order of their sources
+  std::array<std::optional<Pose2>, 2> T_robot_said_;  // front and rear laser
+  int next_sensor_ = 0;                               // transducers are numbered in the order of their sources
   std::vector<double> ranges_m_;
 };
 
@@ -87,9 +88,9 @@ void Reader::read_line(const LogLine& line) {
   if (kind == "PARAM") return read_param(line);
   if (kind == "ODOM") {
     recording_.read_odometry(line);
-    T_log_robot_ = Pose2{line.metres(1, "x"), line.metres(2, "y"), wrap_angle(line.finite(3, "heading"))};
+    T_log_robot_ = line.pose(1);
   } else if (kind == "TRUEPOS") {
-    truth_ = Pose2{line.metres(1, "x"), line.metres(2, "y"), line.finite(3, "heading")};
+    truth_ = Pose2{line.metres(1, "x"), line.metres(2, "y"), line.heading(3)};
     recording_.read_truth(*truth_);
   } else if (kind == "FLASER" || kind == "RLASER") {
     read_laser(line, read_flaser(line), kind == "RLASER");
@@ -111,7 +112,11 @@ void Reader::read_param(const LogLine& line) {
 
 void Reader::read_laser(const LogLine& line, const LaserLine& laser, bool rear) {
   const log_common::LaserConfig& config = rear ? config_.rear_laser : config_.laser;
-  const log_common::Fan fan = fan_of(laser, config, params_, rear);
+  // A laser does not move on its robot: the first line says where it sits, before the poses of a log that
+  // is corrected in part have drifted apart.
+  std::optional<Pose2>& said = T_robot_said_[rear ? 1 : 0];
+  if (!said) said = said_place(laser, params_, rear);
+  const log_common::Fan fan = fan_of(laser, config.placed(*said), config, params_, rear);
   T_log_robot_ = config_.poses == Poses::log ? laser.T_log_laser * inverse(fan.T_robot_laser) : laser.T_odom_robot;
   if (!wants(line.word(0))) return;
   const std::string key = std::string(line.word(0)) + " " + log_common::key_of(fan, laser.ranges);
@@ -151,7 +156,7 @@ std::vector<RangeReading> Reader::sonars_of(const LogLine& line, std::size_t cou
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = 3 + count + 3 * i;
     RangeReading& sonar = sonars[i];
-    sonar.T_robot_sensor = {line.metres(at, "x"), line.metres(at + 1, "y"), wrap_angle(line.finite(at + 2, "heading"))};
+    sonar.T_robot_sensor = line.pose(at);
     sonar.half_beam_rad = config_.sonar.half_beam_rad.value_or(0.5 * cone_rad);
     sonar.min_m = config_.sonar.min_m;
     sonar.max_m = config_.sonar.max_m;

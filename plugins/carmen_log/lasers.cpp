@@ -9,10 +9,6 @@ namespace {
 
 using log_common::LogLine;
 
-Pose2 pose_at(const LogLine& line, std::size_t i) {
-  return {line.metres(i, "x"), line.metres(i + 1, "y"), wrap_angle(line.finite(i + 2, "heading"))};
-}
-
 [[noreturn]] void refuse_count(const LogLine& line, std::size_t at, std::size_t n, std::size_t rest) {
   throw ConfigError(line.place(at), std::to_string(n) + " ranges, says the line, but " +
                                         std::to_string(line.size() - std::min(line.size(), at + 1)) +
@@ -26,19 +22,10 @@ double param(const Params& params, std::string_view name, double otherwise) {
   return value;
 }
 
+constexpr double kFarthestMount_m = 10.0;  // no laser sits further from its robot's centre
+
 double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
-}
-
-Pose2 place_of_laser(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
-  if (line.says_fan && !config.x_m && !config.angle_rad) {
-    const Pose2 exact = inverse(line.T_odom_robot) * line.T_log_laser;
-    return {rounded(exact.x_m), rounded(exact.y_m), rounded(exact.theta_rad)};
-  }
-  const double offset_m = param(params, rear ? "robot_rearlaser_offset" : "robot_frontlaser_offset", 0.0);
-  const double in_range_m = std::abs(offset_m) <= 10.0 ? offset_m : 0.0;
-  return {config.x_m.value_or(in_range_m), config.y_m,
-          wrap_angle(config.angle_rad.value_or(rear ? std::numbers::pi : 0.0))};
 }
 
 double max_of_laser(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
@@ -59,8 +46,8 @@ LaserLine read_flaser(const LogLine& line) {
   laser.first_range = 2;
   const std::size_t behind = laser.first_range + laser.ranges;
   if (line.size() != behind + kBehind) refuse_count(line, 1, laser.ranges, kBehind);
-  laser.T_log_laser = pose_at(line, behind);
-  laser.T_odom_robot = pose_at(line, behind + 3);
+  laser.T_log_laser = line.pose(behind);
+  laser.T_odom_robot = line.pose(behind + 3);
   laser.stamp_s = line.finite(behind + 6, "time");
   return laser;
 }
@@ -83,8 +70,8 @@ LaserLine read_robotlaser(const LogLine& line) {
       refuse_count(line, 8, laser.ranges, 1 + remissions + kBehindNew);
     behind += 1 + remissions;
   }
-  laser.T_log_laser = pose_at(line, behind);
-  laser.T_odom_robot = pose_at(line, behind + 3);
+  laser.T_log_laser = line.pose(behind);
+  laser.T_odom_robot = line.pose(behind + 3);
   laser.stamp_s = line.finite(line.size() - 3, "time");
   if (std::abs(laser.first_angle_rad) > 2.0 * std::numbers::pi || std::abs(laser.step_rad) > std::numbers::pi)
     throw ConfigError(line.place(2), "angles of beams are radians, a turn at most");
@@ -92,9 +79,20 @@ LaserLine read_robotlaser(const LogLine& line) {
   return laser;
 }
 
-log_common::Fan fan_of(const LaserLine& line, const log_common::LaserConfig& config, const Params& params, bool rear) {
+Pose2 said_place(const LaserLine& line, const Params& params, bool rear) {
+  if (line.says_fan) {
+    const Pose2 exact = inverse(line.T_odom_robot) * line.T_log_laser;
+    if (exact.position().norm() <= kFarthestMount_m)
+      return {rounded(exact.x_m), rounded(exact.y_m), rounded(exact.theta_rad)};
+  }
+  const double offset_m = param(params, rear ? "robot_rearlaser_offset" : "robot_frontlaser_offset", 0.0);
+  return {std::abs(offset_m) <= kFarthestMount_m ? offset_m : 0.0, 0.0, rear ? std::numbers::pi : 0.0};
+}
+
+log_common::Fan fan_of(const LaserLine& line, const Pose2& T_robot_laser, const log_common::LaserConfig& config,
+                       const Params& params, bool rear) {
   log_common::Fan fan;
-  fan.T_robot_laser = place_of_laser(line, config, params, rear);
+  fan.T_robot_laser = T_robot_laser;
   fan.max_m = max_of_laser(line, config, params, rear);
   if (line.says_fan) fan.first_angle_rad = line.first_angle_rad;
   fan.step_rad = line.says_fan ? line.step_rad : log_common::usual_step(line.ranges);

@@ -33,9 +33,12 @@ struct LaserLine {
 // ROBOTLASER1 and 2, with remissions and turn axis, or without both.
 [[nodiscard]] LaserLine read_robotlaser(const log_common::LogLine& line);
 
-// Where the laser of a line sits on the robot (the settings, then the line itself, ROBOTLASER's to
-// 0.1 mm since both its poses are rounded, then PARAM), its beams and its longest range.
-[[nodiscard]] log_common::Fan fan_of(const LaserLine& line, const log_common::LaserConfig& config, const Params& params,
-                                     bool rear);
+// Where the log says that the laser sits on the robot: the line itself (ROBOTLASER's, to 0.1 mm since
+// both its poses are rounded), else PARAM.
+[[nodiscard]] Pose2 said_place(const LaserLine& line, const Params& params, bool rear);
+
+// The beams of a line and their longest range: the settings, then the line itself, then PARAM.
+[[nodiscard]] log_common::Fan fan_of(const LaserLine& line, const Pose2& T_robot_laser,
+                                     const log_common::LaserConfig& config, const Params& params, bool rear);
 
 }  // namespace cairn::carmen_log

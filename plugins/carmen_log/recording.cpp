@@ -68,7 +68,7 @@ void Recording::read_param(const LogLine& line) {
 
 void Recording::read_odometry(const LogLine& line) {
   // As it stands: wrapped, an angle might come out another.
-  T_odom_robot_ = {line.metres(1, "x"), line.metres(2, "y"), line.finite(3, "heading")};
+  T_odom_robot_ = {line.metres(1, "x"), line.metres(2, "y"), line.heading(3)};
 }
 
 void Recording::begin_observation(const LogLine& line) {

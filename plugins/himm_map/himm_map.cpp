@@ -57,7 +57,8 @@ int HimmMap::certainty(Cell cell) const {
 void HimmMap::set_certainty(Cell cell, int certainty) {
   const int kept = std::clamp(certainty, 0, config_.certainty_max);
   const LogOdds value = log_odds_of_certainty_[static_cast<std::size_t>(kept)];
-  if (grid_.log_odds(cell) == value) return;
+  // A cell in the middle of the scale looks as one that was never seen, but is not.
+  if (grid_.log_odds(cell) == value && this->certainty(cell) == kept) return;
   grid_.set_log_odds(cell, value);
   certainties_.at(sonar_model::tile_holding(cell))[sonar_model::place_in_tile(cell)] = static_cast<std::uint8_t>(kept);
   changes_.spans.push_back({cell.y, cell.x, cell.x + 1});

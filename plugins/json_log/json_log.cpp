@@ -90,7 +90,7 @@ void Reader::read_scan(double stamp_s, const json& scan) {
   const Pose2 T_log_laser{number_in(member(scan, "x"), "x"), number_in(member(scan, "y"), "y"),
                           wrap_angle(number_in(member(scan, "theta"), "theta"))};
   log_common::Fan fan;
-  fan.T_robot_laser = {config_.laser.x_m.value_or(0.0), config_.laser.y_m, config_.laser.angle_rad.value_or(0.0)};
+  fan.T_robot_laser = config_.laser.placed({});
   fan.step_rad = log_common::usual_step(ranges.size());
   fan.max_m = config_.laser.max_m.value_or(log_common::kUsualLaserMax_m);
   const std::size_t source = scans_.source(log_common::key_of(fan, ranges.size()), [&] {

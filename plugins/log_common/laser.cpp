@@ -6,7 +6,8 @@ void LaserConfig::describe(Fields<LaserConfig>& fields) {
   fields.number("x_m", &LaserConfig::x_m, {-10, 10}, "m",
                 "ahead of the robot's centre; left out: what the log says (CARMEN: PARAM robot_frontlaser_offset or "
                 "robot_rearlaser_offset), or 0");
-  fields.number("y_m", &LaserConfig::y_m, {-10, 10}, "m", "to the left of the robot's centre");
+  fields.number("y_m", &LaserConfig::y_m, {-10, 10}, "m",
+                "to the left of the robot's centre; left out: what the log says, or 0");
   fields.angle("angle_deg", &LaserConfig::angle_rad, {-360, 360},
                "which way it looks; left out: what the log says, or 0, or 180 for a rear laser");
   fields.angle("first_angle_deg", &LaserConfig::first_angle_rad, {-360, 360},

@@ -13,7 +13,7 @@ namespace cairn::log_common {
 // Where a laser sits and what it can see, for logs that do not say so themselves.
 struct LaserConfig {
   std::optional<double> x_m;
-  double y_m = 0.0;
+  std::optional<double> y_m;
   std::optional<double> angle_rad;
   std::optional<double> first_angle_rad;
   std::optional<double> step_rad;
@@ -21,6 +21,10 @@ struct LaserConfig {
   double min_m = 0.05;
   std::optional<double> max_m;
 
+  // The place on the robot that the log says, with what is set in its stead.
+  [[nodiscard]] Pose2 placed(const Pose2& T_robot_said) const {
+    return {x_m.value_or(T_robot_said.x_m), y_m.value_or(T_robot_said.y_m), angle_rad.value_or(T_robot_said.theta_rad)};
+  }
   static void describe(Fields<LaserConfig>& fields);
 };
 

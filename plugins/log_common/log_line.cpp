@@ -57,6 +57,17 @@ double LogLine::metres(std::size_t i, std::string_view what) const {
   return value;
 }
 
+double LogLine::heading(std::size_t i) const {
+  constexpr double kMost_rad = 1e6;  // an unwrapped heading counts turns; beyond that it is no heading
+  const double value = finite(i, "heading");
+  if (std::abs(value) > kMost_rad) throw ConfigError(place(i), "the heading is no angle: " + shown(words_[i]));
+  return value;
+}
+
+Pose2 LogLine::pose(std::size_t i) const {
+  return {metres(i, "x"), metres(i + 1, "y"), wrap_angle(heading(i + 2))};
+}
+
 double LogLine::range_m(std::size_t i) const {
   const double value = number(i, "range");
   return std::isfinite(value) ? metres(i, "range") : value;

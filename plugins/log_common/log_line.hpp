@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/config/config_value.hpp"
+#include "maps/pose.hpp"
 
 namespace cairn::log_common {
 
@@ -34,6 +35,10 @@ class LogLine {
   [[nodiscard]] double finite(std::size_t i, std::string_view what) const;
   // Within +-kFarthest_m.
   [[nodiscard]] double metres(std::size_t i, std::string_view what) const;
+  // Radians, within some hundred thousand turns of 0, as written.
+  [[nodiscard]] double heading(std::size_t i) const;
+  // x, y and heading in three words, the heading wrapped.
+  [[nodiscard]] Pose2 pose(std::size_t i) const;
   // Any number but a finite one beyond kFarthest_m.
   [[nodiscard]] double range_m(std::size_t i) const;
   // A whole number from 0 to 1,000,000.

@@ -11,6 +11,15 @@ namespace {
 constexpr unsigned kChunk = 1U << 17U;
 constexpr std::size_t kLargestText = std::size_t{1} << 30U;
 
+// A pipe would be waited for without end.
+std::string why_no_log(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) return "there is no such log (recorded data is found through CAIRN_DATA)";
+  if (std::filesystem::is_directory(status)) return "is a folder, not a log";
+  return std::filesystem::is_regular_file(status) ? "" : "is no regular file";
+}
+
 }  // namespace
 
 struct LogText::Reader {
@@ -18,7 +27,8 @@ struct LogText::Reader {
   bool ended = false;
 
   explicit Reader(const std::filesystem::path& path) {
-    if (!std::filesystem::is_directory(path)) file = gzopen(path.c_str(), "rb");
+    if (const std::string why = why_no_log(path); !why.empty()) throw ConfigError({path.string(), 0, 0}, why);
+    file = gzopen(path.c_str(), "rb");
     if (file == nullptr) throw ConfigError({path.string(), 0, 0}, "cannot read this log");
     gzbuffer(file, kChunk);
   }

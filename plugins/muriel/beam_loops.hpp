@@ -15,6 +15,8 @@ CAIRN_INLINE void list_if(bool condition, int block, std::int32_t* list, int& le
 
 enum class Width { ray, narrow, wide };
 
+constexpr float kLeastAhead_m = 1e-6F;  // nearer to the sensor's own line than that, bearings mean nothing
+
 template <Width width>
 CAIRN_INLINE ListLengths place(const KernelReading& r, const Block* blocks, int count, const KernelCells& out) {
   const Floats lanes_m = kLane * r.cell_m;
@@ -25,8 +27,8 @@ CAIRN_INLINE ListLengths place(const KernelReading& r, const Block* blocks, int 
   ListLengths lengths;
   for (int b = 0; b < count; ++b) {
     const Block& block = blocks[b];
-    const Floats along = larger(all(r.ahead_x * block.dx_m + r.ahead_y * block.dy_m) + ahead_of_lanes,
-                                all(width == Width::ray ? 0.0F : 1e-6F));
+    const Floats ahead = all(r.ahead_x * block.dx_m + r.ahead_y * block.dy_m) + ahead_of_lanes;
+    const Floats along = larger(ahead, all(width == Width::ray ? 0.0F : kLeastAhead_m));
     Floats range = along;
     Floats alpha = alpha_max;
     Floats off{};
@@ -40,7 +42,8 @@ CAIRN_INLINE ListLengths place(const KernelReading& r, const Block* blocks, int 
       range = square_root(along * along + across * across);
       off = (width == Width::narrow ? atan_narrow(tangent, tangent2) : atan_wide(tangent, tangent2)) * r.per_half_beam;
       const Floats off2 = off * off;
-      inside = tangent2 <= r.widest_tangent2;
+      // On the axis behind the sensor the tangent is as small as before it.
+      inside = (tangent2 <= r.widest_tangent2) & (ahead >= -kLeastAhead_m);
       alpha -= alpha * off2;
     }
     inside &= range <= r.reach_m;

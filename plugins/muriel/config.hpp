@@ -11,7 +11,7 @@ inline constexpr int kMostSectors = 32;
 enum class LogPolicy { off, paper, counted };
 
 // A beam model whose settings stand beside the others in the mission file. The defaults are the best
-// found on smooth hallways (docs/decisions).
+// found on six drives (docs/results/mapping.md).
 struct Config : sonar_model::BeamModel {
   double cell_m = 0.05;
   double clamp_nat = 4.0;

@@ -170,7 +170,7 @@ void Muriel::find_blocks(const Beam& beam, int first_plane) {
 
 void Muriel::make_room() {
   if (blocks_.size() >= static_cast<std::size_t>(block_count_)) return;
-  const auto blocks = static_cast<std::size_t>(2 * block_count_);
+  const std::size_t blocks = 2 * static_cast<std::size_t>(block_count_);
   const std::size_t cells = (blocks + 1) * kBlock_cells;
   blocks_.resize(blocks);
   moved_.resize(blocks + sizeof(std::uint64_t));
@@ -211,7 +211,7 @@ void Muriel::open_unseen(const KernelScale& scale, int first_plane) {
     LogOdds* cells = grid_.cells_of_tile_for_writing(tile) + place;
     std::uint16_t* counts = config_.log == LogPolicy::off ? nullptr : log_.tile(tile).data() + plane_at + place;
     for (int b = 0; b < run.blocks; ++b) {
-      Block& block = blocks_[static_cast<std::size_t>(run.first_block + b)];
+      Block& block = blocks_[static_cast<std::size_t>(run.first_block) + static_cast<std::size_t>(b)];
       block.cells = cells + b * kBlock_cells;
       if (counts != nullptr) block.log = counts + b * kBlock_cells;
     }
@@ -237,7 +237,8 @@ void Muriel::note_changes() {
 void Muriel::join_rows() {
   if (changes_.spans.empty()) return;
   const auto [low, high] = std::ranges::minmax(changes_.spans, {}, &CellSpan::y);
-  hull_.assign(static_cast<std::size_t>(high.y - low.y + 1), {0, std::numeric_limits<int>::max(), 0});
+  const int rows = high.y - low.y + 1;
+  hull_.assign(static_cast<std::size_t>(rows), {0, std::numeric_limits<int>::max(), 0});
   for (const CellSpan& span : changes_.spans) {
     CellSpan& row = hull_[static_cast<std::size_t>(span.y - low.y)];
     const bool is_first = row.x_begin > row.x_end;

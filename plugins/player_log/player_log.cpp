@@ -53,10 +53,6 @@ class Reader {
   std::vector<double> ranges_m_;
 };
 
-Pose2 pose_at(const LogLine& line, std::size_t i) {
-  return {line.metres(i, "x"), line.metres(i + 1, "y"), wrap_angle(line.finite(i + 2, "heading"))};
-}
-
 // The words behind the count must be `each` for each of them.
 std::size_t counted_words(const LogLine& line, std::size_t at, std::size_t each, std::string_view what) {
   const std::size_t count = line.count(at, "count of " + std::string(what));
@@ -128,13 +124,13 @@ void Reader::read_line(const LogLine& line) {
   const Header header{line.word(3), static_cast<int>(line.count(4, "index")), line.count(5, "type"),
                       line.count(6, "subtype")};
   if (header.is("position2d", config_.position_index, 1, 1)) {
-    T_log_robot_ = pose_at(line, kPayload);
+    T_log_robot_ = line.pose(kPayload);
   } else if (header.is("sonar", config_.sonar_index, 1, 2) || header.is("sonar", config_.sonar_index, 4, 1)) {
     read_sonar_geometry(line);
   } else if (header.is("sonar", config_.sonar_index, 1, 1)) {
     if (wants(header.interface)) read_sonar_ranges(line);
   } else if (header.is("laser", config_.laser_index, 4, 1)) {
-    T_robot_laser_ = pose_at(line, kPayload);
+    T_robot_laser_ = line.pose(kPayload);
   } else if (header.is("laser", config_.laser_index, 1, 1)) {
     if (wants(header.interface)) read_laser_scan(line);
   } else {
@@ -147,7 +143,7 @@ void Reader::read_line(const LogLine& line) {
 void Reader::read_sonar_geometry(const LogLine& line) {
   const std::size_t count = counted_words(line, kPayload, 3, "sonars");
   std::vector<Pose2> poses;
-  for (std::size_t i = 0; i < count; ++i) poses.push_back(pose_at(line, kPayload + 1 + 3 * i));
+  for (std::size_t i = 0; i < count; ++i) poses.push_back(line.pose(kPayload + 1 + 3 * i));
   T_robot_sonars_ = std::move(poses);
 }
 
@@ -185,9 +181,7 @@ void Reader::read_laser_scan(const LogLine& line) {
   const double max_m = line.metres(kPayload + 4, "maximum range");
   const std::size_t count = counted_words(line, kPayload + 5, 2, "ranges with intensities");
   fan.max_m = config_.laser.max_m.value_or(max_m > config_.laser.min_m ? max_m : log_common::kUsualLaserMax_m);
-  const Pose2 said = T_robot_laser_.value_or(Pose2{});
-  fan.T_robot_laser = {config_.laser.x_m.value_or(said.x_m), config_.laser.x_m ? config_.laser.y_m : said.y_m,
-                       config_.laser.angle_rad.value_or(said.theta_rad)};
+  fan.T_robot_laser = config_.laser.placed(T_robot_laser_.value_or(Pose2{}));
   const std::size_t source = scans_.source("laser " + log_common::key_of(fan, count), [&] {
     const int first = next_sensor_;
     next_sensor_ += static_cast<int>(count);

@@ -66,14 +66,16 @@ SensorStep SonarFromLaser::next(const Budget& budget) {
     step.reason = "sonar readings derived from laser scans: " + step.reason;
     return step;
   }
+  double seen_m = 0.0;  // no silence reaches further than the laser does
+  for (const RangeReading& beam : step.observation.ranges) seen_m = std::max(seen_m, beam.max_m);
   std::vector<RangeReading> readings;
   readings.reserve(sonars_.size());
   for (std::size_t i = 0; i < sonars_.size(); ++i) {
     const SonarModel& sonar = sonars_[i];
     const std::optional<double> range_m = derived_range(sonar, step.observation.ranges);
     if (!range_m) continue;
-    readings.push_back(
-        {sonar.T_robot_sonar, sonar.half_beam_rad, sonar.min_m, sonar.max_m, *range_m, static_cast<int>(i)});
+    readings.push_back({sonar.T_robot_sonar, sonar.half_beam_rad, sonar.min_m, std::min(sonar.max_m, seen_m), *range_m,
+                        static_cast<int>(i)});
   }
   step.observation.ranges = std::move(readings);
   return step;

@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "plugins/log_common/log_text.hpp"
 
@@ -83,13 +82,6 @@ double TableRow::finite_number(int column, const std::string& what) const {
 }
 
 TableFile::TableFile(const TableConfig& config) : name_(config.file.string()) {
-  std::ifstream in(config.file, std::ios::binary);
-  if (std::filesystem::is_directory(config.file)) throw ConfigError({name_, 0, 0}, "is a folder, not a table");
-  if (!in) {
-    throw ConfigError({name_, 0, 0}, std::filesystem::exists(config.file)
-                                         ? "cannot read this table"
-                                         : "there is no such table (recorded data is found through CAIRN_DATA)");
-  }
   text_ = log_common::text_of_file(config.file);
   std::string_view rest = text_;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // a byte order mark

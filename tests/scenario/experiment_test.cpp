@@ -78,6 +78,17 @@ TEST(Experiment, AnUnknownBaselineNamesTheNearestVariant) {
   EXPECT_THAT(finished.err, HasSubstr("maps.yaml:5:11: no variant is called \"clampd\" (did you mean \"clamped\"?)"));
 }
 
+TEST(Experiment, TwoVariantsOfOneNameAreRefused) {
+  const auto folder = fresh_folder("experiment_twice");
+  const std::filesystem::path file = small_experiment(folder, "textbook");
+  std::string text = text_of_file(file);
+  text.replace(text.find("name: clamped"), 13, "name: textbook");
+  write_text(file, text);
+  const Finished finished = run_cairn({"experiment", file.string(), "--out", (folder / "out").string()});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, HasSubstr("two variants are called \"textbook\""));
+}
+
 TEST(Experiment, AFaultInTheLastVariantIsToldBeforeAnythingRuns) {
   const auto folder = fresh_folder("experiment_fault");
   const std::filesystem::path file = small_experiment(folder, "textbook");

@@ -32,6 +32,10 @@ class CarmenFaults : public ::testing::Test {
   std::size_t seen_ = 0;
 };
 
+TEST_F(CarmenFaults, AHeadingThatIsNoAngleIsRefused) {
+  EXPECT_THAT(fault_of("ODOM 0 0 1e300 0 0 0 1 h 1\n"), testing::HasSubstr("a.log:1:10: the heading is no angle"));
+}
+
 TEST_F(CarmenFaults, CountsThatDisagreeAreRefusedAtTheCount) {
   EXPECT_EQ(fault_of(kGood + "FLASER 3 1 2 0 0 0 0 0 0 1 host 1\n"),
             "a.log:2:8: 3 ranges, says the line, but 11 words follow, not 12");

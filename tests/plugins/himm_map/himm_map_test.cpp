@@ -34,6 +34,18 @@ TEST(HimmMap, KeepsToItsRange) {
   EXPECT_EQ(map.certainty({10, 0}), 0);
 }
 
+// In the middle of an even scale a cell is as likely free as occupied, but no longer unseen.
+TEST(HimmMap, AnEvenScaleCountsThroughItsMiddle) {
+  Config config;
+  config.certainty_max = 6;
+  config.growth = false;
+  HimmMap map{config};
+  integrate(map, 0.5);
+  EXPECT_EQ(map.certainty({10, 0}), 3);
+  integrate(map, 0.5);
+  EXPECT_EQ(map.certainty({10, 0}), 6);
+}
+
 TEST(HimmMap, TouchesTheAcousticAxisOnly) {
   HimmMap map{Config{}};
   const CellChanges changes = integrate(map, 1.0);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <limits>
+#include <numbers>
 
 #include "plugins/muriel/muriel.hpp"
 #include "plugins/muriel/plain_muriel.hpp"
@@ -78,6 +80,23 @@ TEST(MurielEquivalence, OneReadingGivesTheSameCellsAndValuesToOneQuantum) {
       if (HasFatalFailure()) return;
     }
   }
+}
+
+// There the cells behind the sensor lie on its axis to the last bit.
+TEST(MurielEquivalence, HoldsOnCellCentresAlongTheRowsAndColumns) {
+  for (const double heading_rad : {0.0, std::numbers::pi / 2.0, std::numbers::pi, -std::numbers::pi / 2.0})
+    for (const double range_m : {0.6, 2.0, std::numeric_limits<double>::infinity()}) {
+      Muriel fast{Config{}};
+      PlainMuriel plain{Config{}};
+      const RangeReading reading{{}, radians(15.0), 0.1, 5.0, range_m, 0};
+      const Pose2 pose{0.025, 0.025, heading_rad};
+      fast.integrate(observed({reading}), at(pose));
+      plain.integrate(observed({reading}), at(pose));
+      for_each_cell([&](Cell cell) {
+        ASSERT_NEAR(fast.grid().log_odds(cell), plain.grid().log_odds(cell), 1)
+            << cell.x << ", " << cell.y << " heading " << degrees(heading_rad) << " range " << range_m;
+      });
+    }
 }
 
 TEST(MurielEquivalence, EveryInstructionSetGivesTheSameBits) {

@@ -1,0 +1,22 @@
+#include "framework/program/output_files.hpp"
+
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace cairn {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": the output folder cannot be made: " + error.message());
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+}  // namespace cairn

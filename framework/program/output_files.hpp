@@ -1,0 +1,13 @@
+// What the commands write: folders and whole files, or an error that says which.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace cairn {
+
+// Throw std::runtime_error.
+void make_folder(const std::filesystem::path& folder);
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace cairn
