@@ -1,7 +1,10 @@
 #include "framework/host/plugin_loader.hpp"
 
+#include <fcntl.h>
+#include <gelf.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <boost/dll/library_info.hpp>
 #include <boost/dll/shared_library.hpp>
 #include <cstring>
 #include <deque>
@@ -16,15 +19,50 @@ using boost::dll::shared_library;
 constexpr const char* kStampSymbol = "cairn_abi_stamp";
 constexpr const char* kRegisterSymbol = "cairn_register_module";
 
+// An ELF file, open for reading.
+class ElfFile {
+ public:
+  explicit ElfFile(const std::filesystem::path& file) : fd_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (fd_ >= 0 && ::elf_version(EV_CURRENT) != EV_NONE) elf_ = ::elf_begin(fd_, ELF_C_READ, nullptr);
+  }
+  ElfFile(const ElfFile&) = delete;
+  ElfFile& operator=(const ElfFile&) = delete;
+  ~ElfFile() {
+    ::elf_end(elf_);
+    if (fd_ >= 0) ::close(fd_);
+  }
+  [[nodiscard]] bool is_shared_library() const {
+    GElf_Ehdr header;
+    return elf_ != nullptr && ::gelf_getehdr(elf_, &header) != nullptr && header.e_type == ET_DYN;
+  }
+  // What it defines for others: the dynamic symbols, which a stripped library keeps.
+  [[nodiscard]] std::vector<std::string> exported_symbols() const {
+    std::vector<std::string> names;
+    for (Elf_Scn* section = ::elf_nextscn(elf_, nullptr); section != nullptr; section = ::elf_nextscn(elf_, section)) {
+      GElf_Shdr header;
+      if (::gelf_getshdr(section, &header) == nullptr || header.sh_type != SHT_DYNSYM) continue;
+      Elf_Data* const data = ::elf_getdata(section, nullptr);
+      GElf_Sym symbol;
+      for (int i = 0; data != nullptr && ::gelf_getsym(data, i, &symbol) != nullptr; ++i) {
+        const char* const name = ::elf_strptr(elf_, header.sh_link, symbol.st_name);
+        if (symbol.st_shndx != SHN_UNDEF && name != nullptr) names.emplace_back(name);
+      }
+    }
+    return names;
+  }
+
+ private:
+  int fd_;
+  Elf* elf_ = nullptr;
+};
+
 // Reads the file's symbol table; runs nothing of it.
 void check_symbols(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) throw PluginError(file.string() + ": no such file");
-  std::vector<std::string> symbols;
-  try {
-    symbols = boost::dll::library_info(boost::dll::fs::path(file.string())).symbols();
-  } catch (const std::exception& error) {
+  const ElfFile elf(file);
+  if (!elf.is_shared_library())
     throw PluginError(file.string() + ": cannot be opened as a module: it is no ELF shared library");
-  }
+  const std::vector<std::string> symbols = elf.exported_symbols();
   for (const char* symbol : {kStampSymbol, kRegisterSymbol})
     if (std::find(symbols.begin(), symbols.end(), symbol) == symbols.end())
       throw PluginError(file.string() + ": is no Cairn module (it exports no " + symbol +

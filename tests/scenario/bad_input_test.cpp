@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/scenario/program.hpp"
@@ -173,6 +174,28 @@ TEST(BadPlugin, CheckFindsAShippedModuleUsable) {
   const auto answer = nlohmann::json::parse(finished.out);
   EXPECT_EQ(answer["modules"][0]["name"], "bayes");
   EXPECT_TRUE(answer["faults"].empty());
+}
+
+// Packages are stripped: of the symbols only the dynamic ones are left.
+TEST(BadPlugin, AStrippedModuleIsStillOne) {
+  const auto folder = fresh_folder("stripped");
+  const std::string module = (folder / "bayes_map.so").string();
+  std::filesystem::copy_file(std::string(CAIRN_BINARY_DIR) + "/lib/cairn/bayes_map.so", module);
+  ASSERT_EQ(std::system(("strip --strip-all '" + module + "'").c_str()), 0);
+  // Only its name is taken already, by the module that it is a copy of.
+  EXPECT_THAT(run_cairn({"plugins", "check", module}).out,
+              AllOf(HasSubstr("cairn_abi_stamp, cairn_register_module"), HasSubstr("registers map bayes"),
+                    HasSubstr("the name \"bayes\" is taken")));
+}
+
+TEST(BadPlugin, AModuleCutShortIsTold) {
+  const auto folder = fresh_folder("cut_short");
+  const std::filesystem::path module = folder / "bayes_map.so";
+  std::filesystem::copy_file(std::string(CAIRN_BINARY_DIR) + "/lib/cairn/bayes_map.so", module);
+  for (const std::uintmax_t size : {4000U, 200U, 63U, 10U, 0U}) {
+    std::filesystem::resize_file(module, size);
+    EXPECT_EQ(run_cairn({"plugins", "check", module.string()}).exit_status, 1) << size;
+  }
 }
 
 TEST(BadPlugin, AnotherAbiStampIsToldWithBothSides) {
