@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "framework/contracts/map.hpp"
+#include "framework/contracts/mapper.hpp"
 #include "framework/contracts/module.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "maps/contour.hpp"
