@@ -197,7 +197,7 @@ Contour Contour::polygon_in_place(std::vector<Point> corners_m) {
 
 Contour Contour::parts(std::vector<std::vector<Point>> polygons_m) {
   Contour contour = parts_in_place(std::move(polygons_m));
-  const Point centroid = centroid_of(contour.polygons_m);
+  const Point centroid = contour.centroid_m();
   for (std::vector<Point>& corners : contour.polygons_m) {
     for (Point& p : corners) p -= centroid;
   }
@@ -217,6 +217,10 @@ Contour Contour::parts_in_place(std::vector<std::vector<Point>> polygons_m) {
   }
   require_apart(contour.polygons_m);
   return contour;
+}
+
+Point Contour::centroid_m() const {
+  return is_circle() ? Point{0.0, 0.0} : centroid_of(polygons_m);
 }
 
 std::vector<std::vector<Point>> Contour::outlines_m(int circle_corners) const {

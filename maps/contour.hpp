@@ -31,6 +31,8 @@ struct Contour {
   // Diameters of the largest circle about the origin inside, and of the smallest one outside.
   [[nodiscard]] double inner_diameter_m() const;
   [[nodiscard]] double outer_diameter_m() const;
+  // Of the area; the origin unless made in place.
+  [[nodiscard]] Point centroid_m() const;
   // The outlines as polygons, a circle as one of so many corners.
   [[nodiscard]] std::vector<std::vector<Point>> outlines_m(int circle_corners) const;
   // Distance of a point to the nearest outline, negative inside.

@@ -1,13 +1,14 @@
 #include "framework/host/sensed_templates.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
-#include <thread>
 
+#include "framework/host/in_parallel.hpp"
 #include "framework/host/landmark_lap.hpp"
+#include "framework/host/module_library.hpp"
 
 namespace cairn {
 namespace {
@@ -93,30 +94,11 @@ struct Task {
   Side landmark_side;
 };
 
-// In the order of the tasks, whatever thread did which. Throws what the first task that failed threw.
 std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector<Task>& tasks) {
   std::vector<LandmarkTemplate> templates(tasks.size());
-  std::vector<std::exception_ptr> faults(tasks.size());
-  std::atomic<std::size_t> next_task = 0;
-  const auto work = [&] {
-    for (std::size_t i = next_task++; i < tasks.size(); i = next_task++) {
-      try {
-        templates[i] = render_sensed(studio, *tasks[i].shape, tasks[i].orientation_rad, tasks[i].landmark_side);
-      } catch (...) {
-        faults[i] = std::current_exception();
-        next_task = tasks.size();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    const std::size_t threads = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, tasks.size());
-    for (std::size_t i = 1; i < threads; ++i) workers.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& fault : faults) {
-    if (fault) std::rethrow_exception(fault);
-  }
+  in_parallel(tasks.size(), [&](std::size_t i) {
+    templates[i] = render_sensed(studio, *tasks[i].shape, tasks[i].orientation_rad, tasks[i].landmark_side);
+  });
   return templates;
 }
 
@@ -132,16 +114,28 @@ std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double 
 
 TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
                               const SensedOptions& options, const RobotModel& robot, const PluginChoice& sensor,
-                              const PluginChoice& map, const ModuleMaker& modules) {
+                              const PluginChoice& map, const ModuleLibrary& modules, const TemplateCache& cache) {
   if (options.laps < 1) throw std::invalid_argument("sensed templates need a lap, not " + std::to_string(options.laps));
   const Studio studio{cell_m, options, {robot, sensor, map, modules}};
+  const std::string common_key = rendering_key(step_rad, cell_m, options, robot, sensor, map, modules);
+  std::vector<std::optional<std::vector<LandmarkTemplate>>> kept;
   std::vector<Task> tasks;
   for (const LandmarkShape& shape : shapes) {
+    kept.push_back(cache.find(shape_key(common_key, shape)));
+    if (kept.back()) continue;
     const std::vector<Task> more = tasks_for(shape, step_rad, cell_m);
     tasks.insert(tasks.end(), more.begin(), more.end());
   }
-  if (tasks.empty()) return {cell_m, step_rad, shapes, {}};
-  return {cell_m, step_rad, shapes, render_all(studio, tasks)};
+  std::vector<LandmarkTemplate> rendered = render_all(studio, tasks);
+  TemplateSet set{cell_m, step_rad, shapes, {}};
+  for (std::size_t shape = 0, task = 0; shape < shapes.size(); ++shape) {
+    std::vector<LandmarkTemplate> own = std::move(kept[shape]).value_or(std::vector<LandmarkTemplate>());
+    const bool is_fresh = own.empty();
+    for (; task < tasks.size() && tasks[task].shape == &shapes[shape]; ++task) own.push_back(std::move(rendered[task]));
+    if (is_fresh) cache.keep(shape_key(common_key, shapes[shape]), own);
+    std::ranges::move(own, std::back_inserter(set.templates));
+  }
+  return set;
 }
 
 }  // namespace cairn
