@@ -15,6 +15,7 @@ namespace {
 // Not those of the templates' own laps.
 constexpr std::uint64_t kSeed = 4711;
 constexpr double kStandoff_m = 0.6;
+constexpr double kClose = 0.05;  // in degree: no class is told between two so near
 const Point kOffsetInCell{0.3, -0.2};
 
 CellChanges everything_in(const OccupancyGrid& grid) {
@@ -45,6 +46,10 @@ void take_answer(const DetectionReport& report, TemplateView& view, double perio
   for (const Matching& matching : report.matchings) {
     for (const CategoryDegree& degree : matching.degrees) {
       if (degree.category == view.shown) view.right_degree = std::max(view.right_degree, degree.degree);
+      if (degree.category != view.shown && degree.degree > view.rival_degree) {
+        view.rival = degree.category;
+        view.rival_degree = degree.degree;
+      }
       if (best == nullptr) view.degree = std::max(view.degree, degree.degree);
     }
     if (!matching.detection || (best != nullptr && matching.detection->degree <= best->degree)) continue;
@@ -60,7 +65,9 @@ TemplateView view_of(const std::shared_ptr<const TemplateSet>& set, const Checke
                      const LapCrew& crew, const LandmarkShape& shape, const LapPlan& plan, std::size_t orientations) {
   const auto mapper = map_of_lap(crew, shape.contour, plan);
   const double period_rad = orientations > 1 ? static_cast<double>(orientations) * set->step_rad : 0.0;
-  TemplateView view{shape.category, plan.orientation_rad, "", 0.0, 0.0, 0.0};
+  TemplateView view;
+  view.shown = shape.category;
+  view.orientation_rad = plan.orientation_rad;
   take_answer(report_on(mapper->grid(), set, detector.quick, crew), view, period_rad);
   if (!view.is_right()) take_answer(report_on(mapper->grid(), set, detector.thorough, crew), view, period_rad);
   return view;
@@ -114,12 +121,12 @@ const Contour& contour_of(const TemplateSet& set, const std::string& category) {
   return std::ranges::find(set.shapes, category, &LandmarkShape::category)->contour;
 }
 
-std::string advice_for_pair(const TemplateSet& set, const std::string& shown, const std::string& found, int times) {
+std::string advice_for_pair(const TemplateSet& set, const std::string& shown, const std::string& found,
+                            const std::string& how, int times) {
   const double difference_m = outline_difference_m(contour_of(set, shown), contour_of(set, found));
   const double cells = difference_m / set.cell_m;
-  std::string advice =
-      fmt::format("{} taken for {} {} time{}: their outlines differ by at most {:.2f} m, {:.1f} cells; ", shown, found,
-                  times, times == 1 ? "" : "s", difference_m, cells);
+  std::string advice = fmt::format("{} {} {} {} time{}: their outlines differ by at most {:.2f} m, {:.1f} cells; ",
+                                   shown, how, found, times, times == 1 ? "" : "s", difference_m, cells);
   if (cells < 1.0) return advice + "leave one of them out, or make them differ more in size or form";
   if (cells < 3.0)
     return advice + fmt::format("smaller cells (--cell-m {:.3f}) may tell them apart, or a greater difference in size",
@@ -132,15 +139,22 @@ std::vector<std::string> advice_for(const TemplateSet& set, const TemplateCheck&
   for (const std::string& shown : check.categories) {
     for (const auto& [found, times] : check.found_for(shown)) {
       if (found == shown) continue;
-      if (!found.empty()) advice.push_back(advice_for_pair(set, shown, found, times));
+      if (!found.empty()) advice.push_back(advice_for_pair(set, shown, found, "taken for", times));
     }
     double least = 1.0;
     int missed = 0;
+    std::map<std::string, int> too_close;  // categories that come so near that nothing is decided
     for (const TemplateView& view : check.views) {
       if (view.shown != shown || !view.found.empty()) continue;
+      if (view.rival_degree > view.right_degree - kClose) {
+        ++too_close[view.rival];
+        continue;
+      }
       least = std::min(least, view.right_degree);
       ++missed;
     }
+    for (const auto& [rival, times] : too_close)
+      advice.push_back(advice_for_pair(set, shown, rival, "left open beside", times));
     if (missed > 0)
       advice.push_back(
           fmt::format("{} not recognised {} time{}: its degree falls to {:.2f}; a finer step (--step-deg), a lower "

@@ -17,8 +17,10 @@ namespace cairn {
 struct TemplateView {
   std::string shown;
   double orientation_rad = 0.0;
-  std::string found;                   // empty: nothing was recognised
-  double degree = 0.0;                 // of the category found, or the best of all
+  std::string found;    // empty: nothing was recognised
+  double degree = 0.0;  // of the category found, or the best of all
+  std::string rival;    // the best other category, where the answer is wrong; may be empty
+  double rival_degree = 0.0;
   double right_degree = 0.0;           // the best of the category shown
   double orientation_error_rad = 0.0;  // of a right answer; 0 for round shapes
   [[nodiscard]] bool is_right() const { return found == shown; }
