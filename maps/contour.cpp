@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -88,6 +89,19 @@ AreaMoments moments_of(const std::vector<Point>& corners) {
   return {twice_area / 2.0, origin + sum / twice_area};
 }
 
+Point centroid_of(const std::vector<std::vector<Point>>& polygons) {
+  // To the bit what the polygon alone has.
+  if (polygons.size() == 1) return moments_of(polygons.front()).centroid;
+  double area = 0.0;
+  Point sum{0.0, 0.0};
+  for (const std::vector<Point>& corners : polygons) {
+    const AreaMoments moments = moments_of(corners);
+    area += moments.area;
+    sum += moments.area * moments.centroid;
+  }
+  return sum / area;
+}
+
 double squared_extent(const std::vector<Point>& corners) {
   double extent = 0.0;
   for (const Point& p : corners) extent = std::max(extent, (p - corners.front()).squaredNorm());
@@ -120,6 +134,48 @@ bool is_inside(const std::vector<Point>& corners, const Point& p) {
   return inside;
 }
 
+bool outlines_meet(const std::vector<Point>& p, const std::vector<Point>& q) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      if (segments_meet(p[i], p[(i + 1) % p.size()], q[j], q[(j + 1) % q.size()])) return true;
+    }
+  }
+  return false;
+}
+
+void require_apart(const std::vector<std::vector<Point>>& polygons) {
+  for (std::size_t later = 1; later < polygons.size(); ++later) {
+    for (std::size_t i = 0; i < later; ++i) {
+      const std::vector<Point>& p = polygons[i];
+      const std::vector<Point>& q = polygons[later];
+      if (!outlines_meet(p, q) && !is_inside(p, q.front()) && !is_inside(q, p.front())) continue;
+      throw std::invalid_argument("part " + std::to_string(later + 1) + " meets part " + std::to_string(i + 1) +
+                                  "; parts must stand apart, draw what touches as one outline");
+    }
+  }
+}
+
+// As a simple anticlockwise polygon. Throws std::invalid_argument.
+std::vector<Point> checked(std::vector<Point> corners) {
+  require_finite_and_distinct(corners);
+  const double area = moments_of(corners).area;
+  // A bow tie may have no net area too; what is wrong with it is the crossing.
+  const bool is_flat = std::abs(area) <= 1e-9 * squared_extent(corners);
+  if (!is_flat || corners.size() > 3) require_simple(corners);
+  if (is_flat) throw std::invalid_argument("the polygon has no area: its corners lie in one line");
+  if (area < 0.0) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+
+std::vector<Point> regular_polygon(double radius_m, int corners) {
+  std::vector<Point> points;
+  for (int i = 0; i < corners; ++i) {
+    const double angle_rad = i * 2.0 * std::numbers::pi / corners;
+    points.push_back(radius_m * Point(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  return points;
+}
+
 }  // namespace
 
 Contour Contour::circle(double diameter_m) {
@@ -132,23 +188,44 @@ Contour Contour::circle(double diameter_m) {
 }
 
 Contour Contour::polygon(std::vector<Point> corners_m) {
-  Contour contour = polygon_in_place(std::move(corners_m));
-  const Point centroid = moments_of(contour.polygon_m).centroid;
-  for (Point& p : contour.polygon_m) p -= centroid;
-  return contour;
+  return parts({std::move(corners_m)});
 }
 
 Contour Contour::polygon_in_place(std::vector<Point> corners_m) {
-  require_finite_and_distinct(corners_m);
-  const double area = moments_of(corners_m).area;
-  // A bow tie may have no net area too; what is wrong with it is the crossing.
-  const bool is_flat = std::abs(area) <= 1e-9 * squared_extent(corners_m);
-  if (!is_flat || corners_m.size() > 3) require_simple(corners_m);
-  if (is_flat) throw std::invalid_argument("the polygon has no area: its corners lie in one line");
-  if (area < 0.0) std::reverse(corners_m.begin(), corners_m.end());
-  Contour contour;
-  contour.polygon_m = std::move(corners_m);
+  return parts_in_place({std::move(corners_m)});
+}
+
+Contour Contour::parts(std::vector<std::vector<Point>> polygons_m) {
+  Contour contour = parts_in_place(std::move(polygons_m));
+  const Point centroid = contour.centroid_m();
+  for (std::vector<Point>& corners : contour.polygons_m) {
+    for (Point& p : corners) p -= centroid;
+  }
   return contour;
+}
+
+Contour Contour::parts_in_place(std::vector<std::vector<Point>> polygons_m) {
+  if (polygons_m.empty()) throw std::invalid_argument("an outline needs at least one part");
+  Contour contour;
+  for (std::size_t i = 0; i < polygons_m.size(); ++i) {
+    try {
+      contour.polygons_m.push_back(checked(std::move(polygons_m[i])));
+    } catch (const std::invalid_argument& error) {
+      if (polygons_m.size() == 1) throw;
+      throw std::invalid_argument("part " + std::to_string(i + 1) + ": " + error.what());
+    }
+  }
+  require_apart(contour.polygons_m);
+  return contour;
+}
+
+Point Contour::centroid_m() const {
+  return is_circle() ? Point{0.0, 0.0} : centroid_of(polygons_m);
+}
+
+std::vector<std::vector<Point>> Contour::outlines_m(int circle_corners) const {
+  if (!is_circle()) return polygons_m;
+  return {regular_polygon(circle_diameter_m / 2.0, circle_corners)};
 }
 
 double Contour::inner_diameter_m() const {
@@ -159,14 +236,21 @@ double Contour::inner_diameter_m() const {
 double Contour::outer_diameter_m() const {
   if (is_circle()) return circle_diameter_m;
   double radius_m = 0.0;
-  for (const Point& p : polygon_m) radius_m = std::max(radius_m, p.norm());
+  for (const std::vector<Point>& corners : polygons_m) {
+    for (const Point& p : corners) radius_m = std::max(radius_m, p.norm());
+  }
   return 2.0 * radius_m;
 }
 
 double Contour::signed_distance(const Point& p) const {
   if (is_circle()) return p.norm() - 0.5 * circle_diameter_m;
-  const double distance = distance_to_outline(polygon_m, p);
-  return is_inside(polygon_m, p) ? -distance : distance;
+  // The parts stand apart, so that a point is inside of at most one.
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::vector<Point>& corners : polygons_m) {
+    const double distance = distance_to_outline(corners, p);
+    nearest = std::min(nearest, is_inside(corners, p) ? -distance : distance);
+  }
+  return nearest;
 }
 
 }  // namespace cairn

@@ -181,21 +181,26 @@ void take_separator(std::string_view& text, char separator) {
 }
 
 Contour contour_of(const std::string& kind, std::string_view parameters) {
-  if (kind != "circle" && kind != "polygon") throw StoreError("kind \"" + kind + "\" is not circle or polygon");
+  if (kind != "circle" && kind != "polygon" && kind != "polygons")
+    throw StoreError("kind \"" + kind + "\" is not circle, polygon or polygons");
   if (kind == "circle") {
     const double diameter_m = take_number(parameters);
     if (!parameters.empty()) throw StoreError("a circle has one parameter, its diameter");
     return Contour::circle(diameter_m);
   }
-  std::vector<Point> corners;
-  while (!parameters.empty()) {
-    if (!corners.empty()) take_separator(parameters, ' ');
+  std::vector<std::vector<Point>> polygons(1);
+  for (std::size_t corners = 1; !parameters.empty(); ++corners) {
+    if (corners > kMaxCorners) throw StoreError("has more than " + std::to_string(kMaxCorners) + " corners");
+    if (kind == "polygons" && parameters.starts_with(';')) {
+      take_separator(parameters, ';');
+      polygons.emplace_back();
+    }
+    if (!polygons.back().empty()) take_separator(parameters, ' ');
     const double x_m = take_number(parameters);
     take_separator(parameters, ',');
-    corners.emplace_back(x_m, take_number(parameters));
-    if (corners.size() > kMaxCorners) throw StoreError("has more than " + std::to_string(kMaxCorners) + " corners");
+    polygons.back().emplace_back(x_m, take_number(parameters));
   }
-  return Contour::polygon_in_place(std::move(corners));
+  return Contour::parts_in_place(std::move(polygons));
 }
 
 std::vector<LandmarkShape> read_shapes(Database& database) {

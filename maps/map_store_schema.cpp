@@ -35,7 +35,7 @@ constexpr std::array kTables{
           "poses INTEGER NOT NULL, trajectory BLOB NOT NULL, crc32 INTEGER NOT NULL",
           ""},
     Table{"next_ids", "kind", "kind TEXT NOT NULL PRIMARY KEY, id INTEGER NOT NULL", " WITHOUT ROWID"},
-    // parameters: the diameter of a circle; "x,y x,y ..." of a polygon's corners (m).
+    // parameters: the diameter of a circle; "x,y x,y ..." of a polygon's corners (m), ";" between polygons.
     Table{"shapes", "number",
           "number INTEGER PRIMARY KEY, category TEXT NOT NULL, kind TEXT NOT NULL, parameters TEXT NOT NULL", ""},
     Table{"driven_path", "number",

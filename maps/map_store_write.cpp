@@ -92,17 +92,27 @@ std::string text_of(double value) {
   return {buffer, end};
 }
 
+// "diameter", or "x,y x,y ..." with ";" between polygons.
+std::string parameters_of(const Contour& contour) {
+  if (contour.is_circle()) return text_of(contour.circle_diameter_m);
+  std::string parameters;
+  for (const std::vector<Point>& corners : contour.polygons_m) {
+    if (!parameters.empty()) parameters += ';';
+    for (const Point& corner : corners) {
+      if (&corner != &corners.front()) parameters += ' ';
+      parameters += text_of(corner.x()) + ',' + text_of(corner.y());
+    }
+  }
+  return parameters;
+}
+
 void write_shapes(Database& database, const std::vector<LandmarkShape>& shapes) {
   Statement insert(database, "INSERT INTO shapes VALUES (?, ?, ?, ?)");
   std::int64_t number = 0;
   for (const LandmarkShape& shape : shapes) {
-    std::string parameters = shape.contour.is_circle() ? text_of(shape.contour.circle_diameter_m) : "";
-    for (const Point& corner : shape.contour.polygon_m) {
-      if (!parameters.empty()) parameters += ' ';
-      parameters += text_of(corner.x()) + ',' + text_of(corner.y());
-    }
-    insert.bind(++number).bind_text(shape.category).bind_text(shape.contour.is_circle() ? "circle" : "polygon");
-    insert.bind_text(parameters).run();
+    const Contour& contour = shape.contour;
+    const char* const kind = contour.is_circle() ? "circle" : contour.polygons_m.size() == 1 ? "polygon" : "polygons";
+    insert.bind(++number).bind_text(shape.category).bind_text(kind).bind_text(parameters_of(contour)).run();
   }
 }
 

@@ -136,7 +136,7 @@ void set_footprint(RobotModel& robot, const RobotConfig& config, const ConfigVal
     return;
   }
   try {
-    robot.polygon_m = Contour::polygon_in_place(config.polygon_m).polygon_m;
+    robot.polygon_m = Contour::polygon_in_place(config.polygon_m).polygons_m.front();
   } catch (const std::invalid_argument& error) {
     throw ConfigError(root.find("polygon_m")->place, std::string("polygon_m: ") + error.what());
   }

@@ -1,6 +1,7 @@
 // config/templates/*.yaml -> LandmarkShape. Throws ConfigError.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -11,7 +12,10 @@ namespace cairn {
 struct Schema;
 
 [[nodiscard]] LandmarkShape load_landmark_shape(const std::filesystem::path& file);
-// Every *.yaml of a folder, sorted by category. Refuses an empty folder and a category named twice.
+// More categories in one folder are refused: their templates would be rendered for minutes.
+inline constexpr std::size_t kMostTemplateFiles = 500;
+// Every *.yaml of a folder, sorted by category. Refuses an empty folder, one of more than
+// kMostTemplateFiles and a category named twice.
 [[nodiscard]] std::vector<LandmarkShape> load_landmark_shapes(const std::filesystem::path& folder);
 // What such a file may hold, for the reference and the JSON schema.
 [[nodiscard]] Schema template_file_schema();

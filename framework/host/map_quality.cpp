@@ -13,16 +13,13 @@ constexpr double kReach_m = 3.0;
 constexpr int kRays = 720;
 constexpr int kCircleSides = 72;
 
-std::vector<Point> outline_of(const WorldObject& object) {
-  std::vector<Point> corners = object.contour.polygon_m;
-  if (object.contour.is_circle()) {
-    const double radius_m = object.contour.circle_diameter_m / 2.0;
-    for (int i = 0; i < kCircleSides; ++i)
-      corners.push_back(radius_m * Pose2{0.0, 0.0, i * 2.0 * std::numbers::pi / kCircleSides}.direction());
+std::vector<std::vector<Point>> outlines_of(const WorldObject& object) {
+  std::vector<std::vector<Point>> outlines = object.contour.outlines_m(kCircleSides);
+  for (std::vector<Point>& corners : outlines) {
+    for (Point& corner : corners) corner = object.T_map_object * corner;
+    corners.push_back(corners.front());
   }
-  for (Point& corner : corners) corner = object.T_map_object * corner;
-  corners.push_back(corners.front());
-  return corners;
+  return outlines;
 }
 
 // ln(1 + e^x) without overflow: the log loss of a cell with log-odds -x that is occupied.
@@ -52,8 +49,8 @@ TrueCells::TrueCells(const World& world, double cell_m, const Point& origin_m) :
   for (const WorldWall& wall : world.walls)
     for (std::size_t i = 1; i < wall.points_m.size(); ++i) draw(wall.points_m[i - 1], wall.points_m[i]);
   for (const WorldObject& object : world.objects) {
-    const std::vector<Point> corners = outline_of(object);
-    for (std::size_t i = 1; i < corners.size(); ++i) draw(corners[i - 1], corners[i]);
+    for (const std::vector<Point>& corners : outlines_of(object))
+      for (std::size_t i = 1; i < corners.size(); ++i) draw(corners[i - 1], corners[i]);
   }
 }
 

@@ -48,6 +48,19 @@ TemplateConfig template_config_of(const PluginChoice& detector) {
   return load_config<TemplateConfig>(mine, "detector");
 }
 
+// A landmark that does not fit into the world cannot be found in it.
+void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, const std::filesystem::path& folder) {
+  const Point size_m = world.max_m - world.min_m;
+  for (const LandmarkShape& shape : shapes) {
+    const double diameter_m = shape.contour.outer_diameter_m();
+    if (diameter_m <= size_m.maxCoeff()) continue;
+    throw ConfigError(SourcePlace{folder.string(), 0, 0},
+                      "the template " + shown(shape.category) + " is " + config_detail::number_text(diameter_m) +
+                          " m across, larger than the mission's world of " + config_detail::number_text(size_m.x()) +
+                          " x " + config_detail::number_text(size_m.y()) + " m");
+  }
+}
+
 }  // namespace
 
 void StartConfig::describe(Fields<StartConfig>& fields) {
@@ -101,7 +114,10 @@ Mission load_mission(const std::filesystem::path& file, const std::vector<std::s
     if (!mission.template_config.templates.empty())
       mission.shapes = load_landmark_shapes(mission.template_config.templates);
   }
-  if (!mission.config.world.empty()) mission.world = load_world(mission.config.world, mission.shapes);
+  if (!mission.config.world.empty()) {
+    mission.world = load_world(mission.config.world, mission.shapes);
+    check_sizes(mission.shapes, *mission.world, mission.template_config.templates);
+  }
   mission.steps = steps_of(mission.config.steps);
   return mission;
 }

@@ -35,7 +35,7 @@ std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_
   return z ^ (z >> 31U);
 }
 
-TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleMaker& modules) {
+TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {
   const TemplateConfig& config = mission.template_config;
   if (mission.shapes.empty() || config.rendering == Rendering::ideal || mission.robot.sonars.empty())
     return render_ideal_set(mission.shapes, config.step_rad, cell_m);
@@ -44,7 +44,7 @@ TemplateSet render_templates(const Mission& mission, double cell_m, const Module
   simulator.config.place = mission.config.sensor.config.place;
   if (mission.config.sensor.name == simulator.name) simulator = mission.config.sensor;
   return render_sensed_set(mission.shapes, config.step_rad, cell_m, SensedOptions{}, mission.robot, simulator,
-                           mission.config.map, modules);
+                           mission.config.map, modules, TemplateCache(template_cache_folder()));
 }
 
 MissionModules build_modules(const Mission& mission, const ModuleLibrary& library) {

@@ -23,8 +23,9 @@ struct MissionModules {
 // Throws ConfigError or ModuleFault.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library);
 
-// Templates as the mission's detector gets them: rendered for the mission's cell size.
-[[nodiscard]] TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleMaker& modules);
+// Templates as the mission's detector gets them: rendered for the mission's cell size, or taken from the
+// user's cache.
+[[nodiscard]] TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules);
 
 // A seed of its own for each module of a mission.
 [[nodiscard]] std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index = 0);

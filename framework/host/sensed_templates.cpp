@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
+
+#include "framework/host/in_parallel.hpp"
+#include "framework/host/landmark_lap.hpp"
+#include "framework/host/module_library.hpp"
 
 namespace cairn {
 namespace {
@@ -13,58 +18,11 @@ struct Gradient {
   double y = 0.0;
 };
 
-// What every lap needs.
 struct Studio {
   double cell_m;
   const SensedOptions& options;
-  const RobotModel& robot;
-  const PluginChoice& sensor;
-  const PluginChoice& map;
-  const ModuleMaker& modules;
+  LapCrew crew;
 };
-
-// The landmark alone in free space.
-World world_of(const LandmarkShape& shape, const Pose2& T_map_landmark, double extent_m) {
-  World world;
-  world.min_m = T_map_landmark.position() - Point{extent_m, extent_m};
-  world.max_m = T_map_landmark.position() + Point{extent_m, extent_m};
-  world.objects.push_back({shape.category, shape.contour, T_map_landmark, Surface::rough});
-  return world;
-}
-
-// A calibrated copy whose sonars end a little beyond the landmark: what lies further away costs time
-// and tells nothing.
-RobotModel calibrated(const RobotModel& robot, double far_enough_m) {
-  RobotModel exact = robot;
-  exact.odometry_error = {};
-  exact.compass_error = {};
-  for (SonarModel& sonar : exact.sonars) sonar.max_m = std::max(sonar.min_m, std::min(sonar.max_m, far_enough_m));
-  return exact;
-}
-
-// Drives one lap and hands every observation to the mapper.
-void drive_lap(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const Twist& twist) {
-  Drive* drive = sensor.drive();
-  if (drive == nullptr) throw std::runtime_error("sensed templates need a sensor that can be driven");
-  drive->command(twist);
-  const Budget budget;
-  double turned_rad = 0.0;
-  double heading_rad = T_map_start.theta_rad;
-  // Starting and the first turn of the wheels take a little longer than the lap itself.
-  const int most_steps = static_cast<int>(1.0e6);
-  for (int step = 0; step < most_steps && std::abs(turned_rad) < 2.0 * std::numbers::pi; ++step) {
-    const SensorStep next = sensor.next(budget);
-    if (next.state != SensorState::observation) {
-      throw std::runtime_error("sensed templates: the sensor stopped during a lap: " + next.reason);
-    }
-    PoseEstimate pose;
-    pose.T_map_robot = T_map_start * next.observation.T_odom_robot;
-    (void)mapper.integrate(next.observation, pose);
-    turned_rad += wrap_angle(pose.T_map_robot.theta_rad - heading_rad);
-    heading_rad = pose.T_map_robot.theta_rad;
-    if (next.observation.bumped) throw std::runtime_error("sensed templates: the robot touched the landmark");
-  }
-}
 
 Gradient sobel(const OccupancyGrid& grid, Cell c) {
   const auto ol = [&](int x, int y) { return static_cast<double>(grid.ol(c + Cell{x, y})); };
@@ -90,36 +48,19 @@ std::vector<TemplateCell> band_of(const Contour& contour, double orientation_rad
   return cells;
 }
 
-ModuleContext context_of(const Studio& studio, const RobotModel& robot, std::uint64_t seed, const Pose2& T_map_start,
-                         const World* world) {
-  ModuleContext context{robot};
-  context.world = world;
-  context.T_map_start = T_map_start;
-  context.seed = seed;
-  context.modules = &studio.modules;
-  return context;
-}
-
-enum class Side { left, right };  // of the robot, where the landmark is
-
 // Maps one lap and adds its gradients. The landmark's centre is the centre of cell (0, 0).
 void add_lap(const Studio& studio, const LandmarkShape& shape, double orientation_rad, Side landmark_side, int lap,
              const std::vector<TemplateCell>& cells, std::vector<Gradient>& sums) {
-  const double radius_m = 0.5 * shape.contour.outer_diameter_m() + studio.options.standoff_m;
-  const RobotModel robot = calibrated(studio.robot, 2.0 * radius_m);
-  const std::uint64_t seed = studio.options.seed + static_cast<std::uint64_t>(lap);
-  const auto mapper = studio.modules.make<Mapper>(studio.map, context_of(studio, robot, seed, {}, nullptr));
+  const SensedOptions& options = studio.options;
+  LapPlan plan{orientation_rad,    {0.0, 0.0},        landmark_side,
+               options.standoff_m, options.speed_mps, options.seed + static_cast<std::uint64_t>(lap)};
+  // The template's cells, those that Sobel looks at beside them, and the spread of a cell.
+  plan.needed_m = 0.5 * shape.contour.outer_diameter_m() + (options.edge_outside_cells + 3.0) * studio.cell_m;
+  const auto mapper = map_of_lap(studio.crew, shape.contour, plan);
   if (std::abs(mapper->grid().cell_m() - studio.cell_m) > 1e-9) {
     throw std::invalid_argument("sensed templates for cells of " + std::to_string(studio.cell_m) +
                                 " m need a mapper with such cells, not " + std::to_string(mapper->grid().cell_m()));
   }
-  const Point centre = mapper->grid().centre_of({0, 0});
-  const World world = world_of(shape, {centre.x(), centre.y(), orientation_rad}, 2.0 * radius_m + 1.0);
-  const double side = landmark_side == Side::left ? 1.0 : -1.0;
-  const Pose2 T_map_start{centre.x() + side * radius_m, centre.y(), std::numbers::pi / 2.0};
-  const auto sensor = studio.modules.make<Sensor>(studio.sensor, context_of(studio, robot, seed, T_map_start, &world));
-  const double speed_mps = std::min(studio.options.speed_mps, robot.max_v_mps);
-  drive_lap(*sensor, *mapper, T_map_start, {speed_mps, side * speed_mps / radius_m});
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Gradient gradient = sobel(mapper->grid(), cells[i].offset);
     sums[i].x += gradient.x;
@@ -147,20 +88,52 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
   return {shape.category, orientation_rad, std::move(cells)};
 }
 
+struct Task {
+  const LandmarkShape* shape;
+  double orientation_rad;
+  Side landmark_side;
+};
+
+std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector<Task>& tasks) {
+  std::vector<LandmarkTemplate> templates(tasks.size());
+  in_parallel(tasks.size(), [&](std::size_t i) {
+    templates[i] = render_sensed(studio, *tasks[i].shape, tasks[i].orientation_rad, tasks[i].landmark_side);
+  });
+  return templates;
+}
+
+std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double cell_m) {
+  std::vector<Task> tasks;
+  for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
+    for (const Side side : {Side::left, Side::right}) tasks.push_back({&shape, orientation_rad, side});
+  }
+  return tasks;
+}
+
 }  // namespace
 
 TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
                               const SensedOptions& options, const RobotModel& robot, const PluginChoice& sensor,
-                              const PluginChoice& map, const ModuleMaker& modules) {
+                              const PluginChoice& map, const ModuleLibrary& modules, const TemplateCache& cache) {
   if (options.laps < 1) throw std::invalid_argument("sensed templates need a lap, not " + std::to_string(options.laps));
-  const Studio studio{cell_m, options, robot, sensor, map, modules};
-  TemplateSet set{cell_m, step_rad, shapes, {}};
+  const Studio studio{cell_m, options, {robot, sensor, map, modules}};
+  const std::string common_key = rendering_key(step_rad, cell_m, options, robot, sensor, map, modules);
+  std::vector<std::optional<std::vector<LandmarkTemplate>>> kept;
+  std::vector<Task> tasks;
   for (const LandmarkShape& shape : shapes) {
-    for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
-      for (const Side side : {Side::left, Side::right}) {
-        set.templates.push_back(render_sensed(studio, shape, orientation_rad, side));
-      }
-    }
+    kept.push_back(cache.find(shape_key(common_key, shape)));
+    if (kept.back()) continue;
+    const std::vector<Task> more = tasks_for(shape, step_rad, cell_m);
+    tasks.insert(tasks.end(), more.begin(), more.end());
+  }
+  std::vector<LandmarkTemplate> rendered = render_all(studio, tasks);
+  TemplateSet set{cell_m, step_rad, shapes, {}};
+  for (std::size_t shape = 0, task = 0; shape < shapes.size(); ++shape) {
+    std::vector<LandmarkTemplate> own = std::move(kept[shape]).value_or(std::vector<LandmarkTemplate>());
+    const bool is_fresh = own.empty();
+    for (; task < tasks.size() && tasks[task].shape == &shapes[shape]; ++task) own.push_back(std::move(rendered[task]));
+    if (is_fresh) cache.keep(shape_key(common_key, shapes[shape]), own);
+    std::ranges::move(own, std::back_inserter(set.templates));
   }
   return set;
 }

@@ -6,6 +6,7 @@
 
 #include "framework/contracts/module.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/host/template_cache.hpp"
 #include "maps/landmark_template.hpp"
 
 namespace cairn {
@@ -28,11 +29,11 @@ struct SensedOptions {
 // ahead smear an outline in the direction of travel, so that maps of the two differ by 6 degrees or
 // so, and one template for both would miss the orientation by that much. The landmark stands with its centre
 // on the centre of a cell, the surface is rough, odometry and compass are free of error.
-// The same arguments give the same templates. Throws what the modules throw, and std::runtime_error
-// when the sensor cannot be driven or ends before the lap does.
+// The same arguments give the same templates, with the cache or without. Throws what the modules throw, and
+// std::runtime_error when the sensor cannot be driven or ends before the lap does.
 [[nodiscard]] TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
                                             const SensedOptions& options, const RobotModel& robot,
                                             const PluginChoice& sensor, const PluginChoice& map,
-                                            const ModuleMaker& modules);
+                                            const ModuleLibrary& modules, const TemplateCache& cache = TemplateCache());
 
 }  // namespace cairn

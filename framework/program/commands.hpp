@@ -16,6 +16,8 @@ inline constexpr int kExitDone = 0;
 inline constexpr int kExitNotSolved = 1;
 inline constexpr int kExitBadInput = 2;
 
+struct Mission;
+
 struct CommonOptions {
   std::vector<std::filesystem::path> plugin_folders;
   bool json = false;
@@ -59,8 +61,21 @@ struct TemplateCommand {
   double step_deg = 15.0;
   std::filesystem::path picture = "templates.png";
 };
+// Rendered as a mission with this robot would have them; what: of the command, for an error.
+[[nodiscard]] Mission template_mission(const TemplateCommand& command, const std::string& what);
 int template_list(const TemplateCommand& command, const CommonOptions& common);
 int template_preview(const TemplateCommand& command, const CommonOptions& common);
+// 1 when a category is taken for another.
+int template_check(const TemplateCommand& command, const CommonOptions& common);
+
+struct CaptureCommand {
+  std::filesystem::path map;
+  std::string at;  // a place
+  std::string category;
+  double radius_m = 0.8;
+  std::filesystem::path out;
+};
+int template_capture(const CaptureCommand& command, const CommonOptions& common);
 
 struct PluginsCommand {
   std::string name;

@@ -72,12 +72,28 @@ void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common
     return sub;
   };
   add("list", "Categories, sizes and orientations", template_list);
+  add("check", "Which categories the sensed templates would mistake for which", template_check)
+      ->add_option("--robot", c.robot, "robot file whose sonars sense the templates")
+      ->required();
   CLI::App* preview = add("preview", "Draw every template of a folder into a PNG file", template_preview);
   preview->add_option("--rendering", c.rendering, "sensed or ideal")
       ->check(CLI::IsMember({"sensed", "ideal"}))
       ->capture_default_str();
   preview->add_option("--robot", c.robot, "robot file whose sonars sense the templates");
   preview->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
+}
+
+void add_template_capture(CLI::App& app, CaptureCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* capture =
+      app.get_subcommand("template")->add_subcommand("capture", "Make a template file of a thing in a saved map");
+  capture->add_option("MAP", c.map, "saved map (*.cairn)")->required();
+  capture->add_option("--at", c.at, "where it is: x,y or a landmark")->required();
+  capture->add_option("--category", c.category, "what to call such landmarks")->required();
+  capture->add_option("--radius-m", c.radius_m, "everything that lies wholly within this of the place belongs to it")
+      ->check(CLI::Range(0.05, 20.0))
+      ->capture_default_str();
+  capture->add_option("-o,--out", c.out, "template file to write")->required();
+  capture->callback([&] { action = [&] { return template_capture(c, common); }; });
 }
 
 void add_plugins(CLI::App& app, PluginsCommand& c, const CommonOptions& common, Action& action) {
@@ -144,6 +160,7 @@ int main_of(int argc, char** argv) {
   PlanCommand plan_options;
   MapCommand map_options;
   TemplateCommand template_options;
+  CaptureCommand capture_options;
   ExperimentCommand experiment_options;
   PluginsCommand plugins_options;
   NewPluginCommand new_plugin_options;
@@ -153,6 +170,7 @@ int main_of(int argc, char** argv) {
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
   add_template(app, template_options, common, action);
+  add_template_capture(app, capture_options, common, action);
   add_plugins(app, plugins_options, common, action);
   add_plugins_new(app, new_plugin_options, common, action);
   add_reference(app, reference_options, common, action);

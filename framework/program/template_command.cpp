@@ -21,25 +21,23 @@ PluginChoice plain(const std::string& name) {
   return choice;
 }
 
-// A mission of nothing but templates: the robot, the simulator and the default mapper.
-TemplateSet render(const TemplateCommand& command, const CommonOptions& common, std::vector<LandmarkShape> shapes) {
+}  // namespace
+
+// Nothing but templates: the robot, the simulator and the default mapper.
+Mission template_mission(const TemplateCommand& command, const std::string& what) {
   Mission mission;
-  mission.shapes = std::move(shapes);
+  mission.shapes = load_landmark_shapes(command.folder);
   mission.template_config.step_rad = radians(command.step_deg);
   mission.template_config.rendering = command.rendering == "ideal" ? Rendering::ideal : Rendering::sensed;
   if (mission.template_config.rendering == Rendering::sensed) {
-    if (command.robot.empty())
-      throw std::runtime_error("template preview: sensed templates need --robot FILE (or choose --rendering ideal)");
+    if (command.robot.empty()) throw std::runtime_error("template " + what + ": sensed templates need --robot FILE");
     mission.robot = load_robot(command.robot);
   }
   mission.config.sensor = plain("simulated_robot");
   mission.config.map = plain("bayes");
   apply_override(mission.config.map.config, fmt::format("cell_m={}", command.cell_m));
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
-  return fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); });
+  return mission;
 }
-
-}  // namespace
 
 int template_list(const TemplateCommand& command, const CommonOptions& common) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -61,7 +59,10 @@ int template_list(const TemplateCommand& command, const CommonOptions& common) {
 }
 
 int template_preview(const TemplateCommand& command, const CommonOptions& common) {
-  const TemplateSet set = render(command, common, load_landmark_shapes(command.folder));
+  const Mission mission = template_mission(command, "preview");
+  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  const TemplateSet set =
+      fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); });
   write_template_sheet(command.picture, set, command.folder.string() + ", " + command.rendering);
   if (common.json)
     std::cout

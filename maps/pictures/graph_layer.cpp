@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "maps/pictures/colours.hpp"
@@ -16,21 +15,21 @@ constexpr std::size_t kMaxLabels = 250;
 constexpr TextStyle kLabelText{kInk, 12.5};
 constexpr double kLabelHeightPx = 18.0;
 
-// Corners of a contour, a circle as a fine polygon.
-std::vector<Point> corners_of(const Contour& contour) {
-  if (!contour.is_circle()) return contour.polygon_m;
-  std::vector<Point> corners;
-  for (int i = 0; i < 64; ++i) {
-    const double angle_rad = i * 2.0 * std::numbers::pi / 64.0;
-    corners.push_back(contour.circle_diameter_m / 2.0 * Point(std::cos(angle_rad), std::sin(angle_rad)));
-  }
-  return corners;
-}
+constexpr int kCircleCorners = 64;
 
 double outer_radius_m(const Contour& contour) {
-  double radius_m = 0.0;
-  for (const Point& corner : corners_of(contour)) radius_m = std::max(radius_m, corner.norm());
-  return radius_m;
+  return 0.5 * contour.outer_diameter_m();
+}
+
+// place: where a point of the contour's frame is drawn.
+template <class Place>
+void draw_contour(Canvas& canvas, const Contour& contour, Colour colour, double line_px, Place place) {
+  for (const std::vector<Point>& outline : contour.outlines_m(kCircleCorners)) {
+    std::vector<Pixel> corners;
+    for (const Point& p : outline) corners.push_back(place(p));
+    canvas.fill_polygon(corners, {colour, 0.2});
+    canvas.outline(corners, {colour, line_px});
+  }
 }
 
 Point end_of(const Landmark& landmark) {
@@ -47,10 +46,8 @@ LegendEntry category_entry(const std::string& category, const Contour* contour, 
     return {category, [colour](Canvas& canvas, const Pixel& at) { canvas.fill_disc(at, kDotPx, {colour}); }};
   return {category, [contour = *contour, colour](Canvas& canvas, const Pixel& at) {
             const double scale = 8.0 / outer_radius_m(contour);
-            std::vector<Pixel> corners;
-            for (const Point& p : corners_of(contour)) corners.push_back(at + Pixel(p.x() * scale, -p.y() * scale));
-            canvas.fill_polygon(corners, {colour, 0.2});
-            canvas.outline(corners, {colour, 2.0});
+            draw_contour(canvas, contour, colour, 2.0,
+                         [&](const Point& p) { return Pixel(at + Pixel(p.x() * scale, -p.y() * scale)); });
           }};
 }
 
@@ -103,10 +100,8 @@ void GraphLayer::draw_landmarks(Canvas& canvas, const MapFrame& frame) const {
     const Colour colour = colour_of(landmark.category);
     const Pixel centre = frame.pixel_of(landmark.T_map_landmark.position());
     if (const Contour* contour = contour_of(landmark.category)) {
-      std::vector<Pixel> corners;
-      for (const Point& p : corners_of(*contour)) corners.push_back(frame.pixel_of(landmark.T_map_landmark * p));
-      canvas.fill_polygon(corners, {colour, 0.2});
-      canvas.outline(corners, {colour, 2.5});
+      draw_contour(canvas, *contour, colour, 2.5,
+                   [&](const Point& p) { return frame.pixel_of(landmark.T_map_landmark * p); });
       canvas.fill_disc(centre, 2.5, {colour});
     } else {
       canvas.fill_disc(centre, kDotPx + 1.5, {kWhite});

@@ -79,9 +79,10 @@ Scene::Scene(const World& world) {
       round_faces_.push_back({object.T_map_object.position(), 0.5 * object.contour.circle_diameter_m, rough});
       continue;
     }
-    const std::vector<Point>& corners = object.contour.polygon_m;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      add_face(object.T_map_object * corners[i], object.T_map_object * corners[(i + 1) % corners.size()], rough);
+    for (const std::vector<Point>& corners : object.contour.polygons_m) {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        add_face(object.T_map_object * corners[i], object.T_map_object * corners[(i + 1) % corners.size()], rough);
+      }
     }
   }
   collect_vertices();

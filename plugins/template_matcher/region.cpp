@@ -17,7 +17,6 @@ class Neighbourhood {
   Neighbourhood(Cell centre, int reach)
       : centre_(centre), reach_(reach), side_(static_cast<std::size_t>(2 * reach + 1)), in_(side_ * side_, 0) {}
 
-  [[nodiscard]] bool covers(Cell c) const { return distance8(c, centre_) <= reach_; }
   // True when the cell was not in yet.
   bool insert(Cell c) {
     char& flag = in_[static_cast<std::size_t>(c.y - centre_.y + reach_) * side_ +
@@ -38,6 +37,19 @@ bool by_row(Cell a, Cell b) {
   return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
+// Adds every cell within so many cells of one that is in.
+void widen(std::vector<Cell>& region, Neighbourhood& neighbourhood, int by) {
+  const std::size_t grown = by > 0 ? region.size() : 0;
+  for (std::size_t i = 0; i < grown; ++i) {
+    for (int y = -by; y <= by; ++y) {
+      for (int x = -by; x <= by; ++x) {
+        const Cell c = region[i] + Cell{x, y};
+        if (neighbourhood.insert(c)) region.push_back(c);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 RegionReach RegionReach::of(double smallest_diameter_m, double largest_diameter_m, double coarse_cell_m) {
@@ -45,8 +57,17 @@ RegionReach RegionReach::of(double smallest_diameter_m, double largest_diameter_
   return {start, std::max(start, floor_of(largest_diameter_m / coarse_cell_m))};
 }
 
+RegionReach RegionReach::of(const TemplateSet& set, double coarse_cell_m) {
+  RegionReach reach = of(set.smallest_diameter_m(), set.largest_diameter_m(), coarse_cell_m);
+  for (const LandmarkShape& shape : set.shapes) {
+    const double open_m = shape.contour.signed_distance({0.0, 0.0});
+    if (open_m > 0.0) reach.open = std::max(reach.open, static_cast<int>(std::ceil(open_m / coarse_cell_m)));
+  }
+  return reach;
+}
+
 std::vector<Cell> grow_region(const CoarseGrid& coarse, Cell trigger, const RegionReach& reach, double tau_grow) {
-  Neighbourhood neighbourhood(trigger, reach.most);
+  Neighbourhood neighbourhood(trigger, reach.most + reach.open);
   std::vector<Cell> region;
   for (int y = -reach.start; y <= reach.start; ++y) {
     for (int x = -reach.start; x <= reach.start; ++x) {
@@ -59,11 +80,12 @@ std::vector<Cell> grow_region(const CoarseGrid& coarse, Cell trigger, const Regi
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) {
         const Cell c = region[next] + Cell{x, y};
-        if (!neighbourhood.covers(c) || !bounds.contains(c) || coarse.ol(c) <= tau_grow) continue;
+        if (distance8(c, trigger) > reach.most || !bounds.contains(c) || coarse.ol(c) <= tau_grow) continue;
         if (neighbourhood.insert(c)) region.push_back(c);
       }
     }
   }
+  widen(region, neighbourhood, reach.open);
   std::sort(region.begin(), region.end(), by_row);
   return region;
 }

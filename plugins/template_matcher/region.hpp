@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "maps/coarse_grid.hpp"
+#include "maps/landmark_template.hpp"
 
 namespace cairn::template_matcher {
 
@@ -12,11 +13,16 @@ struct RegionReach {
   int start = 0;  // of the neighbourhood that the smallest landmark fills: always searched
   int most = 0;   // of the neighbourhood that the largest landmark may fill
 
+  // How far the searched cells may lie from occupied ones: the centre of an L or of a door frame stands in
+  // the open. 0 when every landmark covers its own centre.
+  int open = 0;
+
   [[nodiscard]] static RegionReach of(double smallest_diameter_m, double largest_diameter_m, double coarse_cell_m);
+  [[nodiscard]] static RegionReach of(const TemplateSet& set, double coarse_cell_m);
 };
 
 // Coarse cells to search, sorted by (y, x): the starting neighbourhood, extended by 8-adjacent cells
-// of the grid with OL2 > tau_grow within the largest neighbourhood.
+// of the grid with OL2 > tau_grow within the largest neighbourhood, and all of it widened by `open`.
 [[nodiscard]] std::vector<Cell> grow_region(const CoarseGrid& coarse, Cell trigger, const RegionReach& reach,
                                             double tau_grow);
 

@@ -56,21 +56,21 @@ TEST(Contour, MeasuresASquareFromSidesAndCorners) {
 TEST(Contour, PutsTheOriginAtTheCentroidOfTheAreaNotOfTheCorners) {
   // An L of three unit squares with an extra corner on one side: centroid of the area (5/6, 5/6).
   const Contour ell = Contour::polygon({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
-  const Point corner = ell.polygon_m.front();
+  const Point corner = ell.polygons_m[0].front();
   EXPECT_NEAR(corner.x(), -5.0 / 6.0, 1e-12);
   EXPECT_NEAR(corner.y(), -5.0 / 6.0, 1e-12);
 }
 
 TEST(Contour, KeepsTheFrameOfAPolygonInPlace) {
   const Contour room = Contour::polygon_in_place(box(3.0, 1.0, 5.0, 2.0));
-  EXPECT_EQ(room.polygon_m.front(), Point(3.0, 1.0));
+  EXPECT_EQ(room.polygons_m[0].front(), Point(3.0, 1.0));
   EXPECT_DOUBLE_EQ(room.inner_diameter_m(), 0.0);
   EXPECT_NEAR(room.signed_distance({4.0, 1.5}), -0.5, 1e-12);
 }
 
 TEST(Contour, TurnsClockwiseCornersRound) {
   const Contour triangle = Contour::polygon({{0, 0}, {0, 1}, {1, 0}});
-  EXPECT_GT(signed_area(triangle.polygon_m), 0.0);
+  EXPECT_GT(signed_area(triangle.polygons_m.front()), 0.0);
 }
 
 TEST(Contour, IsConcaveInsideTheNotch) {
@@ -104,6 +104,47 @@ TEST(Contour, SaysWhatIsWrongWithAPolygon) {
   EXPECT_THAT(error_of({{0, 0}, {1, 0}, {0, 1}, {0, 0}}), HasSubstr("corner 0 of the polygon repeats corner 3"));
   EXPECT_THAT(error_of({{0, 0}, {1, 1}, {1, 0}, {0, 1}}), HasSubstr("crosses itself"));
   EXPECT_THAT(error_of({{0, 0}, {2, 0}, {1, 0}, {1, 1}}), HasSubstr("folds back on itself"));
+}
+
+std::string error_of_parts(const std::vector<std::vector<Point>>& polygons) {
+  try {
+    (void)Contour::parts(polygons);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Contour, OfSeveralPartsHasItsOriginAtTheirCommonCentroid) {
+  // A post of one square metre at x = 0.5 and one of three at x = 4.5, drawn clockwise.
+  const Contour posts = Contour::parts({box(0, 0, 1, 1), {{4, -1}, {4, 2}, {5, 2}, {5, -1}}});
+  EXPECT_NEAR(posts.polygons_m[0][0].x(), -(0.5 + 3 * 4.5) / 4.0, 1e-12);
+  EXPECT_NEAR(posts.polygons_m[0][0].y(), -0.5, 1e-12);
+  EXPECT_GT(signed_area(posts.polygons_m[1]), 0.0);
+  EXPECT_NEAR(posts.outer_diameter_m(), 2.0 * std::hypot(3.5, 0.5), 1e-12);
+  EXPECT_EQ(posts.inner_diameter_m(), 0.0) << "the centre is between the posts";
+}
+
+TEST(Contour, OfSeveralPartsMeasuresToTheNearest) {
+  const Contour posts = Contour::parts_in_place({box(0, 0, 1, 1), box(3, 0, 4, 1)});
+  EXPECT_NEAR(posts.signed_distance({0.5, 0.75}), -0.25, 1e-12);
+  EXPECT_NEAR(posts.signed_distance({3.75, 0.5}), -0.25, 1e-12);
+  EXPECT_NEAR(posts.signed_distance({2.5, 0.5}), 0.5, 1e-12);
+}
+
+TEST(Contour, SaysWhatIsWrongWithParts) {
+  EXPECT_THAT(error_of_parts({}), HasSubstr("at least one part"));
+  EXPECT_THAT(error_of_parts({box(0, 0, 1, 1), box(0.5, 0.5, 2, 2)}), HasSubstr("part 2 meets part 1"));
+  EXPECT_THAT(error_of_parts({box(0, 0, 1, 1), box(1, 0, 2, 1)}), HasSubstr("part 2 meets part 1"));
+  EXPECT_THAT(error_of_parts({box(5, 5, 6, 6), box(0, 0, 1, 1), box(-1, -1, 2, 2)}), HasSubstr("part 3 meets part 2"));
+  EXPECT_THAT(error_of_parts({box(0, 0, 1, 1), {{2, 2}, {3, 3}}}), HasSubstr("part 2: a polygon needs at least 3"));
+}
+
+TEST(Contour, DrawsACircleAsAPolygonWhenAsked) {
+  const std::vector<std::vector<Point>> outlines = Contour::circle(2.0).outlines_m(4);
+  ASSERT_EQ(outlines.size(), 1U);
+  ASSERT_EQ(outlines[0].size(), 4U);
+  EXPECT_NEAR((outlines[0][1] - Point(0.0, 1.0)).norm(), 0.0, 1e-12);
 }
 
 TEST(Contour, RefusesAPolygonThatTouchesItself) {

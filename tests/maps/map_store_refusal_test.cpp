@@ -223,7 +223,7 @@ TEST_F(ForgedMap, RefusesImpossibleLandmarks) {
 
 TEST_F(ForgedMap, RefusesImpossibleShapes) {
   EXPECT_EQ(refusal_after_forging("UPDATE shapes SET kind = 'star' WHERE number = 1"),
-            "table shapes: kind \"star\" is not circle or polygon");
+            "table shapes: kind \"star\" is not circle, polygon or polygons");
   EXPECT_EQ(refusal_after_forging("UPDATE shapes SET parameters = '0,0 1,x' WHERE number = 1"),
             "table shapes: a number is expected at \"x\"");
   EXPECT_EQ(refusal_after_forging("UPDATE shapes SET parameters = '0,0;1,1' WHERE number = 1"),

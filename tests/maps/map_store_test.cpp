@@ -61,6 +61,15 @@ TEST_F(MapStore, LeavesNothingButTheMapBeside) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
+TEST_F(MapStore, KeepsShapesOfSeveralParts) {
+  SavedMap map = small_map();
+  map.shapes.push_back({"posts", Contour::parts_in_place({{{0, 0}, {0.1, 0}, {0.1, 0.1}},
+                                                          {{1.0, 0}, {1.1, 0}, {1.1, 0.1}, {1.0, 1.0 / 7.0}}})});
+  save_map(file(), map);
+  expect_equal(load_map(file()), map);
+  EXPECT_EQ(load_map(file()).shapes.back().contour.polygons_m.size(), 2U);
+}
+
 TEST_F(MapStore, IsAnSqliteFileThatNamesItsProgramAndVersion) {
   save_map(file(), small_map());
   const std::string bytes = bytes_of(file());

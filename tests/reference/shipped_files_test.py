@@ -17,7 +17,8 @@ OPEN_MAPS = ("parameters",)
 
 
 def files_of(kind):
-    return sorted((CONFIG / (kind + "s")).glob("*.yaml"))
+    folders = [CONFIG / (kind + "s")] + ([CONFIG / "templates_extra"] if kind == "template" else [])
+    return [file for folder in folders for file in sorted(folder.glob("*.yaml"))]
 
 
 def validator_of(kind):

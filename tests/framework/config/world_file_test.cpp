@@ -65,7 +65,7 @@ std::vector<Point> outline_of(const WorldObject& object) {
     }
     return points;
   }
-  const std::vector<Point>& corners = object.contour.polygon_m;
+  const std::vector<Point>& corners = object.contour.polygons_m.front();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Point& next = corners[(i + 1) % corners.size()];
     for (int k = 0; k < 10; ++k)
@@ -130,9 +130,9 @@ TEST(WorldFile, ObjectsStandWhereTheySay) {
   EXPECT_EQ(world.objects[0].contour, shipped_shapes()[2].contour);
   EXPECT_DOUBLE_EQ(world.objects[0].T_map_object.theta_rad, radians(-90.0));
   EXPECT_EQ(world.objects[1].category, "");
-  EXPECT_EQ(world.objects[1].contour.polygon_m[0], Point(3, 1)) << "corners in the map";
+  EXPECT_EQ(world.objects[1].contour.polygons_m[0][0], Point(3, 1)) << "corners in the map";
   EXPECT_EQ(world.objects[1].T_map_object, Pose2{});
-  EXPECT_EQ(world.objects[2].contour.polygon_m[0], Point(-1, -0.5)) << "corners about the centroid";
+  EXPECT_EQ(world.objects[2].contour.polygons_m[0][0], Point(-1, -0.5)) << "corners about the centroid";
   EXPECT_EQ(world.objects[2].T_map_object, (Pose2{2, 3, radians(90.0)}));
 }
 

@@ -40,6 +40,30 @@ TEST(RegionReach, IsNotCutByRoundingOfWholeRatios) {
   EXPECT_EQ(RegionReach::of(0.1, 0.7, 0.1).most, 7);
 }
 
+TEST(RegionReach, LooksBesideTheOccupiedCellsOnlyForShapesWithAnOpenCentre) {
+  const auto post = [](double x) { return std::vector<Point>{{x, 0.0}, {x + 0.2, 0.0}, {x + 0.2, 0.2}, {x, 0.2}}; };
+  TemplateSet set;
+  set.shapes = {{"box", Contour::polygon(post(0.0))}};
+  EXPECT_EQ(RegionReach::of(set, 0.25).open, 0);
+  // The posts begin 0.45 m from the middle.
+  set.shapes.push_back({"door", Contour::parts({post(0.0), post(1.1)})});
+  EXPECT_EQ(RegionReach::of(set, 0.25).open, 2);
+}
+
+TEST(GrowRegion, IsWidenedForShapesWithAnOpenCentre) {
+  EXPECT_THAT(region_in({".......",  //
+                         ".......",  //
+                         "...##..",  //
+                         ".......",  //
+                         "......."},
+                        {3, 2}, {0, 1, 1}),
+              ElementsAre("       ",  //
+                          "  oooo ",  //
+                          "  oToo ",  //
+                          "  oooo ",  //
+                          "       "));
+}
+
 TEST(GrowRegion, IsTheSmallestNeighbourhoodWhereNothingRisesAround) {
   EXPECT_THAT(region_in({".......",  //
                          ".......",  //

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "framework/config/template_file.hpp"
+#include "framework/host/place.hpp"
+#include "framework/program/commands.hpp"
+#include "maps/captured_outline.hpp"
+#include "maps/map_store.hpp"
+
+namespace cairn {
+namespace {
+
+Point place_in(const SavedMap& map, const std::string& text) {
+  const Place place = parse_place(text, map.graph);
+  if (place.pose) return place.pose->position();
+  if (place.landmarks.size() != 1)
+    throw std::runtime_error("template capture: --at \"" + text + "\" is " + std::to_string(place.landmarks.size()) +
+                             " landmarks; name one, such as L" + std::to_string(place.landmarks.front()));
+  return map.graph.find(place.landmarks.front())->T_map_landmark.position();
+}
+
+std::string corners_text(const std::vector<Point>& corners) {
+  std::string text;
+  for (const Point& p : corners) text += fmt::format("{}[{:.3f}, {:.3f}]", text.empty() ? "" : ", ", p.x(), p.y());
+  return "[" + text + "]";
+}
+
+std::string template_text(const CaptureCommand& command, const CapturedOutline& captured) {
+  std::string text = fmt::format("# Captured at ({:.2f}, {:.2f}) m of {}; at 0 deg it stands as it stands there.\n",
+                                 captured.at_m.x(), captured.at_m.y(), command.map.filename().string());
+  text += "category: " + command.category + "\n";
+  const std::vector<std::vector<Point>>& polygons = captured.contour.polygons_m;
+  if (polygons.size() == 1) return text + "polygon_m: " + corners_text(polygons.front()) + "\n";
+  text += "parts:\n";
+  for (const std::vector<Point>& corners : polygons) text += "  - {polygon_m: " + corners_text(corners) + "}\n";
+  return text;
+}
+
+// Leaves no file behind that would not load.
+LandmarkShape write_template(const std::filesystem::path& file, const std::string& text) {
+  if (std::filesystem::exists(file)) throw std::runtime_error(file.string() + ": there is such a file already");
+  std::ofstream out(file);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  try {
+    return load_landmark_shape(file);
+  } catch (...) {
+    std::filesystem::remove(file);
+    throw;
+  }
+}
+
+}  // namespace
+
+int template_capture(const CaptureCommand& command, const CommonOptions& common) {
+  const SavedMap map = load_map(command.map);
+  CapturedOutline captured;
+  try {
+    captured = captured_outline(map.grid, place_in(map, command.at), command.radius_m);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(command.map.string() + ": " + error.what());
+  }
+  const LandmarkShape shape = write_template(command.out, template_text(command, captured));
+  const double diameter_m = shape.contour.outer_diameter_m();
+  if (common.json)
+    std::cout << nlohmann::ordered_json{{"file", command.out.string()}, {"category", shape.category},
+                                        {"x_m", captured.at_m.x()},     {"y_m", captured.at_m.y()},
+                                        {"diameter_m", diameter_m},     {"parts", shape.contour.polygons_m.size()}}
+                     .dump()
+              << "\n";
+  else
+    std::cout << fmt::format("wrote {}: {}, {:.2f} m across, {} part{}\n", command.out.string(), shape.category,
+                             diameter_m, shape.contour.polygons_m.size(),
+                             shape.contour.polygons_m.size() == 1 ? "" : "s");
+  return kExitDone;
+}
+
+}  // namespace cairn

@@ -1,0 +1,58 @@
+// `cairn template`: what it says about a set of templates, and a template cut out of a map.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::string config(const std::string& path) {
+  return source_folder() + "/config/" + path;
+}
+
+Finished check(const std::filesystem::path& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"template", "check", folder.string(), "--robot", config("robots/pioneer1.yaml")};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_cairn(arguments);
+}
+
+TEST(TemplateCheck, TellsThePapersShapesApart) {
+  const Finished finished = check(config("templates"), {"--json"});
+  EXPECT_EQ(finished.exit_status, 0) << finished.err;
+  const json report = json::parse(finished.out);
+  EXPECT_EQ(report["categories"], json({"circle", "square", "triangle"}));
+  EXPECT_EQ(report["views"].size(), 30U) << "15 orientations and as many between";
+  int within_a_step = 0;
+  for (const json& view : report["views"]) {
+    EXPECT_EQ(view["found"], view["shown"]) << view;
+    within_a_step += static_cast<int>(view["angle_error_deg"] <= 15.0);
+  }
+  EXPECT_GE(within_a_step, 28);
+}
+
+TEST(TemplateCheck, NamesTwinsAndWhatWouldHelp) {
+  const auto folder = fresh_folder("template_twins");
+  write_text(folder / "a.yaml", "category: pillar\ncircle: {diameter_m: 0.5}\n");
+  write_text(folder / "b.yaml", "category: column\ncircle: {diameter_m: 0.51}\n");
+  write_text(folder / "c.yaml", "category: box\npolygon_m: [[0, 0], [0.9, 0], [0.9, 0.5], [0, 0.5]]\n");
+  const Finished finished = check(folder, {"--json"});
+  const json report = json::parse(finished.out);
+  // So alike that the margin leaves them unknown or one is taken for the other, and the box is what it is.
+  const int twins_right =
+      report["confusion"]["pillar"].value("pillar", 0) + report["confusion"]["column"].value("column", 0);
+  EXPECT_LT(twins_right, 4) << report["confusion"];
+  EXPECT_EQ(report["confusion"]["box"]["box"], 24) << report["confusion"];
+  const std::string advice = report["advice"].dump();
+  EXPECT_THAT(advice, HasSubstr("their outlines differ by at most 0.01 m, 0.1 cells; leave one of them out"));
+  EXPECT_THAT(check(folder).out, HasSubstr("- column left open beside pillar 2 times: "));
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
