@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "framework/host/places_table.hpp"
 
 namespace cairn {
 namespace {
@@ -56,6 +57,17 @@ Estimate difference(const std::vector<const ExperimentRow*>& rows, const std::ve
   if (values.size() != from.size()) return {};
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= from[i];
   return estimate_of(values);
+}
+
+ordered_json json_of_places(const ExperimentConfig& config, const ExperimentRow& row) {
+  ordered_json places = ordered_json::array();
+  for (std::size_t i = 0; i < row.places.size(); ++i) {
+    ordered_json place = {{"place", config.places[i].name}, {"looks_at", config.places[i].looks_at}};
+    for (std::size_t k = 0; k < row.places[i].degrees.size(); ++k)
+      place[config.categories[k]] = row.places[i].degrees[k];
+    places.push_back(std::move(place));
+  }
+  return places;
 }
 
 std::string cell_text(const Estimate& estimate) {
@@ -126,6 +138,7 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
                        {"matchings", row.result.matchings},
                        {"collisions", row.result.collisions},
                        {"good", row.is_good()}};
+  if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
     if (!measure.needs_truth || row.quality) json[measure.name] = measure.of(row);
@@ -134,19 +147,6 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
 }
 
 }  // namespace
-
-Estimate estimate_of(const std::vector<double>& values) {
-  if (values.empty()) return {};
-  const auto count = static_cast<double>(values.size());
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / count;
-  if (values.size() == 1) return {mean, 0.0};
-  double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  const boost::math::students_t distribution(count - 1.0);
-  return {mean, boost::math::quantile(distribution, 0.975) * std::sqrt(squares / (count - 1.0) / count)};
-}
 
 const std::vector<RunMeasure>& map_measures() {
   using Row = ExperimentRow;
@@ -177,14 +177,21 @@ std::vector<std::string> missions_of(const std::vector<ExperimentRow>& rows) {
 }
 
 std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
-  return config.experiment == ExperimentKind::maps ? maps_table(config, rows) : missions_table(config, rows);
+  switch (config.experiment) {
+    case ExperimentKind::missions:
+      return missions_table(config, rows);
+    case ExperimentKind::maps:
+      return maps_table(config, rows);
+    case ExperimentKind::places:
+      return places_table(config, rows);
+  }
+  return {};
 }
 
 std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   ordered_json list = ordered_json::array();
   for (const ExperimentRow& row : rows) list.push_back(json_of(row, config));
-  const char* kind = config.experiment == ExperimentKind::maps ? "maps" : "missions";
-  const ordered_json all = {{"experiment", kind},
+  const ordered_json all = {{"experiment", std::string(name_of(config.experiment))},
                             {"tolerance_m", config.tolerance_m},
                             {"good", good_rows(rows)},
                             {"runs", rows.size()},

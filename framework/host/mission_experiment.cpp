@@ -45,8 +45,12 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
 
 // A fault in the last variant's settings is told before the first one has run for an hour.
 void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<Job>& jobs) {
-  for (const Job& job : jobs)
-    if (job.seed == config.seeds.from) MissionRunner(mission_of(config, job), library, {job.out, false, nullptr});
+  for (const Job& job : jobs) {
+    if (job.seed != config.seeds.from) continue;
+    const Mission mission = mission_of(config, job);
+    if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
+    MissionRunner(mission, library, {job.out, false, nullptr});
+  }
 }
 
 ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
@@ -61,7 +65,11 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   runner.subscribe(report);
   runner.subscribe(path);
   runner.subscribe(withheld);
-  ExperimentRow row{job.mission.stem(), job.variant.name, job.seed, runner.run(), {}, 0.0, {}, 0, 0.0, 0.0};
+  ExperimentRow row;
+  row.mission = job.mission.stem();
+  row.variant = job.variant.name;
+  row.seed = job.seed;
+  row.result = runner.run();
   std::ofstream(job.out / "report.json") << report.report_json(mission, row.result, runner.graph(), {});
   if (mission.world) row.score = score_against(*mission.world, runner.graph(), config.tolerance_m);
   for (const LandmarkTruth& matched : row.score.matched)
@@ -71,61 +79,19 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
     row.withheld = withheld.count();
     row.withheld_log_likelihood = withheld.mean_log_likelihood(*runner.grid());
   }
+  if (config.experiment == ExperimentKind::places)
+    row.places = degrees_at_places(config, *mission.world, report.degrees(), row.result.steps);
+  for (const StageTime& time : runner.times())
+    if (time.stage == "detector") row.detector_wall_s += time.total_s;
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return row;
 }
 
 }  // namespace
 
-void SeedRange::describe(Fields<SeedRange>& fields) {
-  fields.integer("from", &SeedRange::from, {0.0, 9.0e15}, "first seed");
-  fields.integer("count", &SeedRange::count, {1.0, 100000.0}, "how many seeds");
-}
-
-void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
-  fields.text("name", &ExperimentVariant::name, "what it is called in tables").required = true;
-  fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
-}
-
-void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
-  using C = ExperimentConfig;
-  fields
-      .choice("experiment", &C::experiment, {{"missions", ExperimentKind::missions}, {"maps", ExperimentKind::maps}},
-              "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
-              "the true world, and how well it foretells readings that were withheld from it")
-      .required = true;
-  fields.files("missions", &C::missions, "mission files").required = true;
-  fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
-  fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
-  fields.group("seeds", &C::seeds, "which seeds");
-  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
-  fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
-  fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
-                "share of good runs that makes the experiment a success");
-  fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
-}
-
 bool ExperimentRow::is_good() const {
   return result.outcome == MissionOutcome::done && score.missed_objects == 0 && score.false_landmarks == 0 &&
          result.collisions == 0;
-}
-
-ExperimentConfig load_experiment(const std::filesystem::path& file) {
-  const ConfigValue root = read_config_file(file);
-  auto config = load_config<ExperimentConfig>(root, "experiment");
-  if (config.missions.empty()) throw ConfigError(root.find("missions")->place, "missions must list at least one file");
-  if (config.variants.empty()) config.variants.push_back({"as_is", {}});
-  std::vector<std::string> names;
-  for (const ExperimentVariant& variant : config.variants) {
-    if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
-      throw ConfigError(root.find("variants")->place,
-                        "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
-    names.push_back(variant.name);
-  }
-  if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
-    throw ConfigError(root.find("baseline")->place,
-                      "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
-  return config;
 }
 
 std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,

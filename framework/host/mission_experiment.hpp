@@ -7,42 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "framework/config/fields.hpp"
+#include "framework/host/experiment_config.hpp"
+#include "framework/host/experiment_places.hpp"
 #include "framework/host/map_quality.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/run_report.hpp"
 
 namespace cairn {
-
-// What is asked of the runs: were the landmarks found; how good are the maps.
-enum class ExperimentKind { missions, maps };
-
-struct SeedRange {
-  std::int64_t from = 1;
-  int count = 20;
-  static void describe(Fields<SeedRange>& fields);
-};
-
-struct ExperimentVariant {
-  std::string name;
-  std::vector<std::string> overrides;
-  static void describe(Fields<ExperimentVariant>& fields);
-};
-
-// config/experiments/*.yaml
-struct ExperimentConfig {
-  ExperimentKind experiment = ExperimentKind::missions;
-  std::vector<std::filesystem::path> missions;
-  std::vector<ExperimentVariant> variants;  // after loading at least one
-  std::string baseline;                     // a variant's name
-  SeedRange seeds;
-  int withhold_every = 0;
-  double tolerance_m = 0.10;    // a landmark further from the truth is false
-  double at_least_ratio = 0.0;  // share of good runs that makes the experiment a success
-  std::vector<std::string> overrides;
-  static void describe(Fields<ExperimentConfig>& fields);
-};
 
 struct ExperimentRow {
   std::string mission;
@@ -54,14 +26,13 @@ struct ExperimentRow {
   std::optional<MapQuality> quality;  // where there is a true world
   std::int64_t withheld = 0;
   double withheld_log_likelihood = 0.0;  // mean, nat
+  std::vector<PlaceDegrees> places;      // one a place of the experiment
   double wall_s = 0.0;
+  double detector_wall_s = 0.0;
 
   // All landmarks of the world found within the tolerance, none besides, nothing bumped into.
   [[nodiscard]] bool is_good() const;
 };
-
-// Throws ConfigError.
-[[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file);
 
 // Runs everything, two at a time where the machine has two cores; rows come by mission, variant and seed.
 // A recorded log is the same in each run: it is run on as many seeds as withhold other readings. Each run

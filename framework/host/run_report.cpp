@@ -123,7 +123,7 @@ struct Sentence {
 
 void RunReport::on(const Event& event, const MissionView& view) {
   if (const auto* matching = std::get_if<MatchingDone>(&event))
-    degrees_.push_back({view.world.time_s, matching->matching.degrees});
+    degrees_.push_back({view.world.time_s, matching->matching.region_centre_m, matching->matching.degrees});
   if (std::holds_alternative<TickDone>(event)) note_pose_error(view);
   if (std::holds_alternative<MapSaved>(event)) explored_ratio_ = known_ratio(view.world.grid);
   const std::string sentence = std::visit(Sentence{}, event);

@@ -14,6 +14,7 @@ namespace cairn {
 // Best degree a category at one matching, for charts and reports.
 struct DegreeSample {
   double time_s = 0.0;
+  Point region_centre_m{0.0, 0.0};
   std::vector<CategoryDegree> degrees;
 };
 

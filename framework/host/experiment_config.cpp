@@ -1,0 +1,102 @@
+#include "framework/host/experiment_config.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{
+      {"missions", ExperimentKind::missions}, {"maps", ExperimentKind::maps}, {"places", ExperimentKind::places}};
+  return kKinds;
+}
+
+void check_places(const ExperimentConfig& config, const ConfigValue& root) {
+  if (config.places.empty()) throw ConfigError(root.place, "an experiment of places must list some under places");
+  if (config.categories.empty()) throw ConfigError(root.place, "an experiment of places must list its categories");
+  for (std::size_t i = 0; i < config.places.size(); ++i) {
+    const PlaceConfig& place = config.places[i];
+    const ConfigValue& value = root.find("places")->items[i];
+    if (std::ranges::find(config.categories, place.looks_at) == config.categories.end())
+      throw ConfigError(value.find("looks_at")->place, "\"" + place.looks_at + "\" is not among the categories" +
+                                                           did_you_mean(place.looks_at, config.categories));
+    if (!place.expected.empty() && place.expected.size() != config.categories.size())
+      throw ConfigError(value.find("expected")->place,
+                        "expected must give one degree for each of the " + std::to_string(config.categories.size()) +
+                            " categories, found " + std::to_string(place.expected.size()));
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(ExperimentKind kind) {
+  return std::ranges::find(kinds(), kind, &std::pair<std::string, ExperimentKind>::second)->first;
+}
+
+void SeedRange::describe(Fields<SeedRange>& fields) {
+  fields.integer("from", &SeedRange::from, {0.0, 9.0e15}, "first seed");
+  fields.integer("count", &SeedRange::count, {1.0, 100000.0}, "how many seeds");
+}
+
+void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
+  fields.text("name", &ExperimentVariant::name, "what it is called in tables").required = true;
+  fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
+}
+
+void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
+  fields.text("name", &PlaceConfig::name, "what it is called in tables").required = true;
+  fields
+      .text("looks_at", &PlaceConfig::looks_at,
+            "category of the landmark that is looked at from there; the world has one of it")
+      .required = true;
+  fields.numbers("expected", &PlaceConfig::expected, {0.0, 1.0}, "",
+                 "degrees published elsewhere, in the order of `categories`, to be printed beside");
+}
+
+void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
+  using C = ExperimentConfig;
+  fields
+      .choice("experiment", &C::experiment, kinds(),
+              "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
+              "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
+              "each category fits at given places of the drive")
+      .required = true;
+  fields.files("missions", &C::missions, "mission files").required = true;
+  fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
+  fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
+  fields.group("seeds", &C::seeds, "which seeds");
+  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
+  fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
+  fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
+                "share of good runs that makes the experiment a success");
+  fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
+  fields.texts("categories", &C::categories, "of `places`: the categories, in the order of the table's columns");
+  fields.list("places", &C::places,
+              "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
+              "before that looked at its landmark");
+  fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
+                "a matching looks at a landmark when the middle of its region is this near to the landmark's");
+  fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
+                 "of `places`: number of matchings published elsewhere");
+}
+
+ExperimentConfig load_experiment(const std::filesystem::path& file) {
+  const ConfigValue root = read_config_file(file);
+  auto config = load_config<ExperimentConfig>(root, "experiment");
+  if (config.missions.empty()) throw ConfigError(root.find("missions")->place, "missions must list at least one file");
+  if (config.variants.empty()) config.variants.push_back({"as_is", {}});
+  std::vector<std::string> names;
+  for (const ExperimentVariant& variant : config.variants) {
+    if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
+      throw ConfigError(root.find("variants")->place,
+                        "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
+    names.push_back(variant.name);
+  }
+  if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
+    throw ConfigError(root.find("baseline")->place,
+                      "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
+  if (config.experiment == ExperimentKind::places) check_places(config, root);
+  return config;
+}
+
+}  // namespace cairn
