@@ -6,14 +6,15 @@ namespace cairn {
 namespace {
 
 const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
-  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{
-      {"missions", ExperimentKind::missions}, {"maps", ExperimentKind::maps}, {"places", ExperimentKind::places}};
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
+                                                                          {"maps", ExperimentKind::maps},
+                                                                          {"places", ExperimentKind::places},
+                                                                          {"lap", ExperimentKind::lap}};
   return kKinds;
 }
 
 void check_places(const ExperimentConfig& config, const ConfigValue& root) {
   if (config.places.empty()) throw ConfigError(root.place, "an experiment of places must list some under places");
-  if (config.categories.empty()) throw ConfigError(root.place, "an experiment of places must list its categories");
   for (std::size_t i = 0; i < config.places.size(); ++i) {
     const PlaceConfig& place = config.places[i];
     const ConfigValue& value = root.find("places")->items[i];
@@ -53,13 +54,19 @@ void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
                  "degrees published elsewhere, in the order of `categories`, to be printed beside");
 }
 
+void LapConfig::describe(Fields<LapConfig>& fields) {
+  fields.text("around", &LapConfig::around, "category of the landmark, of which the world has one").required = true;
+  fields.angle("bin_deg", &LapConfig::bin_rad, {1.0, 180.0}, "one point of the charts in each such part of the lap");
+}
+
 void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   using C = ExperimentConfig;
   fields
       .choice("experiment", &C::experiment, kinds(),
               "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
               "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
-              "each category fits at given places of the drive")
+              "each category fits at given places of the drive; `lap`, how well each category and each template fits "
+              "along a lap round a landmark")
       .required = true;
   fields.files("missions", &C::missions, "mission files").required = true;
   fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
@@ -70,10 +77,12 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
                 "share of good runs that makes the experiment a success");
   fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
-  fields.texts("categories", &C::categories, "of `places`: the categories, in the order of the table's columns");
+  fields.texts("categories", &C::categories,
+               "of `places` and `lap`: the categories, in the order of the table's columns");
   fields.list("places", &C::places,
               "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
               "before that looked at its landmark");
+  fields.group("lap", &C::lap, "of `lap`: the lap");
   fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
                 "a matching looks at a landmark when the middle of its region is this near to the landmark's");
   fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
@@ -95,7 +104,13 @@ ExperimentConfig load_experiment(const std::filesystem::path& file) {
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
     throw ConfigError(root.find("baseline")->place,
                       "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
-  if (config.experiment == ExperimentKind::places) check_places(config, root);
+  const bool of_places = config.experiment == ExperimentKind::places;
+  const bool of_lap = config.experiment == ExperimentKind::lap;
+  if ((of_places || of_lap) && config.categories.empty())
+    throw ConfigError(root.place, "an experiment of places or of a lap must list its categories");
+  if (of_places) check_places(config, root);
+  if (of_lap && !config.lap)
+    throw ConfigError(root.place, "an experiment of a lap must say under lap what it goes round");
   return config;
 }
 

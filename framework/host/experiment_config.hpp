@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +13,8 @@
 namespace cairn {
 
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
-// fit at given places of the drive.
-enum class ExperimentKind { missions, maps, places };
+// fit at given places of the drive, and along a lap round a landmark.
+enum class ExperimentKind { missions, maps, places, lap };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
 
 struct SeedRange {
@@ -37,6 +38,13 @@ struct PlaceConfig {
   static void describe(Fields<PlaceConfig>& fields);
 };
 
+// A lap round one landmark.
+struct LapConfig {
+  std::string around;  // category of the landmark; the world has one of it
+  double bin_rad = radians(15.0);
+  static void describe(Fields<LapConfig>& fields);
+};
+
 // config/experiments/*.yaml
 struct ExperimentConfig {
   ExperimentKind experiment = ExperimentKind::missions;
@@ -50,6 +58,7 @@ struct ExperimentConfig {
   std::vector<std::string> overrides;
   std::vector<std::string> categories;  // columns of the table of places
   std::vector<PlaceConfig> places;
+  std::optional<LapConfig> lap;
   double looks_within_m = 0.35;
   int expected_matchings = 0;  // 0: none published
   static void describe(Fields<ExperimentConfig>& fields);

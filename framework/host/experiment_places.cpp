@@ -3,9 +3,8 @@
 #include <algorithm>
 
 namespace cairn {
-namespace {
-
-std::vector<double> in_order(const std::vector<CategoryDegree>& found, const std::vector<std::string>& categories) {
+std::vector<double> degrees_in_order(const std::vector<CategoryDegree>& found,
+                                     const std::vector<std::string>& categories) {
   std::vector<double> degrees;
   for (const std::string& category : categories) {
     const auto of_category = std::ranges::find(found, category, &CategoryDegree::category);
@@ -14,7 +13,15 @@ std::vector<double> in_order(const std::vector<CategoryDegree>& found, const std
   return degrees;
 }
 
-}  // namespace
+void require_one(const Mission& mission, const std::string& category, const std::string& who,
+                 const std::filesystem::path& file) {
+  const SourcePlace whole{file.string(), 0, 0};
+  if (!mission.world) throw ConfigError(whole, "this experiment needs a mission in a simulated world");
+  const auto count = std::ranges::count(mission.world->objects, category, &WorldObject::category);
+  if (count != 1)
+    throw ConfigError(whole, "the mission's world must have one landmark of the category \"" + category + "\" that " +
+                                 who + ", but has " + std::to_string(count));
+}
 
 std::vector<PlaceDegrees> degrees_at_places(const ExperimentConfig& config, const World& world,
                                             const std::vector<DegreeSample>& samples,
@@ -26,7 +33,7 @@ std::vector<PlaceDegrees> degrees_at_places(const ExperimentConfig& config, cons
     for (const DegreeSample& sample : samples) {
       const double off_m = (sample.region_centre_m - object->T_map_object.position()).norm();
       if (sample.time_s > steps[i].end_s || off_m > config.looks_within_m) continue;
-      place = {in_order(sample.degrees, config.categories), sample.time_s};
+      place = {degrees_in_order(sample.degrees, config.categories), sample.time_s};
     }
     places.push_back(std::move(place));
   }
@@ -35,16 +42,11 @@ std::vector<PlaceDegrees> degrees_at_places(const ExperimentConfig& config, cons
 
 void check_places(const ExperimentConfig& config, const Mission& mission, const std::filesystem::path& file) {
   const SourcePlace whole{file.string(), 0, 0};
-  if (!mission.world) throw ConfigError(whole, "an experiment of places needs a mission in a simulated world");
   if (mission.steps.size() < config.places.size())
     throw ConfigError(whole, "the mission has " + std::to_string(mission.steps.size()) + " steps, but the experiment " +
                                  std::to_string(config.places.size()) + " places, one at the end of each step");
-  for (const PlaceConfig& place : config.places) {
-    const auto count = std::ranges::count(mission.world->objects, place.looks_at, &WorldObject::category);
-    if (count != 1)
-      throw ConfigError(whole, "the mission's world must have one landmark of the category \"" + place.looks_at +
-                                   "\" that place " + place.name + " looks at, but has " + std::to_string(count));
-  }
+  for (const PlaceConfig& place : config.places)
+    require_one(mission, place.looks_at, "place " + place.name + " looks at", file);
 }
 
 }  // namespace cairn

@@ -27,4 +27,11 @@ struct PlaceDegrees {
 // at. Throws ConfigError.
 void check_places(const ExperimentConfig& config, const Mission& mission, const std::filesystem::path& file);
 
+// The degrees in the order of the categories; 0 for one that is not among those found.
+[[nodiscard]] std::vector<double> degrees_in_order(const std::vector<CategoryDegree>& found,
+                                                   const std::vector<std::string>& categories);
+// Throws ConfigError unless the mission's world has exactly one landmark of the category that "who" names.
+void require_one(const Mission& mission, const std::string& category, const std::string& who,
+                 const std::filesystem::path& file);
+
 }  // namespace cairn

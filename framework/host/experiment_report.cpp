@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "framework/host/lap_table.hpp"
 #include "framework/host/places_table.hpp"
 
 namespace cairn {
@@ -68,6 +69,18 @@ ordered_json json_of_places(const ExperimentConfig& config, const ExperimentRow&
     places.push_back(std::move(place));
   }
   return places;
+}
+
+ordered_json json_of_lap(const ExperimentConfig& config, const ExperimentRow& row) {
+  ordered_json lap = ordered_json::array();
+  for (const LapSample& sample : row.lap) {
+    ordered_json point = {{"angle_deg", degrees(sample.angle_rad)}};
+    for (std::size_t k = 0; k < config.categories.size(); ++k) point[config.categories[k]] = sample.categories[k];
+    for (const auto& [orientation_deg, degree] : sample.templates)
+      point[template_name(config, orientation_deg)] = degree;
+    lap.push_back(std::move(point));
+  }
+  return lap;
 }
 
 std::string cell_text(const Estimate& estimate) {
@@ -138,6 +151,7 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
                        {"matchings", row.result.matchings},
                        {"collisions", row.result.collisions},
                        {"good", row.is_good()}};
+  if (config.experiment == ExperimentKind::lap) json["lap"] = json_of_lap(config, row);
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
@@ -184,6 +198,8 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
       return maps_table(config, rows);
     case ExperimentKind::places:
       return places_table(config, rows);
+    case ExperimentKind::lap:
+      return lap_table(config, rows);
   }
   return {};
 }

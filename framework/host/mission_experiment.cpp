@@ -49,6 +49,8 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
     if (job.seed != config.seeds.from) continue;
     const Mission mission = mission_of(config, job);
     if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
+    if (config.experiment == ExperimentKind::lap)
+      require_one(mission, config.lap->around, "the lap goes round", job.mission);
     MissionRunner(mission, library, {job.out, false, nullptr});
   }
 }
@@ -81,6 +83,8 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   }
   if (config.experiment == ExperimentKind::places)
     row.places = degrees_at_places(config, *mission.world, report.degrees(), row.result.steps);
+  if (config.experiment == ExperimentKind::lap)
+    row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), report.degrees());
   for (const StageTime& time : runner.times())
     if (time.stage == "detector") row.detector_wall_s += time.total_s;
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

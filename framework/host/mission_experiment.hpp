@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/host/experiment_config.hpp"
+#include "framework/host/experiment_lap.hpp"
 #include "framework/host/experiment_places.hpp"
 #include "framework/host/map_quality.hpp"
 #include "framework/host/mission_runner.hpp"
@@ -27,6 +28,7 @@ struct ExperimentRow {
   std::int64_t withheld = 0;
   double withheld_log_likelihood = 0.0;  // mean, nat
   std::vector<PlaceDegrees> places;      // one a place of the experiment
+  std::vector<LapSample> lap;            // of the experiment's lap
   double wall_s = 0.0;
   double detector_wall_s = 0.0;
 

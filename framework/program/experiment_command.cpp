@@ -3,63 +3,14 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
-#include <limits>
 
 #include "framework/host/experiment_report.hpp"
 #include "framework/program/commands.hpp"
+#include "framework/program/experiment_charts.hpp"
 #include "framework/program/interrupt.hpp"
-#include "maps/pictures/chart.hpp"
 
 namespace cairn {
 namespace {
-
-// A chart a measure: a place a mission, a series a variant, bars for the 95 % intervals.
-Chart chart_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows, const RunMeasure& measure) {
-  Chart chart;
-  chart.title = measure.name + ", mean and 95 % interval";
-  chart.y_label = measure.name;
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0.0;
-  const auto variants = static_cast<double>(config.variants.size());
-  for (std::size_t v = 0; v < config.variants.size(); ++v) {
-    Series series{config.variants[v].name, {}, SeriesStyle::points, {}};
-    const double beside = 0.7 * ((static_cast<double>(v) + 0.5) / variants - 0.5);
-    chart.x_names.clear();
-    for (const std::string& mission : missions_of(rows)) {
-      std::vector<double> values;
-      for (const ExperimentRow* row : rows_of(rows, mission, series.name))
-        if (!measure.needs_truth || row->quality) values.push_back(measure.of(*row));
-      if (values.empty()) continue;
-      const Estimate estimate = estimate_of(values);
-      series.points.emplace_back(static_cast<double>(chart.x_names.size()) + beside, estimate.mean);
-      series.half_widths.push_back(estimate.half_width);
-      chart.x_names.push_back(mission);
-    }
-    for (const Point& p : series.points) {
-      least = std::min(least, p.y());
-      most = std::max(most, p.y());
-    }
-    chart.series.push_back(std::move(series));
-  }
-  chart.log_y = least > 0.0 && most > 10.0 * least;
-  return chart;
-}
-
-std::string file_name_of(const std::string& measure) {
-  std::string name = measure + ".png";
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-}
-
-void write_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
-                  const std::filesystem::path& out) {
-  for (const RunMeasure& measure : map_measures()) {
-    const Chart chart = chart_of(config, rows, measure);
-    if (chart.x_names.empty() || (!measure.needs_truth && config.withhold_every == 0)) continue;
-    const ChartOutcome outcome = write_chart(out / file_name_of(measure.name), chart);
-    if (!outcome.drawn) std::cerr << "cairn: " << outcome.reason << "\n";
-  }
-}
 
 // Wall clock: differs from run to run, so it is in no file.
 std::string times_text(const std::vector<ExperimentRow>& rows) {
@@ -89,7 +40,7 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   const std::string json = json_of(config, rows);
   std::ofstream(command.out / "table.md") << table;
   std::ofstream(command.out / "table.json") << json << "\n";
-  if (config.experiment == ExperimentKind::maps) write_charts(config, rows, command.out);
+  for (const std::string& missing : write_charts(config, rows, command.out)) std::cerr << "cairn: " << missing << "\n";
   if (common.json) std::cout << json << "\n";
   std::ostream& people = common.json ? std::cerr : std::cout;
   people << table << times_text(rows) << "Table: " << (command.out / "table.md").string() << "\n";

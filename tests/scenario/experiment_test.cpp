@@ -105,6 +105,28 @@ TEST(Experiment, OfPlacesTellsTheDegreesThere) {
   EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
 }
 
+TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
+  const auto folder = fresh_folder("experiment_lap");
+  (void)two_places(folder, "square");
+  write_text(folder / "lap.yaml",
+             "experiment: lap\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\ncategories: [circle, square]\n"
+             "lap: {around: square, bin_deg: 45}\nset: [detector.degrees=each_template]\n");
+  const Finished finished =
+      run_cairn({"experiment", (folder / "lap.yaml").string(), "--out", (folder / "out").string(), "--json"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto lap = nlohmann::json::parse(finished.out)["rows"][0]["lap"];
+  ASSERT_GT(lap.size(), 3U);
+  for (const auto& sample : lap) {
+    double best = 0.0;
+    for (const auto& [key, degree] : sample.items())
+      if (key.starts_with("square ")) best = std::max(best, degree.get<double>());
+    EXPECT_DOUBLE_EQ(best, sample["square"]) << "the best template makes the category's degree: " << sample;
+    EXPECT_TRUE(sample.contains("square 75 deg")) << "however bad it is";
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_categories.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_templates.png"));
+}
+
 TEST(Experiment, APlaceThatLooksAtNothingInTheWorldIsRefused) {
   const auto folder = fresh_folder("experiment_places_fault");
   const Finished finished =
