@@ -9,7 +9,8 @@ const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
   static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
                                                                           {"maps", ExperimentKind::maps},
                                                                           {"places", ExperimentKind::places},
-                                                                          {"lap", ExperimentKind::lap}};
+                                                                          {"lap", ExperimentKind::lap},
+                                                                          {"recognition", ExperimentKind::recognition}};
   return kKinds;
 }
 
@@ -42,6 +43,9 @@ void SeedRange::describe(Fields<SeedRange>& fields) {
 void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
   fields.text("name", &ExperimentVariant::name, "what it is called in tables").required = true;
   fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
+  fields.file("robot", &ExperimentVariant::robot, "robot file in place of the missions' own");
+  fields.number("specular_ratio", &ExperimentVariant::specular_ratio, {0.0, 1.0}, "",
+                "of `recognition`: share of walls and things with a smooth surface");
 }
 
 void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
@@ -66,7 +70,7 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
               "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
               "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
               "each category fits at given places of the drive; `lap`, how well each category and each template fits "
-              "along a lap round a landmark")
+              "along a lap round a landmark; `recognition`, which landmarks are found in random worlds")
       .required = true;
   fields.files("missions", &C::missions, "mission files").required = true;
   fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
@@ -83,6 +87,8 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
               "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
               "before that looked at its landmark");
   fields.group("lap", &C::lap, "of `lap`: the lap");
+  fields.group("worlds", &C::worlds,
+               "of `recognition`: the world of each seed, which takes the place of the missions' own");
   fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
                 "a matching looks at a landmark when the middle of its region is this near to the landmark's");
   fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
@@ -95,11 +101,12 @@ ExperimentConfig load_experiment(const std::filesystem::path& file) {
   if (config.missions.empty()) throw ConfigError(root.find("missions")->place, "missions must list at least one file");
   if (config.variants.empty()) config.variants.push_back({"as_is", {}});
   std::vector<std::string> names;
-  for (const ExperimentVariant& variant : config.variants) {
+  for (ExperimentVariant& variant : config.variants) {
     if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
       throw ConfigError(root.find("variants")->place,
                         "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
     names.push_back(variant.name);
+    if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
   }
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
     throw ConfigError(root.find("baseline")->place,

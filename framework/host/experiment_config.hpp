@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
+#include "framework/host/random_world.hpp"
 
 namespace cairn {
 
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
-// fit at given places of the drive, and along a lap round a landmark.
-enum class ExperimentKind { missions, maps, places, lap };
+// fit at given places of the drive, and along a lap round a landmark; what is recognised in random worlds.
+enum class ExperimentKind { missions, maps, places, lap, recognition };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
 
 struct SeedRange {
@@ -26,6 +27,8 @@ struct SeedRange {
 struct ExperimentVariant {
   std::string name;
   std::vector<std::string> overrides;
+  std::filesystem::path robot{};  // after loading one of the overrides
+  double specular_ratio = 0.0;
   static void describe(Fields<ExperimentVariant>& fields);
 };
 
@@ -59,6 +62,7 @@ struct ExperimentConfig {
   std::vector<std::string> categories;  // columns of the table of places
   std::vector<PlaceConfig> places;
   std::optional<LapConfig> lap;
+  RandomWorldConfig worlds;
   double looks_within_m = 0.35;
   int expected_matchings = 0;  // 0: none published
   static void describe(Fields<ExperimentConfig>& fields);

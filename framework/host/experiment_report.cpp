@@ -8,6 +8,7 @@
 
 #include "framework/host/lap_table.hpp"
 #include "framework/host/places_table.hpp"
+#include "framework/host/recognition_table.hpp"
 
 namespace cairn {
 namespace {
@@ -83,6 +84,18 @@ ordered_json json_of_lap(const ExperimentConfig& config, const ExperimentRow& ro
   return lap;
 }
 
+ordered_json json_of_verdicts(const ExperimentRow& row) {
+  ordered_json verdicts = ordered_json::array();
+  for (const Verdict& verdict : row.verdicts) {
+    ordered_json json = {{"is", verdict.is}, {"found", verdict.found}};
+    if (!verdict.found.empty()) json["driven_m"] = verdict.driven_m;
+    if (verdict.is_right()) json["position_error_m"] = verdict.position_error_m;
+    if (verdict.orientation_error_rad) json["orientation_error_deg"] = degrees(*verdict.orientation_error_rad);
+    verdicts.push_back(std::move(json));
+  }
+  return verdicts;
+}
+
 std::string cell_text(const Estimate& estimate) {
   return fmt::format(" {:.4f} ± {:.4f} |", estimate.mean, estimate.half_width);
 }
@@ -151,6 +164,7 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
                        {"matchings", row.result.matchings},
                        {"collisions", row.result.collisions},
                        {"good", row.is_good()}};
+  if (config.experiment == ExperimentKind::recognition) json["verdicts"] = json_of_verdicts(row);
   if (config.experiment == ExperimentKind::lap) json["lap"] = json_of_lap(config, row);
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (config.experiment != ExperimentKind::maps) return json;
@@ -200,6 +214,8 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
       return places_table(config, rows);
     case ExperimentKind::lap:
       return lap_table(config, rows);
+    case ExperimentKind::recognition:
+      return recognition_table(config, rows);
   }
   return {};
 }

@@ -36,10 +36,23 @@ std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::
   return jobs;
 }
 
+// The world of a seed stays in the run's folder, so that `cairn run --set world=FILE` gives the run again.
+std::string write_world(const ExperimentConfig& config, const Job& job, const std::vector<LandmarkShape>& shapes) {
+  if (shapes.empty())
+    throw ConfigError({job.mission.string(), 0, 0}, "an experiment of recognition needs a detector with templates");
+  std::filesystem::create_directories(job.out);
+  const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
+  std::ofstream(file) << random_world_yaml(config.worlds, shapes, job.variant.specular_ratio,
+                                           static_cast<std::uint64_t>(job.seed));
+  return file.string();
+}
+
 Mission mission_of(const ExperimentConfig& config, const Job& job) {
   std::vector<std::string> overrides = config.overrides;
   overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
   if (config.withhold_every > 0) overrides.push_back("withhold_every=" + std::to_string(config.withhold_every));
+  if (config.experiment == ExperimentKind::recognition)
+    overrides.push_back("world=" + write_world(config, job, load_mission(job.mission, overrides).shapes));
   return load_mission(job.mission, overrides, job.seed);
 }
 
@@ -64,7 +77,9 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   RunReport report;
   TruePath path;
   WithheldReadings withheld(mission.config.withhold_every, mission.config.seed);
+  FirstKnown known;
   runner.subscribe(report);
+  runner.subscribe(known);
   runner.subscribe(path);
   runner.subscribe(withheld);
   ExperimentRow row;
@@ -83,6 +98,9 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   }
   if (config.experiment == ExperimentKind::places)
     row.places = degrees_at_places(config, *mission.world, report.degrees(), row.result.steps);
+  if (config.experiment == ExperimentKind::recognition)
+    row.verdicts = judge_recognition(mission, runner.graph(), known, config.tolerance_m);
+  row.step_rad = mission.template_config.step_rad;
   if (config.experiment == ExperimentKind::lap)
     row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), report.degrees());
   for (const StageTime& time : runner.times())

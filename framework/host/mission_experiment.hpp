@@ -10,6 +10,7 @@
 #include "framework/host/experiment_config.hpp"
 #include "framework/host/experiment_lap.hpp"
 #include "framework/host/experiment_places.hpp"
+#include "framework/host/experiment_recognition.hpp"
 #include "framework/host/map_quality.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/module_library.hpp"
@@ -29,6 +30,8 @@ struct ExperimentRow {
   double withheld_log_likelihood = 0.0;  // mean, nat
   std::vector<PlaceDegrees> places;      // one a place of the experiment
   std::vector<LapSample> lap;            // of the experiment's lap
+  std::vector<Verdict> verdicts;         // of an experiment of recognition
+  double step_rad = 0.0;                 // between the orientations of the templates
   double wall_s = 0.0;
   double detector_wall_s = 0.0;
 

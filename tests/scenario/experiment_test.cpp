@@ -127,6 +127,25 @@ TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_templates.png"));
 }
 
+TEST(Experiment, OfRecognitionLeavesAWorldThatRunsAgain) {
+  const auto folder = fresh_folder("experiment_recognition");
+  (void)two_places(folder, "square");
+  write_text(folder / "recognition.yaml",
+             "experiment: recognition\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\n"
+             "worlds: {start_m: [1.1, 1.2], most_landmarks: 2, start_gap_m: 0.5}\nset: [steps=[{wait: 1}]]\n");
+  const Finished finished =
+      run_cairn({"experiment", (folder / "recognition.yaml").string(), "--out", (folder / "out").string(), "--json"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto verdicts = nlohmann::json::parse(finished.out)["rows"][0]["verdicts"];
+  ASSERT_GE(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0]["found"], "") << "a robot that stands still has found nothing";
+  EXPECT_THAT(text_of_file(folder / "out/table.md"), HasSubstr("| variant | precision | recall | F1 |"));
+  const Finished again =
+      run_cairn({"run", (folder / "round.yaml").string(), "--set", "steps=[{wait: 1}]", "--seed", "5", "--set",
+                 "world=" + (folder / "out/seed_5/world.yaml").string(), "--out", (folder / "again").string()});
+  EXPECT_EQ(again.exit_status, 0) << again.err;
+}
+
 TEST(Experiment, APlaceThatLooksAtNothingInTheWorldIsRefused) {
   const auto folder = fresh_folder("experiment_places_fault");
   const Finished finished =
