@@ -24,6 +24,7 @@ struct WallConfig {
 
 struct ObjectConfig {
   std::string template_category;
+  double scale = 1.0;
   double circle_diameter_m = 0.0;
   std::vector<Point> polygon_m;
   std::optional<Point> at_m;
@@ -31,6 +32,7 @@ struct ObjectConfig {
   Surface surface = Surface::rough;
   static void describe(Fields<ObjectConfig>& fields) {
     fields.text("template", &ObjectConfig::template_category, "a landmark of this category");
+    fields.number("scale", &ObjectConfig::scale, {0.1, 10.0}, "", "how large it is against its template");
     fields.number("circle_diameter_m", &ObjectConfig::circle_diameter_m, {0.01, 100.0}, "m", "a round obstacle");
     fields.points("polygon_m", &ObjectConfig::polygon_m, "m",
                   "an obstacle's corners: in the map without at_m, about their centroid with it");
@@ -106,10 +108,19 @@ Contour contour_of_category(const std::string& category, const SourcePlace& plac
                                "; known: " + (known.empty() ? "none" : known_text));
 }
 
+Contour scaled(Contour contour, double scale) {
+  contour.circle_diameter_m *= scale;
+  for (std::vector<Point>& corners : contour.polygons_m)
+    for (Point& corner : corners) corner *= scale;
+  return contour;
+}
+
 Contour contour_of(const ObjectConfig& config, const std::string& outline, const ConfigValue& value,
                    const std::vector<LandmarkShape>& shapes) {
   const SourcePlace& place = value.find(outline)->place;
-  if (outline == "template") return contour_of_category(config.template_category, place, shapes);
+  if (outline == "template") return scaled(contour_of_category(config.template_category, place, shapes), config.scale);
+  if (const ConfigValue* scale = value.find("scale"))
+    throw ConfigError(scale->place, "scale goes with template; " + outline + " says how large the object is");
   try {
     if (outline == "circle_diameter_m") return Contour::circle(config.circle_diameter_m);
     return config.at_m ? Contour::polygon(config.polygon_m) : Contour::polygon_in_place(config.polygon_m);

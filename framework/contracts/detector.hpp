@@ -34,6 +34,8 @@ struct Matching {
   // Best a category, in the order of the template set; a detector may leave out categories that hardly fit.
   std::vector<CategoryDegree> degrees;
   std::optional<Detection> detection;
+  // Best of every template, best first and one an orientation; for charts, only when a detector is asked.
+  std::vector<TemplateDegree> templates;
 };
 
 struct DetectionReport {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "framework/host/lap_table.hpp"
+#include "framework/host/places_table.hpp"
+#include "framework/host/recognition_table.hpp"
 
 namespace cairn {
 namespace {
@@ -51,6 +53,41 @@ Estimate difference(const std::vector<const ExperimentRow*>& rows, const std::ve
       if (row->seed == from->seed && measure.is_known(*row) && measure.is_known(*from))
         differences.push_back(measure.of(*row) - measure.of(*from));
   return estimate_of(differences);
+}
+
+ordered_json json_of_places(const ExperimentConfig& config, const ExperimentRow& row) {
+  ordered_json places = ordered_json::array();
+  for (std::size_t i = 0; i < row.places.size(); ++i) {
+    ordered_json place = {{"place", config.places[i].name}, {"looks_at", config.places[i].looks_at}};
+    for (std::size_t k = 0; k < row.places[i].degrees.size(); ++k)
+      place[config.categories[k]] = row.places[i].degrees[k];
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
+ordered_json json_of_lap(const ExperimentConfig& config, const ExperimentRow& row) {
+  ordered_json lap = ordered_json::array();
+  for (const LapSample& sample : row.lap) {
+    ordered_json point = {{"angle_deg", degrees(sample.angle_rad)}};
+    for (std::size_t k = 0; k < config.categories.size(); ++k) point[config.categories[k]] = sample.categories[k];
+    for (const auto& [orientation_deg, degree] : sample.templates)
+      point[template_name(config, orientation_deg)] = degree;
+    lap.push_back(std::move(point));
+  }
+  return lap;
+}
+
+ordered_json json_of_verdicts(const ExperimentRow& row) {
+  ordered_json verdicts = ordered_json::array();
+  for (const Verdict& verdict : row.verdicts) {
+    ordered_json json = {{"is", verdict.is}, {"found", verdict.found}};
+    if (!verdict.found.empty()) json["driven_m"] = verdict.driven_m;
+    if (verdict.is_right()) json["position_error_m"] = verdict.position_error_m;
+    if (verdict.orientation_error_rad) json["orientation_error_deg"] = degrees(*verdict.orientation_error_rad);
+    verdicts.push_back(std::move(json));
+  }
+  return verdicts;
 }
 
 std::string cell_text(const Estimate& estimate) {
@@ -125,6 +162,9 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
                        {"matchings", row.result.matchings},
                        {"collisions", row.result.collisions},
                        {"good", row.is_good()}};
+  if (config.experiment == ExperimentKind::recognition) json["verdicts"] = json_of_verdicts(row);
+  if (config.experiment == ExperimentKind::lap) json["lap"] = json_of_lap(config, row);
+  if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
     if (measure.is_known(row)) json[measure.name] = measure.of(row);
@@ -144,19 +184,6 @@ std::vector<double> known_values(const std::vector<const ExperimentRow*>& rows, 
   for (const ExperimentRow* row : rows)
     if (measure.is_known(*row)) values.push_back(measure.of(*row));
   return values;
-}
-
-Estimate estimate_of(const std::vector<double>& values) {
-  if (values.empty()) return {};
-  const auto count = static_cast<double>(values.size());
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / count;
-  if (values.size() == 1) return {mean, 0.0};
-  double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  const boost::math::students_t distribution(count - 1.0);
-  return {mean, boost::math::quantile(distribution, 0.975) * std::sqrt(squares / (count - 1.0) / count)};
 }
 
 const std::vector<RunMeasure>& map_measures() {
@@ -188,14 +215,25 @@ std::vector<std::string> missions_of(const std::vector<ExperimentRow>& rows) {
 }
 
 std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
-  return config.experiment == ExperimentKind::maps ? maps_table(config, rows) : missions_table(config, rows);
+  switch (config.experiment) {
+    case ExperimentKind::missions:
+      return missions_table(config, rows);
+    case ExperimentKind::maps:
+      return maps_table(config, rows);
+    case ExperimentKind::places:
+      return places_table(config, rows);
+    case ExperimentKind::lap:
+      return lap_table(config, rows);
+    case ExperimentKind::recognition:
+      return recognition_table(config, rows);
+  }
+  return {};
 }
 
 std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   ordered_json list = ordered_json::array();
   for (const ExperimentRow& row : rows) list.push_back(json_of(row, config));
-  const char* kind = config.experiment == ExperimentKind::maps ? "maps" : "missions";
-  const ordered_json all = {{"experiment", kind},
+  const ordered_json all = {{"experiment", std::string(name_of(config.experiment))},
                             {"tolerance_m", config.tolerance_m},
                             {"good", good_rows(rows)},
                             {"runs", rows.size()},

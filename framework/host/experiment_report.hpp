@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "framework/host/mission_experiment.hpp"
+#include "framework/host/statistics.hpp"
 
 namespace cairn {
-
-// A mean with the half width of its 95 % interval (Student's t; 0 for fewer than two values).
-struct Estimate {
-  double mean = 0.0;
-  double half_width = 0.0;
-};
-[[nodiscard]] Estimate estimate_of(const std::vector<double>& values);
 
 // One figure of a run, as the tables and charts of maps name it.
 struct RunMeasure {

@@ -36,17 +36,36 @@ std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::
   return jobs;
 }
 
+// The world of a seed stays in the run's folder, so that `cairn run --set world=FILE` gives the run again.
+std::string write_world(const ExperimentConfig& config, const Job& job, const std::vector<LandmarkShape>& shapes) {
+  if (shapes.empty())
+    throw ConfigError({job.mission.string(), 0, 0}, "an experiment of recognition needs a detector with templates");
+  std::filesystem::create_directories(job.out);
+  const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
+  std::ofstream(file) << random_world_yaml(config.worlds, shapes, job.variant.specular_ratio,
+                                           static_cast<std::uint64_t>(job.seed));
+  return file.string();
+}
+
 Mission mission_of(const ExperimentConfig& config, const Job& job) {
   std::vector<std::string> overrides = config.overrides;
   overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
   if (config.withhold_every > 0) overrides.push_back("withhold_every=" + std::to_string(config.withhold_every));
+  if (config.experiment == ExperimentKind::recognition)
+    overrides.push_back("world=" + write_world(config, job, load_mission(job.mission, overrides).shapes));
   return load_mission(job.mission, overrides, job.seed);
 }
 
 // A fault in the last variant's settings is told before the first one has run for an hour.
 void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<Job>& jobs) {
-  for (const Job& job : jobs)
-    if (job.seed == config.seeds.from) MissionRunner(mission_of(config, job), library, {job.out, false, nullptr});
+  for (const Job& job : jobs) {
+    if (job.seed != config.seeds.from) continue;
+    const Mission mission = mission_of(config, job);
+    if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
+    if (config.experiment == ExperimentKind::lap)
+      require_one(mission, config.lap->around, "the lap goes round", job.mission);
+    MissionRunner(mission, library, {job.out, false, nullptr});
+  }
 }
 
 ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
@@ -58,11 +77,17 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   RunReport report;
   TruePath path;
   WithheldReadings withheld(mission.config.withhold_every, mission.config.seed);
+  FirstKnown known;
   runner.subscribe(report);
+  runner.subscribe(known);
   runner.subscribe(path);
   runner.subscribe(withheld);
-  const MissionResult result = runner.run();
-  ExperimentRow row{job.mission.stem(), job.variant.name, job.seed, result, {}, 0.0, {}, 0, 0.0, 0.0, runner.gave_up()};
+  ExperimentRow row;
+  row.mission = job.mission.stem();
+  row.variant = job.variant.name;
+  row.seed = job.seed;
+  row.result = runner.run();
+  row.gave_up = runner.gave_up();
   for (const std::string& fault : runner.listener_faults()) {
     row.result.outcome = MissionOutcome::module_fault;  // what was measured is not of the whole run
     row.result.reason += "; a listener failed: " + fault;
@@ -76,71 +101,24 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
     row.withheld = withheld.count();
     row.withheld_log_likelihood = withheld.mean_log_likelihood(*runner.grid());
   }
+  if (config.experiment == ExperimentKind::places)
+    row.places = degrees_at_places(config, *mission.world, report.degrees(), row.result.steps);
+  if (config.experiment == ExperimentKind::recognition)
+    row.verdicts = judge_recognition(mission, runner.graph(), known, config.tolerance_m);
+  row.step_rad = mission.template_config.step_rad;
+  if (config.experiment == ExperimentKind::lap)
+    row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), report.degrees());
+  for (const StageTime& time : runner.times())
+    if (time.stage == "detector") row.detector_wall_s += time.total_s;
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return row;
 }
 
 }  // namespace
 
-void SeedRange::describe(Fields<SeedRange>& fields) {
-  fields.integer("from", &SeedRange::from, {0.0, 9.0e15}, "first seed");
-  fields.integer("count", &SeedRange::count, {1.0, 100000.0}, "how many seeds");
-}
-
-void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
-  fields.text("name", &ExperimentVariant::name, "what it is called in tables").required = true;
-  fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
-}
-
-void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
-  using C = ExperimentConfig;
-  fields
-      .choice("experiment", &C::experiment, {{"missions", ExperimentKind::missions}, {"maps", ExperimentKind::maps}},
-              "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
-              "the true world, and how well it foretells readings that were withheld from it")
-      .required = true;
-  fields.files("missions", &C::missions, "mission files").required = true;
-  fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
-  fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
-  fields.group("seeds", &C::seeds, "which seeds");
-  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
-  fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
-  fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
-                "share of good runs that makes the experiment a success");
-  fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
-}
-
 bool ExperimentRow::is_good() const {
   return result.outcome == MissionOutcome::done && score.missed_objects == 0 && score.false_landmarks == 0 &&
          result.collisions == 0;
-}
-
-ExperimentConfig load_experiment(const std::filesystem::path& file) {
-  const ConfigValue root = read_config_file(file);
-  auto config = load_config<ExperimentConfig>(root, "experiment");
-  if (config.missions.empty()) throw ConfigError(root.find("missions")->place, "missions must list at least one file");
-  if (config.variants.empty()) config.variants.push_back({"as_is", {}});
-  std::vector<std::string> names;
-  for (const ExperimentVariant& variant : config.variants) {
-    if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
-      throw ConfigError(root.find("variants")->place,
-                        "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
-    if (std::find(names.begin(), names.end(), variant.name) != names.end())
-      throw ConfigError(root.find("variants")->place, "two variants are called \"" + variant.name + "\"");
-    names.push_back(variant.name);
-  }
-  std::vector<std::string> stems;
-  for (const std::filesystem::path& mission : config.missions) {
-    if (std::find(stems.begin(), stems.end(), mission.stem()) != stems.end())
-      throw ConfigError(root.find("missions")->place, "two missions have the file name \"" + mission.stem().string() +
-                                                          "\"; tables and folders are "
-                                                          "named by it");
-    stems.push_back(mission.stem());
-  }
-  if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
-    throw ConfigError(root.find("baseline")->place,
-                      "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
-  return config;
 }
 
 std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,

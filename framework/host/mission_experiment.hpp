@@ -7,42 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "framework/config/fields.hpp"
+#include "framework/host/experiment_config.hpp"
+#include "framework/host/experiment_lap.hpp"
+#include "framework/host/experiment_places.hpp"
+#include "framework/host/experiment_recognition.hpp"
 #include "framework/host/map_quality.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/run_report.hpp"
 
 namespace cairn {
-
-// What is asked of the runs: were the landmarks found; how good are the maps.
-enum class ExperimentKind { missions, maps };
-
-struct SeedRange {
-  std::int64_t from = 1;
-  int count = 20;
-  static void describe(Fields<SeedRange>& fields);
-};
-
-struct ExperimentVariant {
-  std::string name;
-  std::vector<std::string> overrides;
-  static void describe(Fields<ExperimentVariant>& fields);
-};
-
-// config/experiments/*.yaml
-struct ExperimentConfig {
-  ExperimentKind experiment = ExperimentKind::missions;
-  std::vector<std::filesystem::path> missions;
-  std::vector<ExperimentVariant> variants;  // after loading at least one
-  std::string baseline;                     // a variant's name
-  SeedRange seeds;
-  int withhold_every = 0;
-  double tolerance_m = 0.10;    // a landmark further from the truth is false
-  double at_least_ratio = 0.0;  // share of good runs that makes the experiment a success
-  std::vector<std::string> overrides;
-  static void describe(Fields<ExperimentConfig>& fields);
-};
 
 struct ExperimentRow {
   std::string mission;
@@ -54,15 +28,17 @@ struct ExperimentRow {
   std::optional<MapQuality> quality;  // where there is a true world
   std::int64_t withheld = 0;
   double withheld_log_likelihood = 0.0;  // mean, nat
+  std::vector<PlaceDegrees> places;      // one a place of the experiment
+  std::vector<LapSample> lap;            // of the experiment's lap
+  std::vector<Verdict> verdicts;         // of an experiment of recognition
+  double step_rad = 0.0;                 // between the orientations of the templates
   double wall_s = 0.0;
+  double detector_wall_s = 0.0;
   bool gave_up = false;  // a module was left behind: see MissionRunner::gave_up()
 
   // All landmarks of the world found within the tolerance, none besides, nothing bumped into.
   [[nodiscard]] bool is_good() const;
 };
-
-// Throws ConfigError.
-[[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file);
 
 // Runs everything, as many at a time as the machine has cores, but at most eight; rows come by mission, variant and
 // seed. A recorded log is the same in each run: it is run on as many seeds as withhold other readings. Each run writes

@@ -93,6 +93,11 @@ std::string at_time(double time_s, const std::string& sentence) {
   return out.str();
 }
 
+Pose2 true_pose(const WorldView& world) {
+  const bool is_known = world.observation != nullptr && world.observation->true_T_map_robot;
+  return is_known ? *world.observation->true_T_map_robot : world.pose.T_map_robot;
+}
+
 struct Sentence {
   std::string operator()(const TickDone&) const { return {}; }
   std::string operator()(const MatchingDone&) const { return {}; }
@@ -122,8 +127,11 @@ struct Sentence {
 }  // namespace
 
 void RunReport::on(const Event& event, const MissionView& view) {
-  if (const auto* matching = std::get_if<MatchingDone>(&event))
-    degrees_.push_back({view.world.time_s, matching->matching.degrees});
+  if (const auto* done = std::get_if<MatchingDone>(&event)) {
+    const Matching& matching = done->matching;
+    degrees_.push_back({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
+                        true_pose(view.world).position()});
+  }
   if (std::holds_alternative<TickDone>(event)) note_pose_error(view);
   if (std::holds_alternative<MapSaved>(event)) explored_ratio_ = known_ratio(view.world.grid);
   const std::string sentence = std::visit(Sentence{}, event);

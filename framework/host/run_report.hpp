@@ -14,7 +14,10 @@ namespace cairn {
 // Best degree a category at one matching, for charts and reports.
 struct DegreeSample {
   double time_s = 0.0;
+  Point region_centre_m{0.0, 0.0};
   std::vector<CategoryDegree> degrees;
+  std::vector<TemplateDegree> templates{};  // where the detector tells them
+  Point robot_m{0.0, 0.0};                  // in truth where that is known, otherwise as estimated
 };
 
 class RunReport : public Listener {

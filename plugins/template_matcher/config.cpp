@@ -28,9 +28,12 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("min_above_unseen", &Config::min_above_unseen, {0.0, 1.0}, "",
                 "the best template's degree d must reach this on the scale (d - u) / (1 - u), where u is its degree "
                 "over unseen floor; 0 as in the paper");
-  fields.choice("degrees", &Config::degrees, {{"all", Degrees::all}, {"above_threshold", Degrees::above_threshold}},
-                "which degrees a matching reports: the best of every category, for the chart of a run, or only those "
-                "above tau_match, which is faster; landmarks are the same");
+  fields.choice(
+      "degrees", &Config::degrees,
+      {{"all", Degrees::all}, {"above_threshold", Degrees::above_threshold}, {"each_template", Degrees::each_template}},
+      "which degrees a matching reports: the best of every category, for the chart of a run; only those "
+      "above tau_match, which is faster; or those of every template too, which is slower. Landmarks are "
+      "the same");
   fields.choice("search", &Config::search, {{"pruned", Search::pruned}, {"exhaustive", Search::exhaustive}},
                 "how the best places are found; the answers are the same");
 }

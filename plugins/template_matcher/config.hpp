@@ -10,7 +10,7 @@ namespace cairn::template_matcher {
 enum class TriggerRule { since_matching, since_update };
 enum class MismatchScale { sobel, literal };
 enum class Search { pruned, exhaustive };
-enum class Degrees { all, above_threshold };
+enum class Degrees { all, above_threshold, each_template };
 enum class TemplateRendering { sensed, ideal };
 
 struct Config {

@@ -92,6 +92,11 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   if (config_.degrees == Degrees::above_threshold) {
     std::erase_if(matching.degrees, [&](const CategoryDegree& d) { return d.degree <= rule_.tau_match; });
   }
+  if (config_.degrees == Degrees::each_template) {
+    ScoreRule any = rule_;
+    any.tau_match = -1.0;
+    matching.templates = templates_above(matches, templates_->templates, any);
+  }
   matching.detection = detection_of(field, matches, grid);
   return matching;
 }
@@ -103,7 +108,7 @@ std::vector<TemplateMatch> TemplateMatcher::search(const GradientField& field, s
   std::vector<TemplateMatch> matches;
   std::size_t best = 0;  // of the category; one after the other in a set
   for (std::size_t i = 0; i < templates.size(); ++i) {
-    std::int32_t ceiling = ceilings_[i];
+    std::int32_t ceiling = config_.degrees == Degrees::each_template ? kUnmatched : ceilings_[i];
     if (config_.degrees == Degrees::all) {
       const bool is_first = i == 0 || templates[i].category != templates[best].category;
       ceiling = is_first ? kUnmatched : std::max(ceiling, ceiling_beside(matches[best], templates[best], templates[i]));

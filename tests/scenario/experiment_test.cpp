@@ -70,6 +70,96 @@ TEST(Experiment, OfMapsJudgesEveryVariantOnEverySeed) {
   EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
 }
 
+// Half a lap round the square of the lone-square world, with two places.
+std::filesystem::path two_places(const std::filesystem::path& folder, const std::string& second_looks_at) {
+  const std::string config = source_folder() + "/config";
+  write_text(folder / "round.yaml", "mission: round\nrobot: " + config + "/robots/pioneer1.yaml\nworld: " + config +
+                                        "/worlds/lone_square.yaml\nstart: {at_m: [1.1, 1.2], angle_deg: 90}\n"
+                                        "sensor: {plugin: simulated_robot}\nlocalizer: {plugin: odometry_compass}\n"
+                                        "map: {plugin: muriel}\ndetector: {plugin: template_matcher, templates: " +
+                                        config +
+                                        "/templates}\nsteps:\n  - drive: [[1.1, 2.0]]\n"
+                                        "  - drive: [[1.1, 2.9], [2.9, 2.9]]\n");
+  write_text(folder / "places.yaml",
+             "experiment: places\nmissions: [round.yaml]\nseeds: {from: 5, count: 2}\ncategories: [circle, square]\n"
+             "expected_matchings: 10\nplaces:\n  - {name: P1, looks_at: square, expected: [0.2, 0.3]}\n"
+             "  - {name: P2, looks_at: " +
+                 second_looks_at + "}\n");
+  return folder / "places.yaml";
+}
+
+TEST(Experiment, OfPlacesTellsTheDegreesThere) {
+  const auto folder = fresh_folder("experiment_places");
+  const std::vector<std::string> command{"experiment", two_places(folder, "square").string(), "--out",
+                                         (folder / "out").string(), "--json"};
+  const Finished finished = run_cairn(command);
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto rows = nlohmann::json::parse(finished.out)["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  for (const auto& row : rows) {
+    ASSERT_EQ(row["places"].size(), 2U);
+    EXPECT_GT(row["places"][1]["square"], row["places"][0]["square"]) << "confidence grows";
+    EXPECT_GT(row["places"][1]["square"], row["places"][1]["circle"]);
+  }
+  EXPECT_THAT(text_of_file(folder / "out/table.md"), HasSubstr("| P2 | square | 0."));
+  EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
+}
+
+TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
+  const auto folder = fresh_folder("experiment_lap");
+  (void)two_places(folder, "square");
+  write_text(folder / "lap.yaml",
+             "experiment: lap\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\ncategories: [circle, square]\n"
+             "lap: {around: square, bin_deg: 45}\nset: [detector.degrees=each_template]\n");
+  const Finished finished =
+      run_cairn({"experiment", (folder / "lap.yaml").string(), "--out", (folder / "out").string(), "--json"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto lap = nlohmann::json::parse(finished.out)["rows"][0]["lap"];
+  ASSERT_GT(lap.size(), 3U);
+  for (const auto& sample : lap) {
+    double best = 0.0;
+    for (const auto& [key, degree] : sample.items())
+      if (key.starts_with("square ")) best = std::max(best, degree.get<double>());
+    EXPECT_DOUBLE_EQ(best, sample["square"]) << "the best template makes the category's degree: " << sample;
+    EXPECT_TRUE(sample.contains("square 75 deg")) << "however bad it is";
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_categories.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_templates.png"));
+}
+
+TEST(Experiment, OfRecognitionLeavesAWorldThatRunsAgain) {
+  const auto folder = fresh_folder("experiment_recognition");
+  (void)two_places(folder, "square");
+  write_text(folder / "recognition.yaml",
+             "experiment: recognition\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\n"
+             "worlds: {start_m: [1.1, 1.2], most_landmarks: 2, start_gap_m: 0.5}\nset: [steps=[{wait: 1}]]\n");
+  const Finished finished =
+      run_cairn({"experiment", (folder / "recognition.yaml").string(), "--out", (folder / "out").string(), "--json"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto verdicts = nlohmann::json::parse(finished.out)["rows"][0]["verdicts"];
+  ASSERT_GE(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0]["found"], "") << "a robot that stands still has found nothing";
+  EXPECT_THAT(text_of_file(folder / "out/table.md"), HasSubstr("| variant | precision | recall | F1 |"));
+  const Finished again =
+      run_cairn({"run", (folder / "round.yaml").string(), "--set", "steps=[{wait: 1}]", "--seed", "5", "--set",
+                 "world=" + (folder / "out/seed_5/world.yaml").string(), "--out", (folder / "again").string()});
+  EXPECT_EQ(again.exit_status, 0) << again.err;
+}
+
+TEST(Experiment, APlaceThatLooksAtNothingInTheWorldIsRefused) {
+  const auto folder = fresh_folder("experiment_places_fault");
+  const Finished finished =
+      run_cairn({"experiment", two_places(folder, "circle").string(), "--out", (folder / "out").string()});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, HasSubstr("round.yaml: the mission's world must have one landmark of the category "
+                                      "\"circle\" that place P2 looks at, but has 0"));
+  const Finished unknown =
+      run_cairn({"experiment", two_places(folder, "sqare").string(), "--out", (folder / "out").string()});
+  EXPECT_EQ(unknown.exit_status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("places.yaml:8:26: \"sqare\" is not among the categories (did you mean "
+                                     "\"square\"?)"));
+}
+
 TEST(Experiment, AnUnknownBaselineNamesTheNearestVariant) {
   const auto folder = fresh_folder("experiment_baseline");
   const Finished finished =

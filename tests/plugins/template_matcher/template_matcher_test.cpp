@@ -129,6 +129,25 @@ TEST(TemplateMatcher, FindsTheSameLandmarksByEitherSearchAndWithEitherDegrees) {
   EXPECT_GE(detections, 12);
 }
 
+TEST(TemplateMatcher, TellsTheDegreeOfEveryTemplateWhenAskedTo) {
+  OccupancyGrid grid(0.05);
+  paint(grid, square_shape().contour, {0.013, 0.021, 0.7}, {{-25, -25}, {25, 25}});
+  Config config = plain();
+  const DetectionReport all = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  config.degrees = Degrees::each_template;
+  const DetectionReport each = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  config.search = Search::exhaustive;
+  const DetectionReport oracle = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  ASSERT_GT(each.matchings.size(), 0U);
+  ASSERT_EQ(each.matchings.size(), oracle.matchings.size());
+  for (std::size_t i = 0; i < each.matchings.size(); ++i) {
+    EXPECT_EQ(each.matchings[i].templates.size(), 15U) << "1 circle, 6 squares, 8 triangles";
+    EXPECT_EQ(each.matchings[i].templates, oracle.matchings[i].templates);
+    expect_same_detection(each.matchings[i], all.matchings[i]);
+    EXPECT_TRUE(all.matchings[i].templates.empty());
+  }
+}
+
 TEST(TemplateMatcher, ReportsOnlyDegreesAboveTauMatchWhenAskedTo) {
   OccupancyGrid grid(0.05);
   paint(grid, square_shape().contour, {}, {{-25, -25}, {25, 25}});

@@ -1,0 +1,140 @@
+#include "framework/host/experiment_config.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
+                                                                          {"maps", ExperimentKind::maps},
+                                                                          {"places", ExperimentKind::places},
+                                                                          {"lap", ExperimentKind::lap},
+                                                                          {"recognition", ExperimentKind::recognition}};
+  return kKinds;
+}
+
+void check_places(const ExperimentConfig& config, const ConfigValue& root) {
+  if (config.places.empty()) throw ConfigError(root.place, "an experiment of places must list some under places");
+  for (std::size_t i = 0; i < config.places.size(); ++i) {
+    const PlaceConfig& place = config.places[i];
+    const ConfigValue& value = root.find("places")->items[i];
+    if (std::ranges::find(config.categories, place.looks_at) == config.categories.end())
+      throw ConfigError(value.find("looks_at")->place, "\"" + place.looks_at + "\" is not among the categories" +
+                                                           did_you_mean(place.looks_at, config.categories));
+    if (!place.expected.empty() && place.expected.size() != config.categories.size())
+      throw ConfigError(value.find("expected")->place,
+                        "expected must give one degree for each of the " + std::to_string(config.categories.size()) +
+                            " categories, found " + std::to_string(place.expected.size()));
+  }
+}
+
+// The variants' names, after the objections to them and to the missions' file names.
+std::vector<std::string> checked_names(const ExperimentConfig& config, const ConfigValue& root) {
+  std::vector<std::string> names;
+  for (const ExperimentVariant& variant : config.variants) {
+    if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
+      throw ConfigError(root.find("variants")->place,
+                        "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
+    if (std::ranges::find(names, variant.name) != names.end())
+      throw ConfigError(root.find("variants")->place, "two variants are called \"" + variant.name + "\"");
+    names.push_back(variant.name);
+  }
+  std::vector<std::string> stems;
+  for (const std::filesystem::path& mission : config.missions) {
+    if (std::ranges::find(stems, mission.stem().string()) != stems.end())
+      throw ConfigError(root.find("missions")->place, "two missions have the file name \"" + mission.stem().string() +
+                                                          "\"; tables and folders are named by it");
+    stems.push_back(mission.stem());
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string_view name_of(ExperimentKind kind) {
+  return std::ranges::find(kinds(), kind, &std::pair<std::string, ExperimentKind>::second)->first;
+}
+
+void SeedRange::describe(Fields<SeedRange>& fields) {
+  fields.integer("from", &SeedRange::from, {0.0, 9.0e15}, "first seed");
+  fields.integer("count", &SeedRange::count, {1.0, 100000.0}, "how many seeds");
+}
+
+void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
+  fields.text("name", &ExperimentVariant::name, "what it is called in tables").required = true;
+  fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
+  fields.file("robot", &ExperimentVariant::robot, "robot file in place of the missions' own");
+  fields.number("specular_ratio", &ExperimentVariant::specular_ratio, {0.0, 1.0}, "",
+                "of `recognition`: share of walls and things with a smooth surface");
+}
+
+void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
+  fields.text("name", &PlaceConfig::name, "what it is called in tables").required = true;
+  fields
+      .text("looks_at", &PlaceConfig::looks_at,
+            "category of the landmark that is looked at from there; the world has one of it")
+      .required = true;
+  fields.numbers("expected", &PlaceConfig::expected, {0.0, 1.0}, "",
+                 "degrees published elsewhere, in the order of `categories`, to be printed beside");
+}
+
+void LapConfig::describe(Fields<LapConfig>& fields) {
+  fields.text("around", &LapConfig::around, "category of the landmark, of which the world has one").required = true;
+  fields.angle("bin_deg", &LapConfig::bin_rad, {1.0, 180.0}, "one point of the charts in each such part of the lap");
+}
+
+void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
+  using C = ExperimentConfig;
+  fields
+      .choice("experiment", &C::experiment, kinds(),
+              "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
+              "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
+              "each category fits at given places of the drive; `lap`, how well each category and each template fits "
+              "along a lap round a landmark; `recognition`, which landmarks are found in random worlds")
+      .required = true;
+  fields.files("missions", &C::missions, "mission files").required = true;
+  fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
+  fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
+  fields.group("seeds", &C::seeds, "which seeds");
+  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
+  fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
+  fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
+                "share of good runs that makes the experiment a success");
+  fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
+  fields.texts("categories", &C::categories,
+               "of `places` and `lap`: the categories, in the order of the table's columns");
+  fields.list("places", &C::places,
+              "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
+              "before that looked at its landmark");
+  fields.group("lap", &C::lap, "of `lap`: the lap");
+  fields.group("worlds", &C::worlds,
+               "of `recognition`: the world of each seed, which takes the place of the missions' own");
+  fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
+                "a matching looks at a landmark when the middle of its region is this near to the landmark's");
+  fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
+                 "of `places`: number of matchings published elsewhere");
+}
+
+ExperimentConfig load_experiment(const std::filesystem::path& file) {
+  const ConfigValue root = read_config_file(file);
+  auto config = load_config<ExperimentConfig>(root, "experiment");
+  if (config.missions.empty()) throw ConfigError(root.find("missions")->place, "missions must list at least one file");
+  if (config.variants.empty()) config.variants.emplace_back().name = "as_is";
+  const std::vector<std::string> names = checked_names(config, root);
+  for (ExperimentVariant& variant : config.variants)
+    if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
+  if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
+    throw ConfigError(root.find("baseline")->place,
+                      "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
+  const bool of_places = config.experiment == ExperimentKind::places;
+  const bool of_lap = config.experiment == ExperimentKind::lap;
+  if ((of_places || of_lap) && config.categories.empty())
+    throw ConfigError(root.place, "an experiment of places or of a lap must list its categories");
+  if (of_places) check_places(config, root);
+  if (of_lap && !config.lap)
+    throw ConfigError(root.place, "an experiment of a lap must say under lap what it goes round");
+  return config;
+}
+
+}  // namespace cairn

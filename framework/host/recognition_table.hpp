@@ -1,0 +1,27 @@
+// How well landmarks were recognised in many worlds: figures with 95 % intervals, and who was taken for whom.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/host/mission_experiment.hpp"
+#include "framework/host/statistics.hpp"
+
+namespace cairn {
+
+// Intervals of shares are Wilson's; that of F1 and of the median is from resampling the worlds.
+struct RecognitionFigures {
+  Interval precision;       // of the landmarks found, those where one of that category is
+  Interval recall;          // of the true landmarks, those found with the right category
+  Interval f1;              // harmonic mean of the two
+  Interval right_category;  // of the true landmarks that something was found at
+  Interval median_error_m;  // position, of the right ones
+  Interval within_step;     // orientation, of the right ones that are not round
+  Estimate driven_m;        // until first known, of the right ones
+};
+[[nodiscard]] RecognitionFigures recognition_figures(const std::vector<const ExperimentRow*>& rows, double step_rad);
+
+// Markdown.
+[[nodiscard]] std::string recognition_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
+
+}  // namespace cairn
