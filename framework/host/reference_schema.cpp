@@ -56,6 +56,8 @@ ordered_json shape_of(const FieldSpec& field) {
   if (field.type == "list of maps") return list_of(map_of(field));
   if (field.type == "plugin") return reference_to(field.plugin_kind);
   if (field.type == "list of steps") return reference_to("steps");
+  if (field.type == "list of detectors")
+    return list_of({{"type", "object"}, {"required", {"name", "plugin"}}, {"properties", {{"name", kText}}}});
   return ordered_json::object();  // anything: whoever reads it checks it
 }
 
