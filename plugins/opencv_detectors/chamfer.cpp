@@ -18,17 +18,19 @@ Chamfer::Chamfer(const ChamferConfig& config, std::shared_ptr<const TemplateSet>
   }
 }
 
-std::vector<Candidate> Chamfer::search(const OccupancyGrid& grid, const CellBox& centres) {
+std::optional<std::vector<Candidate>> Chamfer::search(const OccupancyGrid& grid, const CellBox& centres,
+                                                      const Budget& budget) {
   // Edges beyond the templates' reach are near to their points too.
   const int beyond = static_cast<int>(std::ceil(config_.truncation_m / set().cell_m)) + 1;
   const CellBox box = centres.grown(reach() + beyond);
   const cv::Mat edges = edges_of(gradients_of(grid, box), config_.edge_low, config_.edge_high);
-  if (cv::countNonZero(edges) == 0) return {};
+  if (cv::countNonZero(edges) == 0) return std::vector<Candidate>{};
   cv::Mat off;
   cv::distanceTransform(255 - edges, off, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   off = cv::min(off * (set().cell_m / config_.truncation_m), 1.0);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (budget.exhausted()) return std::nullopt;
     const int margin = reach() + beyond - points_[i].reach;
     const cv::Mat part = off(cv::Rect(margin, margin, off.cols - 2 * margin, off.rows - 2 * margin));
     cv::Mat mean;

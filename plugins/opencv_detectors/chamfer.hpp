@@ -14,7 +14,8 @@ class Chamfer : public SearchingDetector {
   Chamfer(const ChamferConfig& config, std::shared_ptr<const TemplateSet> templates);
 
  private:
-  std::vector<Candidate> search(const OccupancyGrid& grid, const CellBox& centres) override;
+  std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
+                                               const Budget& budget) override;
 
   ChamferConfig config_;
   struct Points {

@@ -15,7 +15,8 @@ class GeneralizedHough : public SearchingDetector {
   GeneralizedHough(const HoughConfig& config, std::shared_ptr<const TemplateSet> templates);
 
  private:
-  std::vector<Candidate> search(const OccupancyGrid& grid, const CellBox& centres) override;
+  std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
+                                               const Budget& budget) override;
 
   HoughConfig config_;
   struct Voting {

@@ -38,12 +38,14 @@ MatchTemplate::MatchTemplate(const MatchTemplateConfig& config, std::shared_ptr<
   }
 }
 
-std::vector<Candidate> MatchTemplate::search(const OccupancyGrid& grid, const CellBox& centres) {
+std::optional<std::vector<Candidate>> MatchTemplate::search(const OccupancyGrid& grid, const CellBox& centres,
+                                                            const Budget& budget) {
   const CellBox box = centres.grown(reach());
   const cv::Mat whole = config_.picture == Picture::occupancy ? opencv_detectors::picture_of(grid, box)
                                                               : picture_of(gradients_of(grid, box), config_.picture);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (budget.exhausted()) return std::nullopt;
     const int margin = reach() - patches_[i].reach;
     const cv::Mat part = whole(cv::Rect(margin, margin, whole.cols - 2 * margin, whole.rows - 2 * margin));
     cv::Mat degrees;

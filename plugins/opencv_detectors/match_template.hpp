@@ -11,7 +11,8 @@ class MatchTemplate : public SearchingDetector {
   MatchTemplate(const MatchTemplateConfig& config, std::shared_ptr<const TemplateSet> templates);
 
  private:
-  std::vector<Candidate> search(const OccupancyGrid& grid, const CellBox& centres) override;
+  std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
+                                               const Budget& budget) override;
 
   MatchTemplateConfig config_;
   struct Patch {

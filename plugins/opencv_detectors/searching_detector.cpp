@@ -78,9 +78,11 @@ DetectionReport SearchingDetector::detect(const OccupancyGrid& grid, const CellC
   waiting_ = united(waiting_, intersected(changes.box(), grid.bounds()));
   if (waiting_.empty() || budget.iterations < 1 || budget.exhausted()) return {};
   const CellBox centres = intersected(waiting_.grown(reach_), grid.bounds());
+  std::optional<std::vector<Candidate>> candidates = search(grid, centres, budget);
+  if (!candidates) return {};
   waiting_ = {};
   DetectionReport report;
-  for (const Strongest& found : strongest_of(search(grid, centres), templates_->smallest_diameter_m()))
+  for (const Strongest& found : strongest_of(std::move(*candidates), templates_->smallest_diameter_m()))
     report.matchings.push_back(matching_of(found));
   if (report.matchings.empty()) report.matchings.emplace_back();
   for (Matching& matching : report.matchings) {

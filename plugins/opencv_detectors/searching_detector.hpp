@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/contracts/detector.hpp"
@@ -40,8 +42,10 @@ class SearchingDetector : public Detector {
   // Throws std::invalid_argument without templates and on a template without cells.
   SearchingDetector(std::string name, std::shared_ptr<const TemplateSet> templates, double tau_match);
 
-  // Where templates fit above tau_match when centred on cells of the box.
-  [[nodiscard]] virtual std::vector<Candidate> search(const OccupancyGrid& grid, const CellBox& centres) = 0;
+  // Where templates fit above tau_match when centred on cells of the box. None when the budget ended it,
+  // which is asked before each template: the next change makes up for it.
+  [[nodiscard]] virtual std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
+                                                                     const Budget& budget) = 0;
 
   [[nodiscard]] const TemplateSet& set() const { return *templates_; }
   [[nodiscard]] double tau_match() const { return tau_match_; }
