@@ -130,9 +130,10 @@ TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
 TEST(Experiment, OfRecognitionLeavesAWorldThatRunsAgain) {
   const auto folder = fresh_folder("experiment_recognition");
   (void)two_places(folder, "square");
-  write_text(folder / "recognition.yaml",
-             "experiment: recognition\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\n"
-             "worlds: {start_m: [1.1, 1.2], most_landmarks: 2, start_gap_m: 0.5}\nset: [\"steps=[{wait: {for_s: 1}}]\"]\n");
+  write_text(
+      folder / "recognition.yaml",
+      "experiment: recognition\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\n"
+      "worlds: {start_m: [1.1, 1.2], most_landmarks: 2, start_gap_m: 0.5}\nset: [\"steps=[{wait: {for_s: 1}}]\"]\n");
   const Finished finished =
       run_cairn({"experiment", (folder / "recognition.yaml").string(), "--out", (folder / "out").string(), "--json"});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
