@@ -7,7 +7,7 @@
 
 namespace cairn::template_matcher {
 
-enum class TriggerRule { since_matching, since_update };
+enum class TriggerRule { since_matching, since_update, every_update };
 enum class MismatchScale { sobel, literal };
 enum class Search { pruned, exhaustive };
 enum class Degrees { all, above_threshold, each_template };

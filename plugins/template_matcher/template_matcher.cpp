@@ -57,7 +57,7 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       reach_(RegionReach::of(*templates_, config.coarse_cells * templates_->cell_m)),
       template_reach_(reach_of(templates_->templates)),
       coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),
-      trigger_(config.trigger, config.tau_trigger, config.tau_var),
+      trigger_(config),
       matcher_(templates_->templates),
       ceilings_(ceilings_of(rule_, templates_->templates)),
       neighbours_(*templates_) {}
@@ -69,6 +69,7 @@ DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellCha
   }
   DetectionReport report;
   coarse_.update(grid, changes, touched_);
+  trigger_.begin_update();
   for (const Cell coarse : touched_) {
     if (static_cast<std::int64_t>(report.matchings.size()) >= budget.iterations || budget.exhausted()) break;
     if (trigger_.fires(coarse, coarse_.ol(coarse))) report.matchings.push_back(match(grid, coarse));

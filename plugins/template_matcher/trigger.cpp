@@ -5,19 +5,21 @@
 namespace cairn::template_matcher {
 
 bool Trigger::fires(Cell coarse, double ol) {
+  if (rule_ == TriggerRule::every_update) return ol > least_ol_ && !covered_.contains(coarse);
   if (rule_ == TriggerRule::since_update) {
     const auto [before, is_first] = reference_.try_emplace(coarse, kUnknownOl);
     const double rise = ol - before->second;
     before->second = ol;
-    return ol > tau_trigger_ && rise > tau_var_;
+    return ol > least_ol_ && rise > tau_var_;
   }
-  if (ol <= tau_trigger_) return false;
+  if (ol <= least_ol_) return false;
   const auto last = reference_.find(coarse);
   return last == reference_.end() || ol - last->second > tau_var_;
 }
 
 void Trigger::matched(Cell coarse, double ol) {
   if (rule_ == TriggerRule::since_matching) reference_[coarse] = ol;
+  if (rule_ == TriggerRule::every_update) covered_.insert(coarse);
 }
 
 }  // namespace cairn::template_matcher
