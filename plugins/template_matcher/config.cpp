@@ -15,6 +15,9 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("tau_trigger", &Config::tau_trigger, {0.0, 255.0}, "OL", "match only where OL2 is above this");
   fields.number("tau_var", &Config::tau_var, {0.0, 255.0}, "OL",
                 "match again only where OL2 has risen by more than this");
+  fields.number("tau_again", &Config::tau_again, {0.0, 255.0}, "OL",
+                "where a template was above tau_match at the last matching, match again already when OL2 has changed, "
+                "up or down, by more than this; 255: never, as in the paper");
   fields.choice("trigger", &Config::trigger,
                 {{"since_matching", TriggerRule::since_matching},
                  {"since_update", TriggerRule::since_update},

@@ -22,7 +22,8 @@ struct Config {
   int coarse_cells = 5;
   double alpha_og2 = 2.0;
   double tau_trigger = 150.0;
-  double tau_var = 12.0;
+  double tau_var = 16.0;
+  double tau_again = 4.0;
   TriggerRule trigger = TriggerRule::since_matching;
   double tau_grow = 140.0;
   double tau_match = 0.55;

@@ -79,7 +79,6 @@ DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellCha
 
 Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   const std::vector<Cell> region = grow_region(coarse_, trigger, reach_, config_.tau_grow);
-  for (const Cell coarse : region) trigger_.matched(coarse, coarse_.ol(coarse));
   const std::vector<CellSpan> spans = fine_spans(coarse_, region);
   const CellBox box = CellChanges{spans}.box();
   // One cell more than the templates reach, for the places around the best one.
@@ -90,6 +89,9 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   matching.region_cells = static_cast<int>(region.size()) * coarse_.n() * coarse_.n();
   matching.region_centre_m = 0.5 * (grid.centre_of(box.min) + grid.centre_of(box.max - Cell{1, 1}));
   matching.degrees = degrees_by_category(matches, *templates_, grid, rule_);
+  const bool fitted =
+      std::ranges::any_of(matching.degrees, [&](const CategoryDegree& d) { return d.degree > rule_.tau_match; });
+  for (const Cell coarse : region) trigger_.matched(coarse, coarse_.ol(coarse), fitted);
   if (config_.degrees == Degrees::above_threshold) {
     std::erase_if(matching.degrees, [&](const CategoryDegree& d) { return d.degree <= rule_.tau_match; });
   }
