@@ -26,8 +26,8 @@ void GradientField::look_at(const OccupancyGrid& grid, const CellBox& box) {
       const int lower = below[i] + 2 * below[i + 1] + below[i + 2];
       x[i] = static_cast<std::int16_t>(right - left);
       y[i] = static_cast<std::int16_t>(upper - lower);
-      both[i] = (upper - lower) * 65536 + ((right - left) & 0xFFFF);
     }
+    for (int i = 0; i < box.width(); ++i) both[i] = y[i] * 65536 + (x[i] & 0xFFFF);
   }
 }
 
