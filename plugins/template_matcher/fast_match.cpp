@@ -95,6 +95,7 @@ FastMatcher::PreparedTemplate FastMatcher::prepared(const LandmarkTemplate& shap
     prepared.block_map_places.push_back({4 * k + 2 * (row % 2) + column % 2, column / 2, row / 2});
     prepared.block_wanted.push_back(coarse);
     prepared.cells.push_back({cell.offset.x, cell.offset.y, cell.gradient_x, cell.gradient_y});
+    prepared.columns.push_back(prepared.cells.back());
   }
   return prepared;
 }
@@ -223,7 +224,7 @@ void FastMatcher::search_template(Search& search) {
     return place_sums_[a] != place_sums_[b] ? place_sums_[a] < place_sums_[b] : a < b;
   });
   for (auto place = candidates_.begin(); place != end; ++place) {
-    if (place_sums_[*place] < place_limit(search)) compute_piece(search, *place);
+    if (place_sums_[*place] < place_limit(search)) compute_from(search, *place);
   }
 }
 
@@ -248,10 +249,36 @@ void FastMatcher::bound_piece(const Search& search, std::size_t place) {
                        first, place_sums_.data() + first);
 }
 
+// Computes a place, and its neighbours with it where most of them are wanted too.
+void FastMatcher::compute_from(Search& search, std::size_t place) {
+  constexpr std::ptrdiff_t kWorthAll = 6;
+  const auto first = place_sums_.begin() + static_cast<std::ptrdiff_t>(place);
+  const std::uint16_t limit = place_limit(search);
+  if (std::count_if(first, first + kPlacesPerExactPiece, [&](auto sum) { return sum < limit; }) >= kWorthAll) {
+    compute_piece(search, place);
+    return;
+  }
+  const Cell at = cell_of(place);
+  *first = kOutside;
+  const std::int32_t mismatch =
+      sum_distance(search.field.both_from(at), static_cast<std::ptrdiff_t>(search.field.stride()), search.shape.columns,
+                   static_cast<std::int32_t>(search.most));
+  settle(search, {at, mismatch});
+}
+
+Cell FastMatcher::cell_of(std::size_t place) const {
+  return places_.min + Cell{static_cast<int>(place % place_maps_.stride), static_cast<int>(place / place_maps_.stride)};
+}
+
+void FastMatcher::settle(Search& search, const TemplateMatch& match) {
+  if (match.mismatch > search.most || !is_better(match, search.best)) return;
+  search.best = match;
+  search.most = match.mismatch;
+}
+
 // Computes some places of one row, from this one on.
 void FastMatcher::compute_piece(Search& search, std::size_t place) {
-  const Cell at =
-      places_.min + Cell{static_cast<int>(place % place_maps_.stride), static_cast<int>(place / place_maps_.stride)};
+  const Cell at = cell_of(place);
   const int count = std::min(static_cast<int>(kPlacesPerExactPiece), places_.max.x - at.x);
   const auto first = place_sums_.begin() + static_cast<std::ptrdiff_t>(place);
   std::fill(first, first + count, kOutside);
@@ -262,11 +289,7 @@ void FastMatcher::compute_piece(Search& search, std::size_t place) {
   sum_distances(x, y, stride, search.shape.cells, static_cast<std::int32_t>(search.most), mismatches);
   for (int i = 0; i < count; ++i) {
     const std::size_t here = place + static_cast<std::size_t>(i);
-    const TemplateMatch match{at + Cell{i, 0}, mismatches[i]};
-    if (place_start_[here] == kOutside || match.mismatch > search.most) continue;
-    if (!is_better(match, search.best)) continue;
-    search.best = match;
-    search.most = match.mismatch;
+    if (place_start_[here] != kOutside) settle(search, {at + Cell{i, 0}, mismatches[i]});
   }
 }
 

@@ -48,6 +48,7 @@ class FastMatcher {
     std::vector<std::uint16_t> block_wanted;
     std::vector<std::uint16_t> place_wanted;
     std::vector<GradientCell> cells;
+    GradientColumns columns;  // the same
   };
   // How the maps of regions of one width lie in memory, and where each template's cells are found in them.
   struct Layout {
@@ -70,7 +71,10 @@ class FastMatcher {
   void find_first_limit(Search& search);
   [[nodiscard]] std::size_t first_place_of(std::size_t block) const;
   void bound_piece(const Search& search, std::size_t place);
+  void compute_from(Search& search, std::size_t place);
   void compute_piece(Search& search, std::size_t place);
+  [[nodiscard]] Cell cell_of(std::size_t place) const;
+  static void settle(Search& search, const TemplateMatch& match);
 
   int reach_ = 0;
   int shift_ = 0;

@@ -24,6 +24,8 @@ class GradientField {
   // Gradients of the cells (cell.x, cell.x + 1, ...) of a row; the row above begins `stride` further.
   [[nodiscard]] const std::int16_t* x_from(Cell cell) const { return x_.data() + index_of(cell); }
   [[nodiscard]] const std::int16_t* y_from(Cell cell) const { return y_.data() + index_of(cell); }
+  // Both in one, x in the low half.
+  [[nodiscard]] const std::int32_t* both_from(Cell cell) const { return both_.data() + index_of(cell); }
   [[nodiscard]] std::size_t stride() const { return static_cast<std::size_t>(box_.width()); }
 
  private:
@@ -34,6 +36,7 @@ class GradientField {
   CellBox box_;
   std::vector<std::int16_t> x_;
   std::vector<std::int16_t> y_;
+  std::vector<std::int32_t> both_;
   std::vector<std::uint8_t> ol_;  // kept for its memory only
 };
 

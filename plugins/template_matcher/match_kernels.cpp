@@ -206,6 +206,29 @@ void SumDistances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t s
   }
 }
 
+std::int32_t SumDistance(const std::int32_t* both, std::ptrdiff_t stride, const GradientColumns& cells,
+                         std::int32_t limit) {
+  const hn::CappedTag<float, kPlacesPerExactPiece> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const auto row = hn::Set(di, static_cast<std::int32_t>(stride));
+  auto sums = hn::Zero(di);
+  for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
+    const auto at = hn::Add(hn::Mul(hn::LoadU(di, cells.y.data() + i), row), hn::LoadU(di, cells.x.data() + i));
+    const auto here = hn::GatherIndex(di, both, at);
+    const auto x = hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(here)));
+    const auto y = hn::ConvertTo(d, hn::ShiftRight<16>(here));
+    const auto dx = hn::Sub(x, hn::LoadU(d, cells.gradient_x.data() + i));
+    const auto dy = hn::Sub(y, hn::LoadU(d, cells.gradient_y.data() + i));
+    const auto root = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
+    const auto scaled = hn::Add(hn::Mul(root, hn::Set(d, 16.0F)), hn::Set(d, 0.5F));
+    const auto distance = hn::ConvertTo(di, scaled);
+    sums = hn::Add(sums, hn::IfThenElseZero(hn::FirstN(di, cells.count - i), distance));
+    const bool is_time = (i + hn::Lanes(d)) % (2 * kPlacesPerExactPiece) == 0;
+    if (is_time && hn::GetLane(hn::SumOfLanes(di, sums)) > limit) break;
+  }
+  return hn::GetLane(hn::SumOfLanes(di, sums));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace cairn::template_matcher
 HWY_AFTER_NAMESPACE();
@@ -219,6 +242,7 @@ HWY_EXPORT(SumBlockShortfalls);
 HWY_EXPORT(SumPieceShortfalls);
 HWY_EXPORT(SumDistances);
 HWY_EXPORT(CollectBelow);
+HWY_EXPORT(SumDistance);
 
 namespace {
 
@@ -268,6 +292,21 @@ std::size_t collect_below(const std::uint16_t* sums, std::size_t count, std::uin
 void sum_distances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t stride,
                    std::span<const GradientCell> cells, std::int32_t limit, std::int32_t* sums) {
   HWY_DYNAMIC_DISPATCH(SumDistances)(x, y, stride, cells, limit, sums);
+}
+
+std::int32_t sum_distance(const std::int32_t* both, std::ptrdiff_t stride, const GradientColumns& cells,
+                          std::int32_t limit) {
+  return HWY_DYNAMIC_DISPATCH(SumDistance)(both, stride, cells, limit);
+}
+
+void GradientColumns::push_back(const GradientCell& cell) {
+  ++count;
+  for (auto* column : {&x, &y}) column->resize(count + kPlacesPerExactPiece);
+  for (auto* column : {&gradient_x, &gradient_y}) column->resize(count + kPlacesPerExactPiece);
+  x[count - 1] = cell.x;
+  y[count - 1] = cell.y;
+  gradient_x[count - 1] = cell.gradient_x;
+  gradient_y[count - 1] = cell.gradient_y;
 }
 
 }  // namespace cairn::template_matcher

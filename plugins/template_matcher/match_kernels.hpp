@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace cairn::template_matcher {
 
@@ -88,5 +89,21 @@ struct GradientCell {
 // sums is at most `limit`.
 void sum_distances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t stride,
                    std::span<const GradientCell> cells, std::int32_t limit, std::int32_t* sums);
+
+// A template's cells by columns, as sum_distance() reads them.
+struct GradientColumns {
+  std::vector<std::int32_t> x;
+  std::vector<std::int32_t> y;
+  std::vector<float> gradient_x;
+  std::vector<float> gradient_y;
+  std::size_t count = 0;  // the columns are longer, by up to kPlacesPerExactPiece
+
+  void push_back(const GradientCell& cell);
+};
+
+// The mismatch of one place, where sum_distances() would compute its neighbours too; `both` as
+// GradientField::both_from() gives it. Given up once it is above `limit`: then what is returned is above it too.
+[[nodiscard]] std::int32_t sum_distance(const std::int32_t* both, std::ptrdiff_t stride, const GradientColumns& cells,
+                                        std::int32_t limit);
 
 }  // namespace cairn::template_matcher
