@@ -111,9 +111,10 @@ void Reader::take_scan(const LogLine& line) {
     const double range_m = kMetres_per_unit * line.range_m(kFirstRange + i);
     const RangeReading& reading = scans_.readings_of(source)[i];
     const double recorded_m = log_common::recorded_range(range_m, config_, reading);
-    ranges_m_.push_back(std::isfinite(recorded_m)
-                            ? std::clamp(recorded_m + config_.range_offset_m, reading.min_m, reading.max_m)
-                            : recorded_m);
+    ranges_m_.push_back(
+        std::isfinite(recorded_m)
+            ? std::clamp(config_.range_ratio * recorded_m + config_.range_offset_m, reading.min_m, reading.max_m)
+            : recorded_m);
   }
   const Pose2 T_first_robot = wheel_path_.at(scan.stamp_s);
   if (!T_first_start_) T_first_start_ = T_first_robot;
@@ -138,8 +139,10 @@ void Config::describe(Fields<Config>& fields) {
   fields.file("motors", &Config::motors, "the wheels' tick counts (lines M), plain or gzip").required = true;
   fields.group("wheels", &Config::wheels, "how far a tick goes, and how far apart the wheels are");
   fields.group("laser", &Config::laser, "the laser, of which the log says nothing");
+  fields.number("range_ratio", &Config::range_ratio, {0.5, 2.0}, "",
+                "every range is multiplied by this: metres of the map in a metre of the laser");
   fields.number("range_offset_m", &Config::range_offset_m, {-1.0, 1.0}, "m",
-                "added to every range: what the laser always measures too little");
+                "then added to every range: what the laser always measures too little");
   LogRules::describe_rules(fields);
 }
 

@@ -24,6 +24,7 @@ struct Config : log_common::LogRules {
   std::filesystem::path motors;
   Wheels wheels;
   log_common::LaserConfig laser;
+  double range_ratio = 1.0;
   double range_offset_m = 0.0;
 
   static void describe(Fields<Config>& fields);

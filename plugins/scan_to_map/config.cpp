@@ -6,6 +6,9 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("cell_m", &Config::cell_m, {0.005, 10.0}, "m",
                 "side of a cell of the localizer's own map; echoes of one cell share its line");
   fields.number("range_noise_m", &Config::range_noise_m, {0.0001, 10.0}, "m", "standard deviation of one echo");
+  fields.number("range_offset_m", &Config::range_offset_m, {-1.0, 1.0}, "m",
+                "added to every echo's range here, but not in the mission's map: where walls need another range offset "
+                "than landmarks, as of a laser that measures some surfaces too near");
   fields.number("pair_m", &Config::pair_m, {0.001, 100.0}, "m", "farther from its line than this, an echo is left out");
   fields.integer("iterations", &Config::iterations, {1, 1000}, "most steps of one correction");
   fields.integer("least_pairs", &Config::least_pairs, {3, 100000}, "with fewer echoes on lines, odometry alone");

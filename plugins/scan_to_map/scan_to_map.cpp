@@ -65,7 +65,7 @@ void ScanToMap::gather_points(const Observation& observation) {
   for (const RangeReading& reading : observation.ranges) {
     if (reading.half_beam_rad > config_.widest_half_beam_rad || !std::isfinite(reading.range_m)) continue;
     if (reading.range_m < reading.min_m || reading.range_m >= reading.max_m) continue;
-    points_m_.push_back(reading.T_robot_sensor * Point(reading.range_m, 0.0));
+    points_m_.push_back(reading.T_robot_sensor * Point(reading.range_m + config_.range_offset_m, 0.0));
   }
 }
 
