@@ -8,6 +8,10 @@ namespace {
 constexpr int kFewestOnALine = 5;
 constexpr double kThickest = 0.25;  // a line is at most this thick against its length (variances)
 
+bool is_place(const Point& point_m) {
+  return std::abs(point_m.x()) <= PointMap::kFarthest_m && std::abs(point_m.y()) <= PointMap::kFarthest_m;
+}
+
 }  // namespace
 
 PointMap::Key PointMap::key_of(std::int64_t column, std::int64_t row) {
@@ -15,7 +19,7 @@ PointMap::Key PointMap::key_of(std::int64_t column, std::int64_t row) {
 }
 
 void PointMap::add(const Point& point_m) {
-  if (!(point_m.cwiseAbs().maxCoeff() <= kFarthest_m)) return;
+  if (!is_place(point_m)) return;
   const auto column = static_cast<std::int64_t>(std::floor(point_m.x() / cell_m_));
   const auto row = static_cast<std::int64_t>(std::floor(point_m.y() / cell_m_));
   const Key key = key_of(column, row);
@@ -52,7 +56,7 @@ void PointMap::fit(Points& points, const Point& middle_m) {
 }
 
 std::optional<Line> PointMap::nearest_line(const Point& point_m, double most_m) const {
-  if (!(point_m.cwiseAbs().maxCoeff() <= kFarthest_m)) return std::nullopt;
+  if (!is_place(point_m)) return std::nullopt;
   const auto column = static_cast<std::int64_t>(std::floor(point_m.x() / cell_m_));
   const auto row = static_cast<std::int64_t>(std::floor(point_m.y() / cell_m_));
   const Line* nearest = nullptr;

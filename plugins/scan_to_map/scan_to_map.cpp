@@ -35,8 +35,7 @@ ScanToMap::ScanToMap(const Config& config, const RobotModel& robot, const Pose2&
 PoseEstimate ScanToMap::update(const Observation& observation, std::span<const LandmarkSighting>) {
   predict(observation.T_odom_robot);
   gather_points(observation);
-  correct();
-  extend_map();
+  if (correct()) extend_map();
   return estimate();
 }
 
@@ -88,7 +87,7 @@ ScanToMap::Normal ScanToMap::compare(const Pose2& T_map_robot) const {
   return sum;
 }
 
-void ScanToMap::correct() {
+bool ScanToMap::correct() {
   constexpr double kStill_m = 1e-6;
   constexpr double kLeastVariance = 1e-12;  // a robot that stands still may still be put right
   const Eigen::Matrix3d predicted = covariance_ + kLeastVariance * Eigen::Matrix3d::Identity();
@@ -97,20 +96,21 @@ void ScanToMap::correct() {
   Eigen::Matrix3d information = held;
   for (int i = 0; i < config_.iterations; ++i) {
     const Normal seen = compare(T_map_robot);
-    if (seen.pairs < config_.least_pairs) return;
+    if (seen.pairs < config_.least_pairs) return true;
     const Eigen::Vector3d off = between(T_map_robot_, T_map_robot);
     information = held + seen.information;
     const Eigen::Vector3d step = -information.inverse() * (held * off + seen.gradient);
-    if (!step.allFinite()) return;
+    if (!step.allFinite()) return false;
     T_map_robot = {T_map_robot.x_m + step.x(), T_map_robot.y_m + step.y(),
                    wrap_angle(T_map_robot.theta_rad + step.z())};
     if (step.cwiseAbs().maxCoeff() < kStill_m) break;
   }
   const Eigen::Vector3d off = between(T_map_robot_, T_map_robot);
-  if (!(off.dot(held * off) <= squared(kMostDeviations)) || !is_usable(T_map_robot)) return;
+  if (!(off.dot(held * off) <= squared(kMostDeviations)) || !is_usable(T_map_robot)) return false;
   const Eigen::Matrix3d corrected = information.inverse();
   T_map_robot_ = T_map_robot;
   covariance_ = 0.5 * (corrected + corrected.transpose());
+  return true;
 }
 
 void ScanToMap::extend_map() {

@@ -8,11 +8,13 @@
 //   beyond 1000 km
 //   readings of wide beams (sonars),    left out
 //   no echoes, bad readings
-//   fewer echoes on lines than           odometry alone
-//   least_pairs, or a correction that
-//   odometry rules out
+//   fewer echoes on lines than          odometry alone
+//   least_pairs
+//   a correction that odometry rules    odometry alone, and the echoes do not join the map
+//   out
 // The compass and landmark sightings are not used. The covariance holds the start's uncertainty and the
-// map's drift besides the match's own: agreement with the map is no agreement with the world.
+// map's drift besides the match's own: agreement with the map is no agreement with the world. Allocates only where its
+// map grows.
 #pragma once
 
 #include <optional>
@@ -40,7 +42,7 @@ class ScanToMap final : public Localizer {
   };
   void predict(const Pose2& T_odom_robot);
   void gather_points(const Observation& observation);
-  void correct();
+  bool correct();  // false: this scan lies nowhere near the map, and must not join it
   [[nodiscard]] Normal compare(const Pose2& T_map_robot) const;
   void extend_map();
   [[nodiscard]] PoseEstimate estimate() const;
