@@ -1,5 +1,8 @@
 #include "plugins/lego_log/lego_log.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "plugins/log_common/log_line.hpp"
 #include "plugins/log_common/log_text.hpp"
 
@@ -52,6 +55,14 @@ double ticks_in(const LogLine& line, std::size_t word, const std::string& what) 
 
 double stamp_in(const LogLine& line) {
   return kSeconds_per_unit * line.finite(1, "time stamp");
+}
+
+// Any number but a finite one beyond kFarthest_m.
+double range_in(const LogLine& line, std::size_t word) {
+  const double range_m = kMetres_per_unit * line.number(word, "range");
+  if (std::isfinite(range_m) && std::abs(range_m) > log_common::kFarthest_m)
+    throw ConfigError(line.place(word), "the range is beyond 100 km: " + shown(line.word(word)));
+  return range_m;
 }
 
 template <class Take>
@@ -108,7 +119,7 @@ void Reader::take_scan(const LogLine& line) {
   const std::size_t source = source_of(beams);
   ranges_m_.clear();
   for (std::size_t i = 0; i < beams; ++i) {
-    const double range_m = kMetres_per_unit * line.range_m(kFirstRange + i);
+    const double range_m = range_in(line, kFirstRange + i);
     const RangeReading& reading = scans_.readings_of(source)[i];
     const double recorded_m = log_common::recorded_range(range_m, config_, reading);
     ranges_m_.push_back(

@@ -14,7 +14,8 @@ struct Config {
   int least_pairs = 30;
   double beams_per_pair = 1.0;
   double widest_half_beam_rad = radians(1.0);
-  // Odometry: least errors, whatever the robot's file says.
+  // Odometry: least errors, whatever the robot's file says. Wide, because small robots slip: too narrow, and a
+  // scan that is right is refused; too wide costs nothing where there are walls all round.
   double least_distance_ratio = 0.3;
   double least_heading_rad_per_m = radians(60.0);
   double turn_as_distance_m_per_rad = 0.1;
