@@ -1,6 +1,7 @@
 #include "maps/coarse_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -8,6 +9,7 @@ namespace cairn {
 namespace {
 
 constexpr int kLargestN = 1024;  // keeps the sums of one coarse cell well inside 32 bits
+constexpr std::int32_t kToRecompute = -1;
 
 constexpr int floor_divide(int a, int n) {
   return a >= 0 ? a / n : -((n - 1 - a) / n);
@@ -42,14 +44,16 @@ void CoarseGrid::update(const OccupancyGrid& grid, const CellChanges& changes, s
     if (begin >= end || span.y < fine_bounds.min.y || span.y >= fine_bounds.max.y) continue;
     const Cell first = coarse_of({begin, span.y});
     const Cell last = coarse_of({end - 1, span.y});
-    // Spans come row by row, so most repeats are the ones of the row before; sort and unique do the rest.
-    for (int x = first.x; x <= last.x; ++x) touched.push_back({x, first.y});
+    for (int x = first.x; x <= last.x; ++x) {
+      Sums& sums = sums_[index_of({x, first.y})];
+      // Most rows of a change lie over the same coarse cells as the row before.
+      if (sums.high_count == kToRecompute) continue;
+      sums.high_count = kToRecompute;
+      touched.push_back({x, first.y});
+    }
   }
-  const auto by_row = [](Cell a, Cell b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
-  std::sort(touched.begin(), touched.end(), by_row);
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-
   for (const Cell c : touched) sums_[index_of(c)] = sums_of(grid, c);
+  std::sort(touched.begin(), touched.end(), [](Cell a, Cell b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
 }
 
 void CoarseGrid::rebuild(const OccupancyGrid& grid) {
@@ -92,17 +96,20 @@ void CoarseGrid::include(const CellBox& fine_box, const OccupancyGrid& grid) {
 
 CoarseGrid::Sums CoarseGrid::sums_of(const OccupancyGrid& grid, Cell coarse) const {
   const CellBox below = fine_box(coarse);
+  std::array<std::uint8_t, kLargestN> values;  // as many rows at a time as fit
+  const int rows = kLargestN / n_;
   Sums sums;
-  for (int y = below.min.y; y < below.max.y; ++y)
-    for (int x = below.min.x; x < below.max.x; ++x) {
-      const std::int32_t ol = grid.ol({x, y});
-      if (ol <= kUnknownOl) {
-        sums.low_sum += ol;
-      } else {
-        sums.high_sum += ol;
-        ++sums.high_count;
-      }
+  for (int y = below.min.y; y < below.max.y; y += rows) {
+    const CellBox some{{below.min.x, y}, {below.max.x, std::min(y + rows, below.max.y)}};
+    const std::span<std::uint8_t> read = std::span(values).first(static_cast<std::size_t>(n_ * some.height()));
+    grid.copy_ol(some, read);
+    for (const std::int32_t ol : read) {
+      const std::int32_t is_high = ol > kUnknownOl ? 1 : 0;
+      sums.low_sum += ol * (1 - is_high);
+      sums.high_sum += ol * is_high;
+      sums.high_count += is_high;
     }
+  }
   return sums;
 }
 

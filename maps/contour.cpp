@@ -242,6 +242,14 @@ double Contour::outer_diameter_m() const {
   return 2.0 * radius_m;
 }
 
+Contour Contour::scaled(double ratio) const {
+  Contour contour = *this;
+  contour.circle_diameter_m *= ratio;
+  for (std::vector<Point>& corners : contour.polygons_m)
+    for (Point& corner : corners) corner *= ratio;
+  return contour;
+}
+
 double Contour::signed_distance(const Point& p) const {
   if (is_circle()) return p.norm() - 0.5 * circle_diameter_m;
   // The parts stand apart, so that a point is inside of at most one.

@@ -35,6 +35,7 @@ struct Contour {
   [[nodiscard]] Point centroid_m() const;
   // The outlines as polygons, a circle as one of so many corners.
   [[nodiscard]] std::vector<std::vector<Point>> outlines_m(int circle_corners) const;
+  [[nodiscard]] Contour scaled(double ratio) const;  // about the origin; ratio > 0
   // Distance of a point to the nearest outline, negative inside.
   [[nodiscard]] double signed_distance(const Point& p) const;
   bool operator==(const Contour&) const = default;

@@ -40,10 +40,15 @@ LandmarkId id_in_label(const std::string& label) {
 
 }  // namespace
 
-LandmarkId LandmarkGraph::add(Landmark landmark) {
-  if (landmarks_.contains(landmark.id)) throw std::invalid_argument(named("landmark", landmark.id) + " exists already");
+void LandmarkGraph::check(const Landmark& landmark) const {
+  if (landmarks_.contains(landmark.id) || retired_.contains(landmark.id))
+    throw std::invalid_argument(named("landmark", landmark.id) + " exists already");
   if (!is_finite(landmark.T_map_landmark) || (landmark.access && !is_finite(*landmark.access)))
     throw std::invalid_argument(named("landmark", landmark.id) + ": its place is not finite");
+}
+
+LandmarkId LandmarkGraph::add(Landmark landmark) {
+  check(landmark);
   landmark.id = claim_id("landmark", landmark.id, next_landmark_);
   const LandmarkId id = landmark.id;
   landmarks_.emplace(id, std::move(landmark));
@@ -71,6 +76,21 @@ void LandmarkGraph::remove(LandmarkId id) {
   if (landmarks_.erase(id) == 0) throw std::invalid_argument("there is no " + named("landmark", id) + " to remove");
   std::erase_if(routes_, [id](const auto& entry) { return entry.second.from == id || entry.second.to == id; });
   std::erase_if(routes_by_ends_, [id](const auto& ends) { return std::get<0>(ends) == id || std::get<1>(ends) == id; });
+}
+
+void LandmarkGraph::retire(LandmarkId id, std::string reason) {
+  const Landmark* const landmark = find(id);
+  if (landmark == nullptr) throw std::invalid_argument("there is no " + named("landmark", id) + " to retire");
+  RetiredLandmark retired{*landmark, std::move(reason)};
+  remove(id);
+  retired_.emplace(id, std::move(retired));
+}
+
+void LandmarkGraph::add_retired(RetiredLandmark retired) {
+  check(retired.landmark);
+  if (retired.landmark.id == 0) throw std::invalid_argument("a retired landmark keeps its id, 0 is none");
+  const LandmarkId id = claim_id("landmark", retired.landmark.id, next_landmark_);
+  retired_.emplace(id, std::move(retired));
 }
 
 void LandmarkGraph::remove_route(RouteId id) {

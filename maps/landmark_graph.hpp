@@ -27,13 +27,24 @@ struct TemplateDegree {
   bool operator==(const TemplateDegree&) const = default;
 };
 
+// What the matchings at a landmark's place have said of one category.
+struct CategoryEvidence {
+  std::string category;
+  int matchings = 0;         // that it fitted in
+  double mean_degree = 0.0;  // over these
+  double best_degree = 0.0;
+  double last_degree = 0.0;  // in the last matching there; 0: it did not fit
+  bool operator==(const CategoryEvidence&) const = default;
+};
+
 struct Landmark {
   LandmarkId id = 0;
   std::string name;      // may be empty; "L<id>" always names it too
   std::string category;  // empty for imported places without one
   Pose2 T_map_landmark;
-  double degree = 0.0;                    // of the best matching so far
-  std::vector<TemplateDegree> templates;  // all above tau_match in that matching, best first
+  double degree = 0.0;                     // of the best matching so far
+  std::vector<TemplateDegree> templates;   // all above tau_match in that matching, best first
+  std::vector<CategoryEvidence> evidence;  // over all matchings, by category
   int sightings = 0;
   std::optional<Pose2> access;  // where a robot stands to be "at" the landmark; none: its position
   int level = 0;                // floor of a building
@@ -52,6 +63,13 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
+// One that is no landmark any more, with its history.
+struct RetiredLandmark {
+  Landmark landmark;
+  std::string reason;
+  bool operator==(const RetiredLandmark&) const = default;
+};
+
 class LandmarkGraph {
  public:
   // Ids of 0 are assigned; others are kept (loading). Throws std::invalid_argument on a duplicate or
@@ -59,6 +77,9 @@ class LandmarkGraph {
   LandmarkId add(Landmark landmark);
   RouteId add_route(Route route);
   void remove(LandmarkId id);  // and the routes that touch it
+  // The same, but the landmark is kept among the retired ones, which no search finds.
+  void retire(LandmarkId id, std::string reason);
+  void add_retired(RetiredLandmark retired);  // loading; throws as add() does, and for an id of 0
   void remove_route(RouteId id);
   void set_closed(RouteId id, bool closed);
   // The ids to be given next. A saved graph keeps them, so that removed ids stay retired after
@@ -68,6 +89,7 @@ class LandmarkGraph {
   void reserve_ids(LandmarkId next_landmark, RouteId next_route);
 
   [[nodiscard]] const std::map<LandmarkId, Landmark>& landmarks() const { return landmarks_; }
+  [[nodiscard]] const std::map<LandmarkId, RetiredLandmark>& retired() const { return retired_; }
   [[nodiscard]] const std::map<RouteId, Route>& routes() const { return routes_; }
   [[nodiscard]] const Landmark* find(LandmarkId id) const;
   [[nodiscard]] Landmark* find(LandmarkId id);
@@ -82,7 +104,10 @@ class LandmarkGraph {
   bool operator==(const LandmarkGraph&) const = default;
 
  private:
+  void check(const Landmark& landmark) const;
+
   std::map<LandmarkId, Landmark> landmarks_;
+  std::map<LandmarkId, RetiredLandmark> retired_;
   std::map<RouteId, Route> routes_;
   std::set<std::tuple<LandmarkId, LandmarkId, RouteId>> routes_by_ends_;  // from, to, route
   LandmarkId next_landmark_ = 1;

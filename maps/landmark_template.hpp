@@ -27,7 +27,7 @@ struct LandmarkTemplate {
 };
 
 // All templates of a mission in a fixed order: categories as given, orientations rising. An orientation
-// may have several templates, one after the other (sensed: one for each way round the landmark).
+// may have several templates, one after the other.
 struct TemplateSet {
   double cell_m = 0.05;
   double step_rad = 0.0;

@@ -23,7 +23,7 @@ Database database_of(const SavedMap& map) {
   store::write_content(database, map);
   store::write_checksums(database);
   database.execute("COMMIT");
-  static_cast<void>(store::read_content(database));
+  static_cast<void>(store::read_content(database, kMapSchemaVersion));
   return database;
 }
 
@@ -38,6 +38,13 @@ std::string bytes_of(const SavedMap& map) {
 void check_pages(Database& database) {
   store::Statement check(database, "PRAGMA quick_check(1)");
   if (check.step() && check.text(0) != "ok") throw StoreError("is damaged: " + check.text(0));
+}
+
+// check_header() has seen that it is one we know; asked again, because the file may have been replaced since.
+int version_of(Database& database) {
+  store::Statement version(database, "PRAGMA user_version");
+  version.step();
+  return static_cast<int>(version.integer_within(0, 1, kMapSchemaVersion));
 }
 
 }  // namespace
@@ -60,9 +67,10 @@ SavedMap load_map(const std::filesystem::path& file) {
     Database database = Database::read_only(file);
     database.execute("BEGIN");  // one state of the file for all that follows
     check_pages(database);
-    store::check_schema(database);
-    store::check_checksums(database);
-    return store::read_content(database);
+    const int version = version_of(database);
+    store::check_schema(database, version);
+    store::check_checksums(database, version);
+    return store::read_content(database, version);
   } catch (const StoreError& error) {
     throw StoreError(file.string() + ": " + error.what());
   } catch (const std::filesystem::filesystem_error& error) {

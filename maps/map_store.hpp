@@ -18,7 +18,7 @@
 
 namespace cairn {
 
-inline constexpr int kMapSchemaVersion = 1;
+inline constexpr int kMapSchemaVersion = 2;
 
 class StoreError : public std::runtime_error {
  public:

@@ -1,5 +1,6 @@
 #include <charconv>
 #include <limits>
+#include <map>
 
 #include "maps/map_store_codec.hpp"
 #include "maps/map_store_tables.hpp"
@@ -102,30 +103,62 @@ void read_tiles(Database& database, OccupancyGrid& grid) {
   }
 }
 
-void read_landmarks(Database& database, LandmarkGraph& graph) {
+using Histories = std::map<LandmarkId, Landmark>;  // templates and evidence alone
+
+// A row of landmarks with its history, which is taken from the others.
+Landmark landmark_in(Statement& row, Histories& histories) {
+  Landmark landmark;
+  landmark.id = row.integer_within(0, 1, kMaxId);
+  if (auto history = histories.extract(landmark.id)) {
+    landmark.templates = std::move(history.mapped().templates);
+    landmark.evidence = std::move(history.mapped().evidence);
+  }
+  landmark.level = static_cast<int>(row.integer_within(1, -kMaxLevel, kMaxLevel));
+  landmark.name = row.text(2);
+  landmark.category = row.text(3);
+  landmark.T_map_landmark = {row.real(4), row.real(5), row.real(6)};
+  landmark.degree = row.real(7);
+  landmark.sightings = static_cast<int>(row.integer_within(8, 0, kMaxInt));
+  if (row.optional_real(9) || row.optional_real(10) || row.optional_real(11))
+    landmark.access = Pose2{row.real(9), row.real(10), row.real(11)};
+  return landmark;
+}
+
+void read_landmarks(Database& database, LandmarkGraph& graph, Histories& histories) {
   Statement row(database, "SELECT * FROM landmarks ORDER BY id");
+  while (row.step()) graph.add(landmark_in(row, histories));
+}
+
+void read_retired_landmarks(Database& database, LandmarkGraph& graph, Histories& histories) {
+  Statement row(database, "SELECT * FROM retired_landmarks ORDER BY id");
   while (row.step()) {
-    Landmark landmark;
-    landmark.id = row.integer_within(0, 1, kMaxId);
-    landmark.level = static_cast<int>(row.integer_within(1, -kMaxLevel, kMaxLevel));
-    landmark.name = row.text(2);
-    landmark.category = row.text(3);
-    landmark.T_map_landmark = {row.real(4), row.real(5), row.real(6)};
-    landmark.degree = row.real(7);
-    landmark.sightings = static_cast<int>(row.integer_within(8, 0, kMaxInt));
-    if (row.optional_real(9) || row.optional_real(10) || row.optional_real(11))
-      landmark.access = Pose2{row.real(9), row.real(10), row.real(11)};
-    graph.add(std::move(landmark));
+    Landmark landmark = landmark_in(row, histories);
+    graph.add_retired({std::move(landmark), row.text(12)});
   }
 }
 
-void read_landmark_templates(Database& database, LandmarkGraph& graph) {
+void read_landmark_templates(Database& database, Histories& histories) {
   Statement row(database, "SELECT * FROM landmark_templates ORDER BY landmark, rank");
+  while (row.step()) histories[row.integer(0)].templates.push_back({row.text(2), row.real(3), row.real(4)});
+}
+
+void read_landmark_evidence(Database& database, Histories& histories) {
+  Statement row(database, "SELECT * FROM landmark_evidence ORDER BY landmark, category");
   while (row.step()) {
-    Landmark* const landmark = graph.find(row.integer(0));
-    if (landmark == nullptr) throw StoreError("there is no " + numbered("landmark", row.integer(0)));
-    landmark->templates.push_back({row.text(2), row.real(3), row.real(4)});
+    const int matchings = static_cast<int>(row.integer_within(2, 0, kMaxInt));
+    histories[row.integer(0)].evidence.push_back({row.text(1), matchings, row.real(3), row.real(4), row.real(5)});
   }
+}
+
+void read_all_landmarks(Database& database, LandmarkGraph& graph, int version) {
+  Histories histories;
+  in_table("landmark_templates", [&] { read_landmark_templates(database, histories); });
+  if (version >= 2) in_table("landmark_evidence", [&] { read_landmark_evidence(database, histories); });
+  in_table("landmarks", [&] { read_landmarks(database, graph, histories); });
+  if (version >= 2) in_table("retired_landmarks", [&] { read_retired_landmarks(database, graph, histories); });
+  in_table("landmark_templates", [&] {
+    if (!histories.empty()) throw StoreError("there is no " + numbered("landmark", histories.begin()->first));
+  });
 }
 
 std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, const std::string& what) {
@@ -215,7 +248,7 @@ std::vector<LandmarkShape> read_shapes(Database& database) {
 
 }  // namespace
 
-SavedMap read_content(Database& database) {
+SavedMap read_content(Database& database, int version) {
   SavedMap map;
   in_table("meta", [&] {
     Statement row(database, "SELECT key, value FROM meta ORDER BY key");
@@ -223,8 +256,7 @@ SavedMap read_content(Database& database) {
   });
   in_table("grid", [&] { map.grid = read_grid(database); });
   in_table("tiles", [&] { read_tiles(database, map.grid); });
-  in_table("landmarks", [&] { read_landmarks(database, map.graph); });
-  in_table("landmark_templates", [&] { read_landmark_templates(database, map.graph); });
+  read_all_landmarks(database, map.graph, version);
   in_table("routes", [&] { read_routes(database, map.graph); });
   in_table("next_ids", [&] { read_next_ids(database, map.graph); });
   map.shapes = read_shapes(database);

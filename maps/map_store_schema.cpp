@@ -28,6 +28,16 @@ constexpr std::array kTables{
           "landmark INTEGER NOT NULL, rank INTEGER NOT NULL, category TEXT NOT NULL, orientation_rad REAL NOT NULL, "
           "degree REAL NOT NULL, PRIMARY KEY (landmark, rank)",
           " WITHOUT ROWID"},
+    Table{"landmark_evidence", "landmark, category",
+          "landmark INTEGER NOT NULL, category TEXT NOT NULL, matchings INTEGER NOT NULL, mean_degree REAL NOT NULL, "
+          "best_degree REAL NOT NULL, last_degree REAL NOT NULL, PRIMARY KEY (landmark, category)",
+          " WITHOUT ROWID", 2},
+    // As landmarks; templates and evidence of both are in one table.
+    Table{"retired_landmarks", "id",
+          "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, name TEXT NOT NULL, category TEXT NOT NULL, "
+          "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, degree REAL NOT NULL, "
+          "sightings INTEGER NOT NULL, access_x_m REAL, access_y_m REAL, access_theta_rad REAL, reason TEXT NOT NULL",
+          "", 2},
     // trajectory: little-endian doubles x_m, y_m, theta_rad of each pose, zlib; crc32 of the raw bytes.
     Table{"routes", "id",
           "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, from_landmark INTEGER NOT NULL, "
@@ -62,13 +72,13 @@ Checksum checksum_of(Database& database, const Table& table) {
   return sum;
 }
 
-void check_definition(Database& database, const Table& table) {
+void check_definition(Database& database, const Table& table, int version) {
   Statement found(database, "SELECT sql FROM sqlite_schema WHERE type = 'table' AND name = ?");
   found.bind_text(table.name);
   const std::string at = std::string("table ") + table.name;
   if (!found.step()) throw StoreError(at + ": is missing");
   if (found.text(0) != definition_of(table))
-    throw StoreError(at + ": its columns are not those of schema version " + std::to_string(kMapSchemaVersion));
+    throw StoreError(at + ": its columns are not those of schema version " + std::to_string(version));
 }
 
 void check_table(Database& database, const Table& table) {
@@ -95,9 +105,10 @@ void create_tables(Database& database) {
   database.execute(definition_of(kChecksums).c_str());
 }
 
-void check_schema(Database& database) {
-  for (const Table& table : kTables) check_definition(database, table);
-  check_definition(database, kChecksums);
+void check_schema(Database& database, int version) {
+  for (const Table& table : kTables)
+    if (table.since <= version) check_definition(database, table, version);
+  check_definition(database, kChecksums, version);
 }
 
 void write_checksums(Database& database) {
@@ -108,8 +119,9 @@ void write_checksums(Database& database) {
   }
 }
 
-void check_checksums(Database& database) {
-  for (const Table& table : kTables) check_table(database, table);
+void check_checksums(Database& database, int version) {
+  for (const Table& table : kTables)
+    if (table.since <= version) check_table(database, table);
 }
 
 }  // namespace cairn::store

@@ -1,4 +1,4 @@
-// Schema 1 of the saved map: its tables, and a checksum over each.
+// The saved map's tables, and a checksum over each. Version 2 added evidence and retired landmarks.
 #pragma once
 
 #include <span>
@@ -15,14 +15,16 @@ struct Table {
   const char* order;    // its key: rows are read in this order
   const char* columns;  // as CREATE TABLE takes them
   const char* options;  // behind the columns
+  int since = 1;        // schema version
 };
 
 [[nodiscard]] std::span<const Table> tables();
 void create_tables(Database& database);
-// Every table exists exactly as create_tables makes it; throws StoreError with the first that does not.
-void check_schema(Database& database);
+// Every table of that version exists exactly as create_tables makes it; throws StoreError with the first that
+// does not.
+void check_schema(Database& database, int version);
 
 void write_checksums(Database& database);
-void check_checksums(Database& database);
+void check_checksums(Database& database, int version);
 
 }  // namespace cairn::store

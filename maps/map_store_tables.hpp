@@ -6,7 +6,8 @@
 namespace cairn::store {
 
 void write_content(Database& database, const SavedMap& map);
-// Checks every value it takes over; throws StoreError with the table and what is wrong.
-[[nodiscard]] SavedMap read_content(Database& database);
+// What the version does not know stays empty. Checks every value it takes over; throws StoreError with the table and
+// what is wrong.
+[[nodiscard]] SavedMap read_content(Database& database, int version);
 
 }  // namespace cairn::store

@@ -44,28 +44,42 @@ void write_tiles(Database& database, const OccupancyGrid& grid) {
   }
 }
 
+// All columns of a row of landmarks.
+void bind_landmark(Statement& insert, const Landmark& landmark) {
+  const Pose2& pose = landmark.T_map_landmark;
+  insert.bind(landmark.id).bind(std::int64_t{landmark.level}).bind_text(landmark.name).bind_text(landmark.category);
+  insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).bind(landmark.degree);
+  insert.bind(std::int64_t{landmark.sightings});
+  const auto access = [&](double Pose2::*part) {
+    return landmark.access ? std::optional((*landmark.access).*part) : std::nullopt;
+  };
+  insert.bind(access(&Pose2::x_m)).bind(access(&Pose2::y_m)).bind(access(&Pose2::theta_rad));
+}
+
+void write_history(Database& database, const Landmark& landmark) {
+  Statement insert_template(database, "INSERT INTO landmark_templates VALUES (?, ?, ?, ?, ?)");
+  std::int64_t rank = 0;
+  for (const auto& [category, orientation_rad, degree] : landmark.templates)
+    insert_template.bind(landmark.id).bind(++rank).bind_text(category).bind(orientation_rad).bind(degree).run();
+  Statement insert(database, "INSERT INTO landmark_evidence VALUES (?, ?, ?, ?, ?, ?)");
+  for (const auto& [category, matchings, mean_degree, best_degree, last_degree] : landmark.evidence) {
+    insert.bind(landmark.id).bind_text(category).bind(std::int64_t{matchings});
+    insert.bind(mean_degree).bind(best_degree).bind(last_degree).run();
+  }
+}
+
 void write_landmarks(Database& database, const LandmarkGraph& graph) {
   Statement insert(database, "INSERT INTO landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  Statement insert_template(database, "INSERT INTO landmark_templates VALUES (?, ?, ?, ?, ?)");
-  for (const auto& entry : graph.landmarks()) {
-    const LandmarkId id = entry.first;
-    const Landmark& landmark = entry.second;
-    const Pose2& pose = landmark.T_map_landmark;
-    insert.bind(id).bind(std::int64_t{landmark.level}).bind_text(landmark.name).bind_text(landmark.category);
-    insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).bind(landmark.degree);
-    insert.bind(std::int64_t{landmark.sightings});
-    const auto access = [&](double Pose2::*part) {
-      return landmark.access ? std::optional((*landmark.access).*part) : std::nullopt;
-    };
-    insert.bind(access(&Pose2::x_m)).bind(access(&Pose2::y_m)).bind(access(&Pose2::theta_rad)).run();
-    std::int64_t rank = 0;
-    for (const TemplateDegree& match : landmark.templates)
-      insert_template.bind(id)
-          .bind(++rank)
-          .bind_text(match.category)
-          .bind(match.orientation_rad)
-          .bind(match.degree)
-          .run();
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    bind_landmark(insert, landmark);
+    insert.run();
+    write_history(database, landmark);
+  }
+  Statement insert_retired(database, "INSERT INTO retired_landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const auto& [id, retired] : graph.retired()) {
+    bind_landmark(insert_retired, retired.landmark);
+    insert_retired.bind_text(retired.reason).run();
+    write_history(database, retired.landmark);
   }
 }
 

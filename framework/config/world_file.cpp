@@ -108,17 +108,10 @@ Contour contour_of_category(const std::string& category, const SourcePlace& plac
                                "; known: " + (known.empty() ? "none" : known_text));
 }
 
-Contour scaled(Contour contour, double scale) {
-  contour.circle_diameter_m *= scale;
-  for (std::vector<Point>& corners : contour.polygons_m)
-    for (Point& corner : corners) corner *= scale;
-  return contour;
-}
-
 Contour contour_of(const ObjectConfig& config, const std::string& outline, const ConfigValue& value,
                    const std::vector<LandmarkShape>& shapes) {
   const SourcePlace& place = value.find(outline)->place;
-  if (outline == "template") return scaled(contour_of_category(config.template_category, place, shapes), config.scale);
+  if (outline == "template") return contour_of_category(config.template_category, place, shapes).scaled(config.scale);
   if (const ConfigValue* scale = value.find("scale"))
     throw ConfigError(scale->place, "scale goes with template; " + outline + " says how large the object is");
   try {

@@ -6,11 +6,10 @@ namespace cairn {
 namespace {
 
 const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
-  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
-                                                                          {"maps", ExperimentKind::maps},
-                                                                          {"places", ExperimentKind::places},
-                                                                          {"lap", ExperimentKind::lap},
-                                                                          {"recognition", ExperimentKind::recognition}};
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{
+      {"missions", ExperimentKind::missions},       {"maps", ExperimentKind::maps},
+      {"places", ExperimentKind::places},           {"lap", ExperimentKind::lap},
+      {"recognition", ExperimentKind::recognition}, {"curves", ExperimentKind::curves}};
   return kKinds;
 }
 
@@ -50,7 +49,31 @@ std::vector<std::string> checked_names(const ExperimentConfig& config, const Con
   return names;
 }
 
+// Each a module with its settings, as in a mission, and a name.
+std::vector<ComparedDetector> detectors_of(const ConfigValue& list) {
+  if (list.kind != ConfigValue::Kind::list)
+    throw ConfigError(list.place,
+                      "detectors must be a list of {name: ..., plugin: ..., its settings}, found " + list.kind_name());
+  std::vector<ComparedDetector> detectors;
+  for (const ConfigValue& item : list.items) {
+    ComparedDetector detector{"", config_detail::to_plugin(item, "detectors")};
+    const ConfigValue* name = item.find("name");
+    if (name == nullptr) throw ConfigError(item.place, "detectors lacks the key \"name\": what it is called in tables");
+    detector.name = config_detail::to_text(*name, "name");
+    if (detector.name.empty()) throw ConfigError(name->place, "a detector's name must not be empty");
+    if (std::ranges::find(detectors, detector.name, &ComparedDetector::name) != detectors.end())
+      throw ConfigError(name->place, "two detectors are called " + shown(detector.name));
+    std::erase_if(detector.choice.config.entries, [](const ConfigValue::Entry& entry) { return entry.key == "name"; });
+    detectors.push_back(std::move(detector));
+  }
+  return detectors;
+}
+
 }  // namespace
+
+bool in_random_worlds(ExperimentKind kind) {
+  return kind == ExperimentKind::recognition || kind == ExperimentKind::curves;
+}
 
 std::string_view name_of(ExperimentKind kind) {
   return std::ranges::find(kinds(), kind, &std::pair<std::string, ExperimentKind>::second)->first;
@@ -66,7 +89,7 @@ void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
   fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
   fields.file("robot", &ExperimentVariant::robot, "robot file in place of the missions' own");
   fields.number("specular_ratio", &ExperimentVariant::specular_ratio, {0.0, 1.0}, "",
-                "of `recognition`: share of walls and things with a smooth surface");
+                "of `recognition` and `curves`: share of walls and things with a smooth surface");
 }
 
 void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
@@ -91,7 +114,9 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
               "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
               "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
               "each category fits at given places of the drive; `lap`, how well each category and each template fits "
-              "along a lap round a landmark; `recognition`, which landmarks are found in random worlds")
+              "along a lap round a landmark; `recognition`, which landmarks are found in random worlds; `curves`, "
+              "precision "
+              "and recall of several detectors on the grids of the same runs, at every threshold")
       .required = true;
   fields.files("missions", &C::missions, "mission files").required = true;
   fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
@@ -109,7 +134,10 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
               "before that looked at its landmark");
   fields.group("lap", &C::lap, "of `lap`: the lap");
   fields.group("worlds", &C::worlds,
-               "of `recognition`: the world of each seed, which takes the place of the missions' own");
+               "of `recognition` and `curves`: the world of each seed, which takes the place of the missions' own");
+  fields.raw("detectors", &C::detectors_as_given, "list of detectors",
+             "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
+             "setting left out is as the mission's own detector has it; but tau_match is 0");
   fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
                 "a matching looks at a landmark when the middle of its region is this near to the landmark's");
   fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
@@ -134,6 +162,10 @@ ExperimentConfig load_experiment(const std::filesystem::path& file) {
   if (of_places) check_places(config, root);
   if (of_lap && !config.lap)
     throw ConfigError(root.place, "an experiment of a lap must say under lap what it goes round");
+  if (config.detectors_as_given.kind != ConfigValue::Kind::null)
+    config.detectors = detectors_of(config.detectors_as_given);
+  if (config.experiment == ExperimentKind::curves && config.detectors.empty())
+    throw ConfigError(root.place, "an experiment of curves must list the detectors to compare under detectors");
   return config;
 }
 

@@ -14,8 +14,9 @@
 namespace cairn {
 
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
-// fit at given places of the drive, and along a lap round a landmark; what is recognised in random worlds.
-enum class ExperimentKind { missions, maps, places, lap, recognition };
+// fit at given places of the drive, and along a lap round a landmark; what is recognised in random worlds,
+// and what other detectors recognise on the same grids.
+enum class ExperimentKind { missions, maps, places, lap, recognition, curves };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
 
 struct SeedRange {
@@ -48,6 +49,12 @@ struct LapConfig {
   static void describe(Fields<LapConfig>& fields);
 };
 
+// A detector that is compared with others on the same grids.
+struct ComparedDetector {
+  std::string name;
+  PluginChoice choice;
+};
+
 // config/experiments/*.yaml
 struct ExperimentConfig {
   ExperimentKind experiment = ExperimentKind::missions;
@@ -63,10 +70,15 @@ struct ExperimentConfig {
   std::vector<PlaceConfig> places;
   std::optional<LapConfig> lap;
   RandomWorldConfig worlds;
+  ConfigValue detectors_as_given;
+  std::vector<ComparedDetector> detectors;  // after loading
   double looks_within_m = 0.35;
   int expected_matchings = 0;  // 0: none published
   static void describe(Fields<ExperimentConfig>& fields);
 };
+
+// Whether the experiment puts a random world in place of each mission's own.
+[[nodiscard]] bool in_random_worlds(ExperimentKind kind);
 
 // Throws ConfigError.
 [[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file);

@@ -6,31 +6,8 @@
 namespace cairn {
 namespace {
 
-struct Pair {
-  double distance_m = 0.0;
-  const Landmark* landmark = nullptr;
-  const WorldObject* object = nullptr;
-};
-
-// Nearest first; equal ones in the order of landmarks and things.
-std::vector<Pair> pairs_within(const World& world, const LandmarkGraph& graph, double tolerance_m) {
-  std::vector<Pair> pairs;
-  for (const auto& [id, landmark] : graph.landmarks())
-    for (const WorldObject& object : world.objects) {
-      const double distance_m = (object.T_map_object.position() - landmark.T_map_landmark.position()).norm();
-      if (distance_m <= tolerance_m) pairs.push_back({distance_m, &landmark, &object});
-    }
-  std::ranges::stable_sort(pairs, {}, &Pair::distance_m);
-  std::vector<Pair> taken;
-  for (const Pair& pair : pairs)
-    if (std::ranges::none_of(taken,
-                             [&](const Pair& t) { return t.landmark == pair.landmark || t.object == pair.object; }))
-      taken.push_back(pair);
-  return taken;
-}
-
 // None for a shape that looks the same all round.
-std::optional<double> orientation_error(const Mission& mission, const Pair& pair) {
+std::optional<double> orientation_error(const Mission& mission, const FoundThing& pair) {
   constexpr double kFineCell_m = 0.02;
   const double step_rad = mission.template_config.step_rad;
   const auto shape = std::ranges::find(mission.shapes, pair.object->category, &LandmarkShape::category);
@@ -42,6 +19,22 @@ std::optional<double> orientation_error(const Mission& mission, const Pair& pair
 }
 
 }  // namespace
+
+std::vector<FoundThing> pairs_within(const World& world, const LandmarkGraph& graph, double tolerance_m) {
+  std::vector<FoundThing> pairs;
+  for (const auto& [id, landmark] : graph.landmarks())
+    for (const WorldObject& object : world.objects) {
+      const double distance_m = (object.T_map_object.position() - landmark.T_map_landmark.position()).norm();
+      if (distance_m <= tolerance_m) pairs.push_back({distance_m, &landmark, &object});
+    }
+  std::ranges::stable_sort(pairs, {}, &FoundThing::distance_m);
+  std::vector<FoundThing> taken;
+  for (const FoundThing& pair : pairs)
+    if (std::ranges::none_of(
+            taken, [&](const FoundThing& t) { return t.landmark == pair.landmark || t.object == pair.object; }))
+      taken.push_back(pair);
+  return taken;
+}
 
 void FirstKnown::on(const Event& event, const MissionView& view) {
   if (std::holds_alternative<TickDone>(event)) {
@@ -60,10 +53,10 @@ double FirstKnown::driven_m(LandmarkId id) const {
 
 std::vector<Verdict> judge_recognition(const Mission& mission, const LandmarkGraph& graph, const FirstKnown& known,
                                        double tolerance_m) {
-  const std::vector<Pair> pairs = pairs_within(*mission.world, graph, tolerance_m);
+  const std::vector<FoundThing> pairs = pairs_within(*mission.world, graph, tolerance_m);
   std::vector<Verdict> verdicts;
   for (const WorldObject& object : mission.world->objects) {
-    const auto pair = std::ranges::find(pairs, &object, &Pair::object);
+    const auto pair = std::ranges::find(pairs, &object, &FoundThing::object);
     Verdict& verdict = verdicts.emplace_back();
     verdict.is = object.category;
     if (pair == pairs.end()) continue;
@@ -73,7 +66,7 @@ std::vector<Verdict> judge_recognition(const Mission& mission, const LandmarkGra
     if (verdict.is_right()) verdict.orientation_error_rad = orientation_error(mission, *pair);
   }
   for (const auto& [id, landmark] : graph.landmarks())
-    if (std::ranges::find(pairs, &landmark, &Pair::landmark) == pairs.end())
+    if (std::ranges::find(pairs, &landmark, &FoundThing::landmark) == pairs.end())
       verdicts.push_back({"", landmark.category, 0.0, std::nullopt, known.driven_m(id)});
   return verdicts;
 }

@@ -25,6 +25,16 @@ class FirstKnown : public Listener {
   std::map<LandmarkId, double> known_at_m_;
 };
 
+// A landmark found at a thing of the world.
+struct FoundThing {
+  double distance_m = 0.0;
+  const Landmark* landmark = nullptr;
+  const WorldObject* object = nullptr;
+};
+// Nearest first, each landmark and each thing once, no farther apart than tolerance_m; equally near ones in
+// the order of landmarks and things.
+[[nodiscard]] std::vector<FoundThing> pairs_within(const World& world, const LandmarkGraph& graph, double tolerance_m);
+
 // One thing of the world, one landmark found, or both as a pair. Empty categories: truly no landmark, or
 // none found.
 struct Verdict {
@@ -36,7 +46,7 @@ struct Verdict {
   [[nodiscard]] bool is_right() const { return !is.empty() && is == found; }
 };
 
-// Landmarks and things are paired, nearest first, each once and no farther than tolerance_m.
+// Landmarks and things are paired by pairs_within().
 [[nodiscard]] std::vector<Verdict> judge_recognition(const Mission& mission, const LandmarkGraph& graph,
                                                      const FirstKnown& known, double tolerance_m);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "framework/host/curves_table.hpp"
 #include "framework/host/lap_table.hpp"
 #include "framework/host/places_table.hpp"
 #include "framework/host/recognition_table.hpp"
@@ -90,6 +91,17 @@ ordered_json json_of_verdicts(const ExperimentRow& row) {
   return verdicts;
 }
 
+// A list [threshold, found, right] for each degree of the detector's detections.
+ordered_json json_of_sweeps(const ExperimentRow& row) {
+  ordered_json sweeps = ordered_json::array();
+  for (const DetectorSweep& sweep : row.sweeps) {
+    ordered_json counts = ordered_json::array();
+    for (const ThresholdCount& count : sweep.counts.counts) counts.push_back({count.degree, count.found, count.right});
+    sweeps.push_back({{"name", sweep.detector}, {"truly", sweep.counts.truly}, {"counts", std::move(counts)}});
+  }
+  return sweeps;
+}
+
 std::string cell_text(const Estimate& estimate) {
   return fmt::format(" {:.4f} ± {:.4f} |", estimate.mean, estimate.half_width);
 }
@@ -162,7 +174,8 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
                        {"matchings", row.result.matchings},
                        {"collisions", row.result.collisions},
                        {"good", row.is_good()}};
-  if (config.experiment == ExperimentKind::recognition) json["verdicts"] = json_of_verdicts(row);
+  if (in_random_worlds(config.experiment)) json["verdicts"] = json_of_verdicts(row);
+  if (config.experiment == ExperimentKind::curves) json["detectors"] = json_of_sweeps(row);
   if (config.experiment == ExperimentKind::lap) json["lap"] = json_of_lap(config, row);
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (config.experiment != ExperimentKind::maps) return json;
@@ -226,6 +239,8 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
       return lap_table(config, rows);
     case ExperimentKind::recognition:
       return recognition_table(config, rows);
+    case ExperimentKind::curves:
+      return curves_table(config, rows);
   }
   return {};
 }

@@ -78,17 +78,24 @@ ModuleContext context_of(const LapCrew& crew, const RobotModel& robot, std::uint
 
 }  // namespace
 
-std::shared_ptr<Mapper> map_of_lap(const LapCrew& crew, const Contour& contour, const LapPlan& plan) {
-  const double radius_m = 0.5 * contour.outer_diameter_m() + plan.standoff_m;
-  const RobotModel robot = calibrated(crew.robot, 2.0 * radius_m);
+std::shared_ptr<Mapper> map_of_laps(const LapCrew& crew, const Contour& contour, const LapPlan& plan) {
+  const double contour_m = 0.5 * contour.outer_diameter_m();
+  const double farthest_m = contour_m + std::ranges::max(plan.standoffs_m);
+  const RobotModel robot = calibrated(crew.robot, 2.0 * farthest_m);
   const auto mapper = crew.modules.make<Mapper>(crew.map, context_of(crew, robot, plan.seed, {}, nullptr));
   const Point centre = mapper->grid().centre_of({0, 0}) + plan.offset_m;
-  const World world = world_of(contour, {centre.x(), centre.y(), plan.orientation_rad}, 2.0 * radius_m + 1.0);
-  const double side = plan.landmark_side == Side::left ? 1.0 : -1.0;
-  const Pose2 T_map_start{centre.x() + side * radius_m, centre.y(), std::numbers::pi / 2.0};
-  const auto sensor = crew.modules.make<Sensor>(crew.sensor, context_of(crew, robot, plan.seed, T_map_start, &world));
+  const World world = world_of(contour, {centre.x(), centre.y(), plan.orientation_rad}, 2.0 * farthest_m + 1.0);
   const double speed_mps = std::min(plan.speed_mps, robot.max_v_mps);
-  drive_lap(*sensor, *mapper, T_map_start, {speed_mps, side * speed_mps / radius_m}, centre, plan.needed_m);
+  for (const double standoff_m : plan.standoffs_m) {
+    for (const Side landmark_side : plan.landmark_sides) {
+      const double radius_m = contour_m + standoff_m;
+      const double side = landmark_side == Side::left ? 1.0 : -1.0;
+      const Pose2 T_map_start{centre.x() + side * radius_m, centre.y(), std::numbers::pi / 2.0};
+      const auto sensor =
+          crew.modules.make<Sensor>(crew.sensor, context_of(crew, robot, plan.seed, T_map_start, &world));
+      drive_lap(*sensor, *mapper, T_map_start, {speed_mps, side * speed_mps / radius_m}, centre, plan.needed_m);
+    }
+  }
   return mapper;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "framework/contracts/mapper.hpp"
 #include "framework/contracts/module.hpp"
@@ -23,10 +24,10 @@ struct LapCrew {
 enum class Side { left, right };  // of the robot, where the landmark is
 
 struct LapPlan {
-  double orientation_rad = 0.0;  // of the landmark
-  Point offset_m{0.0, 0.0};      // of its centre from that of cell (0, 0)
-  Side landmark_side = Side::left;
-  double standoff_m = 0.55;  // from the contour's outer circle to the robot's centre
+  double orientation_rad = 0.0;           // of the landmark
+  Point offset_m{0.0, 0.0};               // of its centre from that of cell (0, 0)
+  std::vector<double> standoffs_m{0.55};  // from the contour's outer circle to the robot's centre
+  std::vector<Side> landmark_sides{Side::left};
   double speed_mps = 0.2;
   std::uint64_t seed = 1;
   // Readings whose beam stays farther than this from the landmark's centre are not mapped: cells within
@@ -34,9 +35,10 @@ struct LapPlan {
   double needed_m = 1e9;
 };
 
-// The mapper after one lap. The robot's sonars end a little beyond the landmark, odometry and compass are
-// free of error, the landmark's surface is rough. The same arguments give the same map. Throws what the
-// modules throw, and std::runtime_error when the sensor cannot be driven or ends before the lap does.
-[[nodiscard]] std::shared_ptr<Mapper> map_of_lap(const LapCrew& crew, const Contour& contour, const LapPlan& plan);
+// The mapper after the laps, one at each standoff and side, both sides of the first standoff first. The robot's sonars
+// end a little beyond the landmark, odometry and compass are free of error, the landmark's surface is rough. The same
+// arguments give the same map. Throws what the modules throw, and std::runtime_error when the sensor cannot be driven
+// or ends before the lap does.
+[[nodiscard]] std::shared_ptr<Mapper> map_of_laps(const LapCrew& crew, const Contour& contour, const LapPlan& plan);
 
 }  // namespace cairn

@@ -101,6 +101,14 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
 }
 
+void use_detector(Mission& mission, const PluginChoice& detector) {
+  mission.config.detector = detector;
+  mission.template_config = template_config_of(mission.config.detector);
+  mission.shapes.clear();
+  if (!mission.template_config.templates.empty())
+    mission.shapes = load_landmark_shapes(mission.template_config.templates);
+}
+
 Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      std::optional<std::int64_t> seed) {
   ConfigValue root = read_config_file(file);
@@ -109,11 +117,7 @@ Mission load_mission(const std::filesystem::path& file, const std::vector<std::s
   mission.config = load_config<MissionConfig>(root, "mission");
   if (seed) mission.config.seed = *seed;
   mission.robot = load_robot(mission.config.robot);
-  if (!mission.config.detector.name.empty()) {
-    mission.template_config = template_config_of(mission.config.detector);
-    if (!mission.template_config.templates.empty())
-      mission.shapes = load_landmark_shapes(mission.template_config.templates);
-  }
+  if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);
   if (!mission.config.world.empty()) {
     mission.world = load_world(mission.config.world, mission.shapes);
     check_sizes(mission.shapes, *mission.world, mission.template_config.templates);

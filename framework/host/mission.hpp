@@ -67,6 +67,9 @@ struct Mission {
   std::vector<MissionStep> steps;
 };
 
+// Takes the detector and loads its templates. Throws ConfigError.
+void use_detector(Mission& mission, const PluginChoice& detector);
+
 // Throws ConfigError. overrides: "key=value" texts of --set; seed wins over the file's.
 [[nodiscard]] Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                                    std::optional<std::int64_t> seed = std::nullopt);

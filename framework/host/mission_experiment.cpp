@@ -39,7 +39,8 @@ std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::
 // The world of a seed stays in the run's folder, so that `cairn run --set world=FILE` gives the run again.
 std::string write_world(const ExperimentConfig& config, const Job& job, const std::vector<LandmarkShape>& shapes) {
   if (shapes.empty())
-    throw ConfigError({job.mission.string(), 0, 0}, "an experiment of recognition needs a detector with templates");
+    throw ConfigError({job.mission.string(), 0, 0},
+                      "an experiment in random worlds needs a mission whose detector has templates");
   std::filesystem::create_directories(job.out);
   const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
   std::ofstream(file) << random_world_yaml(config.worlds, shapes, job.variant.specular_ratio,
@@ -51,7 +52,7 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
   std::vector<std::string> overrides = config.overrides;
   overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
   if (config.withhold_every > 0) overrides.push_back("withhold_every=" + std::to_string(config.withhold_every));
-  if (config.experiment == ExperimentKind::recognition)
+  if (in_random_worlds(config.experiment))
     overrides.push_back("world=" + write_world(config, job, load_mission(job.mission, overrides).shapes));
   return load_mission(job.mission, overrides, job.seed);
 }
@@ -65,6 +66,8 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
     if (config.experiment == ExperimentKind::lap)
       require_one(mission, config.lap->around, "the lap goes round", job.mission);
     MissionRunner(mission, library, {job.out, false, nullptr});
+    for (const ComparedDetector& detector : config.detectors)
+      MissionRunner(with_detector(mission, detector, library), library, {job.out, false, nullptr});
   }
 }
 
@@ -103,7 +106,7 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   }
   if (config.experiment == ExperimentKind::places)
     row.places = degrees_at_places(config, *mission.world, report.degrees(), row.result.steps);
-  if (config.experiment == ExperimentKind::recognition)
+  if (in_random_worlds(config.experiment))
     row.verdicts = judge_recognition(mission, runner.graph(), known, config.tolerance_m);
   row.step_rad = mission.template_config.step_rad;
   if (config.experiment == ExperimentKind::lap)
@@ -111,6 +114,9 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   for (const StageTime& time : runner.times())
     if (time.stage == "detector") row.detector_wall_s += time.total_s;
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (config.experiment == ExperimentKind::curves && runner.grid() != nullptr)
+    for (const ComparedDetector& detector : config.detectors)
+      row.sweeps.push_back(sweep(mission, detector, library, *runner.grid(), config.tolerance_m));
   return row;
 }
 

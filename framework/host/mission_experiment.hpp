@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/host/experiment_config.hpp"
+#include "framework/host/experiment_curves.hpp"
 #include "framework/host/experiment_lap.hpp"
 #include "framework/host/experiment_places.hpp"
 #include "framework/host/experiment_recognition.hpp"
@@ -30,7 +31,8 @@ struct ExperimentRow {
   double withheld_log_likelihood = 0.0;  // mean, nat
   std::vector<PlaceDegrees> places;      // one a place of the experiment
   std::vector<LapSample> lap;            // of the experiment's lap
-  std::vector<Verdict> verdicts;         // of an experiment of recognition
+  std::vector<Verdict> verdicts;         // of an experiment of recognition or of curves
+  std::vector<DetectorSweep> sweeps;     // of an experiment of curves, one a detector
   double step_rad = 0.0;                 // between the orientations of the templates
   double wall_s = 0.0;
   double detector_wall_s = 0.0;

@@ -23,6 +23,14 @@ ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, 
   return context;
 }
 
+void add_detector(const Mission& mission, const ModuleLibrary& library, double cell_m, MissionModules& built) {
+  const PluginChoice& detector = mission.config.detector;
+  (void)library.find(PluginKind::detector, detector.name, detector.config.place);
+  built.templates = std::make_shared<TemplateSet>(
+      fenced_making(mission.config.map.name, [&] { return render_templates(mission, cell_m, library); }));
+  built.detector = build<Detector>(library, detector, context_for(mission, library, built, PluginKind::detector));
+}
+
 }  // namespace
 
 std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
@@ -47,6 +55,13 @@ TemplateSet render_templates(const Mission& mission, double cell_m, const Module
                            mission.config.map, modules, TemplateCache(template_cache_folder()));
 }
 
+std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library, double cell_m) {
+  MissionModules built;
+  built.T_map_start = {mission.config.start.at_m.x(), mission.config.start.at_m.y(), mission.config.start.angle_rad};
+  add_detector(mission, library, cell_m, built);
+  return built.detector;
+}
+
 MissionModules build_modules(const Mission& mission, const ModuleLibrary& library) {
   const MissionConfig& config = mission.config;
   MissionModules built;
@@ -59,12 +74,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   if (start) built.T_map_start = *start;
   built.localizer = build<Localizer>(library, config.localizer, context(PluginKind::localizer));
   built.mapper = build<Mapper>(library, config.map, context(PluginKind::map));
-  if (!config.detector.name.empty()) {
-    (void)library.find(PluginKind::detector, config.detector.name, config.detector.config.place);
-    built.templates = std::make_shared<TemplateSet>(fenced_making(
-        config.map.name, [&] { return render_templates(mission, built.mapper->grid().cell_m(), library); }));
-    built.detector = build<Detector>(library, config.detector, context(PluginKind::detector));
-  }
+  if (!config.detector.name.empty()) add_detector(mission, library, built.mapper->grid().cell_m(), built);
   if (!config.planner.name.empty())
     built.planner = build<Planner>(library, config.planner, context(PluginKind::planner));
   for (std::size_t i = 0; i < mission.steps.size(); ++i)

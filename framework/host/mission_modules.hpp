@@ -27,6 +27,11 @@ struct MissionModules {
 // user's cache.
 [[nodiscard]] TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules);
 
+// The mission's detector alone, with its templates for grids of this cell size. Throws ConfigError or
+// ModuleFault.
+[[nodiscard]] std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library,
+                                                       double cell_m);
+
 // A seed of its own for each module of a mission.
 [[nodiscard]] std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index = 0);
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "framework/host/experiment_report.hpp"
 
@@ -97,7 +99,54 @@ std::string confusion(const Rows& rows) {
   return text;
 }
 
+std::string comparison(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
+                       const std::string& mission) {
+  if (config.baseline.empty()) return {};
+  std::string text = fmt::format(
+      "Against {}, world by world. Fewer matchings: how many of its matchings come to one of the variant. Lost: of the "
+      "landmarks that it finds right.\n\n"
+      "| variant | same drive | fewer matchings | lost |\n|---|---:|---:|---:|\n",
+      config.baseline);
+  const Rows baseline = rows_of(rows, mission, config.baseline);
+  for (const ExperimentVariant& variant : config.variants) {
+    if (variant.name == config.baseline) continue;
+    const BaselineFigures f = baseline_figures(rows_of(rows, mission, variant.name), baseline);
+    text += fmt::format("| {} | {} of {} | {:.1f} ({:.1f} - {:.1f}) | {} |\n", variant.name, f.same_drives, f.worlds,
+                        f.matchings.value, f.matchings.low, f.matchings.high, text_of(f.lost));
+  }
+  return text + "\n";
+}
+
 }  // namespace
+
+BaselineFigures baseline_figures(const Rows& rows, const Rows& baseline) {
+  BaselineFigures figures;
+  std::vector<std::pair<std::int64_t, std::int64_t>> matchings;  // of the baseline, of the variant
+  std::int64_t right = 0;
+  std::int64_t lost = 0;
+  for (const ExperimentRow* row : rows) {
+    const auto same_seed = std::ranges::find(baseline, row->seed, &ExperimentRow::seed);
+    if (same_seed == baseline.end() || row->verdicts.empty() || (*same_seed)->verdicts.empty()) continue;  // not run
+    const ExperimentRow& from = **same_seed;
+    ++figures.worlds;
+    const bool same = row->result.distance_m == from.result.distance_m && row->result.time_s == from.result.time_s;
+    figures.same_drives += same ? 1 : 0;
+    matchings.emplace_back(from.result.matchings, row->result.matchings);
+    // Both begin with the things of the world, in its order.
+    for (std::size_t i = 0; i < from.verdicts.size(); ++i) {
+      if (!from.verdicts[i].is_right()) continue;
+      ++right;
+      lost += row->verdicts[i].is_right() ? 0 : 1;
+    }
+  }
+  figures.lost = share_of(lost, right);
+  figures.matchings = resampled(matchings.size(), [&](std::span<const std::size_t> taken) {
+    std::pair<std::int64_t, std::int64_t> sum{0, 0};
+    for (const std::size_t i : taken) sum = {sum.first + matchings[i].first, sum.second + matchings[i].second};
+    return static_cast<double>(sum.first) / static_cast<double>(std::max<std::int64_t>(sum.second, 1));
+  });
+  return figures;
+}
 
 RecognitionFigures recognition_figures(const Rows& rows, double step_rad) {
   std::vector<Counts> counts;
@@ -120,6 +169,9 @@ RecognitionFigures recognition_figures(const Rows& rows, double step_rad) {
     return median_of(of_right_ones(taken_of(rows, taken), [](const Verdict& v) { return v.position_error_m; }));
   });
   figures.driven_m = estimate_of(of_right_ones(rows, [](const Verdict& v) { return v.driven_m; }));
+  std::vector<double> matchings;
+  for (const ExperimentRow* row : rows) matchings.push_back(static_cast<double>(row->result.matchings));
+  figures.matchings = estimate_of(matchings);
   return figures;
 }
 
@@ -129,20 +181,22 @@ std::string recognition_table(const ExperimentConfig& config, const std::vector<
     text += fmt::format(
         "## {}\n\n{} worlds a variant; 95 % intervals. A landmark further than {:.2f} m from everything is false. "
         "Driven: until first known.\n\n"
-        "| variant | precision | recall | F1 | right category | median error m | within one step | driven m |\n"
-        "|---|---:|---:|---:|---:|---:|---:|---:|\n",
+        "| variant | precision | recall | F1 | right category | median error m | within one step | driven m | "
+        "matchings |\n"
+        "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         mission, rows_of(rows, mission, config.variants.front().name).size(), config.tolerance_m);
     std::string matrices;
     for (const ExperimentVariant& variant : config.variants) {
       const Rows of_variant = rows_of(rows, mission, variant.name);
       if (of_variant.empty()) continue;
       const RecognitionFigures f = recognition_figures(of_variant, of_variant.front()->step_rad);
-      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} ± {:.1f} |\n", variant.name,
+      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} ± {:.1f} | {:.0f} ± {:.0f} |\n", variant.name,
                           text_of(f.precision), text_of(f.recall), text_of(f.f1), text_of(f.right_category),
-                          text_of(f.median_error_m), text_of(f.within_step), f.driven_m.mean, f.driven_m.half_width);
+                          text_of(f.median_error_m), text_of(f.within_step), f.driven_m.mean, f.driven_m.half_width,
+                          f.matchings.mean, f.matchings.half_width);
       matrices += "### " + mission + ", " + variant.name + "\n\n" + confusion(of_variant) + "\n";
     }
-    text += "\n" + matrices;
+    text += "\n" + comparison(config, rows, mission) + matrices;
   }
   return text;
 }

@@ -18,10 +18,21 @@ struct RecognitionFigures {
   Interval median_error_m;  // position, of the right ones
   Interval within_step;     // orientation, of the right ones that are not round
   Estimate driven_m;        // until first known, of the right ones
+  Estimate matchings;       // in a run
 };
 [[nodiscard]] RecognitionFigures recognition_figures(const std::vector<const ExperimentRow*>& rows, double step_rad);
 
-// Markdown.
+// The same worlds and seeds with a variant and with the baseline.
+struct BaselineFigures {
+  int worlds = 0;
+  int same_drives = 0;  // to the last bit as far and as long: only then is the same looked at
+  Interval matchings;   // of the baseline, for each one of the variant; interval from resampling the worlds
+  Interval lost;        // of the landmarks that the baseline finds right, those that the variant does not
+};
+[[nodiscard]] BaselineFigures baseline_figures(const std::vector<const ExperimentRow*>& rows,
+                                               const std::vector<const ExperimentRow*>& baseline);
+
+// Markdown. Compares with the baseline when the experiment names one.
 [[nodiscard]] std::string recognition_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
 
 }  // namespace cairn

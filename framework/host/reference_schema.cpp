@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@ using nlohmann::ordered_json;
 // The loader takes any scalar as text.
 const ordered_json kText = {{"type", {"string", "number", "boolean"}}};
 const std::string kDefinitions = "#/definitions/";
+const std::string kNamed = "named_";  // modules that a list gives names to
 
 ordered_json reference_to(const std::string& definition) {
   return {{"$ref", kDefinitions + definition}};
@@ -56,6 +58,7 @@ ordered_json shape_of(const FieldSpec& field) {
   if (field.type == "list of maps") return list_of(map_of(field));
   if (field.type == "plugin") return reference_to(field.plugin_kind);
   if (field.type == "list of steps") return reference_to("steps");
+  if (field.type == "list of detectors") return list_of(reference_to(kNamed + "detector"));
   return ordered_json::object();  // anything: whoever reads it checks it
 }
 
@@ -100,7 +103,7 @@ std::string definition_of(const RegisteredModule& module) {
 }
 
 // Which modules of a kind there are, and the settings of the one that is named.
-ordered_json choice_of(PluginKind kind, const ModuleLibrary& library) {
+ordered_json choice_of(PluginKind kind, const ModuleLibrary& library, const std::string& prefix = "") {
   ordered_json names = ordered_json::array();
   ordered_json cases = ordered_json::array();
   std::string about = "which module does it:";
@@ -110,7 +113,7 @@ ordered_json choice_of(PluginKind kind, const ModuleLibrary& library) {
     names.push_back(module.name);
     about += "\n- " + module.name + ": " + module.summary;
     cases.push_back({{"if", {{"required", {"plugin"}}, {"properties", {{"plugin", {{"const", module.name}}}}}}},
-                     {"then", reference_to(definition_of(module))}});
+                     {"then", reference_to(prefix + definition_of(module))}});
   }
   ordered_json schema = {{"type", "object"}, {"required", {"plugin"}}};
   schema["properties"]["plugin"] = {{"description", about}, {"enum", names}};
@@ -159,10 +162,24 @@ ordered_json definitions_of(const ModuleLibrary& library) {
   return definitions;
 }
 
-bool uses_modules(const Schema& schema) {
-  for (const FieldSpec& field : schema.fields)
-    if (field.type == "plugin" || field.type == "list of steps") return true;
-  return false;
+// Detectors that also have a `name`.
+ordered_json named_definitions_of(const ModuleLibrary& library) {
+  ordered_json definitions = ordered_json::object();
+  ordered_json& choice = definitions[kNamed + "detector"];
+  choice = choice_of(PluginKind::detector, library, kNamed);
+  choice["required"].push_back("name");
+  choice["properties"]["name"] = kText;
+  for (const ModuleEntry& entry : library.entries()) {
+    if (entry.module->kind != PluginKind::detector) continue;
+    ordered_json object = object_of(entry.module->schema.fields, entry.module->schema.one_of, true);
+    object["properties"]["name"] = true;
+    definitions[kNamed + definition_of(*entry.module)] = std::move(object);
+  }
+  return definitions;
+}
+
+bool has_field_of(const Schema& schema, const std::string& type) {
+  return std::ranges::find(schema.fields, type, &FieldSpec::type) != schema.fields.end();
 }
 
 }  // namespace
@@ -174,7 +191,9 @@ std::vector<SchemaFile> reference_schemas(const ModuleLibrary& library) {
                            {"title", "Cairn " + file.name},
                            {"description", file.about}};
     schema.update(object_of(file.schema.fields, file.schema.one_of, false));
-    if (uses_modules(file.schema)) schema["definitions"] = definitions_of(library);
+    if (has_field_of(file.schema, "plugin") || has_field_of(file.schema, "list of steps"))
+      schema["definitions"] = definitions_of(library);
+    if (has_field_of(file.schema, "list of detectors")) schema["definitions"] = named_definitions_of(library);
     files.push_back({file.name + ".schema.json", schema.dump(2) + "\n"});
   }
   return files;

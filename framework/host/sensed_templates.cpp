@@ -14,8 +14,8 @@ namespace cairn {
 namespace {
 
 struct Gradient {
-  double x = 0.0;
-  double y = 0.0;
+  int x = 0;
+  int y = 0;
 };
 
 struct Studio {
@@ -25,7 +25,7 @@ struct Studio {
 };
 
 Gradient sobel(const OccupancyGrid& grid, Cell c) {
-  const auto ol = [&](int x, int y) { return static_cast<double>(grid.ol(c + Cell{x, y})); };
+  const auto ol = [&](int x, int y) { return static_cast<int>(grid.ol(c + Cell{x, y})); };
   return {(ol(1, -1) + 2 * ol(1, 0) + ol(1, 1)) - (ol(-1, -1) + 2 * ol(-1, 0) + ol(-1, 1)),
           (ol(-1, 1) + 2 * ol(0, 1) + ol(1, 1)) - (ol(-1, -1) + 2 * ol(0, -1) + ol(1, -1))};
 }
@@ -48,39 +48,31 @@ std::vector<TemplateCell> band_of(const Contour& contour, double orientation_rad
   return cells;
 }
 
-// Maps one lap and adds its gradients. The landmark's centre is the centre of cell (0, 0).
-void add_lap(const Studio& studio, const LandmarkShape& shape, double orientation_rad, Side landmark_side, int lap,
-             const std::vector<TemplateCell>& cells, std::vector<Gradient>& sums) {
+// Maps the laps. The landmark's centre is the centre of cell (0, 0).
+LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad) {
   const SensedOptions& options = studio.options;
-  LapPlan plan{orientation_rad,    {0.0, 0.0},        landmark_side,
-               options.standoff_m, options.speed_mps, options.seed + static_cast<std::uint64_t>(lap)};
+  std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, studio.cell_m, options);
+  LapPlan plan;
+  plan.orientation_rad = orientation_rad;
+  plan.standoffs_m.clear();
+  for (const double gap_m : options.gaps_m) plan.standoffs_m.push_back(studio.crew.robot.radius_m + gap_m);
+  plan.landmark_sides = {Side::left, Side::right};
+  plan.speed_mps = options.speed_mps;
+  plan.seed = options.seed;
   // The template's cells, those that Sobel looks at beside them, and the spread of a cell.
   plan.needed_m = 0.5 * shape.contour.outer_diameter_m() + (options.edge_outside_cells + 3.0) * studio.cell_m;
-  const auto mapper = map_of_lap(studio.crew, shape.contour, plan);
+  const auto mapper = map_of_laps(studio.crew, shape.contour, plan);
   if (std::abs(mapper->grid().cell_m() - studio.cell_m) > 1e-9) {
     throw std::invalid_argument("sensed templates for cells of " + std::to_string(studio.cell_m) +
                                 " m need a mapper with such cells, not " + std::to_string(mapper->grid().cell_m()));
   }
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Gradient gradient = sobel(mapper->grid(), cells[i].offset);
-    sums[i].x += gradient.x;
-    sums[i].y += gradient.y;
-  }
-}
-
-LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad,
-                               Side landmark_side) {
-  std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, studio.cell_m, studio.options);
-  std::vector<Gradient> sums(cells.size());
-  for (int lap = 0; lap < studio.options.laps; ++lap) {
-    add_lap(studio, shape, orientation_rad, landmark_side, lap, cells, sums);
-  }
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    cells[i].gradient_x = static_cast<std::int16_t>(std::lround(sums[i].x / studio.options.laps));
-    cells[i].gradient_y = static_cast<std::int16_t>(std::lround(sums[i].y / studio.options.laps));
+  for (TemplateCell& cell : cells) {
+    const Gradient gradient = sobel(mapper->grid(), cell.offset);
+    cell.gradient_x = static_cast<std::int16_t>(gradient.x);
+    cell.gradient_y = static_cast<std::int16_t>(gradient.y);
   }
   std::erase_if(cells, [&](const TemplateCell& cell) {
-    return std::hypot(cell.gradient_x, cell.gradient_y) < studio.options.least_gradient;
+    return std::hypot(cell.gradient_x, cell.gradient_y) < options.least_gradient;
   });
   if (cells.empty())
     throw std::runtime_error("sensed templates: a lap round the " + shape.category +
@@ -91,22 +83,19 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
 struct Task {
   const LandmarkShape* shape;
   double orientation_rad;
-  Side landmark_side;
 };
 
 std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector<Task>& tasks) {
   std::vector<LandmarkTemplate> templates(tasks.size());
-  in_parallel(tasks.size(), [&](std::size_t i) {
-    templates[i] = render_sensed(studio, *tasks[i].shape, tasks[i].orientation_rad, tasks[i].landmark_side);
-  });
+  in_parallel(tasks.size(),
+              [&](std::size_t i) { templates[i] = render_sensed(studio, *tasks[i].shape, tasks[i].orientation_rad); });
   return templates;
 }
 
 std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double cell_m) {
   std::vector<Task> tasks;
-  for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
-    for (const Side side : {Side::left, Side::right}) tasks.push_back({&shape, orientation_rad, side});
-  }
+  for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m))
+    tasks.push_back({&shape, orientation_rad});
   return tasks;
 }
 
@@ -115,7 +104,6 @@ std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double 
 TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
                               const SensedOptions& options, const RobotModel& robot, const PluginChoice& sensor,
                               const PluginChoice& map, const ModuleLibrary& modules, const TemplateCache& cache) {
-  if (options.laps < 1) throw std::invalid_argument("sensed templates need a lap, not " + std::to_string(options.laps));
   const Studio studio{cell_m, options, {robot, sensor, map, modules}};
   const std::string common_key = rendering_key(step_rad, cell_m, options, robot, sensor, map, modules);
   std::vector<std::optional<std::vector<LandmarkTemplate>>> kept;

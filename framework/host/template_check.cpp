@@ -63,7 +63,7 @@ void take_answer(const DetectionReport& report, TemplateView& view, double perio
 
 TemplateView view_of(const std::shared_ptr<const TemplateSet>& set, const CheckedDetector& detector,
                      const LapCrew& crew, const LandmarkShape& shape, const LapPlan& plan, std::size_t orientations) {
-  const auto mapper = map_of_lap(crew, shape.contour, plan);
+  const auto mapper = map_of_laps(crew, shape.contour, plan);
   const double period_rad = orientations > 1 ? static_cast<double>(orientations) * set->step_rad : 0.0;
   TemplateView view;
   view.shown = shape.category;
@@ -89,8 +89,8 @@ std::vector<Task> tasks_for(const TemplateSet& set) {
         Task task{&shape, orientations.size(), {}};
         task.plan.orientation_rad = orientation_rad + between * set.step_rad;
         task.plan.offset_m = set.cell_m * kOffsetInCell;
-        task.plan.landmark_side = side;
-        task.plan.standoff_m = kStandoff_m;
+        task.plan.landmark_sides = {side};
+        task.plan.standoffs_m = {kStandoff_m};
         task.plan.seed = kSeed + tasks.size();
         tasks.push_back(task);
         side = side == Side::left ? Side::right : Side::left;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "framework/host/curves_table.hpp"
 #include "framework/host/experiment_report.hpp"
 #include "framework/host/lap_table.hpp"
+#include "framework/host/recognition_table.hpp"
 #include "maps/pictures/chart.hpp"
 
 namespace cairn {
@@ -61,6 +63,24 @@ Chart lap_chart(const ExperimentConfig& config, const std::vector<LapSeries>& al
   return chart;
 }
 
+// Recall to the right, precision upwards: a curve a detector, and the mission itself as one point.
+Chart curve_chart(const ExperimentConfig& config, const std::vector<const ExperimentRow*>& rows) {
+  Chart chart;
+  chart.title = "Precision and recall at every threshold, on the same grids";
+  chart.x_label = "recall";
+  chart.y_label = "precision";
+  chart.of_shares = true;
+  for (const ComparedDetector& detector : config.detectors) {
+    Series series{detector.name, {}, SeriesStyle::lines, {}};
+    for (const CurvePoint& point : precision_recall(worlds_of(rows, detector.name)))
+      series.points.emplace_back(point.recall, point.precision);
+    chart.series.push_back(std::move(series));
+  }
+  const RecognitionFigures own = recognition_figures(rows, rows.front()->step_rad);
+  chart.series.push_back({"the mission itself", {{own.recall.value, own.precision.value}}, SeriesStyle::points, {}});
+  return chart;
+}
+
 struct NamedChart {
   std::string file_name;
   Chart chart;
@@ -93,6 +113,19 @@ std::vector<NamedChart> lap_charts(const ExperimentConfig& config, const std::ve
   return charts;
 }
 
+std::vector<NamedChart> curve_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::vector<NamedChart> charts;
+  for (const std::string& mission : missions_of(rows))
+    for (const ExperimentVariant& variant : config.variants) {
+      const auto of_variant = rows_of(rows, mission, variant.name);
+      const bool alone = of_variant.size() == rows.size();
+      if (!of_variant.empty())
+        charts.push_back({file_name_of(alone ? "curves" : mission + " " + variant.name + " curves"),
+                          curve_chart(config, of_variant)});
+    }
+  return charts;
+}
+
 }  // namespace
 
 std::vector<std::string> write_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
@@ -100,6 +133,7 @@ std::vector<std::string> write_charts(const ExperimentConfig& config, const std:
   std::vector<NamedChart> charts;
   if (config.experiment == ExperimentKind::maps) charts = map_charts(config, rows);
   if (config.experiment == ExperimentKind::lap) charts = lap_charts(config, rows);
+  if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
   std::vector<std::string> missing;
   for (const NamedChart& named : charts) {
     const ChartOutcome outcome = write_chart(out / named.file_name, named.chart);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "framework/host/curves_table.hpp"
 #include "framework/host/experiment_report.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/experiment_charts.hpp"
@@ -14,20 +15,27 @@ namespace cairn {
 namespace {
 
 // Wall clock: differs from run to run, so it is in no file.
-std::string times_text(const std::vector<ExperimentRow>& rows) {
-  double speed = 0.0;
-  double detector_s = 0.0;
-  std::int64_t matchings = 0;
-  for (const ExperimentRow& row : rows) {
-    speed += row.result.time_s / std::max(row.wall_s, 1e-9) / static_cast<double>(rows.size());
-    detector_s += row.detector_wall_s;
-    matchings += row.result.matchings;
+std::string times_text(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::string text =
+      "| variant | times real time | detector s a run | detector us a matching, all its work included |\n"
+      "|---|---:|---:|---:|\n";
+  for (const ExperimentVariant& variant : config.variants) {
+    double runs = 0.0;
+    double speed = 0.0;
+    double detector_s = 0.0;
+    double matchings = 0.0;
+    for (const ExperimentRow& row : rows) {
+      if (row.variant != variant.name) continue;
+      runs += 1.0;
+      speed += row.result.time_s / std::max(row.wall_s, 1e-9);
+      detector_s += row.detector_wall_s;
+      matchings += static_cast<double>(row.result.matchings);
+    }
+    text += fmt::format("| {} | {:.0f} | {:.3f} | {} |\n", variant.name, speed / std::max(runs, 1.0),
+                        detector_s / std::max(runs, 1.0),
+                        matchings > 0.0 ? fmt::format("{:.0f}", 1e6 * detector_s / matchings) : "");
   }
-  std::string text = fmt::format("Mean speed {:.0f} times real time.", speed);
-  if (matchings > 0)
-    text += fmt::format(" The detector took {:.0f} us a matching, all its work included.",
-                        1e6 * detector_s / static_cast<double>(matchings));
-  return text + "\n";
+  return text + "\n" + sweep_times_table(config, rows);
 }
 
 // Done when every run was, and of missions when enough of them were good.
@@ -58,7 +66,7 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   for (const std::string& missing : write_charts(config, rows, command.out)) std::cerr << "cairn: " << missing << "\n";
   if (common.json) std::cout << json << "\n";
   std::ostream& people = common.json ? std::cerr : std::cout;
-  people << table << times_text(rows) << "Table: " << (command.out / "table.md").string() << "\n";
+  people << table << times_text(config, rows) << "Table: " << (command.out / "table.md").string() << "\n";
   const int status = exit_status_of(config, rows);
   if (std::any_of(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.gave_up; })) {
     // A lost call still runs: nothing that it may use can be torn down.

@@ -170,6 +170,7 @@ std::string gnuplot_script(const Chart& chart) {
       script += (i == 0 ? "" : ", ") + quoted(chart.x_names[i]) + " " + std::to_string(i);
     script += ")\n";
   }
+  if (chart.of_shares) script += "set xrange [0:1.01]\nset yrange [0:1.01]\n";
   if (chart.log_x) script += "set logscale x\n";
   if (chart.log_y) script += "set logscale y\n";
   for (std::size_t i = 0; i < chart.series.size(); ++i) script += data_of(chart.series[i], i);

@@ -7,7 +7,7 @@
 
 namespace cairn::template_matcher {
 
-enum class TriggerRule { since_matching, since_update };
+enum class TriggerRule { since_matching, since_update, every_update };
 enum class MismatchScale { sobel, literal };
 enum class Search { pruned, exhaustive };
 enum class Degrees { all, above_threshold, each_template };
@@ -22,7 +22,8 @@ struct Config {
   int coarse_cells = 5;
   double alpha_og2 = 2.0;
   double tau_trigger = 150.0;
-  double tau_var = 12.0;
+  double tau_var = 16.0;
+  double tau_again = 4.0;
   TriggerRule trigger = TriggerRule::since_matching;
   double tau_grow = 140.0;
   double tau_match = 0.55;

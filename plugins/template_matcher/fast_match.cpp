@@ -9,6 +9,7 @@ namespace cairn::template_matcher {
 namespace {
 
 constexpr std::uint16_t kOutside = std::numeric_limits<std::uint16_t>::max();
+constexpr std::size_t kMostLayouts = 16;  // a whole set of templates each
 constexpr int kLargestProjection = 1443;  // of a gradient with both parts within +-1020
 
 std::size_t rounded_up(std::size_t count, std::size_t step) {
@@ -65,6 +66,7 @@ bool is_better(const TemplateMatch& a, const TemplateMatch& b) {
 struct FastMatcher::Search {
   const GradientField& field;
   const PreparedTemplate& shape;
+  std::size_t index;  // of the template
   std::int64_t most;  // only places with at most this mismatch can still be the answer
   TemplateMatch best = {};
 };
@@ -89,39 +91,56 @@ FastMatcher::PreparedTemplate FastMatcher::prepared(const LandmarkTemplate& shap
     const auto column = static_cast<std::size_t>(x);
     const auto row = static_cast<std::size_t>(y);
     prepared.place_map_places.push_back({k, column, row});
-    prepared.place_cells.push_back({0, w});
+    prepared.place_wanted.push_back(w);
     prepared.block_map_places.push_back({4 * k + 2 * (row % 2) + column % 2, column / 2, row / 2});
-    prepared.block_cells.push_back({0, coarse});
+    prepared.block_wanted.push_back(coarse);
     prepared.cells.push_back({cell.offset.x, cell.offset.y, cell.gradient_x, cell.gradient_y});
   }
   return prepared;
 }
 
-// Regions often have the same width as the one before: then everything is in place.
-void FastMatcher::resize_maps(std::size_t width, std::size_t height) {
+FastMatcher::Layout FastMatcher::layout_for(std::size_t width, std::size_t height) const {
   const std::size_t block_stride = (width + 1) / 2;
-  const std::size_t place_map_size = (height + 2) * width + 4 * kPlacesPerPiece;
-  const std::size_t block_map_size = (height / 2 + 2) * block_stride + 2 * kPlacesPerGroup;
-  if (place_maps_.stride == width && place_maps_.map_size >= place_map_size) return;
-  place_values_.resize(std::max(place_values_.size(), place_map_size * kDirections));
-  block_values_.resize(std::max(block_values_.size(), 4 * block_map_size * kDirections));
-  place_maps_ = {place_values_.data(), place_map_size, width};
-  block_maps_ = {block_values_.data(), block_map_size, block_stride};
-  const auto locate = [](const std::vector<MapPlace>& from, const auto& maps, std::vector<BoundCell>& cells) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      cells[i].value = static_cast<std::uint32_t>(from[i].map * maps.map_size + from[i].y * maps.stride + from[i].x);
+  Layout layout;
+  layout.place_maps = {nullptr, (height + 2) * width + 4 * kPlacesPerPiece, width};
+  layout.block_maps = {nullptr, (height / 2 + 2) * block_stride + 2 * kPlacesPerGroup, block_stride};
+  const auto located = [](const std::vector<MapPlace>& places, const std::vector<std::uint16_t>& wanted,
+                          const auto& maps) {
+    std::vector<BoundCell> cells;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const MapPlace& p = places[i];
+      cells.push_back({static_cast<std::uint32_t>(p.map * maps.map_size + p.y * maps.stride + p.x), wanted[i]});
     }
+    return cells;
   };
-  for (PreparedTemplate& t : templates_) {
-    locate(t.place_map_places, place_maps_, t.place_cells);
-    locate(t.block_map_places, block_maps_, t.block_cells);
+  for (const PreparedTemplate& t : templates_) {
+    layout.place_cells.push_back(located(t.place_map_places, t.place_wanted, layout.place_maps));
+    layout.block_cells.push_back(located(t.block_map_places, t.block_wanted, layout.block_maps));
   }
+  return layout;
+}
+
+// Regions have few different widths: soon every layout is there.
+void FastMatcher::choose_layout(std::size_t width, std::size_t height) {
+  const auto known = layouts_.find(width);
+  const std::size_t least_size = (height + 2) * width + 4 * kPlacesPerPiece;
+  if (known == layouts_.end() || known->second.place_maps.map_size < least_size) {
+    if (layouts_.size() >= kMostLayouts) layouts_.clear();
+    layouts_.insert_or_assign(width, layout_for(width, std::max(height, width)));
+  }
+  layout_ = &layouts_.at(width);
+  place_maps_ = layout_->place_maps;
+  block_maps_ = layout_->block_maps;
+  place_values_.resize(std::max(place_values_.size(), place_maps_.map_size * kDirections));
+  block_values_.resize(std::max(block_values_.size(), 4 * block_maps_.map_size * kDirections));
+  place_maps_.first = place_values_.data();
+  block_maps_.first = block_values_.data();
 }
 
 void FastMatcher::prepare_maps(const GradientField& field) {
   const auto width = static_cast<std::size_t>(places_.width() + 2 * reach_);
   const auto height = static_cast<std::size_t>(places_.height() + 2 * reach_);
-  resize_maps(width, height);
+  choose_layout(width, height);
   const Cell first = places_.min - Cell{reach_, reach_};
   project({field.x_from(first), field.y_from(first), field.stride(), width, height, shift_, offset_},
           place_values_.data(), place_maps_.map_size, width);
@@ -170,7 +189,7 @@ void FastMatcher::look_at(const GradientField& field, std::span<const CellSpan> 
 }
 
 TemplateMatch FastMatcher::best_of(std::size_t index, std::int32_t ceiling) {
-  Search search{*field_, templates_[index], std::int64_t{ceiling} - 1};
+  Search search{*field_, templates_[index], index, std::int64_t{ceiling} - 1};
   if (search.most >= 0) search_template(search);
   return search.best;
 }
@@ -184,7 +203,7 @@ std::vector<TemplateMatch> FastMatcher::match(const GradientField& field, std::s
 }
 
 void FastMatcher::search_template(Search& search) {
-  sum_block_shortfalls(block_maps_.first, search.shape.block_cells, block_limit(search), block_start_.data(),
+  sum_block_shortfalls(block_maps_.first, layout_->block_cells[search.index], block_limit(search), block_start_.data(),
                        block_count_, block_sums_.data());
   if (block_limit(search) == kOutside) find_first_limit(search);
   const std::size_t blocks = collect_below(block_sums_.data(), block_count_, block_limit(search), candidates_.data());
@@ -225,8 +244,8 @@ std::size_t FastMatcher::first_place_of(std::size_t block) const {
 void FastMatcher::bound_piece(const Search& search, std::size_t place) {
   const std::size_t first = place / kPlacesPerPiece * kPlacesPerPiece;
   if (place_start_[place] == kOutside || place_sums_[place] != kOutside) return;
-  sum_piece_shortfalls(place_maps_.first, search.shape.place_cells, place_limit(search), place_start_.data(), first,
-                       place_sums_.data() + first);
+  sum_piece_shortfalls(place_maps_.first, layout_->place_cells[search.index], place_limit(search), place_start_.data(),
+                       first, place_sums_.data() + first);
 }
 
 // Computes some places of one row, from this one on.

@@ -2,6 +2,7 @@
 // (docs/decisions/0007-fast-matching.md).
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -44,14 +45,22 @@ class FastMatcher {
   struct PreparedTemplate {
     std::vector<MapPlace> block_map_places;
     std::vector<MapPlace> place_map_places;
-    std::vector<BoundCell> block_cells;
-    std::vector<BoundCell> place_cells;
+    std::vector<std::uint16_t> block_wanted;
+    std::vector<std::uint16_t> place_wanted;
     std::vector<GradientCell> cells;
+  };
+  // How the maps of regions of one width lie in memory, and where each template's cells are found in them.
+  struct Layout {
+    ProjectionMaps place_maps;
+    BlockMaps block_maps;
+    std::vector<std::vector<BoundCell>> place_cells;
+    std::vector<std::vector<BoundCell>> block_cells;
   };
   struct Search;  // of one template
 
   [[nodiscard]] PreparedTemplate prepared(const LandmarkTemplate& shape) const;
-  void resize_maps(std::size_t width, std::size_t height);
+  [[nodiscard]] Layout layout_for(std::size_t width, std::size_t height) const;
+  void choose_layout(std::size_t width, std::size_t height);
   void prepare_maps(const GradientField& field);
   void prepare_places(std::span<const CellSpan> region);
   [[nodiscard]] std::uint16_t place_limit(const Search& search) const;
@@ -67,6 +76,7 @@ class FastMatcher {
   int shift_ = 0;
   std::uint16_t offset_ = 0;
   std::vector<PreparedTemplate> templates_;
+  std::map<std::size_t, Layout> layouts_;  // by width
 
   // Of the current region. Places are cells of `places_`, numbered row by row, place_maps_.stride a row;
   // blocks are 2 x 2 places, block_maps_.stride a row.
@@ -75,6 +85,7 @@ class FastMatcher {
   std::size_t block_count_ = 0;
   std::vector<std::uint16_t> place_values_;  // of the maps
   std::vector<std::uint8_t> block_values_;
+  const Layout* layout_ = nullptr;
   ProjectionMaps place_maps_;
   BlockMaps block_maps_;
   std::vector<std::uint16_t> place_start_, block_start_;  // 0 in the region, kOutside elsewhere

@@ -2,16 +2,17 @@
 
 namespace cairn::template_matcher {
 
-GradientField::GradientField(const OccupancyGrid& grid, const CellBox& box) : box_(box) {
+void GradientField::look_at(const OccupancyGrid& grid, const CellBox& box) {
+  box_ = box;
   const CellBox read = box.grown(1);
   const auto stride = static_cast<std::size_t>(read.width());
-  std::vector<std::uint8_t> ol(stride * static_cast<std::size_t>(read.height()));
-  grid.copy_ol(read, ol);
+  ol_.resize(stride * static_cast<std::size_t>(read.height()));
+  grid.copy_ol(read, ol_);
   const std::size_t size = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()) + kPadding;
-  x_.assign(size, 0);
-  y_.assign(size, 0);
+  x_.resize(size);
+  y_.resize(size);
   for (int row = 0; row < box.height(); ++row) {
-    const std::uint8_t* __restrict below = ol.data() + static_cast<std::size_t>(row) * stride;
+    const std::uint8_t* __restrict below = ol_.data() + static_cast<std::size_t>(row) * stride;
     const std::uint8_t* __restrict level = below + stride;
     const std::uint8_t* __restrict above = level + stride;
     std::int16_t* __restrict x = x_.data() + index_of({box.min.x, box.min.y + row});

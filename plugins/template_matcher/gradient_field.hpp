@@ -14,7 +14,11 @@ class GradientField {
   // So many cells may be read beyond the end of any row.
   static constexpr int kPadding = 64;
 
-  GradientField(const OccupancyGrid& grid, const CellBox& box);
+  GradientField() = default;  // of no cells
+  GradientField(const OccupancyGrid& grid, const CellBox& box) { look_at(grid, box); }
+
+  // Takes the gradients of another box; its memory serves again.
+  void look_at(const OccupancyGrid& grid, const CellBox& box);
 
   [[nodiscard]] CellBox box() const { return box_; }
   // Gradients of the cells (cell.x, cell.x + 1, ...) of a row; the row above begins `stride` further.
@@ -30,6 +34,7 @@ class GradientField {
   CellBox box_;
   std::vector<std::int16_t> x_;
   std::vector<std::int16_t> y_;
+  std::vector<std::uint8_t> ol_;  // kept for its memory only
 };
 
 }  // namespace cairn::template_matcher

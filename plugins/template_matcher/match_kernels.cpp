@@ -1,6 +1,7 @@
 #include "plugins/template_matcher/match_kernels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -25,8 +26,9 @@ void ProjectOnAxis(const ProjectionRows& rows, int k, std::uint16_t* along, std:
                    std::size_t stride) {
   const SignedTag d;
   const Tag du;
-  const auto ux = hn::Set(d, direction(k).x);
-  const auto uy = hn::Set(d, direction(k).y);
+  const Direction u = direction(k);
+  const auto ux = hn::Set(d, u.x);
+  const auto uy = hn::Set(d, u.y);
   const auto offset = hn::Set(d, static_cast<std::int16_t>(rows.offset + 1));
   const auto two = hn::Set(d, std::int16_t{2});
   for (std::size_t row = 0; row < rows.height; ++row) {
@@ -218,16 +220,26 @@ HWY_EXPORT(SumPieceShortfalls);
 HWY_EXPORT(SumDistances);
 HWY_EXPORT(CollectBelow);
 
-Direction direction(int k) {
+namespace {
+
+std::array<Direction, kDirections> all_directions() {
   constexpr double kOne = 16384.0;
-  if (k >= kDirections / 2) {
-    const Direction opposite = direction(k - kDirections / 2);
-    return {static_cast<std::int16_t>(-opposite.x), static_cast<std::int16_t>(-opposite.y)};
+  std::array<Direction, kDirections> all{};
+  for (std::size_t k = 0; k < kDirections / 2; ++k) {
+    const double angle_rad = 2.0 * std::numbers::pi * static_cast<double>(k) / kDirections;
+    // The tiny allowance keeps the axes whole: a length of 1 + 1e-9 is cut to 1.
+    const auto part = [](double value) { return static_cast<std::int16_t>(std::trunc(kOne * value * (1.0 + 1e-12))); };
+    all[k] = {part(std::cos(angle_rad)), part(std::sin(angle_rad))};
+    all[k + kDirections / 2] = {static_cast<std::int16_t>(-all[k].x), static_cast<std::int16_t>(-all[k].y)};
   }
-  const double angle_rad = 2.0 * std::numbers::pi * k / kDirections;
-  // The tiny allowance keeps the axes whole: a length of 1 + 1e-9 is cut to 1.
-  const auto part = [](double value) { return static_cast<std::int16_t>(std::trunc(kOne * value * (1.0 + 1e-12))); };
-  return {part(std::cos(angle_rad)), part(std::sin(angle_rad))};
+  return all;
+}
+
+}  // namespace
+
+Direction direction(int k) {
+  static const std::array<Direction, kDirections> kAll = all_directions();
+  return kAll[static_cast<std::size_t>(k)];
 }
 
 void project(const ProjectionRows& rows, std::uint16_t* maps, std::size_t map_size, std::size_t stride) {

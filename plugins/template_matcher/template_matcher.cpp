@@ -57,7 +57,7 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       reach_(RegionReach::of(*templates_, config.coarse_cells * templates_->cell_m)),
       template_reach_(reach_of(templates_->templates)),
       coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),
-      trigger_(config.trigger, config.tau_trigger, config.tau_var),
+      trigger_(config),
       matcher_(templates_->templates),
       ceilings_(ceilings_of(rule_, templates_->templates)),
       neighbours_(*templates_) {}
@@ -69,6 +69,7 @@ DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellCha
   }
   DetectionReport report;
   coarse_.update(grid, changes, touched_);
+  trigger_.begin_update();
   for (const Cell coarse : touched_) {
     if (static_cast<std::int64_t>(report.matchings.size()) >= budget.iterations || budget.exhausted()) break;
     if (trigger_.fires(coarse, coarse_.ol(coarse))) report.matchings.push_back(match(grid, coarse));
@@ -78,17 +79,19 @@ DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellCha
 
 Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   const std::vector<Cell> region = grow_region(coarse_, trigger, reach_, config_.tau_grow);
-  for (const Cell coarse : region) trigger_.matched(coarse, coarse_.ol(coarse));
   const std::vector<CellSpan> spans = fine_spans(coarse_, region);
   const CellBox box = CellChanges{spans}.box();
   // One cell more than the templates reach, for the places around the best one.
-  const GradientField field(grid, box.grown(template_reach_ + 1));
-  const std::vector<TemplateMatch> matches = search(field, spans);
+  field_.look_at(grid, box.grown(template_reach_ + 1));
+  const std::vector<TemplateMatch> matches = search(spans);
   Matching matching;
   matching.trigger = trigger;
   matching.region_cells = static_cast<int>(region.size()) * coarse_.n() * coarse_.n();
   matching.region_centre_m = 0.5 * (grid.centre_of(box.min) + grid.centre_of(box.max - Cell{1, 1}));
   matching.degrees = degrees_by_category(matches, *templates_, grid, rule_);
+  const bool fitted =
+      std::ranges::any_of(matching.degrees, [&](const CategoryDegree& d) { return d.degree > rule_.tau_match; });
+  for (const Cell coarse : region) trigger_.matched(coarse, coarse_.ol(coarse), fitted);
   if (config_.degrees == Degrees::above_threshold) {
     std::erase_if(matching.degrees, [&](const CategoryDegree& d) { return d.degree <= rule_.tau_match; });
   }
@@ -97,14 +100,14 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
     any.tau_match = -1.0;
     matching.templates = templates_above(matches, templates_->templates, any);
   }
-  matching.detection = detection_of(field, matches, grid);
+  matching.detection = detection_of(matches, grid);
   return matching;
 }
 
-std::vector<TemplateMatch> TemplateMatcher::search(const GradientField& field, std::span<const CellSpan> region) {
+std::vector<TemplateMatch> TemplateMatcher::search(std::span<const CellSpan> region) {
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
-  if (config_.search == Search::exhaustive) return match_exhaustively(field, region, templates);
-  matcher_.look_at(field, region);
+  if (config_.search == Search::exhaustive) return match_exhaustively(field_, region, templates);
+  matcher_.look_at(field_, region);
   std::vector<TemplateMatch> matches;
   std::size_t best = 0;  // of the category; one after the other in a set
   for (std::size_t i = 0; i < templates.size(); ++i) {
@@ -120,13 +123,12 @@ std::vector<TemplateMatch> TemplateMatcher::search(const GradientField& field, s
   return matches;
 }
 
-std::optional<Detection> TemplateMatcher::detection_of(const GradientField& field, std::vector<TemplateMatch> matches,
-                                                       const OccupancyGrid& grid) {
+std::optional<Detection> TemplateMatcher::detection_of(std::vector<TemplateMatch> matches, const OccupancyGrid& grid) {
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
   const LandmarkTemplate& t = templates[best];
-  const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * offset_in_cell(field, t, matches[best].at);
+  const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * offset_in_cell(field_, t, matches[best].at);
   const double degree = degree_of(matches[best].mismatch, t.cells.size(), rule_.mu);
   std::vector<TemplateDegree> above = templates_above(matches, templates, rule_);
   complete_neighbours(best, matches);

@@ -29,10 +29,9 @@ class TemplateMatcher : public Detector {
   [[nodiscard]] Matching match(const OccupancyGrid& grid, Cell trigger);
   // Of every template that matters the best place: those that may be above tau_match and, when all degrees
   // are asked for, the best of each category.
-  [[nodiscard]] std::vector<TemplateMatch> search(const GradientField& field, std::span<const CellSpan> region);
+  [[nodiscard]] std::vector<TemplateMatch> search(std::span<const CellSpan> region);
   void complete_neighbours(std::size_t index, std::vector<TemplateMatch>& matches);
-  [[nodiscard]] std::optional<Detection> detection_of(const GradientField& field, std::vector<TemplateMatch> matches,
-                                                      const OccupancyGrid& grid);
+  [[nodiscard]] std::optional<Detection> detection_of(std::vector<TemplateMatch> matches, const OccupancyGrid& grid);
 
   Config config_;
   std::shared_ptr<const TemplateSet> templates_;
@@ -41,6 +40,7 @@ class TemplateMatcher : public Detector {
   int template_reach_;
   CoarseGrid coarse_;
   Trigger trigger_;
+  GradientField field_;  // of the current region
   FastMatcher matcher_;
   std::vector<std::int32_t> ceilings_;  // one a template: from there on below every threshold
   OrientationNeighbours neighbours_;

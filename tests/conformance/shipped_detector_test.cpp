@@ -6,7 +6,11 @@ namespace {
 
 const std::filesystem::path kModules = std::filesystem::path(CAIRN_BINARY_DIR) / "lib" / "cairn";
 
-INSTANTIATE_TEST_SUITE_P(Shipped, DetectorConformance, testing::Values(module<Detector>(kModules, "template_matcher")));
+INSTANTIATE_TEST_SUITE_P(Shipped, DetectorConformance,
+                         testing::Values(module<Detector>(kModules, "template_matcher"),
+                                         module<Detector>(kModules, "match_template"),
+                                         module<Detector>(kModules, "chamfer"),
+                                         module<Detector>(kModules, "generalized_hough")));
 
 }  // namespace
 }  // namespace cairn::conformance

@@ -39,6 +39,15 @@ TEST_F(Charts, NamePlacesAndDrawErrorBarsWhereTheyAreGiven) {
   EXPECT_TRUE(write_chart(file("bars.png"), chart).drawn);
 }
 
+TEST_F(Charts, OfSharesReachFromZeroToOne) {
+  Chart chart;
+  chart.series = {{"curve", {{0.4, 0.9}, {0.6, 0.8}}, SeriesStyle::lines, {}}};
+  EXPECT_EQ(gnuplot_script(chart).find("set xrange"), std::string::npos);
+  chart.of_shares = true;
+  EXPECT_THAT(gnuplot_script(chart), HasSubstr("set xrange [0:1.01]\nset yrange [0:1.01]\n"));
+  EXPECT_TRUE(write_chart(file("shares.png"), chart).drawn);
+}
+
 TEST_F(Charts, AreDrawnAndTheSameEachTime) {
   const ChartOutcome first = write_chart(file("a.png"), degrees_chart());
   ASSERT_TRUE(first.drawn) << first.reason;

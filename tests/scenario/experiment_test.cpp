@@ -130,9 +130,10 @@ TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
 TEST(Experiment, OfRecognitionLeavesAWorldThatRunsAgain) {
   const auto folder = fresh_folder("experiment_recognition");
   (void)two_places(folder, "square");
-  write_text(folder / "recognition.yaml",
-             "experiment: recognition\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\n"
-             "worlds: {start_m: [1.1, 1.2], most_landmarks: 2, start_gap_m: 0.5}\nset: [steps=[{wait: 1}]]\n");
+  write_text(
+      folder / "recognition.yaml",
+      "experiment: recognition\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\n"
+      "worlds: {start_m: [1.1, 1.2], most_landmarks: 2, start_gap_m: 0.5}\nset: [\"steps=[{wait: {for_s: 1}}]\"]\n");
   const Finished finished =
       run_cairn({"experiment", (folder / "recognition.yaml").string(), "--out", (folder / "out").string(), "--json"});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
@@ -144,6 +145,68 @@ TEST(Experiment, OfRecognitionLeavesAWorldThatRunsAgain) {
       run_cairn({"run", (folder / "round.yaml").string(), "--set", "steps=[{wait: 1}]", "--seed", "5", "--set",
                  "world=" + (folder / "out/seed_5/world.yaml").string(), "--out", (folder / "again").string()});
   EXPECT_EQ(again.exit_status, 0) << again.err;
+}
+
+// The recognition mission in one small random world, judged by two detectors beside its own.
+std::filesystem::path small_curves(const std::filesystem::path& folder, const std::string& detectors) {
+  (void)two_places(folder, "square");
+  write_text(folder / "curves.yaml",
+             "experiment: curves\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\ntolerance_m: 0.3\n"
+             "worlds: {start_m: [1.1, 1.2], least_landmarks: 1, most_landmarks: 1, most_distractors: 0, "
+             "smallest_room_m: [3.5, 3.5], largest_room_m: [3.5, 3.5], gap_m: 0.8}\n"
+             "set: [\"steps=[{explore: {until_known_ratio: 0.95, at_most_s: 300}}]\"]\n"
+             "detectors:\n" +
+                 detectors);
+  return folder / "curves.yaml";
+}
+
+TEST(Experiment, OfCurvesRunsEveryDetectorOnTheSameGrid) {
+  const auto folder = fresh_folder("experiment_curves");
+  const std::vector<std::string> command{
+      "experiment",
+      small_curves(folder,
+                   "  - {name: ours, plugin: template_matcher, min_margin: 0, min_above_unseen: 0}\n"
+                   "  - {name: theirs, plugin: match_template}\n  - {name: picky, plugin: match_template, "
+                   "tau_match: 0.999}\n")
+          .string(),
+      "--out", (folder / "out").string(), "--json"};
+  const Finished finished = run_cairn(command);
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto row = nlohmann::json::parse(finished.out)["rows"][0];
+  EXPECT_GE(row["verdicts"].size(), 1U);
+  ASSERT_EQ(row["detectors"].size(), 3U);
+  for (const auto& detector : row["detectors"]) EXPECT_EQ(detector["truly"], 1) << detector;
+  const auto& ours = row["detectors"][0]["counts"];
+  ASSERT_GE(ours.size(), 1U);
+  EXPECT_EQ(ours[0][1], 1) << "the best detection alone";
+  EXPECT_EQ(ours[0][2], 1) << "and it is right, in a room with one landmark seen from all around";
+  EXPECT_EQ(row["detectors"][1]["counts"][0][2], 1);
+  EXPECT_GT(row["detectors"][1]["counts"].size(), 10U) << "its threshold is 0 unless given";
+  EXPECT_TRUE(row["detectors"][2]["counts"].empty()) << "here it is given";
+  EXPECT_THAT(text_of_file(folder / "out/table.md"), HasSubstr("| the mission itself | |"));
+  EXPECT_THAT(finished.err, HasSubstr("| detector | ms a grid |")) << "times are for people only";
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/curves.png"));
+  EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
+}
+
+TEST(Experiment, OfCurvesTellsWhatIsWrongWithADetector) {
+  const auto folder = fresh_folder("experiment_curves_fault");
+  const auto error_of = [&](const std::string& detectors) {
+    const Finished finished =
+        run_cairn({"experiment", small_curves(folder, detectors).string(), "--out", (folder / "out").string()});
+    EXPECT_EQ(finished.exit_status, 2);
+    return finished.err;
+  };
+  EXPECT_THAT(error_of("  - {name: a, plugin: match_templat}\n"),
+              HasSubstr("curves.yaml:8:5: unknown detector plugin \"match_templat\""));
+  EXPECT_THAT(error_of("  - {name: a, plugin: chamfer, truncation: 0.1}\n"),
+              HasSubstr("curves.yaml:8:32: unknown key \"truncation\" in plugin chamfer (did you mean "
+                        "\"truncation_m\"?)"));
+  EXPECT_THAT(error_of("  - {plugin: chamfer}\n"), HasSubstr("curves.yaml:8:5: detectors lacks the key \"name\""));
+  EXPECT_THAT(error_of("  - {name: a}\n"), HasSubstr("curves.yaml:8:5: detectors lacks the key \"plugin\""));
+  EXPECT_THAT(error_of("  - {name: a, plugin: chamfer}\n  - {name: a, plugin: match_template}\n"),
+              HasSubstr("curves.yaml:9:12: two detectors are called \"a\""));
+  EXPECT_THAT(error_of("  []\n"), HasSubstr("must list the detectors to compare under detectors"));
 }
 
 TEST(Experiment, APlaceThatLooksAtNothingInTheWorldIsRefused) {

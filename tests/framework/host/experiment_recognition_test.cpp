@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "framework/host/experiment_report.hpp"
 #include "framework/host/recognition_table.hpp"
 
 namespace cairn {
@@ -80,6 +81,41 @@ TEST(RecognitionFigures, CountByHand) {
   config.experiment = ExperimentKind::recognition;
   config.variants = {{"as_is", {}}};
   EXPECT_THAT(recognition_table(config, {row}), testing::HasSubstr("| circle | 1 | 0 | 1 |")) << "none, circle, square";
+}
+
+ExperimentRow row_of(const std::string& variant, std::int64_t seed, std::int64_t matchings,
+                     const std::vector<Verdict>& verdicts) {
+  ExperimentRow row;
+  row.mission = "rooms";
+  row.variant = variant;
+  row.seed = seed;
+  row.result.distance_m = 10.0;
+  row.result.matchings = matchings;
+  row.verdicts = verdicts;
+  return row;
+}
+
+TEST(BaselineFigures, CompareTheSameWorldsByHand) {
+  const Verdict square{"square", "square", 0.0, std::nullopt, 1.0};
+  const Verdict missed{"square", "", 0.0, std::nullopt, 0.0};
+  const Verdict false_one{"", "circle", 0.0, std::nullopt, 1.0};
+  std::vector<ExperimentRow> rows = {row_of("every_update", 1, 300, {square, square, missed, false_one}),
+                                     row_of("every_update", 2, 100, {square, square}),
+                                     row_of("gated", 2, 5, {square, square, false_one}),
+                                     row_of("gated", 1, 15, {square, missed, square}), row_of("gated", 3, 999, {})};
+  rows[2].result.distance_m = 11.0;
+  const BaselineFigures figures =
+      baseline_figures(rows_of(rows, "rooms", "gated"), rows_of(rows, "rooms", "every_update"));
+  EXPECT_EQ(figures.worlds, 2);
+  EXPECT_EQ(figures.same_drives, 1);
+  EXPECT_DOUBLE_EQ(figures.matchings.value, 20.0);
+  EXPECT_DOUBLE_EQ(figures.lost.value, 1.0 / 4.0) << "what only the variant finds does not make up for it";
+  ExperimentConfig config;
+  config.experiment = ExperimentKind::recognition;
+  config.variants = {{"gated", {}}, {"every_update", {}}};
+  EXPECT_THAT(recognition_table(config, rows), testing::Not(testing::HasSubstr("Against")));
+  config.baseline = "every_update";
+  EXPECT_THAT(recognition_table(config, rows), testing::HasSubstr("\n| gated | 1 of 2 | 20.0 (20.0 - 20.0) | 0.250"));
 }
 
 }  // namespace

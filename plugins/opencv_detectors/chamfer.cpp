@@ -1,0 +1,48 @@
+#include "plugins/opencv_detectors/chamfer.hpp"
+
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace cairn::opencv_detectors {
+
+Chamfer::Chamfer(const ChamferConfig& config, std::shared_ptr<const TemplateSet> templates)
+    : SearchingDetector("chamfer", std::move(templates), config.tau_match), config_(config) {
+  for (const LandmarkTemplate& shape : set().templates) {
+    Points& points = points_.emplace_back();
+    points.reach = reach_of(shape);
+    const cv::Mat edges = edges_of(gradients_of(shape, points.reach), config.edge_low, config.edge_high);
+    const int count = cv::countNonZero(edges);
+    if (count == 0)
+      throw std::invalid_argument("a template of category \"" + shape.category + "\" has no edge above edge_high");
+    edges.convertTo(points.weights, CV_32F, 1.0 / (255.0 * count));
+  }
+}
+
+std::optional<std::vector<Candidate>> Chamfer::search(const OccupancyGrid& grid, const CellBox& centres,
+                                                      const Budget& budget) {
+  // Edges beyond the templates' reach are near to their points too.
+  const int beyond = static_cast<int>(std::ceil(config_.truncation_m / set().cell_m)) + 1;
+  const CellBox box = centres.grown(reach() + beyond);
+  const cv::Mat edges = edges_of(gradients_of(grid, box), config_.edge_low, config_.edge_high);
+  if (cv::countNonZero(edges) == 0) return std::vector<Candidate>{};
+  cv::Mat off;
+  cv::distanceTransform(255 - edges, off, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  off = cv::min(off * (set().cell_m / config_.truncation_m), 1.0);
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (budget.exhausted()) return std::nullopt;
+    const int margin = reach() + beyond - points_[i].reach;
+    const cv::Mat part = off(cv::Rect(margin, margin, off.cols - 2 * margin, off.rows - 2 * margin));
+    cv::Mat mean;
+    cv::matchTemplate(part, points_[i].weights, mean, cv::TM_CCORR);
+    const cv::Mat degrees = 1.0 - mean;
+    for (const Cell at : peaks_of(degrees, centres.min, tau_match())) {
+      const Cell pixel = at - centres.min;
+      const double degree = std::min(1.0, static_cast<double>(degrees.at<float>(pixel.y, pixel.x)));
+      candidates.push_back({grid.centre_of(at), i, set().templates[i].orientation_rad, degree});
+    }
+  }
+  return candidates;
+}
+
+}  // namespace cairn::opencv_detectors

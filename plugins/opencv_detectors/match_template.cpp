@@ -1,0 +1,64 @@
+#include "plugins/opencv_detectors/match_template.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+namespace cairn::opencv_detectors {
+namespace {
+
+constexpr double kMostByRounding = 1.001;
+
+// As matchTemplate takes it: OL as bytes, gradients as floats.
+cv::Mat picture_of(const Gradients& gradients, Picture picture) {
+  cv::Mat x;
+  cv::Mat y;
+  gradients.x.convertTo(x, CV_32F);
+  gradients.y.convertTo(y, CV_32F);
+  cv::Mat result;
+  if (picture == Picture::magnitude)
+    cv::magnitude(x, y, result);
+  else
+    cv::merge(std::vector<cv::Mat>{x, y}, result);
+  return result;
+}
+
+}  // namespace
+
+MatchTemplate::MatchTemplate(const MatchTemplateConfig& config, std::shared_ptr<const TemplateSet> templates)
+    : SearchingDetector("match_template", std::move(templates), config.tau_match), config_(config) {
+  for (const LandmarkTemplate& shape : set().templates) {
+    Patch& patch = patches_.emplace_back();
+    patch.reach = reach_of(shape);
+    if (config.picture == Picture::occupancy) {
+      const auto of = std::ranges::find(set().shapes, shape.category, &LandmarkShape::category);
+      patch.picture = drawn(of->contour, shape.orientation_rad, set().cell_m, patch.reach);
+    } else {
+      patch.picture = picture_of(gradients_of(shape, patch.reach), config.picture);
+    }
+    if (config.masked) patch.mask = cells_of(shape, patch.reach);
+  }
+}
+
+std::optional<std::vector<Candidate>> MatchTemplate::search(const OccupancyGrid& grid, const CellBox& centres,
+                                                            const Budget& budget) {
+  const CellBox box = centres.grown(reach());
+  const cv::Mat whole = config_.picture == Picture::occupancy ? opencv_detectors::picture_of(grid, box)
+                                                              : picture_of(gradients_of(grid, box), config_.picture);
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if (budget.exhausted()) return std::nullopt;
+    const int margin = reach() - patches_[i].reach;
+    const cv::Mat part = whole(cv::Rect(margin, margin, whole.cols - 2 * margin, whole.rows - 2 * margin));
+    cv::Mat degrees;
+    cv::matchTemplate(part, patches_[i].picture, degrees, cv::TM_CCOEFF_NORMED, patches_[i].mask);
+    // Even ground has no variance to divide by.
+    degrees.setTo(0.0, (degrees != degrees) | (degrees > kMostByRounding));
+    for (const Cell at : peaks_of(degrees, centres.min, tau_match())) {
+      const Cell pixel = at - centres.min;
+      const double degree = std::min(1.0, static_cast<double>(degrees.at<float>(pixel.y, pixel.x)));
+      candidates.push_back({grid.centre_of(at), i, set().templates[i].orientation_rad, degree});
+    }
+  }
+  return candidates;
+}
+
+}  // namespace cairn::opencv_detectors

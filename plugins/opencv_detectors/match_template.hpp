@@ -1,0 +1,26 @@
+// cv::matchTemplate: the normalised correlation coefficient of every rotated template with every place.
+#pragma once
+
+#include "plugins/opencv_detectors/config.hpp"
+#include "plugins/opencv_detectors/searching_detector.hpp"
+
+namespace cairn::opencv_detectors {
+
+class MatchTemplate : public SearchingDetector {
+ public:
+  MatchTemplate(const MatchTemplateConfig& config, std::shared_ptr<const TemplateSet> templates);
+
+ private:
+  std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
+                                               const Budget& budget) override;
+
+  MatchTemplateConfig config_;
+  struct Patch {
+    int reach = 0;
+    cv::Mat picture;
+    cv::Mat mask;  // empty: all of it
+  };
+  std::vector<Patch> patches_;  // one a template
+};
+
+}  // namespace cairn::opencv_detectors
