@@ -21,17 +21,20 @@ double mean_mismatch(std::size_t index, std::span<const TemplateMatch> matches,
 
 }  // namespace
 
-double parabola_minimum(double before, double here, double after) {
+Minimum parabola_minimum(double before, double here, double after) {
   const double curvature = before - 2.0 * here + after;
-  if (curvature <= 0.0) return 0.0;
-  return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+  if (curvature <= 0.0) return {0.0, here};
+  const double at = std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+  return {at, here + 0.5 * at * (after - before + at * curvature)};
 }
 
-Point offset_in_cell(const GradientField& field, const LandmarkTemplate& shape, Cell at) {
+PlaceInCell place_in_cell(const GradientField& field, const LandmarkTemplate& shape, Cell at) {
   const auto mismatch = [&](int x, int y) { return static_cast<double>(mismatch_at(field, shape, at + Cell{x, y})); };
   const double here = mismatch(0, 0);
-  return {parabola_minimum(mismatch(-1, 0), here, mismatch(1, 0)),
-          parabola_minimum(mismatch(0, -1), here, mismatch(0, 1))};
+  const Minimum x = parabola_minimum(mismatch(-1, 0), here, mismatch(1, 0));
+  const Minimum y = parabola_minimum(mismatch(0, -1), here, mismatch(0, 1));
+  const double least = std::max(0.0, x.value + y.value - here);
+  return {{x.at, y.at}, static_cast<std::int32_t>(std::lround(std::min(least, here)))};
 }
 
 OrientationNeighbours::OrientationNeighbours(const TemplateSet& set) : step_rad_(set.step_rad) {
@@ -70,7 +73,8 @@ double OrientationNeighbours::offset_rad(std::size_t index, std::span<const Temp
   if (pair.before == index || pair.after == index) return 0.0;
   return step_rad_ * parabola_minimum(mean_mismatch(pair.before, matches, templates),
                                       mean_mismatch(index, matches, templates),
-                                      mean_mismatch(pair.after, matches, templates));
+                                      mean_mismatch(pair.after, matches, templates))
+                          .at;
 }
 
 }  // namespace cairn::template_matcher

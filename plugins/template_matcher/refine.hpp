@@ -1,6 +1,7 @@
 // Between the cells and between the orientation steps: where the mismatch is least.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,13 +9,22 @@
 
 namespace cairn::template_matcher {
 
-// Where the least value of a parabola lies that passes through these values at -1, 0 and 1; within
-// +-0.5, and 0 when they do not curve upwards.
-[[nodiscard]] double parabola_minimum(double before, double here, double after);
+// The least value of a parabola that passes through these values at -1, 0 and 1, and where it lies: within
+// +-0.5, and at 0 when they do not curve upwards.
+struct Minimum {
+  double at = 0.0;
+  double value = 0.0;
+};
+[[nodiscard]] Minimum parabola_minimum(double before, double here, double after);
 
-// Offset of the best place from the centre of its cell, in cells. The field covers the template at the
-// cells around `at` too.
-[[nodiscard]] Point offset_in_cell(const GradientField& field, const LandmarkTemplate& shape, Cell at);
+// The best place within a cell: its offset from the centre, in cells, and the mismatch there, as the parabolas
+// along x and y foretell it; never above that at the centre. The field covers the template at the cells around
+// `at` too.
+struct PlaceInCell {
+  Point offset{0.0, 0.0};
+  std::int32_t mismatch = 0;
+};
+[[nodiscard]] PlaceInCell place_in_cell(const GradientField& field, const LandmarkTemplate& shape, Cell at);
 
 // Which templates show the same category turned by one step, and were rendered the same way.
 class OrientationNeighbours {

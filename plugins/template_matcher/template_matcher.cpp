@@ -83,7 +83,7 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   const CellBox box = CellChanges{spans}.box();
   // One cell more than the templates reach, for the places around the best one.
   field_.look_at(grid, box.grown(template_reach_ + 1));
-  const std::vector<TemplateMatch> matches = search(spans);
+  const std::vector<TemplateMatch> matches = refined(search(spans));
   Matching matching;
   matching.trigger = trigger;
   matching.region_cells = static_cast<int>(region.size()) * coarse_.n() * coarse_.n();
@@ -123,12 +123,28 @@ std::vector<TemplateMatch> TemplateMatcher::search(std::span<const CellSpan> reg
   return matches;
 }
 
+// Landmarks stand between the cells, and half a cell beside it costs the right category more than a broader
+// one: categories are compared where each fits best. What is too bad to matter, by the ceiling of every way to
+// ask, stays as it is, so that all ways give the same landmarks.
+std::vector<TemplateMatch> TemplateMatcher::refined(std::vector<TemplateMatch> matches) const {
+  const std::vector<LandmarkTemplate>& templates = templates_->templates;
+  for (std::size_t first = 0, next = 0; first < templates.size(); first = next) {
+    std::size_t best = first;
+    for (next = first; next < templates.size() && templates[next].category == templates[first].category; ++next)
+      if (fits_better(matches[next], templates[next], matches[best], templates[best])) best = next;
+    if (matches[best].mismatch >= ceilings_[best]) continue;
+    matches[best].mismatch = place_in_cell(field_, templates[best], matches[best].at).mismatch;
+  }
+  return matches;
+}
+
 std::optional<Detection> TemplateMatcher::detection_of(std::vector<TemplateMatch> matches, const OccupancyGrid& grid) {
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
   const LandmarkTemplate& t = templates[best];
-  const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * offset_in_cell(field_, t, matches[best].at);
+  const PlaceInCell place = place_in_cell(field_, t, matches[best].at);
+  const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * place.offset;
   const double degree = degree_of(matches[best].mismatch, t.cells.size(), rule_.mu);
   std::vector<TemplateDegree> above = templates_above(matches, templates, rule_);
   complete_neighbours(best, matches);

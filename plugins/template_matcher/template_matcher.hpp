@@ -30,6 +30,7 @@ class TemplateMatcher : public Detector {
   // Of every template that matters the best place: those that may be above tau_match and, when all degrees
   // are asked for, the best of each category.
   [[nodiscard]] std::vector<TemplateMatch> search(std::span<const CellSpan> region);
+  [[nodiscard]] std::vector<TemplateMatch> refined(std::vector<TemplateMatch> matches) const;
   void complete_neighbours(std::size_t index, std::vector<TemplateMatch>& matches);
   [[nodiscard]] std::optional<Detection> detection_of(std::vector<TemplateMatch> matches, const OccupancyGrid& grid);
 

@@ -7,7 +7,8 @@ namespace {
 const std::filesystem::path kModules = std::filesystem::path(CAIRN_BINARY_DIR) / "lib" / "cairn";
 
 INSTANTIATE_TEST_SUITE_P(Shipped, LocalizerConformance,
-                         testing::Values(module<Localizer>(kModules, "odometry_compass")));
+                         testing::Values(module<Localizer>(kModules, "odometry_compass"),
+                                         module<Localizer>(kModules, "scan_to_map")));
 
 }  // namespace
 }  // namespace cairn::conformance

@@ -20,6 +20,9 @@ std::string config_of(const std::string& file) {
 const std::string kDerived =
     std::string("{source: {plugin: carmen_log, file: \"") + CAIRN_SOURCE_DIR + "/tests/data/carmen.log\"}}";
 
+const std::string kLego = std::string("{file: \"") + CAIRN_SOURCE_DIR + "/tests/data/lego_scans.log\", motors: \"" +
+                          CAIRN_SOURCE_DIR + "/tests/data/lego_motors.log\", compass_from_pose: true}";
+
 INSTANTIATE_TEST_SUITE_P(Shipped, SensorConformance,
                          testing::Values(module<Sensor>(kModules, "simulated_robot"),
                                          module<Sensor>(kModules, "simulated_robot", "{fire_all: true}"),
@@ -27,6 +30,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SensorConformance,
                                          module<Sensor>(kModules, "carmen_log", kCarmen),
                                          module<Sensor>(kModules, "player_log", config_of("player.log")),
                                          module<Sensor>(kModules, "json_log", config_of("scans.json")),
+                                         module<Sensor>(kModules, "lego_log", kLego),
                                          module<Sensor>(kModules, "sonar_from_laser", kDerived)));
 
 }  // namespace

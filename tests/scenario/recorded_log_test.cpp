@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "maps/map_store.hpp"
@@ -54,6 +57,47 @@ TEST(RecordedLog, LaserLogsBecomeMapsOfTheirBuildings) {
     EXPECT_NEAR(map.grid.bounds().width() * map.grid.cell_m(), log.width_m, 1.0) << log.mission;
     EXPECT_NEAR(map.grid.bounds().height() * map.grid.cell_m(), log.height_m, 1.0) << log.mission;
   }
+}
+
+struct Surveyed {
+  double x_m, y_m;
+};
+
+// Lines "L C x y radius", in millimetres.
+std::vector<Surveyed> surveyed_cylinders(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<Surveyed> cylinders;
+  std::string kind;
+  std::string shape;
+  for (double x = 0, y = 0, radius = 0; in >> kind >> shape >> x >> y >> radius;)
+    cylinders.push_back({0.001 * x, 0.001 * y});
+  return cylinders;
+}
+
+TEST(RecordedLog, SixRealCylindersAreFoundWhereTheyWereSurveyed) {
+  const auto folder = data_folder() / "landmarks" / "lego_cylinders";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no data folder: lego_cylinders";
+  const auto out = fresh_folder("lego_cylinders");
+  const Finished run =
+      run_cairn({"run", source_folder() + "/config/missions/lego_cylinders.yaml", "--out", out.string(), "--json"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto summary = nlohmann::json::parse(run.out);
+  EXPECT_EQ(summary["readings"], 278 * 660);
+  const std::vector<Surveyed> cylinders = surveyed_cylinders(folder / "robot_arena_landmarks.txt");
+  ASSERT_EQ(cylinders.size(), 6U);
+  EXPECT_EQ(summary["landmarks"].size(), 6U) << "none missing, none false";
+  std::vector<double> errors_m;
+  for (const Surveyed& cylinder : cylinders) {
+    double nearest_m = 1e9;
+    for (const auto& found : summary["landmarks"]) {
+      nearest_m = std::min(
+          nearest_m, std::hypot(found["x_m"].get<double>() - cylinder.x_m, found["y_m"].get<double>() - cylinder.y_m));
+    }
+    EXPECT_LT(nearest_m, 0.055) << "within its own radius, at " << cylinder.x_m << ", " << cylinder.y_m;
+    errors_m.push_back(nearest_m);
+  }
+  std::sort(errors_m.begin(), errors_m.end());
+  EXPECT_LE(0.5 * (errors_m[2] + errors_m[3]), 0.015) << "median";
 }
 
 }  // namespace

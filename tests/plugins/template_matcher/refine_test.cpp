@@ -11,23 +11,26 @@ namespace {
 
 TEST(ParabolaMinimum, FindsTheBottom) {
   const auto parabola = [](double x) { return 3.0 * (x - 0.25) * (x - 0.25) + 7.0; };
-  EXPECT_NEAR(parabola_minimum(parabola(-1), parabola(0), parabola(1)), 0.25, 1e-12);
+  const Minimum minimum = parabola_minimum(parabola(-1), parabola(0), parabola(1));
+  EXPECT_NEAR(minimum.at, 0.25, 1e-12);
+  EXPECT_NEAR(minimum.value, parabola(minimum.at), 1e-12);
 }
 
 TEST(ParabolaMinimum, StaysWithinHalfAStepAndIs0WithoutACurve) {
-  EXPECT_EQ(parabola_minimum(9.0, 5.0, 4.0), 0.5);
-  EXPECT_EQ(parabola_minimum(4.0, 5.0, 9.0), -0.5);
-  EXPECT_EQ(parabola_minimum(1.0, 1.0, 1.0), 0.0);
-  EXPECT_EQ(parabola_minimum(1.0, 2.0, 1.0), 0.0);
+  EXPECT_EQ(parabola_minimum(9.0, 5.0, 4.0).at, 0.5);
+  EXPECT_EQ(parabola_minimum(4.0, 5.0, 9.0).at, -0.5);
+  EXPECT_EQ(parabola_minimum(1.0, 1.0, 1.0).value, 1.0);
+  EXPECT_EQ(parabola_minimum(1.0, 2.0, 1.0).at, 0.0);
 }
 
-TEST(OffsetInCell, PointsTowardsTheLandmarkBetweenCells) {
+TEST(PlaceInCell, PointsTowardsTheLandmarkBetweenCells) {
   const LandmarkTemplate shape = render_ideal(circle_shape(), 0.0, 0.05);
   OccupancyGrid grid(0.05);
   const Point centre = grid.centre_of({0, 0});
   paint(grid, circle_shape().contour, {centre.x() + 0.02, centre.y() - 0.02, 0.0}, {{-20, -20}, {20, 20}});
   const GradientField field(grid, {{-12, -12}, {13, 13}});
-  const Point offset = offset_in_cell(field, shape, {0, 0});
+  const auto [offset, mismatch] = place_in_cell(field, shape, {0, 0});
+  EXPECT_LT(mismatch, mismatch_at(field, shape, {0, 0}));
   EXPECT_GT(offset.x(), 0.05);
   EXPECT_LT(offset.y(), -0.05);
   EXPECT_LE(std::abs(offset.x()), 0.5);
