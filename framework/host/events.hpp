@@ -20,6 +20,10 @@ struct LandmarkChanged {
   Landmark landmark;
   bool is_new = false;
 };
+struct LandmarkRetired {
+  Landmark landmark;
+  std::string reason;
+};
 struct PlanDone {
   PlanResult result;
 };
@@ -40,8 +44,8 @@ struct Said {
 };
 struct Bumped {};
 
-using Event =
-    std::variant<TickDone, MatchingDone, LandmarkChanged, PlanDone, StepStarted, StepEnded, MapSaved, Said, Bumped>;
+using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
+                           MapSaved, Said, Bumped>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "framework/host/landmark_evidence.hpp"
 #include "maps/distance_field.hpp"
 #include "maps/travel_field.hpp"
 
@@ -45,25 +47,12 @@ std::optional<Pose2> standing_place(const DistanceField& space, const TravelFiel
   return Pose2{at.x(), at.y(), std::atan2(landmark.y() - at.y(), landmark.x() - at.x())};
 }
 
+// Not heard yet: hear() adds what the matching says.
 Landmark first_seen(const Detection& detection) {
   Landmark landmark;
   landmark.category = detection.category;
   landmark.T_map_landmark = detection.T_map_landmark;
-  landmark.degree = detection.degree;
-  landmark.templates = detection.templates;
-  landmark.sightings = 1;
   return landmark;
-}
-
-// True when the detection is better than all before and corrects the landmark.
-bool see_again(Landmark& landmark, const Detection& detection) {
-  ++landmark.sightings;
-  if (detection.degree <= landmark.degree) return false;
-  landmark.category = detection.category;
-  landmark.T_map_landmark = detection.T_map_landmark;
-  landmark.degree = detection.degree;
-  landmark.templates = detection.templates;
-  return true;
 }
 
 }  // namespace
@@ -73,6 +62,8 @@ void LandmarkKeeperConfig::describe(Fields<LandmarkKeeperConfig>& fields) {
   fields.number("merge_m", &C::merge_m, {0.01, 10.0}, "m", "a detection this near to a landmark is that landmark");
   fields.integer("confirm_sightings", &C::confirm_sightings, {1.0, 1000.0},
                  "matchings that must find it before it counts as a landmark");
+  fields.number("freed_ratio", &C::freed_ratio, {0.5, 1.0}, "",
+                "a landmark is retired once this share of the cells inside its outline is seen free");
   fields.integer("routes_per_landmark", &C::routes_per_landmark, {0.0, 100.0}, "joined to this many nearest others");
   fields.number("driven_detour_ratio", &C::driven_detour_ratio, {1.0, 100.0}, "",
                 "a driven way is kept when it is at most this much longer than the planned one");
@@ -80,23 +71,84 @@ void LandmarkKeeperConfig::describe(Fields<LandmarkKeeperConfig>& fields) {
                 "free space kept round the robot that stands beside a landmark");
 }
 
-LandmarkKeeper::LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotModel& robot)
-    : config_(config), robot_(robot) {}
+LandmarkKeeper::LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotModel& robot,
+                               std::vector<LandmarkShape> shapes)
+    : config_(config), robot_(robot), shapes_(std::move(shapes)) {}
 
-LandmarkKeeper::Change LandmarkKeeper::fold(const Detection& detection) {
-  const Point at = detection.T_map_landmark.position();
-  if (const Landmark* known = graph_.nearest(at, config_.merge_m))
-    return {known->id, false, see_again(*graph_.find(known->id), detection)};
-  const Landmark* candidate = candidates_.nearest(at, config_.merge_m);
-  Landmark landmark = candidate != nullptr ? *candidate : first_seen(detection);
-  if (candidate != nullptr) {
-    see_again(landmark, detection);
-    candidates_.remove(landmark.id);
+std::vector<LandmarkKeeper::Change> LandmarkKeeper::fold(const Matching& matching) {
+  if (matching.detection) see(*matching.detection);
+  std::vector<LandmarkId> changed;
+  for (const auto& [id, landmark] : graph_.landmarks())
+    if (hear(*graph_.find(id), matching, config_.merge_m)) changed.push_back(id);
+  std::vector<LandmarkId> confirmed;
+  for (const auto& [id, candidate] : candidates_.landmarks()) {
+    hear(*candidates_.find(id), matching, config_.merge_m);
+    if (candidate.sightings >= config_.confirm_sightings) confirmed.push_back(id);
   }
-  landmark.id = 0;
-  if (landmark.sightings >= config_.confirm_sightings) return {graph_.add(std::move(landmark)), true, true};
-  candidates_.add(std::move(landmark));
-  return {};
+  std::vector<Change> changes;
+  for (const LandmarkId id : changed) merge_beside(id, changes);
+  for (const LandmarkId id : confirmed) {
+    Landmark landmark = *candidates_.find(id);
+    candidates_.remove(id);
+    landmark.id = 0;
+    const LandmarkId known = graph_.add(std::move(landmark));
+    changes.push_back({known, News::found});
+    merge_beside(known, changes);
+  }
+  return changes;
+}
+
+void LandmarkKeeper::see(const Detection& detection) {
+  const Point at_m = detection.T_map_landmark.position();
+  if (const Landmark* known = graph_.nearest(at_m, config_.merge_m)) {
+    ++graph_.find(known->id)->sightings;
+    return;
+  }
+  const Landmark* candidate = candidates_.nearest(at_m, config_.merge_m);
+  const LandmarkId id = candidate != nullptr ? candidate->id : candidates_.add(first_seen(detection));
+  ++candidates_.find(id)->sightings;
+}
+
+// A view that completes moves a landmark; two that come this near were one from the beginning. The older stays.
+void LandmarkKeeper::merge_beside(LandmarkId id, std::vector<Change>& changes) {
+  const Landmark* landmark = graph_.find(id);
+  if (landmark == nullptr) return;  // merged already
+  std::vector<LandmarkId> same;
+  for (const auto& [other, there] : graph_.landmarks())
+    if ((there.T_map_landmark.position() - landmark->T_map_landmark.position()).norm() <= config_.merge_m)
+      same.push_back(other);
+  const LandmarkId kept = same.front();
+  for (std::size_t i = 1; i < same.size(); ++i) {
+    Landmark& older = *graph_.find(kept);
+    const Landmark younger = *graph_.find(same[i]);
+    graph_.retire(younger.id, "is " + label_of(older));
+    if (younger.degree > older.degree) {
+      older.category = younger.category;
+      older.T_map_landmark = younger.T_map_landmark;
+      older.degree = younger.degree;
+      older.templates = younger.templates;
+    }
+    add_evidence(older, younger);
+    std::erase_if(changes, [&](const Change& change) { return change.landmark == younger.id; });
+    changes.push_back({younger.id, News::retired});
+  }
+  if (std::ranges::find(changes, kept, &Change::landmark) == changes.end()) changes.push_back({kept, News::changed});
+}
+
+std::vector<LandmarkKeeper::Change> LandmarkKeeper::retire_freed(const OccupancyGrid& grid) {
+  const auto is_freed = [&](const Landmark& landmark) {
+    const auto shape = std::ranges::find(shapes_, landmark.category, &LandmarkShape::category);
+    return shape != shapes_.end() && freed_ratio(grid, shape->contour, landmark.T_map_landmark) >= config_.freed_ratio;
+  };
+  std::vector<Change> changes;
+  for (const auto& [id, landmark] : graph_.landmarks())
+    if (is_freed(landmark)) changes.push_back({id, News::retired});
+  for (const Change& change : changes) graph_.retire(change.landmark, "its place has been seen free");
+  std::vector<LandmarkId> forgotten;
+  for (const auto& [id, candidate] : candidates_.landmarks())
+    if (is_freed(candidate)) forgotten.push_back(id);
+  for (const LandmarkId id : forgotten) candidates_.remove(id);
+  return changes;
 }
 
 void LandmarkKeeper::follow(const Pose2& T_map_robot) {

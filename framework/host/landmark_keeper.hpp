@@ -8,6 +8,7 @@
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/planner.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "maps/contour.hpp"
 #include "maps/landmark_graph.hpp"
 
 namespace cairn {
@@ -15,6 +16,7 @@ namespace cairn {
 struct LandmarkKeeperConfig {
   double merge_m = 0.4;              // a detection this near to a landmark is that landmark
   int confirm_sightings = 3;         // matchings that must find it before it counts as a landmark
+  double freed_ratio = 0.8;          // of the cells inside its outline: seen free, a landmark is retired
   int routes_per_landmark = 3;       // joined to this many nearest others
   double driven_detour_ratio = 1.3;  // a driven way is kept when it is at most this much longer than the planned one
   double access_margin_m = 0.05;     // free space kept round the robot that stands beside a landmark
@@ -23,17 +25,22 @@ struct LandmarkKeeperConfig {
 
 class LandmarkKeeper {
  public:
-  LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotModel& robot);
+  // The shapes tell which cells are a landmark's own; one of another category is never retired.
+  LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotModel& robot, std::vector<LandmarkShape> shapes);
 
-  // What one detection does to the graph: the landmark it belongs to, and whether that is new. Chance
-  // likenesses in a growing map come and go, so one that is not confirmed yet changes nothing (landmark
-  // 0). A better degree improves place, category and templates; a worse one only counts as a sighting.
+  enum class News { found, changed, retired };
   struct Change {
-    LandmarkId landmark = 0;  // 0: none yet
-    bool is_new = false;
-    bool improved = false;
+    LandmarkId landmark = 0;
+    News news = News::found;
   };
-  Change fold(const Detection& detection);
+  // What one matching does to the graph. Its degrees are evidence for every landmark at whose place they were
+  // found (see hear()), with a detection or without: that is how an early category is corrected and a pose
+  // refined. Only detections make new landmarks, and chance likenesses in a growing map come and go: what is
+  // not confirmed yet is a candidate, which gathers evidence too but is no landmark. Landmarks that prove to
+  // be one are merged.
+  [[nodiscard]] std::vector<Change> fold(const Matching& matching);
+  // Retires the landmarks, and drops the candidates, whose place has been seen free.
+  [[nodiscard]] std::vector<Change> retire_freed(const OccupancyGrid& grid);
 
   // Remembers where the robot has been (thinned to 5 cm).
   void follow(const Pose2& T_map_robot);
@@ -46,6 +53,8 @@ class LandmarkKeeper {
   [[nodiscard]] const std::vector<Pose2>& driven_path() const { return driven_path_; }
 
  private:
+  void see(const Detection& detection);
+  void merge_beside(LandmarkId id, std::vector<Change>& changes);
   void find_access(const WorldView& world);
   void join(const Landmark& from, const Landmark& to, const WorldView& world, const Planner& planner,
             const Budget& budget, std::uint64_t seed);
@@ -53,6 +62,7 @@ class LandmarkKeeper {
 
   LandmarkKeeperConfig config_;
   RobotModel robot_;
+  std::vector<LandmarkShape> shapes_;
   LandmarkGraph graph_;
   LandmarkGraph candidates_;  // seen, but not confirm_sightings times yet
   std::vector<Pose2> driven_path_;

@@ -13,13 +13,23 @@ bool is_finite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
 }
 
+bool is_finite(const Matching& matching) {
+  for (const CategoryDegree& degree : matching.degrees)
+    if (!std::isfinite(degree.degree) || !degree.at_m.allFinite() || !std::isfinite(degree.orientation_rad))
+      return false;
+  return !matching.detection ||
+         (is_finite(matching.detection->T_map_landmark) && std::isfinite(matching.detection->degree));
+}
+
+constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks
+
 }  // namespace
 
 MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
     : mission_(mission),
       options_(options),
       modules_(build_modules(mission_, library)),
-      keeper_(mission_.config.landmarks, mission_.robot),
+      keeper_(mission_.config.landmarks, mission_.robot, mission_.shapes),
       stop_layer_(mission_.config.stop_layer, mission_.robot),
       withholding_(mission_.config.withhold_every, mission_.config.seed) {
   budget_.cancel = options_.cancel;
@@ -158,11 +168,23 @@ void MissionLoop::detect(const CellChanges& changes) {
   for (const Matching& matching : report.matchings) {
     ++result_.matchings;
     tell(MatchingDone{matching});
-    if (!matching.detection) continue;
-    if (!is_finite(matching.detection->T_map_landmark) || !std::isfinite(matching.detection->degree))
+    if (!is_finite(matching))
       throw ModuleFault("detector", clock_.module_of(detector_), "returned a detection that is not finite");
-    const LandmarkKeeper::Change change = keeper_.fold(*matching.detection);
-    if (change.improved) tell(LandmarkChanged{*keeper_.graph().find(change.landmark), change.is_new});
+    tell_changes(keeper_.fold(matching));
+  }
+  if (result_.time_s < last_freed_check_s_ + kFreedCheck_s) return;
+  last_freed_check_s_ = result_.time_s;
+  tell_changes(keeper_.retire_freed(*grid_));
+}
+
+void MissionLoop::tell_changes(const std::vector<LandmarkKeeper::Change>& changes) {
+  for (const auto& [id, news] : changes) {
+    if (news == LandmarkKeeper::News::retired) {
+      const RetiredLandmark& retired = keeper_.graph().retired().at(id);
+      tell(LandmarkRetired{retired.landmark, retired.reason});
+    } else {
+      tell(LandmarkChanged{*keeper_.graph().find(id), news == LandmarkKeeper::News::found});
+    }
   }
 }
 

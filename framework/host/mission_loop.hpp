@@ -45,6 +45,7 @@ class MissionLoop : private Orders {
   PoseEstimate localize();
   const CellChanges& build_map();
   void detect(const CellChanges& changes);
+  void tell_changes(const std::vector<LandmarkKeeper::Change>& changes);
   void behave();
   void begin_step(const std::string& name);
   void end_step(const std::string& name, const Status& status);
@@ -68,6 +69,7 @@ class MissionLoop : private Orders {
   const RunOptions options_;
   MissionModules modules_;
   LandmarkKeeper keeper_;
+  double last_freed_check_s_ = 0.0;
   StopLayer stop_layer_;
   std::vector<Listener*> listeners_;
   std::vector<std::string> listener_faults_;

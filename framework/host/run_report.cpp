@@ -24,6 +24,12 @@ ordered_json json_of(const Landmark& landmark) {
   for (const TemplateDegree& t : landmark.templates)
     templates.push_back(
         {{"category", t.category}, {"angle_deg", rounded(degrees(t.orientation_rad))}, {"degree", rounded(t.degree)}});
+  ordered_json evidence = ordered_json::object();
+  for (const CategoryEvidence& e : landmark.evidence)
+    evidence[e.category] = {{"matchings", e.matchings},
+                            {"mean_degree", rounded(e.mean_degree)},
+                            {"best_degree", rounded(e.best_degree)},
+                            {"last_degree", rounded(e.last_degree)}};
   return {{"id", "L" + std::to_string(landmark.id)},
           {"category", landmark.category},
           {"x_m", rounded(landmark.T_map_landmark.x_m)},
@@ -31,7 +37,8 @@ ordered_json json_of(const Landmark& landmark) {
           {"angle_deg", rounded(degrees(landmark.T_map_landmark.theta_rad))},
           {"degree", rounded(landmark.degree)},
           {"sightings", landmark.sightings},
-          {"templates", templates}};
+          {"templates", templates},
+          {"evidence", evidence}};
 }
 
 ordered_json json_of(const LandmarkGraph& graph) {
@@ -108,6 +115,9 @@ struct Sentence {
         << "), degree " << e.landmark.degree;
     return out.str();
   }
+  std::string operator()(const LandmarkRetired& e) const {
+    return "retired " + label_of(e.landmark) + ", " + e.landmark.category + ": " + e.reason;
+  }
   std::string operator()(const PlanDone& e) const {
     return "plan: " + std::string(name_of(e.result.outcome)) + (e.result.reason.empty() ? "" : ", " + e.result.reason);
   }
@@ -148,6 +158,12 @@ void RunReport::note_pose_error(const MissionView& view) {
 std::string RunReport::report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
                                    const std::vector<std::string>& pictures) const {
   ordered_json report = main_figures(mission, result, graph);
+  report["retired"] = ordered_json::array();
+  for (const auto& [id, retired] : graph.retired()) {
+    ordered_json landmark = json_of(retired.landmark);
+    landmark["reason"] = retired.reason;
+    report["retired"].push_back(std::move(landmark));
+  }
   report["explored_ratio"] = rounded(explored_ratio_);
   report["steps"] = json_of(result.steps);
   report["map"] = result.map_file;

@@ -26,7 +26,7 @@ struct Config {
   double tau_again = 4.0;
   TriggerRule trigger = TriggerRule::since_matching;
   double tau_grow = 140.0;
-  double tau_match = 0.59;
+  double tau_match = 0.6;
   MismatchScale mu = MismatchScale::sobel;
   double min_margin = 0.02;
   double min_above_unseen = 0.34;

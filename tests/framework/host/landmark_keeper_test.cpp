@@ -5,12 +5,17 @@
 namespace cairn {
 namespace {
 
-Detection detection_at(double x_m, double y_m, const std::string& category, double degree) {
-  Detection detection;
-  detection.category = category;
-  detection.T_map_landmark = {x_m, y_m, 0.0};
-  detection.degree = degree;
-  return detection;
+// Category and degree of what a matching found at a place; without detection when no class was decided.
+Matching matching_at(double x_m, double y_m, const std::vector<std::pair<std::string, double>>& degrees,
+                     bool is_decided = true) {
+  Matching matching;
+  for (const auto& [category, degree] : degrees) matching.degrees.push_back({category, degree, 0.0, {x_m, y_m}});
+  if (is_decided) matching.detection = Detection{degrees[0].first, {x_m, y_m, 0.0}, degrees[0].second, {}};
+  return matching;
+}
+
+Matching detection_at(double x_m, double y_m, const std::string& category, double degree) {
+  return matching_at(x_m, y_m, {{category, degree}});
 }
 
 // Answers every request with the straight line.
@@ -36,11 +41,21 @@ OccupancyGrid floor_with_two_blocks() {
   return grid;
 }
 
+using News = LandmarkKeeper::News;
+using Changes = std::vector<std::pair<LandmarkId, News>>;
+
 class LandmarkKeeperTest : public testing::Test {
  protected:
   RobotModel robot_;
-  LandmarkKeeper keeper_{{.confirm_sightings = 1}, robot_};
+  LandmarkKeeper keeper_{
+      {.confirm_sightings = 1}, robot_, {{"square", Contour::polygon({{0, 0}, {0.4, 0}, {0.4, 0.4}, {0, 0.4}})}}};
   OccupancyGrid grid_ = floor_with_two_blocks();
+
+  Changes fold(const Matching& matching) {
+    Changes changes;
+    for (const auto& [id, news] : keeper_.fold(matching)) changes.emplace_back(id, news);
+    return changes;
+  }
 
   void connect() {
     PoseEstimate pose;
@@ -51,44 +66,88 @@ class LandmarkKeeperTest : public testing::Test {
 };
 
 TEST_F(LandmarkKeeperTest, ADetectionNearALandmarkIsThatLandmark) {
-  EXPECT_TRUE(keeper_.fold(detection_at(1.5, 2.0, "square", 0.6)).is_new);
-  const auto change = keeper_.fold(detection_at(1.6, 2.1, "square", 0.5));
-  EXPECT_FALSE(change.is_new);
-  EXPECT_FALSE(change.improved);
+  EXPECT_EQ(fold(detection_at(1.5, 2.0, "square", 0.6)), (Changes{{1, News::found}}));
+  EXPECT_EQ(fold(detection_at(1.6, 2.1, "square", 0.5)), Changes{}) << "no better";
   EXPECT_EQ(keeper_.graph().landmarks().size(), 1U);
   EXPECT_EQ(keeper_.graph().find(1)->sightings, 2);
   EXPECT_DOUBLE_EQ(keeper_.graph().find(1)->T_map_landmark.x_m, 1.5);
 }
 
-TEST_F(LandmarkKeeperTest, ABetterDegreeCorrectsPlaceAndCategoryButKeepsTheId) {
-  keeper_.fold(detection_at(1.5, 2.0, "triangle", 0.6));
-  EXPECT_TRUE(keeper_.fold(detection_at(1.55, 2.0, "square", 0.8)).improved);
-  EXPECT_EQ(keeper_.graph().find(1)->category, "square");
+TEST_F(LandmarkKeeperTest, ABetterDegreeCorrectsThePlaceButKeepsTheId) {
+  fold(detection_at(1.5, 2.0, "square", 0.6));
+  EXPECT_EQ(fold(detection_at(1.55, 2.0, "square", 0.8)), (Changes{{1, News::changed}}));
   EXPECT_DOUBLE_EQ(keeper_.graph().find(1)->T_map_landmark.x_m, 1.55);
 }
 
+TEST_F(LandmarkKeeperTest, TheNewestMatchingCorrectsAnEarlyCategoryEvenWithAWorseDegree) {
+  fold(detection_at(1.5, 2.0, "triangle", 0.7));
+  EXPECT_EQ(fold(matching_at(1.55, 2.0, {{"square", 0.66}, {"triangle", 0.62}}, false)), (Changes{{1, News::changed}}));
+  const Landmark& landmark = *keeper_.graph().find(1);
+  EXPECT_EQ(landmark.category, "square");
+  EXPECT_DOUBLE_EQ(landmark.degree, 0.66);
+  EXPECT_DOUBLE_EQ(landmark.T_map_landmark.x_m, 1.55);
+  EXPECT_EQ(landmark.sightings, 1) << "a matching that decides nothing is evidence, but no sighting";
+  ASSERT_EQ(landmark.evidence.size(), 2U);
+  EXPECT_EQ(landmark.evidence[0], (CategoryEvidence{"square", 1, 0.66, 0.66, 0.66}));
+  EXPECT_EQ(landmark.evidence[1].matchings, 2);
+  EXPECT_DOUBLE_EQ(landmark.evidence[1].mean_degree, 0.66);
+  EXPECT_DOUBLE_EQ(landmark.evidence[1].best_degree, 0.7);
+  EXPECT_DOUBLE_EQ(landmark.evidence[1].last_degree, 0.62);
+}
+
 TEST_F(LandmarkKeeperTest, ADetectionFarAwayIsANewLandmark) {
-  keeper_.fold(detection_at(1.5, 2.0, "square", 0.6));
-  EXPECT_TRUE(keeper_.fold(detection_at(4.5, 2.0, "square", 0.6)).is_new);
+  fold(detection_at(1.5, 2.0, "square", 0.6));
+  EXPECT_EQ(fold(detection_at(4.5, 2.0, "square", 0.6)), (Changes{{2, News::found}}));
   EXPECT_EQ(keeper_.graph().landmarks().size(), 2U);
 }
 
 TEST_F(LandmarkKeeperTest, WhatIsSeenTooSeldomIsNoLandmark) {
-  LandmarkKeeper keeper({.confirm_sightings = 3}, robot_);
-  EXPECT_EQ(keeper.fold(detection_at(1.5, 2.0, "square", 0.6)).landmark, 0);
-  EXPECT_FALSE(keeper.fold(detection_at(1.55, 2.0, "circle", 0.7)).is_new);
-  EXPECT_EQ(keeper.fold(detection_at(4.5, 2.0, "square", 0.6)).landmark, 0) << "another place, its first sighting";
-  EXPECT_TRUE(keeper.graph().landmarks().empty());
-  const auto third = keeper.fold(detection_at(1.5, 2.0, "square", 0.6));
-  EXPECT_TRUE(third.is_new);
-  ASSERT_NE(keeper.graph().find(third.landmark), nullptr);
-  EXPECT_EQ(keeper.graph().find(third.landmark)->category, "circle") << "the best of the three";
-  EXPECT_EQ(keeper.graph().find(third.landmark)->sightings, 3);
-  EXPECT_EQ(keeper.graph().landmarks().size(), 1U);
+  keeper_ = LandmarkKeeper({.confirm_sightings = 3}, robot_, {});
+  EXPECT_EQ(fold(detection_at(1.5, 2.0, "square", 0.6)), Changes{});
+  EXPECT_EQ(fold(detection_at(1.55, 2.0, "circle", 0.7)), Changes{});
+  EXPECT_EQ(fold(detection_at(4.5, 2.0, "square", 0.6)), Changes{}) << "another place, its first sighting";
+  EXPECT_EQ(fold(matching_at(1.5, 2.0, {{"circle", 0.6}}, false)), Changes{}) << "undecided";
+  EXPECT_TRUE(keeper_.graph().landmarks().empty());
+  EXPECT_EQ(fold(detection_at(1.5, 2.0, "circle", 0.65)), (Changes{{1, News::found}}));
+  ASSERT_EQ(keeper_.graph().landmarks().size(), 1U);
+  const Landmark& landmark = *keeper_.graph().find(1);
+  EXPECT_EQ(landmark.category, "circle");
+  EXPECT_DOUBLE_EQ(landmark.degree, 0.7) << "its best";
+  EXPECT_DOUBLE_EQ(landmark.T_map_landmark.x_m, 1.55);
+  EXPECT_EQ(landmark.sightings, 3);
+}
+
+TEST_F(LandmarkKeeperTest, LandmarksThatProveToBeOneAreMergedIntoTheOlder) {
+  fold(detection_at(1.5, 2.0, "square", 0.6));
+  fold(detection_at(1.95, 2.0, "square", 0.65));
+  ASSERT_EQ(keeper_.graph().landmarks().size(), 2U);
+  // Nearer to the second, which it moves towards the first.
+  EXPECT_EQ(fold(detection_at(1.78, 2.0, "square", 0.7)), (Changes{{2, News::retired}, {1, News::changed}}));
+  ASSERT_EQ(keeper_.graph().landmarks().size(), 1U);
+  const Landmark& landmark = *keeper_.graph().find(1);
+  EXPECT_DOUBLE_EQ(landmark.T_map_landmark.x_m, 1.78);
+  EXPECT_EQ(landmark.sightings, 3);
+  EXPECT_EQ(keeper_.graph().retired().at(2).reason, "is L1");
+}
+
+TEST_F(LandmarkKeeperTest, ALandmarkWhosePlaceIsSeenFreeIsRetiredWithItsHistory) {
+  fold(detection_at(1.5, 2.0, "square", 0.6));
+  fold(detection_at(4.5, 2.0, "square", 0.6));
+  EXPECT_EQ(keeper_.retire_freed(grid_).size(), 0U);
+  for (int y = 18; y < 22; ++y)
+    for (int x = 13; x < 17; ++x) grid_.set_log_odds({x, y}, x == 13 ? 0 : -1000);
+  EXPECT_EQ(keeper_.retire_freed(grid_).size(), 0U) << "three quarters are not enough";
+  grid_.set_log_odds({13, 18}, -1000);
+  const std::vector<LandmarkKeeper::Change> changes = keeper_.retire_freed(grid_);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].landmark, 1);
+  EXPECT_EQ(keeper_.graph().landmarks().size(), 1U);
+  EXPECT_EQ(keeper_.graph().retired().at(1).reason, "its place has been seen free");
+  EXPECT_EQ(keeper_.graph().retired().at(1).landmark.evidence.size(), 1U);
 }
 
 TEST_F(LandmarkKeeperTest, ConnectFindsStandingPlacesThatFitTheRobotAndLookAtTheLandmark) {
-  keeper_.fold(detection_at(1.5, 2.0, "square", 0.6));
+  fold(detection_at(1.5, 2.0, "square", 0.6));
   connect();
   const Landmark& landmark = *keeper_.graph().find(1);
   ASSERT_TRUE(landmark.access);
@@ -99,8 +158,8 @@ TEST_F(LandmarkKeeperTest, ConnectFindsStandingPlacesThatFitTheRobotAndLookAtThe
 }
 
 TEST_F(LandmarkKeeperTest, PlannedRoutesJoinBothWays) {
-  keeper_.fold(detection_at(1.5, 2.0, "square", 0.6));
-  keeper_.fold(detection_at(4.5, 2.0, "circle", 0.6));
+  fold(detection_at(1.5, 2.0, "square", 0.6));
+  fold(detection_at(4.5, 2.0, "circle", 0.6));
   connect();
   ASSERT_NE(keeper_.graph().route_between(1, 2), nullptr);
   ASSERT_NE(keeper_.graph().route_between(2, 1), nullptr);
@@ -109,8 +168,8 @@ TEST_F(LandmarkKeeperTest, PlannedRoutesJoinBothWays) {
 }
 
 TEST_F(LandmarkKeeperTest, AWayThatTheRobotDroveIsPreferredToAPlannedOne) {
-  keeper_.fold(detection_at(1.5, 2.0, "square", 0.6));
-  keeper_.fold(detection_at(4.5, 2.0, "circle", 0.6));
+  fold(detection_at(1.5, 2.0, "square", 0.6));
+  fold(detection_at(4.5, 2.0, "circle", 0.6));
   connect();
   const Pose2 from = *keeper_.graph().find(1)->access;
   const Pose2 to = *keeper_.graph().find(2)->access;
