@@ -62,7 +62,8 @@ CapturedOutline captured_outline(const OccupancyGrid& grid, const Point& at_m, d
   const Point corner_m = grid.centre_of(box.min) - 0.5 * cell_m * Point(1.0, 1.0);
   std::vector<std::vector<Point>> polygons;
   int cut = 0;
-  for (const Trace& trace : traces_in(occupied_in(grid, box))) {
+  const cv::Mat1b occupied = occupied_in(grid, box);
+  for (const Trace& trace : traces_in(occupied)) {
     if (cv::contourArea(trace) < kLeastCells * kFine * kFine) continue;
     Trace corners;
     cv::approxPolyDP(trace, corners, kSmoothing_cells * kFine, true);
@@ -77,9 +78,12 @@ CapturedOutline captured_outline(const OccupancyGrid& grid, const Point& at_m, d
       ++cut;
   }
   if (polygons.empty())
-    throw std::invalid_argument(
-        "nothing lies wholly within " + metres(radius_m) + " m of (" + metres(at_m.x()) + ", " + metres(at_m.y()) +
-        "): " + (cut > 0 ? "what is there goes on farther, choose a greater radius" : "no occupied cells are there"));
+    throw std::invalid_argument("nothing lies wholly within " + metres(radius_m) + " m of (" + metres(at_m.x()) + ", " +
+                                metres(at_m.y()) + "): " +
+                                (cut > 0 ? "what is there goes on farther, choose a greater radius"
+                                 : cv::countNonZero(occupied) > 0
+                                     ? "what is there is too thin or too small to have an outline"
+                                     : "no occupied cells are there"));
   const Point centroid_m = Contour::parts_in_place(polygons).centroid_m();
   return {Contour::parts(std::move(polygons)), centroid_m};
 }

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "framework/host/fence.hpp"
+#include "framework/host/landmark_evidence.hpp"
 #include "maps/map_store.hpp"
 
 namespace cairn {
@@ -11,14 +12,6 @@ namespace {
 
 bool is_finite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
-
-bool is_finite(const Matching& matching) {
-  for (const CategoryDegree& degree : matching.degrees)
-    if (!std::isfinite(degree.degree) || !degree.at_m.allFinite() || !std::isfinite(degree.orientation_rad))
-      return false;
-  return !matching.detection ||
-         (is_finite(matching.detection->T_map_landmark) && std::isfinite(matching.detection->degree));
 }
 
 constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks

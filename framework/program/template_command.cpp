@@ -34,7 +34,7 @@ Mission template_mission(const TemplateCommand& command, const std::string& what
     mission.robot = load_robot(command.robot);
   }
   mission.config.sensor = plain("simulated_robot");
-  mission.config.map = plain("bayes");
+  mission.config.map = plain("muriel");
   apply_override(mission.config.map.config, fmt::format("cell_m={}", command.cell_m));
   return mission;
 }

@@ -75,7 +75,7 @@ TEST_F(MapStore, IsAnSqliteFileThatNamesItsProgramAndVersion) {
   const std::string bytes = bytes_of(file());
   EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
   EXPECT_EQ(bytes.substr(68, 4), "CRN1");
-  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\1", 4));
+  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\2", 4));
 }
 
 TEST_F(MapStore, SavesThroughALinkWithoutReplacingTheLink) {

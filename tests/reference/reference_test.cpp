@@ -75,7 +75,7 @@ TEST(Reference, TheMissionSchemaOffersAModulesOwnSettings) {
   EXPECT_EQ(setting["type"], "number");
   EXPECT_EQ(setting["minimum"], 0);
   EXPECT_EQ(setting["maximum"], 1);
-  EXPECT_EQ(setting["default"], 0.55);
+  EXPECT_EQ(setting["default"], 0.6);
   EXPECT_EQ(setting["description"], "a template fits when its degree is above this");
 }
 

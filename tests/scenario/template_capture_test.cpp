@@ -30,9 +30,10 @@ class OfficeCapture : public testing::Test {
         run_cairn({"run", source_folder() + "/config/missions/office.yaml", "--seed", "3", "--out", folder_.string()});
     ASSERT_EQ(run.exit_status, 0) << run.err;
   }
-  static Finished capture(const std::string& at, const std::string& category, const std::string& file) {
+  static Finished capture(const std::string& at, const std::string& category, const std::string& file,
+                          const std::string& radius = "0.8") {
     return run_cairn({"template", "capture", map().string(), "--at", at, "--category", category, "-o",
-                      (folder_ / file).string(), "--json"});
+                      (folder_ / file).string(), "--radius-m", radius, "--json"});
   }
   static std::filesystem::path map() { return folder_ / "office.cairn"; }
 
@@ -45,9 +46,9 @@ std::optional<Detection> found_in(const OccupancyGrid& grid, const LandmarkShape
   const ModuleLibrary library({std::filesystem::path(CAIRN_BINARY_DIR) / "lib" / "cairn"});
   const RobotModel robot = load_robot(source_folder() + "/config/robots/pioneer1.yaml");
   ModuleContext context{robot};
-  context.templates = std::make_shared<TemplateSet>(
-      render_sensed_set({shape}, radians(15.0), 0.05, {}, robot, choice("simulated_robot", "{}"),
-                        choice("bayes", "{cell_m: 0.05, false_echo_per_m: 2}"), library));
+  context.templates = std::make_shared<TemplateSet>(render_sensed_set({shape}, radians(15.0), 0.05, {}, robot,
+                                                                      choice("simulated_robot", "{}"),
+                                                                      choice("muriel", "{cell_m: 0.05}"), library));
   const auto detector = library.make<Detector>(choice("template_matcher", "{coarse_cells: 5}"), context);
   CellChanges changes;
   const CellBox box = grid.bounds();
@@ -75,15 +76,17 @@ TEST_F(OfficeCapture, CutsTheSquareOutSoThatItIsFoundThereAgain) {
 }
 
 TEST_F(OfficeCapture, SaysWhatIsWrong) {
-  const auto error = [&](const std::string& at, const std::string& category = "crate") {
-    const Finished finished = capture(at, category, "bad.yaml");
+  const auto error = [&](const std::string& at, const std::string& category = "crate",
+                         const std::string& radius = "0.8") {
+    const Finished finished = capture(at, category, "bad.yaml", radius);
     EXPECT_EQ(finished.exit_status, 2);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.yaml"));
     return finished.err;
   };
   EXPECT_THAT(error("nearest squares"), HasSubstr("did you mean \"square\"?"));
   EXPECT_THAT(error("2.5,2.5"), HasSubstr("nothing lies wholly within 0.80 m of (2.50, 2.50): no occupied cells"));
-  EXPECT_THAT(error("0,2.5"), HasSubstr("what is there goes on farther"));
+  EXPECT_THAT(error("3,0"), HasSubstr("what is there is too thin or too small"));
+  EXPECT_THAT(error("nearest square", "crate", "0.3"), HasSubstr("what is there goes on farther"));
   EXPECT_THAT(error("nearest square", "two words"), HasSubstr("bad.yaml:2:11: category must be a letter"));
   ASSERT_EQ(capture("nearest square", "crate", "twice.yaml").exit_status, 0);
   EXPECT_THAT(capture("nearest square", "crate", "twice.yaml").err, HasSubstr("there is such a file already"));
