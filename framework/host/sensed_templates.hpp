@@ -13,7 +13,7 @@ namespace cairn {
 
 struct SensedOptions {
   std::vector<double> gaps_m{0.2, 0.6};  // from the contour's outer circle to the robot's; a lap each way at each
-  double speed_mps = 0.4;
+  double speed_mps = 0.3;
   double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour
   double edge_outside_cells = 3.0;  // and this far outside
   // Cells with a weaker gradient (Sobel of OL) are left out: unseen floor matches those best of all, so

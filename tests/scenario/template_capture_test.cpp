@@ -84,7 +84,7 @@ TEST_F(OfficeCapture, SaysWhatIsWrong) {
     return finished.err;
   };
   EXPECT_THAT(error("nearest squares"), HasSubstr("did you mean \"square\"?"));
-  EXPECT_THAT(error("2.5,2.5"), HasSubstr("nothing lies wholly within 0.80 m of (2.50, 2.50): no occupied cells"));
+  EXPECT_THAT(error("2.5,2.5"), HasSubstr("nothing lies wholly within 0.80 m of (2.50, 2.50): what is there is too thin"));
   EXPECT_THAT(error("3,0"), HasSubstr("what is there is too thin or too small"));
   EXPECT_THAT(error("nearest square", "crate", "0.3"), HasSubstr("what is there goes on farther"));
   EXPECT_THAT(error("nearest square", "two words"), HasSubstr("bad.yaml:2:11: category must be a letter"));
