@@ -89,6 +89,7 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   row.mission = job.mission.stem();
   row.variant = job.variant.name;
   row.seed = job.seed;
+  row.folder = job.out;
   row.result = runner.run();
   row.gave_up = runner.gave_up();
   for (const std::string& fault : runner.listener_faults()) {

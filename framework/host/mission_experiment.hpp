@@ -23,6 +23,7 @@ struct ExperimentRow {
   std::string mission;
   std::string variant;
   std::int64_t seed = 0;
+  std::filesystem::path folder;  // of the run
   MissionResult result;
   TruthScore score;
   double worst_error_m = 0.0;

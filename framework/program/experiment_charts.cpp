@@ -7,6 +7,7 @@
 #include "framework/host/experiment_report.hpp"
 #include "framework/host/lap_table.hpp"
 #include "framework/host/recognition_table.hpp"
+#include "framework/program/run_pictures.hpp"
 #include "maps/pictures/chart.hpp"
 
 namespace cairn {
@@ -126,6 +127,29 @@ std::vector<NamedChart> curve_charts(const ExperimentConfig& config, const std::
   return charts;
 }
 
+// The map of the first seed.
+void write_map(const ExperimentRow& row, const std::filesystem::path& file) {
+  if (row.result.map_file.empty()) throw std::runtime_error(file.string() + ": the run saved no map");
+  draw_saved_map(file, load_map(row.folder / row.result.map_file), row.mission + ", seed " + std::to_string(row.seed));
+}
+
+std::vector<std::string> write_place_maps(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
+                                          const std::filesystem::path& out) {
+  std::vector<std::string> missing;
+  for (const std::string& mission : missions_of(rows))
+    for (const ExperimentVariant& variant : config.variants) {
+      const auto of_variant = rows_of(rows, mission, variant.name);
+      if (of_variant.empty()) continue;
+      const bool alone = of_variant.size() == rows.size();
+      try {
+        write_map(*of_variant.front(), out / file_name_of(alone ? "map" : mission + " " + variant.name + " map"));
+      } catch (const std::exception& error) {
+        missing.emplace_back(error.what());
+      }
+    }
+  return missing;
+}
+
 }  // namespace
 
 std::vector<std::string> write_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
@@ -135,6 +159,7 @@ std::vector<std::string> write_charts(const ExperimentConfig& config, const std:
   if (config.experiment == ExperimentKind::lap) charts = lap_charts(config, rows);
   if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
   std::vector<std::string> missing;
+  if (config.experiment == ExperimentKind::places) missing = write_place_maps(config, rows, out);
   for (const NamedChart& named : charts) {
     const ChartOutcome outcome = write_chart(out / named.file_name, named.chart);
     if (!outcome.drawn) missing.push_back(outcome.reason);

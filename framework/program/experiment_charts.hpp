@@ -1,4 +1,4 @@
-// The charts of an experiment, where its kind has any.
+// The charts of an experiment, where its kind has any, and the maps of one of places.
 #pragma once
 
 #include <filesystem>

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/commands.hpp"
+#include "framework/program/run_pictures.hpp"
 #include "maps/map_store.hpp"
-#include "maps/pictures/map_picture.hpp"
 
 namespace cairn {
 namespace {
@@ -59,14 +59,7 @@ int map_check(const MapCommand& command, const CommonOptions& common) {
 }
 
 int map_render(const MapCommand& command, const CommonOptions& common) {
-  const SavedMap map = load_map(command.map);
-  MapPicture picture;
-  picture.grid = &map.grid;
-  picture.graph = &map.graph;
-  picture.shapes = map.shapes;
-  for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
-  picture.title = command.map.filename().string();
-  write_map_picture(command.picture, picture);
+  draw_saved_map(command.picture, load_map(command.map), command.map.filename().string());
   if (common.json)
     std::cout << ordered_json{{"picture", command.picture.string()}}.dump() << "\n";
   else

@@ -43,6 +43,16 @@ Chart chart_of(const std::vector<DegreeSample>& samples) {
 
 }  // namespace
 
+void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, const std::string& title) {
+  MapPicture picture;
+  picture.grid = &map.grid;
+  picture.graph = &map.graph;
+  picture.shapes = map.shapes;
+  for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
+  picture.title = title;
+  write_map_picture(file, picture);
+}
+
 RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, const MissionRunner& runner,
                      const RunReport& report) {
   RunPictures pictures;

@@ -8,6 +8,7 @@
 
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/run_report.hpp"
+#include "maps/map_store.hpp"
 
 namespace cairn {
 
@@ -18,5 +19,8 @@ struct RunPictures {
 
 [[nodiscard]] RunPictures draw_run(const std::filesystem::path& out, const Mission& mission,
                                    const MissionRunner& runner, const RunReport& report);
+
+// A saved map with its landmarks, routes and driven path. Throws as write_map_picture() does.
+void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, const std::string& title);
 
 }  // namespace cairn

@@ -95,6 +95,29 @@ TEST(LandmarkGraph, RemovingALandmarkRemovesTheRoutesThatTouchIt) {
   EXPECT_EQ(graph.route_between(3, 1)->id, kept);
 }
 
+TEST(LandmarkGraph, ARetiredLandmarkKeepsItsHistoryButNothingFindsIt) {
+  LandmarkGraph graph;
+  Landmark landmark;
+  landmark.category = "square";
+  graph.add(landmark);
+  graph.add(landmark);
+  graph.add_route({0, 1, 2, 1.0, {}, false, false, 0});
+  graph.retire(1, "gone");
+  EXPECT_EQ(graph.find(1), nullptr);
+  EXPECT_EQ(graph.of_category("square"), std::vector<LandmarkId>{2});
+  EXPECT_TRUE(graph.routes().empty());
+  EXPECT_EQ(graph.retired().at(1).reason, "gone");
+  EXPECT_EQ(graph.retired().at(1).landmark.category, "square");
+  landmark.id = 1;
+  EXPECT_THROW(graph.add(landmark), std::invalid_argument) << "its id is taken for ever";
+  EXPECT_THROW(graph.add_retired({landmark, ""}), std::invalid_argument);
+  EXPECT_THROW(graph.add_retired({Landmark{}, ""}), std::invalid_argument) << "no id";
+  EXPECT_THROW(graph.retire(1, "again"), std::invalid_argument);
+  landmark.id = 9;
+  graph.add_retired({landmark, "loaded"});
+  EXPECT_EQ(graph.next_landmark_id(), 10);
+}
+
 TEST(LandmarkGraph, FindsByIdLabelAndByName) {
   LandmarkGraph graph;
   graph.add(landmark_at(0, 0, "square", "dock"));

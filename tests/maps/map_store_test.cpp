@@ -37,6 +37,27 @@ TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionOne) {
   expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_1.cairn"), small_map());
 }
 
+// What version 1 had no place for.
+SavedMap map_with_history() {
+  SavedMap map = small_map();
+  Landmark& seen = *map.graph.find(1);
+  seen.evidence = {{"circle", 3, 0.61, 0.66, 0.0}, {"square", 12, 0.7, 0.75, 0.72}};
+  Landmark gone = seen;
+  gone.id = 3;  // the graph had it once
+  gone.category = "circle";
+  map.graph.add_retired({gone, "its place has been seen free"});
+  return map;
+}
+
+TEST_F(MapStore, KeepsEvidenceAndRetiredLandmarks) {
+  save_map(file(), map_with_history());
+  expect_equal(load_map(file()), map_with_history());
+}
+
+TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionTwo) {
+  expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_2.cairn"), map_with_history());
+}
+
 TEST_F(MapStore, KeepsRemovedIdsRetired) {
   save_map(file(), small_map());
   LandmarkGraph graph = load_map(file()).graph;

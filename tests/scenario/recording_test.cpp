@@ -14,7 +14,7 @@ robot: )" + source_folder() +
                             R"(/config/robots/pioneer1.yaml
 sensor: {plugin: carmen_log, file: ./recorded.log}
 localizer: {plugin: odometry_compass}
-map: {plugin: bayes, cell_m: 0.05, false_echo_per_m: 2}
+map: {plugin: muriel, cell_m: 0.05}
 record: again.log
 )";
 
