@@ -42,7 +42,7 @@ struct Landmark {
   std::string name;      // may be empty; "L<id>" always names it too
   std::string category;  // empty for imported places without one
   Pose2 T_map_landmark;
-  double degree = 0.0;                     // of the best matching so far
+  double degree = 0.0;                     // of the best matching of its category so far
   std::vector<TemplateDegree> templates;   // all above tau_match in that matching, best first
   std::vector<CategoryEvidence> evidence;  // over all matchings, by category
   int sightings = 0;

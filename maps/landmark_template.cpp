@@ -130,11 +130,13 @@ LandmarkTemplate render_ideal(const LandmarkShape& shape, double orientation_rad
   return {shape.category, orientation_rad, ideal_cells(shape.contour, orientation_rad, cell_m)};
 }
 
-TemplateSet render_ideal_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m) {
+TemplateSet render_ideal_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
+                             const std::vector<double>& sizes) {
   TemplateSet set{cell_m, step_rad, shapes, {}};
   for (const LandmarkShape& shape : shapes) {
     for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
-      set.templates.push_back(render_ideal(shape, orientation_rad, cell_m));
+      for (const double size : sizes)
+        set.templates.push_back(render_ideal({shape.category, shape.contour.scaled(size)}, orientation_rad, cell_m));
     }
   }
   return set;

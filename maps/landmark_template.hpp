@@ -27,7 +27,7 @@ struct LandmarkTemplate {
 };
 
 // All templates of a mission in a fixed order: categories as given, orientations rising. An orientation
-// may have several templates, one after the other.
+// may have several templates, one after the other: one a size.
 struct TemplateSet {
   double cell_m = 0.05;
   double step_rad = 0.0;
@@ -44,6 +44,8 @@ struct TemplateSet {
 
 // METHOD 6 `ideal`: free outside, a ring of occupied cells biased half a cell outward, unknown inside.
 [[nodiscard]] LandmarkTemplate render_ideal(const LandmarkShape& shape, double orientation_rad, double cell_m);
-[[nodiscard]] TemplateSet render_ideal_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m);
+// Sizes: as shares of a shape's own, one template each at every orientation.
+[[nodiscard]] TemplateSet render_ideal_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
+                                           const std::vector<double>& sizes = {1.0});
 
 }  // namespace cairn

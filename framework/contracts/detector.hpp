@@ -24,6 +24,7 @@ struct CategoryDegree {
   double degree = 0.0;
   double orientation_rad = 0.0;
   Point at_m{0.0, 0.0};
+  bool fits = true;  // false: below the detector's own threshold, for charts only
 };
 
 // One run of the template matcher: where, what it found of every category, and the class if any.
@@ -31,7 +32,7 @@ struct Matching {
   Cell trigger;          // coarse cell
   int region_cells = 0;  // OG1 cells searched
   Point region_centre_m{0.0, 0.0};
-  // Best a category, in the order of the template set; a detector may leave out categories that hardly fit.
+  // Best a category, in the order of the template set; a detector may leave out those that do not fit.
   std::vector<CategoryDegree> degrees;
   std::optional<Detection> detection;
   // Best of every template, best first and one an orientation; for charts, only when a detector is asked.

@@ -20,7 +20,7 @@ std::vector<CategoryDegree> degrees_at(const Point& place_m, const Matching& mat
   const auto is_there = [&](const Point& p) { return (p - place_m).norm() <= within_m; };
   std::vector<CategoryDegree> degrees;
   for (const CategoryDegree& degree : matching.degrees)
-    if (is_there(degree.at_m)) degrees.push_back(degree);
+    if (degree.fits && is_there(degree.at_m)) degrees.push_back(degree);
   if (!matching.detection || !is_there(matching.detection->T_map_landmark.position())) return degrees;
   const auto& [category, T_map_landmark, degree, templates] = *matching.detection;
   if (std::ranges::find(degrees, category, &CategoryDegree::category) == degrees.end())

@@ -11,11 +11,11 @@ namespace cairn {
 // Whether everything is finite that the graph would take over.
 [[nodiscard]] bool is_finite(const Matching& matching);
 
-// Adds what the matching says of the place: the degrees of the categories that it found within within_m of
-// the landmark. The category that fits best now becomes the landmark's, the pose and degree are those of its
-// best matching so far. The newest matching decides alone, because its map holds all that the earlier ones
-// saw: means over matchings, fast or slow, named the wrong category more often. Returns whether category, pose
-// or degree changed.
+// Adds what the matching says of the place: the degrees of the categories that fit within within_m of the
+// landmark; what does not fit says nothing. The category that fits best now becomes the landmark's, the pose and degree
+// are those of its best matching so far. The newest matching decides alone, because its map holds all that the earlier
+// ones saw: means over matchings, fast or slow, named the wrong category more often. Returns whether category, pose or
+// degree changed.
 bool hear(Landmark& landmark, const Matching& matching, double within_m);
 
 // Puts the evidence of one landmark to that of another.

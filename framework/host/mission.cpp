@@ -53,7 +53,7 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
   const Point size_m = world.max_m - world.min_m;
   for (const LandmarkShape& shape : shapes) {
     const double diameter_m = shape.contour.outer_diameter_m();
-    if (diameter_m <= size_m.maxCoeff()) continue;
+    if (diameter_m <= size_m.maxCoeff() && shape.contour.inner_diameter_m() <= size_m.minCoeff()) continue;
     throw ConfigError(SourcePlace{folder.string(), 0, 0},
                       "the template " + shown(shape.category) + " is " + config_detail::number_text(diameter_m) +
                           " m across, larger than the mission's world of " + config_detail::number_text(size_m.x()) +
@@ -73,6 +73,9 @@ void TemplateConfig::describe(Fields<TemplateConfig>& fields) {
   fields.choice("rendering", &TemplateConfig::rendering, {{"sensed", Rendering::sensed}, {"ideal", Rendering::ideal}},
                 "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
   fields.angle("step_deg", &TemplateConfig::step_rad, {1.0, 90.0}, "orientation step of the templates");
+  fields.numbers("sizes", &TemplateConfig::sizes, {0.5, 2.0}, "",
+                 "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
+                 "size varies");
 }
 
 void MissionConfig::describe(Fields<MissionConfig>& fields) {

@@ -29,6 +29,7 @@ struct TemplateConfig {
   std::filesystem::path templates;
   Rendering rendering = Rendering::sensed;
   double step_rad = radians(15.0);
+  std::vector<double> sizes{1.0};
   static void describe(Fields<TemplateConfig>& fields);
 };
 

@@ -46,12 +46,14 @@ std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_
 TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {
   const TemplateConfig& config = mission.template_config;
   if (mission.shapes.empty() || config.rendering == Rendering::ideal || mission.robot.sonars.empty())
-    return render_ideal_set(mission.shapes, config.step_rad, cell_m);
+    return render_ideal_set(mission.shapes, config.step_rad, cell_m, config.sizes);
   PluginChoice simulator{"simulated_robot", {}};
   simulator.config.kind = ConfigValue::Kind::map;
   simulator.config.place = mission.config.sensor.config.place;
   if (mission.config.sensor.name == simulator.name) simulator = mission.config.sensor;
-  return render_sensed_set(mission.shapes, config.step_rad, cell_m, SensedOptions{}, mission.robot, simulator,
+  SensedOptions options;
+  options.sizes = config.sizes;
+  return render_sensed_set(mission.shapes, config.step_rad, cell_m, options, mission.robot, simulator,
                            mission.config.map, modules, TemplateCache(template_cache_folder()));
 }
 

@@ -83,19 +83,23 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
 struct Task {
   const LandmarkShape* shape;
   double orientation_rad;
+  double size;
 };
 
 std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector<Task>& tasks) {
   std::vector<LandmarkTemplate> templates(tasks.size());
-  in_parallel(tasks.size(),
-              [&](std::size_t i) { templates[i] = render_sensed(studio, *tasks[i].shape, tasks[i].orientation_rad); });
+  in_parallel(tasks.size(), [&](std::size_t i) {
+    const auto& [shape, orientation_rad, size] = tasks[i];
+    templates[i] = render_sensed(studio, {shape->category, shape->contour.scaled(size)}, orientation_rad);
+  });
   return templates;
 }
 
-std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double cell_m) {
+std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double cell_m,
+                            const std::vector<double>& sizes) {
   std::vector<Task> tasks;
   for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m))
-    tasks.push_back({&shape, orientation_rad});
+    for (const double size : sizes) tasks.push_back({&shape, orientation_rad, size});
   return tasks;
 }
 
@@ -111,7 +115,7 @@ TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double s
   for (const LandmarkShape& shape : shapes) {
     kept.push_back(cache.find(shape_key(common_key, shape)));
     if (kept.back()) continue;
-    const std::vector<Task> more = tasks_for(shape, step_rad, cell_m);
+    const std::vector<Task> more = tasks_for(shape, step_rad, cell_m, options.sizes);
     tasks.insert(tasks.end(), more.begin(), more.end());
   }
   std::vector<LandmarkTemplate> rendered = render_all(studio, tasks);

@@ -12,6 +12,7 @@
 namespace cairn {
 
 struct SensedOptions {
+  std::vector<double> sizes{1.0};        // as shares of a shape's own; a template each
   std::vector<double> gaps_m{0.2, 0.6};  // from the contour's outer circle to the robot's; a lap each way at each
   double speed_mps = 0.3;
   double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour

@@ -60,8 +60,9 @@ std::vector<CategoryDegree> degrees_by_category(std::span<const TemplateMatch> m
     }
     if (!best) continue;
     const LandmarkTemplate& t = set.templates[*best];
-    degrees.push_back({shape.category, degree_of(matches[*best].mismatch, t.cells.size(), rule.mu),
-                       wrap_angle(t.orientation_rad), grid.centre_of(matches[*best].at)});
+    const double degree = degree_of(matches[*best].mismatch, t.cells.size(), rule.mu);
+    degrees.push_back({shape.category, degree, wrap_angle(t.orientation_rad), grid.centre_of(matches[*best].at),
+                       degree > rule.tau_match});
   }
   return degrees;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "framework/config/fields.hpp"
 
@@ -18,12 +19,13 @@ struct Config {
   std::filesystem::path templates;
   TemplateRendering rendering = TemplateRendering::sensed;
   double step_rad = radians(15.0);
+  std::vector<double> sizes{1.0};
 
   int coarse_cells = 5;
   double alpha_og2 = 2.0;
   double tau_trigger = 150.0;
   double tau_var = 16.0;
-  double tau_again = 4.0;
+  double tau_again = 3.0;
   TriggerRule trigger = TriggerRule::since_matching;
   double tau_grow = 140.0;
   double tau_match = 0.6;

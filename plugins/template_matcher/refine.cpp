@@ -74,7 +74,7 @@ double OrientationNeighbours::offset_rad(std::size_t index, std::span<const Temp
   return step_rad_ * parabola_minimum(mean_mismatch(pair.before, matches, templates),
                                       mean_mismatch(index, matches, templates),
                                       mean_mismatch(pair.after, matches, templates))
-                          .at;
+                         .at;
 }
 
 }  // namespace cairn::template_matcher

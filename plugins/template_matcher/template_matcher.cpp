@@ -23,9 +23,14 @@ std::shared_ptr<const TemplateSet> checked(std::shared_ptr<const TemplateSet> se
 
 int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
   const int most = static_cast<int>(std::floor(set.smallest_diameter_m() / set.cell_m + 1e-9));
-  if (coarse_cells < 1 || coarse_cells > most) {
-    throw std::invalid_argument("coarse_cells is " + std::to_string(coarse_cells) + " but must lie between 1 and " +
-                                std::to_string(most) + ", the smallest landmark's diameter in cells");
+  if (coarse_cells > most) {
+    const auto smallest = std::ranges::min_element(
+        set.shapes, {}, [](const LandmarkShape& shape) { return shape.contour.outer_diameter_m(); });
+    throw std::invalid_argument(
+        "the template \"" + smallest->category + "\" is " + std::to_string(smallest->contour.outer_diameter_m()) +
+        " m across, smaller than one cell of OG2, " + std::to_string(coarse_cells * set.cell_m) +
+        " m; coarse_cells can be " + std::to_string(most) + " at most" +
+        (most < 1 ? ": it is smaller than a cell of the map too" : ""));
   }
   return coarse_cells;
 }
@@ -83,24 +88,26 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   const CellBox box = CellChanges{spans}.box();
   // One cell more than the templates reach, for the places around the best one.
   field_.look_at(grid, box.grown(template_reach_ + 1));
-  const std::vector<TemplateMatch> matches = refined(search(spans));
+  std::vector<TemplateMatch> on_cells = search(spans);
+  const std::vector<TemplateMatch> matches = refined(on_cells);
   Matching matching;
   matching.trigger = trigger;
   matching.region_cells = static_cast<int>(region.size()) * coarse_.n() * coarse_.n();
   matching.region_centre_m = 0.5 * (grid.centre_of(box.min) + grid.centre_of(box.max - Cell{1, 1}));
   matching.degrees = degrees_by_category(matches, *templates_, grid, rule_);
-  const bool fitted =
-      std::ranges::any_of(matching.degrees, [&](const CategoryDegree& d) { return d.degree > rule_.tau_match; });
+  // Or nearly: what every way to ask knows.
+  const bool fitted = std::ranges::any_of(
+      matching.degrees, [&](const CategoryDegree& d) { return d.degree > rule_.tau_match - rule_.min_margin; });
   for (const Cell coarse : region) trigger_.matched(coarse, coarse_.ol(coarse), fitted);
   if (config_.degrees == Degrees::above_threshold) {
-    std::erase_if(matching.degrees, [&](const CategoryDegree& d) { return d.degree <= rule_.tau_match; });
+    std::erase_if(matching.degrees, [](const CategoryDegree& d) { return !d.fits; });
   }
   if (config_.degrees == Degrees::each_template) {
     ScoreRule any = rule_;
     any.tau_match = -1.0;
     matching.templates = templates_above(matches, templates_->templates, any);
   }
-  matching.detection = detection_of(matches, grid);
+  matching.detection = detection_of(matches, std::move(on_cells), grid);
   return matching;
 }
 
@@ -138,7 +145,8 @@ std::vector<TemplateMatch> TemplateMatcher::refined(std::vector<TemplateMatch> m
   return matches;
 }
 
-std::optional<Detection> TemplateMatcher::detection_of(std::vector<TemplateMatch> matches, const OccupancyGrid& grid) {
+std::optional<Detection> TemplateMatcher::detection_of(const std::vector<TemplateMatch>& matches,
+                                                       std::vector<TemplateMatch> on_cells, const OccupancyGrid& grid) {
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
@@ -147,8 +155,9 @@ std::optional<Detection> TemplateMatcher::detection_of(std::vector<TemplateMatch
   const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * place.offset;
   const double degree = degree_of(matches[best].mismatch, t.cells.size(), rule_.mu);
   std::vector<TemplateDegree> above = templates_above(matches, templates, rule_);
-  complete_neighbours(best, matches);
-  const double orientation_rad = t.orientation_rad + neighbours_.offset_rad(best, matches, templates);
+  // All three of the parabola where the cells are: the neighbours are not refined.
+  complete_neighbours(best, on_cells);
+  const double orientation_rad = t.orientation_rad + neighbours_.offset_rad(best, on_cells, templates);
   return Detection{t.category, {at_m.x(), at_m.y(), wrap_angle(orientation_rad)}, degree, std::move(above)};
 }
 

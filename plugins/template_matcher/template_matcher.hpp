@@ -32,7 +32,8 @@ class TemplateMatcher : public Detector {
   [[nodiscard]] std::vector<TemplateMatch> search(std::span<const CellSpan> region);
   [[nodiscard]] std::vector<TemplateMatch> refined(std::vector<TemplateMatch> matches) const;
   void complete_neighbours(std::size_t index, std::vector<TemplateMatch>& matches);
-  [[nodiscard]] std::optional<Detection> detection_of(std::vector<TemplateMatch> matches, const OccupancyGrid& grid);
+  [[nodiscard]] std::optional<Detection> detection_of(const std::vector<TemplateMatch>& matches,
+                                                      std::vector<TemplateMatch> on_cells, const OccupancyGrid& grid);
 
   Config config_;
   std::shared_ptr<const TemplateSet> templates_;

@@ -95,6 +95,15 @@ TEST_F(LandmarkKeeperTest, TheNewestMatchingCorrectsAnEarlyCategoryEvenWithAWors
   EXPECT_DOUBLE_EQ(landmark.evidence[1].last_degree, 0.62);
 }
 
+TEST_F(LandmarkKeeperTest, WhatDoesNotFitIsNoEvidenceHoweverItIsReported) {
+  fold(detection_at(1.5, 2.0, "triangle", 0.7));
+  Matching matching = matching_at(1.55, 2.0, {{"square", 0.5}}, false);
+  matching.degrees[0].fits = false;
+  EXPECT_EQ(fold(matching), Changes{});
+  EXPECT_EQ(keeper_.graph().find(1)->category, "triangle");
+  EXPECT_EQ(keeper_.graph().find(1)->evidence.size(), 1U);
+}
+
 TEST_F(LandmarkKeeperTest, ADetectionFarAwayIsANewLandmark) {
   fold(detection_at(1.5, 2.0, "square", 0.6));
   EXPECT_EQ(fold(detection_at(4.5, 2.0, "square", 0.6)), (Changes{{2, News::found}}));
