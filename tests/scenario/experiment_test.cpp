@@ -7,6 +7,7 @@
 
 #include "framework/host/mission.hpp"
 #include "framework/host/mission_experiment.hpp"
+#include "maps/map_store.hpp"
 #include "tests/scenario/program.hpp"
 
 namespace cairn::testing_program {
@@ -125,6 +126,23 @@ TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_categories.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_templates.png"));
+}
+
+// Evidence, landmarks and drive: nothing depends on how much a matching reports.
+TEST(Matching, EveryWayToAskAndToSearchSavesTheSameMap) {
+  const auto folder = fresh_folder("ways_to_ask");
+  std::string first;
+  for (const std::string way :
+       {"degrees=above_threshold", "degrees=all", "degrees=each_template", "search=exhaustive"}) {
+    const Finished run =
+        run_cairn({"run", source_folder() + "/config/missions/office.yaml", "--seed", "5", "--set",
+                   "steps.0.explore.at_most_s=150", "--set", "detector." + way, "--out", folder.string()});
+    ASSERT_TRUE(std::filesystem::exists(folder / "office.cairn")) << run.err;
+    const std::string map = text_of_file(folder / "office.cairn");
+    if (first.empty()) first = map;
+    EXPECT_TRUE(map == first) << way;
+    EXPECT_FALSE(load_map(folder / "office.cairn").graph.landmarks().empty());
+  }
 }
 
 TEST(Experiment, OfRecognitionLeavesAWorldThatRunsAgain) {

@@ -49,7 +49,8 @@ std::optional<Detection> found_in(const OccupancyGrid& grid, const LandmarkShape
   context.templates = std::make_shared<TemplateSet>(render_sensed_set({shape}, radians(15.0), 0.05, {}, robot,
                                                                       choice("simulated_robot", "{}"),
                                                                       choice("muriel", "{cell_m: 0.05}"), library));
-  const auto detector = library.make<Detector>(choice("template_matcher", "{coarse_cells: 5}"), context);
+  const auto detector =
+      library.make<Detector>(choice("template_matcher", "{coarse_cells: 5, tau_match: 0.5}"), context);
   CellChanges changes;
   const CellBox box = grid.bounds();
   for (int y = box.min.y; y < box.max.y; ++y) changes.spans.push_back({y, box.min.x, box.max.x});
@@ -84,7 +85,8 @@ TEST_F(OfficeCapture, SaysWhatIsWrong) {
     return finished.err;
   };
   EXPECT_THAT(error("nearest squares"), HasSubstr("did you mean \"square\"?"));
-  EXPECT_THAT(error("2.5,2.5"), HasSubstr("nothing lies wholly within 0.80 m of (2.50, 2.50): what is there is too thin"));
+  EXPECT_THAT(error("2.5,2.5"),
+              HasSubstr("nothing lies wholly within 0.80 m of (2.50, 2.50): what is there is too thin"));
   EXPECT_THAT(error("3,0"), HasSubstr("what is there is too thin or too small"));
   EXPECT_THAT(error("nearest square", "crate", "0.3"), HasSubstr("what is there goes on farther"));
   EXPECT_THAT(error("nearest square", "two words"), HasSubstr("bad.yaml:2:11: category must be a letter"));
