@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -186,7 +187,9 @@ void TemplateCache::keep(const std::string& key, const std::vector<LandmarkTempl
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   const std::filesystem::path file = file_of(key);
-  const std::filesystem::path fresh = file.string() + "." + std::to_string(::getpid());
+  // Several runs of one process may keep the same templates at once.
+  static std::atomic<int> writes = 0;
+  const std::filesystem::path fresh = file.string() + "." + std::to_string(::getpid()) + "." + std::to_string(++writes);
   std::ofstream out(fresh, std::ios::binary);
   const std::string bytes = encoded(key, templates);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -41,7 +41,8 @@ DetectionReport report_on(const OccupancyGrid& grid, const std::shared_ptr<const
 // Of the best detection, or the best degrees when there is none.
 void take_answer(const DetectionReport& report, TemplateView& view, double period_rad) {
   view.found.clear();
-  view.degree = view.right_degree = 0.0;
+  view.rival.clear();
+  view.degree = view.right_degree = view.rival_degree = 0.0;
   const Detection* best = nullptr;
   for (const Matching& matching : report.matchings) {
     for (const CategoryDegree& degree : matching.degrees) {

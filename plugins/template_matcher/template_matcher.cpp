@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -26,11 +27,13 @@ int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
   if (coarse_cells > most) {
     const auto smallest = std::ranges::min_element(
         set.shapes, {}, [](const LandmarkShape& shape) { return shape.contour.outer_diameter_m(); });
-    throw std::invalid_argument(
-        "the template \"" + smallest->category + "\" is " + std::to_string(smallest->contour.outer_diameter_m()) +
-        " m across, smaller than one cell of OG2, " + std::to_string(coarse_cells * set.cell_m) +
-        " m; coarse_cells can be " + std::to_string(most) + " at most" +
-        (most < 1 ? ": it is smaller than a cell of the map too" : ""));
+    std::ostringstream reason;
+    reason << "the template \"" << smallest->category << "\" is " << smallest->contour.outer_diameter_m()
+           << " m across, smaller than one cell of OG2, " << coarse_cells * set.cell_m << " m (" << coarse_cells
+           << " cells); "
+           << (most < 1 ? "it is smaller than a cell of the map too"
+                        : "coarse_cells can be " + std::to_string(most) + " at most");
+    throw std::invalid_argument(reason.str());
   }
   return coarse_cells;
 }

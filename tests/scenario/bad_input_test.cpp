@@ -48,6 +48,22 @@ TEST_F(BadMission, AGoodOneRuns) {
   EXPECT_EQ(run("for_s: 1", "for_s: 1").exit_status, 0);
 }
 
+TEST_F(BadMission, ATemplateThatIsTooLargeOrTooSmallIsNamed) {
+  std::filesystem::copy(config("templates"), folder_ / "templates");
+  const auto with_circle = [&](const std::string& diameter_m) {
+    write_text(folder_ / "templates" / "z.yaml", "category: z\ncircle: {diameter_m: " + diameter_m + "}\n");
+    const Finished finished = run(config("templates"), (folder_ / "templates").string());
+    EXPECT_EQ(finished.exit_status, 2) << diameter_m;
+    return finished.err;
+  };
+  EXPECT_THAT(with_circle("9"),
+              HasSubstr("the template \"z\" is 9 m across, larger than the mission's world of 6 x 5 m"));
+  EXPECT_THAT(with_circle("5.5"), HasSubstr("the template \"z\" is 5.5 m across, larger than"));
+  EXPECT_THAT(with_circle("0.1"),
+              HasSubstr("the template \"z\" is 0.1 m across, smaller than one cell of OG2, 0.25 m"));
+  EXPECT_THAT(with_circle("0.03"), HasSubstr("it is smaller than a cell of the map too"));
+}
+
 TEST_F(BadMission, AMisspeltKeyNamesItsPlaceAndTheNearestKey) {
   const Finished finished = run("localizer:", "localiser:");
   EXPECT_EQ(finished.exit_status, 2);
