@@ -66,7 +66,8 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   for (const std::string& missing : write_charts(config, rows, command.out)) std::cerr << "cairn: " << missing << "\n";
   if (common.json) std::cout << json << "\n";
   std::ostream& people = common.json ? std::cerr : std::cout;
-  people << table << times_text(config, rows) << "Table: " << (command.out / "table.md").string() << "\n";
+  people << table << times_text(config, rows) << "Table: " << (command.out / "table.md").string()
+         << ", pictures beside it\n";
   const int status = exit_status_of(config, rows);
   if (std::any_of(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.gave_up; })) {
     // A lost call still runs: nothing that it may use can be torn down.

@@ -73,9 +73,12 @@ int template_capture(const CaptureCommand& command, const CommonOptions& common)
                      .dump()
               << "\n";
   else
-    std::cout << fmt::format("wrote {}: {}, {:.2f} m across, {} part{}\n", command.out.string(), shape.category,
-                             diameter_m, shape.contour.polygons_m.size(),
-                             shape.contour.polygons_m.size() == 1 ? "" : "s");
+    std::cout << fmt::format(
+        "wrote {}: {}, {:.2f} m across, {} part{}\n"
+        "It is what lies within {:g} m, as large as the sensors saw it: correct it by hand where you know better{}.\n",
+        command.out.string(), shape.category, diameter_m, shape.contour.polygons_m.size(),
+        shape.contour.polygons_m.size() == 1 ? "" : "s", command.radius_m,
+        shape.contour.polygons_m.size() == 1 ? "" : ", or take fewer things with a smaller --radius-m");
   return kExitDone;
 }
 

@@ -259,7 +259,8 @@ TEST(TemplateMatcher, KeepsACoarseGridThatEqualsARecomputation) {
 TEST(TemplateMatcher, RefusesCoarseCellsLargerThanTheSmallestLandmark) {
   Config config = plain();
   config.coarse_cells = 11;
-  EXPECT_THAT(error_of(config, paper_templates()), HasSubstr("m across, smaller than one cell of OG2, 0.55 m (11 cells); coarse_cells can be 10 at most"));
+  EXPECT_THAT(error_of(config, paper_templates()),
+              HasSubstr("m across, smaller than one cell of OG2, 0.55 m (11 cells); coarse_cells can be 10 at most"));
   config.coarse_cells = 10;
   EXPECT_EQ(error_of(config, paper_templates()), "no error");
 }
