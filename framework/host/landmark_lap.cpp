@@ -82,7 +82,7 @@ std::shared_ptr<Mapper> map_of_laps(const LapCrew& crew, const Contour& contour,
   const double contour_m = 0.5 * contour.outer_diameter_m();
   const double farthest_m = contour_m + std::ranges::max(plan.standoffs_m);
   const RobotModel robot = calibrated(crew.robot, 2.0 * farthest_m);
-  const auto mapper = crew.modules.make<Mapper>(crew.map, context_of(crew, robot, plan.seed, {}, nullptr));
+  auto mapper = crew.modules.make<Mapper>(crew.map, context_of(crew, robot, plan.seed, {}, nullptr));
   const Point centre = mapper->grid().centre_of({0, 0}) + plan.offset_m;
   const World world = world_of(contour, {centre.x(), centre.y(), plan.orientation_rad}, 2.0 * farthest_m + 1.0);
   const double speed_mps = std::min(plan.speed_mps, robot.max_v_mps);

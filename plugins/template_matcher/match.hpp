@@ -19,8 +19,8 @@ inline constexpr int kMismatchPerUnit = 16;
 // and the scaling are exact and the root is correctly rounded: the same on every machine.
 [[nodiscard]] inline std::int32_t gradient_distance(float dx, float dy) {
   // Not lround, which cannot be vectorised.
-  return static_cast<std::int32_t>(kMismatchPerUnit * std::sqrt(dx * dx + dy * dy) +
-                                   0.5F);  // NOLINT(bugprone-incorrect-roundings)
+  const float exact = kMismatchPerUnit * std::sqrt(dx * dx + dy * dy);
+  return static_cast<std::int32_t>(exact + 0.5F);  // NOLINT(bugprone-incorrect-roundings)
 }
 
 inline constexpr std::int32_t kUnmatched = std::numeric_limits<std::int32_t>::max();
