@@ -79,4 +79,11 @@ struct CellChanges {
   }
 };
 
+// Every cell of a box, as for a detector that sees a whole grid at once.
+[[nodiscard]] inline CellChanges everything_in(const CellBox& box) {
+  CellChanges changes;
+  for (int y = box.min.y; y < box.max.y; ++y) changes.spans.push_back({y, box.min.x, box.max.x});
+  return changes;
+}
+
 }  // namespace cairn

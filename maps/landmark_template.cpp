@@ -108,6 +108,28 @@ double TemplateSet::largest_diameter_m() const {
   return largest;
 }
 
+int reach_of(std::span<const LandmarkTemplate> templates) {
+  int reach = 0;
+  for (const LandmarkTemplate& t : templates) {
+    for (const TemplateCell& cell : t.cells) reach = std::max(reach, distance8(cell.offset, {0, 0}));
+  }
+  return reach;
+}
+
+std::shared_ptr<const TemplateSet> usable(std::shared_ptr<const TemplateSet> set, const std::string& detector) {
+  if (set == nullptr || set->templates.empty())
+    throw std::invalid_argument(detector + " has no templates to look for; name a folder of template files");
+  for (const LandmarkTemplate& t : set->templates)
+    if (t.cells.empty()) throw std::invalid_argument("a template of category \"" + t.category + "\" has no cells");
+  return set;
+}
+
+void check_cell_size(const TemplateSet& set, double grid_cell_m) {
+  if (std::abs(grid_cell_m - set.cell_m) > 1e-9)
+    throw std::invalid_argument("the grid's cells are " + std::to_string(grid_cell_m) +
+                                " m, the templates were rendered for " + std::to_string(set.cell_m) + " m");
+}
+
 std::vector<double> distinct_orientations(const Contour& contour, double step_rad, double cell_m) {
   require_positive(step_rad, "the orientation step");
   require_positive(cell_m, "the cell size");

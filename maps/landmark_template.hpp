@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,15 @@ struct TemplateSet {
   [[nodiscard]] double smallest_diameter_m() const;  // d_min: smallest outer diameter of the shapes
   [[nodiscard]] double largest_diameter_m() const;   // d_max
 };
+
+// How far the cells of any of them lie from their template's centre cell, at most (chessboard distance).
+[[nodiscard]] int reach_of(std::span<const LandmarkTemplate> templates);
+
+// For detectors. Give the set back, or throw std::invalid_argument with a sentence: when there is no template,
+// or one without cells; when the grid's cells are not as large as those that the set was rendered for.
+[[nodiscard]] std::shared_ptr<const TemplateSet> usable(std::shared_ptr<const TemplateSet> set,
+                                                        const std::string& detector);
+void check_cell_size(const TemplateSet& set, double grid_cell_m);
 
 // Orientations of a shape that differ when rendered at this cell size: 0, step, 2 step, ... up to
 // the first repeat (circle 1, square 6, equilateral triangle 8 at 15 degrees).

@@ -12,13 +12,6 @@ namespace {
 
 constexpr const char* kThreshold = "tau_match";
 
-CellChanges all_of(const OccupancyGrid& grid) {
-  CellChanges changes;
-  const CellBox box = grid.bounds();
-  for (int y = box.min.y; y < box.max.y; ++y) changes.spans.push_back({y, box.min.x, box.max.x});
-  return changes;
-}
-
 // The best ones first, none nearer to a better one than merge_m.
 std::vector<Detection> merged(std::vector<Detection> detections, double merge_m) {
   std::ranges::stable_sort(detections, std::greater(), &Detection::degree);
@@ -80,7 +73,7 @@ DetectorSweep sweep(const Mission& mission, const ComparedDetector& detector, co
                     const OccupancyGrid& grid, double tolerance_m) {
   const Mission changed = with_detector(mission, detector, library);
   const auto module = build_detector(changed, library, grid.cell_m());
-  const CellChanges changes = all_of(grid);
+  const CellChanges changes = everything_in(grid.bounds());
   const auto begin = std::chrono::steady_clock::now();
   const DetectionReport report =
       fenced("detector", detector.choice.name, [&] { return module->detect(grid, changes, Budget{}); });

@@ -9,7 +9,7 @@ namespace {
 // None for a shape that looks the same all round.
 std::optional<double> orientation_error(const Mission& mission, const FoundThing& pair) {
   constexpr double kFineCell_m = 0.02;
-  const double step_rad = mission.template_config.step_rad;
+  const double step_rad = mission.template_settings.step_rad;
   const auto shape = std::ranges::find(mission.shapes, pair.object->category, &LandmarkShape::category);
   const std::size_t distinct = distinct_orientations(shape->contour, step_rad, kFineCell_m).size();
   if (distinct == 1) return std::nullopt;

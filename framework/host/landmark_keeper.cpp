@@ -55,6 +55,17 @@ Landmark first_seen(const Detection& detection) {
   return landmark;
 }
 
+// The other one was this one from the beginning.
+void absorb(Landmark& landmark, const Landmark& other) {
+  if (other.degree > landmark.degree) {
+    landmark.category = other.category;
+    landmark.T_map_landmark = other.T_map_landmark;
+    landmark.degree = other.degree;
+    landmark.templates = other.templates;
+  }
+  add_evidence(landmark, other);
+}
+
 }  // namespace
 
 void LandmarkKeeperConfig::describe(Fields<LandmarkKeeperConfig>& fields) {
@@ -90,10 +101,14 @@ std::vector<LandmarkKeeper::Change> LandmarkKeeper::fold(const Matching& matchin
   for (const LandmarkId id : confirmed) {
     Landmark landmark = *candidates_.find(id);
     candidates_.remove(id);
-    landmark.id = 0;
-    const LandmarkId known = graph_.add(std::move(landmark));
-    changes.push_back({known, News::found});
-    merge_beside(known, changes);
+    // As its view has completed it may have come to lie where a landmark is.
+    if (const Landmark* known = graph_.nearest(landmark.T_map_landmark.position(), config_.merge_m)) {
+      absorb(*graph_.find(known->id), landmark);
+      merge_beside(known->id, changes);
+    } else {
+      landmark.id = 0;
+      changes.push_back({graph_.add(std::move(landmark)), News::found});
+    }
   }
   return changes;
 }
@@ -122,13 +137,7 @@ void LandmarkKeeper::merge_beside(LandmarkId id, std::vector<Change>& changes) {
     Landmark& older = *graph_.find(kept);
     const Landmark younger = *graph_.find(same[i]);
     graph_.retire(younger.id, "is " + label_of(older));
-    if (younger.degree > older.degree) {
-      older.category = younger.category;
-      older.T_map_landmark = younger.T_map_landmark;
-      older.degree = younger.degree;
-      older.templates = younger.templates;
-    }
-    add_evidence(older, younger);
+    absorb(older, younger);
     std::erase_if(changes, [&](const Change& change) { return change.landmark == younger.id; });
     changes.push_back({younger.id, News::retired});
   }

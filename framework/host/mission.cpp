@@ -38,14 +38,16 @@ std::vector<MissionStep> steps_of(const ConfigValue& steps) {
 }
 
 // The detector's settings hold keys of its own too: take those that the host knows.
-TemplateConfig template_config_of(const PluginChoice& detector) {
+TemplateSettings template_settings_of(const PluginChoice& detector) {
   ConfigValue mine;
   mine.kind = ConfigValue::Kind::map;
   mine.place = detector.config.place;
-  for (const FieldSpec& field : schema_of<TemplateConfig>().fields)
+  for (const FieldSpec& field : schema_of<TemplateSettings>().fields)
     for (const ConfigValue::Entry& entry : detector.config.entries)
       if (entry.key == field.key) mine.entries.push_back(entry);
-  return load_config<TemplateConfig>(mine, "detector");
+  auto settings = load_config<TemplateSettings>(mine, "detector");
+  if (settings.sizes.empty()) throw ConfigError(mine.find("sizes")->place, "sizes must hold at least one size");
+  return settings;
 }
 
 // A landmark that does not fit into the world cannot be found in it.
@@ -66,16 +68,6 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
 void StartConfig::describe(Fields<StartConfig>& fields) {
   fields.point("at_m", &StartConfig::at_m, "m", "where the robot begins, in the map frame");
   fields.angle("angle_deg", &StartConfig::angle_rad, {-360.0, 360.0}, "which way it looks there");
-}
-
-void TemplateConfig::describe(Fields<TemplateConfig>& fields) {
-  fields.file("templates", &TemplateConfig::templates, "folder of template files");
-  fields.choice("rendering", &TemplateConfig::rendering, {{"sensed", Rendering::sensed}, {"ideal", Rendering::ideal}},
-                "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
-  fields.angle("step_deg", &TemplateConfig::step_rad, {1.0, 90.0}, "orientation step of the templates");
-  fields.numbers("sizes", &TemplateConfig::sizes, {0.5, 2.0}, "",
-                 "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
-                 "size varies");
 }
 
 void MissionConfig::describe(Fields<MissionConfig>& fields) {
@@ -106,10 +98,10 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
 
 void use_detector(Mission& mission, const PluginChoice& detector) {
   mission.config.detector = detector;
-  mission.template_config = template_config_of(mission.config.detector);
+  mission.template_settings = template_settings_of(mission.config.detector);
   mission.shapes.clear();
-  if (!mission.template_config.templates.empty())
-    mission.shapes = load_landmark_shapes(mission.template_config.templates);
+  if (!mission.template_settings.templates.empty())
+    mission.shapes = load_landmark_shapes(mission.template_settings.templates);
 }
 
 Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
@@ -123,7 +115,7 @@ Mission load_mission(const std::filesystem::path& file, const std::vector<std::s
   if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);
   if (!mission.config.world.empty()) {
     mission.world = load_world(mission.config.world, mission.shapes);
-    check_sizes(mission.shapes, *mission.world, mission.template_config.templates);
+    check_sizes(mission.shapes, *mission.world, mission.template_settings.templates);
   }
   mission.steps = steps_of(mission.config.steps);
   return mission;

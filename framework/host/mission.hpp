@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
+#include "framework/config/template_settings.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
 #include "framework/host/landmark_keeper.hpp"
@@ -20,17 +21,6 @@ struct StartConfig {
   Point at_m{0.0, 0.0};
   double angle_rad = 0.0;
   static void describe(Fields<StartConfig>& fields);
-};
-
-enum class Rendering { sensed, ideal };
-
-// The keys of a detector's settings that the host reads too: it renders the templates.
-struct TemplateConfig {
-  std::filesystem::path templates;
-  Rendering rendering = Rendering::sensed;
-  double step_rad = radians(15.0);
-  std::vector<double> sizes{1.0};
-  static void describe(Fields<TemplateConfig>& fields);
 };
 
 struct MissionConfig {
@@ -61,7 +51,7 @@ struct MissionStep {
 
 struct Mission {
   MissionConfig config;
-  TemplateConfig template_config;
+  TemplateSettings template_settings;  // as the detector's own say
   RobotModel robot;
   std::optional<World> world;
   std::vector<LandmarkShape> shapes;

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <fstream>
-#include <thread>
 
+#include "framework/host/in_parallel.hpp"
 #include "framework/host/mission.hpp"
 #include "framework/host/withheld.hpp"
 
 namespace cairn {
 namespace {
+
+constexpr std::size_t kMostRunsAtATime = 8;
 
 struct Job {
   std::filesystem::path mission;
@@ -71,20 +72,50 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
   }
 }
 
+// What a run is measured by while it lasts.
+struct Listeners {
+  explicit Listeners(const Mission& mission) : withheld(mission.config.withhold_every, mission.config.seed) {}
+  void subscribe_to(MissionRunner& runner) {
+    runner.subscribe(report);
+    runner.subscribe(known);
+    runner.subscribe(path);
+    runner.subscribe(withheld);
+  }
+
+  RunReport report;
+  FirstKnown known;
+  TruePath path;
+  WithheldReadings withheld;
+};
+
+// What the experiment's kind asks of a run that has ended.
+void measure(const ExperimentConfig& config, const Mission& mission, const MissionRunner& runner,
+             const Listeners& listeners, ExperimentRow& row) {
+  if (mission.world) row.score = score_against(*mission.world, runner.graph(), config.tolerance_m);
+  for (const LandmarkTruth& matched : row.score.matched)
+    row.worst_error_m = std::max(row.worst_error_m, matched.error_m);
+  if (config.experiment == ExperimentKind::maps && runner.grid() != nullptr) {
+    if (mission.world) row.quality = map_quality(*runner.grid(), *mission.world, listeners.path.places_m());
+    row.withheld = listeners.withheld.count();
+    row.withheld_log_likelihood = listeners.withheld.mean_log_likelihood(*runner.grid());
+  }
+  if (config.experiment == ExperimentKind::places)
+    row.places = degrees_at_places(config, *mission.world, listeners.report.degrees(), row.result.steps);
+  if (in_random_worlds(config.experiment))
+    row.verdicts = judge_recognition(mission, runner.graph(), listeners.known, config.tolerance_m);
+  row.step_rad = mission.template_settings.step_rad;
+  if (config.experiment == ExperimentKind::lap)
+    row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), listeners.report.degrees());
+}
+
 ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
                       const Job& job) {
   const auto begin = std::chrono::steady_clock::now();
   const Mission mission = mission_of(config, job);
   std::filesystem::create_directories(job.out);
   MissionRunner runner(mission, library, {job.out, false, &cancel});
-  RunReport report;
-  TruePath path;
-  WithheldReadings withheld(mission.config.withhold_every, mission.config.seed);
-  FirstKnown known;
-  runner.subscribe(report);
-  runner.subscribe(known);
-  runner.subscribe(path);
-  runner.subscribe(withheld);
+  Listeners listeners(mission);
+  listeners.subscribe_to(runner);
   ExperimentRow row;
   row.mission = job.mission.stem();
   row.variant = job.variant.name;
@@ -96,22 +127,8 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
     row.result.outcome = MissionOutcome::module_fault;  // what was measured is not of the whole run
     row.result.reason += "; a listener failed: " + fault;
   }
-  std::ofstream(job.out / "report.json") << report.report_json(mission, row.result, runner.graph(), {});
-  if (mission.world) row.score = score_against(*mission.world, runner.graph(), config.tolerance_m);
-  for (const LandmarkTruth& matched : row.score.matched)
-    row.worst_error_m = std::max(row.worst_error_m, matched.error_m);
-  if (config.experiment == ExperimentKind::maps && runner.grid() != nullptr) {
-    if (mission.world) row.quality = map_quality(*runner.grid(), *mission.world, path.places_m());
-    row.withheld = withheld.count();
-    row.withheld_log_likelihood = withheld.mean_log_likelihood(*runner.grid());
-  }
-  if (config.experiment == ExperimentKind::places)
-    row.places = degrees_at_places(config, *mission.world, report.degrees(), row.result.steps);
-  if (in_random_worlds(config.experiment))
-    row.verdicts = judge_recognition(mission, runner.graph(), known, config.tolerance_m);
-  row.step_rad = mission.template_config.step_rad;
-  if (config.experiment == ExperimentKind::lap)
-    row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), report.degrees());
+  std::ofstream(job.out / "report.json") << listeners.report.report_json(mission, row.result, runner.graph(), {});
+  measure(config, mission, runner, listeners, row);
   for (const StageTime& time : runner.times())
     if (time.stage == "detector") row.detector_wall_s += time.total_s;
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -139,26 +156,12 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
     rows[i].seed = jobs[i].seed;
     rows[i].result.outcome = MissionOutcome::cancelled;  // until it has run
   }
-  std::vector<std::exception_ptr> errors(jobs.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size() && !cancel.load(); i = next++) {
-      try {
-        rows[i] = run_job(config, library, cancel, jobs[i]);
-      } catch (...) {
-        errors[i] = std::current_exception();
-        next = jobs.size();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    const std::size_t threads =
-        std::min<std::size_t>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U), jobs.size());
-    for (std::size_t i = 0; i < threads; ++i) workers.emplace_back(work);
-  }
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
+  in_parallel(
+      jobs.size(),
+      [&](std::size_t i) {
+        if (!cancel.load()) rows[i] = run_job(config, library, cancel, jobs[i]);
+      },
+      kMostRunsAtATime);
   return rows;
 }
 

@@ -44,7 +44,7 @@ std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_
 }
 
 TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {
-  const TemplateConfig& config = mission.template_config;
+  const TemplateSettings& config = mission.template_settings;
   if (mission.shapes.empty() || config.rendering == Rendering::ideal || mission.robot.sonars.empty())
     return render_ideal_set(mission.shapes, config.step_rad, cell_m, config.sizes);
   PluginChoice simulator{"simulated_robot", {}};

@@ -18,13 +18,6 @@ constexpr double kStandoff_m = 0.6;
 constexpr double kClose = 0.05;  // in degree: no class is told between two so near
 const Point kOffsetInCell{0.3, -0.2};
 
-CellChanges everything_in(const OccupancyGrid& grid) {
-  CellChanges changes;
-  const CellBox box = grid.bounds();
-  for (int y = box.min.y; y < box.max.y; ++y) changes.spans.push_back({y, box.min.x, box.max.x});
-  return changes;
-}
-
 // Angle between two orientations of a shape that repeats after a period.
 double orientation_error(double a_rad, double b_rad, double period_rad) {
   return std::abs(std::remainder(a_rad - b_rad, period_rad));
@@ -35,7 +28,7 @@ DetectionReport report_on(const OccupancyGrid& grid, const std::shared_ptr<const
   ModuleContext context{crew.robot};
   context.templates = set;
   context.modules = &crew.modules;
-  return crew.modules.make<Detector>(choice, context)->detect(grid, everything_in(grid), Budget());
+  return crew.modules.make<Detector>(choice, context)->detect(grid, everything_in(grid.bounds()), Budget());
 }
 
 // Of the best detection, or the best degrees when there is none.

@@ -27,9 +27,9 @@ PluginChoice plain(const std::string& name) {
 Mission template_mission(const TemplateCommand& command, const std::string& what) {
   Mission mission;
   mission.shapes = load_landmark_shapes(command.folder);
-  mission.template_config.step_rad = radians(command.step_deg);
-  mission.template_config.rendering = command.rendering == "ideal" ? Rendering::ideal : Rendering::sensed;
-  if (mission.template_config.rendering == Rendering::sensed) {
+  mission.template_settings.step_rad = radians(command.step_deg);
+  mission.template_settings.rendering = command.rendering == "ideal" ? Rendering::ideal : Rendering::sensed;
+  if (mission.template_settings.rendering == Rendering::sensed) {
     if (command.robot.empty()) throw std::runtime_error("template " + what + ": sensed templates need --robot FILE");
     mission.robot = load_robot(command.robot);
   }

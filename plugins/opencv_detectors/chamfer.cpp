@@ -3,13 +3,20 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "plugins/opencv_detectors/pictures.hpp"
+
 namespace cairn::opencv_detectors {
+
+struct Chamfer::Points {
+  int reach = 0;
+  cv::Mat weights;  // 1 / points on each of them, CV_32F
+};
 
 Chamfer::Chamfer(const ChamferConfig& config, std::shared_ptr<const TemplateSet> templates)
     : SearchingDetector("chamfer", std::move(templates), config.tau_match), config_(config) {
   for (const LandmarkTemplate& shape : set().templates) {
     Points& points = points_.emplace_back();
-    points.reach = reach_of(shape);
+    points.reach = reach_of({&shape, 1});
     const cv::Mat edges = edges_of(gradients_of(shape, points.reach), config.edge_low, config.edge_high);
     const int count = cv::countNonZero(edges);
     if (count == 0)
@@ -17,6 +24,8 @@ Chamfer::Chamfer(const ChamferConfig& config, std::shared_ptr<const TemplateSet>
     edges.convertTo(points.weights, CV_32F, 1.0 / (255.0 * count));
   }
 }
+
+Chamfer::~Chamfer() = default;
 
 std::optional<std::vector<Candidate>> Chamfer::search(const OccupancyGrid& grid, const CellBox& centres,
                                                       const Budget& budget) {
@@ -36,11 +45,7 @@ std::optional<std::vector<Candidate>> Chamfer::search(const OccupancyGrid& grid,
     cv::Mat mean;
     cv::matchTemplate(part, points_[i].weights, mean, cv::TM_CCORR);
     const cv::Mat degrees = 1.0 - mean;
-    for (const Cell at : peaks_of(degrees, centres.min, tau_match())) {
-      const Cell pixel = at - centres.min;
-      const double degree = std::min(1.0, static_cast<double>(degrees.at<float>(pixel.y, pixel.x)));
-      candidates.push_back({grid.centre_of(at), i, set().templates[i].orientation_rad, degree});
-    }
+    add_peaks(degrees, i, grid, centres.min, candidates);
   }
   return candidates;
 }

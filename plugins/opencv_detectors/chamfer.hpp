@@ -12,16 +12,14 @@ class Chamfer : public SearchingDetector {
  public:
   // Throws std::invalid_argument too when a template has no edge at these thresholds.
   Chamfer(const ChamferConfig& config, std::shared_ptr<const TemplateSet> templates);
+  ~Chamfer() override;
 
  private:
   std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
                                                const Budget& budget) override;
 
   ChamferConfig config_;
-  struct Points {
-    int reach = 0;
-    cv::Mat weights;  // 1 / points on each of them, CV_32F
-  };
+  struct Points;
   std::vector<Points> points_;  // one a template
 };
 

@@ -5,11 +5,7 @@ namespace {
 
 template <class Config>
 void describe_common(Fields<Config>& fields) {
-  fields.file("templates", &Config::templates, "folder of template files; the host renders them for the mission");
-  TemplateRendering Config::*const rendering = &Config::rendering;
-  fields.choice("rendering", rendering, {{"sensed", TemplateRendering::sensed}, {"ideal", TemplateRendering::ideal}},
-                "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
-  fields.angle("step_deg", &Config::step_rad, {1.0, 90.0}, "orientation step of the templates");
+  describe_templates(fields);
   fields.number("tau_match", &Config::tau_match, {0.0, 1.0}, "", "a template fits when its degree is above this");
 }
 

@@ -2,19 +2,12 @@
 // sensed templates of config/templates in eight random worlds (docs/results/baselines.md).
 #pragma once
 
-#include <filesystem>
-
-#include "framework/config/fields.hpp"
+#include "framework/config/template_settings.hpp"
 
 namespace cairn::opencv_detectors {
 
-enum class TemplateRendering { sensed, ideal };
-
-// What all of them have. The first three are read by the host, which renders the templates.
-struct CommonConfig {
-  std::filesystem::path templates;
-  TemplateRendering rendering = TemplateRendering::sensed;
-  double step_rad = radians(15.0);
+// What all of them have.
+struct CommonConfig : TemplateSettings {
   double tau_match = 0.0;
 };
 

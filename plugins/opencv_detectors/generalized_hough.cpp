@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "plugins/opencv_detectors/pictures.hpp"
 
 namespace cairn::opencv_detectors {
 namespace {
@@ -46,7 +49,7 @@ double pair_angle_deg(const EdgePicture& picture) {
 }
 
 // Guil would turn and scale the template itself; but a template of its own for each orientation, as the other
-// detectors have, finds more, and landmarks come in one size. So one angle and one scale, and as few votes as
+// detectors have, finds more, and so has each size. So one angle and one scale, and as few votes as
 // there may be for either.
 cv::Ptr<cv::GeneralizedHoughGuil> hough_of(const EdgePicture& shape, const HoughConfig& config) {
   auto hough = cv::createGeneralizedHoughGuil();
@@ -86,6 +89,11 @@ std::vector<Vote> votes_on(cv::GeneralizedHoughGuil& hough, const EdgePicture& p
 
 }  // namespace
 
+struct GeneralizedHough::Voting {
+  cv::Ptr<cv::GeneralizedHoughGuil> hough;
+  double most_votes = 0.0;
+};
+
 GeneralizedHough::GeneralizedHough(const HoughConfig& config, std::shared_ptr<const TemplateSet> templates)
     : SearchingDetector("generalized_hough", std::move(templates), config.tau_match), config_(config) {
   for (const LandmarkTemplate& shape : set().templates) {
@@ -99,6 +107,8 @@ GeneralizedHough::GeneralizedHough(const HoughConfig& config, std::shared_ptr<co
       throw std::invalid_argument("a template of category \"" + shape.category + "\" gets no votes on its own picture");
   }
 }
+
+GeneralizedHough::~GeneralizedHough() = default;
 
 std::optional<std::vector<Candidate>> GeneralizedHough::search(const OccupancyGrid& grid, const CellBox& centres,
                                                                const Budget& budget) {

@@ -1,8 +1,6 @@
 // cv::GeneralizedHoughGuil: pairs of edge points vote for where a rotated template stands.
 #pragma once
 
-#include <opencv2/imgproc.hpp>
-
 #include "plugins/opencv_detectors/config.hpp"
 #include "plugins/opencv_detectors/searching_detector.hpp"
 
@@ -13,16 +11,14 @@ class GeneralizedHough : public SearchingDetector {
  public:
   // Throws std::invalid_argument too when a template gets no votes on its own picture.
   GeneralizedHough(const HoughConfig& config, std::shared_ptr<const TemplateSet> templates);
+  ~GeneralizedHough() override;
 
  private:
   std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
                                                const Budget& budget) override;
 
   HoughConfig config_;
-  struct Voting {
-    cv::Ptr<cv::GeneralizedHoughGuil> hough;
-    double most_votes = 0.0;
-  };
+  struct Voting;
   std::vector<Voting> votings_;  // one a template
 };
 

@@ -2,6 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "plugins/opencv_detectors/pictures.hpp"
+
 namespace cairn::opencv_detectors {
 namespace {
 
@@ -23,11 +25,17 @@ cv::Mat picture_of(const Gradients& gradients, Picture picture) {
 
 }  // namespace
 
+struct MatchTemplate::Patch {
+  int reach = 0;
+  cv::Mat picture;
+  cv::Mat mask;  // empty: all of it
+};
+
 MatchTemplate::MatchTemplate(const MatchTemplateConfig& config, std::shared_ptr<const TemplateSet> templates)
     : SearchingDetector("match_template", std::move(templates), config.tau_match), config_(config) {
   for (const LandmarkTemplate& shape : set().templates) {
     Patch& patch = patches_.emplace_back();
-    patch.reach = reach_of(shape);
+    patch.reach = reach_of({&shape, 1});
     if (config.picture == Picture::occupancy) {
       const auto of = std::ranges::find(set().shapes, shape.category, &LandmarkShape::category);
       patch.picture = drawn(of->contour, shape.orientation_rad, set().cell_m, patch.reach);
@@ -37,6 +45,8 @@ MatchTemplate::MatchTemplate(const MatchTemplateConfig& config, std::shared_ptr<
     if (config.masked) patch.mask = cells_of(shape, patch.reach);
   }
 }
+
+MatchTemplate::~MatchTemplate() = default;
 
 std::optional<std::vector<Candidate>> MatchTemplate::search(const OccupancyGrid& grid, const CellBox& centres,
                                                             const Budget& budget) {
@@ -52,11 +62,7 @@ std::optional<std::vector<Candidate>> MatchTemplate::search(const OccupancyGrid&
     cv::matchTemplate(part, patches_[i].picture, degrees, cv::TM_CCOEFF_NORMED, patches_[i].mask);
     // Even ground has no variance to divide by.
     degrees.setTo(0.0, (degrees != degrees) | (degrees > kMostByRounding));
-    for (const Cell at : peaks_of(degrees, centres.min, tau_match())) {
-      const Cell pixel = at - centres.min;
-      const double degree = std::min(1.0, static_cast<double>(degrees.at<float>(pixel.y, pixel.x)));
-      candidates.push_back({grid.centre_of(at), i, set().templates[i].orientation_rad, degree});
-    }
+    add_peaks(degrees, i, grid, centres.min, candidates);
   }
   return candidates;
 }

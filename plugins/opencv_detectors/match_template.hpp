@@ -9,17 +9,14 @@ namespace cairn::opencv_detectors {
 class MatchTemplate : public SearchingDetector {
  public:
   MatchTemplate(const MatchTemplateConfig& config, std::shared_ptr<const TemplateSet> templates);
+  ~MatchTemplate() override;
 
  private:
   std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
                                                const Budget& budget) override;
 
   MatchTemplateConfig config_;
-  struct Patch {
-    int reach = 0;
-    cv::Mat picture;
-    cv::Mat mask;  // empty: all of it
-  };
+  struct Patch;
   std::vector<Patch> patches_;  // one a template
 };
 

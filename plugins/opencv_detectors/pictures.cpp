@@ -20,12 +20,6 @@ Gradients gradients_of(const OccupancyGrid& grid, const CellBox& box) {
   return gradients;
 }
 
-int reach_of(const LandmarkTemplate& shape) {
-  int reach = 0;
-  for (const TemplateCell& cell : shape.cells) reach = std::max(reach, distance8(cell.offset, {0, 0}));
-  return reach;
-}
-
 Gradients gradients_of(const LandmarkTemplate& shape, int reach) {
   const int side = 2 * reach + 1;
   Gradients gradients{cv::Mat::zeros(side, side, CV_16S), cv::Mat::zeros(side, side, CV_16S)};

@@ -20,8 +20,6 @@ struct Gradients {
 // Of OL in the box; what lies beyond it is taken into account.
 [[nodiscard]] Gradients gradients_of(const OccupancyGrid& grid, const CellBox& box);
 
-// How far the template's cells lie from its centre cell, at most (chessboard distance).
-[[nodiscard]] int reach_of(const LandmarkTemplate& shape);
 // A square about the template's centre cell that reaches so far; 0 where the template has no cell.
 [[nodiscard]] Gradients gradients_of(const LandmarkTemplate& shape, int reach);
 // 255 on the template's cells, CV_8U.

@@ -14,15 +14,6 @@ bool is_better(const Candidate& a, const Candidate& b) {
          std::tuple(-b.degree, b.index, b.at_m.y(), b.at_m.x());
 }
 
-std::shared_ptr<const TemplateSet> checked(const std::string& name, std::shared_ptr<const TemplateSet> set) {
-  if (set == nullptr || set->templates.empty())
-    throw std::invalid_argument(name + " has no templates to look for; name a folder of template files");
-  for (const LandmarkTemplate& shape : set->templates)
-    if (shape.cells.empty())
-      throw std::invalid_argument("a template of category \"" + shape.category + "\" has no cells");
-  return set;
-}
-
 // The best of each orientation of each category; candidates come best first.
 std::vector<TemplateDegree> templates_of(const TemplateSet& set, const Strongest& found) {
   std::vector<TemplateDegree> templates;
@@ -66,15 +57,20 @@ std::vector<Cell> peaks_of(const cv::Mat& degrees, Cell first, double tau) {
   return peaks;
 }
 
-SearchingDetector::SearchingDetector(std::string name, std::shared_ptr<const TemplateSet> templates, double tau_match)
-    : templates_(checked(name, std::move(templates))), tau_match_(tau_match), reach_(0) {
-  for (const LandmarkTemplate& shape : templates_->templates) reach_ = std::max(reach_, reach_of(shape));
+void SearchingDetector::add_peaks(const cv::Mat& degrees, std::size_t index, const OccupancyGrid& grid, Cell first,
+                                  std::vector<Candidate>& candidates) const {
+  for (const Cell at : peaks_of(degrees, first, tau_match_)) {
+    const Cell pixel = at - first;
+    const double degree = std::min(1.0, static_cast<double>(degrees.at<float>(pixel.y, pixel.x)));
+    candidates.push_back({grid.centre_of(at), index, set().templates[index].orientation_rad, degree});
+  }
 }
 
+SearchingDetector::SearchingDetector(std::string name, std::shared_ptr<const TemplateSet> templates, double tau_match)
+    : templates_(usable(std::move(templates), name)), tau_match_(tau_match), reach_(reach_of(templates_->templates)) {}
+
 DetectionReport SearchingDetector::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {
-  if (std::abs(grid.cell_m() - templates_->cell_m) > 1e-9)
-    throw std::invalid_argument("the grid's cells are " + std::to_string(grid.cell_m()) +
-                                " m, the templates were rendered for " + std::to_string(templates_->cell_m) + " m");
+  check_cell_size(*templates_, grid.cell_m());
   waiting_ = united(waiting_, intersected(changes.box(), grid.bounds()));
   if (waiting_.empty() || budget.iterations < 1 || budget.exhausted()) return {};
   const CellBox centres = intersected(waiting_.grown(reach_), grid.bounds());

@@ -8,7 +8,11 @@
 #include <vector>
 
 #include "framework/contracts/detector.hpp"
-#include "plugins/opencv_detectors/pictures.hpp"
+#include "maps/landmark_template.hpp"
+
+namespace cv {
+class Mat;
+}
 
 namespace cairn::opencv_detectors {
 
@@ -46,6 +50,10 @@ class SearchingDetector : public Detector {
   // which is asked before each template: the next change makes up for it.
   [[nodiscard]] virtual std::optional<std::vector<Candidate>> search(const OccupancyGrid& grid, const CellBox& centres,
                                                                      const Budget& budget) = 0;
+
+  // A candidate at each of peaks_of(degrees, first, tau_match()).
+  void add_peaks(const cv::Mat& degrees, std::size_t index, const OccupancyGrid& grid, Cell first,
+                 std::vector<Candidate>& candidates) const;
 
   [[nodiscard]] const TemplateSet& set() const { return *templates_; }
   [[nodiscard]] double tau_match() const { return tau_match_; }

@@ -3,14 +3,7 @@
 namespace cairn::template_matcher {
 
 void Config::describe(Fields<Config>& fields) {
-  fields.file("templates", &Config::templates, "folder of template files; the host renders them for the mission");
-  fields.choice("rendering", &Config::rendering,
-                {{"sensed", TemplateRendering::sensed}, {"ideal", TemplateRendering::ideal}},
-                "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
-  fields.angle("step_deg", &Config::step_rad, {1.0, 90.0}, "orientation step of the templates");
-  fields.numbers("sizes", &Config::sizes, {0.5, 2.0}, "",
-                 "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
-                 "size varies");
+  describe_templates(fields);
   fields.integer("coarse_cells", &Config::coarse_cells, {1.0, 100.0},
                  "n: one OG2 cell covers n x n OG1 cells; at most the smallest landmark's diameter in cells");
   fields.number("alpha_og2", &Config::alpha_og2, {1.000001, 100.0}, "",

@@ -1,10 +1,7 @@
 // Settings of the template matcher (METHOD 3 to 7). Values of OL and OL2 are on the scale 0..255.
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
-#include "framework/config/fields.hpp"
+#include "framework/config/template_settings.hpp"
 
 namespace cairn::template_matcher {
 
@@ -12,15 +9,8 @@ enum class TriggerRule { since_matching, since_update, every_update };
 enum class MismatchScale { sobel, literal };
 enum class Search { pruned, exhaustive };
 enum class Degrees { all, above_threshold, each_template };
-enum class TemplateRendering { sensed, ideal };
 
-struct Config {
-  // Read by the host, which renders the templates.
-  std::filesystem::path templates;
-  TemplateRendering rendering = TemplateRendering::sensed;
-  double step_rad = radians(15.0);
-  std::vector<double> sizes{1.0};
-
+struct Config : TemplateSettings {
   int coarse_cells = 5;
   double alpha_og2 = 2.0;
   double tau_trigger = 150.0;

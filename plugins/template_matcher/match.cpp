@@ -1,15 +1,6 @@
 #include "plugins/template_matcher/match.hpp"
 
-#include <algorithm>
-
 namespace cairn::template_matcher {
-int reach_of(std::span<const LandmarkTemplate> templates) {
-  int reach = 0;
-  for (const LandmarkTemplate& t : templates) {
-    for (const TemplateCell& cell : t.cells) reach = std::max(reach, distance8(cell.offset, {0, 0}));
-  }
-  return reach;
-}
 
 std::int32_t mismatch_at(const GradientField& field, const LandmarkTemplate& shape, Cell at) {
   std::int32_t sum = 0;

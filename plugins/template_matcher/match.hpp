@@ -33,9 +33,6 @@ struct TemplateMatch {
   bool operator==(const TemplateMatch&) const = default;
 };
 
-// How far the templates' cells lie from their centre cells, at most (chessboard distance).
-[[nodiscard]] int reach_of(std::span<const LandmarkTemplate> templates);
-
 // The mismatch of one template centred on one cell. The field covers the template there.
 [[nodiscard]] std::int32_t mismatch_at(const GradientField& field, const LandmarkTemplate& shape, Cell at);
 

@@ -12,16 +12,6 @@ namespace {
 // The largest magnitude of a 3x3 Sobel gradient of values 0..255: components 1020 and 510.
 const double kSobelMagnitude = 255.0 * std::sqrt(20.0);
 
-std::shared_ptr<const TemplateSet> checked(std::shared_ptr<const TemplateSet> set) {
-  if (set == nullptr || set->templates.empty()) {
-    throw std::invalid_argument("template_matcher has no templates to look for; name a folder of template files");
-  }
-  for (const LandmarkTemplate& t : set->templates) {
-    if (t.cells.empty()) throw std::invalid_argument("a template of category \"" + t.category + "\" has no cells");
-  }
-  return set;
-}
-
 int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
   const int most = static_cast<int>(std::floor(set.smallest_diameter_m() / set.cell_m + 1e-9));
   if (coarse_cells > most) {
@@ -59,7 +49,7 @@ std::int32_t ceiling_beside(const TemplateMatch& other, const LandmarkTemplate& 
 
 TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const TemplateSet> templates)
     : config_(config),
-      templates_(checked(std::move(templates))),
+      templates_(usable(std::move(templates), "template_matcher")),
       rule_{config.mu == MismatchScale::sobel ? kSobelMagnitude : 2.0 * kSobelMagnitude, config.tau_match,
             config.min_margin, config.min_above_unseen},
       reach_(RegionReach::of(*templates_, config.coarse_cells * templates_->cell_m)),
@@ -71,10 +61,7 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       neighbours_(*templates_) {}
 
 DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {
-  if (std::abs(grid.cell_m() - templates_->cell_m) > 1e-9) {
-    throw std::invalid_argument("the grid's cells are " + std::to_string(grid.cell_m()) +
-                                " m, the templates were rendered for " + std::to_string(templates_->cell_m) + " m");
-  }
+  check_cell_size(*templates_, grid.cell_m());
   DetectionReport report;
   coarse_.update(grid, changes, touched_);
   trigger_.begin_update();

@@ -51,11 +51,8 @@ std::optional<Detection> found_in(const OccupancyGrid& grid, const LandmarkShape
                                                                       choice("muriel", "{cell_m: 0.05}"), library));
   const auto detector =
       library.make<Detector>(choice("template_matcher", "{coarse_cells: 5, tau_match: 0.5}"), context);
-  CellChanges changes;
-  const CellBox box = grid.bounds();
-  for (int y = box.min.y; y < box.max.y; ++y) changes.spans.push_back({y, box.min.x, box.max.x});
   std::optional<Detection> best;
-  for (const Matching& matching : detector->detect(grid, changes, Budget()).matchings) {
+  for (const Matching& matching : detector->detect(grid, everything_in(grid.bounds()), Budget()).matchings) {
     if (matching.detection && (!best || matching.detection->degree > best->degree)) best = matching.detection;
   }
   return best;

@@ -45,7 +45,7 @@ TEST(Pictures, GradientsOfAPartAreThoseOfTheWhole) {
 // The host's ideal templates are gradients of just this picture.
 TEST(Pictures, ADrawnShapeHasTheGradientsOfItsIdealTemplate) {
   const LandmarkTemplate shape = render_ideal(triangle(), 0.5, 0.05);
-  const int reach = reach_of(shape) + 2;
+  const int reach = reach_of({&shape, 1}) + 2;
   const cv::Mat picture = drawn(triangle().contour, 0.5, 0.05, reach);
   cv::Mat x;
   cv::Sobel(picture, x, CV_16S, 1, 0);

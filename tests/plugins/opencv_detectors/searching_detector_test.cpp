@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "plugins/opencv_detectors/chamfer.hpp"
 #include "plugins/opencv_detectors/generalized_hough.hpp"
 #include "plugins/opencv_detectors/match_template.hpp"
@@ -36,15 +38,9 @@ OccupancyGrid grid_with(const std::vector<std::pair<std::size_t, Pose2>>& landma
   return grid;
 }
 
-CellChanges box_of(const CellBox& box) {
-  CellChanges changes;
-  for (int y = box.min.y; y < box.max.y; ++y) changes.spans.push_back({y, box.min.x, box.max.x});
-  return changes;
-}
-
 std::vector<Detection> found_by(Detector& detector, const OccupancyGrid& grid, const CellBox& changed) {
   std::vector<Detection> found;
-  for (const Matching& matching : detector.detect(grid, box_of(changed), Budget{}).matchings)
+  for (const Matching& matching : detector.detect(grid, everything_in(changed), Budget{}).matchings)
     if (matching.detection) found.push_back(*matching.detection);
   return found;
 }
@@ -131,7 +127,7 @@ TEST_P(OpenCvDetector, WhatABudgetCutOffIsSearchedWithTheNextChange) {
   const auto detector = GetParam().second();
   Budget none;
   none.iterations = 0;
-  EXPECT_TRUE(detector->detect(grid, box_of(grid.bounds()), none).matchings.empty());
+  EXPECT_TRUE(detector->detect(grid, everything_in(grid.bounds()), none).matchings.empty());
   const std::vector<Detection> found = found_by(*detector, grid, {{98, 58}, {99, 59}});
   ASSERT_FALSE(found.empty());
   EXPECT_LT((found[0].T_map_landmark.position() - square.position()).norm(), 0.15);

@@ -36,12 +36,6 @@ inline void paint(OccupancyGrid& grid, const Contour& contour, const Pose2& T_ma
   }
 }
 
-inline CellChanges all_of(const CellBox& box) {
-  CellChanges changes;
-  for (int y = box.min.y; y < box.max.y; ++y) changes.spans.push_back({y, box.min.x, box.max.x});
-  return changes;
-}
-
 inline LandmarkShape circle_shape() {
   return {"circle", Contour::circle(0.5)};
 }

@@ -149,7 +149,7 @@ TEST(FastMatcher, AnswersAsTheExhaustiveMatcherOverALargeRegion) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Random random(seed);
     const OccupancyGrid grid = random_grid(random);
-    const std::vector<CellSpan> region = all_of({{-20, -20}, {21, 20}}).spans;
+    const std::vector<CellSpan> region = everything_in({{-20, -20}, {21, 20}}).spans;
     const GradientField field = field_for(grid, region, set.templates, 1);
     const std::vector<std::int32_t> any(set.templates.size(), kUnmatched);
     const std::vector<TemplateMatch> expected = match_exhaustively(field, region, set.templates);
@@ -186,7 +186,7 @@ TEST(FastMatcher, FindsALargeTemplateThatNeedsCoarserUnits) {
       templates[0].cells.push_back({{x, y}, *all.x_from(there), *all.y_from(there)});
     }
   }
-  const std::vector<CellSpan> region = all_of({{-9, -9}, {10, 10}}).spans;
+  const std::vector<CellSpan> region = everything_in({{-9, -9}, {10, 10}}).spans;
   const GradientField field = field_for(grid, region, templates);
   const std::vector<std::int32_t> any = {kUnmatched};
   const std::vector<TemplateMatch> expected = match_exhaustively(field, region, templates);

@@ -39,7 +39,7 @@ TEST(Match, OfAPaintedTemplateWithItselfIsNear1AtItsPlace) {
     OccupancyGrid grid(0.05);
     const Point centre = grid.centre_of({4, 3});
     paint(grid, shape->contour, {centre.x(), centre.y(), t.orientation_rad}, {{-30, -30}, {30, 30}});
-    const std::vector<CellSpan> region = all_of({{-5, -5}, {12, 12}}).spans;
+    const std::vector<CellSpan> region = everything_in({{-5, -5}, {12, 12}}).spans;
     const GradientField field(grid, box_of(region).grown(reach_of(set.templates)));
     const std::vector<TemplateMatch> matches = match_exhaustively(field, region, set.templates);
     EXPECT_EQ(matches[i].at, (Cell{4, 3})) << t.category << " " << degrees(t.orientation_rad);

@@ -26,7 +26,7 @@ CellChanges change(OccupancyGrid& grid, Random& random, const std::vector<Landma
     const double angle_rad = radians(between(random, 0, 359));
     const CellBox around = CellBox{first, first}.grown(12);
     paint(grid, shapes[random() % shapes.size()].contour, {at.x(), at.y(), angle_rad}, around);
-    return all_of(around);
+    return everything_in(around);
   }
   for (int y = box.min.y; y < box.max.y; ++y) {
     for (int x = box.min.x; x < box.max.x; ++x) {
@@ -34,7 +34,7 @@ CellChanges change(OccupancyGrid& grid, Random& random, const std::vector<Landma
       if (kind > 1 && random() % 3 == 0) grid.add_log_odds({x, y}, kind > 6 ? 150 : -150);
     }
   }
-  return all_of(box);
+  return everything_in(box);
 }
 
 void expect_same(const Matching& a, const Matching& b) {

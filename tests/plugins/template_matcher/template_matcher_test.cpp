@@ -45,7 +45,7 @@ TEST(TemplateMatcher, FindsEachPaintedLandmarkWithItsPlaceAndOrientation) {
     OccupancyGrid grid(0.05);
     const Point at = grid.centre_of({17, -9});
     paint(grid, shape.contour, {at.x(), at.y(), radians(30.0)}, {{-20, -45}, {55, 30}});
-    const DetectionReport report = matcher.detect(grid, all_of(grid.bounds()), {});
+    const DetectionReport report = matcher.detect(grid, everything_in(grid.bounds()), {});
     const Detection* found = best_detection(report);
     ASSERT_NE(found, nullptr) << shape.category;
     EXPECT_EQ(found->category, shape.category);
@@ -63,7 +63,7 @@ TEST(TemplateMatcher, ReportsEveryCategoryInEveryMatching) {
   TemplateMatcher matcher(plain(), paper_templates());
   OccupancyGrid grid(0.05);
   paint(grid, square_shape().contour, {}, {{-25, -25}, {25, 25}});
-  const DetectionReport report = matcher.detect(grid, all_of(grid.bounds()), {});
+  const DetectionReport report = matcher.detect(grid, everything_in(grid.bounds()), {});
   ASSERT_FALSE(report.matchings.empty());
   for (const Matching& m : report.matchings) {
     ASSERT_EQ(m.degrees.size(), 3U);
@@ -104,7 +104,7 @@ TEST(TemplateMatcher, FindsTheSameLandmarksByEitherSearchAndWithEitherDegrees) {
           config.search = search;
           config.degrees = degrees;
           config.min_margin = margin;
-          reports.push_back(TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {}));
+          reports.push_back(TemplateMatcher(config, paper_templates()).detect(grid, everything_in(grid.bounds()), {}));
         }
       }
       for (const DetectionReport& report : reports) {
@@ -133,11 +133,13 @@ TEST(TemplateMatcher, TellsTheDegreeOfEveryTemplateWhenAskedTo) {
   OccupancyGrid grid(0.05);
   paint(grid, square_shape().contour, {0.013, 0.021, 0.7}, {{-25, -25}, {25, 25}});
   Config config = plain();
-  const DetectionReport all = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  const DetectionReport all = TemplateMatcher(config, paper_templates()).detect(grid, everything_in(grid.bounds()), {});
   config.degrees = Degrees::each_template;
-  const DetectionReport each = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  const DetectionReport each =
+      TemplateMatcher(config, paper_templates()).detect(grid, everything_in(grid.bounds()), {});
   config.search = Search::exhaustive;
-  const DetectionReport oracle = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  const DetectionReport oracle =
+      TemplateMatcher(config, paper_templates()).detect(grid, everything_in(grid.bounds()), {});
   ASSERT_GT(each.matchings.size(), 0U);
   ASSERT_EQ(each.matchings.size(), oracle.matchings.size());
   for (std::size_t i = 0; i < each.matchings.size(); ++i) {
@@ -152,9 +154,9 @@ TEST(TemplateMatcher, ReportsOnlyDegreesAboveTauMatchWhenAskedTo) {
   OccupancyGrid grid(0.05);
   paint(grid, square_shape().contour, {}, {{-25, -25}, {25, 25}});
   Config config = plain();
-  const auto all = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  const auto all = TemplateMatcher(config, paper_templates()).detect(grid, everything_in(grid.bounds()), {});
   config.degrees = Degrees::above_threshold;
-  const auto above = TemplateMatcher(config, paper_templates()).detect(grid, all_of(grid.bounds()), {});
+  const auto above = TemplateMatcher(config, paper_templates()).detect(grid, everything_in(grid.bounds()), {});
   ASSERT_EQ(above.matchings.size(), all.matchings.size());
   std::size_t left_out = 0;
   for (std::size_t i = 0; i < all.matchings.size(); ++i) {
@@ -175,7 +177,7 @@ TEST(TemplateMatcher, MatchesNothingOnAnEmptyGrid) {
   TemplateMatcher matcher(plain(), paper_templates());
   const OccupancyGrid grid(0.05);
   EXPECT_TRUE(matcher.detect(grid, {}, {}).matchings.empty());
-  EXPECT_TRUE(matcher.detect(grid, all_of({{0, 0}, {40, 40}}), {}).matchings.empty());
+  EXPECT_TRUE(matcher.detect(grid, everything_in({{0, 0}, {40, 40}}), {}).matchings.empty());
 }
 
 TEST(TemplateMatcher, MatchesNothingOnFreeFloor) {
@@ -184,7 +186,7 @@ TEST(TemplateMatcher, MatchesNothingOnFreeFloor) {
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 60; ++x) grid.set_log_odds({x, y}, -1024);
   }
-  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), {}).matchings.empty());
+  EXPECT_TRUE(matcher.detect(grid, everything_in(grid.bounds()), {}).matchings.empty());
 }
 
 TEST(TemplateMatcher, ScoresUnseenFloorNearATenth) {
@@ -196,7 +198,7 @@ TEST(TemplateMatcher, ScoresUnseenFloorNearATenth) {
     TemplateMatcher matcher(config, paper_templates());
     OccupancyGrid grid(0.05);
     grid.include({{0, 0}, {40, 40}});
-    return matcher.detect(grid, all_of({{0, 0}, {5, 5}}), {}).matchings;
+    return matcher.detect(grid, everything_in({{0, 0}, {5, 5}}), {}).matchings;
   };
   const auto by_sobel = matchings(MismatchScale::sobel);
   ASSERT_EQ(by_sobel.size(), 1U);
@@ -215,7 +217,7 @@ TEST(TemplateMatcher, WorksAtTheEdgeOfTheGrid) {
   OccupancyGrid grid(0.05);
   const Point at = grid.centre_of({0, 0});
   paint(grid, circle_shape().contour, {at.x(), at.y(), 0.0}, {{-7, -7}, {8, 8}});
-  const DetectionReport report = matcher.detect(grid, all_of(grid.bounds()), {});
+  const DetectionReport report = matcher.detect(grid, everything_in(grid.bounds()), {});
   const Detection* found = best_detection(report);
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(found->category, "circle");
@@ -225,8 +227,8 @@ TEST(TemplateMatcher, DoesNotMatchAgainUntilMoreIsKnown) {
   TemplateMatcher matcher(plain(), paper_templates());
   OccupancyGrid grid(0.05);
   paint(grid, circle_shape().contour, {}, {{-25, -25}, {25, 25}});
-  EXPECT_FALSE(matcher.detect(grid, all_of(grid.bounds()), {}).matchings.empty());
-  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), {}).matchings.empty());
+  EXPECT_FALSE(matcher.detect(grid, everything_in(grid.bounds()), {}).matchings.empty());
+  EXPECT_TRUE(matcher.detect(grid, everything_in(grid.bounds()), {}).matchings.empty());
 }
 
 TEST(TemplateMatcher, StopsWithTheBudgetAndGoesOnWithTheNextChange) {
@@ -235,21 +237,21 @@ TEST(TemplateMatcher, StopsWithTheBudgetAndGoesOnWithTheNextChange) {
   TemplateMatcher matcher(plain(), paper_templates());
   Budget none;
   none.iterations = 0;
-  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), none).matchings.empty());
+  EXPECT_TRUE(matcher.detect(grid, everything_in(grid.bounds()), none).matchings.empty());
   Budget one;
   one.iterations = 1;
-  EXPECT_EQ(matcher.detect(grid, all_of(grid.bounds()), one).matchings.size(), 1U);
+  EXPECT_EQ(matcher.detect(grid, everything_in(grid.bounds()), one).matchings.size(), 1U);
   const std::atomic<bool> cancelled = true;
   Budget over;
   over.cancel = &cancelled;
-  EXPECT_TRUE(matcher.detect(grid, all_of(grid.bounds()), over).matchings.empty());
+  EXPECT_TRUE(matcher.detect(grid, everything_in(grid.bounds()), over).matchings.empty());
 }
 
 TEST(TemplateMatcher, KeepsACoarseGridThatEqualsARecomputation) {
   TemplateMatcher matcher(plain(), paper_templates());
   OccupancyGrid grid(0.05);
   paint(grid, square_shape().contour, {}, {{-25, -25}, {25, 25}});
-  (void)matcher.detect(grid, all_of(grid.bounds()), {});
+  (void)matcher.detect(grid, everything_in(grid.bounds()), {});
   CoarseGrid fresh(5, plain().alpha_og2);
   fresh.rebuild(grid);
   ASSERT_NE(matcher.coarse_grid(), nullptr);

@@ -1,0 +1,44 @@
+// The settings of every detector that looks for landmark templates. The host reads them as well: it renders
+// the templates that the detector finds in ModuleContext::templates.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+
+namespace cairn {
+
+enum class Rendering { sensed, ideal };
+
+struct TemplateSettings {
+  std::filesystem::path templates;
+  Rendering rendering = Rendering::sensed;
+  double step_rad = radians(15.0);
+  std::vector<double> sizes{1.0};
+  static void describe(Fields<TemplateSettings>& fields);
+};
+
+// For the describe() of a detector's own settings, which have these as a base.
+template <class Config>
+void describe_templates(Fields<Config>& fields) {
+  // A base's member is a member of Config, but not by the type that Fields deduces.
+  std::filesystem::path Config::*const templates = &Config::templates;
+  Rendering Config::*const rendering = &Config::rendering;
+  std::vector<double> Config::*const sizes = &Config::sizes;
+  fields.file("templates", templates, "folder of template files; the host renders them for the mission");
+  fields.choice("rendering", rendering, {{"sensed", Rendering::sensed}, {"ideal", Rendering::ideal}},
+                "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
+  fields.angle("step_deg", &Config::step_rad, {1.0, 90.0}, "orientation step of the templates");
+  fields.numbers("sizes", sizes, {0.5, 2.0}, "",
+                 "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
+                 "size varies");
+}
+
+inline void TemplateSettings::describe(Fields<TemplateSettings>& fields) {
+  describe_templates(fields);
+}
+
+}  // namespace cairn
