@@ -48,6 +48,7 @@ struct Landmark {
   int sightings = 0;
   std::optional<Pose2> access;  // where a robot stands to be "at" the landmark; none: its position
   int level = 0;                // floor of a building
+  std::string annotations;      // what other tools keep with it: the text of a JSON object, or empty
   bool operator==(const Landmark&) const = default;
 };
 
@@ -60,6 +61,8 @@ struct Route {
   bool driven = false;            // the robot has driven it; otherwise planned or imported
   bool closed = false;            // found blocked
   int level = 0;
+  std::optional<double> speed_limit_mps;  // on this route; none: the robot's own
+  std::string annotations;                // as a landmark's
   bool operator==(const Route&) const = default;
 };
 

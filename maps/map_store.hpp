@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "maps/cluster_tree.hpp"
 #include "maps/landmark_graph.hpp"
 #include "maps/landmark_template.hpp"
 #include "maps/occupancy_grid.hpp"
@@ -28,6 +29,7 @@ class StoreError : public std::runtime_error {
 struct SavedMap {
   OccupancyGrid grid{0.05};
   LandmarkGraph graph;
+  ClusterTree clusters;
   std::vector<LandmarkShape> shapes;              // the categories the map was made with
   std::vector<Pose2> driven_path;                 // estimated poses, thinned
   std::map<std::string, std::string> properties;  // mission, seed, robot_radius_m, ...
