@@ -136,7 +136,8 @@ void HierarchySearch::relax_arc(int side, NodeIndex at, const Arc& arc) {
   if (!(cost < kNoWay)) return;
   const double reached = nodes_[at].label[static_cast<std::size_t>(side)].cost + cost;
   if (!(reached < best_)) return;
-  if (!query_->avoided.empty() && query_->avoided.contains(arc.other)) return;
+  // One that is known all the same is an end.
+  if (!query_->avoided.empty() && query_->avoided.contains(arc.other) && slot_of(arc.other) == kNone) return;
   relax(side, node_at(arc.other), reached, at, arc.route);
 }
 
