@@ -82,7 +82,7 @@ class RouteLint {
                            LintSeverity::note,
                            {},
                            unchecked_,
-                           Point(0.0, 0.0),
+                           standing_at(*graph_.find(graph_.find_route(unchecked_.front())->from)),
                            fmt::format("there is no grid to check {} trajector{} on", unchecked_.size(),
                                        unchecked_.size() == 1 ? "y" : "ies"),
                            "map the place, or import a grid of it"});
