@@ -17,13 +17,13 @@ struct Square {
   std::size_t sort = 0;
   std::int64_t y = 0;
   std::int64_t x = 0;
-  auto operator<=>(const Square&) const = default;
+  auto operator<=>(const Square&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct Resident {
   Square square;
   std::size_t index = 0;
-  auto operator<=>(const Resident&) const = default;
+  auto operator<=>(const Resident&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 using Residents = std::span<const Resident>;

@@ -13,7 +13,6 @@
 namespace cairn {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -224,8 +223,8 @@ TEST(BlockageOn, IsThereExactlyWhenTheSweepIsNotFree) {
       const auto kind = random() % 40;  // one cell of forty is occupied, one unknown
       grid.set_log_odds({i % 12, i / 12}, kind == 0 ? LogOdds{900} : kind == 1 ? LogOdds{0} : LogOdds{-900});
     }
-    std::vector<Pose2> way;
-    for (int i = 0; i < 3; ++i) way.push_back({1.2 * unit(random), 1.2 * unit(random), 0.0});
+    std::vector<Pose2> way(3);
+    for (Pose2& pose : way) pose = {1.2 * unit(random), 1.2 * unit(random), 0.0};
     const double radius_m = 0.05 * static_cast<double>(random() % 3);
     const auto is_free = [&](UnknownPolicy unknown) {
       const GroundRules rules{unknown, {}};
