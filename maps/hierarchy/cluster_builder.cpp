@@ -11,7 +11,7 @@ namespace {
 // The middle of all costs that are not zero; 0 without any.
 double usual_cost(const Network& network) {
   std::vector<double> costs;
-  for (Vertex v = 0; v < network.end(); ++v)
+  for (VertexIndex v = 0; v < network.end(); ++v)
     for (const Arc& arc : network.out(v))
       if (arc.cost > 0.0 && arc.cost < kNoWay) costs.push_back(arc.cost);
   if (costs.empty()) return 0.0;
@@ -42,7 +42,7 @@ std::int32_t ClusterBuilder::weight_of(const Arc& arc) const {
 
 template <class Visit>
 void ClusterBuilder::for_each_tie(std::uint32_t member, int level, Visit visit) const {
-  const auto visit_arcs = [&](Vertex v) {
+  const auto visit_arcs = [&](VertexIndex v) {
     for (const auto* arcs : {&network_.out(v), &network_.in(v)})
       for (const Arc& arc : *arcs) {
         const std::uint32_t other = level == 1 ? arc.other : clustering_.cluster_of(arc.other, level - 1);
@@ -52,7 +52,7 @@ void ClusterBuilder::for_each_tie(std::uint32_t member, int level, Visit visit) 
   if (level == 1)
     visit_arcs(member);
   else
-    for (const Vertex v : clustering_.node(member).boundary) visit_arcs(v);
+    for (const VertexIndex v : clustering_.node(member).boundary) visit_arcs(v);
 }
 
 GroupingGraph ClusterBuilder::graph_of(std::span<const std::uint32_t> members, int level) {
@@ -94,9 +94,9 @@ std::map<ClusterIndex, std::int64_t> ClusterBuilder::ties_of(ClusterIndex cluste
   return ties;
 }
 
-void ClusterBuilder::divide(std::span<const Vertex> vertices, int level, ClusterIndex parent) {
+void ClusterBuilder::divide(std::span<const VertexIndex> vertices, int level, ClusterIndex parent) {
   const auto group_of = connected_groups(graph_of(vertices, 1), clustering_.sizes_.most(level), propose_);
-  for (const std::vector<Vertex>& group : groups_of(vertices, group_of)) {
+  for (const std::vector<VertexIndex>& group : groups_of(vertices, group_of)) {
     const ClusterIndex cluster = clustering_.add(level, parent);
     if (level == 1)
       clustering_.adopt(cluster, group);
@@ -111,8 +111,8 @@ void ClusterBuilder::build() {
   clustering_.leaf_.assign(network_.end(), kNoCluster);
   clustering_.levels_ = std::min(clustering_.sizes_.levels_for(network_.landmarks()), clustering_.most_levels_);
   if (clustering_.levels_ == 0) return;
-  std::vector<Vertex> all;
-  for (Vertex v = 0; v < network_.end(); ++v)
+  std::vector<VertexIndex> all;
+  for (VertexIndex v = 0; v < network_.end(); ++v)
     if (network_.landmark_of(v) != 0) all.push_back(v);
   for (const auto& part : groups_of(all, connected_parts(graph_of(all, 1))))
     divide(part, clustering_.levels_, kNoCluster);

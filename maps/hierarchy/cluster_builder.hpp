@@ -21,7 +21,7 @@ class ClusterBuilder {
   [[nodiscard]] std::map<ClusterIndex, std::int64_t> ties_of(ClusterIndex cluster) const;
 
  private:
-  void divide(std::span<const Vertex> vertices, int level, ClusterIndex parent);
+  void divide(std::span<const VertexIndex> vertices, int level, ClusterIndex parent);
   [[nodiscard]] std::int32_t weight_of(const Arc& arc) const;
   template <class Visit>
   void for_each_tie(std::uint32_t member, int level, Visit visit) const;

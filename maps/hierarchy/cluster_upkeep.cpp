@@ -28,9 +28,9 @@ void ClusterUpkeep::touch(ClusterIndex cluster) {
 }
 
 // Every vertex gets a cluster, alone at first; what becomes of it is seen level by level.
-void ClusterUpkeep::place(std::span<const Vertex> vertices) {
+void ClusterUpkeep::place(std::span<const VertexIndex> vertices) {
   clustering_.leaf_.resize(network_.end(), kNoCluster);
-  for (const Vertex v : vertices) {
+  for (const VertexIndex v : vertices) {
     ClusterIndex& leaf = clustering_.leaf_[v];
     const bool gone = network_.landmark_of(v) == 0;
     if (leaf != kNoCluster) waiting_.insert(leaf);
@@ -60,7 +60,7 @@ void ClusterUpkeep::tend_levels() {
     for (const ClusterIndex cluster : seen_) {
       ClusterNode& node = clustering_.nodes_[cluster];
       if (node.level != level_) continue;
-      const std::vector<Vertex> before = node.boundary;
+      const std::vector<VertexIndex> before = node.boundary;
       clustering_.find_boundary(network_, cluster);
       clustering_.find_anchor(network_, cluster);
       if (node.boundary != before) touched_.insert(cluster);
@@ -101,7 +101,7 @@ void ClusterUpkeep::divide(ClusterIndex cluster) {
     }
     // The part with the anchor keeps id and name, else the largest.
     auto kept = static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-    const Vertex anchor = network_.vertex_of(clustering_.nodes_[cluster].anchor);
+    const VertexIndex anchor = network_.vertex_of(clustering_.nodes_[cluster].anchor);
     const std::uint32_t holder = anchor == kNoVertex ? kNoCluster
                                  : level_ == 1       ? anchor
                                                      : clustering_.cluster_of(anchor, level_ - 1);
@@ -167,7 +167,7 @@ void ClusterUpkeep::change_levels() {
   }
 }
 
-Clustering::Upkeep ClusterUpkeep::follow(std::span<const Vertex> vertices) {
+Clustering::Upkeep ClusterUpkeep::follow(std::span<const VertexIndex> vertices) {
   if (clustering_.levels_ == 0) {
     clustering_.leaf_.resize(network_.end(), kNoCluster);
     builder_.build();
@@ -180,17 +180,17 @@ Clustering::Upkeep ClusterUpkeep::follow(std::span<const Vertex> vertices) {
 }
 
 void ClusterUpkeep::restore(const ClusterTree& saved) {
-  std::map<Vertex, std::vector<const Cluster*>> chains;
+  std::map<VertexIndex, std::vector<const Cluster*>> chains;
   std::size_t levels = 0;
   for (const auto& [landmark, leaf] : saved.cluster_of)
-    if (const Vertex v = network_.vertex_of(landmark); v != kNoVertex) {
+    if (const VertexIndex v = network_.vertex_of(landmark); v != kNoVertex) {
       std::vector<const Cluster*> chain = chain_of(saved, leaf);
       levels = std::max(levels, chain.size());
       chains.emplace(v, std::move(chain));
     }
   clustering_.levels_ = static_cast<int>(levels);
   std::map<const Cluster*, ClusterIndex> made;
-  std::vector<std::vector<Vertex>> vertices;
+  std::vector<std::vector<VertexIndex>> vertices;
   for (const auto& [v, chain] : chains) {
     if (chain.size() != levels) continue;
     ClusterIndex above = kNoCluster;
@@ -213,8 +213,8 @@ void ClusterUpkeep::restore(const ClusterTree& saved) {
   for (ClusterIndex leaf = 0; leaf < vertices.size(); ++leaf)
     if (!vertices[leaf].empty()) clustering_.adopt(leaf, vertices[leaf]);
   for (const ClusterIndex leaf : clustering_.of_level(1)) waiting_.insert(leaf);
-  std::vector<Vertex> all;
-  for (Vertex v = 0; v < network_.end(); ++v)
+  std::vector<VertexIndex> all;
+  for (VertexIndex v = 0; v < network_.end(); ++v)
     if (network_.landmark_of(v) != 0) all.push_back(v);
   place(all);
   tend_levels();

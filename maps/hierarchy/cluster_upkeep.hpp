@@ -12,12 +12,12 @@ class ClusterUpkeep {
   ClusterUpkeep(Clustering& clustering, const Network& network)
       : clustering_(clustering), network_(network), builder_(clustering, network, propose_) {}
 
-  Clustering::Upkeep follow(std::span<const Vertex> vertices);
+  Clustering::Upkeep follow(std::span<const VertexIndex> vertices);
   // Into a clustering without levels.
   void restore(const ClusterTree& saved);
 
  private:
-  void place(std::span<const Vertex> vertices);
+  void place(std::span<const VertexIndex> vertices);
   void tend_levels();
   void tend(ClusterIndex cluster);
   void divide(ClusterIndex cluster);

@@ -28,7 +28,7 @@ Clustering::Clustering(const Network& network, const ClusterSizes& sizes, const 
   ClusterBuilder(*this, network, propose).build();
 }
 
-ClusterIndex Clustering::cluster_of(Vertex v, int level) const {
+ClusterIndex Clustering::cluster_of(VertexIndex v, int level) const {
   ClusterIndex cluster = leaf_of(v);
   for (int l = 1; l < level && cluster != kNoCluster; ++l) cluster = nodes_[cluster].parent;
   return cluster;
@@ -83,20 +83,20 @@ void Clustering::find_boundary(const Network& network, ClusterIndex cluster) {
     return std::any_of(arcs.begin(), arcs.end(),
                        [&](const Arc& arc) { return cluster_of(arc.other, node.level) != cluster; });
   };
-  const auto look_at = [&](Vertex v) {
+  const auto look_at = [&](VertexIndex v) {
     if (leaves(network.out(v)) || leaves(network.in(v))) node.boundary.push_back(v);
   };
   for (const std::uint32_t member : node.members)
     if (node.level == 1)
       look_at(member);
     else
-      for (const Vertex v : nodes_[member].boundary) look_at(v);
+      for (const VertexIndex v : nodes_[member].boundary) look_at(v);
   std::sort(node.boundary.begin(), node.boundary.end());
 }
 
 void Clustering::find_anchor(const Network& network, ClusterIndex cluster) {
   ClusterNode& node = nodes_[cluster];
-  const Vertex present = network.vertex_of(node.anchor);
+  const VertexIndex present = network.vertex_of(node.anchor);
   if (present != kNoVertex && cluster_of(present, node.level) == cluster) return;
   const auto weight = [&](std::uint32_t member) {
     return node.level == 1 ? network.out(member).size() + network.in(member).size()
@@ -129,7 +129,7 @@ void Clustering::drop_level() {
   most_levels_ = --levels_;
 }
 
-Clustering::Upkeep Clustering::follow(const Network& network, std::span<const Vertex> vertices) {
+Clustering::Upkeep Clustering::follow(const Network& network, std::span<const VertexIndex> vertices) {
   return ClusterUpkeep(*this, network).follow(vertices);
 }
 
@@ -142,7 +142,7 @@ ClusterTree Clustering::tree(const Network& network) const {
       tree.clusters.emplace(node.id, Cluster{node.id, node.level, parent, node.anchor, node.name});
     }
   if (levels_ == 0) return tree;
-  for (Vertex v = 0; v < network.end(); ++v)
+  for (VertexIndex v = 0; v < network.end(); ++v)
     if (network.landmark_of(v) != 0) tree.cluster_of.emplace(network.landmark_of(v), nodes_[leaf_[v]].id);
   return tree;
 }

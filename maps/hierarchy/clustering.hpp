@@ -33,7 +33,7 @@ struct ClusterNode {
   int level = 0;  // 0: the index is free
   ClusterIndex parent = kNoCluster;
   std::vector<std::uint32_t> members;  // vertices on level 1, indices of clusters above
-  std::vector<Vertex> boundary;        // vertices with a route, open or closed, out of or into the cluster; rising
+  std::vector<VertexIndex> boundary;   // vertices with a route, open or closed, out of or into the cluster; rising
   std::int32_t landmarks = 0;
   ClusterId id = 0;
   LandmarkId anchor = 0;
@@ -54,7 +54,7 @@ class Clustering {
   };
   // Brings the clusters in line after the network has got or lost vertices or arcs. `vertices`: those that are
   // new or gone, and both ends of each such arc.
-  Upkeep follow(const Network& network, std::span<const Vertex> vertices);
+  Upkeep follow(const Network& network, std::span<const VertexIndex> vertices);
   // Takes the highest level away.
   void drop_level();
 
@@ -62,8 +62,8 @@ class Clustering {
   [[nodiscard]] ClusterIndex end() const { return static_cast<ClusterIndex>(nodes_.size()); }
   [[nodiscard]] const ClusterNode& node(ClusterIndex cluster) const { return nodes_[cluster]; }
   // Of level 1; kNoCluster when there are no levels.
-  [[nodiscard]] ClusterIndex leaf_of(Vertex v) const { return v < leaf_.size() ? leaf_[v] : kNoCluster; }
-  [[nodiscard]] ClusterIndex cluster_of(Vertex v, int level) const;
+  [[nodiscard]] ClusterIndex leaf_of(VertexIndex v) const { return v < leaf_.size() ? leaf_[v] : kNoCluster; }
+  [[nodiscard]] ClusterIndex cluster_of(VertexIndex v, int level) const;
   [[nodiscard]] std::vector<ClusterIndex> of_level(int level) const;
   [[nodiscard]] const ClusterSizes& sizes() const { return sizes_; }
 

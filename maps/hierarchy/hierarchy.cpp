@@ -21,7 +21,7 @@ std::set<RouteId> routes_of(const GraphChanges& changes, const LandmarkGraph& gr
   for (const LandmarkId id : changes.landmarks) {
     for (const auto* touching : {&graph.routes_from(id), &graph.routes_to(id)})
       routes.insert(touching->begin(), touching->end());
-    if (const Vertex v = network.vertex_of(id); v != kNoVertex)
+    if (const VertexIndex v = network.vertex_of(id); v != kNoVertex)
       for (const auto* arcs : {&network.out(v), &network.in(v)})
         for (const Arc& arc : *arcs) routes.insert(arc.route);
   }
@@ -45,9 +45,9 @@ void Hierarchy::drop_needless_levels() {
 void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
   const std::set<RouteId> routes = routes_of(changes, graph, network_);
   std::set<LandmarkId> landmarks(changes.landmarks.begin(), changes.landmarks.end());
-  std::vector<Vertex> moved;  // new, gone, or with other arcs
+  std::vector<VertexIndex> moved;  // new, gone, or with other arcs
   std::vector<CostChange> costs;
-  const auto note_ends = [&](std::pair<Vertex, Vertex> ends) {
+  const auto note_ends = [&](std::pair<VertexIndex, VertexIndex> ends) {
     if (ends.first != kNoVertex) moved.insert(moved.end(), {ends.first, ends.second});
   };
   for (const RouteId id : routes)
@@ -70,7 +70,7 @@ void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) 
     }
   }
   for (const LandmarkId id : landmarks)
-    if (const Vertex v = network_.vertex_of(id); v != kNoVertex && graph.find(id) == nullptr) {
+    if (const VertexIndex v = network_.vertex_of(id); v != kNoVertex && graph.find(id) == nullptr) {
       network_.sync_landmark(graph, id);
       moved.push_back(v);
     }
@@ -88,7 +88,7 @@ void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) 
 void Hierarchy::update(const LandmarkGraph& graph) {
   GraphChanges changes;
   for (const auto& [id, landmark] : graph.landmarks()) changes.landmarks.push_back(id);
-  for (Vertex v = 0; v < network_.end(); ++v)
+  for (VertexIndex v = 0; v < network_.end(); ++v)
     if (network_.landmark_of(v) != 0) changes.landmarks.push_back(network_.landmark_of(v));
   update(graph, changes);
 }

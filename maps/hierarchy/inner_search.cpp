@@ -13,7 +13,7 @@ InnerGraph::InnerGraph(const Network& network, const Clustering& clustering, Clu
   nodes_ = passage.inner.size();
   begin_.push_back(0);
   if (node.level == 1) {
-    for (const Vertex v : passage.inner) {
+    for (const VertexIndex v : passage.inner) {
       for (const Arc& arc : network.out(v))
         if (arc.cost < kNoWay && clustering.leaf_of(arc.other) == cluster)
           arcs_.push_back({arc.cost, position_of(passage.inner, arc.other)});

@@ -36,7 +36,7 @@ Network::Network(const LandmarkGraph& graph, const RouteCost& cost) {
   }
   out_.resize(end());
   in_.resize(end());
-  for (Vertex v = 0; v < end(); ++v) {
+  for (VertexIndex v = 0; v < end(); ++v) {
     out_[v].reserve(graph.routes_from(landmark_[v]).size());
     in_[v].reserve(graph.routes_to(landmark_[v]).size());
   }
@@ -45,17 +45,17 @@ Network::Network(const LandmarkGraph& graph, const RouteCost& cost) {
     if (route.from != route.to) add_arc(route, cost_of(route, cost));
 }
 
-Vertex Network::vertex_of(LandmarkId id) const {
+VertexIndex Network::vertex_of(LandmarkId id) const {
   const auto found = vertex_of_.find(id);
   return found == vertex_of_.end() ? kNoVertex : found->second;
 }
 
-std::pair<Vertex, Vertex> Network::ends_of(RouteId id) const {
+std::pair<VertexIndex, VertexIndex> Network::ends_of(RouteId id) const {
   const auto found = ends_.find(id);
   return found == ends_.end() ? std::pair(kNoVertex, kNoVertex) : found->second;
 }
 
-const Arc* Network::cheapest(Vertex from, Vertex to) const {
+const Arc* Network::cheapest(VertexIndex from, VertexIndex to) const {
   const Arc* best = nullptr;
   for (const Arc& arc : out_[from])
     if (arc.other == to && arc.cost < kNoWay &&
@@ -65,8 +65,8 @@ const Arc* Network::cheapest(Vertex from, Vertex to) const {
 }
 
 void Network::add_arc(const Route& route, double cost) {
-  const Vertex from = vertex_of(route.from);
-  const Vertex to = vertex_of(route.to);
+  const VertexIndex from = vertex_of(route.from);
+  const VertexIndex to = vertex_of(route.to);
   out_[from].push_back({cost, route.id, to});
   in_[to].push_back({cost, route.id, from});
   ends_.emplace(route.id, std::pair(from, to));
@@ -81,7 +81,7 @@ void Network::drop_arc(RouteId id) {
 }
 
 void Network::sync_landmark(const LandmarkGraph& graph, LandmarkId id) {
-  const Vertex v = vertex_of(id);
+  const VertexIndex v = vertex_of(id);
   const bool wanted = graph.find(id) != nullptr;
   if (wanted == (v != kNoVertex)) return;
   if (!wanted) {
@@ -92,7 +92,7 @@ void Network::sync_landmark(const LandmarkGraph& graph, LandmarkId id) {
     free_.push_back(v);
     return;
   }
-  const Vertex fresh = free_.empty() ? end() : free_.back();
+  const VertexIndex fresh = free_.empty() ? end() : free_.back();
   if (free_.empty()) {
     landmark_.push_back(id);
     out_.emplace_back();

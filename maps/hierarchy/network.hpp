@@ -14,8 +14,8 @@
 
 namespace cairn {
 
-using Vertex = std::uint32_t;
-inline constexpr Vertex kNoVertex = std::numeric_limits<Vertex>::max();
+using VertexIndex = std::uint32_t;
+inline constexpr VertexIndex kNoVertex = std::numeric_limits<VertexIndex>::max();
 inline constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
 // What a route costs a search; finite and not negative. Closed routes cost kNoWay without being asked.
@@ -25,7 +25,7 @@ using RouteCost = std::function<double(const Route&)>;
 struct Arc {
   double cost = 0.0;  // kNoWay: closed
   RouteId route = 0;
-  Vertex other = kNoVertex;  // the end that is not asked for
+  VertexIndex other = kNoVertex;  // the end that is not asked for
 };
 
 class Network {
@@ -38,25 +38,25 @@ class Network {
   void sync_landmark(const LandmarkGraph& graph, LandmarkId id);
   void sync_route(const LandmarkGraph& graph, RouteId id, const RouteCost& cost);
 
-  [[nodiscard]] Vertex vertex_of(LandmarkId id) const;                                // kNoVertex when there is none
-  [[nodiscard]] LandmarkId landmark_of(Vertex v) const { return landmark_[v]; }       // 0: the number is free
-  [[nodiscard]] Vertex end() const { return static_cast<Vertex>(landmark_.size()); }  // above all numbers
+  [[nodiscard]] VertexIndex vertex_of(LandmarkId id) const;                           // kNoVertex when there is none
+  [[nodiscard]] LandmarkId landmark_of(VertexIndex v) const { return landmark_[v]; }  // 0: the number is free
+  [[nodiscard]] VertexIndex end() const { return static_cast<VertexIndex>(landmark_.size()); }  // above all numbers
   [[nodiscard]] std::size_t landmarks() const { return vertex_of_.size(); }
-  [[nodiscard]] const std::vector<Arc>& out(Vertex v) const { return out_[v]; }
-  [[nodiscard]] const std::vector<Arc>& in(Vertex v) const { return in_[v]; }
+  [[nodiscard]] const std::vector<Arc>& out(VertexIndex v) const { return out_[v]; }
+  [[nodiscard]] const std::vector<Arc>& in(VertexIndex v) const { return in_[v]; }
   // The ends of a route in the network; kNoVertex twice when it is not there.
-  [[nodiscard]] std::pair<Vertex, Vertex> ends_of(RouteId id) const;
+  [[nodiscard]] std::pair<VertexIndex, VertexIndex> ends_of(RouteId id) const;
   // The cheapest open arc from one to the other, the lower route among equals; null: none.
-  [[nodiscard]] const Arc* cheapest(Vertex from, Vertex to) const;
+  [[nodiscard]] const Arc* cheapest(VertexIndex from, VertexIndex to) const;
 
  private:
   void add_arc(const Route& route, double cost);
   void drop_arc(RouteId id);
 
   std::vector<LandmarkId> landmark_;
-  std::unordered_map<LandmarkId, Vertex> vertex_of_;
-  std::unordered_map<RouteId, std::pair<Vertex, Vertex>> ends_;
-  std::vector<Vertex> free_;
+  std::unordered_map<LandmarkId, VertexIndex> vertex_of_;
+  std::unordered_map<RouteId, std::pair<VertexIndex, VertexIndex>> ends_;
+  std::vector<VertexIndex> free_;
   std::vector<std::vector<Arc>> out_, in_;
 };
 

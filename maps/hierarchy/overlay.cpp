@@ -80,7 +80,7 @@ void Overlay::list_inner(const Clustering& clustering, ClusterIndex cluster) {
   }
   if (passage.inner.size() > kMostInner)
     throw std::length_error("Overlay: cluster " + std::to_string(node.id) + " has too many inner vertices");
-  for (const Vertex v : node.boundary)
+  for (const VertexIndex v : node.boundary)
     passage.at.push_back(static_cast<std::uint16_t>(inner_index(clustering, cluster, v)));
 }
 
@@ -94,13 +94,13 @@ void Overlay::list_arcs(const Network& network, const Clustering& clustering, Cl
   };
   passage.out_begin = {0};
   passage.in_begin = {0};
-  for (const Vertex v : node.boundary) {
+  for (const VertexIndex v : node.boundary) {
     list(network.out(v), passage.out, passage.out_begin);
     list(network.in(v), passage.in, passage.in_begin);
   }
 }
 
-std::uint32_t Overlay::inner_index(const Clustering& clustering, ClusterIndex cluster, Vertex v) const {
+std::uint32_t Overlay::inner_index(const Clustering& clustering, ClusterIndex cluster, VertexIndex v) const {
   const ClusterNode& node = clustering.node(cluster);
   if (node.level == 1) return position_of(node.members, v);
   const ClusterIndex member = clustering.cluster_of(v, node.level - 1);
@@ -131,7 +131,7 @@ void Overlay::build(const Network& network, const Clustering& clustering) {
 }
 
 void Overlay::follow(const Network& network, const Clustering& clustering, const Clustering::Upkeep& upkeep,
-                     std::span<const Vertex> vertices) {
+                     std::span<const VertexIndex> vertices) {
   if (upkeep.levels_changed) return build(network, clustering);
   passages_.resize(clustering.end());
   std::set<std::pair<int, ClusterIndex>> clusters;  // by rising level
@@ -144,7 +144,7 @@ void Overlay::follow(const Network& network, const Clustering& clustering, const
       add_with_ancestors(cluster);
     else
       passages_[cluster] = {};
-  for (const Vertex v : vertices) add_with_ancestors(clustering.leaf_of(v));
+  for (const VertexIndex v : vertices) add_with_ancestors(clustering.leaf_of(v));
   for (const auto& [level, cluster] : clusters) make(network, clustering, cluster);
 }
 

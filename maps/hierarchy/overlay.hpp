@@ -23,7 +23,7 @@ struct Passage {
 
   // For unpacking: inner vertices, member by member (on level 1: its vertices), and the tree of ways from each
   // boundary vertex.
-  std::vector<Vertex> inner;
+  std::vector<VertexIndex> inner;
   std::vector<std::uint32_t> member_begin;  // members + 1; level 1: empty
   std::vector<std::uint16_t> at;            // boundary vertex -> inner vertex
   std::vector<double> cost;                 // [i * N + n]: from boundary vertex i
@@ -36,8 +36,8 @@ struct Passage {
 
 // A route's cost before it changed.
 struct CostChange {
-  Vertex from = kNoVertex;
-  Vertex to = kNoVertex;
+  VertexIndex from = kNoVertex;
+  VertexIndex to = kNoVertex;
   RouteId route = 0;
   double before = 0.0;
   double after = 0.0;
@@ -53,7 +53,7 @@ class Overlay {
   void build(const Network& network, const Clustering& clustering);  // on all cores
   // After Clustering::follow() with these vertices.
   void follow(const Network& network, const Clustering& clustering, const Clustering::Upkeep& upkeep,
-              std::span<const Vertex> vertices);
+              std::span<const VertexIndex> vertices);
   // After nothing but costs have changed: only ways that used, or would now use, one of the arcs are found anew.
   void recost(const Network& network, const Clustering& clustering, std::span<const CostChange> changes);
 
@@ -75,7 +75,7 @@ class Overlay {
   void take_over(const Clustering& clustering, const CostChange& change, InnerChanges& changes);
   void recost(const Network& network, const Clustering& clustering, ClusterIndex cluster,
               const std::vector<InnerChange>& changes, InnerChanges& above);
-  [[nodiscard]] std::uint32_t inner_index(const Clustering& clustering, ClusterIndex cluster, Vertex v) const;
+  [[nodiscard]] std::uint32_t inner_index(const Clustering& clustering, ClusterIndex cluster, VertexIndex v) const;
 
   std::vector<Passage> passages_;  // by ClusterIndex
 };

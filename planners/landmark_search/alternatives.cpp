@@ -34,7 +34,7 @@ class Yen {
       if (arc.route == route) return arc.cost;
     return kNoWay;
   }
-  double cost_of_start(Vertex v) const {
+  double cost_of_start(VertexIndex v) const {
     double cost = kNoWay;
     for (const SearchEnd& end : query_.from)
       if (end.vertex == v) cost = std::min(cost, end.cost);
@@ -81,8 +81,8 @@ class Yen {
   HierarchySearch& search_;
   const Budget& budget_;
   std::vector<Way> taken_, candidates_;
-  std::set<std::pair<Vertex, std::vector<RouteId>>> known_;
-  std::set<Vertex> begins_at_;
+  std::set<std::pair<VertexIndex, std::vector<RouteId>>> known_;
+  std::set<VertexIndex> begins_at_;
 };
 
 }  // namespace

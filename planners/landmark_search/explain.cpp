@@ -7,7 +7,7 @@ namespace {
 
 std::vector<std::vector<ClusterId>> clusters_along(const Way& way, const Clustering& clustering) {
   std::vector<std::vector<ClusterId>> clusters(static_cast<std::size_t>(clustering.levels()));
-  for (const Vertex v : way.vertices)
+  for (const VertexIndex v : way.vertices)
     for (int level = 1; level <= clustering.levels(); ++level) {
       auto& passed = clusters[static_cast<std::size_t>(level - 1)];
       const ClusterId id = clustering.node(clustering.cluster_of(v, level)).id;

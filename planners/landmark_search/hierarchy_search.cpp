@@ -12,7 +12,7 @@ constexpr std::size_t kFewestSlots = 1024;
 // Where the two halves of a way pass the same vertex, what lies between costs nothing (or it would not be the
 // cheapest way) and is left out.
 void remove_loops(Way& way) {
-  std::unordered_map<Vertex, std::size_t> at;
+  std::unordered_map<VertexIndex, std::size_t> at;
   at.reserve(way.vertices.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < way.vertices.size(); ++i) {
@@ -56,14 +56,14 @@ void HierarchySearch::begin(const Hierarchy& hierarchy, const WayQuery& query) {
   slots_.assign(kFewestSlots, kNone);
   for (const auto* ends : {&query.from, &query.to})
     for (const SearchEnd& end : *ends) look_into_clusters_of(end.vertex);
-  for (const Vertex v : query.avoided) look_into_clusters_of(v);
+  for (const VertexIndex v : query.avoided) look_into_clusters_of(v);
   for (const auto& [route, cost] : query.costs) look_into_clusters_with(route);
   for (auto& queue : queues_) queue.clear();
   for (const int side : {0, 1})
     for (const SearchEnd& end : side == 0 ? query.from : query.to) relax(side, node_at(end.vertex), end.cost, kNone, 0);
 }
 
-void HierarchySearch::look_into_clusters_of(Vertex v) {
+void HierarchySearch::look_into_clusters_of(VertexIndex v) {
   const Clustering& clustering = hierarchy_->clustering();
   for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
        c = clustering.node(c).parent)
@@ -80,7 +80,7 @@ void HierarchySearch::look_into_clusters_with(RouteId route) {
   for (; a != kNoCluster; a = clustering.node(a).parent) opened_[a] = query_number_;
 }
 
-HierarchySearch::NodeIndex& HierarchySearch::slot_of(Vertex v) {
+HierarchySearch::NodeIndex& HierarchySearch::slot_of(VertexIndex v) {
   const std::size_t mask = slots_.size() - 1;
   std::size_t at = (std::uint64_t{v} * 0x9E3779B97F4A7C15U >> 20) & mask;
   while (slots_[at] != kNone && nodes_[slots_[at]].vertex != v) at = (at + 1) & mask;
@@ -92,7 +92,7 @@ void HierarchySearch::grow() {
   for (NodeIndex n = 0; n < nodes_.size(); ++n) slot_of(nodes_[n].vertex) = n;
 }
 
-HierarchySearch::NodeIndex HierarchySearch::node_at(Vertex v, ClusterIndex cluster, std::uint32_t index) {
+HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v, ClusterIndex cluster, std::uint32_t index) {
   NodeIndex& slot = slot_of(v);
   if (slot != kNone) return slot;
   const auto fresh = static_cast<NodeIndex>(nodes_.size());
@@ -102,7 +102,7 @@ HierarchySearch::NodeIndex HierarchySearch::node_at(Vertex v, ClusterIndex clust
   return fresh;
 }
 
-HierarchySearch::NodeIndex HierarchySearch::node_at(Vertex v) {
+HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v) {
   if (const NodeIndex known = slot_of(v); known != kNone) return known;
   const Clustering& clustering = hierarchy_->clustering();
   ClusterIndex whole = kNoCluster;
@@ -191,7 +191,7 @@ void HierarchySearch::run(const Budget& budget, Way& way) {
   }
 }
 
-void HierarchySearch::append(Vertex from, Vertex to, Way& way) const {
+void HierarchySearch::append(VertexIndex from, VertexIndex to, Way& way) const {
   way.routes.push_back(hierarchy_->network().cheapest(from, to)->route);
   way.vertices.push_back(to);
 }

@@ -15,20 +15,20 @@
 namespace cairn {
 
 struct SearchEnd {
-  Vertex vertex = kNoVertex;
+  VertexIndex vertex = kNoVertex;
   double cost = 0.0;  // of getting to it first, or on from it; not negative
 };
 
 struct WayQuery {
-  std::vector<SearchEnd> from, to;     // any one of each
-  std::unordered_set<Vertex> avoided;  // not passed; may be ends
+  std::vector<SearchEnd> from, to;          // any one of each
+  std::unordered_set<VertexIndex> avoided;  // not passed; may be ends
   // Routes that cost something else in this query; kNoWay: not to be taken.
   std::unordered_map<RouteId, double> costs;
 };
 
 struct Way {
   double cost = kNoWay;                        // kNoWay: there is none; ends included
-  std::vector<Vertex> vertices;                // from end to end
+  std::vector<VertexIndex> vertices;           // from end to end
   std::vector<RouteId> routes;                 // one less
   bool stopped = false;                        // by the budget, before the answer
   std::int64_t settled = 0;                    // by both searches
@@ -52,7 +52,7 @@ class HierarchySearch {
     RouteId route = 0;  // 0: through the cluster
   };
   struct Node {
-    Vertex vertex = kNoVertex;
+    VertexIndex vertex = kNoVertex;
     ClusterIndex cluster = kNoCluster;  // that is passed as a whole; none: the vertex is looked at itself
     std::uint32_t index = 0;            // in the cluster's boundary
     std::array<Label, 2> label;         // from the start, to the goal
@@ -60,20 +60,20 @@ class HierarchySearch {
   using Queue = std::vector<std::pair<double, NodeIndex>>;
 
   void begin(const Hierarchy& hierarchy, const WayQuery& query);
-  void look_into_clusters_of(Vertex v);
+  void look_into_clusters_of(VertexIndex v);
   void look_into_clusters_with(RouteId route);
   void run(const Budget& budget, Way& way);
   void settle(int side, NodeIndex at, Way& way);
   void relax_arc(int side, NodeIndex at, const Arc& arc);
   void relax(int side, NodeIndex to, double cost, NodeIndex before, RouteId route);
-  NodeIndex node_at(Vertex v);
-  NodeIndex node_at(Vertex v, ClusterIndex cluster, std::uint32_t index);
-  NodeIndex& slot_of(Vertex v);
+  NodeIndex node_at(VertexIndex v);
+  NodeIndex node_at(VertexIndex v, ClusterIndex cluster, std::uint32_t index);
+  NodeIndex& slot_of(VertexIndex v);
   void grow();
   void unpack(Way& way) const;
   void unpack_step(int side, NodeIndex at, Way& way) const;
   void unpack_passage(ClusterIndex cluster, std::size_t from, std::size_t to, Way& way) const;
-  void append(Vertex from, Vertex to, Way& way) const;
+  void append(VertexIndex from, VertexIndex to, Way& way) const;
   [[nodiscard]] double cost_of(const Arc& arc) const;
 
   const Hierarchy* hierarchy_ = nullptr;

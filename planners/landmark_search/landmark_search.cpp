@@ -49,7 +49,7 @@ WayQuery query_of(const PlanRequest& request, const Network& network) {
   query.from = ends_of(request.from, network);
   query.to = ends_of(request.to, network);
   for (const LandmarkId id : request.avoid)
-    if (const Vertex v = network.vertex_of(id); v != kNoVertex) query.avoided.insert(v);
+    if (const VertexIndex v = network.vertex_of(id); v != kNoVertex) query.avoided.insert(v);
   for (const RouteId id : request.closed) query.costs[id] = kNoWay;
   return query;
 }
@@ -57,7 +57,7 @@ WayQuery query_of(const PlanRequest& request, const Network& network) {
 std::vector<LandmarkId> landmarks_of(const Way& way, const Network& network) {
   std::vector<LandmarkId> landmarks;
   landmarks.reserve(way.vertices.size());
-  for (const Vertex v : way.vertices) landmarks.push_back(network.landmark_of(v));
+  for (const VertexIndex v : way.vertices) landmarks.push_back(network.landmark_of(v));
   return landmarks;
 }
 
