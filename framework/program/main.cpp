@@ -46,7 +46,7 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
 }
 
 void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* map = app.add_subcommand("map", "Look at saved maps");
+  CLI::App* map = app.add_subcommand("map", "Look at saved maps, import, export and name");
   map->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, auto command) {
     CLI::App* sub = map->add_subcommand(name, text);
@@ -58,6 +58,29 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
   add("check", "Prove a map sound, or say what is wrong", map_check);
   CLI::App* render = add("render", "Draw a map into a PNG file", map_render);
   render->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
+}
+
+void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* map = app.get_subcommand("map");
+  CLI::App* import = map->add_subcommand("import", "Make a map of a landmark graph in another tool's file");
+  import->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json) or *.graphml")->required();
+  import->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
+  import->callback([&] { action = [&] { return map_import(c, common);
+};
+}  // namespace
+);
+CLI::App* made = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
+made->add_option("MAP", c.from, "saved map (*.cairn)")->required();
+made->add_option("-o,--out", c.to, "file to write: *.graph, *.geojson, *.json, *.graphml or *.png")->required();
+made->callback([&] { action = [&] { return map_export(c, common); }; });
+}  // namespace cairn
+
+void add_map_name(CLI::App& app, NameCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* name = app.get_subcommand("map")->add_subcommand("name", "Name a landmark or a cluster of a map");
+  name->add_option("MAP", c.map, "saved map (*.cairn), changed in place")->required();
+  name->add_option("WHAT", c.what, "L17, C1:L17, or the name so far")->required();
+  name->add_option("NAME", c.name, "the new name; an empty one takes it away")->required();
+  name->callback([&] { action = [&] { return map_name(c, common); }; });
 }
 
 void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common, Action& action) {
@@ -159,6 +182,8 @@ int main_of(int argc, char** argv) {
   RunCommand run_options;
   PlanCommand plan_options;
   MapCommand map_options;
+  ExchangeCommand exchange_options;
+  NameCommand name_options;
   TemplateCommand template_options;
   CaptureCommand capture_options;
   ExperimentCommand experiment_options;
@@ -169,6 +194,8 @@ int main_of(int argc, char** argv) {
   add_run(app, run_options, common, action);
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
+  add_map_exchange(app, exchange_options, common, action);
+  add_map_name(app, name_options, common, action);
   add_template(app, template_options, common, action);
   add_template_capture(app, capture_options, common, action);
   add_plugins(app, plugins_options, common, action);
