@@ -45,9 +45,7 @@ class Reader {
     const pugi::xml_parse_result parsed =
         document_.load_buffer(source_.text().data(), source_.text().size(), flags, pugi::encoding_utf8);
     const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0));
-    if (!parsed && offset + 1 >= source_.text().size())
-      source_.fail_cut(offset, std::string("is no XML: ") + parsed.description());
-    if (!parsed) source_.fail(offset, std::string("is no XML: ") + parsed.description());
+    if (!parsed) fail_no_xml(offset, parsed.description());
     const pugi::xml_node root = document_.document_element();
     if (std::string_view(root.name()) != "graphml")
       source_.fail(offset_of(root), "is no GraphML: its outer element is <" + std::string(root.name()) + ">");
@@ -63,6 +61,14 @@ class Reader {
   }
 
  private:
+  [[noreturn]] void fail_no_xml(std::size_t offset, const std::string& why) const {
+    const std::size_t last_tag = source_.text().rfind("</");
+    const bool is_whole =
+        last_tag != std::string_view::npos && source_.text().find("graphml>", last_tag) != std::string_view::npos;
+    if (is_whole) source_.fail(offset, "is no XML: " + why);
+    source_.fail_cut(offset, "is no XML: " + why);
+  }
+
   void require_known(const pugi::xml_node& child, const Names& known) const {
     const std::string name = child.name();
     if (child.type() != pugi::node_element || name.find(':') != std::string::npos ||
