@@ -45,7 +45,8 @@ std::string refused(const std::string& feature) {
 // The features of a text, by kind and id.
 std::map<std::pair<bool, std::int64_t>, json> features_of(const std::string& text) {
   std::map<std::pair<bool, std::int64_t>, json> features;
-  for (const json& feature : json::parse(text)["features"])
+  const json all = json::parse(text);
+  for (const json& feature : all.at("features"))
     features[{feature["geometry"]["type"] == "Point", feature["properties"]["id"]}] = feature;
   return features;
 }
@@ -123,7 +124,8 @@ TEST(Nav2Routes, IdsAreUniqueAcrossNodesAndEdges) {
   EXPECT_THAT(graph.warnings, Contains("2 edges: id 0 or an id that an earlier edge has, a new id is given"));
   const ExportedGraph written = nav2_routes_of(graph.graph);
   std::vector<std::int64_t> ids;
-  for (const json& feature : json::parse(written.text)["features"]) ids.push_back(feature["properties"]["id"]);
+  const json all = json::parse(written.text);
+  for (const json& feature : all.at("features")) ids.push_back(feature["properties"]["id"]);
   EXPECT_THAT(ids, ElementsAre(1, 2, 10, 7, 8, 0));
   EXPECT_THAT(written.warnings,
               ElementsAre("1 edge: the id is a node's, so it got one above all others: nav2 wants them unique"));
@@ -172,58 +174,58 @@ TEST(Nav2Routes, RefusesDegrees) {
     EXPECT_EQ(
         refusal_of(parse_nav2_routes, collection({kTwoNodes}, R"("crs": {"type": "name", "properties": {"name": ")" +
                                                                   std::string(name) + "\"}},")),
-        "1:100: crs \"" + std::string(name) +
+        "1:95: crs \"" + std::string(name) +
             "\" has degrees of longitude and latitude; a map needs metres in its own frame");
 }
 
 TEST(Nav2Routes, RefusesBadIds) {
-  EXPECT_EQ(refused(node(R"("id": -3)")), "4:41: id -3 is no whole number of 0 to 9007199254740991");
-  EXPECT_EQ(refused(node(R"("id": 3.0)")), "4:41: id 3.0 is no whole number of 0 to 9007199254740991");
-  EXPECT_EQ(refused(node(R"("id": "3")")), "4:41: id \"3\" is no whole number of 0 to 9007199254740991");
+  EXPECT_EQ(refused(node(R"("id": -3)")), "4:42: id -3 is no whole number of 0 to 9007199254740991");
+  EXPECT_EQ(refused(node(R"("id": 3.0)")), "4:42: id 3.0 is no whole number of 0 to 9007199254740991");
+  EXPECT_EQ(refused(node(R"("id": "3")")), "4:42: id \"3\" is no whole number of 0 to 9007199254740991");
   EXPECT_EQ(refused(node(R"("id": 9007199254740992)")),
-            "4:41: id 9007199254740992 is no whole number of 0 to 9007199254740991");
+            "4:42: id 9007199254740992 is no whole number of 0 to 9007199254740991");
   EXPECT_EQ(refused(node("")), "4:35: the feature has no id");
-  EXPECT_EQ(refused(node(R"("id": 2)")), "4:41: node 2 is there already, in line 3");
+  EXPECT_EQ(refused(node(R"("id": 2)")), "4:42: node 2 is there already, in line 3");
   EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1)")), "4:35: the feature has no endid");
-  EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1, "endid": 9)")), "4:64: endid: there is no node 9");
-  EXPECT_EQ(refused(edge(R"("id": 3, "startid": 0, "endid": 1)")), "4:52: startid: there is no node 0");
+  EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1, "endid": 9)")), "4:68: endid: there is no node 9");
+  EXPECT_EQ(refused(edge(R"("id": 3, "startid": 0, "endid": 1)")), "4:56: startid: there is no node 0");
 }
 
 TEST(Nav2Routes, RefusesBadProperties) {
   const std::string ends = R"("id": 3, "startid": 1, "endid": 2, )";
-  EXPECT_EQ(refused(edge(ends + R"("cost": -1)")), "4:75: cost -1 is not allowed: it must not be negative");
-  EXPECT_EQ(refused(edge(ends + R"("cost": "dear")")), "4:75: cost must be a number, is string");
-  EXPECT_THAT(refused(edge(ends + R"("cost": NaN)")), StartsWith("4:76: is no JSON: syntax error"));
+  EXPECT_EQ(refused(edge(ends + R"("cost": -1)")), "4:79: cost -1 is not allowed: it must not be negative");
+  EXPECT_EQ(refused(edge(ends + R"("cost": "dear")")), "4:79: cost must be a number, is string");
+  EXPECT_THAT(refused(edge(ends + R"("cost": NaN)")), StartsWith("4:79: is no JSON: syntax error"));
   EXPECT_THAT(refused(edge(ends + R"("cost": 1e999)")), HasSubstr("4:1: is not accepted: number overflow"));
-  EXPECT_EQ(refused(edge(ends + R"("overridable": 1)")), "4:82: overridable must be true or false, is number");
-  EXPECT_EQ(refused(node(R"("id": 3, "metadata": [])")), "4:56: metadata must be an object, is array");
-  EXPECT_EQ(refused(node(R"("id": 3, "frame": 4)")), "4:53: frame must be a text, is number");
+  EXPECT_EQ(refused(edge(ends + R"("overridable": 1)")), "4:86: overridable must be true or false, is number");
+  EXPECT_EQ(refused(node(R"("id": 3, "metadata": [])")), "4:57: metadata must be an object, is array");
+  EXPECT_EQ(refused(node(R"("id": 3, "frame": 4)")), "4:54: frame must be a text, is number");
   EXPECT_EQ(refused(edge(ends + R"("metadata": {"abs_speed_limit": -1})")),
-            "4:99: abs_speed_limit -1 is no speed in m/s: it must be a number that is not negative");
-  EXPECT_EQ(refused(node(R"("id": 3, "id": 4)")), "4:44: the key \"id\" is in this object twice");
+            "4:103: abs_speed_limit -1 is no speed in m/s: it must be a number that is not negative");
+  EXPECT_EQ(refused(node(R"("id": 3, "id": 4)")), "4:45: the key \"id\" is in this object twice");
 }
 
 TEST(Nav2Routes, RefusesBadOperations) {
   EXPECT_EQ(refused(node(R"("id": 3, "operations": "stop")")),
-            "4:58: operations must be an object or an array, is string");
+            "4:59: operations must be an object or an array, is string");
   EXPECT_EQ(refused(node(R"("id": 3, "operations": [{"trigger": "NODE"}])")),
-            "4:59: an operation is an object with a type, a text");
+            "4:60: an operation is an object with a type, a text");
   EXPECT_EQ(refused(node(R"("id": 3, "operations": {"a": {"type": "stop", "trigger": "ON_ENTR"}})")),
-            "4:92: unknown trigger \"ON_ENTR\" (did you mean \"ON_ENTER\"?): allowed are NODE, ON_ENTER and ON_EXIT");
+            "4:93: unknown trigger \"ON_ENTR\" (did you mean \"ON_ENTER\"?): allowed are NODE, ON_ENTER and ON_EXIT");
   EXPECT_EQ(refused(node(R"("id": 3, "operations": {"a": {"type": "stop"}})")),
-            "4:64: an operation needs a trigger: NODE, ON_ENTER or ON_EXIT");
+            "4:65: an operation needs a trigger: NODE, ON_ENTER or ON_EXIT");
 }
 
 TEST(Nav2Routes, RefusesBadGeometry) {
   const std::string numbers = "a point must be 2 or 3 numbers, [x_m, y_m] or [x_m, y_m, z_m], is ";
-  EXPECT_EQ(refused(node(R"("id": 3)", "[1]")), "4:92: " + numbers + "\"[1]\"");
-  EXPECT_EQ(refused(node(R"("id": 3)", "[1, 2, 3, 4]")), "4:92: " + numbers + "\"[1,2,3,4]\"");
-  EXPECT_EQ(refused(node(R"("id": 3)", "[1, null]")), "4:92: " + numbers + "\"[1,null]\"");
-  EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1, "endid": 2)", "[[[1, 2], [3]]]")), "4:139: " + numbers + "\"[3]\"");
+  EXPECT_EQ(refused(node(R"("id": 3)", "[1]")), "4:91: " + numbers + "\"[1]\"");
+  EXPECT_EQ(refused(node(R"("id": 3)", "[1, 2, 3, 4]")), "4:91: " + numbers + "\"[1,2,3,4]\"");
+  EXPECT_EQ(refused(node(R"("id": 3)", "[1, null]")), "4:91: " + numbers + "\"[1,null]\"");
+  EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1, "endid": 2)", "[[[1, 2], [3]]]")), "4:137: " + numbers + "\"[3]\"");
   EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1, "endid": 2)", "[[[1, 2], [3, 4]], 7]")),
-            "4:148: a line must be an array of points");
+            "4:146: a line must be an array of points");
   EXPECT_EQ(refused(R"({"type": "Feature", "properties": {"id": 4}, "geometry": {"type": "Polygon"}})"),
-            "4:68: geometry of type \"Polygon\": allowed are Point (a node), LineString and MultiLineString (an edge)");
+            "4:67: geometry of type \"Polygon\": allowed are Point (a node), LineString and MultiLineString (an edge)");
   EXPECT_EQ(refused(R"({"type": "Feature", "properties": {"id": 4}, "geometry": null})"),
             "4:58: a feature needs geometry, an object");
   EXPECT_EQ(refused(R"({"type": "Feature", "geometry": {}})"), "4:1: a feature needs properties, an object");
@@ -242,12 +244,12 @@ TEST(Nav2Routes, RefusesWhatIsNoFeatureCollection) {
   EXPECT_EQ(refused_text(R"({"type": "FeatureCollection", "features": {}})"),
             "1:43: expected an array, [...], found \"{}}\"");
   EXPECT_EQ(refused_text(collection({kTwoNodes}) + "x"), "5:1: nothing may follow the closing bracket");
-  EXPECT_EQ(refused_text(collection({kTwoNodes + " " + kTwoNodes})), "3:96: expected , or ], found \"{\"");
+  EXPECT_EQ(refused_text(collection({kTwoNodes + " " + kTwoNodes})), "3:100: expected , or ], found \"{\"");
 }
 
 TEST(Nav2Routes, DeepNestingIsRefusedAndNotFollowed) {
   const std::string deep(100'000, '[');
-  EXPECT_EQ(refused(node(R"("id": 3, "metadata": {"a": )" + deep)), "4:121: nests deeper than 64 brackets");
+  EXPECT_EQ(refused(node(R"("id": 3, "metadata": {"a": )" + deep)), "4:122: nests deeper than 64 brackets");
   EXPECT_EQ(refused(node(R"("id": 3, "metadata": {"a": )" + std::string(59, '[') + std::string(59, ']') + "}")),
             "accepted");
 }
