@@ -2,6 +2,7 @@
 #include <limits>
 #include <map>
 
+#include "maps/exchange/json_text.hpp"
 #include "maps/map_store_codec.hpp"
 #include "maps/map_store_tables.hpp"
 
@@ -103,6 +104,13 @@ void read_tiles(Database& database, OccupancyGrid& grid) {
   }
 }
 
+// The text of a JSON object, or nothing.
+std::string annotations_in(const Statement& row, int column) {
+  std::string text = row.text(column);
+  if (!text.empty() && !exchange::is_json_object(text)) throw StoreError("column annotations holds no JSON object");
+  return text;
+}
+
 using Histories = std::map<LandmarkId, Landmark>;  // templates and evidence alone
 
 // A row of landmarks with its history, which is taken from the others.
@@ -128,7 +136,7 @@ void read_landmarks(Database& database, LandmarkGraph& graph, Histories& histori
   Statement row(database, "SELECT * FROM landmarks ORDER BY id");
   while (row.step()) {
     Landmark landmark = landmark_in(row, histories);
-    if (version >= 3) landmark.annotations = row.text(12);
+    if (version >= 3) landmark.annotations = annotations_in(row, 12);
     graph.add(std::move(landmark));
   }
 }
@@ -137,7 +145,7 @@ void read_retired_landmarks(Database& database, LandmarkGraph& graph, Histories&
   Statement row(database, "SELECT * FROM retired_landmarks ORDER BY id");
   while (row.step()) {
     Landmark landmark = landmark_in(row, histories);
-    if (version >= 3) landmark.annotations = row.text(13);
+    if (version >= 3) landmark.annotations = annotations_in(row, 13);
     graph.add_retired({std::move(landmark), row.text(12)});
   }
 }
@@ -192,7 +200,7 @@ void read_routes(Database& database, LandmarkGraph& graph, int version) {
     route.trajectory = read_trajectory(row, 7, "the trajectory of " + numbered("route", route.id));
     if (version >= 3) {
       route.speed_limit_mps = row.optional_real(10);
-      route.annotations = row.text(11);
+      route.annotations = annotations_in(row, 11);
     }
     graph.add_route(std::move(route));
   }

@@ -84,6 +84,7 @@ class Reader {
       if (id.empty()) source_.fail(offset_of(key), "a key needs an id");
       std::string name = key.attribute("attr.name").value();
       if (name.empty()) name = id;
+      exchange::check_text(source_, name, offset_of(key));
       const std::string domain = key.attribute("for").value();
       const bool is_drawing = !key.attribute("yfiles.type").empty();
       const Key read{name, key.attribute("attr.type").value(), domain, key.child("default"), is_drawing};
@@ -120,8 +121,9 @@ class Reader {
       const Point middle(geometry.attribute("x").as_double() + 0.5 * geometry.attribute("width").as_double(),
                          -geometry.attribute("y").as_double() - 0.5 * geometry.attribute("height").as_double());
       const bool is_placed = geometry.attribute("x") && geometry.attribute("y") && middle.allFinite();
-      return {is_placed ? std::optional(middle) : std::nullopt,
-              exchange::trimmed(shape.child("y:NodeLabel").child_value())};
+      const std::string_view label = shape.child("y:NodeLabel").child_value();
+      exchange::check_text(source_, label, offset_of(shape));
+      return {is_placed ? std::optional(middle) : std::nullopt, exchange::trimmed(label)};
     }
     return {};
   }
@@ -162,6 +164,7 @@ class Reader {
       source_.fail(offset_of(inner), "a graph within a node is not read");
     const std::string_view id = node.attribute("id").value();
     if (id.empty()) source_.fail(offset_of(node), "a node needs an id");
+    exchange::check_text(source_, id, offset_of(node));
     const auto [earlier, is_new] = index_.emplace(id, nodes_.size());
     if (!is_new)
       source_.fail(offset_of(node), "node " + shown(id) + " is there already, in line " +

@@ -19,10 +19,20 @@ constexpr double kMostExact = static_cast<double>(kMaxFileId);
 
 }  // namespace
 
+void check_text(const SourceText& source, std::string_view text, std::size_t offset) {
+  if (first_not_utf8(text) != std::string_view::npos)
+    source.fail(offset, "the text names a character that does not exist (&#...;)");
+}
+
 std::string trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) return {};
   return std::string(text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1));
+}
+
+GraphmlValues::GraphmlValues(const SourceText& source, std::vector<GraphmlValue> values)
+    : source_(source), values_(std::move(values)) {
+  for (const GraphmlValue& value : values_) check_text(source, value.text, value.offset);
 }
 
 std::optional<GraphmlValue> GraphmlValues::take(const Names& names) {
@@ -82,7 +92,7 @@ std::string GraphmlValues::take_text(const Names& names) {
 std::string GraphmlValues::take_annotations() {
   const std::optional<GraphmlValue> text = take({"annotations"});
   if (text && !is_json_object(text->text)) source_.fail(text->offset, "annotations must be the text of a JSON object");
-  if (values_.empty()) return text ? std::string(text->text) : "";
+  if (!text && values_.empty()) return "";
   Json all = text ? Json::parse(text->text) : Json::object();
   for (const GraphmlValue& value : values_) {
     const std::string name(value.name);

@@ -10,6 +10,8 @@
 
 namespace cairn::exchange {
 
+// A reference like "&#xD800;" makes a text that is no UTF-8: throws ExchangeError.
+void check_text(const SourceText& source, std::string_view text, std::size_t offset);
 [[nodiscard]] std::string trimmed(std::string_view text);
 
 struct GraphmlValue {
@@ -24,8 +26,7 @@ class GraphmlValues {
  public:
   using Names = std::vector<std::string_view>;
 
-  GraphmlValues(const SourceText& source, std::vector<GraphmlValue> values)
-      : source_(source), values_(std::move(values)) {}
+  GraphmlValues(const SourceText& source, std::vector<GraphmlValue> values);
 
   // The value of the first of these names that is there; it is there no longer.
   std::optional<GraphmlValue> take(const Names& names);

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "maps/exchange/file_ids.hpp"
 #include "maps/exchange/json_text.hpp"
 #include "maps/exchange/losses.hpp"
 #include "maps/exchange/nav2_properties.hpp"
@@ -116,6 +117,9 @@ class Writer {
     }
     if (!is_node_id(route.id)) return route.id;
     ++renumbered_;
+    // Beyond the last possible id there may be free ones below.
+    if (next_ > exchange::kMaxFileId) next_ = 1;
+    while (is_node_id(next_) || graph_.find_route(next_) != nullptr) ++next_;
     return next_++;
   }
 

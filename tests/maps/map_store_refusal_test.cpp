@@ -203,6 +203,10 @@ TEST_F(ForgedMap, RefusesDanglingAndImpossibleRoutes) {
             "table routes: the trajectory of route 1 is damaged: its bytes do not unpack to 48 bytes");
   EXPECT_EQ(refusal_after_forging("UPDATE routes SET poses = -1 WHERE id = 1"),
             "table routes: column poses holds -1, allowed is 0 to 10000000");
+  EXPECT_EQ(refusal_after_forging("UPDATE routes SET annotations = '[1]' WHERE id = 1"),
+            "table routes: column annotations holds no JSON object");
+  EXPECT_EQ(refusal_after_forging("UPDATE routes SET speed_limit_mps = 'slow' WHERE id = 1"),
+            "table routes: column speed_limit_mps holds a text where a number belongs");
   EXPECT_EQ(refusal_after_forging("UPDATE routes SET closed = 2 WHERE id = 1"),
             "table routes: column closed holds 2, allowed is 0 to 1");
 }
@@ -214,6 +218,8 @@ TEST_F(ForgedMap, RefusesImpossibleLandmarks) {
             "table landmarks: column access_y_m holds nothing where a number belongs");
   EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET category = x'00' WHERE id = 1"),
             "table landmarks: column category holds a blob where a text belongs");
+  EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET annotations = '{\"a\":' WHERE id = 1"),
+            "table landmarks: column annotations holds no JSON object");
   EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET sightings = -3 WHERE id = 1"),
             "table landmarks: column sightings holds -3, allowed is 0 to 2147483647");
   EXPECT_EQ(refusal_after_forging("UPDATE landmark_templates SET landmark = 77"),

@@ -119,6 +119,9 @@ TEST(GraphMl, RefusesBadNodes) {
   EXPECT_EQ(refused(node("1", "<data key=\"d7\">1.5</data>")),
             "2:65: level 1.5 is no floor: it must be a whole number of -1000000 to 1000000");
   EXPECT_EQ(refused(node("1", "<data key=\"d9\">[1]</data>")), "2:65: annotations must be the text of a JSON object");
+  EXPECT_EQ(refused(node("1", "<data key=\"d2\">&#xD800;</data>")),
+            "2:65: the text names a character that does not exist (&#...;)");
+  EXPECT_EQ(refused("<node id=\"&#x110000;\"/>"), "2:2: the text names a character that does not exist (&#...;)");
   EXPECT_EQ(refused(node("1", "<graph edgedefault=\"directed\"/>")), "2:65: a graph within a node is not read");
   EXPECT_EQ(refused(""), "1:773: the graph holds no node");
 }
