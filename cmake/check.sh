@@ -17,7 +17,7 @@ cmake --preset asan >/dev/null
 cmake --build --preset asan --target all cairn_tests
 ASAN_OPTIONS=detect_leaks=1 ctest --test-dir build/asan --output-on-failure -j "$jobs"
 
-echo "== fuzzers of the log readers, a minute each"
+echo "== fuzzers of the readers of logs and graphs, a minute each"
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target cairn_fuzzers
 for fuzzer in build/fuzz/fuzz/fuzz_*; do

@@ -30,10 +30,4 @@ struct ClusterTree {
   bool operator==(const ClusterTree&) const = default;
 };
 
-// What the user named it, else "C<level>:<label of its anchor>".
-[[nodiscard]] std::string label_of(const Cluster& cluster, const LandmarkGraph& graph);
-// By "C<level>:<label>" or by its own name, which wins; the lower id of namesakes. Null: there is none.
-[[nodiscard]] const Cluster* find_cluster(const ClusterTree& tree, const LandmarkGraph& graph,
-                                          const std::string& label);
-
 }  // namespace cairn

@@ -59,8 +59,8 @@ struct Route {
   bool driven = false;            // the robot has driven it; otherwise planned or imported
   bool closed = false;            // found blocked
   int level = 0;
-  std::optional<double> speed_limit_mps;  // on this route; none: the robot's own
-  std::string annotations;                // as a landmark's
+  std::optional<double> speed_limit_mps = std::nullopt;  // on this route; none: the robot's own
+  std::string annotations = {};                          // as a landmark's
   bool operator==(const Route&) const = default;
 };
 

@@ -19,7 +19,7 @@
 
 namespace cairn {
 
-inline constexpr int kMapSchemaVersion = 2;
+inline constexpr int kMapSchemaVersion = 3;
 
 class StoreError : public std::runtime_error {
  public:

@@ -2,6 +2,7 @@
 #include <limits>
 #include <map>
 
+#include "maps/exchange/json_text.hpp"
 #include "maps/map_store_codec.hpp"
 #include "maps/map_store_tables.hpp"
 
@@ -103,6 +104,13 @@ void read_tiles(Database& database, OccupancyGrid& grid) {
   }
 }
 
+// The text of a JSON object, or nothing.
+std::string annotations_in(const Statement& row, int column) {
+  std::string text = row.text(column);
+  if (!text.empty() && !exchange::is_json_object(text)) throw StoreError("column annotations holds no JSON object");
+  return text;
+}
+
 using Histories = std::map<LandmarkId, Landmark>;  // templates and evidence alone
 
 // A row of landmarks with its history, which is taken from the others.
@@ -124,15 +132,20 @@ Landmark landmark_in(Statement& row, Histories& histories) {
   return landmark;
 }
 
-void read_landmarks(Database& database, LandmarkGraph& graph, Histories& histories) {
+void read_landmarks(Database& database, LandmarkGraph& graph, Histories& histories, int version) {
   Statement row(database, "SELECT * FROM landmarks ORDER BY id");
-  while (row.step()) graph.add(landmark_in(row, histories));
+  while (row.step()) {
+    Landmark landmark = landmark_in(row, histories);
+    if (version >= 3) landmark.annotations = annotations_in(row, 12);
+    graph.add(std::move(landmark));
+  }
 }
 
-void read_retired_landmarks(Database& database, LandmarkGraph& graph, Histories& histories) {
+void read_retired_landmarks(Database& database, LandmarkGraph& graph, Histories& histories, int version) {
   Statement row(database, "SELECT * FROM retired_landmarks ORDER BY id");
   while (row.step()) {
     Landmark landmark = landmark_in(row, histories);
+    if (version >= 3) landmark.annotations = annotations_in(row, 13);
     graph.add_retired({std::move(landmark), row.text(12)});
   }
 }
@@ -154,8 +167,8 @@ void read_all_landmarks(Database& database, LandmarkGraph& graph, int version) {
   Histories histories;
   in_table("landmark_templates", [&] { read_landmark_templates(database, histories); });
   if (version >= 2) in_table("landmark_evidence", [&] { read_landmark_evidence(database, histories); });
-  in_table("landmarks", [&] { read_landmarks(database, graph, histories); });
-  if (version >= 2) in_table("retired_landmarks", [&] { read_retired_landmarks(database, graph, histories); });
+  in_table("landmarks", [&] { read_landmarks(database, graph, histories, version); });
+  if (version >= 2) in_table("retired_landmarks", [&] { read_retired_landmarks(database, graph, histories, version); });
   in_table("landmark_templates", [&] {
     if (!histories.empty()) throw StoreError("there is no " + numbered("landmark", histories.begin()->first));
   });
@@ -163,6 +176,7 @@ void read_all_landmarks(Database& database, LandmarkGraph& graph, int version) {
 
 std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, const std::string& what) {
   const auto poses = static_cast<std::size_t>(row.integer_within(poses_column, 0, kMaxPoses));
+  if (poses == 0 && row.blob(poses_column + 1).empty() && row.integer(poses_column + 2) == 0) return {};
   const std::string raw = unpacked(row, poses_column + 1, poses * kPoseBytes, what);
   std::vector<Pose2> trajectory(poses);
   for (std::size_t i = 0; i < poses; ++i) {
@@ -172,7 +186,7 @@ std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, const
   return trajectory;
 }
 
-void read_routes(Database& database, LandmarkGraph& graph) {
+void read_routes(Database& database, LandmarkGraph& graph, int version) {
   Statement row(database, "SELECT * FROM routes ORDER BY id");
   while (row.step()) {
     Route route;
@@ -184,18 +198,23 @@ void read_routes(Database& database, LandmarkGraph& graph) {
     route.driven = row.integer_within(5, 0, 1) != 0;
     route.closed = row.integer_within(6, 0, 1) != 0;
     route.trajectory = read_trajectory(row, 7, "the trajectory of " + numbered("route", route.id));
+    if (version >= 3) {
+      route.speed_limit_mps = row.optional_real(10);
+      route.annotations = annotations_in(row, 11);
+    }
     graph.add_route(std::move(route));
   }
 }
 
-void read_next_ids(Database& database, LandmarkGraph& graph) {
+void read_next_ids(Database& database, SavedMap& map, int version) {
   Statement row(database, "SELECT kind, id FROM next_ids ORDER BY kind");
   const auto next = [&row](const std::string& kind) {
     if (!row.step() || row.text(0) != kind) throw StoreError("has no row for " + kind);
     return row.integer_within(1, 1, kMaxId);
   };
+  if (version >= 3) map.clusters.next_id = next("cluster");
   const LandmarkId next_landmark = next("landmark");
-  graph.reserve_ids(next_landmark, next("route"));
+  map.graph.reserve_ids(next_landmark, next("route"));
 }
 
 // Takes one number off the front of the text.
@@ -257,8 +276,10 @@ SavedMap read_content(Database& database, int version) {
   in_table("grid", [&] { map.grid = read_grid(database); });
   in_table("tiles", [&] { read_tiles(database, map.grid); });
   read_all_landmarks(database, map.graph, version);
-  in_table("routes", [&] { read_routes(database, map.graph); });
-  in_table("next_ids", [&] { read_next_ids(database, map.graph); });
+  in_table("routes", [&] { read_routes(database, map.graph, version); });
+  in_table("next_ids", [&] { read_next_ids(database, map, version); });
+  if (version >= 3) in_table("clusters", [&] { read_clusters(database, map); });
+  if (version >= 3) in_table("landmark_clusters", [&] { read_landmark_clusters(database, map); });
   map.shapes = read_shapes(database);
   in_table("driven_path", [&] {
     Statement row(database, "SELECT x_m, y_m, theta_rad FROM driven_path ORDER BY number");

@@ -23,7 +23,7 @@ constexpr std::array kTables{
           "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, name TEXT NOT NULL, category TEXT NOT NULL, "
           "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, degree REAL NOT NULL, "
           "sightings INTEGER NOT NULL, access_x_m REAL, access_y_m REAL, access_theta_rad REAL",
-          ""},
+          "", 1, ", annotations TEXT NOT NULL", 3},
     Table{"landmark_templates", "landmark, rank",
           "landmark INTEGER NOT NULL, rank INTEGER NOT NULL, category TEXT NOT NULL, orientation_rad REAL NOT NULL, "
           "degree REAL NOT NULL, PRIMARY KEY (landmark, rank)",
@@ -37,13 +37,20 @@ constexpr std::array kTables{
           "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, name TEXT NOT NULL, category TEXT NOT NULL, "
           "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, degree REAL NOT NULL, "
           "sightings INTEGER NOT NULL, access_x_m REAL, access_y_m REAL, access_theta_rad REAL, reason TEXT NOT NULL",
-          "", 2},
-    // trajectory: little-endian doubles x_m, y_m, theta_rad of each pose, zlib; crc32 of the raw bytes.
+          "", 2, ", annotations TEXT NOT NULL", 3},
+    // trajectory: little-endian doubles x_m, y_m, theta_rad of each pose, zlib; crc32 of the raw bytes. No bytes at
+    // all when there is no pose, since version 3.
     Table{"routes", "id",
           "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, from_landmark INTEGER NOT NULL, "
           "to_landmark INTEGER NOT NULL, cost_m REAL NOT NULL, driven INTEGER NOT NULL, closed INTEGER NOT NULL, "
           "poses INTEGER NOT NULL, trajectory BLOB NOT NULL, crc32 INTEGER NOT NULL",
-          ""},
+          "", 1, ", speed_limit_mps REAL, annotations TEXT NOT NULL", 3},
+    // parent: 0 on the highest level.
+    Table{"clusters", "id",
+          "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, parent INTEGER NOT NULL, anchor INTEGER NOT NULL, "
+          "name TEXT NOT NULL",
+          "", 3},
+    Table{"landmark_clusters", "landmark", "landmark INTEGER PRIMARY KEY, cluster INTEGER NOT NULL", "", 3},
     Table{"next_ids", "kind", "kind TEXT NOT NULL PRIMARY KEY, id INTEGER NOT NULL", " WITHOUT ROWID"},
     // parameters: the diameter of a circle; "x,y x,y ..." of a polygon's corners (m), ";" between polygons.
     Table{"shapes", "number",
@@ -61,8 +68,9 @@ struct Checksum {
   std::uint32_t crc = 0;
 };
 
-std::string definition_of(const Table& table) {
-  return std::string("CREATE TABLE ") + table.name + " (" + table.columns + ")" + table.options;
+std::string definition_of(const Table& table, int version) {
+  const char* const added = version >= table.added_since ? table.added : "";
+  return std::string("CREATE TABLE ") + table.name + " (" + table.columns + added + ")" + table.options;
 }
 
 Checksum checksum_of(Database& database, const Table& table) {
@@ -77,7 +85,7 @@ void check_definition(Database& database, const Table& table, int version) {
   found.bind_text(table.name);
   const std::string at = std::string("table ") + table.name;
   if (!found.step()) throw StoreError(at + ": is missing");
-  if (found.text(0) != definition_of(table))
+  if (found.text(0) != definition_of(table, version))
     throw StoreError(at + ": its columns are not those of schema version " + std::to_string(version));
 }
 
@@ -101,8 +109,8 @@ std::span<const Table> tables() {
 }
 
 void create_tables(Database& database) {
-  for (const Table& table : kTables) database.execute(definition_of(table).c_str());
-  database.execute(definition_of(kChecksums).c_str());
+  for (const Table& table : kTables) database.execute(definition_of(table, kMapSchemaVersion).c_str());
+  database.execute(definition_of(kChecksums, kMapSchemaVersion).c_str());
 }
 
 void check_schema(Database& database, int version) {

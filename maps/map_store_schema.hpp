@@ -1,4 +1,5 @@
-// The saved map's tables, and a checksum over each. Version 2 added evidence and retired landmarks.
+// The saved map's tables, and a checksum over each. Version 2 added evidence and retired landmarks, version 3
+// clusters, annotations and speed limits.
 #pragma once
 
 #include <span>
@@ -16,6 +17,9 @@ struct Table {
   const char* columns;  // as CREATE TABLE takes them
   const char* options;  // behind the columns
   int since = 1;        // schema version
+  // Columns that a later version put behind the others, and which: none before that version.
+  const char* added = "";
+  int added_since = 1;
 };
 
 [[nodiscard]] std::span<const Table> tables();

@@ -10,4 +10,9 @@ void write_content(Database& database, const SavedMap& map);
 // what is wrong.
 [[nodiscard]] SavedMap read_content(Database& database, int version);
 
+// The tables of the clusters, into a map whose graph and next ids are there. Both check what they take over and throw
+// StoreError, without the table's name.
+void read_clusters(Database& database, SavedMap& map);
+void read_landmark_clusters(Database& database, SavedMap& map);
+
 }  // namespace cairn::store

@@ -44,7 +44,7 @@ void write_tiles(Database& database, const OccupancyGrid& grid) {
   }
 }
 
-// All columns of a row of landmarks.
+// The columns that landmarks and retired ones begin with.
 void bind_landmark(Statement& insert, const Landmark& landmark) {
   const Pose2& pose = landmark.T_map_landmark;
   insert.bind(landmark.id).bind(std::int64_t{landmark.level}).bind_text(landmark.name).bind_text(landmark.category);
@@ -57,6 +57,7 @@ void bind_landmark(Statement& insert, const Landmark& landmark) {
 }
 
 void write_history(Database& database, const Landmark& landmark) {
+  if (landmark.templates.empty() && landmark.evidence.empty()) return;
   Statement insert_template(database, "INSERT INTO landmark_templates VALUES (?, ?, ?, ?, ?)");
   std::int64_t rank = 0;
   for (const auto& [category, orientation_rad, degree] : landmark.templates)
@@ -69,34 +70,49 @@ void write_history(Database& database, const Landmark& landmark) {
 }
 
 void write_landmarks(Database& database, const LandmarkGraph& graph) {
-  Statement insert(database, "INSERT INTO landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(database, "INSERT INTO landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, landmark] : graph.landmarks()) {
     bind_landmark(insert, landmark);
-    insert.run();
+    insert.bind_text(landmark.annotations).run();
     write_history(database, landmark);
   }
-  Statement insert_retired(database, "INSERT INTO retired_landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert_retired(database, "INSERT INTO retired_landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, retired] : graph.retired()) {
     bind_landmark(insert_retired, retired.landmark);
-    insert_retired.bind_text(retired.reason).run();
+    insert_retired.bind_text(retired.reason).bind_text(retired.landmark.annotations).run();
     write_history(database, retired.landmark);
   }
 }
 
 void write_routes(Database& database, const LandmarkGraph& graph) {
-  Statement insert(database, "INSERT INTO routes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(database, "INSERT INTO routes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, route] : graph.routes()) {
     std::string raw;
     for (const Pose2& pose : route.trajectory)
       for (const double value : {pose.x_m, pose.y_m, pose.theta_rad}) append_little_endian(raw, value);
     insert.bind(id).bind(std::int64_t{route.level}).bind(route.from).bind(route.to).bind(route.cost_m);
     insert.bind(std::int64_t{route.driven}).bind(std::int64_t{route.closed});
-    insert.bind(static_cast<std::int64_t>(route.trajectory.size())).bind_blob(compressed(raw));
-    insert.bind(std::int64_t{crc32_of(raw)}).run();
+    insert.bind(static_cast<std::int64_t>(route.trajectory.size()));
+    insert.bind_blob(raw.empty() ? raw : compressed(raw)).bind(std::int64_t{crc32_of(raw)});
+    insert.bind(route.speed_limit_mps).bind_text(route.annotations).run();
   }
+}
+
+void write_clusters(Database& database, const ClusterTree& tree) {
+  Statement insert(database, "INSERT INTO clusters VALUES (?, ?, ?, ?, ?)");
+  for (const auto& [id, cluster] : tree.clusters) {
+    insert.bind(id).bind(std::int64_t{cluster.level}).bind(cluster.parent).bind(cluster.anchor);
+    insert.bind_text(cluster.name).run();
+  }
+  Statement insert_member(database, "INSERT INTO landmark_clusters VALUES (?, ?)");
+  for (const auto& [landmark, cluster] : tree.cluster_of) insert_member.bind(landmark).bind(cluster).run();
+}
+
+void write_next_ids(Database& database, const SavedMap& map) {
   Statement next(database, "INSERT INTO next_ids VALUES (?, ?)");
-  next.bind_text("landmark").bind(graph.next_landmark_id()).run();
-  next.bind_text("route").bind(graph.next_route_id()).run();
+  next.bind_text("cluster").bind(map.clusters.next_id).run();
+  next.bind_text("landmark").bind(map.graph.next_landmark_id()).run();
+  next.bind_text("route").bind(map.graph.next_route_id()).run();
 }
 
 // The shortest text that reads back as the same double.
@@ -145,6 +161,8 @@ void write_content(Database& database, const SavedMap& map) {
   write_tiles(database, map.grid);
   write_landmarks(database, map.graph);
   write_routes(database, map.graph);
+  write_clusters(database, map.clusters);
+  write_next_ids(database, map);
   write_shapes(database, map.shapes);
   write_driven_path(database, map.driven_path);
 }

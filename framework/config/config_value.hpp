@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "maps/spelling.hpp"
+
 namespace cairn {
 
 struct SourcePlace {
@@ -59,14 +61,6 @@ struct ConfigValue::Entry {
 // Applies a command line override "a.b.c=value" (list items by number, "steps.0.explore.at_most_s"),
 // creating maps on the way. Throws ConfigError when the text has no '=' or the path meets a scalar.
 void apply_override(ConfigValue& root, const std::string& assignment);
-
-// The candidate with the smallest edit distance to the name, or empty when none is near.
-[[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
-// ` (did you mean "x"?)` or empty.
-[[nodiscard]] std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
-
-// A name or value in quotes for a message: one line, at most 60 bytes of it.
-[[nodiscard]] std::string shown(std::string_view text);
 
 // A path in a file: ${NAME} and ${NAME:-default} are read from the environment, then relative
 // paths are taken from the folder of the file that names them.

@@ -11,6 +11,8 @@
 namespace cairn {
 namespace {
 
+constexpr std::string_view kNearest = "nearest ";
+
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == std::string::npos) return {};
@@ -66,16 +68,21 @@ Place nearest_place(const std::string& category, const LandmarkGraph& graph) {
 
 }  // namespace
 
+bool reads_as_place(const std::string& text) {
+  const auto values = numbers(text);
+  return trimmed(text).starts_with(kNearest) || (values && values->size() > 1);
+}
+
 Place parse_place(const std::string& text, const LandmarkGraph& graph) {
-  constexpr std::string_view kNearest = "nearest ";
   const std::string place_text = trimmed(text);
   if (place_text.starts_with(kNearest)) return nearest_place(trimmed(place_text.substr(kNearest.size())), graph);
-  if (const auto values = numbers(place_text)) return place_of(*values, place_text);
+  if (reads_as_place(place_text)) return place_of(*numbers(place_text), place_text);
   if (const Landmark* landmark = graph.find_by_name(place_text)) {
     Place place;
     place.landmarks = {landmark->id};
     return place;
   }
+  if (const auto values = numbers(place_text)) return place_of(*values, place_text);  // one number: says what is wrong
   std::vector<std::string> names;
   for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
   throw PlaceError("unknown place \"" + place_text + "\"" + did_you_mean(place_text, names) +

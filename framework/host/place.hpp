@@ -15,6 +15,9 @@ class PlaceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Whether the text is a place without any landmark's help, a sound one or not: numbers with commas, "nearest ...".
+[[nodiscard]] bool reads_as_place(const std::string& text);
+
 [[nodiscard]] Place parse_place(const std::string& text, const LandmarkGraph& graph);
 
 }  // namespace cairn

@@ -72,6 +72,20 @@ struct LintCommand {
 // 0 also when there are notes only, 1 when there are warnings or errors.
 int map_lint(const LintCommand& command, const CommonOptions& common);
 
+struct ExchangeCommand {
+  std::filesystem::path from;  // the file of another tool, or the map
+  std::filesystem::path to;    // the other way round
+};
+int map_import(const ExchangeCommand& command, const CommonOptions& common);
+int map_export(const ExchangeCommand& command, const CommonOptions& common);
+
+struct NameCommand {
+  std::filesystem::path map;
+  std::string what;  // a landmark or cluster
+  std::string name;  // empty: takes its name away
+};
+int map_name(const NameCommand& command, const CommonOptions& common);
+
 struct TemplateCommand {
   std::filesystem::path folder;
   std::filesystem::path robot;  // for `sensed` templates

@@ -5,12 +5,33 @@
 
 #include "framework/program/commands.hpp"
 #include "framework/program/run_pictures.hpp"
+#include "maps/cluster_levels.hpp"
 #include "maps/map_store.hpp"
 
 namespace cairn {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr std::size_t kShown = 50;
+
+ordered_json levels_json(const SavedMap& map) {
+  ordered_json levels = ordered_json::array();
+  for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
+    levels.push_back({{"clusters", clusters}, {"boundary", boundary}});
+  return levels;
+}
+
+// The first of them, and how many more there are.
+template <class Things, class Text>
+void list_first(const Things& things, const char* what, Text text_of) {
+  std::size_t shown = 0;
+  for (const auto& [id, thing] : things) {
+    if (shown++ == kShown) break;
+    std::cout << text_of(thing);
+  }
+  if (things.size() > kShown) std::cout << fmt::format("  ... and {} more {}\n", things.size() - kShown, what);
+}
 
 ordered_json json_of(const SavedMap& map) {
   const CellBox bounds = map.grid.bounds();
@@ -22,7 +43,7 @@ ordered_json json_of(const SavedMap& map) {
           {"origin_m", {corner.x(), corner.y()}},
           {"landmarks", map.graph.landmarks().size()},
           {"routes", map.graph.routes().size()},
-          {"levels", ordered_json::array()},
+          {"levels", levels_json(map)},
           {"explored_ratio", known_ratio(map.grid)}};
 }
 
@@ -39,13 +60,20 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
                            command.map.string(), kMapSchemaVersion, bounds.width() * map.grid.cell_m(),
                            bounds.height() * map.grid.cell_m(), map.grid.cell_m(), 100.0 * known_ratio(map.grid));
   for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
-  for (const auto& [id, landmark] : map.graph.landmarks())
-    std::cout << fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),
-                             landmark.category, landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
-                             degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
-  for (const auto& [id, route] : map.graph.routes())
-    std::cout << fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", id, route.from, route.to, route.cost_m,
-                             route.driven ? "driven" : "planned", route.closed ? ", closed" : "");
+  std::cout << fmt::format("  {} landmarks, {} routes\n", map.graph.landmarks().size(), map.graph.routes().size());
+  int level = 0;
+  for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
+    std::cout << fmt::format("  level {}: {} clusters, {} landmarks on their boundaries\n", ++level, clusters,
+                             boundary);
+  list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
+    return fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),
+                       landmark.category, landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
+                       degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
+  });
+  list_first(map.graph.routes(), "routes", [](const Route& route) {
+    return fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", route.id, route.from, route.to, route.cost_m,
+                       route.driven ? "driven" : "planned", route.closed ? ", closed" : "");
+  });
   return kExitDone;
 }
 

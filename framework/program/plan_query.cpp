@@ -9,6 +9,7 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/host/place.hpp"
+#include "maps/cluster_names.hpp"
 
 namespace cairn {
 namespace {

@@ -28,18 +28,26 @@ std::set<RouteId> routes_of(const GraphChanges& changes, const LandmarkGraph& gr
   return routes;
 }
 
+// Levels whose clusters have so many ways through that keeping them gains nothing.
+void drop_needless_levels(Clustering& clustering) {
+  for (int level = 1; level <= clustering.levels(); ++level)
+    if (!Overlay::is_bounded(clustering, level))
+      while (clustering.levels() >= level) clustering.drop_level();
+}
+
 }  // namespace
+
+ClusterTree cluster_landmarks(const LandmarkGraph& graph) {
+  const Network network(graph, cost_by_length);
+  Clustering clustering(network, {});
+  drop_needless_levels(clustering);
+  return clustering.tree(network);
+}
 
 Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters, RouteCost cost, const ClusterSizes& sizes)
     : cost_(std::move(cost)), network_(graph, cost_), clustering_(network_, sizes, clusters) {
-  drop_needless_levels();
+  drop_needless_levels(clustering_);
   overlay_.build(network_, clustering_);
-}
-
-void Hierarchy::drop_needless_levels() {
-  for (int level = 1; level <= clustering_.levels(); ++level)
-    if (!Overlay::is_bounded(clustering_, level))
-      while (clustering_.levels() >= level) clustering_.drop_level();
 }
 
 void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
@@ -80,7 +88,7 @@ void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) 
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
   Clustering::Upkeep upkeep = clustering_.follow(network_, moved);
   const int levels = clustering_.levels();
-  drop_needless_levels();
+  drop_needless_levels(clustering_);
   upkeep.levels_changed = upkeep.levels_changed || clustering_.levels() != levels;
   overlay_.follow(network_, clustering_, upkeep, moved);
 }

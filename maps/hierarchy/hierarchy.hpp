@@ -38,12 +38,13 @@ class Hierarchy {
   [[nodiscard]] ClusterTree tree() const { return clustering_.tree(network_); }
 
  private:
-  void drop_needless_levels();
-
   RouteCost cost_;
   Network network_;
   Clustering clustering_;
   Overlay overlay_;
 };
+
+// The clusters that a hierarchy of the graph would have, without the ways through them.
+[[nodiscard]] ClusterTree cluster_landmarks(const LandmarkGraph& graph);
 
 }  // namespace cairn

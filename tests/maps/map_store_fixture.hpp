@@ -50,6 +50,7 @@ inline void expect_equal(const SavedMap& a, const SavedMap& b) {
   EXPECT_EQ(a.grid, b.grid);
   EXPECT_EQ(a.grid.clamp_nat(), b.grid.clamp_nat());
   EXPECT_EQ(a.graph, b.graph);
+  EXPECT_EQ(a.clusters, b.clusters);
   EXPECT_EQ(a.driven_path, b.driven_path);
   EXPECT_EQ(a.properties, b.properties);
   ASSERT_EQ(a.shapes.size(), b.shapes.size());
@@ -102,6 +103,30 @@ inline SavedMap small_map() {
                 {"wedge", Contour::polygon_in_place({{0, 0}, {1.0 / 3.0, 0}, {0.1, 0.7}})}};
   map.driven_path = {{0, 0, 0}, {0.1, 0.2, 0.3}, {-1e9, 1e-9, -3.0}};
   map.properties = {{"mission", "office"}, {"seed", "7"}, {"note", "two\nlines, \xC3\xA4"}, {"empty", ""}};
+  return map;
+}
+
+// What version 2 had no place for.
+inline SavedMap map_with_clusters() {
+  SavedMap map = small_map();
+  map.graph.find(1)->annotations = R"({"nav2":{"properties":{"frame":"map"}}})";
+  map.graph.retire(2, "seen free");
+  Landmark gate;
+  gate.name = "gate";
+  gate.T_map_landmark = {7.0, 1.5, 0.0};
+  map.graph.add(gate);
+  Landmark lift = gate;
+  lift.annotations = "{}";
+  lift.name = "lift";
+  map.graph.add(lift);
+  map.graph.retire(5, "rebuilt");
+  Route slow{0, 1, 4, 8.5, {}, false, false, 0};
+  slow.speed_limit_mps = 0.3;
+  slow.annotations = R"({"lane":3})";
+  map.graph.add_route(slow);
+  map.clusters.clusters = {{2, {2, 1, 5, 1, ""}}, {3, {3, 1, 5, 4, "front desk"}}, {5, {5, 2, 0, 1, "ground floor"}}};
+  map.clusters.cluster_of = {{1, 2}, {4, 3}};
+  map.clusters.next_id = 8;
   return map;
 }
 

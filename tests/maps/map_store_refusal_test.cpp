@@ -25,9 +25,9 @@ TEST_F(MapStore, RefusesWhatIsNoSavedMap) {
 }
 
 TEST_F(MapStore, RefusesNewerAndUnknownVersions) {
-  EXPECT_EQ(refusal_after("PRAGMA user_version = 3"),
-            "was written with schema version 3, this Cairn reads up to version 2: use a newer Cairn");
-  EXPECT_EQ(refusal_after("PRAGMA user_version = -1"), "has schema version -1, this Cairn reads versions 1 to 2");
+  EXPECT_EQ(refusal_after("PRAGMA user_version = 4"),
+            "was written with schema version 4, this Cairn reads up to version 3: use a newer Cairn");
+  EXPECT_EQ(refusal_after("PRAGMA user_version = -1"), "has schema version -1, this Cairn reads versions 1 to 3");
 }
 
 TEST_F(MapStore, RefusesATruncatedFileAtEveryLength) {
@@ -85,7 +85,7 @@ TEST_F(MapStore, NamesTheTableThatWasEdited) {
             "table checksums: has no row for table routes");
   EXPECT_EQ(refusal_after("DROP TABLE shapes"), "table shapes: is missing");
   EXPECT_EQ(refusal_after("ALTER TABLE grid ADD COLUMN extra"),
-            "table grid: its columns are not those of schema version 2");
+            "table grid: its columns are not those of schema version 3");
   EXPECT_EQ(refusal_after("DROP TABLE meta; CREATE VIEW meta AS SELECT 1 AS key, 2 AS value"),
             "table meta: is missing");
 }
@@ -93,7 +93,10 @@ TEST_F(MapStore, NamesTheTableThatWasEdited) {
 // An edit that also forges the checksums, so that only the checks of the values are left.
 class ForgedMap : public MapStore {
  protected:
-  [[nodiscard]] std::string refusal_after_forging(const std::string& sql) const;
+  [[nodiscard]] std::string refusal_after_forging(const std::string& sql) const {
+    return refusal_after_forging(sql, small_map_bytes());
+  }
+  [[nodiscard]] std::string refusal_after_forging(const std::string& sql, const std::string& map_bytes) const;
 };
 
 // CRC-32 as zlib computes it, and a row's canonical bytes: written again here so that the format is
@@ -141,11 +144,11 @@ void forge_checksum(const fs::path& file, const std::string& table) {
                     ", crc32 = " + std::to_string(crc32_by_bits(bytes)) + " WHERE table_name = '" + table + "'");
 }
 
-std::string ForgedMap::refusal_after_forging(const std::string& sql) const {
-  write_bytes(file(), small_map_bytes());
+std::string ForgedMap::refusal_after_forging(const std::string& sql, const std::string& map_bytes) const {
+  write_bytes(file(), map_bytes);
   run_sql(file(), sql);
-  for (const char* table :
-       {"meta", "grid", "tiles", "landmarks", "landmark_templates", "routes", "next_ids", "shapes", "driven_path"})
+  for (const char* table : {"meta", "grid", "tiles", "landmarks", "landmark_templates", "routes", "clusters",
+                            "landmark_clusters", "next_ids", "shapes", "driven_path"})
     forge_checksum(file(), table);
   return refusal_of(file());
 }
@@ -200,6 +203,10 @@ TEST_F(ForgedMap, RefusesDanglingAndImpossibleRoutes) {
             "table routes: the trajectory of route 1 is damaged: its bytes do not unpack to 48 bytes");
   EXPECT_EQ(refusal_after_forging("UPDATE routes SET poses = -1 WHERE id = 1"),
             "table routes: column poses holds -1, allowed is 0 to 10000000");
+  EXPECT_EQ(refusal_after_forging("UPDATE routes SET annotations = '[1]' WHERE id = 1"),
+            "table routes: column annotations holds no JSON object");
+  EXPECT_EQ(refusal_after_forging("UPDATE routes SET speed_limit_mps = 'slow' WHERE id = 1"),
+            "table routes: column speed_limit_mps holds a text where a number belongs");
   EXPECT_EQ(refusal_after_forging("UPDATE routes SET closed = 2 WHERE id = 1"),
             "table routes: column closed holds 2, allowed is 0 to 1");
 }
@@ -211,6 +218,8 @@ TEST_F(ForgedMap, RefusesImpossibleLandmarks) {
             "table landmarks: column access_y_m holds nothing where a number belongs");
   EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET category = x'00' WHERE id = 1"),
             "table landmarks: column category holds a blob where a text belongs");
+  EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET annotations = '{\"a\":' WHERE id = 1"),
+            "table landmarks: column annotations holds no JSON object");
   EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET sightings = -3 WHERE id = 1"),
             "table landmarks: column sightings holds -3, allowed is 0 to 2147483647");
   EXPECT_EQ(refusal_after_forging("UPDATE landmark_templates SET landmark = 77"),
@@ -219,6 +228,40 @@ TEST_F(ForgedMap, RefusesImpossibleLandmarks) {
             "table next_ids: reserve_ids: ids end at 9007199254740991, asked for 9223372036854775807 and "
             "9223372036854775807");
   EXPECT_EQ(refusal_after_forging("DELETE FROM next_ids WHERE kind = 'route'"), "table next_ids: has no row for route");
+}
+
+TEST_F(ForgedMap, RefusesImpossibleClusters) {
+  save_map(file("clusters.cairn"), map_with_clusters());
+  const std::string bytes = bytes_of(file("clusters.cairn"));
+  const auto refusal = [&](const std::string& sql) { return refusal_after_forging(sql, bytes); };
+  EXPECT_EQ(refusal("UPDATE clusters SET name = 'desk' WHERE id = 3"), "loaded");
+  EXPECT_EQ(refusal("UPDATE clusters SET level = 0 WHERE id = 3"),
+            "table clusters: column level holds 0, allowed is 1 to 64");
+  EXPECT_EQ(refusal("UPDATE clusters SET parent = 9 WHERE id = 3"), "table clusters: cluster 3: there is no cluster 9");
+  EXPECT_EQ(refusal("UPDATE clusters SET parent = 3 WHERE id = 3"),
+            "table clusters: cluster 3 of level 1 has a parent of level 1");
+  EXPECT_EQ(refusal("UPDATE clusters SET parent = 2 WHERE id = 5"),
+            "table clusters: cluster 5 of level 2 has a parent of level 1");
+  EXPECT_EQ(refusal("UPDATE clusters SET parent = 0 WHERE id = 3"),
+            "table clusters: cluster 3 of level 1 has no parent, the highest level is 2");
+  EXPECT_EQ(refusal("UPDATE clusters SET anchor = 2 WHERE id = 3"),
+            "table clusters: cluster 3: there is no landmark 2");
+  EXPECT_EQ(refusal("INSERT INTO clusters VALUES (6, 2, 0, 1, '')"), "table clusters: cluster 6 holds no cluster");
+  EXPECT_EQ(refusal("UPDATE next_ids SET id = 5 WHERE kind = 'cluster'"),
+            "table clusters: cluster 5 is not below the next id, 5");
+  EXPECT_EQ(refusal("DELETE FROM next_ids WHERE kind = 'cluster'"), "table next_ids: has no row for cluster");
+  EXPECT_EQ(refusal("UPDATE landmark_clusters SET cluster = 9 WHERE landmark = 1"),
+            "table landmark_clusters: there is no cluster 9");
+  EXPECT_EQ(refusal("UPDATE landmark_clusters SET cluster = 5 WHERE landmark = 1"),
+            "table landmark_clusters: landmark 1 is in cluster 5 of level 2, landmarks are in clusters of level 1");
+  EXPECT_EQ(refusal("INSERT INTO landmark_clusters VALUES (77, 2)"),
+            "table landmark_clusters: there is no landmark 77");
+  EXPECT_EQ(refusal("UPDATE landmark_clusters SET cluster = 3"),
+            "table landmark_clusters: cluster 2 holds no landmark");
+  EXPECT_EQ(refusal("DELETE FROM landmark_clusters"), "table landmark_clusters: cluster 2 holds no landmark");
+  EXPECT_EQ(refusal("INSERT INTO landmarks SELECT 6, level, '', '', 0.0, 0.0, 0.0, degree, 0, NULL, NULL, NULL, '' "
+                    "FROM landmarks WHERE id = 4"),
+            "table landmark_clusters: only 2 of 3 landmarks are in a cluster");
 }
 
 TEST_F(ForgedMap, RefusesImpossibleShapes) {

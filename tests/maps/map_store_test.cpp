@@ -58,6 +58,15 @@ TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionTwo) {
   expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_2.cairn"), map_with_history());
 }
 
+TEST_F(MapStore, KeepsClustersAnnotationsAndSpeedLimits) {
+  save_map(file(), map_with_clusters());
+  expect_equal(load_map(file()), map_with_clusters());
+}
+
+TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionThree) {
+  expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_3.cairn"), map_with_clusters());
+}
+
 TEST_F(MapStore, KeepsRemovedIdsRetired) {
   save_map(file(), small_map());
   LandmarkGraph graph = load_map(file()).graph;
@@ -96,7 +105,7 @@ TEST_F(MapStore, IsAnSqliteFileThatNamesItsProgramAndVersion) {
   const std::string bytes = bytes_of(file());
   EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
   EXPECT_EQ(bytes.substr(68, 4), "CRN1");
-  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\2", 4));
+  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\3", 4));
 }
 
 TEST_F(MapStore, SavesThroughALinkWithoutReplacingTheLink) {

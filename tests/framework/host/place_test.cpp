@@ -44,6 +44,18 @@ TEST(Place, ALandmarkIsNamedByIdOrName) {
   EXPECT_EQ(parse_place("desk", two_landmarks()).landmarks, std::vector<LandmarkId>{1});
 }
 
+TEST(Place, ALoneNumberIsALandmarksNameOrAMistake) {
+  LandmarkGraph graph = two_landmarks();
+  graph.find(2)->name = "0";
+  EXPECT_EQ(parse_place("0", graph).landmarks, std::vector<LandmarkId>{2});
+  EXPECT_EQ(error_of("0"), "place \"0\": expected x,y or x,y,angle_deg, found 1 numbers");
+}
+
+TEST(Place, WhatReadsAsAPlaceIsNoName) {
+  for (const char* text : {"1,2", " 1, 2 ,3", "1,2,3,4", "nearest dock"}) EXPECT_TRUE(reads_as_place(text)) << text;
+  for (const char* text : {"", "1", "dock", "1,a", "nearest"}) EXPECT_FALSE(reads_as_place(text)) << text;
+}
+
 TEST(Place, NearestTakesEveryLandmarkOfTheCategory) {
   EXPECT_EQ(parse_place("nearest circle", two_landmarks()).landmarks, std::vector<LandmarkId>{2});
 }

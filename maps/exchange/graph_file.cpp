@@ -1,0 +1,84 @@
+#include "maps/exchange/graph_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "maps/exchange/graph_list.hpp"
+#include "maps/exchange/graphml.hpp"
+#include "maps/exchange/nav2_routes.hpp"
+#include "maps/exchange/source_text.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{4} << 30;
+constexpr std::size_t kBlock = std::size_t{1} << 20;
+
+struct Extension {
+  const char* text;
+  GraphFormat format;
+};
+constexpr std::array kExtensions{Extension{".graph", GraphFormat::list}, Extension{".geojson", GraphFormat::nav2},
+                                 Extension{".json", GraphFormat::nav2}, Extension{".graphml", GraphFormat::graphml}};
+
+// Read block by block: what is no plain file has no size to ask for.
+std::string text_of(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw ExchangeError(file.string() + ": no such file");
+  if (std::filesystem::is_directory(status)) throw ExchangeError(file.string() + ": is a folder");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw ExchangeError(file.string() + ": cannot be read");
+  std::string text;
+  while (in) {
+    const std::size_t before = text.size();
+    if (before > kMostBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
+    text.resize(before + kBlock);
+    in.read(text.data() + before, static_cast<std::streamsize>(kBlock));
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw ExchangeError(file.string() + ": cannot be read to its end");
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> graph_extensions() {
+  std::vector<std::string> texts;
+  for (const Extension& extension : kExtensions) texts.emplace_back(extension.text);
+  return texts;
+}
+
+std::optional<GraphFormat> graph_format_of(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  const auto found = std::ranges::find(kExtensions, extension, &Extension::text);
+  return found == kExtensions.end() ? std::nullopt : std::optional(found->format);
+}
+
+ImportedGraph read_graph_file(const std::filesystem::path& file, GraphFormat format) {
+  const std::string text = text_of(file);
+  switch (format) {
+    case GraphFormat::list:
+      return parse_graph_list(text, file.string());
+    case GraphFormat::nav2:
+      return parse_nav2_routes(text, file.string());
+    case GraphFormat::graphml:
+      return parse_graphml(text, file.string());
+  }
+  throw std::logic_error("read_graph_file: no such format");
+}
+
+ExportedGraph graph_text_of(const LandmarkGraph& graph, GraphFormat format) {
+  switch (format) {
+    case GraphFormat::list:
+      return graph_list_of(graph);
+    case GraphFormat::nav2:
+      return nav2_routes_of(graph);
+    case GraphFormat::graphml:
+      return graphml_of(graph);
+  }
+  throw std::logic_error("graph_text_of: no such format");
+}
+
+}  // namespace cairn

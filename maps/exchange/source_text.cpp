@@ -1,0 +1,86 @@
+#include "maps/exchange/source_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace cairn::exchange {
+namespace {
+
+// Bytes of the UTF-8 character at the front, 0 when there is none: too long forms and surrogates are none.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto follows = [&](std::size_t i, unsigned least = 0x80, unsigned most = 0xBF) {
+    return byte(i) >= least && byte(i) <= most;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    const unsigned least = first == 0xE0 ? 0xA0 : 0x80;
+    const unsigned most = first == 0xED ? 0x9F : 0xBF;
+    return follows(1, least, most) && follows(2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    const unsigned least = first == 0xF0 ? 0x90 : 0x80;
+    const unsigned most = first == 0xF4 ? 0x8F : 0xBF;
+    return follows(1, least, most) && follows(2) && follows(3) ? 4 : 0;
+  }
+  return 0;
+}
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+}  // namespace
+
+SourceText::SourceText(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
+  if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  const std::size_t bad = first_not_utf8(text_);
+  if (bad != std::string_view::npos) fail(bad, "is not UTF-8 text");
+}
+
+int SourceText::line_of(std::size_t offset) const {
+  return 1 + static_cast<int>(std::ranges::count(text_.substr(0, offset), '\n'));
+}
+
+void SourceText::fail(std::size_t offset, const std::string& sentence) const {
+  offset = std::min(offset, text_.size());
+  const std::size_t line_end = offset == 0 ? std::string_view::npos : text_.rfind('\n', offset - 1);
+  const std::size_t line_begin = line_end == std::string_view::npos ? 0 : line_end + 1;
+  throw ExchangeError(file_ + ":" + std::to_string(line_of(offset)) + ":" + std::to_string(offset - line_begin + 1) +
+                      ": " + sentence);
+}
+
+void SourceText::fail(const std::string& sentence) const {
+  throw ExchangeError(file_ + ": " + sentence);
+}
+
+void SourceText::fail_cut(std::size_t offset, const std::string& sentence) const {
+  fail(offset, sentence + "; the file ends here, it may have been cut");
+}
+
+std::size_t first_not_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) return at;
+    at += length;
+  }
+  return std::string_view::npos;
+}
+
+void append_number(std::string& text, double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  text.append(buffer, end);
+}
+
+std::string number_text(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace cairn::exchange

@@ -1,0 +1,49 @@
+// The text of an imported file, and errors that say where in it they are.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace cairn {
+
+// Bad input from outside: what() is "file:line:column: sentence" (columns count bytes from 1), or "file: sentence"
+// where there is no place in the text.
+class ExchangeError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+namespace exchange {
+
+// Refers to the text, which outlives it.
+class SourceText {
+ public:
+  // Leaves a byte order mark away. Throws ExchangeError at the first byte that is not UTF-8.
+  SourceText(std::string_view text, std::string file);
+
+  [[nodiscard]] std::string_view text() const { return text_; }
+  [[nodiscard]] int line_of(std::size_t offset) const;  // from 1
+  [[noreturn]] void fail(std::size_t offset, const std::string& sentence) const;
+  [[noreturn]] void fail(const std::string& sentence) const;
+  // As fail(), for what is wrong where the file ends.
+  [[noreturn]] void fail_cut(std::size_t offset, const std::string& sentence) const;
+
+ private:
+  std::string_view text_;
+  std::string file_;
+};
+
+// The offset of the first byte that does not belong to a UTF-8 character, or npos.
+[[nodiscard]] std::size_t first_not_utf8(std::string_view text);
+
+// The shortest text that reads back as the same double.
+void append_number(std::string& text, double value);
+[[nodiscard]] std::string number_text(double value);
+
+// "1 landmark", "3 landmarks"
+[[nodiscard]] std::string counted(std::size_t count, const std::string& noun);
+
+}  // namespace exchange
+}  // namespace cairn

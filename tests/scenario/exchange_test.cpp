@@ -1,0 +1,150 @@
+// Graphs of other tools in and out, and names, as a user sees them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "maps/map_store.hpp"
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Exchange : public testing::Test {
+ protected:
+  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  // Runs `cairn map ...`, expects the exit status and gives standard error.
+  static std::string refused(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "map");
+    const Finished finished = run_cairn(arguments);
+    EXPECT_EQ(finished.exit_status, 2) << finished.err;
+    EXPECT_EQ(finished.out, "");
+    return finished.err;
+  }
+  static json done(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "map");
+    arguments.emplace_back("--json");
+    const Finished finished = run_cairn(arguments);
+    EXPECT_EQ(finished.exit_status, 0) << finished.err;
+    return json::parse(finished.out, nullptr, false);
+  }
+  void import_roads() const {
+    write_text(file("roads.graph"), "node 17 1 2\nnode 4 4 6 front desk\nnode 0 0 0\nedge 17 4 5\nedge 4 17 7.5\n");
+    done({"import", file("roads.graph"), "-o", file("g.cairn")});
+  }
+  [[nodiscard]] LandmarkGraph graph() const { return load_map(file("g.cairn")).graph; }
+
+  const std::filesystem::path folder_ = fresh_folder("exchange");
+};
+
+TEST_F(Exchange, ImportSaysWhatCameIn) {
+  write_text(file("roads.graph"), "node 17 1 2\nnode 4 4 6\nnode 0 0 0\nedge 17 4 5");
+  const json told = done({"import", file("roads.graph"), "-o", file("g.cairn")});
+  EXPECT_EQ(told, (json{{"map", file("g.cairn")},
+                        {"landmarks", 3},
+                        {"routes", 1},
+                        {"warnings",
+                         {"the last line has no line end: the file may have been cut",
+                          "node 0 is landmark L18: ids of landmarks begin at 1"}}}));
+  EXPECT_EQ(graph().find(17)->T_map_landmark.position(), Point(1.0, 2.0));
+}
+
+TEST_F(Exchange, WhatGoesOutComesInAgain) {
+  import_roads();
+  for (const char* name : {"again.graph", "again.graphml"}) {
+    done({"export", file("g.cairn"), "-o", file(name)});
+    done({"import", file(name), "-o", file("again.cairn")});
+    EXPECT_EQ(load_map(file("again.cairn")).graph, graph()) << name;
+  }
+  EXPECT_EQ(done({"export", file("g.cairn"), "-o", file("again.geojson")})["routes"], 2);
+  EXPECT_EQ(done({"import", file("again.geojson"), "-o", file("again.cairn")})["landmarks"], 3);
+  EXPECT_EQ(done({"export", file("g.cairn"), "-o", file("g.png")})["warnings"], json::array());
+  EXPECT_EQ(text_of_file(file("g.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(Exchange, RefusesExtensionsThatItDoesNotKnow) {
+  EXPECT_EQ(
+      refused({"import", "a.grph", "-o", file("g.cairn")}),
+      "cairn: a.grph: cannot be imported: unknown extension \".grph\" (did you mean \".graph\"?); known are .graph, "
+      ".geojson, .json, .graphml\n");
+  EXPECT_EQ(
+      refused({"export", file("g.cairn"), "-o", "a"}),
+      "cairn: a: cannot be exported to: it has no extension; known are .graph, .geojson, .json, .graphml, .png\n");
+}
+
+TEST_F(Exchange, ABadFileIsRefusedWithItsPlaceAndNothingIsWritten) {
+  write_text(file("roads.graph"), "node 1 0 0\nedge 1 2 5\n");
+  EXPECT_EQ(refused({"import", file("roads.graph"), "-o", file("g.cairn")}),
+            "cairn: " + file("roads.graph") + ":2:8: there is no node 2\n");
+  EXPECT_FALSE(std::filesystem::exists(file("g.cairn")));
+  EXPECT_EQ(refused({"import", file("none.graph"), "-o", file("g.cairn")}),
+            "cairn: " + file("none.graph") + ": no such file\n");
+}
+
+TEST_F(Exchange, InfoShowsTheLevelsAndTheFirstOfMany) {
+  std::string text;
+  for (int i = 1; i <= 60; ++i) text += "node " + std::to_string(i) + " 0 0\n";
+  write_text(file("many.graph"), text);
+  done({"import", file("many.graph"), "-o", file("g.cairn")});
+  SavedMap map = load_map(file("g.cairn"));
+  map.graph.add_route({0, 1, 60, 1.0, {}, false, false, 0});
+  for (LandmarkId id = 1; id <= 60; ++id) map.clusters.cluster_of[id] = id == 60 ? 2 : 1;
+  map.clusters.clusters = {{1, {1, 1, 3, 1, ""}}, {2, {2, 1, 3, 60, ""}}, {3, {3, 2, 0, 1, "all"}}};
+  map.clusters.next_id = 4;
+  save_map(file("g.cairn"), map);
+  EXPECT_EQ(done({"info", file("g.cairn")})["levels"],
+            (json{{{"clusters", 2}, {"boundary", 2}}, {{"clusters", 1}, {"boundary", 0}}}));
+  const std::string shown = run_cairn({"map", "info", file("g.cairn")}).out;
+  EXPECT_THAT(shown, HasSubstr("60 landmarks, 1 routes\n"));
+  EXPECT_THAT(shown, HasSubstr("level 1: 2 clusters, 2 landmarks on their boundaries\n"));
+  EXPECT_THAT(shown, HasSubstr("L50 "));
+  EXPECT_THAT(shown, testing::Not(HasSubstr("L51 ")));
+  EXPECT_THAT(shown, HasSubstr("... and 10 more landmarks\n"));
+}
+
+TEST_F(Exchange, NamesAreGivenAndTakenAway) {
+  import_roads();
+  SavedMap map = load_map(file("g.cairn"));
+  map.clusters.cluster_of = {{4, 1}, {17, 1}, {18, 1}};
+  map.clusters.clusters = {{1, {1, 1, 0, 17, ""}}};
+  map.clusters.next_id = 2;
+  save_map(file("g.cairn"), map);
+  EXPECT_EQ(done({"name", file("g.cairn"), "L17", "loading bay"}),
+            (json{{"map", file("g.cairn")}, {"id", "L17"}, {"name", "loading bay"}}));
+  EXPECT_EQ(graph().find(17)->name, "loading bay");
+  done({"name", file("g.cairn"), "loading bay", "dock"});
+  EXPECT_EQ(graph().find(17)->name, "dock");
+  EXPECT_EQ(done({"name", file("g.cairn"), "C1:dock", "ground floor"})["id"], "C1:L17");
+  EXPECT_EQ(load_map(file("g.cairn")).clusters.clusters.at(1).name, "ground floor");
+  done({"name", file("g.cairn"), "ground floor", ""});
+  done({"name", file("g.cairn"), "dock", ""});
+  EXPECT_EQ(load_map(file("g.cairn")).clusters.clusters.at(1).name, "");
+  EXPECT_EQ(graph().find(17)->name, "");
+}
+
+TEST_F(Exchange, NamesThatMeanSomethingElseAreRefused) {
+  import_roads();
+  const auto refused_name = [&](const std::string& name) {
+    const std::string text = refused({"name", file("g.cairn"), "L17", name});
+    return text.substr(0, text.size() - 1);
+  };
+  const auto cannot = [](const std::string& shown) { return "cairn: the name \"" + shown + "\" cannot be given: "; };
+  EXPECT_EQ(refused_name("front desk"), cannot("front desk") + "landmark L4 has it");
+  for (const char* name : {"L4", "L999", "C1:L17"}) EXPECT_EQ(refused_name(name), cannot(name) + "it looks like an id");
+  for (const char* name : {"1,2", "1, 2, 90", "nearest square"})
+    EXPECT_EQ(refused_name(name), cannot(name) + "it reads as a place: x,y or nearest CATEGORY");
+  EXPECT_EQ(refused_name(" dock"), cannot(" dock") + "it begins or ends with a blank");
+  EXPECT_EQ(refused_name("a\tb"), cannot("a\\x09b") + "it holds a control character");
+  EXPECT_EQ(
+      refused({"name", file("g.cairn"), "front dsk", "x"}),
+      "cairn: there is no landmark and no cluster \"front dsk\" (did you mean \"front desk\"?): give a landmark's "
+      "id or name (L17), or a cluster's (C1:L17)\n");
+  EXPECT_EQ(graph().find(17)->name, "");
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
