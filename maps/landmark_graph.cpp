@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace cairn {
@@ -38,6 +37,18 @@ LandmarkId id_in_label(const std::string& label) {
   return error == std::errc{} && rest == end ? id : 0;
 }
 
+void check_cost(RouteId id, double cost_m) {
+  if (!std::isfinite(cost_m) || cost_m < 0.0)
+    throw std::invalid_argument(named("route", id) + ": cost_m must be finite and not negative, got " +
+                                std::to_string(cost_m));
+}
+
+void insert_sorted(std::vector<RouteId>& ids, RouteId id) {
+  ids.insert(std::upper_bound(ids.begin(), ids.end(), id), id);
+}
+
+const std::vector<RouteId> kNoRoutes;
+
 }  // namespace
 
 void LandmarkGraph::check(const Landmark& landmark) const {
@@ -60,22 +71,28 @@ RouteId LandmarkGraph::add_route(Route route) {
   for (const LandmarkId end : {route.from, route.to})
     if (!landmarks_.contains(end))
       throw std::invalid_argument(named("route", route.id) + ": there is no " + named("landmark", end));
-  if (!std::isfinite(route.cost_m) || route.cost_m < 0.0)
-    throw std::invalid_argument(named("route", route.id) + ": cost_m must be finite and not negative, got " +
-                                std::to_string(route.cost_m));
+  check_cost(route.id, route.cost_m);
+  if (route.speed_limit_mps && !(*route.speed_limit_mps > 0.0 && std::isfinite(*route.speed_limit_mps)))
+    throw std::invalid_argument(named("route", route.id) + ": its speed limit must be finite and above 0");
   for (const Pose2& pose : route.trajectory)
     if (!is_finite(pose)) throw std::invalid_argument(named("route", route.id) + ": its trajectory is not finite");
   route.id = claim_id("route", route.id, next_route_);
   const RouteId id = route.id;
-  routes_by_ends_.emplace(route.from, route.to, id);
+  insert_sorted(touching_[route.from].out, id);
+  insert_sorted(touching_[route.to].in, id);
   routes_.emplace(id, std::move(route));
   return id;
 }
 
 void LandmarkGraph::remove(LandmarkId id) {
-  if (landmarks_.erase(id) == 0) throw std::invalid_argument("there is no " + named("landmark", id) + " to remove");
-  std::erase_if(routes_, [id](const auto& entry) { return entry.second.from == id || entry.second.to == id; });
-  std::erase_if(routes_by_ends_, [id](const auto& ends) { return std::get<0>(ends) == id || std::get<1>(ends) == id; });
+  if (!landmarks_.contains(id)) throw std::invalid_argument("there is no " + named("landmark", id) + " to remove");
+  if (const auto found = touching_.find(id); found != touching_.end()) {
+    const Touching routes = found->second;  // removing them changes it
+    for (const RouteId route : routes.out) remove_route(route);
+    for (const RouteId route : routes.in)
+      if (routes_.contains(route)) remove_route(route);
+  }
+  landmarks_.erase(id);
 }
 
 void LandmarkGraph::retire(LandmarkId id, std::string reason) {
@@ -96,7 +113,13 @@ void LandmarkGraph::add_retired(RetiredLandmark retired) {
 void LandmarkGraph::remove_route(RouteId id) {
   const auto found = routes_.find(id);
   if (found == routes_.end()) throw std::invalid_argument("there is no " + named("route", id) + " to remove");
-  routes_by_ends_.erase({found->second.from, found->second.to, id});
+  for (const LandmarkId end : {found->second.from, found->second.to}) {
+    const auto touching = touching_.find(end);
+    if (touching == touching_.end()) continue;  // both ends are one landmark
+    std::erase(touching->second.out, id);
+    std::erase(touching->second.in, id);
+    if (touching->second.out.empty() && touching->second.in.empty()) touching_.erase(touching);
+  }
   routes_.erase(found);
 }
 
@@ -104,6 +127,13 @@ void LandmarkGraph::set_closed(RouteId id, bool closed) {
   const auto found = routes_.find(id);
   if (found == routes_.end()) throw std::invalid_argument("there is no " + named("route", id) + " to close or open");
   found->second.closed = closed;
+}
+
+void LandmarkGraph::set_cost(RouteId id, double cost_m) {
+  const auto found = routes_.find(id);
+  if (found == routes_.end()) throw std::invalid_argument("there is no " + named("route", id) + " to give a cost");
+  check_cost(id, cost_m);
+  found->second.cost_m = cost_m;
 }
 
 void LandmarkGraph::reserve_ids(LandmarkId next_landmark, RouteId next_route) {
@@ -157,12 +187,21 @@ std::vector<LandmarkId> LandmarkGraph::of_category(const std::string& category) 
   return ids;
 }
 
+const std::vector<RouteId>& LandmarkGraph::routes_from(LandmarkId id) const {
+  const auto found = touching_.find(id);
+  return found == touching_.end() ? kNoRoutes : found->second.out;
+}
+
+const std::vector<RouteId>& LandmarkGraph::routes_to(LandmarkId id) const {
+  const auto found = touching_.find(id);
+  return found == touching_.end() ? kNoRoutes : found->second.in;
+}
+
 const Route* LandmarkGraph::route_between(LandmarkId from, LandmarkId to) const {
   const Route* best = nullptr;
-  for (auto ends = routes_by_ends_.lower_bound({from, to, std::numeric_limits<RouteId>::min()});
-       ends != routes_by_ends_.end() && std::get<0>(*ends) == from && std::get<1>(*ends) == to; ++ends) {
-    const Route& route = routes_.at(std::get<2>(*ends));
-    if (!route.closed && (best == nullptr || route.cost_m < best->cost_m)) best = &route;
+  for (const RouteId id : routes_from(from)) {
+    const Route& route = routes_.at(id);
+    if (route.to == to && !route.closed && (best == nullptr || route.cost_m < best->cost_m)) best = &route;
   }
   return best;
 }

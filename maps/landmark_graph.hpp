@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -85,6 +83,7 @@ class LandmarkGraph {
   void add_retired(RetiredLandmark retired);  // loading; throws as add() does, and for an id of 0
   void remove_route(RouteId id);
   void set_closed(RouteId id, bool closed);
+  void set_cost(RouteId id, double cost_m);  // throws as add_route() does
   // The ids to be given next. A saved graph keeps them, so that removed ids stay retired after
   // loading; reserve_ids never lowers them.
   [[nodiscard]] LandmarkId next_landmark_id() const { return next_landmark_; }
@@ -102,17 +101,26 @@ class LandmarkGraph {
   // The landmark whose position is nearest, at most within_m away, or null; ties go to the lower id.
   [[nodiscard]] const Landmark* nearest(const Point& p_map, double within_m) const;
   [[nodiscard]] std::vector<LandmarkId> of_category(const std::string& category) const;
+  // The routes that begin or end at a landmark, by rising id; none for an unknown one. One that leads back to
+  // where it begins stands in both.
+  [[nodiscard]] const std::vector<RouteId>& routes_from(LandmarkId id) const;
+  [[nodiscard]] const std::vector<RouteId>& routes_to(LandmarkId id) const;
   // The cheapest open route from one landmark to another, or null; ties go to the lower id.
   [[nodiscard]] const Route* route_between(LandmarkId from, LandmarkId to) const;
   bool operator==(const LandmarkGraph&) const = default;
 
  private:
+  struct Touching {
+    std::vector<RouteId> out, in;  // rising
+    bool operator==(const Touching&) const = default;
+  };
+
   void check(const Landmark& landmark) const;
 
   std::map<LandmarkId, Landmark> landmarks_;
   std::map<LandmarkId, RetiredLandmark> retired_;
   std::map<RouteId, Route> routes_;
-  std::set<std::tuple<LandmarkId, LandmarkId, RouteId>> routes_by_ends_;  // from, to, route
+  std::map<LandmarkId, Touching> touching_;  // of landmarks with routes
   LandmarkId next_landmark_ = 1;
   RouteId next_route_ = 1;
 };

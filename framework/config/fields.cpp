@@ -154,15 +154,16 @@ std::size_t to_choice(const ConfigValue& value, const std::string& key, const st
   return static_cast<std::size_t>(at - choices.begin());
 }
 
-Point to_point(const ConfigValue& value, const std::string& key) {
+Point to_point(const ConfigValue& value, const std::string& key, const Range& range, const std::string& unit) {
   const std::string allowed = "a point [x, y]";
   if (value.kind != ConfigValue::Kind::list) fail(value, key, allowed);
   if (value.items.size() != 2) {
     throw ConfigError(value.place,
                       key + " must be " + allowed + ", found a list of " + std::to_string(value.items.size()));
   }
+  const Range within{std::max(range.min, kCoordinateRange.min), std::min(range.max, kCoordinateRange.max)};
   const auto coordinate = [&](std::size_t i, const char* name) {
-    return to_number(value.items[i], name + (" of " + key), kCoordinateRange, "");
+    return to_number(value.items[i], name + (" of " + key), within, unit);
   };
   return {coordinate(0, "x"), coordinate(1, "y")};
 }

@@ -94,7 +94,8 @@ namespace config_detail {
 [[nodiscard]] std::string to_text(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::size_t to_choice(const ConfigValue& value, const std::string& key,
                                     const std::vector<std::string>& choices);
-[[nodiscard]] Point to_point(const ConfigValue& value, const std::string& key);
+[[nodiscard]] Point to_point(const ConfigValue& value, const std::string& key, const Range& range = {},
+                             const std::string& unit = "");
 [[nodiscard]] std::vector<double> to_numbers(const ConfigValue& value, const std::string& key, const Range& range);
 [[nodiscard]] std::vector<Point> to_points(const ConfigValue& value, const std::string& key);
 [[nodiscard]] PluginChoice to_plugin(const ConfigValue& value, const std::string& key);
@@ -203,13 +204,15 @@ class Fields {
     };
     return f;
   }
-  FieldSpec& point(std::string key, Point Config::*member, std::string unit, std::string meaning) {
+  // The range is that of each coordinate.
+  FieldSpec& point(std::string key, Point Config::*member, std::string unit, std::string meaning, Range range = {}) {
     FieldSpec& f = add(std::move(key), "point", std::move(meaning),
                        "[" + config_detail::number_text((defaults_.*member).x()) + ", " +
                            config_detail::number_text((defaults_.*member).y()) + "]");
     f.unit = std::move(unit);
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_point(v, key);
+    f.range = range;
+    f.load = [member, key = f.key, range, unit = f.unit](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_point(v, key, range, unit);
     };
     return f;
   }

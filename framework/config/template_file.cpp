@@ -176,20 +176,27 @@ LandmarkShape load_landmark_shape(const std::filesystem::path& file) {
   return shape_of(read_config_file(file));
 }
 
-std::vector<LandmarkShape> load_landmark_shapes(const std::filesystem::path& folder) {
-  std::vector<LandmarkShape> shapes;
+std::vector<TemplateFile> load_template_files(const std::filesystem::path& folder) {
+  std::vector<TemplateFile> templates;
   std::map<std::string, std::string> file_of_category;
   for (const std::filesystem::path& file : template_files(folder)) {
     const ConfigValue root = read_config_file(file);
-    shapes.push_back(shape_of(root));
-    const std::string& category = shapes.back().category;
+    const std::string outline = config_detail::exactly_one_of(root, template_file_schema().one_of, "template");
+    templates.push_back({file, outline == "polygon_m" ? "polygon" : outline, shape_of(root)});
+    const std::string& category = templates.back().shape.category;
     const auto [first, is_new] = file_of_category.emplace(category, file.string());
     if (!is_new) {
       throw ConfigError(root.find("category")->place,
                         "the category " + shown(category) + " is taken by " + first->second);
     }
   }
-  std::ranges::sort(shapes, {}, &LandmarkShape::category);
+  std::ranges::sort(templates, {}, [](const TemplateFile& one) -> const std::string& { return one.shape.category; });
+  return templates;
+}
+
+std::vector<LandmarkShape> load_landmark_shapes(const std::filesystem::path& folder) {
+  std::vector<LandmarkShape> shapes;
+  for (TemplateFile& one : load_template_files(folder)) shapes.push_back(std::move(one.shape));
   return shapes;
 }
 

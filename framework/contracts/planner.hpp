@@ -9,6 +9,8 @@
 
 #include "framework/contracts/budget.hpp"
 #include "framework/contracts/world_view.hpp"
+#include "maps/cluster_tree.hpp"
+#include "maps/hierarchy/route_costs.hpp"
 
 namespace cairn {
 
@@ -17,6 +19,8 @@ struct Place {
   std::optional<Pose2> pose;
   bool heading_matters = false;  // of the pose; otherwise its theta is ignored
   std::vector<LandmarkId> landmarks;
+  // What each of the landmarks costs besides: to get to it at the start, to go on from it at the goal. Empty: nothing.
+  std::vector<double> cost_m;
 };
 
 struct PlanRequest {
@@ -24,6 +28,12 @@ struct PlanRequest {
   Place to;
   double radius_m = 0.22;  // of the disc that must fit
   std::uint64_t seed = 1;
+  // Over the landmark graph:
+  CostKind cost = CostKind::length;
+  std::vector<LandmarkId> avoid;  // not passed; a start or goal may be among them
+  std::vector<RouteId> closed;    // not taken, as if the map said so
+  int alternatives = 0;           // so many more ways, the cheapest first
+  bool explain = false;
 };
 
 enum class PlanOutcome {
@@ -44,6 +54,22 @@ struct PlanTimes {
   double total_ms = 0.0;
 };
 
+// Another way over the landmark graph.
+struct PlanAlternative {
+  double cost_m = 0.0;
+  std::vector<LandmarkId> landmarks;
+  std::vector<RouteId> routes;
+};
+
+// How the landmark graph gave its answer.
+struct PlanExplanation {
+  std::vector<std::int64_t> settled_of_level;    // vertices settled: [0] landmarks one by one, [l] clusters of level l
+  std::vector<std::vector<ClusterId>> clusters;  // passed, in order: [0] of level 1, ...
+  double cost = 0.0;                             // by the kind asked for, in its unit
+  std::vector<RouteId> closed_in_the_way;        // closed routes that a cheaper way would take
+  std::optional<double> cost_with_closed_open;   // of that way; none: no cheaper one
+};
+
 struct PlanResult {
   PlanOutcome outcome = PlanOutcome::no_route;
   std::string reason;  // a sentence for people
@@ -55,6 +81,8 @@ struct PlanResult {
   std::vector<RouteId> blocked_routes;  // stored routes found blocked on the way to this answer
   std::vector<Pose2> path;
   std::int64_t settled = 0;  // graph vertices settled
+  std::vector<PlanAlternative> alternatives;
+  std::optional<PlanExplanation> explanation;
   PlanTimes time_ms;
 };
 

@@ -11,6 +11,8 @@
 
 namespace cairn {
 
+class Hierarchies;
+
 struct WorldView {
   const OccupancyGrid& grid;
   const LandmarkGraph& graph;
@@ -20,6 +22,7 @@ struct WorldView {
   const Observation* observation = nullptr;  // the latest, null when planning against a saved map
   // The stop layer has cut this share of the last wanted speed: 0 none, 1 all.
   double held_back_ratio = 0.0;
+  const Hierarchies* hierarchies = nullptr;  // of the graph; null: searches take the graph as it is
 };
 
 }  // namespace cairn

@@ -12,10 +12,6 @@ namespace {
 
 using Rows = std::vector<const ExperimentRow*>;
 
-std::string text_of(const Interval& interval) {
-  return fmt::format("{:.3f} ({:.3f} - {:.3f})", interval.value, interval.low, interval.high);
-}
-
 std::string table_of(const ExperimentConfig& config, const Rows& rows) {
   std::string text = "| detector | threshold | precision | recall | F1 |\n|---|---:|---:|---:|---:|\n";
   const RecognitionFigures own = recognition_figures(rows, rows.front()->step_rad);
@@ -62,8 +58,7 @@ std::string sweep_times_table(const ExperimentConfig& config, const std::vector<
     for (const ExperimentRow& row : rows)
       for (const DetectorSweep& sweep : row.sweeps)
         if (sweep.detector == detector.name) times_ms.push_back(1e3 * sweep.wall_s);
-    const Estimate estimate = estimate_of(times_ms);
-    text += fmt::format("| {} | {:.1f} ± {:.1f} |\n", detector.name, estimate.mean, estimate.half_width);
+    text += fmt::format("| {} | {} |\n", detector.name, text_of(estimate_of(times_ms), 1));
   }
   return text.empty() ? text : "| detector | ms a grid |\n|---|---:|\n" + text;
 }

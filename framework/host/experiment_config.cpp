@@ -1,5 +1,7 @@
 #include "framework/host/experiment_config.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace cairn {
@@ -25,6 +27,29 @@ void check_places(const ExperimentConfig& config, const ConfigValue& root) {
       throw ConfigError(value.find("expected")->place,
                         "expected must give one degree for each of the " + std::to_string(config.categories.size()) +
                             " categories, found " + std::to_string(place.expected.size()));
+  }
+}
+
+// Ranges that fit together. value: the map `worlds`.
+void check_worlds(const RandomWorldConfig& worlds, const ConfigValue& value) {
+  const auto place_of = [&](const char* key, const char* other) {
+    const ConfigValue* given = value.find(key) != nullptr ? value.find(key) : value.find(other);
+    return given != nullptr ? given->place : value.place;
+  };
+  if (worlds.least_landmarks > worlds.most_landmarks)
+    throw ConfigError(place_of("least_landmarks", "most_landmarks"),
+                      fmt::format("least_landmarks must be at most most_landmarks, found {} and {}",
+                                  worlds.least_landmarks, worlds.most_landmarks));
+  for (const auto& [name, axis] : {std::pair{"x", 0}, {"y", 1}}) {
+    if (worlds.smallest_room_m[axis] > worlds.largest_room_m[axis])
+      throw ConfigError(place_of("smallest_room_m", "largest_room_m"),
+                        fmt::format("{} of smallest_room_m must be at most that of largest_room_m, found {:g} and {:g}",
+                                    name, worlds.smallest_room_m[axis], worlds.largest_room_m[axis]));
+    if (worlds.start_m[axis] >= worlds.smallest_room_m[axis])
+      throw ConfigError(place_of("start_m", "smallest_room_m"),
+                        fmt::format("start_m must lie within the smallest room: its {} is {:g}, that of "
+                                    "smallest_room_m {:g}",
+                                    name, worlds.start_m[axis], worlds.smallest_room_m[axis]));
   }
 }
 
@@ -162,6 +187,7 @@ ExperimentConfig load_experiment(const std::filesystem::path& file) {
   if (of_places) check_places(config, root);
   if (of_lap && !config.lap)
     throw ConfigError(root.place, "an experiment of a lap must say under lap what it goes round");
+  if (const ConfigValue* worlds = root.find("worlds")) check_worlds(config.worlds, *worlds);
   if (config.detectors_as_given.kind != ConfigValue::Kind::null)
     config.detectors = detectors_of(config.detectors_as_given);
   if (config.experiment == ExperimentKind::curves && config.detectors.empty())

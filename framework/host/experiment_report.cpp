@@ -103,7 +103,7 @@ ordered_json json_of_sweeps(const ExperimentRow& row) {
 }
 
 std::string cell_text(const Estimate& estimate) {
-  return fmt::format(" {:.4f} ± {:.4f} |", estimate.mean, estimate.half_width);
+  return " " + text_of(estimate, 4) + " |";
 }
 
 // What can be said of a mission: of some run at least.

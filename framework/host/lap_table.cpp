@@ -49,9 +49,7 @@ std::string table_of(const ExperimentConfig& config, const std::vector<LapSeries
     const double bin_deg = degrees(config.lap->bin_rad);
     text += fmt::format("| {:.0f} - {:.0f} |", bin_deg * static_cast<double>(b),
                         std::min(360.0, bin_deg * static_cast<double>(b + 1)));
-    for (const LapSeries& series : all)
-      text +=
-          series.bins[b] ? fmt::format(" {:.2f} ± {:.2f} |", series.bins[b]->mean, series.bins[b]->half_width) : " |";
+    for (const LapSeries& series : all) text += series.bins[b] ? " " + text_of(*series.bins[b], 2) + " |" : " |";
     text += "\n";
   }
   return text + "\n";

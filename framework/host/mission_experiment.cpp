@@ -4,7 +4,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "framework/host/in_parallel.hpp"
+#include "maps/in_parallel.hpp"
 #include "framework/host/mission.hpp"
 #include "framework/host/withheld.hpp"
 

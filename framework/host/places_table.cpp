@@ -13,10 +13,6 @@ namespace {
 
 using Rows = std::vector<const ExperimentRow*>;
 
-std::string text_of(const Estimate& estimate) {
-  return fmt::format("{:.2f} ± {:.2f}", estimate.mean, estimate.half_width);
-}
-
 // The degrees of one place in all runs that came so far and had looked at its landmark.
 std::vector<std::vector<double>> degrees_at(const Rows& rows, std::size_t place) {
   std::vector<std::vector<double>> all;
@@ -45,14 +41,14 @@ std::string line(const ExperimentConfig& config, const Rows& rows, std::size_t i
   for (std::size_t k = 0; k < config.categories.size(); ++k) {
     std::vector<double> values;
     for (const auto& degrees : runs) values.push_back(degrees[k]);
-    text += fmt::format(" {} |", text_of(estimate_of(values)));
+    text += fmt::format(" {} |", text_of(estimate_of(values), 2));
   }
   for (std::size_t k = 0; k < config.categories.size(); ++k)
     text += place.expected.empty() ? " |" : fmt::format(" {:.1f} |", place.expected[k]);
   std::vector<double> margins;
   for (const auto& degrees : runs) margins.push_back(margin_of(degrees, true_one));
   const auto on_top = std::ranges::count_if(margins, [](double margin) { return margin > 0.0; });
-  return text + fmt::format(" {} | {} | {} | {} |\n", text_of(estimate_of(margins)),
+  return text + fmt::format(" {} | {} | {} | {} |\n", text_of(estimate_of(margins), 2),
                             place.expected.empty() ? "" : fmt::format("{:.1f}", margin_of(place.expected, true_one)),
                             on_top, runs.size());
 }
@@ -73,8 +69,7 @@ std::string order_text(const ExperimentConfig& config, const Rows& rows) {
 std::string matchings_text(const ExperimentConfig& config, const Rows& rows) {
   std::vector<double> matchings;
   for (const ExperimentRow* row : rows) matchings.push_back(static_cast<double>(row->result.matchings));
-  const Estimate estimate = estimate_of(matchings);
-  std::string text = fmt::format("Matchings in a run: {:.1f} ± {:.1f}", estimate.mean, estimate.half_width);
+  std::string text = "Matchings in a run: " + text_of(estimate_of(matchings), 1);
   if (config.expected_matchings > 0) text += fmt::format(" (expected {})", config.expected_matchings);
   return text + ".\n";
 }

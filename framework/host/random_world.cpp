@@ -87,9 +87,10 @@ std::string surface(double specular_ratio, Chance& chance) {
 
 void RandomWorldConfig::describe(Fields<RandomWorldConfig>& fields) {
   using C = RandomWorldConfig;
-  fields.point("smallest_room_m", &C::smallest_room_m, "m", "least length and width of the room");
+  constexpr Range kRoom_m{1.0, 100.0};
+  fields.point("smallest_room_m", &C::smallest_room_m, "m", "least length and width of the room", kRoom_m);
   fields.point("largest_room_m", &C::largest_room_m, "m",
-               "greatest length and width; a room that is too full is made larger all the same");
+               "greatest length and width; a room that is too full is made larger all the same", kRoom_m);
   fields.integer("least_landmarks", &C::least_landmarks, {0.0, 100.0}, "at least so many landmarks");
   fields.integer("most_landmarks", &C::most_landmarks, {0.0, 100.0}, "at most so many landmarks");
   fields.integer("most_distractors", &C::most_distractors, {0.0, 100.0},
@@ -97,7 +98,7 @@ void RandomWorldConfig::describe(Fields<RandomWorldConfig>& fields) {
   fields.number("size_tolerance_ratio", &C::size_tolerance_ratio, {0.0, 0.5}, "",
                 "landmarks are larger or smaller than their template by up to this share");
   fields.number("gap_m", &C::gap_m, {0.3, 10.0}, "m", "free space between things, and between them and the walls");
-  fields.point("start_m", &C::start_m, "m", "where the mission's robot begins; kept free");
+  fields.point("start_m", &C::start_m, "m", "where the mission's robot begins; kept free", {0.0, kRoom_m.max});
   fields.number("start_gap_m", &C::start_gap_m, {0.1, 10.0}, "m", "free space round it");
 }
 

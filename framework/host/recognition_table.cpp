@@ -67,10 +67,6 @@ Rows taken_of(const Rows& rows, std::span<const std::size_t> taken) {
   return some;
 }
 
-std::string text_of(const Interval& interval) {
-  return fmt::format("{:.3f} ({:.3f} - {:.3f})", interval.value, interval.low, interval.high);
-}
-
 std::string name_of_category(const std::string& category) {
   return category.empty() ? "none" : category;
 }
@@ -111,8 +107,8 @@ std::string comparison(const ExperimentConfig& config, const std::vector<Experim
   for (const ExperimentVariant& variant : config.variants) {
     if (variant.name == config.baseline) continue;
     const BaselineFigures f = baseline_figures(rows_of(rows, mission, variant.name), baseline);
-    text += fmt::format("| {} | {} of {} | {:.1f} ({:.1f} - {:.1f}) | {} |\n", variant.name, f.same_drives, f.worlds,
-                        f.matchings.value, f.matchings.low, f.matchings.high, text_of(f.lost));
+    text += fmt::format("| {} | {} of {} | {} | {} |\n", variant.name, f.same_drives, f.worlds, text_of(f.matchings, 1),
+                        text_of(f.lost));
   }
   return text + "\n";
 }
@@ -190,10 +186,9 @@ std::string recognition_table(const ExperimentConfig& config, const std::vector<
       const Rows of_variant = rows_of(rows, mission, variant.name);
       if (of_variant.empty()) continue;
       const RecognitionFigures f = recognition_figures(of_variant, of_variant.front()->step_rad);
-      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} ± {:.1f} | {:.0f} ± {:.0f} |\n", variant.name,
-                          text_of(f.precision), text_of(f.recall), text_of(f.f1), text_of(f.right_category),
-                          text_of(f.median_error_m), text_of(f.within_step), f.driven_m.mean, f.driven_m.half_width,
-                          f.matchings.mean, f.matchings.half_width);
+      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", variant.name, text_of(f.precision),
+                          text_of(f.recall), text_of(f.f1), text_of(f.right_category), text_of(f.median_error_m),
+                          text_of(f.within_step), text_of(f.driven_m, 1), text_of(f.matchings, 0));
       matrices += "### " + mission + ", " + variant.name + "\n\n" + confusion(of_variant) + "\n";
     }
     text += "\n" + comparison(config, rows, mission) + matrices;

@@ -44,7 +44,8 @@ ordered_json map_of(const FieldSpec& field) {
 }
 
 ordered_json shape_of(const FieldSpec& field) {
-  ordered_json point = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  const ordered_json point = {
+      {"type", "array"}, {"items", bounded("number", field.range)}, {"minItems", 2}, {"maxItems", 2}};
   if (field.type == "number" || field.type == "integer") return bounded(field.type.c_str(), field.range);
   if (field.type == "flag") return {{"type", "boolean"}};
   if (field.type == "choice") return {{"enum", field.choices}};

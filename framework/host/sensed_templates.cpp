@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "framework/host/in_parallel.hpp"
+#include "maps/in_parallel.hpp"
 #include "framework/host/landmark_lap.hpp"
 #include "framework/host/module_library.hpp"
 

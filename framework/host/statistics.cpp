@@ -1,8 +1,11 @@
 #include "framework/host/statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -14,11 +17,24 @@ Estimate estimate_of(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
   const double mean = sum / count;
-  if (values.size() == 1) return {mean, 0.0};
+  if (values.size() == 1) return {mean, 0.0, 1};
   double squares = 0.0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   const boost::math::students_t distribution(count - 1.0);
-  return {mean, boost::math::quantile(distribution, 0.975) * std::sqrt(squares / (count - 1.0) / count)};
+  return {mean, boost::math::quantile(distribution, 0.975) * std::sqrt(squares / (count - 1.0) / count), values.size()};
+}
+
+std::string text_of(const Estimate& estimate, int decimals) {
+  std::string text = fmt::format("{:.{}f}", estimate.mean, decimals);
+  if (estimate.values > 1) text += fmt::format(" ± {:.{}f}", estimate.half_width, decimals);
+  return text;
+}
+
+std::string text_of(const Interval& interval, int decimals) {
+  std::string text = fmt::format("{:.{}f}", interval.value, decimals);
+  if (std::isfinite(interval.low) && std::isfinite(interval.high))
+    text += fmt::format(" ({:.{}f} - {:.{}f})", interval.low, decimals, interval.high, decimals);
+  return text;
 }
 
 Interval share_of(std::int64_t successes, std::int64_t trials) {
@@ -36,6 +52,8 @@ Interval resampled(std::size_t runs, const std::function<double(std::span<const 
   std::vector<std::size_t> all(runs);
   std::iota(all.begin(), all.end(), std::size_t{0});
   if (runs == 0) return {};
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  if (runs == 1) return {figure(all), -kNoEnd, kNoEnd};
   std::mt19937_64 random(1);
   std::vector<double> values;
   std::vector<std::size_t> taken(runs);

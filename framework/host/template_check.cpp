@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "framework/contracts/detector.hpp"
-#include "framework/host/in_parallel.hpp"
+#include "maps/in_parallel.hpp"
 
 namespace cairn {
 namespace {

@@ -67,6 +67,14 @@ struct NameCommand {
 };
 int map_name(const NameCommand& command, const CommonOptions& common);
 
+struct LintCommand {
+  std::filesystem::path map;
+  std::optional<double> radius_m;  // of the robot; none: the one saved in the map
+  double near_m = 0.4;             // landmarks of one category this near to each other are taken for one
+};
+// 0 also when there are notes only, 1 when there are warnings or errors.
+int map_lint(const LintCommand& command, const CommonOptions& common);
+
 struct TemplateCommand {
   std::filesystem::path folder;
   std::filesystem::path robot;  // for `sensed` templates

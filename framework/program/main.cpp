@@ -18,6 +18,17 @@ namespace {
 
 using Action = std::function<int()>;
 
+// CLI::Range lets nan pass.
+CLI::Validator number_within(double min, double max) {
+  const std::string range = "a number from " + CLI::detail::to_string(min) + " to " + CLI::detail::to_string(max);
+  return {[min, max, range](std::string& text) {
+            double value = 0.0;
+            const bool is_within = CLI::detail::lexical_cast(text, value) && value >= min && value <= max;
+            return is_within ? std::string() : "must be " + range + ", found \"" + text + "\"";
+          },
+          "FLOAT in [" + CLI::detail::to_string(min) + " - " + CLI::detail::to_string(max) + "]", "number"};
+}
+
 void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* sub = app.add_subcommand("run", "Run a mission: map, recognise, plan and drive");
   sub->add_option("MISSION", c.mission, "mission file (config/missions/*.yaml)")->required();
@@ -38,8 +49,8 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
   sub->add_option("--queries", c.queries, "file of queries, one {\"id\",\"from\",\"to\"} a line, or -");
   sub->add_option("--planner", c.planner, "planner module")->capture_default_str();
   sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map")
-      ->check(CLI::Range(0.0, kMostRadius_m));
-  sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time")->check(CLI::Range(0.0, 1e9));
+      ->check(number_within(0.0, kMostRadius_m));
+  sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time")->check(number_within(0.0, 1e9));
   sub->add_option("--seed", c.seed, "seed of the planner")->capture_default_str();
   sub->add_option("--picture", c.picture, "draw the route into this PNG file");
   sub->callback([&] { action = [&] { return plan(c, common); }; });
@@ -62,18 +73,15 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
 
 void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* map = app.get_subcommand("map");
-  CLI::App* import = map->add_subcommand("import", "Make a map of a landmark graph in another tool's file");
-  import->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json) or *.graphml")->required();
-  import->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
-  import->callback([&] { action = [&] { return map_import(c, common);
-};
-}  // namespace
-);
-CLI::App* made = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
-made->add_option("MAP", c.from, "saved map (*.cairn)")->required();
-made->add_option("-o,--out", c.to, "file to write: *.graph, *.geojson, *.json, *.graphml or *.png")->required();
-made->callback([&] { action = [&] { return map_export(c, common); }; });
-}  // namespace cairn
+  CLI::App* in = map->add_subcommand("import", "Make a map of a landmark graph in another tool's file");
+  in->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json) or *.graphml")->required();
+  in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
+  in->callback([&] { action = [&] { return map_import(c, common); }; });
+  CLI::App* out = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
+  out->add_option("MAP", c.from, "saved map (*.cairn)")->required();
+  out->add_option("-o,--out", c.to, "file to write: *.graph, *.geojson, *.json, *.graphml or *.png")->required();
+  out->callback([&] { action = [&] { return map_export(c, common); }; });
+}
 
 void add_map_name(CLI::App& app, NameCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* name = app.get_subcommand("map")->add_subcommand("name", "Name a landmark or a cluster of a map");
@@ -83,19 +91,35 @@ void add_map_name(CLI::App& app, NameCommand& c, const CommonOptions& common, Ac
   name->callback([&] { action = [&] { return map_name(c, common); }; });
 }
 
+void add_map_lint(CLI::App& app, LintCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* lint = app.get_subcommand("map")->add_subcommand(
+      "lint", "What is doubtful about a map's landmarks and routes; exit status 1 if anything but notes");
+  lint->add_option("MAP", c.map, "saved map (*.cairn)")->required();
+  lint->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map")
+      ->check(number_within(0.0, kMostRadius_m));
+  lint->add_option("--near-m", c.near_m, "landmarks of one category this near to each other are taken for one")
+      ->check(number_within(0.0, 1000.0))
+      ->capture_default_str();
+  lint->callback([&] { action = [&] { return map_lint(c, common); }; });
+}
+
 void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* templates = app.add_subcommand("template", "Look at landmark templates");
   templates->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, auto command) {
     CLI::App* sub = templates->add_subcommand(name, text);
     sub->add_option("FOLDER", c.folder, "folder of template files (config/templates)")->required();
-    sub->add_option("--cell-m", c.cell_m, "cell size of the map")->check(CLI::Range(0.005, 1.0))->capture_default_str();
-    sub->add_option("--step-deg", c.step_deg, "orientation step")->check(CLI::Range(1.0, 90.0))->capture_default_str();
+    sub->add_option("--cell-m", c.cell_m, "cell size of the map")
+        ->check(number_within(0.005, 1.0))
+        ->capture_default_str();
+    sub->add_option("--step-deg", c.step_deg, "orientation step")
+        ->check(number_within(1.0, 90.0))
+        ->capture_default_str();
     sub->callback([&c, &common, &action, command] { action = [&c, &common, command] { return command(c, common); }; });
     return sub;
   };
   add("list", "Categories, sizes and orientations", template_list);
-  add("check", "Which categories the sensed templates would mistake for which", template_check)
+  add("check", "Which categories the sensed templates would mistake for which; exit status 1 if any", template_check)
       ->add_option("--robot", c.robot, "robot file whose sonars sense the templates")
       ->required();
   CLI::App* preview = add("preview", "Draw every template of a folder into a PNG file", template_preview);
@@ -113,7 +137,7 @@ void add_template_capture(CLI::App& app, CaptureCommand& c, const CommonOptions&
   capture->add_option("--at", c.at, "where it is: x,y or a landmark")->required();
   capture->add_option("--category", c.category, "what to call such landmarks")->required();
   capture->add_option("--radius-m", c.radius_m, "everything that lies wholly within this of the place belongs to it")
-      ->check(CLI::Range(0.05, 20.0))
+      ->check(number_within(0.05, 20.0))
       ->capture_default_str();
   capture->add_option("-o,--out", c.out, "template file to write")->required();
   capture->callback([&] { action = [&] { return template_capture(c, common); }; });
@@ -184,6 +208,7 @@ int main_of(int argc, char** argv) {
   MapCommand map_options;
   ExchangeCommand exchange_options;
   NameCommand name_options;
+  LintCommand lint_options;
   TemplateCommand template_options;
   CaptureCommand capture_options;
   ExperimentCommand experiment_options;
@@ -196,6 +221,7 @@ int main_of(int argc, char** argv) {
   add_map(app, map_options, common, action);
   add_map_exchange(app, exchange_options, common, action);
   add_map_name(app, name_options, common, action);
+  add_map_lint(app, lint_options, common, action);
   add_template(app, template_options, common, action);
   add_template_capture(app, capture_options, common, action);
   add_plugins(app, plugins_options, common, action);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "framework/host/module_library.hpp"
 #include "framework/host/place.hpp"
 #include "framework/program/commands.hpp"
+#include "framework/program/saved_radius.hpp"
 #include "maps/map_store.hpp"
 #include "maps/pictures/map_picture.hpp"
 
@@ -30,7 +30,7 @@ class MapPlanner {
  public:
   MapPlanner(const PlanCommand& command, const CommonOptions& common)
       : command_(command), library_(plugin_folders(common.plugin_folders)), map_(load_map(command.map)) {
-    robot_.radius_m = command.radius_m.value_or(saved_radius());
+    robot_.radius_m = command.radius_m ? *command.radius_m : saved_radius_m(map_, command.map);
     PluginChoice choice{command.planner, {}};
     choice.config.kind = ConfigValue::Kind::map;
     choice.config.place.file = "--planner";
@@ -64,17 +64,6 @@ class MapPlanner {
   double radius_m() const { return robot_.radius_m; }
 
  private:
-  double saved_radius() const {
-    const auto found = map_.properties.find("robot_radius_m");
-    if (found == map_.properties.end()) return RobotModel{}.radius_m;
-    double radius_m = -1.0;
-    const std::string& text = found->second;
-    const auto end = std::from_chars(text.data(), text.data() + text.size(), radius_m).ptr;
-    if (end != text.data() + text.size() || !(radius_m >= 0.0 && radius_m <= kMostRadius_m))
-      throw StoreError(command_.map.string() + ": robot_radius_m must be a number of 0 to 10 m, is \"" + text + "\"");
-    return radius_m;
-  }
-
   const PlanCommand& command_;
   ModuleLibrary library_;
   SavedMap map_;

@@ -41,18 +41,19 @@ Mission template_mission(const TemplateCommand& command, const std::string& what
 
 int template_list(const TemplateCommand& command, const CommonOptions& common) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const LandmarkShape& shape : load_landmark_shapes(command.folder)) {
+  for (const auto& [file, outline, shape] : load_template_files(command.folder)) {
     const std::size_t orientations =
         distinct_orientations(shape.contour, radians(command.step_deg), command.cell_m).size();
     if (common.json)
       list.push_back({{"category", shape.category},
+                      {"file", file.string()},
+                      {"outline", outline},
                       {"diameter_m", shape.contour.outer_diameter_m()},
                       {"orientations", orientations}});
     else
       std::cout << fmt::format("{:<16} {:<9} diameter {:.2f} m, {} orientation{} at {:g} degree steps\n",
-                               shape.category, shape.contour.is_circle() ? "circle" : "polygon",
-                               shape.contour.outer_diameter_m(), orientations, orientations == 1 ? "" : "s",
-                               command.step_deg);
+                               shape.category, outline, shape.contour.outer_diameter_m(), orientations,
+                               orientations == 1 ? "" : "s", command.step_deg);
   }
   if (common.json) std::cout << nlohmann::ordered_json{{"templates", list}}.dump() << "\n";
   return kExitDone;

@@ -18,6 +18,7 @@ constexpr int kColumns = 8;
 constexpr double kTilePx = 108.0;
 constexpr double kGapPx = 10.0;
 constexpr double kCaptionPx = 24.0;
+constexpr double kNamePx = 20.0;
 constexpr double kTopPx = 66.0;
 constexpr double kLeftPx = 48.0;
 constexpr double kLegendPx = 84.0;
@@ -64,27 +65,30 @@ void draw_tile(Canvas& canvas, const Pixel& upper_left, const LandmarkTemplate& 
                     {colour_of(std::atan2(cell.gradient_y, cell.gradient_x), magnitude_of(cell) / scale.steepest)});
   }
   canvas.fill_disc(centre, 1.5, {kFaintInk});
-  const std::string caption = one.category + " " + trimmed_text(degrees(one.orientation_rad), 1) + " deg";
-  canvas.text(centre + Pixel(0.0, kTilePx / 2.0 + kCaptionPx / 2.0), caption, {kInk, 11.0, Align::centre});
+  canvas.text(centre + Pixel(0.0, kTilePx / 2.0 + kCaptionPx / 2.0),
+              trimmed_text(degrees(one.orientation_rad), 1) + " deg", {kInk, 11.0, Align::centre});
 }
 
-// Where each template goes; a new category starts a new row.
+// Where each template goes; a new category starts a new row, under its name.
 struct Layout {
   std::vector<Pixel> tiles;
-  int rows = 0;
+  double bottom_px = kTopPx;
 };
+
+bool begins_category(const TemplateSet& set, std::size_t i) {
+  return i == 0 || set.templates[i].category != set.templates[i - 1].category;
+}
 
 Layout lay_out(const TemplateSet& set) {
   Layout layout;
   int column = kColumns;
   for (std::size_t i = 0; i < set.templates.size(); ++i) {
-    const bool new_category = i > 0 && set.templates[i].category != set.templates[i - 1].category;
-    if (column == kColumns || new_category) {
-      ++layout.rows;
+    if (begins_category(set, i)) layout.bottom_px += kNamePx;
+    if (column == kColumns || begins_category(set, i)) {
+      layout.bottom_px += kTilePx + kCaptionPx;
       column = 0;
     }
-    layout.tiles.emplace_back(kLeftPx + column * (kTilePx + kGapPx),
-                              kTopPx + (layout.rows - 1) * (kTilePx + kCaptionPx));
+    layout.tiles.emplace_back(kLeftPx + column * (kTilePx + kGapPx), layout.bottom_px - kTilePx - kCaptionPx);
     ++column;
   }
   return layout;
@@ -111,16 +115,19 @@ void draw_legend(Canvas& canvas, const Pixel& left) {
 void write_template_sheet(const std::filesystem::path& file, const TemplateSet& templates, const std::string& title) {
   const Layout layout = lay_out(templates);
   const Scale scale = scale_of(templates);
-  const double bottom_px = kTopPx + layout.rows * (kTilePx + kCaptionPx);
   const double width_px = kLeftPx + kColumns * (kTilePx + kGapPx) - kGapPx + kPageMarginPx;
-  Canvas canvas(static_cast<int>(std::ceil(width_px)), static_cast<int>(std::ceil(bottom_px + kLegendPx)), kPaper);
+  Canvas canvas(static_cast<int>(std::ceil(width_px)), static_cast<int>(std::ceil(layout.bottom_px + kLegendPx)),
+                kPaper);
   draw_title(canvas, title,
              std::to_string(templates.templates.size()) + " templates,  steps of " +
                  trimmed_text(degrees(templates.step_rad), 2) + " deg,  cells of " +
                  trimmed_text(templates.cell_m * 100.0, 2) + " cm");
-  for (std::size_t i = 0; i < layout.tiles.size(); ++i)
+  for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
+    if (begins_category(templates, i))
+      canvas.text(layout.tiles[i] - Pixel(0.0, kNamePx / 2.0), templates.templates[i].category, {kInk, 12.0});
     draw_tile(canvas, layout.tiles[i], templates.templates[i], scale);
-  draw_legend(canvas, {kLeftPx, bottom_px + kLegendPx / 2.0});
+  }
+  draw_legend(canvas, {kLeftPx, layout.bottom_px + kLegendPx / 2.0});
   canvas.write_png(file);
 }
 

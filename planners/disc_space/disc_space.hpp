@@ -6,8 +6,8 @@
 #pragma once
 
 #include "maps/distance_field.hpp"
+#include "maps/swept_disc.hpp"
 #include "maps/travel_field.hpp"
-#include "planners/disc_space/swept_disc.hpp"
 
 namespace cairn {
 

@@ -57,6 +57,8 @@ class Query {
     if (const auto* refusal = std::get_if<Refusal>(&start)) return refused(*refusal);
     PlanResult result = answer_from(std::get<StartPlace>(start));
     result.settled = settled_;
+    result.alternatives = alternatives_;
+    result.explanation = explanation_;
     result.blocked_routes.assign(blocked_.begin(), blocked_.end());
     for (const RouteId id : blocked_) result.reason += "; " + text_of_route(id) + " is blocked";
     result.time_ms.graph_ms = graph_ms_;
@@ -78,7 +80,8 @@ class Query {
     // longer where a leg begins.
     const WorldView planned_world{start.grid_of(world_), world_.graph, world_.robot,          world_.pose,
                                   world_.time_s,         nullptr,      world_.held_back_ratio};
-    const SymbolicQuery query{world_, start, goals, travel, ends_.radius_m + kLeastRadius_m, config_.detour_ratio};
+    const SymbolicQuery query{
+        request_, world_, start, goals, travel, ends_.radius_m + kLeastRadius_m, config_.detour_ratio};
     for (;;) {
       const SymbolicAnswer symbolic = search_graph(query);
       if (symbolic.stopped) return stopped(*symbolic.stopped);
@@ -110,6 +113,8 @@ class Query {
     SymbolicAnswer answer = symbolic_path(query, blocked_, graph_, budget_);
     graph_ms_ += ms_since(begin);
     settled_ += answer.settled;
+    alternatives_ = answer.alternatives;
+    explanation_ = answer.explanation;
     return answer;
   }
 
@@ -229,6 +234,8 @@ class Query {
   std::set<RouteId> blocked_;
   std::string why_direct_;
   std::int64_t settled_ = 0;
+  std::vector<PlanAlternative> alternatives_;
+  std::optional<PlanExplanation> explanation_;
   double graph_ms_ = 0.0;
   double route_ms_ = 0.0;
 };

@@ -22,10 +22,13 @@ struct SymbolicAnswer {
   std::optional<SymbolicPath> path;    // none: no way over at least one stored route
   std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
   std::int64_t settled = 0;
+  std::vector<PlanAlternative> alternatives;
+  std::optional<PlanExplanation> explanation;
 };
 
 // What a search over landmarks starts from.
 struct SymbolicQuery {
+  const PlanRequest& request;  // what it says of the landmark graph; its ends are those below
   const WorldView& world;
   const StartPlace& start;
   const std::vector<GoalPlace>& goals;

@@ -1,11 +1,22 @@
 #include "planners/landmark_search/boost_landmark_graph.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace cairn {
 
-BoostLandmarkGraph::BoostLandmarkGraph(const LandmarkGraph& landmarks) {
+BoostLandmarkGraph::BoostLandmarkGraph(const LandmarkGraph& landmarks, const PlanRequest& request) {
+  const std::set<RouteId> closed(request.closed.begin(), request.closed.end());
+  const std::set<LandmarkId> avoided(request.avoid.begin(), request.avoid.end());
+  const auto in = [](const Place& place, LandmarkId id) {
+    return std::find(place.landmarks.begin(), place.landmarks.end(), id) != place.landmarks.end();
+  };
+  // Into an avoided landmark only as the goal, out of it only as the start.
+  const auto is_shut = [&](const Route& route) {
+    return route.closed || closed.contains(route.id) || (avoided.contains(route.to) && !in(request.to, route.to)) ||
+           (avoided.contains(route.from) && !in(request.from, route.from));
+  };
   ids.reserve(landmarks.landmarks().size());
   for (const auto& [id, landmark] : landmarks.landmarks()) ids.push_back(id);
   std::vector<std::pair<std::size_t, std::size_t>> ends;
@@ -13,7 +24,7 @@ BoostLandmarkGraph::BoostLandmarkGraph(const LandmarkGraph& landmarks) {
   ends.reserve(landmarks.routes().size());
   edges.reserve(landmarks.routes().size());
   for (const auto& [id, route] : landmarks.routes()) {
-    if (route.closed) continue;
+    if (is_shut(route)) continue;
     ends.emplace_back(vertex_of(route.from), vertex_of(route.to));
     edges.push_back({route.cost_m, &route});
   }

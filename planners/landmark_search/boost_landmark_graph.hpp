@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "framework/contracts/planner.hpp"
 #include "maps/landmark_graph.hpp"
 
 namespace cairn {
@@ -18,8 +19,9 @@ struct RouteEdge {
 struct BoostLandmarkGraph {
   using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, RouteEdge>;
 
-  // Closed routes are left out. Valid as long as the landmark graph does not change.
-  explicit BoostLandmarkGraph(const LandmarkGraph& landmarks);
+  // Without routes that are closed, in the map or by the request, and routes at landmarks to be avoided (those of
+  // the request's ends are kept). Valid as long as the landmark graph does not change.
+  explicit BoostLandmarkGraph(const LandmarkGraph& landmarks, const PlanRequest& request = {});
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   [[nodiscard]] std::size_t vertex_of(LandmarkId id) const;  // kNone when there is no such landmark

@@ -1,13 +1,18 @@
 #include "framework/contracts/module.hpp"
 
+#include "planners/landmark_search/flat_search.hpp"
 #include "planners/landmark_search/landmark_search.hpp"
 
 namespace {
 
 void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Planner, cairn::NoConfig>(
-      "landmark_search", "shortest path from landmark to landmark over the stored routes (Dijkstra)",
+      "landmark_search",
+      "shortest path from landmark to landmark over the stored routes, exact and fast on graphs of any size",
       [](const cairn::NoConfig&, const cairn::ModuleContext&) { return std::make_unique<cairn::LandmarkSearch>(); });
+  registrar.add<cairn::Planner, cairn::NoConfig>(
+      "flat_search", "the same by Dijkstra over the whole graph, to compare with",
+      [](const cairn::NoConfig&, const cairn::ModuleContext&) { return std::make_unique<cairn::FlatSearch>(); });
 }
 
 }  // namespace

@@ -36,9 +36,9 @@ LandmarkGraph graph() {
     landmark.degree = 0.74;
     graph.add(landmark);
   }
-  graph.add_route({0, 1, 2, 2.5, {{1.5, 1.5, 0}, {4.0, 1.5, 0}}, true, false, 0});
-  graph.add_route({0, 2, 3, 2.5, {}, false, false, 0});
-  graph.add_route({0, 3, 1, 2.5, {}, false, true, 0});
+  graph.add_route({0, 1, 2, 2.5, {{1.5, 1.5, 0}, {4.0, 1.5, 0}}, true, false, 0, {}, {}});
+  graph.add_route({0, 2, 3, 2.5, {}, false, false, 0, {}, {}});
+  graph.add_route({0, 3, 1, 2.5, {}, false, true, 0, {}, {}});
   return graph;
 }
 

@@ -135,6 +135,35 @@ TEST_F(BadMission, ASettingOnTheCommandLineIsCheckedLikeOneInTheFile) {
   EXPECT_THAT(finished.err, AllOf(HasSubstr("--set map.cell_m"), HasSubstr("huge")));
 }
 
+// An experiment file whose random worlds cannot be.
+class BadWorlds : public testing::Test {
+ protected:
+  void expect_refused(const std::string& worlds, const std::string& column, const std::string& what) {
+    write_text(folder_ / "bad.yaml", "experiment: recognition\nmissions: [" + config("missions/recognition.yaml") +
+                                         "]\nworlds: {" + worlds + "}\n");
+    const Finished finished = run_cairn({"experiment", (folder_ / "bad.yaml").string()});
+    EXPECT_EQ(finished.exit_status, 2) << worlds;
+    EXPECT_THAT(finished.err, AllOf(HasSubstr("bad.yaml:3:" + column + ": "), HasSubstr(what)));
+  }
+
+  const std::filesystem::path folder_ = fresh_folder("bad_worlds");
+};
+
+TEST_F(BadWorlds, MoreLandmarksAtLeastThanAtMostAreRefused) {
+  expect_refused("most_landmarks: 2, least_landmarks: 5", "46",
+                 "least_landmarks must be at most most_landmarks, found 5 and 2");
+  expect_refused("least_landmarks: 7", "27", "found 7 and 6");
+  expect_refused("most_landmarks: 0", "26", "found 1 and 0");
+}
+
+TEST_F(BadWorlds, RoomsThatCannotBeAreRefused) {
+  expect_refused("largest_room_m: [-3, 5]", "27", "x of largest_room_m must be a number from 1 to 100 m, found \"-3\"");
+  expect_refused("largest_room_m: [8, 1e9]", "30", "y of largest_room_m must be a number from 1 to 100 m");
+  expect_refused("smallest_room_m: [9, 4]", "27",
+                 "x of smallest_room_m must be at most that of largest_room_m, found 9 and 8");
+  expect_refused("start_m: [2, 5]", "19", "start_m must lie within the smallest room: its y is 5");
+}
+
 TEST(BadCommand, AMissingMissionFileIsNamed) {
   const Finished finished = run_cairn({"run", "/nowhere/mission.yaml"});
   EXPECT_EQ(finished.exit_status, 2);
@@ -153,6 +182,26 @@ TEST(BadCommand, AMisspeltCommandNamesTheNearestOne) {
 
 TEST(BadCommand, APlanWithoutPlacesIsWrongUsage) {
   EXPECT_EQ(run_cairn({"plan", "x.cairn"}).exit_status, 2);
+}
+
+TEST(BadCommand, NumbersOutsideTheirRangeAreRefusedAndNanIsOutsideEvery) {
+  const std::vector<std::vector<std::string>> commands{
+      {"plan", "x.cairn", "--from", "0,0", "--to", "1,1", "--radius-m"},
+      {"plan", "x.cairn", "--from", "0,0", "--to", "1,1", "--budget-ms"},
+      {"map", "lint", "x.cairn", "--radius-m"},
+      {"map", "lint", "x.cairn", "--near-m"},
+      {"template", "list", config("templates"), "--cell-m"},
+      {"template", "list", config("templates"), "--step-deg"},
+      {"template", "capture", "x.cairn", "--at", "L1", "--category", "c", "-o", "c.yaml", "--radius-m"}};
+  for (const std::vector<std::string>& command : commands)
+    for (const std::string value : {"nan", "-nan", "inf", "-1", "two"}) {
+      std::vector<std::string> with_value = command;
+      with_value.back() += "=" + value;
+      const Finished finished = run_cairn(with_value);
+      EXPECT_EQ(finished.exit_status, 2) << with_value.back();
+      EXPECT_THAT(finished.err,
+                  AllOf(HasSubstr(command.back() + ": must be a number from "), HasSubstr("found \"" + value + "\"")));
+    }
 }
 
 TEST(BadCommand, AMapThatIsNoMapIsNamed) {

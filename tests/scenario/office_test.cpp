@@ -107,6 +107,11 @@ TEST(Office, QueriesAreAnsweredALineEach) {
   EXPECT_EQ(second["landmarks"], (json{"L1", "L2"}));
 }
 
+TEST(Office, LintFindsNothingWrongWithTheMap) {
+  const Finished finished = run_cairn({"map", "lint", (office_run() / "office.cairn").string()});
+  EXPECT_EQ(finished.exit_status, 0) << finished.out;
+}
+
 TEST(Office, MapInfoAndRenderReadTheMap) {
   const Finished info = run_cairn({"map", "info", (office_run() / "office.cairn").string(), "--json"});
   const json map = json::parse(info.out);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/scenario/program.hpp"
@@ -11,8 +12,10 @@ namespace cairn::testing_program {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string config(const std::string& path) {
   return source_folder() + "/config/" + path;
@@ -22,6 +25,42 @@ Finished check(const std::filesystem::path& folder, const std::vector<std::strin
   std::vector<std::string> arguments{"template", "check", folder.string(), "--robot", config("robots/pioneer1.yaml")};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_cairn(arguments);
+}
+
+TEST(TemplateList, SaysWhatEachFileIs) {
+  const Finished finished = run_cairn({"template", "list", config("templates_extra"), "--json"});
+  EXPECT_EQ(finished.exit_status, 0) << finished.err;
+  std::map<std::string, std::string> outline_of;
+  const json report = json::parse(finished.out);
+  for (const json& one : report["templates"]) {
+    outline_of[one["category"]] = one["outline"];
+    EXPECT_TRUE(std::filesystem::exists(one["file"].get<std::string>())) << one;
+    EXPECT_GT(one["diameter_m"], 0.1);
+  }
+  EXPECT_EQ(outline_of["bench"], "parts");
+  EXPECT_EQ(outline_of["box"], "polygon");
+  EXPECT_THAT(run_cairn({"template", "list", config("templates")}).out,
+              AllOf(HasSubstr("circle           circle    diameter 0.50 m, 1 orientation at 15 degree steps\n"),
+                    HasSubstr("square           polygon ")));
+}
+
+TEST(TemplatePreview, DrawsEveryTemplate) {
+  const auto folder = fresh_folder("template_preview");
+  const std::vector<std::string> command{"template",
+                                         "preview",
+                                         config("templates"),
+                                         "--rendering",
+                                         "ideal",
+                                         "--json",
+                                         "-o",
+                                         (folder / "sheet.png").string()};
+  const Finished finished = run_cairn(command);
+  EXPECT_EQ(finished.exit_status, 0) << finished.err;
+  EXPECT_EQ(json::parse(finished.out)["templates"], 15) << "one circle, six squares, eight triangles";
+  EXPECT_THAT(text_of_file(folder / "sheet.png"), StartsWith("\x89PNG"));
+  const Finished unknown = run_cairn({"template", "preview", config("templates"), "--rendering", "sensed"});
+  EXPECT_EQ(unknown.exit_status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("template preview: sensed templates need --robot FILE"));
 }
 
 TEST(TemplateCheck, TellsThePapersShapesApart) {

@@ -64,7 +64,7 @@ TEST(CurvesTable, HasARowForTheMissionAndForEachDetector) {
   EXPECT_THAT(table, testing::HasSubstr("| plain | 0.400 | 1.000 (")) << table;
   EXPECT_THAT(table, testing::HasSubstr("| blind | 0.000 | 0.000 (")) << table;
   EXPECT_THAT(table, testing::Not(testing::HasSubstr("250"))) << "no wall clock in what is repeatable";
-  EXPECT_THAT(sweep_times_table(config, {row}), testing::HasSubstr("| plain | 250.0 ±"));
+  EXPECT_THAT(sweep_times_table(config, {row}), testing::HasSubstr("| plain | 250.0 |"));
 }
 
 }  // namespace

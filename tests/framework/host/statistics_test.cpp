@@ -11,7 +11,12 @@ TEST(Estimate, IsStudentsInterval) {
   const Estimate estimate = estimate_of({1.0, 2.0, 3.0});
   EXPECT_DOUBLE_EQ(estimate.mean, 2.0);
   EXPECT_NEAR(estimate.half_width, 4.30265 / std::sqrt(3.0), 1e-4);  // t of 2 degrees of freedom at 97.5 %
-  EXPECT_EQ(estimate_of({5.0}).half_width, 0.0);
+  EXPECT_EQ(text_of(estimate, 2), "2.00 ± 2.48");
+}
+
+TEST(Estimate, OfOneValueHasNoInterval) {
+  EXPECT_EQ(text_of(estimate_of({5.0}), 1), "5.0");
+  EXPECT_EQ(text_of(estimate_of({5.0, 5.0}), 1), "5.0 ± 0.0") << "two that agree have one";
 }
 
 TEST(Share, HasWilsonsInterval) {
@@ -35,6 +40,7 @@ TEST(Resampled, SpansWhatOtherRunsMightHaveGiven) {
   EXPECT_NEAR(interval.low, 1.5, 0.26);
   EXPECT_NEAR(interval.high, 3.5, 0.26);
   EXPECT_EQ(resampled(runs.size(), mean).low, interval.low) << "the same again";
+  EXPECT_EQ(text_of(resampled(1, mean)), "1.000") << "one run says nothing of others";
 }
 
 TEST(Median, IsTheMiddle) {

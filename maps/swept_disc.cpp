@@ -1,4 +1,4 @@
-#include "planners/disc_space/swept_disc.hpp"
+#include "maps/swept_disc.hpp"
 
 namespace cairn {
 namespace {

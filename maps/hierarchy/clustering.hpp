@@ -1,0 +1,95 @@
+// The clusters of a network, level on level, kept connected and of bounded size while the network changes
+// (METHOD 9).
+//
+// Level 1 clusters hold vertices, clusters of level l + 1 hold clusters of level l. A vertex is in one cluster of
+// every level. Small networks have no levels. Clusters keep their id, anchor and name through changes; what is
+// split off gets new ones.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "maps/cluster_tree.hpp"
+#include "maps/hierarchy/grouping.hpp"
+#include "maps/hierarchy/network.hpp"
+
+namespace cairn {
+
+using ClusterIndex = std::uint32_t;
+inline constexpr ClusterIndex kNoCluster = std::numeric_limits<ClusterIndex>::max();
+
+struct ClusterSizes {
+  std::int32_t leaf = 32;                            // landmarks of a level 1 cluster, at most
+  std::int32_t growth = 4;                           // a cluster one level up may hold this many times as many
+  std::size_t flat_below = 300;                      // landmarks; smaller networks have no clusters
+  [[nodiscard]] std::int32_t most(int level) const;  // landmarks of a cluster of that level
+  [[nodiscard]] int levels_for(std::size_t landmarks) const;
+};
+
+struct ClusterNode {
+  int level = 0;  // 0: the index is free
+  ClusterIndex parent = kNoCluster;
+  std::vector<std::uint32_t> members;  // vertices on level 1, indices of clusters above
+  std::vector<VertexIndex> boundary;   // vertices with a route, open or closed, out of or into the cluster; rising
+  std::int32_t landmarks = 0;
+  ClusterId id = 0;
+  LandmarkId anchor = 0;
+  std::string name;
+};
+
+class Clustering {
+ public:
+  Clustering(const Network& network, const ClusterSizes& sizes, const Proposal& propose = propose_by_metis);
+  // As saved. What does not fit the network (any more) is mended: landmarks without a cluster get one, clusters in
+  // pieces are split. An empty tree: clustered anew.
+  Clustering(const Network& network, const ClusterSizes& sizes, const ClusterTree& saved);
+
+  // What a change of the network did to the clusters.
+  struct Upkeep {
+    std::vector<ClusterIndex> touched;  // have other members or another boundary, or are new or gone
+    bool levels_changed = false;        // one was put on top or taken away
+  };
+  // Brings the clusters in line after the network has got or lost vertices or arcs. `vertices`: those that are
+  // new or gone, and both ends of each such arc.
+  Upkeep follow(const Network& network, std::span<const VertexIndex> vertices);
+  // Takes the highest level away.
+  void drop_level();
+
+  [[nodiscard]] int levels() const { return levels_; }
+  [[nodiscard]] ClusterIndex end() const { return static_cast<ClusterIndex>(nodes_.size()); }
+  [[nodiscard]] const ClusterNode& node(ClusterIndex cluster) const { return nodes_[cluster]; }
+  // Of level 1; kNoCluster when there are no levels.
+  [[nodiscard]] ClusterIndex leaf_of(VertexIndex v) const { return v < leaf_.size() ? leaf_[v] : kNoCluster; }
+  [[nodiscard]] ClusterIndex cluster_of(VertexIndex v, int level) const;
+  [[nodiscard]] std::vector<ClusterIndex> of_level(int level) const;
+  [[nodiscard]] const ClusterSizes& sizes() const { return sizes_; }
+
+  [[nodiscard]] ClusterTree tree(const Network& network) const;
+  void set_name(ClusterIndex cluster, std::string name) { nodes_[cluster].name = std::move(name); }
+
+ private:
+  friend class ClusterBuilder;
+  friend class ClusterUpkeep;
+
+  ClusterIndex add(int level, ClusterIndex parent);
+  void remove(ClusterIndex cluster);
+  // Makes vertices, or clusters of the level below, members; they leave no other cluster by this.
+  void adopt(ClusterIndex cluster, std::span<const std::uint32_t> members);
+  void find_boundary(const Network& network, ClusterIndex cluster);
+  void find_anchor(const Network& network, ClusterIndex cluster);  // keeps one that is still a member
+  void clear();
+
+  ClusterSizes sizes_;
+  int levels_ = 0;
+  std::vector<ClusterNode> nodes_;
+  std::vector<ClusterIndex> free_;
+  std::vector<ClusterIndex> leaf_;  // of each vertex
+  double usual_cost_ = 0.0;         // of a route, when the clusters were made
+  int most_levels_ = std::numeric_limits<int>::max();
+  ClusterId next_id_ = 1;
+};
+
+}  // namespace cairn

@@ -1,0 +1,33 @@
+// The hierarchies of one landmark graph, one a kind of cost, each made when it is first asked for.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <mutex>
+
+#include "maps/hierarchy/hierarchy.hpp"
+#include "maps/hierarchy/route_costs.hpp"
+
+namespace cairn {
+
+class Hierarchies {
+ public:
+  // The graph must outlive it and be where it is; clusters as in Hierarchy.
+  Hierarchies(const LandmarkGraph& graph, ClusterTree clusters, RouteCostRules rules);
+
+  // Thread-safe among its calls.
+  [[nodiscard]] const Hierarchy& by(CostKind kind) const;
+  // After the graph has changed; not while another thread reads.
+  void update(const GraphChanges& changes);
+  void update();
+  [[nodiscard]] ClusterTree tree() const { return by(CostKind::length).tree(); }
+
+ private:
+  const LandmarkGraph& graph_;
+  ClusterTree clusters_;
+  RouteCostRules rules_;
+  mutable std::mutex making_;
+  mutable std::array<std::unique_ptr<Hierarchy>, 3> made_;
+};
+
+}  // namespace cairn

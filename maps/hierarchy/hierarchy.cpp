@@ -1,0 +1,96 @@
+#include "maps/hierarchy/hierarchy.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace cairn {
+namespace {
+
+std::optional<double> cost_in(const Network& network, RouteId id) {
+  const auto [from, to] = network.ends_of(id);
+  if (from == kNoVertex) return std::nullopt;
+  for (const Arc& arc : network.out(from))
+    if (arc.route == id) return arc.cost;
+  return std::nullopt;
+}
+
+// Routes of a landmark that is gone, or new, are changes too.
+std::set<RouteId> routes_of(const GraphChanges& changes, const LandmarkGraph& graph, const Network& network) {
+  std::set<RouteId> routes(changes.routes.begin(), changes.routes.end());
+  for (const LandmarkId id : changes.landmarks) {
+    for (const auto* touching : {&graph.routes_from(id), &graph.routes_to(id)})
+      routes.insert(touching->begin(), touching->end());
+    if (const VertexIndex v = network.vertex_of(id); v != kNoVertex)
+      for (const auto* arcs : {&network.out(v), &network.in(v)})
+        for (const Arc& arc : *arcs) routes.insert(arc.route);
+  }
+  return routes;
+}
+
+}  // namespace
+
+Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters, RouteCost cost, const ClusterSizes& sizes)
+    : cost_(std::move(cost)), network_(graph, cost_), clustering_(network_, sizes, clusters) {
+  drop_needless_levels();
+  overlay_.build(network_, clustering_);
+}
+
+void Hierarchy::drop_needless_levels() {
+  for (int level = 1; level <= clustering_.levels(); ++level)
+    if (!Overlay::is_bounded(clustering_, level))
+      while (clustering_.levels() >= level) clustering_.drop_level();
+}
+
+void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
+  const std::set<RouteId> routes = routes_of(changes, graph, network_);
+  std::set<LandmarkId> landmarks(changes.landmarks.begin(), changes.landmarks.end());
+  std::vector<VertexIndex> moved;  // new, gone, or with other arcs
+  std::vector<CostChange> costs;
+  const auto note_ends = [&](std::pair<VertexIndex, VertexIndex> ends) {
+    if (ends.first != kNoVertex) moved.insert(moved.end(), {ends.first, ends.second});
+  };
+  for (const RouteId id : routes)
+    if (const Route* const route = graph.find_route(id)) landmarks.insert({route->from, route->to});
+  for (const LandmarkId id : landmarks)
+    if (graph.find(id) != nullptr && network_.vertex_of(id) == kNoVertex) {
+      network_.sync_landmark(graph, id);
+      moved.push_back(network_.vertex_of(id));
+    }
+  for (const RouteId id : routes) {
+    const auto ends = network_.ends_of(id);
+    const std::optional<double> before = cost_in(network_, id);
+    network_.sync_route(graph, id, cost_);
+    const std::optional<double> after = cost_in(network_, id);
+    if (network_.ends_of(id) != ends || before.has_value() != after.has_value()) {
+      note_ends(ends);
+      note_ends(network_.ends_of(id));
+    } else if (before != after) {
+      costs.push_back({ends.first, ends.second, id, *before, *after});
+    }
+  }
+  for (const LandmarkId id : landmarks)
+    if (const VertexIndex v = network_.vertex_of(id); v != kNoVertex && graph.find(id) == nullptr) {
+      network_.sync_landmark(graph, id);
+      moved.push_back(v);
+    }
+  if (moved.empty()) return overlay_.recost(network_, clustering_, costs);
+  for (const CostChange& change : costs) moved.insert(moved.end(), {change.from, change.to});
+  std::sort(moved.begin(), moved.end());
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  Clustering::Upkeep upkeep = clustering_.follow(network_, moved);
+  const int levels = clustering_.levels();
+  drop_needless_levels();
+  upkeep.levels_changed = upkeep.levels_changed || clustering_.levels() != levels;
+  overlay_.follow(network_, clustering_, upkeep, moved);
+}
+
+void Hierarchy::update(const LandmarkGraph& graph) {
+  GraphChanges changes;
+  for (const auto& [id, landmark] : graph.landmarks()) changes.landmarks.push_back(id);
+  for (VertexIndex v = 0; v < network_.end(); ++v)
+    if (network_.landmark_of(v) != 0) changes.landmarks.push_back(network_.landmark_of(v));
+  update(graph, changes);
+}
+
+}  // namespace cairn

@@ -1,0 +1,49 @@
+// A landmark graph ready for exact searches at any size: its network, its clusters and what they are to searches
+// that pass them (METHOD 9).
+//
+// Belongs to one landmark graph, which tells of its changes by update(). Reading is thread-safe, updating is not.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "maps/hierarchy/overlay.hpp"
+
+namespace cairn {
+
+// What has been added, changed or removed in a landmark graph. What is named needlessly does no harm.
+struct GraphChanges {
+  std::vector<LandmarkId> landmarks;
+  std::vector<RouteId> routes;
+};
+
+class Hierarchy {
+ public:
+  // O(n log n) for what people build; clusters as saved, or anew when the tree is empty. Throws
+  // std::invalid_argument when the cost of a route is negative or not finite.
+  explicit Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters = {}, RouteCost cost = cost_by_length,
+                     const ClusterSizes& sizes = {});
+
+  // Brings it in line with the graph. When only costs have changed (also by closing and opening), only ways that
+  // used, or would now use, these routes are found anew; otherwise the clusters that hold a change.
+  void update(const LandmarkGraph& graph, const GraphChanges& changes);
+  // The same, for who does not know what has changed: looks at everything.
+  void update(const LandmarkGraph& graph);
+
+  [[nodiscard]] const Network& network() const { return network_; }
+  [[nodiscard]] const Clustering& clustering() const { return clustering_; }
+  [[nodiscard]] const Overlay& overlay() const { return overlay_; }
+  [[nodiscard]] int levels() const { return clustering_.levels(); }  // 0: the graph is searched as it is
+  [[nodiscard]] ClusterTree tree() const { return clustering_.tree(network_); }
+
+ private:
+  void drop_needless_levels();
+
+  RouteCost cost_;
+  Network network_;
+  Clustering clustering_;
+  Overlay overlay_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,15 @@
+// The next cheapest ways, none of which passes a landmark twice (Yen, Finding the k shortest loopless paths, 1971).
+#pragma once
+
+#include <vector>
+
+#include "planners/landmark_search/hierarchy_search.hpp"
+
+namespace cairn {
+
+// Up to `count` ways after `best`, which answers the query, by rising cost; fewer when there are no more or the
+// budget ends. Ways that take another of several parallel routes count as others. One search a landmark of each way.
+[[nodiscard]] std::vector<Way> alternatives_to(const Way& best, int count, const Hierarchy& hierarchy,
+                                               const WayQuery& query, HierarchySearch& search, const Budget& budget);
+
+}  // namespace cairn

@@ -1,0 +1,243 @@
+#include "planners/landmark_search/hierarchy_search.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace cairn {
+namespace {
+
+constexpr std::int64_t kSettledPerBudgetCheck = 256;
+constexpr std::size_t kFewestSlots = 1024;
+
+// Where the two halves of a way pass the same vertex, what lies between costs nothing (or it would not be the
+// cheapest way) and is left out.
+void remove_loops(Way& way) {
+  std::unordered_map<VertexIndex, std::size_t> at;
+  at.reserve(way.vertices.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < way.vertices.size(); ++i) {
+    const auto [first, fresh] = at.emplace(way.vertices[i], kept);
+    if (!fresh) {
+      for (std::size_t k = first->second + 1; k < kept; ++k) at.erase(way.vertices[k]);
+      kept = first->second;
+    } else if (kept > 0) {
+      way.routes[kept - 1] = way.routes[i - 1];
+    }
+    way.vertices[kept++] = way.vertices[i];
+  }
+  way.vertices.resize(kept);
+  way.routes.resize(kept == 0 ? 0 : kept - 1);
+}
+
+}  // namespace
+
+Way HierarchySearch::find(const Hierarchy& hierarchy, const WayQuery& query, const Budget& budget) {
+  Way way;
+  way.settled_of_level.assign(static_cast<std::size_t>(hierarchy.levels()) + 1, 0);
+  begin(hierarchy, query);
+  run(budget, way);
+  if (way.stopped || meeting_ == kNone) return way;
+  unpack(way);
+  remove_loops(way);
+  return way;
+}
+
+void HierarchySearch::begin(const Hierarchy& hierarchy, const WayQuery& query) {
+  hierarchy_ = &hierarchy;
+  query_ = &query;
+  best_ = kNoWay;
+  meeting_ = kNone;
+  opened_.resize(hierarchy.clustering().end(), 0);
+  if (++query_number_ == 0) {
+    std::fill(opened_.begin(), opened_.end(), 0);
+    query_number_ = 1;
+  }
+  nodes_.clear();
+  slots_.assign(kFewestSlots, kNone);
+  for (const auto* ends : {&query.from, &query.to})
+    for (const SearchEnd& end : *ends) look_into_clusters_of(end.vertex);
+  for (const VertexIndex v : query.avoided) look_into_clusters_of(v);
+  for (const auto& [route, cost] : query.costs) look_into_clusters_with(route);
+  for (auto& queue : queues_) queue.clear();
+  for (const int side : {0, 1})
+    for (const SearchEnd& end : side == 0 ? query.from : query.to) relax(side, node_at(end.vertex), end.cost, kNone, 0);
+}
+
+void HierarchySearch::look_into_clusters_of(VertexIndex v) {
+  const Clustering& clustering = hierarchy_->clustering();
+  for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
+       c = clustering.node(c).parent)
+    opened_[c] = query_number_;
+}
+
+// Those that hold both ends of the route; others know it as an arc that leaves them.
+void HierarchySearch::look_into_clusters_with(RouteId route) {
+  const Clustering& clustering = hierarchy_->clustering();
+  const auto [from, to] = hierarchy_->network().ends_of(route);
+  if (from == kNoVertex) return;
+  ClusterIndex a = clustering.leaf_of(from);
+  for (ClusterIndex b = clustering.leaf_of(to); a != b; b = clustering.node(b).parent) a = clustering.node(a).parent;
+  for (; a != kNoCluster; a = clustering.node(a).parent) opened_[a] = query_number_;
+}
+
+HierarchySearch::NodeIndex& HierarchySearch::slot_of(VertexIndex v) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = (std::uint64_t{v} * 0x9E3779B97F4A7C15U >> 20) & mask;
+  while (slots_[at] != kNone && nodes_[slots_[at]].vertex != v) at = (at + 1) & mask;
+  return slots_[at];
+}
+
+void HierarchySearch::grow() {
+  slots_.assign(2 * slots_.size(), kNone);
+  for (NodeIndex n = 0; n < nodes_.size(); ++n) slot_of(nodes_[n].vertex) = n;
+}
+
+HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v, ClusterIndex cluster, std::uint32_t index) {
+  NodeIndex& slot = slot_of(v);
+  if (slot != kNone) return slot;
+  const auto fresh = static_cast<NodeIndex>(nodes_.size());
+  slot = fresh;
+  nodes_.push_back({v, cluster, index, {}});
+  if (2 * nodes_.size() > slots_.size()) grow();
+  return fresh;
+}
+
+HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v) {
+  if (const NodeIndex known = slot_of(v); known != kNone) return known;
+  const Clustering& clustering = hierarchy_->clustering();
+  ClusterIndex whole = kNoCluster;
+  for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
+       c = clustering.node(c).parent)
+    whole = c;
+  return node_at(v, whole, whole == kNoCluster ? 0 : position_of(clustering.node(whole).boundary, v));
+}
+
+double HierarchySearch::cost_of(const Arc& arc) const {
+  if (query_->costs.empty()) return arc.cost;
+  const auto found = query_->costs.find(arc.route);
+  return found == query_->costs.end() ? arc.cost : found->second;
+}
+
+void HierarchySearch::relax(int side, NodeIndex to, double cost, NodeIndex before, RouteId route) {
+  const auto here = static_cast<std::size_t>(side);
+  Node& node = nodes_[to];
+  if (!(cost < node.label[here].cost)) return;
+  node.label[here] = {cost, before, route};
+  queues_[here].emplace_back(cost, to);
+  std::push_heap(queues_[here].begin(), queues_[here].end(), std::greater<>());
+  if (cost + node.label[1 - here].cost < best_) {
+    best_ = cost + node.label[1 - here].cost;
+    meeting_ = to;
+  }
+}
+
+void HierarchySearch::relax_arc(int side, NodeIndex at, const Arc& arc) {
+  const double cost = cost_of(arc);
+  if (!(cost < kNoWay)) return;
+  const double reached = nodes_[at].label[static_cast<std::size_t>(side)].cost + cost;
+  if (!(reached < best_)) return;
+  // One that is known all the same is an end.
+  if (!query_->avoided.empty() && query_->avoided.contains(arc.other) && slot_of(arc.other) == kNone) return;
+  relax(side, node_at(arc.other), reached, at, arc.route);
+}
+
+void HierarchySearch::settle(int side, NodeIndex at, Way& way) {
+  const Node node = nodes_[at];
+  const Label& label = node.label[static_cast<std::size_t>(side)];
+  const Network& network = hierarchy_->network();
+  if (node.cluster == kNoCluster) {
+    ++way.settled_of_level[0];
+    for (const Arc& arc : side == 0 ? network.out(node.vertex) : network.in(node.vertex)) relax_arc(side, at, arc);
+    return;
+  }
+  const ClusterNode& cluster = hierarchy_->clustering().node(node.cluster);
+  const Passage& passage = hierarchy_->overlay().passage(node.cluster);
+  ++way.settled_of_level[static_cast<std::size_t>(cluster.level)];
+  const std::vector<Arc>& arcs = side == 0 ? passage.out : passage.in;
+  const std::vector<std::uint32_t>& begin = side == 0 ? passage.out_begin : passage.in_begin;
+  for (std::uint32_t a = begin[node.index]; a < begin[node.index + 1]; ++a) relax_arc(side, at, arcs[a]);
+  // Two ways through the same cluster in a row are never better than one.
+  if (label.route == 0 && label.before != kNone) return;
+  const std::size_t count = passage.boundary();
+  const double* const through = (side == 0 ? passage.through : passage.through_back).data() + node.index * count;
+  for (std::uint32_t j = 0; j < count; ++j) {
+    const double reached = label.cost + through[j];
+    if (reached < best_ && j != node.index) relax(side, node_at(cluster.boundary[j], node.cluster, j), reached, at, 0);
+  }
+}
+
+void HierarchySearch::run(const Budget& budget, Way& way) {
+  const auto drop_outdated = [&](std::size_t side) {
+    Queue& queue = queues_[side];
+    while (!queue.empty() && queue.front().first > nodes_[queue.front().second].label[side].cost) {
+      std::pop_heap(queue.begin(), queue.end(), std::greater<>());
+      queue.pop_back();
+    }
+  };
+  for (;; ++way.settled) {
+    if (way.settled >= budget.iterations || (way.settled % kSettledPerBudgetCheck == 0 && budget.exhausted())) {
+      way.stopped = true;
+      return;
+    }
+    drop_outdated(0);
+    drop_outdated(1);
+    if (queues_[0].empty() || queues_[1].empty()) return;
+    if (queues_[0].front().first + queues_[1].front().first >= best_) return;
+    const std::size_t side = queues_[0].front().first <= queues_[1].front().first ? 0 : 1;
+    const NodeIndex at = queues_[side].front().second;
+    std::pop_heap(queues_[side].begin(), queues_[side].end(), std::greater<>());
+    queues_[side].pop_back();
+    settle(static_cast<int>(side), at, way);
+  }
+}
+
+void HierarchySearch::append(VertexIndex from, VertexIndex to, Way& way) const {
+  way.routes.push_back(hierarchy_->network().cheapest(from, to)->route);
+  way.vertices.push_back(to);
+}
+
+// Along the tree of ways from boundary vertex `from`, which leads back from its inner vertices.
+void HierarchySearch::unpack_passage(ClusterIndex cluster, std::size_t from, std::size_t to, Way& way) const {
+  const Passage& passage = hierarchy_->overlay().passage(cluster);
+  const ClusterNode& node = hierarchy_->clustering().node(cluster);
+  const std::uint16_t* const before = passage.before.data() + from * passage.inner.size();
+  std::vector<std::uint16_t> chain{passage.at[to]};
+  while (chain.back() != passage.at[from]) chain.push_back(before[chain.back()]);
+  for (std::size_t i = chain.size() - 1; i > 0; --i) {
+    const std::size_t p = chain[i];
+    const std::size_t q = chain[i - 1];
+    const std::size_t member = node.level == 1 ? 0 : passage.member_of(p);
+    const bool within = node.level > 1 && passage.member_of(q) == member;
+    if (within)
+      unpack_passage(node.members[member], p - passage.member_begin[member], q - passage.member_begin[member], way);
+    else
+      append(passage.inner[p], passage.inner[q], way);
+  }
+}
+
+void HierarchySearch::unpack_step(int side, NodeIndex at, Way& way) const {
+  const Node& node = nodes_[at];
+  const Label& label = node.label[static_cast<std::size_t>(side)];
+  const Node& before = nodes_[label.before];
+  if (label.route != 0) {
+    way.routes.push_back(label.route);
+    way.vertices.push_back(side == 0 ? node.vertex : before.vertex);
+  } else if (side == 0) {
+    unpack_passage(node.cluster, before.index, node.index, way);
+  } else {
+    unpack_passage(node.cluster, node.index, before.index, way);
+  }
+}
+
+void HierarchySearch::unpack(Way& way) const {
+  std::vector<NodeIndex> forward;
+  for (NodeIndex n = meeting_; nodes_[n].label[0].before != kNone; n = nodes_[n].label[0].before) forward.push_back(n);
+  const NodeIndex start = forward.empty() ? meeting_ : nodes_[forward.back()].label[0].before;
+  way.vertices.push_back(nodes_[start].vertex);
+  for (auto n = forward.rbegin(); n != forward.rend(); ++n) unpack_step(0, *n, way);
+  NodeIndex goal = meeting_;
+  for (; nodes_[goal].label[1].before != kNone; goal = nodes_[goal].label[1].before) unpack_step(1, goal, way);
+  way.cost = best_;
+}
+
+}  // namespace cairn
