@@ -23,6 +23,8 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       options_(options),
       modules_(build_modules(mission_, library)),
       keeper_(mission_.config.landmarks, mission_.robot, mission_.shapes),
+      hierarchies_(keeper_.graph(), {},
+                   {mission_.robot.max_v_mps, mission_.robot.max_w_radps, mission_.robot.radius_m}),
       stop_layer_(mission_.config.stop_layer, mission_.robot),
       withholding_(mission_.config.withhold_every, mission_.config.seed) {
   budget_.cancel = options_.cancel;
@@ -301,7 +303,10 @@ void MissionLoop::drive(const Twist& wanted) {
 
 PlanResult MissionLoop::plan(const PlanRequest& request) {
   if (!modules_.planner) throw std::runtime_error("asked for a plan, but the mission names no planner");
-  PlanResult result = in_stage(planner_, [&] { return modules_.planner->plan(request, view(), budget_); });
+  WorldView world = view();
+  hierarchies_.update();
+  world.hierarchies = &hierarchies_;
+  PlanResult result = in_stage(planner_, [&] { return modules_.planner->plan(request, world, budget_); });
   const StageClock::Visit visit(clock_, StageClock::kHost);
   tell(PlanDone{result});
   return result;
@@ -317,6 +322,8 @@ Status MissionLoop::write_map(const std::string& file_name) {
   SavedMap map;
   map.grid = *grid_;
   map.graph = keeper_.graph();
+  hierarchies_.update();
+  map.clusters = hierarchies_.tree();
   map.shapes = mission_.shapes;
   map.driven_path = keeper_.driven_path();
   map.properties = {{"mission", mission_.config.mission},

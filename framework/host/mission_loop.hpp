@@ -11,6 +11,7 @@
 #include "framework/host/stage_clock.hpp"
 #include "framework/host/stop_layer.hpp"
 #include "framework/host/withheld.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
 
 namespace cairn {
 
@@ -69,6 +70,7 @@ class MissionLoop : private Orders {
   const RunOptions options_;
   MissionModules modules_;
   LandmarkKeeper keeper_;
+  Hierarchies hierarchies_;  // of the keeper's graph, brought in line before it is used
   double last_freed_check_s_ = 0.0;
   StopLayer stop_layer_;
   std::vector<Listener*> listeners_;

@@ -32,10 +32,21 @@ struct RunCommand {
 };
 int run(const RunCommand& command, const CommonOptions& common);
 
-struct PlanCommand {
-  std::filesystem::path map;
+// Names as people write them.
+struct PlanQuestion {
   std::string from;
   std::string to;
+  std::vector<std::string> via;     // places, passed in this order
+  std::vector<std::string> avoid;   // landmarks and clusters
+  std::vector<std::string> closed;  // routes
+  int alternatives = 0;
+  std::string cost = "length";
+  bool explain = false;
+};
+
+struct PlanCommand {
+  std::filesystem::path map;
+  PlanQuestion question;
   std::string queries;  // a file, "-" for standard input, empty for one query
   std::string planner = "hybrid";
   std::optional<double> radius_m;

@@ -44,9 +44,22 @@ void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& 
 void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* sub = app.add_subcommand("plan", "Ask a saved map for a route");
   sub->add_option("MAP", c.map, "saved map (*.cairn)")->required();
-  sub->add_option("--from", c.from, "x,y | x,y,angle_deg | L12 | a name | nearest CATEGORY");
-  sub->add_option("--to", c.to, "as --from");
-  sub->add_option("--queries", c.queries, "file of queries, one {\"id\",\"from\",\"to\"} a line, or -");
+  sub->add_option("--from", c.question.from, "x,y | x,y,angle_deg | L12 | a name | nearest CATEGORY");
+  sub->add_option("--to", c.question.to, "as --from");
+  sub->add_option("--via", c.question.via, "place to pass on the way (may be repeated; in this order)")
+      ->allow_extra_args(false);
+  sub->add_option("--avoid", c.question.avoid, "landmark or cluster not to pass (may be repeated)")
+      ->allow_extra_args(false);
+  sub->add_option("--close", c.question.closed, "route not to take, as 12 or R12 (may be repeated)")
+      ->allow_extra_args(false);
+  sub->add_option("--alternatives", c.question.alternatives, "so many more ways over the landmarks")
+      ->check(CLI::Range(0, 1000));
+  sub->add_option("--cost", c.question.cost, "what ways over the landmarks are compared by")
+      ->check(CLI::IsMember({"length", "time", "clearance"}))
+      ->capture_default_str();
+  sub->add_flag("--explain", c.question.explain, "say how the landmark graph gave the answer");
+  sub->add_option("--queries", c.queries,
+                  "file of queries, one {\"id\",\"from\",\"to\"} a line, or - (docs/graphs.md)");
   sub->add_option("--planner", c.planner, "planner module")->capture_default_str();
   sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map")
       ->check(number_within(0.0, kMostRadius_m));

@@ -4,33 +4,32 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "framework/host/fence.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/place.hpp"
+#include "framework/host/tour.hpp"
 #include "framework/program/commands.hpp"
+#include "framework/program/plan_query.hpp"
 #include "framework/program/saved_radius.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
 #include "maps/map_store.hpp"
 #include "maps/pictures/map_picture.hpp"
 
 namespace cairn {
 namespace {
 
-using nlohmann::ordered_json;
-
-struct Query {
-  nlohmann::json id = "";  // as it came: text or number
-  std::string from;
-  std::string to;
-};
-
 // A saved map with everything that one planner needs; answers any number of queries.
 class MapPlanner {
  public:
   MapPlanner(const PlanCommand& command, const CommonOptions& common)
-      : command_(command), library_(plugin_folders(common.plugin_folders)), map_(load_map(command.map)) {
-    robot_.radius_m = command.radius_m ? *command.radius_m : saved_radius_m(map_, command.map);
+      : command_(command),
+        many_(!command.queries.empty()),
+        library_(plugin_folders(common.plugin_folders)),
+        map_(load_map(command.map)),
+        robot_(robot_of(command, map_)),
+        hierarchies_(map_.graph, map_.clusters, rules_of(robot_, map_)) {
     PluginChoice choice{command.planner, {}};
     choice.config.kind = ConfigValue::Kind::map;
     choice.config.place.file = "--planner";
@@ -40,80 +39,64 @@ class MapPlanner {
     planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
   }
 
-  PlanResult answer(const Query& query) const {
-    PlanRequest request;
-    PlanResult unknown;
-    unknown.outcome = PlanOutcome::unknown_place;
+  PlanResult answer(const PlanQuery& query) const {
+    PlanTask task;
     try {
-      request.from = parse_place(query.from, map_.graph);
-      request.to = parse_place(query.to, map_.graph);
+      task = task_of(query.question, map_, query.question.avoid.empty() ? ClusterTree{} : clusters());
     } catch (const PlaceError& error) {
+      PlanResult unknown;
+      unknown.outcome = PlanOutcome::unknown_place;
       unknown.reason = error.what();
       return unknown;
     }
-    request.radius_m = robot_.radius_m;
-    request.seed = static_cast<std::uint64_t>(command_.seed);
+    task.request.radius_m = robot_.radius_m;
+    task.request.seed = static_cast<std::uint64_t>(command_.seed);
     Budget budget;
     if (command_.budget_ms)
       budget.deadline = Budget::Clock::now() + std::chrono::microseconds(std::llround(*command_.budget_ms * 1e3));
-    const WorldView world{map_.grid, map_.graph, robot_, {}, 0.0, nullptr, 0.0};
-    return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
+    // One answer is not worth making the hierarchy for.
+    const bool on_hierarchy = many_ || task.request.explain;
+    const WorldView world{map_.grid, map_.graph, robot_, {}, 0.0, nullptr, 0.0, on_hierarchy ? &hierarchies_ : nullptr};
+    return plan_tour(
+        [&](const PlanRequest& request) {
+          return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
+        },
+        task.request, task.via);
   }
 
+  // As the hierarchy has them.
+  const ClusterTree& clusters() const {
+    if (!clusters_) clusters_ = hierarchies_.tree();
+    return *clusters_;
+  }
   const SavedMap& map() const { return map_; }
   double radius_m() const { return robot_.radius_m; }
 
  private:
+  static RobotModel robot_of(const PlanCommand& command, const SavedMap& map) {
+    RobotModel robot;
+    robot.radius_m = command.radius_m ? *command.radius_m : saved_radius_m(map, command.map);
+    return robot;
+  }
+  static RouteCostRules rules_of(const RobotModel& robot, const SavedMap& map) {
+    return {robot.max_v_mps, robot.max_w_radps, robot.radius_m, &map.grid};
+  }
+
   const PlanCommand& command_;
+  bool many_ = false;
   ModuleLibrary library_;
   SavedMap map_;
   RobotModel robot_;
+  Hierarchies hierarchies_;
+  mutable std::optional<ClusterTree> clusters_;
   std::shared_ptr<Planner> planner_;
 };
 
-ordered_json json_of(const Query& query, const PlanResult& result) {
-  ordered_json landmarks = ordered_json::array();
-  for (const LandmarkId id : result.landmarks) landmarks.push_back("L" + std::to_string(id));
-  ordered_json path = ordered_json::array();
-  for (const Pose2& pose : result.path) path.push_back({pose.x_m, pose.y_m, pose.theta_rad});
-  return {
-      {"id", query.id},
-      {"outcome", std::string(name_of(result.outcome))},
-      {"reason", result.reason},
-      {"cost_m", result.cost_m},
-      {"length_m", result.length_m},
-      {"landmarks", landmarks},
-      {"path", path},
-      {"clearance_m", result.clearance_m},
-      {"time_ms",
-       {{"graph", result.time_ms.graph_ms}, {"route", result.time_ms.route_ms}, {"total", result.time_ms.total_ms}}},
-      {"settled", result.settled}};
-}
-
-void tell_people(std::ostream& out, const Query& query, const PlanResult& result) {
-  out << fmt::format("{} -> {}: {}", query.from, query.to, name_of(result.outcome));
-  if (result.outcome == PlanOutcome::solved)
-    out << fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest, {:.1f} ms", result.length_m,
-                       result.clearance_m, result.time_ms.total_ms);
-  if (!result.landmarks.empty()) {
-    out << ", by way of";
-    for (const LandmarkId id : result.landmarks) out << " L" << id;
-  }
-  if (!result.reason.empty()) out << "\n  " << result.reason;
-  out << "\n";
-}
-
-Query query_of(const std::string& line, const std::string& file, int number) {
-  const SourcePlace place{file, number, 1};
-  const nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    throw ConfigError(place, "expected one JSON object {\"id\", \"from\", \"to\"} a line");
-  for (const char* key : {"from", "to"})
-    if (!json.contains(key) || !json[key].is_string())
-      throw ConfigError(place, std::string("a query needs the text \"") + key + "\"");
-  Query query{"", json["from"], json["to"]};
-  if (json.contains("id")) query.id = json["id"];
-  return query;
+// JSON to standard output, text for people to `text` unless it is null.
+void tell(const MapPlanner& planner, const PlanQuery& query, const PlanResult& result, bool json, std::ostream* text) {
+  const ClusterTree& clusters = result.explanation ? planner.clusters() : planner.map().clusters;
+  if (json) std::cout << json_of(query, result, planner.map(), clusters).dump() << "\n";
+  if (text != nullptr) tell_people(*text, query, result, planner.map(), clusters);
 }
 
 int answer_queries(const MapPlanner& planner, const PlanCommand& command, const CommonOptions& common) {
@@ -125,18 +108,15 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const Query query = query_of(line, command.queries, number);
+    const PlanQuery query = query_of_line(line, command.queries, number, command.question);
     const PlanResult result = planner.answer(query);
     all_solved = all_solved && result.outcome == PlanOutcome::solved;
-    if (common.json)
-      std::cout << json_of(query, result).dump() << "\n";
-    else
-      tell_people(std::cout, query, result);
+    tell(planner, query, result, common.json, common.json ? nullptr : &std::cout);
   }
   return all_solved ? kExitDone : kExitNotSolved;
 }
 
-void draw(const MapPlanner& planner, const PlanCommand& command, const Query& query, const PlanResult& result) {
+void draw(const MapPlanner& planner, const PlanCommand& command, const PlanQuery& query, const PlanResult& result) {
   MapPicture picture;
   picture.grid = &planner.map().grid;
   picture.graph = &planner.map().graph;
@@ -147,7 +127,7 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const Query& qu
     picture.goal = result.path.back().position();
   }
   picture.robot_radius_m = planner.radius_m();
-  picture.title = fmt::format("{} to {}: {}", query.from, query.to, name_of(result.outcome));
+  picture.title = fmt::format("{} to {}: {}", query.question.from, query.question.to, name_of(result.outcome));
   if (result.outcome == PlanOutcome::solved) picture.title += fmt::format(", {:.2f} m", result.length_m);
   write_map_picture(command.picture, picture);
 }
@@ -155,16 +135,15 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const Query& qu
 }  // namespace
 
 int plan(const PlanCommand& command, const CommonOptions& common) {
-  if (command.queries.empty() && (command.from.empty() || command.to.empty()))
+  if (command.queries.empty() && (command.question.from.empty() || command.question.to.empty()))
     throw std::runtime_error("plan: give --from PLACE and --to PLACE, or --queries FILE");
   if (!command.queries.empty() && !command.picture.empty())
     throw std::runtime_error("plan: --picture draws one route; give it with --from and --to");
   const MapPlanner planner(command, common);
   if (!command.queries.empty()) return answer_queries(planner, command, common);
-  const Query query{"", command.from, command.to};
+  const PlanQuery query{"", command.question};
   const PlanResult result = planner.answer(query);
-  if (common.json) std::cout << json_of(query, result).dump() << "\n";
-  tell_people(common.json ? std::cerr : std::cout, query, result);
+  tell(planner, query, result, common.json, common.json ? &std::cerr : &std::cout);
   if (!command.picture.empty()) draw(planner, command, query, result);
   return result.outcome == PlanOutcome::solved ? kExitDone : kExitNotSolved;
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+
+#include "maps/distance_field.hpp"
 
 namespace cairn {
 namespace {
@@ -29,19 +32,20 @@ double time_of(const Route& route, const RouteCostRules& rules) {
   return length_m / speed_mps + turning_of(route.trajectory) / rules.turn_radps;
 }
 
-double weight_at(const Point& p_map, const RouteCostRules& rules) {
-  const double room_m = rules.field->distance_m(rules.field->cell_at(p_map)) - rules.radius_m;
+double weight_at(const Point& p_map, const DistanceField& field, double radius_m) {
+  const double room_m = field.distance_m(field.cell_at(p_map)) - radius_m;
   return 1.0 + kNarrowWeight * std::clamp(1.0 - room_m / kRoomy_m, 0.0, 1.0);
 }
 
-double crampedness_of(const Route& route, const RouteCostRules& rules) {
-  if (route.trajectory.empty() || rules.field == nullptr) return route.cost_m;
+double crampedness_of(const Route& route, const DistanceField& field, double radius_m) {
+  if (route.trajectory.empty()) return route.cost_m;
   double sum_m = 0.0;
   for (std::size_t i = 1; i < route.trajectory.size(); ++i) {
     const Point from = route.trajectory[i - 1].position();
     const Point along = route.trajectory[i].position() - from;
-    const int steps = std::max(1, static_cast<int>(std::ceil(along.norm() / rules.field->cell_m())));
-    for (int s = 0; s < steps; ++s) sum_m += weight_at(from + (s + 0.5) / steps * along, rules) * along.norm() / steps;
+    const int steps = std::max(1, static_cast<int>(std::ceil(along.norm() / field.cell_m())));
+    for (int s = 0; s < steps; ++s)
+      sum_m += weight_at(from + (s + 0.5) / steps * along, field, radius_m) * along.norm() / steps;
   }
   return sum_m;
 }
@@ -58,7 +62,9 @@ std::string_view unit_of(CostKind kind) {
 
 RouteCost route_cost(CostKind kind, const RouteCostRules& rules) {
   if (kind == CostKind::time) return [rules](const Route& route) { return time_of(route, rules); };
-  if (kind == CostKind::clearance) return [rules](const Route& route) { return crampedness_of(route, rules); };
+  if (kind == CostKind::clearance && rules.grid != nullptr && !rules.grid->bounds().empty())
+    return [field = std::make_shared<const DistanceField>(*rules.grid, UnknownPolicy::avoid),
+            radius_m = rules.radius_m](const Route& route) { return crampedness_of(route, *field, radius_m); };
   return cost_by_length;
 }
 

@@ -1,11 +1,11 @@
 // What a route may be counted by.
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <string_view>
 
-#include "maps/distance_field.hpp"
 #include "maps/hierarchy/network.hpp"
+#include "maps/occupancy_grid.hpp"
 
 namespace cairn {
 
@@ -21,8 +21,8 @@ struct RouteCostRules {
   double speed_mps = 0.4;    // within the route's own limit
   double turn_radps = 1.75;  // on the spot
   double radius_m = 0.22;
-  // Of the map; none: by clearance is by length. Unknown ground counts as no room.
-  std::shared_ptr<const DistanceField> field;
+  // Read when route_cost() is called; none or empty: by clearance is by length. Unknown ground counts as no room.
+  const OccupancyGrid* grid = nullptr;
 };
 
 // Along the trajectory; a route without one counts as straight and, by clearance, as roomy.

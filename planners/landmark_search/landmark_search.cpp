@@ -15,10 +15,7 @@ namespace {
 class Searched {
  public:
   Searched(const PlanRequest& request, const WorldView& world) {
-    RouteCostRules rules{world.robot.max_v_mps, world.robot.max_w_radps, request.radius_m, nullptr};
-    if (request.cost == CostKind::clearance && !world.grid.bounds().empty())
-      rules.field = std::make_shared<const DistanceField>(world.grid, UnknownPolicy::avoid);
-    cost_ = route_cost(request.cost, rules);
+    cost_ = route_cost(request.cost, {world.robot.max_v_mps, world.robot.max_w_radps, request.radius_m, &world.grid});
     if (world.hierarchies != nullptr) {
       hierarchy_ = &world.hierarchies->by(request.cost);
     } else {

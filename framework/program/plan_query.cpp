@@ -1,0 +1,232 @@
+#include "framework/program/plan_query.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <ostream>
+
+#include "framework/config/config_value.hpp"
+#include "framework/host/place.hpp"
+
+namespace cairn {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::array kCosts{CostKind::length, CostKind::time, CostKind::clearance};
+constexpr int kMostAlternatives = 1000;
+
+CostKind cost_kind_of(const std::string& name) {
+  for (const CostKind kind : kCosts)
+    if (name_of(kind) == name) return kind;
+  throw PlaceError("cost \"" + name + "\" is not length, time or clearance" +
+                   did_you_mean(name, {"length", "time", "clearance"}));
+}
+
+RouteId route_of(const std::string& text, const LandmarkGraph& graph) {
+  RouteId id = 0;
+  const std::string digits = text.starts_with('R') ? text.substr(1) : text;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
+  if (error != std::errc{} || end != digits.data() + digits.size())
+    throw PlaceError("route \"" + text + "\": a route is named by its number, as 12 or R12");
+  if (graph.find_route(id) == nullptr) throw PlaceError("the map has no route " + std::to_string(id));
+  return id;
+}
+
+// The landmarks that a landmark's or a cluster's name stands for.
+std::vector<LandmarkId> landmarks_called(const std::string& name, const SavedMap& map, const ClusterTree& clusters) {
+  if (map.graph.find_by_name(name) == nullptr)
+    if (const Cluster* const cluster = find_cluster(clusters, map.graph, name)) {
+      std::vector<LandmarkId> members;
+      for (const auto& [landmark, leaf] : clusters.cluster_of)
+        for (ClusterId id = leaf; id != 0; id = clusters.clusters.at(id).parent)
+          if (id == cluster->id) members.push_back(landmark);
+      return members;
+    }
+  const Place place = parse_place(name, map.graph);
+  if (place.pose) throw PlaceError("\"" + name + "\": only landmarks and clusters can be avoided");
+  return place.landmarks;
+}
+
+// Texts or numbers of a list, or one alone.
+std::vector<std::string> texts_of(const json& value, const std::string& key, const SourcePlace& place) {
+  std::vector<std::string> texts;
+  for (const json& item : value.is_array() ? value : json::array({value})) {
+    if (!item.is_string() && !item.is_number_integer())
+      throw ConfigError(place, "\"" + key + "\" must be a list of names");
+    texts.push_back(item.is_string() ? item.get<std::string>() : item.dump());
+  }
+  return texts;
+}
+
+std::string text_of(const json& value, const std::string& key, const SourcePlace& place) {
+  if (!value.is_string()) throw ConfigError(place, "\"" + key + "\" must be a text");
+  return value;
+}
+
+void take(PlanQuery& query, const std::string& key, const json& value, const SourcePlace& place) {
+  PlanQuestion& question = query.question;
+  if (key == "id") {
+    query.id = value;
+  } else if (key == "from") {
+    question.from = text_of(value, key, place);
+  } else if (key == "to") {
+    question.to = text_of(value, key, place);
+  } else if (key == "cost") {
+    question.cost = text_of(value, key, place);
+  } else if (key == "via") {
+    question.via = texts_of(value, key, place);
+  } else if (key == "avoid") {
+    question.avoid = texts_of(value, key, place);
+  } else if (key == "closed") {
+    question.closed = texts_of(value, key, place);
+  } else if (key == "alternatives") {
+    if (!value.is_number_unsigned() || value > kMostAlternatives)
+      throw ConfigError(place, fmt::format("\"alternatives\" must be a whole number of 0 to {}", kMostAlternatives));
+    question.alternatives = value;
+  } else if (key == "explain") {
+    if (!value.is_boolean()) throw ConfigError(place, "\"explain\" must be true or false");
+    question.explain = value;
+  } else {
+    throw ConfigError(place, "a query knows no \"" + key + "\"" +
+                                 did_you_mean(key, {"id", "from", "to", "via", "avoid", "closed", "alternatives",
+                                                    "cost", "explain"}));
+  }
+}
+
+template <class Ids>
+ordered_json labels(const Ids& ids, const char* letter) {
+  ordered_json list = ordered_json::array();
+  for (const auto id : ids) list.push_back(letter + std::to_string(id));
+  return list;
+}
+
+ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
+                                 const ClusterTree& clusters) {
+  ordered_json passed = ordered_json::array();
+  for (const auto& level : explanation.clusters) {
+    ordered_json names = ordered_json::array();
+    for (const ClusterId id : level) names.push_back(label_of(clusters.clusters.at(id), map.graph));
+    passed.push_back(names);
+  }
+  ordered_json better;  // null: no closed route stands in the way
+  if (explanation.cost_with_closed_open) better = *explanation.cost_with_closed_open;
+  return {{"levels", explanation.clusters.size()},
+          {"settled_of_level", explanation.settled_of_level},
+          {"clusters", passed},
+          {"cost", explanation.cost},
+          {"cost_by", std::string(name_of(kind))},
+          {"cost_unit", std::string(unit_of(kind))},
+          {"cost_with_closed_open", better},
+          {"closed_in_the_way", explanation.closed_in_the_way}};
+}
+
+void tell_explanation(std::ostream& out, const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
+                      const ClusterTree& clusters) {
+  out << fmt::format("  by {}: {:.2f} {}; settled", name_of(kind), explanation.cost, unit_of(kind));
+  for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level)
+    out << fmt::format("{} {} {}", level == 0 ? "" : ",", explanation.settled_of_level[level],
+                       level == 0 ? "landmarks" : fmt::format("at clusters of level {}", level));
+  out << "\n";
+  for (std::size_t level = explanation.clusters.size(); level-- > 0;) {
+    out << fmt::format("  level {}:", level + 1);
+    for (const ClusterId id : explanation.clusters[level]) out << ' ' << label_of(clusters.clusters.at(id), map.graph);
+    out << "\n";
+  }
+  if (!explanation.cost_with_closed_open) return;
+  out << fmt::format("  with every closed route open it would be {:.2f} {}, over", *explanation.cost_with_closed_open,
+                     unit_of(kind));
+  for (const RouteId id : explanation.closed_in_the_way) out << " R" << id;
+  out << "\n";
+}
+
+}  // namespace
+
+PlanQuery query_of_line(const std::string& line, const std::string& file, int number, const PlanQuestion& defaults) {
+  const SourcePlace place{file, number, 1};
+  const json value = json::parse(line, nullptr, false);
+  if (value.is_discarded() || !value.is_object())
+    throw ConfigError(place, "expected one JSON object {\"id\", \"from\", \"to\"} a line");
+  for (const char* key : {"from", "to"})
+    if (!value.contains(key)) throw ConfigError(place, std::string("a query needs the text \"") + key + "\"");
+  PlanQuery query{"", defaults};
+  for (const auto& [key, part] : value.items()) take(query, key, part, place);
+  return query;
+}
+
+PlanTask task_of(const PlanQuestion& question, const SavedMap& map, const ClusterTree& clusters) {
+  PlanTask task;
+  task.request.from = parse_place(question.from, map.graph);
+  task.request.to = parse_place(question.to, map.graph);
+  for (const std::string& stop : question.via) task.via.push_back(parse_place(stop, map.graph));
+  for (const std::string& name : question.avoid) {
+    const auto landmarks = landmarks_called(name, map, clusters);
+    task.request.avoid.insert(task.request.avoid.end(), landmarks.begin(), landmarks.end());
+  }
+  for (const std::string& route : question.closed) task.request.closed.push_back(route_of(route, map.graph));
+  task.request.cost = cost_kind_of(question.cost);
+  task.request.alternatives = question.alternatives;
+  task.request.explain = question.explain;
+  if (!task.via.empty() && question.alternatives > 0)
+    throw PlaceError("alternatives are known from place to place, not for a tour");
+  return task;
+}
+
+ordered_json json_of(const PlanQuery& query, const PlanResult& result, const SavedMap& map,
+                     const ClusterTree& clusters) {
+  ordered_json path = ordered_json::array();
+  for (const Pose2& pose : result.path) path.push_back({pose.x_m, pose.y_m, pose.theta_rad});
+  ordered_json json{
+      {"id", query.id},
+      {"outcome", std::string(name_of(result.outcome))},
+      {"reason", result.reason},
+      {"cost_m", result.cost_m},
+      {"length_m", result.length_m},
+      {"landmarks", labels(result.landmarks, "L")},
+      {"routes", result.routes},
+      {"path", path},
+      {"clearance_m", result.clearance_m},
+      {"time_ms",
+       {{"graph", result.time_ms.graph_ms}, {"route", result.time_ms.route_ms}, {"total", result.time_ms.total_ms}}},
+      {"settled", result.settled}};
+  if (query.question.alternatives > 0) {
+    ordered_json others = ordered_json::array();
+    for (const PlanAlternative& other : result.alternatives)
+      others.push_back(
+          {{"cost_m", other.cost_m}, {"landmarks", labels(other.landmarks, "L")}, {"routes", other.routes}});
+    json["alternatives"] = others;
+  }
+  if (result.explanation)
+    json["explanation"] = json_of_explanation(*result.explanation, cost_kind_of(query.question.cost), map, clusters);
+  return json;
+}
+
+void tell_people(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
+                 const ClusterTree& clusters) {
+  out << fmt::format("{} -> {}: {}", query.question.from, query.question.to, name_of(result.outcome));
+  const bool on_grid = !map.grid.bounds().empty();
+  if (result.outcome == PlanOutcome::solved)
+    out << (on_grid ? fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest, {:.1f} ms",
+                                  result.length_m, result.clearance_m, result.time_ms.total_ms)
+                    : fmt::format(", cost {:.2f} m, {:.3f} ms", result.cost_m, result.time_ms.total_ms));
+  const auto list = [&](const std::vector<LandmarkId>& landmarks) {
+    for (const LandmarkId id : landmarks) out << " L" << id;
+  };
+  if (!result.landmarks.empty()) {
+    out << ", by way of";
+    list(result.landmarks);
+  }
+  if (!result.reason.empty()) out << "\n  " << result.reason;
+  out << "\n";
+  for (const PlanAlternative& other : result.alternatives) {
+    out << fmt::format("  or {:.2f} m:", other.cost_m);
+    list(other.landmarks);
+    out << "\n";
+  }
+  if (result.explanation) tell_explanation(out, *result.explanation, cost_kind_of(query.question.cost), map, clusters);
+}
+
+}  // namespace cairn
