@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "maps/landmark_graph.hpp"
 
@@ -29,5 +30,14 @@ struct ClusterTree {
   ClusterId next_id = 1;
   bool operator==(const ClusterTree&) const = default;
 };
+
+// What the user named it, else "C<level>:<label of its anchor>".
+[[nodiscard]] std::string label_of(const Cluster& cluster, const LandmarkGraph& graph);
+// By its own name, which wins, by "C<level>:<label>" or by "C<level>:L<anchor>"; the lower id of namesakes. Null: there
+// is none.
+[[nodiscard]] const Cluster* find_cluster(const ClusterTree& tree, const LandmarkGraph& graph,
+                                          const std::string& label);
+// Whether it is, or begins like, what Cairn calls things by itself: "L17", "C2:...". No user's name should.
+[[nodiscard]] bool looks_like_id(std::string_view name);
 
 }  // namespace cairn

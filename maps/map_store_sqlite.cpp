@@ -45,7 +45,7 @@ Database::Database(const std::string& name, int flags) {
 }
 
 Database Database::in_memory() {
-  return {":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
+  return {":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX};
 }
 
 Database Database::read_only(const std::filesystem::path& file) {

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <fstream>
 
-#include "maps/in_parallel.hpp"
 #include "framework/host/mission.hpp"
 #include "framework/host/withheld.hpp"
+#include "maps/in_parallel.hpp"
 
 namespace cairn {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "framework/host/fence.hpp"
 #include "framework/host/landmark_evidence.hpp"
+#include "framework/host/mission_map.hpp"
 #include "maps/map_store.hpp"
 
 namespace cairn {
@@ -319,19 +320,9 @@ Status MissionLoop::save(const std::string& file_name) {
 
 Status MissionLoop::write_map(const std::string& file_name) {
   if (grid_ == nullptr) return {Progress::failure, "there is no map to save"};
-  SavedMap map;
-  map.grid = *grid_;
-  map.graph = keeper_.graph();
   hierarchies_.update();
-  map.clusters = hierarchies_.tree();
-  map.shapes = mission_.shapes;
-  map.driven_path = keeper_.driven_path();
-  map.properties = {{"mission", mission_.config.mission},
-                    {"seed", std::to_string(mission_.config.seed)},
-                    {"robot", mission_.robot.name},
-                    {"robot_radius_m", std::to_string(mission_.robot.radius_m)}};
   try {
-    save_map(options_.out / file_name, map);
+    save_map(options_.out / file_name, map_of_mission(mission_, *grid_, keeper_, hierarchies_.tree()));
   } catch (const std::exception& error) {
     return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
   }

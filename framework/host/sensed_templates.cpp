@@ -6,9 +6,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "maps/in_parallel.hpp"
 #include "framework/host/landmark_lap.hpp"
 #include "framework/host/module_library.hpp"
+#include "maps/in_parallel.hpp"
 
 namespace cairn {
 namespace {

@@ -64,14 +64,6 @@ int map_info(const MapCommand& command, const CommonOptions& common);
 int map_check(const MapCommand& command, const CommonOptions& common);
 int map_render(const MapCommand& command, const CommonOptions& common);
 
-struct LintCommand {
-  std::filesystem::path map;
-  std::optional<double> radius_m;  // of the robot; none: the one saved in the map
-  double near_m = 0.4;             // landmarks of one category this near to each other are taken for one
-};
-// 0 also when there are notes only, 1 when there are warnings or errors.
-int map_lint(const LintCommand& command, const CommonOptions& common);
-
 struct ExchangeCommand {
   std::filesystem::path from;  // the file of another tool, or the map
   std::filesystem::path to;    // the other way round
@@ -85,6 +77,14 @@ struct NameCommand {
   std::string name;  // empty: takes its name away
 };
 int map_name(const NameCommand& command, const CommonOptions& common);
+
+struct LintCommand {
+  std::filesystem::path map;
+  std::optional<double> radius_m;  // of the robot; none: the one saved in the map
+  double near_m = 0.4;             // landmarks of one category this near to each other are taken for one
+};
+// 0 also when there are notes only, 1 when there are warnings or errors.
+int map_lint(const LintCommand& command, const CommonOptions& common);
 
 struct TemplateCommand {
   std::filesystem::path folder;

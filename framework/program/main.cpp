@@ -84,6 +84,26 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
   render->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
 }
 
+void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* map = app.get_subcommand("map");
+  CLI::App* in = map->add_subcommand("import", "Make a map of a landmark graph in another tool's file");
+  in->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json) or *.graphml")->required();
+  in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
+  in->callback([&] { action = [&] { return map_import(c, common); }; });
+  CLI::App* out = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
+  out->add_option("MAP", c.from, "saved map (*.cairn)")->required();
+  out->add_option("-o,--out", c.to, "file to write: *.graph, *.geojson, *.json, *.graphml or *.png")->required();
+  out->callback([&] { action = [&] { return map_export(c, common); }; });
+}
+
+void add_map_name(CLI::App& app, NameCommand& c, const CommonOptions& common, Action& action) {
+  CLI::App* name = app.get_subcommand("map")->add_subcommand("name", "Name a landmark or a cluster of a map");
+  name->add_option("MAP", c.map, "saved map (*.cairn), changed in place")->required();
+  name->add_option("WHAT", c.what, "L17, C1:L17, or the name so far")->required();
+  name->add_option("NAME", c.name, "the new name; an empty one takes it away")->required();
+  name->callback([&] { action = [&] { return map_name(c, common); }; });
+}
+
 void add_map_lint(CLI::App& app, LintCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* lint = app.get_subcommand("map")->add_subcommand(
       "lint", "What is doubtful about a map's landmarks and routes; exit status 1 if anything but notes");
@@ -94,26 +114,6 @@ void add_map_lint(CLI::App& app, LintCommand& c, const CommonOptions& common, Ac
       ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
   lint->callback([&] { action = [&] { return map_lint(c, common); }; });
-}
-
-void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* map = app.get_subcommand("map");
-  CLI::App* taken = map->add_subcommand("import", "Make a map of a landmark graph in another tool's file");
-  taken->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json) or *.graphml")->required();
-  taken->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
-  taken->callback([&] { action = [&] { return map_import(c, common); }; });
-  CLI::App* given = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
-  given->add_option("MAP", c.from, "saved map (*.cairn)")->required();
-  given->add_option("-o,--out", c.to, "file to write: *.graph, *.geojson, *.json, *.graphml or *.png")->required();
-  given->callback([&] { action = [&] { return map_export(c, common); }; });
-}
-
-void add_map_name(CLI::App& app, NameCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* name = app.get_subcommand("map")->add_subcommand("name", "Name a landmark or a cluster of a map");
-  name->add_option("MAP", c.map, "saved map (*.cairn), changed in place")->required();
-  name->add_option("WHAT", c.what, "L17, C1:L17, or the name so far")->required();
-  name->add_option("NAME", c.name, "the new name; an empty one takes it away")->required();
-  name->callback([&] { action = [&] { return map_name(c, common); }; });
 }
 
 void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common, Action& action) {
@@ -219,9 +219,9 @@ int main_of(int argc, char** argv) {
   RunCommand run_options;
   PlanCommand plan_options;
   MapCommand map_options;
-  LintCommand lint_options;
   ExchangeCommand exchange_options;
   NameCommand name_options;
+  LintCommand lint_options;
   TemplateCommand template_options;
   CaptureCommand capture_options;
   ExperimentCommand experiment_options;
@@ -232,9 +232,9 @@ int main_of(int argc, char** argv) {
   add_run(app, run_options, common, action);
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
-  add_map_lint(app, lint_options, common, action);
   add_map_exchange(app, exchange_options, common, action);
   add_map_name(app, name_options, common, action);
+  add_map_lint(app, lint_options, common, action);
   add_template(app, template_options, common, action);
   add_template_capture(app, capture_options, common, action);
   add_plugins(app, plugins_options, common, action);

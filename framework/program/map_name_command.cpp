@@ -4,7 +4,7 @@
 
 #include "framework/host/place.hpp"
 #include "framework/program/commands.hpp"
-#include "maps/cluster_names.hpp"
+#include "maps/cluster_tree.hpp"
 #include "maps/exchange/source_text.hpp"
 #include "maps/map_store.hpp"
 #include "maps/spelling.hpp"

@@ -9,7 +9,7 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/host/place.hpp"
-#include "maps/cluster_names.hpp"
+#include "maps/cluster_tree.hpp"
 
 namespace cairn {
 namespace {

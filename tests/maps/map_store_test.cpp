@@ -7,6 +7,7 @@
 #include <csignal>
 #include <limits>
 
+#include "maps/hierarchy/hierarchy.hpp"
 #include "tests/maps/map_store_fixture.hpp"
 
 namespace cairn {
@@ -61,6 +62,33 @@ TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionTwo) {
 TEST_F(MapStore, KeepsClustersAnnotationsAndSpeedLimits) {
   save_map(file(), map_with_clusters());
   expect_equal(load_map(file()), map_with_clusters());
+}
+
+// Also with parts that no route joins, and after changes.
+TEST_F(MapStore, KeepsTheClustersThatAHierarchyMakes) {
+  SavedMap map;
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 3000; ++i) {
+    Landmark landmark;
+    landmark.T_map_landmark = {static_cast<double>(i % 60), i / 60.0, 0.0};
+    map.graph.add(landmark);
+  }
+  for (LandmarkId id = 1; id < 2900; ++id) {
+    if (id % 1000 != 0) map.graph.add_route({0, id, id + 1, 1.0, {}, false, false, 0});
+    if (id > 60) map.graph.add_route({0, id, id - 60, 1.5, {}, false, random() % 9 == 0, 0});
+  }
+  Hierarchy hierarchy(map.graph);
+  map.clusters = hierarchy.tree();
+  ASSERT_FALSE(map.clusters.clusters.empty());
+  save_map(file(), map);
+  expect_equal(load_map(file()), map);
+  for (int i = 0; i < 200; ++i)
+    if (const LandmarkId id = 1 + static_cast<LandmarkId>(random() % 3000); map.graph.find(id) != nullptr)
+      map.graph.remove(id);
+  hierarchy.update(map.graph);
+  map.clusters = hierarchy.tree();
+  save_map(file(), map);
+  expect_equal(load_map(file()), map);
 }
 
 TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionThree) {

@@ -180,7 +180,8 @@ TEST(Fields, OtherTypesSayWhatIsAllowedToo) {
   EXPECT_EQ(load_error("at_m: 3"), "1:7: at_m must be a point [x, y], found \"3\"");
   EXPECT_EQ(load_error("at_m: [1, 2, 3]"), "1:7: at_m must be a point [x, y], found a list of 3");
   EXPECT_EQ(load_error("at_m: [1, b]"), "1:11: y of at_m must be a number from -100000 to 100000 m, found \"b\"");
-  EXPECT_EQ(load_error("at_m: [1e300, 0]"), "1:8: x of at_m must be a number from -100000 to 100000 m, found \"1e300\"");
+  EXPECT_EQ(load_error("at_m: [1e300, 0]"),
+            "1:8: x of at_m must be a number from -100000 to 100000 m, found \"1e300\"");
   EXPECT_EQ(load_error("corners_m: [1, 2]"), "1:13: each item of corners_m must be a point [x, y], found \"1\"");
   EXPECT_EQ(load_error("corners_m: 1"), "1:12: corners_m must be a list of points [[x, y], ...], found \"1\"");
   EXPECT_EQ(load_error("many: {a: 1}"), "1:7: many must be a list, found a map");

@@ -321,7 +321,7 @@ TEST_F(Hybrid, AnswersAreSafeAndRepeatableOnRandomWorlds) {
     request.from.pose = Pose2{from.x(), from.y(), 0.0};
     request.to.pose = Pose2{to.x(), to.y(), 0.0};
     request.radius_m = kRadius_m;
-    if (seed % 3 == 0) request.to = {{}, false, {ids[0], ids[1]}};
+    if (seed % 3 == 0) request.to = {{}, false, {ids[0], ids[1]}, {}};
     const PlanResult result = plan(request);
     EXPECT_EQ(result.path, plan(request).path);
     EXPECT_FALSE(result.reason.empty());

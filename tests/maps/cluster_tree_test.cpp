@@ -1,4 +1,4 @@
-#include "maps/cluster_names.hpp"
+#include "maps/cluster_tree.hpp"
 
 #include <gtest/gtest.h>
 
