@@ -285,4 +285,16 @@ std::string broken_network(const Network& network, const LandmarkGraph& graph, c
   return {};
 }
 
+std::string drawn_tree(const ClusterTree& tree) {
+  std::string text = "next " + std::to_string(tree.next_id) + "\n";
+  for (const auto& [id, cluster] : tree.clusters) {
+    text += std::to_string(id) + " of level " + std::to_string(cluster.level) + " in " +
+            std::to_string(cluster.parent) + ", after L" + std::to_string(cluster.anchor) + " (" + cluster.name + "):";
+    for (const auto& [landmark, leaf] : tree.cluster_of)
+      if (leaf == id) text += " L" + std::to_string(landmark);
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace cairn::test

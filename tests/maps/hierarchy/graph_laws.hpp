@@ -53,4 +53,7 @@ class GraphChanger {
 // The same of a network that is not its graph.
 [[nodiscard]] std::string broken_network(const Network& network, const LandmarkGraph& graph, const RouteCost& cost);
 
+// A cluster a line: "12 of level 1 in 17, after L4 (name): L3 L4 L8".
+[[nodiscard]] std::string drawn_tree(const ClusterTree& tree);
+
 }  // namespace cairn::test
