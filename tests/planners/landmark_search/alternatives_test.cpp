@@ -64,9 +64,9 @@ void expect_all_ways(const Variety& variety, std::uint64_t seeds) {
     std::vector<double> want = all_costs(graph, question);
     want.resize(std::min(want.size(), static_cast<std::size_t>(count) + 1));
     ASSERT_EQ(costs, want) << "seed " << seed;
-    found += costs.size();
+    found += costs.empty() ? 0 : costs.size() - 1;
   }
-  EXPECT_GT(found, seeds) << "there are alternatives in these graphs";
+  EXPECT_GT(4 * found, seeds) << "there are alternatives in these graphs";
 }
 
 TEST(Alternatives, AreTheNextCheapestOfAllWays) {
