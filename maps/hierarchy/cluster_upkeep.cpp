@@ -1,12 +1,14 @@
 #include "maps/hierarchy/cluster_upkeep.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace cairn {
 namespace {
 
 constexpr int kMostLevels = 32;
+constexpr ClusterId kHighestId = std::numeric_limits<ClusterId>::max() / 2;  // of a saved cluster; more are to follow
 
 // The chain of saved clusters from level 1 up; empty when it is broken.
 std::vector<const Cluster*> chain_of(const ClusterTree& saved, ClusterId leaf) {
@@ -15,6 +17,7 @@ std::vector<const Cluster*> chain_of(const ClusterTree& saved, ClusterId leaf) {
     const auto found = saved.clusters.find(id);
     const int level = static_cast<int>(chain.size()) + 1;
     if (found == saved.clusters.end() || found->second.level != level || level > kMostLevels) return {};
+    if (found->second.id != id || id < 0 || id > kHighestId) return {};
     chain.push_back(&found->second);
   }
   return chain;
@@ -25,6 +28,17 @@ std::vector<const Cluster*> chain_of(const ClusterTree& saved, ClusterId leaf) {
 void ClusterUpkeep::touch(ClusterIndex cluster) {
   touched_.insert(cluster);
   seen_.insert(cluster);
+  as_saved_.erase(cluster);
+}
+
+// Its parent has other members then, and is to be looked at, whether or not its boundary stays as it is.
+void ClusterUpkeep::remove(ClusterIndex cluster) {
+  if (const ClusterIndex parent = clustering_.nodes_[cluster].parent; parent != kNoCluster) {
+    next_.insert(parent);
+    touched_.insert(parent);
+  }
+  touched_.insert(cluster);
+  clustering_.remove(cluster);
 }
 
 // Every vertex gets a cluster, alone at first; what becomes of it is seen level by level.
@@ -76,9 +90,7 @@ void ClusterUpkeep::tend(ClusterIndex cluster) {
   ClusterNode& node = clustering_.nodes_[cluster];
   if (node.level != level_) return;  // merged into another one meanwhile
   if (node.members.empty()) {
-    if (node.parent != kNoCluster) next_.insert(node.parent);
-    touched_.insert(cluster);
-    clustering_.remove(cluster);
+    remove(cluster);
     return;
   }
   seen_.insert(cluster);
@@ -109,25 +121,31 @@ void ClusterUpkeep::divide(ClusterIndex cluster) {
       kept = static_cast<std::size_t>(group_of[static_cast<std::size_t>(at - members.begin())]);
     touch(cluster);
     clustering_.adopt(cluster, parts[kept]);
+    std::vector<ClusterIndex> split_off;
     for (std::size_t part = 0; part < groups; ++part) {
       if (part == kept) continue;
-      const ClusterIndex fresh = clustering_.add(level_, clustering_.nodes_[cluster].parent);
+      const ClusterIndex fresh = split_off.emplace_back(clustering_.add(level_, clustering_.nodes_[cluster].parent));
       clustering_.adopt(fresh, parts[part]);
       touch(fresh);
       pushed_.insert(fresh);
-      merge_if_small(fresh);
     }
+    // Only now that each member is where it belongs.
+    for (const ClusterIndex fresh : split_off) merge_if_small(fresh);
   }
   merge_if_small(cluster);
 }
 
 // A cluster below a quarter of what is allowed joins the neighbour that most ties bind it to and that has room. When
-// none has, it pushes into one all the same, once, and the two are divided anew.
+// none has, it pushes into one all the same, once, and the two are divided anew. Of two clusters one of which the user
+// has named that one stays; two such are never merged.
 void ClusterUpkeep::merge_if_small(ClusterIndex cluster) {
   const std::int32_t most = clustering_.sizes_.most(level_);
   const std::int32_t landmarks = clustering_.nodes_[cluster].landmarks;
   if (clustering_.nodes_[cluster].level != level_ || 4 * std::int64_t{landmarks} >= most) return;
-  const auto ties = builder_.ties_of(cluster);
+  if (as_saved_.contains(cluster)) return;
+  const auto is_named = [&](ClusterIndex one) { return !clustering_.nodes_[one].name.empty(); };
+  auto ties = builder_.ties_of(cluster);
+  std::erase_if(ties, [&](const auto& tie) { return is_named(cluster) && is_named(tie.first); });
   const auto fits = [&](ClusterIndex other) { return clustering_.nodes_[other].landmarks + landmarks <= most; };
   const bool push = std::none_of(ties.begin(), ties.end(), [&](const auto& tie) { return fits(tie.first); });
   if (ties.empty() || (push && !pushed_.insert(cluster).second)) return;
@@ -136,14 +154,13 @@ void ClusterUpkeep::merge_if_small(ClusterIndex cluster) {
     if ((push || fits(tie->first)) && (best == ties.end() || tie->second > best->second)) best = tie;
   ClusterIndex into = best->first;
   ClusterIndex from = cluster;
-  if (clustering_.nodes_[into].landmarks < landmarks) std::swap(into, from);
+  if (is_named(from) != is_named(into) ? is_named(from) : clustering_.nodes_[into].landmarks < landmarks)
+    std::swap(into, from);
   if (push) pushed_.insert(into);
   std::vector<std::uint32_t> members = clustering_.nodes_[into].members;
   const std::vector<std::uint32_t> more = clustering_.nodes_[from].members;
   members.insert(members.end(), more.begin(), more.end());
-  if (const ClusterIndex parent = clustering_.nodes_[from].parent; parent != kNoCluster) next_.insert(parent);
-  touched_.insert(from);
-  clustering_.remove(from);
+  remove(from);
   clustering_.adopt(into, members);
   touch(into);
   waiting_.insert(into);
@@ -188,6 +205,9 @@ void ClusterUpkeep::restore(const ClusterTree& saved) {
       levels = std::max(levels, chain.size());
       chains.emplace(v, std::move(chain));
     }
+  ClusterId next_id = std::clamp<ClusterId>(saved.next_id, 1, kHighestId);
+  clustering_.next_id_ = next_id;
+  if (levels == 0) return builder_.build();
   clustering_.levels_ = static_cast<int>(levels);
   std::map<const Cluster*, ClusterIndex> made;
   std::vector<std::vector<VertexIndex>> vertices;
@@ -202,17 +222,22 @@ void ClusterUpkeep::restore(const ClusterTree& saved) {
         node.id = (*cluster)->id;
         node.anchor = (*cluster)->anchor;
         node.name = (*cluster)->name;
-        clustering_.next_id_ = std::max(clustering_.next_id_, node.id + 1);
+        next_id = std::max(next_id, node.id + 1);
       }
       above = at->second;
     }
     if (vertices.size() <= above) vertices.resize(above + 1);
     vertices[above].push_back(v);
   }
-  clustering_.next_id_ = std::max(clustering_.next_id_, saved.next_id);
+  clustering_.next_id_ = next_id;
   for (ClusterIndex leaf = 0; leaf < vertices.size(); ++leaf)
     if (!vertices[leaf].empty()) clustering_.adopt(leaf, vertices[leaf]);
-  for (const ClusterIndex leaf : clustering_.of_level(1)) waiting_.insert(leaf);
+  for (int level = 1; level <= clustering_.levels_; ++level)
+    for (const ClusterIndex cluster : clustering_.of_level(level)) {
+      if (level > 1) clustering_.adopt(cluster, std::vector(clustering_.nodes_[cluster].members));
+      as_saved_.insert(cluster);
+      if (level == 1) waiting_.insert(cluster);
+    }
   std::vector<VertexIndex> all;
   for (VertexIndex v = 0; v < network_.end(); ++v)
     if (network_.landmark_of(v) != 0) all.push_back(v);

@@ -23,6 +23,7 @@ class ClusterUpkeep {
   void divide(ClusterIndex cluster);
   void merge_if_small(ClusterIndex cluster);
   void touch(ClusterIndex cluster);
+  void remove(ClusterIndex cluster);
   void change_levels();
 
   const Proposal propose_ = propose_by_metis;
@@ -30,10 +31,11 @@ class ClusterUpkeep {
   const Network& network_;
   ClusterBuilder builder_;
   int level_ = 1;
-  std::set<ClusterIndex> waiting_;  // of level_, to be tended
-  std::set<ClusterIndex> next_;     // of the level above
-  std::set<ClusterIndex> seen_;     // of level_, tended or changed: look at their boundary again
-  std::set<ClusterIndex> pushed_;   // have been merged into a full neighbour once
+  std::set<ClusterIndex> waiting_;   // of level_, to be tended
+  std::set<ClusterIndex> next_;      // of the level above
+  std::set<ClusterIndex> seen_;      // of level_, tended or changed: look at their boundary again
+  std::set<ClusterIndex> pushed_;    // have been merged into a full neighbour once
+  std::set<ClusterIndex> as_saved_;  // restored: small ones stay as they are
   std::set<ClusterIndex> touched_;
   bool levels_changed_ = false;
 };

@@ -44,23 +44,38 @@ class Yen {
   // The ways that leave this one at each of its landmarks, or begin elsewhere.
   void leave(const Way& way) {
     WayQuery query = query_;
-    std::erase_if(query.from, [&](const SearchEnd& end) { return begins_at_.contains(end.vertex); });
     begins_at_.insert(way.vertices.front());
     std::erase_if(query.from, [&](const SearchEnd& end) { return begins_at_.contains(end.vertex); });
     if (!query.from.empty()) add(way, 0, 0.0, search_.find(hierarchy_, query, budget_));
+    std::vector<SearchEnd> goals = query_.to;  // without landmarks passed before
     query = query_;
     double root_cost = cost_of_start(way.vertices.front());
-    for (std::size_t i = 0; i + 1 < way.vertices.size() && !budget_.exhausted(); ++i) {
-      query.from = {{way.vertices[i], 0.0}};
+    for (std::size_t i = 0; i < way.vertices.size() && !budget_.exhausted(); ++i) {
+      const VertexIndex spur = way.vertices[i];
+      if (i > 0 && query_.avoided.contains(spur)) return;  // a goal that no way passes
+      query.from = {{spur, 0.0}};
+      query.to = goals;
       query.costs = query_.costs;
-      for (const Way& other : taken_)
-        if (other.routes.size() > i &&
-            std::equal(way.routes.begin(), way.routes.begin() + static_cast<std::ptrdiff_t>(i), other.routes.begin()) &&
-            other.vertices[i] == way.vertices[i])
-          query.costs[other.routes[i]] = kNoWay;
-      add(way, i, root_cost, search_.find(hierarchy_, query, budget_));
-      query.avoided.insert(way.vertices[i]);
+      close_taken(way, i, query);
+      if (!query.to.empty()) add(way, i, root_cost, search_.find(hierarchy_, query, budget_));
+      if (i == way.routes.size()) return;
+      query.avoided.insert(spur);
+      std::erase_if(goals, [&](const SearchEnd& end) { return end.vertex == spur; });
       root_cost += cost_of(way.routes[i]);
+    }
+  }
+
+  // How the ways taken so far that begin like this one go on after `length` routes, or that they end there.
+  void close_taken(const Way& way, std::size_t length, WayQuery& query) const {
+    const auto end = way.routes.begin() + static_cast<std::ptrdiff_t>(length);
+    for (const Way& other : taken_) {
+      if (other.routes.size() < length || other.vertices.front() != way.vertices.front() ||
+          !std::equal(way.routes.begin(), end, other.routes.begin()))
+        continue;
+      if (other.routes.size() > length)
+        query.costs[other.routes[length]] = kNoWay;
+      else
+        std::erase_if(query.to, [&](const SearchEnd& goal) { return goal.vertex == other.vertices.back(); });
     }
   }
 

@@ -36,7 +36,7 @@ Way HierarchySearch::find(const Hierarchy& hierarchy, const WayQuery& query, con
   way.settled_of_level.assign(static_cast<std::size_t>(hierarchy.levels()) + 1, 0);
   begin(hierarchy, query);
   run(budget, way);
-  if (way.stopped || meeting_ == kNone) return way;
+  if (way.stopped || meeting_.left == kNone) return way;
   unpack(way);
   remove_loops(way);
   return way;
@@ -46,7 +46,7 @@ void HierarchySearch::begin(const Hierarchy& hierarchy, const WayQuery& query) {
   hierarchy_ = &hierarchy;
   query_ = &query;
   best_ = kNoWay;
-  meeting_ = kNone;
+  meeting_ = {};
   opened_.resize(hierarchy.clustering().end(), 0);
   if (++query_number_ == 0) {
     std::fill(opened_.begin(), opened_.end(), 0);
@@ -127,8 +127,18 @@ void HierarchySearch::relax(int side, NodeIndex to, double cost, NodeIndex befor
   std::push_heap(queues_[here].begin(), queues_[here].end(), std::greater<>());
   if (cost + node.label[1 - here].cost < best_) {
     best_ = cost + node.label[1 - here].cost;
-    meeting_ = to;
+    meeting_ = {to, to, 0};
   }
+}
+
+// One that has a node all the same is an end. It is not relaxed, or ways would go on from there.
+void HierarchySearch::end_at_avoided(int side, NodeIndex at, const Arc& arc, double reached) {
+  const NodeIndex end = slot_of(arc.other);
+  if (end == kNone) return;
+  const double cost = reached + nodes_[end].label[static_cast<std::size_t>(1 - side)].cost;
+  if (!(cost < best_)) return;
+  best_ = cost;
+  meeting_ = side == 0 ? Meeting{at, end, arc.route} : Meeting{end, at, arc.route};
 }
 
 void HierarchySearch::relax_arc(int side, NodeIndex at, const Arc& arc) {
@@ -136,8 +146,7 @@ void HierarchySearch::relax_arc(int side, NodeIndex at, const Arc& arc) {
   if (!(cost < kNoWay)) return;
   const double reached = nodes_[at].label[static_cast<std::size_t>(side)].cost + cost;
   if (!(reached < best_)) return;
-  // One that is known all the same is an end.
-  if (!query_->avoided.empty() && query_->avoided.contains(arc.other) && slot_of(arc.other) == kNone) return;
+  if (!query_->avoided.empty() && query_->avoided.contains(arc.other)) return end_at_avoided(side, at, arc, reached);
   relax(side, node_at(arc.other), reached, at, arc.route);
 }
 
@@ -231,11 +240,16 @@ void HierarchySearch::unpack_step(int side, NodeIndex at, Way& way) const {
 
 void HierarchySearch::unpack(Way& way) const {
   std::vector<NodeIndex> forward;
-  for (NodeIndex n = meeting_; nodes_[n].label[0].before != kNone; n = nodes_[n].label[0].before) forward.push_back(n);
-  const NodeIndex start = forward.empty() ? meeting_ : nodes_[forward.back()].label[0].before;
+  for (NodeIndex n = meeting_.left; nodes_[n].label[0].before != kNone; n = nodes_[n].label[0].before)
+    forward.push_back(n);
+  const NodeIndex start = forward.empty() ? meeting_.left : nodes_[forward.back()].label[0].before;
   way.vertices.push_back(nodes_[start].vertex);
   for (auto n = forward.rbegin(); n != forward.rend(); ++n) unpack_step(0, *n, way);
-  NodeIndex goal = meeting_;
+  if (meeting_.route != 0) {
+    way.routes.push_back(meeting_.route);
+    way.vertices.push_back(nodes_[meeting_.right].vertex);
+  }
+  NodeIndex goal = meeting_.right;
   for (; nodes_[goal].label[1].before != kNone; goal = nodes_[goal].label[1].before) unpack_step(1, goal, way);
   way.cost = best_;
 }

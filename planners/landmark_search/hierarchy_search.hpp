@@ -21,7 +21,7 @@ struct SearchEnd {
 
 struct WayQuery {
   std::vector<SearchEnd> from, to;          // any one of each
-  std::unordered_set<VertexIndex> avoided;  // not passed; may be ends
+  std::unordered_set<VertexIndex> avoided;  // not passed; a way may begin or end there
   // Routes that cost something else in this query; kNoWay: not to be taken.
   std::unordered_map<RouteId, double> costs;
 };
@@ -57,6 +57,12 @@ class HierarchySearch {
     std::uint32_t index = 0;            // in the cluster's boundary
     std::array<Label, 2> label;         // from the start, to the goal
   };
+  // Where the two halves of a way meet: at one node, or by a route from one to another.
+  struct Meeting {
+    NodeIndex left = kNone;
+    NodeIndex right = kNone;
+    RouteId route = 0;
+  };
   using Queue = std::vector<std::pair<double, NodeIndex>>;
 
   void begin(const Hierarchy& hierarchy, const WayQuery& query);
@@ -65,6 +71,7 @@ class HierarchySearch {
   void run(const Budget& budget, Way& way);
   void settle(int side, NodeIndex at, Way& way);
   void relax_arc(int side, NodeIndex at, const Arc& arc);
+  void end_at_avoided(int side, NodeIndex at, const Arc& arc, double reached);
   void relax(int side, NodeIndex to, double cost, NodeIndex before, RouteId route);
   NodeIndex node_at(VertexIndex v);
   NodeIndex node_at(VertexIndex v, ClusterIndex cluster, std::uint32_t index);
@@ -84,7 +91,7 @@ class HierarchySearch {
   std::vector<Node> nodes_;
   std::array<Queue, 2> queues_;
   double best_ = kNoWay;
-  NodeIndex meeting_ = kNone;
+  Meeting meeting_;  // of the best way so far
 };
 
 }  // namespace cairn

@@ -1,0 +1,125 @@
+#include "planners/landmark_search/alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/maps/drawn_graph.hpp"
+#include "tests/maps/hierarchy/graph_laws.hpp"
+#include "tests/planners/landmark_search/way_oracle.hpp"
+
+namespace cairn {
+namespace {
+
+using test::all_costs;
+using test::Question;
+using test::Variety;
+
+constexpr ClusterSizes kSmall{2, 2, 4};
+
+// The best way and so many after it.
+std::vector<Way> ways(const LandmarkGraph& graph, const Question& question, int count) {
+  const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
+  HierarchySearch search;
+  const WayQuery query = query_of(question, hierarchy.network());
+  const Way best = search.find(hierarchy, query, {});
+  if (!(best.cost < kNoWay)) return {};
+  std::vector<Way> all = alternatives_to(best, count, hierarchy, query, search, {});
+  all.insert(all.begin(), best);
+  return all;
+}
+
+// A few landmarks and many routes between them, of small whole costs: there are many ties.
+LandmarkGraph dense_graph(std::mt19937_64& random) {
+  LandmarkGraph graph;
+  const std::uint64_t landmarks = 2 + random() % 5;
+  for (std::uint64_t i = 0; i < landmarks; ++i) graph.add({});
+  for (std::uint64_t i = landmarks + random() % (2 * landmarks); i > 0; --i) {
+    Route route;
+    route.from = static_cast<LandmarkId>(1 + random() % landmarks);
+    route.to = static_cast<LandmarkId>(1 + random() % landmarks);
+    route.cost_m = static_cast<double>(random() % 6);
+    route.closed = random() % 10 == 0;
+    graph.add_route(route);
+  }
+  return graph;
+}
+
+void expect_all_ways(const Variety& variety, std::uint64_t seeds) {
+  std::size_t found = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    std::mt19937_64 random(seed);
+    const LandmarkGraph graph = dense_graph(random);
+    const Question question = test::random_question(graph, variety, random);
+    const Network network(graph, cost_by_length);
+    std::vector<double> costs;
+    std::set<std::pair<VertexIndex, std::vector<RouteId>>> seen;
+    const int count = static_cast<int>(random() % 20);
+    for (const Way& way : ways(graph, question, count)) {
+      ASSERT_EQ(fault_of(way, question, graph, network), "") << "seed " << seed;
+      EXPECT_TRUE(seen.emplace(way.vertices.front(), way.routes).second) << "the same way twice, seed " << seed;
+      costs.push_back(way.cost);
+    }
+    std::vector<double> want = all_costs(graph, question);
+    want.resize(std::min(want.size(), static_cast<std::size_t>(count) + 1));
+    ASSERT_EQ(costs, want) << "seed " << seed;
+    found += costs.empty() ? 0 : costs.size() - 1;
+  }
+  EXPECT_GT(4 * found, seeds) << "there are alternatives in these graphs";
+}
+
+TEST(Alternatives, AreTheNextCheapestOfAllWays) {
+  expect_all_ways({}, 500);
+}
+
+TEST(Alternatives, AreTheNextCheapestFromAnyStartToAnyGoal) {
+  expect_all_ways({.most_ends = 3}, 500);
+  expect_all_ways({.most_ends = 3, .end_costs = true}, 500);
+}
+
+TEST(Alternatives, HeedWhatTheQueryAvoidsClosesAndOpens) {
+  expect_all_ways({.most_ends = 2, .end_costs = true, .most_avoided = 2, .most_costs = 3}, 1000);
+}
+
+TEST(Alternatives, TakeAnotherOfSeveralParallelRoutes) {
+  LandmarkGraph graph = drawn_graph("1>2 1>2 1>2 2>3");
+  graph.set_cost(2, 2.0);
+  graph.set_cost(3, 5.0);
+  const std::vector<Way> all = ways(graph, {{{1, 0.0}}, {{3, 0.0}}, {}, {}}, 5);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1].routes, (std::vector<RouteId>{2, 4}));
+  EXPECT_EQ(all[2].routes, (std::vector<RouteId>{3, 4}));
+}
+
+TEST(Alternatives, OfAWayThatStaysWhereItIsAreNone) {
+  EXPECT_EQ(ways(drawn_graph("1<>2 2<>3 3<>1"), {{{1, 0.0}}, {{1, 0.0}}, {}, {}}, 5).size(), 1U);
+}
+
+TEST(Alternatives, AreRightOnGraphsWithManyClustersToo) {
+  const LandmarkGraph graph = test::random_graph(300, 5);
+  const Network network(graph, cost_by_length);
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 20; ++i) {
+    const Question question = test::random_question(graph, {}, random);
+    const std::vector<Way> all = ways(graph, question, 6);
+    for (std::size_t w = 1; w < all.size(); ++w) EXPECT_GE(all[w].cost, all[w - 1].cost - 1e-9);
+    for (const Way& way : all) EXPECT_EQ(fault_of(way, question, graph, network), "");
+  }
+}
+
+TEST(Alternatives, EndWithTheBudget) {
+  const LandmarkGraph graph = drawn_graph("1<>2 2<>3 3<>4 1<>3 2<>4 1<>4");
+  const Hierarchy hierarchy(graph);
+  HierarchySearch search;
+  const WayQuery query = query_of(Question{{{1, 0.0}}, {{4, 0.0}}, {}, {}}, hierarchy.network());
+  const Way best = search.find(hierarchy, query, {});
+  EXPECT_EQ(alternatives_to(best, 3, hierarchy, query, search, {}).size(), 3U);
+  Budget over;
+  over.deadline = Budget::Clock::time_point::min();
+  EXPECT_TRUE(alternatives_to(best, 3, hierarchy, query, search, over).empty());
+  EXPECT_TRUE(alternatives_to(best, 0, hierarchy, query, search, {}).empty());
+}
+
+}  // namespace
+}  // namespace cairn

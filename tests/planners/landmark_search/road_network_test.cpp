@@ -1,0 +1,146 @@
+// Real road networks, directed: what the hierarchy answers is what Boost.Graph's Dijkstra finds.
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "maps/hierarchy/hierarchies.hpp"
+#include "planners/landmark_search/landmark_search.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr int kSources = 8;
+constexpr int kGoals = 150;
+
+std::filesystem::path data_folder() {
+  const char* named = std::getenv("CAIRN_DATA");
+  const auto folder = named != nullptr ? std::filesystem::path(named)
+                                       : std::filesystem::path(CAIRN_SOURCE_DIR).parent_path() / "shared" / "data";
+  return folder / "graphs" / "road_tntp";
+}
+
+std::string unpacked(const std::filesystem::path& file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+  if (in == nullptr) throw std::runtime_error("cannot read " + file.string());
+  std::string text;
+  char block[1 << 16];
+  for (int read = 0; (read = gzread(in.get(), block, sizeof block)) > 0;)
+    text.append(block, static_cast<std::size_t>(read));
+  return text;
+}
+
+// "FROM TO CAPACITY LENGTH ...": the lines of a TNTP file that begin with two numbers; the landmark of node n is n.
+LandmarkGraph road_network(const std::string& name) {
+  LandmarkGraph graph;
+  const auto landmark = [&](LandmarkId id) {
+    Landmark node;
+    node.id = id;
+    if (graph.find(id) == nullptr) graph.add(node);
+    return id;
+  };
+  std::istringstream lines(unpacked(data_folder() / (name + "_net.tntp.gz")));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    LandmarkId from = 0;
+    LandmarkId to = 0;
+    double capacity = 0.0;
+    Route route;
+    if (!(words >> from >> to >> capacity >> route.cost_m)) continue;
+    route.from = landmark(from);
+    route.to = landmark(to);
+    graph.add_route(route);
+  }
+  return graph;
+}
+
+using Weighted = boost::property<boost::edge_weight_t, double>;
+using Plain = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Weighted>;
+
+Plain plain_graph(const LandmarkGraph& graph) {
+  Plain plain(static_cast<std::size_t>(graph.next_landmark_id()));
+  for (const auto& [id, route] : graph.routes())
+    boost::add_edge(static_cast<std::size_t>(route.from), static_cast<std::size_t>(route.to), route.cost_m, plain);
+  return plain;
+}
+
+std::vector<double> costs_from(const Plain& plain, LandmarkId from) {
+  std::vector<double> costs(boost::num_vertices(plain));
+  boost::dijkstra_shortest_paths(plain, static_cast<std::size_t>(from),
+                                 boost::distance_map(costs.data()).distance_inf(kNoWay));
+  return costs;
+}
+
+struct Sheet {
+  const char* name;
+  std::size_t landmarks;
+  std::size_t routes;
+};
+
+class RoadNetwork : public ::testing::TestWithParam<Sheet> {};
+
+TEST_P(RoadNetwork, IsAnsweredAsByDijkstra) {
+  if (!std::filesystem::exists(data_folder())) GTEST_SKIP() << "no data folder: graphs/road_tntp";
+  const LandmarkGraph graph = road_network(GetParam().name);
+  ASSERT_EQ(graph.landmarks().size(), GetParam().landmarks);
+  ASSERT_EQ(graph.routes().size(), GetParam().routes);
+  const Plain plain = plain_graph(graph);
+  const Hierarchies hierarchies(graph, {}, {});
+  const OccupancyGrid grid(0.1);
+  const RobotModel robot;
+  const LandmarkSearch search;
+  std::mt19937_64 random(1);
+  const auto any = [&] {
+    const auto at = graph.landmarks().lower_bound(
+        static_cast<LandmarkId>(random() % static_cast<std::uint64_t>(graph.next_landmark_id())));
+    return at->first;
+  };
+  int reached = 0;
+  for (int s = 0; s < kSources; ++s) {
+    PlanRequest request;
+    request.from.landmarks = {any()};
+    const std::vector<double> want = costs_from(plain, request.from.landmarks.front());
+    for (int g = 0; g < kGoals; ++g) {
+      request.to.landmarks = {any()};
+      const double cost_m = want[static_cast<std::size_t>(request.to.landmarks.front())];
+      const PlanResult result = search.plan(
+          request, {.grid = grid, .graph = graph, .robot = robot, .pose = {}, .hierarchies = &hierarchies}, {});
+      const std::string where =
+          "L" + std::to_string(request.from.landmarks[0]) + " to L" + std::to_string(request.to.landmarks[0]);
+      ASSERT_EQ(result.outcome == PlanOutcome::solved, cost_m < kNoWay) << where;
+      if (result.outcome != PlanOutcome::solved) continue;
+      ++reached;
+      ASSERT_NEAR(result.cost_m, cost_m, 1e-9 * std::max(1.0, cost_m)) << where;
+      LandmarkId at = request.from.landmarks.front();
+      for (const RouteId id : result.routes) {
+        ASSERT_EQ(graph.find_route(id)->from, at) << where;
+        at = graph.find_route(id)->to;
+      }
+      ASSERT_EQ(at, request.to.landmarks.front()) << where;
+    }
+  }
+  EXPECT_GT(reached, kSources * kGoals / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tntp, RoadNetwork,
+                         ::testing::Values(Sheet{"berlin-center", 12'981, 28'376},
+                                           Sheet{"ChicagoRegional", 12'979, 39'018},
+                                           Sheet{"Philadelphia", 13'389, 40'003}),
+                         [](const auto& one) {
+                           std::string name = one.param.name;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace cairn
