@@ -7,11 +7,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <random>
 #include <string>
 
+#include "maps/pictures/chart.hpp"
 #include "planners/landmark_search/hierarchy_search.hpp"
 #include "tests/bench/boost_searches.hpp"
 #include "tests/bench/building_complex.hpp"
@@ -86,7 +89,23 @@ struct Timings {
     us.push_back(1e6 * seconds_since(begin));
     settled.push_back(static_cast<double>(count));
   }
+  // What all cores of the machine work on it, so that the longest is not what some other program did meanwhile.
+  template <class Work>
+  void time_work(Work work) {
+    const std::clock_t begin = std::clock();
+    work();
+    us.push_back(1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  }
 };
+
+// Median time of a query by size, for a chart.
+struct Growth {
+  std::vector<Point> ours, dijkstra, astar;
+};
+Growth& growth() {
+  static Growth all;
+  return all;
+}
 
 void query(benchmark::State& state) {
   const Site& site = site_of(static_cast<std::size_t>(state.range(0)));
@@ -107,6 +126,10 @@ void query(benchmark::State& state) {
     for (const auto& [from, to] : pairs) astar.time([&] { return boost.astar(from, to), boost.settled(); });
     state.SetIterationTime(1e-6 * median(ours.us));
   }
+  const auto size = static_cast<double>(state.range(0));
+  growth().ours.emplace_back(size, median(ours.us));
+  growth().dijkstra.emplace_back(size, median(dijkstra.us));
+  growth().astar.emplace_back(size, median(astar.us));
   state.counters["levels"] = site.hierarchy.levels();
   state.counters["us"] = median(ours.us);
   state.counters["us_p95"] = quantile(ours.us, 0.95);
@@ -132,25 +155,22 @@ class Changes {
       const RouteId id = any_route();
       const double cost_m =
           site_.graph.find_route(id)->cost_m * std::uniform_real_distribution<double>(0.5, 2.0)(random_);
-      changed.time([&] {
+      changed.time_work([&] {
         site_.graph.set_cost(id, cost_m);
         site_.hierarchy.update(site_.graph, {{}, {id}});
-        return 0;
       });
     }
   }
   void add_and_remove_routes(std::size_t count, Timings& added, Timings& removed) {
     for (std::size_t i = 0; i < count; ++i) {
       RouteId id = 0;
-      added.time([&] {
+      added.time_work([&] {
         id = site_.graph.add_route(shortcut());
         site_.hierarchy.update(site_.graph, {{}, {id}});
-        return 0;
       });
-      removed.time([&] {
+      removed.time_work([&] {
         site_.graph.remove_route(id);
         site_.hierarchy.update(site_.graph, {{}, {id}});
-        return 0;
       });
     }
   }
@@ -158,17 +178,15 @@ class Changes {
     for (std::size_t i = 0; i < count; ++i) {
       const Route beside = *site_.graph.find_route(any_route());
       LandmarkId id = 0;
-      added.time([&] {
+      added.time_work([&] {
         id = site_.graph.add(copy_of(beside.from));
         for (const auto& [from, to] : {std::pair(beside.from, id), std::pair(id, beside.to)})
           site_.graph.add_route(route(from, to, beside.cost_m));
         site_.hierarchy.update(site_.graph, {{id}, {}});
-        return 0;
       });
-      removed.time([&] {
+      removed.time_work([&] {
         site_.graph.remove(id);
         site_.hierarchy.update(site_.graph, {{id}, {}});
-        return 0;
       });
     }
   }
@@ -289,15 +307,34 @@ void add_rows(std::int64_t landmarks, std::int64_t pairs) {
         ->Unit(benchmark::kMillisecond);
 }
 
+// Whether it was drawn.
+bool draw_growth(const std::string& file) {
+  Chart chart;
+  chart.title = "A query over the landmark graph, median";
+  chart.x_label = "landmarks";
+  chart.y_label = "microseconds";
+  chart.log_x = chart.log_y = true;
+  chart.series = {{"Dijkstra, stopped at the goal (Boost.Graph)", growth().dijkstra, SeriesStyle::lines_and_points, {}},
+                  {"A* (Boost.Graph)", growth().astar, SeriesStyle::lines_and_points, {}},
+                  {"landmark_search", growth().ours, SeriesStyle::lines_and_points, {}}};
+  const ChartOutcome outcome = write_chart(file, chart);
+  if (!outcome.drawn) std::fprintf(stderr, "graph_bench: %s\n", outcome.reason.c_str());
+  return outcome.drawn;
+}
+
 }  // namespace
 }  // namespace cairn
 
+// After the options of all benches: a file for the chart of growth, if wanted.
 int main(int count, char** arguments) {
   benchmark::Initialize(&count, arguments);
-  if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
+  if (count > 2) {
+    std::fprintf(stderr, "usage: graph_bench [--benchmark_...] [CHART.png]\n");
+    return 2;
+  }
   for (const auto& [landmarks, pairs] : {std::pair(100, 5000), std::pair(1000, 5000), std::pair(10'000, 2000),
                                          std::pair(100'000, 500), std::pair(1'000'000, 300)})
     cairn::add_rows(landmarks, pairs);
   benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return count < 2 || cairn::draw_growth(arguments[1]) ? 0 : 1;
 }
