@@ -41,6 +41,7 @@ bench: build
 	@cmake --build --preset release --target cairn_benches
 	@build/release/tests/cairn_bench
 	@build/release/tests/map_bench
+	@build/release/tests/graph_bench
 
 experiment: build
 	$(CAIRN) experiment config/experiments/first_mission.yaml --out out/first_mission

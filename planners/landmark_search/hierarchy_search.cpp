@@ -7,11 +7,14 @@ namespace cairn {
 namespace {
 
 constexpr std::int64_t kSettledPerBudgetCheck = 256;
-constexpr std::size_t kFewestSlots = 1024;
+constexpr std::size_t kFewestSlots = 256;
 
 // Where the two halves of a way pass the same vertex, what lies between costs nothing (or it would not be the
 // cheapest way) and is left out.
 void remove_loops(Way& way) {
+  std::vector<VertexIndex> rising = way.vertices;
+  std::sort(rising.begin(), rising.end());
+  if (std::adjacent_find(rising.begin(), rising.end()) == rising.end()) return;
   std::unordered_map<VertexIndex, std::size_t> at;
   at.reserve(way.vertices.size());
   std::size_t kept = 0;
@@ -46,6 +49,7 @@ void HierarchySearch::begin(const Hierarchy& hierarchy, const WayQuery& query) {
   hierarchy_ = &hierarchy;
   query_ = &query;
   best_ = kNoWay;
+  frontier_ = {0.0, 0.0};
   meeting_ = {};
   opened_.resize(hierarchy.clustering().end(), 0);
   if (++query_number_ == 0) {
@@ -53,6 +57,7 @@ void HierarchySearch::begin(const Hierarchy& hierarchy, const WayQuery& query) {
     query_number_ = 1;
   }
   nodes_.clear();
+  frontier_ = {};
   slots_.assign(kFewestSlots, kNone);
   for (const auto* ends : {&query.from, &query.to})
     for (const SearchEnd& end : *ends) look_into_clusters_of(end.vertex);
@@ -122,13 +127,15 @@ void HierarchySearch::relax(int side, NodeIndex to, double cost, NodeIndex befor
   const auto here = static_cast<std::size_t>(side);
   Node& node = nodes_[to];
   if (!(cost < node.label[here].cost)) return;
+  if (const double whole = cost + node.label[1 - here].cost; whole < best_) {
+    best_ = whole;
+    meeting_ = {to, to, 0};
+  } else if (!(cost + frontier_[1 - here] < best_)) {
+    return;  // the other side has not been here, and will not come so cheaply that it matters
+  }
   node.label[here] = {cost, before, route};
   queues_[here].emplace_back(cost, to);
   std::push_heap(queues_[here].begin(), queues_[here].end(), std::greater<>());
-  if (cost + node.label[1 - here].cost < best_) {
-    best_ = cost + node.label[1 - here].cost;
-    meeting_ = {to, to, 0};
-  }
 }
 
 // One that has a node all the same is an end. It is not relaxed, or ways would go on from there.
@@ -144,8 +151,10 @@ void HierarchySearch::end_at_avoided(int side, NodeIndex at, const Arc& arc, dou
 void HierarchySearch::relax_arc(int side, NodeIndex at, const Arc& arc) {
   const double cost = cost_of(arc);
   if (!(cost < kNoWay)) return;
-  const double reached = nodes_[at].label[static_cast<std::size_t>(side)].cost + cost;
+  const Label& label = nodes_[at].label[static_cast<std::size_t>(side)];
+  const double reached = label.cost + cost;
   if (!(reached < best_)) return;
+  if (label.before != kNone && nodes_[label.before].vertex == arc.other) return;  // straight back
   if (!query_->avoided.empty() && query_->avoided.contains(arc.other)) return end_at_avoided(side, at, arc, reached);
   relax(side, node_at(arc.other), reached, at, arc.route);
 }
@@ -191,8 +200,9 @@ void HierarchySearch::run(const Budget& budget, Way& way) {
     drop_outdated(0);
     drop_outdated(1);
     if (queues_[0].empty() || queues_[1].empty()) return;
-    if (queues_[0].front().first + queues_[1].front().first >= best_) return;
-    const std::size_t side = queues_[0].front().first <= queues_[1].front().first ? 0 : 1;
+    frontier_ = {queues_[0].front().first, queues_[1].front().first};
+    if (frontier_[0] + frontier_[1] >= best_) return;
+    const std::size_t side = frontier_[0] <= frontier_[1] ? 0 : 1;
     const NodeIndex at = queues_[side].front().second;
     std::pop_heap(queues_[side].begin(), queues_[side].end(), std::greater<>());
     queues_[side].pop_back();

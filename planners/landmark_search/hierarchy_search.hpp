@@ -90,6 +90,7 @@ class HierarchySearch {
   std::vector<NodeIndex> slots_;  // open addressing by vertex; kNone: empty
   std::vector<Node> nodes_;
   std::array<Queue, 2> queues_;
+  std::array<double, 2> frontier_{};  // what each queue began with when the present node was taken from one
   double best_ = kNoWay;
   Meeting meeting_;  // of the best way so far
 };
