@@ -59,7 +59,7 @@ TEST(RouteCosts, ByClearanceCountsNarrowMetresUpToFiveTimes) {
   const OccupancyGrid grid = drawn(rows);
   RouteCostRules rules;
   rules.radius_m = 0.2;
-  rules.field = std::make_shared<const DistanceField>(grid, UnknownPolicy::allow);
+  rules.grid = &grid;
   const RouteCost clearance = route_cost(CostKind::clearance, rules);
   const auto straight_at = [&](double y_m) { return clearance(along({{1, y_m, 0}, {3, y_m, 0}}, 2.0)); };
   EXPECT_DOUBLE_EQ(straight_at(2.05), 2.0) << "more than half a metre of room";
