@@ -50,6 +50,12 @@ Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters, Ro
   overlay_.build(network_, clustering_);
 }
 
+Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, const Proposal& propose)
+    : cost_(cost_by_length), network_(graph, cost_), clustering_(network_, sizes, propose) {
+  drop_needless_levels(clustering_);
+  overlay_.build(network_, clustering_);
+}
+
 bool Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
   const std::set<RouteId> routes = routes_of(changes, graph, network_);
   std::set<LandmarkId> landmarks(changes.landmarks.begin(), changes.landmarks.end());

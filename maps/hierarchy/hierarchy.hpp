@@ -24,6 +24,8 @@ class Hierarchy {
   // std::invalid_argument when the cost of a route is negative or not finite.
   explicit Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters = {}, RouteCost cost = cost_by_length,
                      const ClusterSizes& sizes = {});
+  // Clustered anew, by other means than METIS.
+  Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, const Proposal& propose);
 
   // Brings it in line with the graph. When only costs have changed (also by closing and opening), only ways that
   // used, or would now use, these routes are found anew; otherwise the clusters that hold a change. Says whether more
