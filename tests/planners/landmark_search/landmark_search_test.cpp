@@ -246,6 +246,14 @@ TEST(LandmarkSearch, ComparesByTheKindOfCostThatIsAskedFor) {
   }
 }
 
+TEST(LandmarkSearch, HierarchiesThatWereNotUpdatedAreABugItNames) {
+  GraphWorld world = line_of(2);
+  const Hierarchies hierarchies = world.hierarchies();
+  (void)hierarchies.by(CostKind::length);
+  world.landmark(9.0, 9.0);
+  EXPECT_THROW((void)world.plan(LandmarkSearch(), request({1}, {3}), {}, &hierarchies), std::logic_error);
+}
+
 TEST(LandmarkSearch, GivesAlternativesByRisingCost) {
   GraphWorld world = line_of(3);
   const RouteId bridge = world.route(1, 3, 5.0);
