@@ -144,8 +144,8 @@ ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind ki
 
 void tell_explanation(std::ostream& out, const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
                       const ClusterTree& clusters) {
-  const std::string cost = explanation.cost ? fmt::format(": {:.2f} {}", *explanation.cost, unit_of(kind)) : "";
-  out << fmt::format("  by {}{}; settled", name_of(kind), cost);
+  const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no way";
+  out << fmt::format("  by {}: {}; settled", name_of(kind), cost);
   for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level) {
     const std::int64_t settled = explanation.settled_of_level[level];
     if (level == 0)

@@ -191,7 +191,7 @@ TEST_F(GraphQueries, OneWayUnreachableAndTheStartItself) {
   EXPECT_EQ(shed["reason"], "no open route leads from entrance to shed");
   EXPECT_EQ(shed["explanation"]["cost_with_closed_open"], nullptr);
   EXPECT_THAT(run({"--from", "balcony", "--to", "hall", "--explain"}).out,
-              HasSubstr("  by length; settled 1 landmark\n"));
+              HasSubstr("  by length: no way; settled 1 landmark\n"));
   const json here = from_to("L2", "hall", {"--alternatives", "2", "--explain"});
   EXPECT_EQ(here["cost_m"], 0.0);
   EXPECT_EQ(here["landmarks"], json({"L2"}));
