@@ -127,6 +127,7 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const PlanQuery
   MapPicture picture;
   picture.grid = &planner.map().grid;
   picture.graph = &planner.map().graph;
+  picture.clusters = &planner.map().clusters;
   picture.shapes = planner.map().shapes;
   for (const Pose2& pose : result.path) picture.planned.push_back(pose.position());
   if (!result.path.empty()) {

@@ -47,6 +47,7 @@ void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, cons
   MapPicture picture;
   picture.grid = &map.grid;
   picture.graph = &map.graph;
+  picture.clusters = &map.clusters;
   picture.shapes = map.shapes;
   for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
   picture.title = title;

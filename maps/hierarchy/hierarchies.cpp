@@ -17,14 +17,27 @@ const Hierarchy& Hierarchies::by(CostKind kind) const {
   return kind == CostKind::length ? by_length : make(kind, by_length.tree());
 }
 
+// Each on its own would cut its clusters by its own costs, and names would no longer mean the same.
+template <class Update>
+void Hierarchies::update_all(Update update) {
+  const std::unique_ptr<Hierarchy>& by_length = made_[static_cast<std::size_t>(CostKind::length)];
+  if (by_length == nullptr) return;
+  const bool only_costs = !update(*by_length);
+  for (std::unique_ptr<Hierarchy>& hierarchy : made_) {
+    if (hierarchy == nullptr || hierarchy == by_length) continue;
+    if (only_costs)
+      update(*hierarchy);
+    else
+      hierarchy.reset();
+  }
+}
+
 void Hierarchies::update(const GraphChanges& changes) {
-  for (const auto& hierarchy : made_)
-    if (hierarchy != nullptr) hierarchy->update(graph_, changes);
+  update_all([&](Hierarchy& hierarchy) { return hierarchy.update(graph_, changes); });
 }
 
 void Hierarchies::update() {
-  for (const auto& hierarchy : made_)
-    if (hierarchy != nullptr) hierarchy->update(graph_);
+  update_all([&](Hierarchy& hierarchy) { return hierarchy.update(graph_); });
 }
 
 }  // namespace cairn

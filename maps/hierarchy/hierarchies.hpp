@@ -15,14 +15,18 @@ class Hierarchies {
   // The graph must outlive it and be where it is; clusters as in Hierarchy.
   Hierarchies(const LandmarkGraph& graph, ClusterTree clusters, RouteCostRules rules);
 
-  // Thread-safe among its calls.
+  // Thread-safe among its calls. Good until the next update.
   [[nodiscard]] const Hierarchy& by(CostKind kind) const;
-  // After the graph has changed; not while another thread reads.
+  // After the graph has changed; not while another thread reads. When more than costs has changed only the hierarchy
+  // by length follows; the others are made anew from its clusters when they are next asked for.
   void update(const GraphChanges& changes);
   void update();
   [[nodiscard]] ClusterTree tree() const { return by(CostKind::length).tree(); }
 
  private:
+  template <class Update>
+  void update_all(Update update);
+
   const LandmarkGraph& graph_;
   ClusterTree clusters_;
   RouteCostRules rules_;

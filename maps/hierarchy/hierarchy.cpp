@@ -50,7 +50,13 @@ Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters, Ro
   overlay_.build(network_, clustering_);
 }
 
-void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
+Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, const Proposal& propose)
+    : cost_(cost_by_length), network_(graph, cost_), clustering_(network_, sizes, propose) {
+  drop_needless_levels(clustering_);
+  overlay_.build(network_, clustering_);
+}
+
+bool Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
   const std::set<RouteId> routes = routes_of(changes, graph, network_);
   std::set<LandmarkId> landmarks(changes.landmarks.begin(), changes.landmarks.end());
   std::vector<VertexIndex> moved;  // new, gone, or with other arcs
@@ -82,7 +88,10 @@ void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) 
       network_.sync_landmark(graph, id);
       moved.push_back(v);
     }
-  if (moved.empty()) return overlay_.recost(network_, clustering_, costs);
+  if (moved.empty()) {
+    overlay_.recost(network_, clustering_, costs);
+    return false;
+  }
   for (const CostChange& change : costs) moved.insert(moved.end(), {change.from, change.to});
   std::sort(moved.begin(), moved.end());
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
@@ -91,14 +100,15 @@ void Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) 
   drop_needless_levels(clustering_);
   upkeep.levels_changed = upkeep.levels_changed || clustering_.levels() != levels;
   overlay_.follow(network_, clustering_, upkeep, moved);
+  return true;
 }
 
-void Hierarchy::update(const LandmarkGraph& graph) {
+bool Hierarchy::update(const LandmarkGraph& graph) {
   GraphChanges changes;
   for (const auto& [id, landmark] : graph.landmarks()) changes.landmarks.push_back(id);
   for (VertexIndex v = 0; v < network_.end(); ++v)
     if (network_.landmark_of(v) != 0) changes.landmarks.push_back(network_.landmark_of(v));
-  update(graph, changes);
+  return update(graph, changes);
 }
 
 }  // namespace cairn

@@ -24,12 +24,15 @@ class Hierarchy {
   // std::invalid_argument when the cost of a route is negative or not finite.
   explicit Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters = {}, RouteCost cost = cost_by_length,
                      const ClusterSizes& sizes = {});
+  // Clustered anew, by other means than METIS.
+  Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, const Proposal& propose);
 
   // Brings it in line with the graph. When only costs have changed (also by closing and opening), only ways that
-  // used, or would now use, these routes are found anew; otherwise the clusters that hold a change.
-  void update(const LandmarkGraph& graph, const GraphChanges& changes);
+  // used, or would now use, these routes are found anew; otherwise the clusters that hold a change. Says whether more
+  // than costs has changed, and the clusters may have.
+  bool update(const LandmarkGraph& graph, const GraphChanges& changes);
   // The same, for who does not know what has changed: looks at everything.
-  void update(const LandmarkGraph& graph);
+  bool update(const LandmarkGraph& graph);
 
   [[nodiscard]] const Network& network() const { return network_; }
   [[nodiscard]] const Clustering& clustering() const { return clustering_; }

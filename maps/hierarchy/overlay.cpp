@@ -12,7 +12,7 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kMostInner = 65'535;    // numbers of inner vertices are 16 bits wide
-constexpr std::size_t kMostWays = 8'000'000;  // boundary x inner vertices of one cluster
+constexpr std::size_t kMostWays = 4'000'000;  // boundary x inner vertices of one cluster
 
 std::size_t inner_count(const Clustering& clustering, const ClusterNode& node) {
   if (node.level == 1) return node.members.size();

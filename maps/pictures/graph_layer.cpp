@@ -36,9 +36,9 @@ Point end_of(const Landmark& landmark) {
   return landmark.access.value_or(landmark.T_map_landmark).position();
 }
 
-Stroke stroke_of(const Route& route) {
-  const double dash_px = route.trajectory.empty() || route.closed ? 7.0 : 0.0;
-  return {route.closed ? kClosed : kRoute, 2.0, 0.75, dash_px};
+Stroke stroke_of(const Route& route, double width_px) {
+  const bool dashed = route.closed || (route.trajectory.empty() && width_px > 1.0);
+  return {route.closed ? kClosed : kRoute, width_px, 0.75, dashed ? 7.0 : 0.0};
 }
 
 LegendEntry category_entry(const std::string& category, const Contour* contour, Colour colour) {
@@ -53,13 +53,42 @@ LegendEntry category_entry(const std::string& category, const Contour* contour, 
 
 }  // namespace
 
-GraphLayer::GraphLayer(const LandmarkGraph& graph, std::span<const LandmarkShape> shapes)
+GraphLayer::GraphLayer(const LandmarkGraph& graph, std::span<const LandmarkShape> shapes, const ClusterTree* clusters)
     : graph_(graph), shapes_(shapes) {
   for (const LandmarkShape& shape : shapes) categories_.push_back(shape.category);
   std::set<std::string> others;
   for (const auto& [id, landmark] : graph.landmarks()) others.insert(landmark.category);
   for (const std::string& category : categories_) others.erase(category);
   categories_.insert(categories_.end(), others.begin(), others.end());
+  if (clusters != nullptr && !clusters->cluster_of.empty()) colour_clusters(*clusters);
+}
+
+// The highest level that divides the graph at least in this many parts, or the lowest.
+void GraphLayer::colour_clusters(const ClusterTree& tree) {
+  constexpr std::size_t kParts = 5;
+  std::map<int, std::size_t> parts;
+  for (const auto& [id, cluster] : tree.clusters) ++parts[cluster.level];
+  cluster_level_ = 1;
+  for (const auto& [level, count] : parts)
+    if (count >= kParts) cluster_level_ = level;
+  std::map<ClusterId, std::size_t> number;
+  for (const auto& [landmark, leaf] : tree.cluster_of) {
+    ClusterId id = leaf;
+    while (tree.clusters.at(id).level < cluster_level_) id = tree.clusters.at(id).parent;
+    const std::size_t n = number.emplace(id, number.size()).first->second;
+    // Neighbours in number are far apart on the colour wheel.
+    cluster_colours_.emplace(landmark, colour_of_hue(std::fmod(0.618034 * static_cast<double>(n), 1.0), 0.75));
+  }
+}
+
+Colour GraphLayer::colour_of(const Landmark& landmark) const {
+  const auto found = cluster_colours_.find(landmark.id);
+  return found == cluster_colours_.end() ? colour_of(landmark.category) : found->second;
+}
+
+double GraphLayer::dot_px() const {
+  const double crowd = static_cast<double>(graph_.landmarks().size()) / static_cast<double>(kMaxLabels);
+  return std::max(1.2, kDotPx / std::max(1.0, std::sqrt(crowd)));
 }
 
 const Contour* GraphLayer::contour_of(const std::string& category) const {
@@ -75,7 +104,7 @@ Colour GraphLayer::colour_of(const std::string& category) const {
 
 double GraphLayer::radius_px(const Landmark& landmark, const MapFrame& frame) const {
   const Contour* contour = contour_of(landmark.category);
-  return contour == nullptr ? kDotPx : std::max(kDotPx, outer_radius_m(*contour) * frame.px_per_m);
+  return contour == nullptr ? dot_px() : std::max(kDotPx, outer_radius_m(*contour) * frame.px_per_m);
 }
 
 std::vector<Point> GraphLayer::course_of(const Route& route) const {
@@ -86,26 +115,27 @@ std::vector<Point> GraphLayer::course_of(const Route& route) const {
 }
 
 void GraphLayer::draw_routes(Canvas& canvas, const MapFrame& frame) const {
+  const double width_px = std::max(0.6, 2.0 * dot_px() / kDotPx);
   for (const auto& [id, route] : graph_.routes()) {
     // There and back again is one line when both are straight.
     const Route* back = graph_.route_between(route.to, route.from);
     if (!route.closed && route.trajectory.empty() && back != nullptr && back->trajectory.empty() && back->id < id)
       continue;
-    canvas.line(frame.pixels_of(course_of(route)), stroke_of(route));
+    canvas.line(frame.pixels_of(course_of(route)), stroke_of(route, width_px));
   }
 }
 
 void GraphLayer::draw_landmarks(Canvas& canvas, const MapFrame& frame) const {
   for (const auto& [id, landmark] : graph_.landmarks()) {
-    const Colour colour = colour_of(landmark.category);
+    const Colour colour = colour_of(landmark);
     const Pixel centre = frame.pixel_of(landmark.T_map_landmark.position());
     if (const Contour* contour = contour_of(landmark.category)) {
       draw_contour(canvas, *contour, colour, 2.5,
                    [&](const Point& p) { return frame.pixel_of(landmark.T_map_landmark * p); });
       canvas.fill_disc(centre, 2.5, {colour});
     } else {
-      canvas.fill_disc(centre, kDotPx + 1.5, {kWhite});
-      canvas.fill_disc(centre, kDotPx, {colour});
+      canvas.fill_disc(centre, 1.3 * dot_px(), {kWhite});
+      canvas.fill_disc(centre, dot_px(), {colour});
     }
   }
 }
@@ -141,8 +171,12 @@ void GraphLayer::draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer&
 
 std::vector<LegendEntry> GraphLayer::legend() const {
   std::vector<LegendEntry> entries;
+  if (cluster_level_ > 0)
+    entries.push_back(
+        {"landmarks, by cluster of level " + std::to_string(cluster_level_),
+         [](Canvas& canvas, const Pixel& at) { canvas.fill_disc(at, kDotPx, {colour_of_hue(0.0, 0.75)}); }});
   for (const std::string& category : categories_)
-    if (!graph_.of_category(category).empty())
+    if (!graph_.of_category(category).empty() && (cluster_level_ == 0 || contour_of(category) != nullptr))
       entries.push_back(
           category_entry(category.empty() ? "place" : category, contour_of(category), colour_of(category)));
   bool open = false;

@@ -1,10 +1,12 @@
 // Landmarks and routes as drawn on a map picture.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "maps/cluster_tree.hpp"
 #include "maps/contour.hpp"
 #include "maps/landmark_graph.hpp"
 #include "maps/pictures/label_placer.hpp"
@@ -15,7 +17,8 @@ namespace cairn::pictures {
 
 class GraphLayer {
  public:
-  GraphLayer(const LandmarkGraph& graph, std::span<const LandmarkShape> shapes);
+  // clusters: may be null.
+  GraphLayer(const LandmarkGraph& graph, std::span<const LandmarkShape> shapes, const ClusterTree* clusters);
 
   void draw_routes(Canvas& canvas, const MapFrame& frame) const;
   void draw_landmarks(Canvas& canvas, const MapFrame& frame) const;
@@ -27,6 +30,9 @@ class GraphLayer {
  private:
   [[nodiscard]] const Contour* contour_of(const std::string& category) const;
   [[nodiscard]] Colour colour_of(const std::string& category) const;
+  [[nodiscard]] Colour colour_of(const Landmark& landmark) const;
+  [[nodiscard]] double dot_px() const;  // smaller when there are many
+  void colour_clusters(const ClusterTree& tree);
   [[nodiscard]] double radius_px(const Landmark& landmark, const MapFrame& frame) const;
   [[nodiscard]] std::vector<Point> course_of(const Route& route) const;
   [[nodiscard]] std::string words_about(const Landmark& landmark) const;
@@ -34,6 +40,8 @@ class GraphLayer {
   const LandmarkGraph& graph_;
   std::span<const LandmarkShape> shapes_;
   std::vector<std::string> categories_;  // of shapes_, then of the graph's others by name
+  int cluster_level_ = 0;                // by whose clusters dots are coloured; 0: by category
+  std::map<LandmarkId, Colour> cluster_colours_;
 };
 
 }  // namespace cairn::pictures

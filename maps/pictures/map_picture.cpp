@@ -178,9 +178,11 @@ std::string subtitle_of(const MapPicture& picture) {
 
 }  // namespace
 
-void write_map_picture(const std::filesystem::path& file, const MapPicture& picture) {
+void write_map_picture(const std::filesystem::path& file, const MapPicture& wanted) {
+  MapPicture picture = wanted;
+  if (picture.grid != nullptr && picture.grid->bounds().empty()) picture.grid = nullptr;
   const LandmarkGraph no_graph;
-  const GraphLayer graph(picture.graph == nullptr ? no_graph : *picture.graph, picture.shapes);
+  const GraphLayer graph(picture.graph == nullptr ? no_graph : *picture.graph, picture.shapes, picture.clusters);
   const MapFrame frame = frame_of(extent_of(picture, graph), picture.grid == nullptr ? 1.0 : picture.grid->cell_m());
   const int width_px = page_width_px(frame);
   const Legend legend(legend_of(picture, graph), width_px - frame.box.min.x() - kPageMarginPx - kScaleBarRoomPx);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "maps/cluster_tree.hpp"
 #include "maps/contour.hpp"
 #include "maps/landmark_graph.hpp"
 #include "maps/occupancy_grid.hpp"
@@ -16,10 +17,11 @@
 namespace cairn {
 
 struct MapPicture {
-  const OccupancyGrid* grid = nullptr;  // none: a blank page
+  const OccupancyGrid* grid = nullptr;  // none or empty: a blank page
   const LandmarkGraph* graph = nullptr;
-  std::vector<LandmarkShape> shapes;  // outlines of the graph's categories; a dot where there is none
-  std::vector<Point> driven;          // in the map frame, as all below
+  const ClusterTree* clusters = nullptr;  // with any, dots are coloured by cluster
+  std::vector<LandmarkShape> shapes;      // outlines of the graph's categories; a dot where there is none
+  std::vector<Point> driven;              // in the map frame, as all below
   std::vector<Point> planned;
   std::optional<Point> start;
   std::optional<Point> goal;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "maps/hierarchy/hierarchies.hpp"
 #include "planners/landmark_search/alternatives.hpp"
@@ -35,8 +37,13 @@ class Searched {
 
 std::vector<SearchEnd> ends_of(const Place& place, const Network& network) {
   std::vector<SearchEnd> ends;
-  for (std::size_t i = 0; i < place.landmarks.size(); ++i)
-    ends.push_back({network.vertex_of(place.landmarks[i]), place.cost_m.empty() ? 0.0 : place.cost_m[i]});
+  for (std::size_t i = 0; i < place.landmarks.size(); ++i) {
+    const VertexIndex v = network.vertex_of(place.landmarks[i]);
+    if (v == kNoVertex)
+      throw std::logic_error("landmark_search: the hierarchies lack L" + std::to_string(place.landmarks[i]) +
+                             "; they were not updated after the graph");
+    ends.push_back({v, place.cost_m.empty() ? 0.0 : place.cost_m[i]});
+  }
   std::sort(ends.begin(), ends.end(), [](const SearchEnd& a, const SearchEnd& b) { return a.vertex < b.vertex; });
   return ends;
 }

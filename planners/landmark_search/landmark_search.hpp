@@ -14,7 +14,8 @@ namespace cairn {
 // Closed routes are never used. A pose as an end is an unknown place to this planner. The result's path
 // joins the stored trajectories, or the landmarks' standing places where there is none; it is not
 // checked against the grid. cost_m is the sum of the routes' costs by length, whatever the ways are
-// compared by. Uses the world's hierarchies; without them each call looks at the whole graph. Thread-safe.
+// compared by. Uses the world's hierarchies, which must be up to date (std::logic_error when they lack an end);
+// without them each call looks at the whole graph. Thread-safe.
 class LandmarkSearch : public Planner {
  public:
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,

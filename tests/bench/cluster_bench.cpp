@@ -20,18 +20,16 @@ namespace {
 
 constexpr double kFloor_m = 4.0;
 
-using TreeOf = ClusterTree (*)(const LandmarkGraph& graph);
+using HierarchyOf = Hierarchy (*)(const LandmarkGraph& graph);
 
-ClusterTree by_metis(const LandmarkGraph& graph) {
-  const Network network(graph, cost_by_length);
-  return Clustering(network, {}).tree(network);
+Hierarchy by_metis(const LandmarkGraph& graph) {
+  return Hierarchy(graph);
 }
-ClusterTree by_growth(const LandmarkGraph& graph) {
-  const Network network(graph, cost_by_length);
-  return Clustering(network, {}, propose_by_growth).tree(network);
+Hierarchy by_growth(const LandmarkGraph& graph) {
+  return {graph, {}, propose_by_growth};
 }
-ClusterTree by_coordinates(const LandmarkGraph& graph) {
-  return clusters_by_coordinates(graph, {}, kFloor_m);
+Hierarchy by_coordinates(const LandmarkGraph& graph) {
+  return Hierarchy(graph, clusters_by_coordinates(graph, {}, kFloor_m));
 }
 
 void count_queries(benchmark::State& state, const Hierarchy& hierarchy) {
@@ -54,13 +52,13 @@ void count_queries(benchmark::State& state, const Hierarchy& hierarchy) {
   state.counters["settled"] = median(settled);
 }
 
-void clusters(benchmark::State& state, const std::optional<LandmarkGraph>& graph, TreeOf tree_of) {
+void clusters(benchmark::State& state, const std::optional<LandmarkGraph>& graph, HierarchyOf hierarchy_of) {
   if (!graph.has_value()) {
     state.SkipWithError("the network is not in CAIRN_DATA");
     return;
   }
   for (auto _ : state) {
-    const Hierarchy hierarchy(*graph, tree_of(*graph));
+    const Hierarchy hierarchy = hierarchy_of(*graph);
     const auto levels = cluster_quality(hierarchy.network(), hierarchy.clustering());
     for (const LevelQuality& quality : levels) {
       if (quality.level != 1 && quality.level != 3) continue;
@@ -90,11 +88,11 @@ const std::optional<LandmarkGraph>& chicago() {
   return graph;
 }
 
-void of_complex(benchmark::State& state, TreeOf tree_of) {
-  clusters(state, complex_graph(), tree_of);
+void of_complex(benchmark::State& state, HierarchyOf hierarchy_of) {
+  clusters(state, complex_graph(), hierarchy_of);
 }
-void of_chicago(benchmark::State& state, TreeOf tree_of) {
-  clusters(state, chicago(), tree_of);
+void of_chicago(benchmark::State& state, HierarchyOf hierarchy_of) {
+  clusters(state, chicago(), hierarchy_of);
 }
 BENCHMARK_CAPTURE(of_complex, metis, by_metis)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(of_complex, growth, by_growth)->Iterations(1)->Unit(benchmark::kMillisecond);

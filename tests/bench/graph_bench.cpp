@@ -314,8 +314,8 @@ bool draw_growth(const std::string& file) {
   chart.x_label = "landmarks";
   chart.y_label = "microseconds";
   chart.log_x = chart.log_y = true;
-  chart.series = {{"Dijkstra, stopped at the goal (Boost.Graph)", growth().dijkstra, SeriesStyle::lines_and_points, {}},
-                  {"A* (Boost.Graph)", growth().astar, SeriesStyle::lines_and_points, {}},
+  chart.series = {{"Dijkstra", growth().dijkstra, SeriesStyle::lines_and_points, {}},
+                  {"A*", growth().astar, SeriesStyle::lines_and_points, {}},
                   {"landmark_search", growth().ours, SeriesStyle::lines_and_points, {}}};
   const ChartOutcome outcome = write_chart(file, chart);
   if (!outcome.drawn) std::fprintf(stderr, "graph_bench: %s\n", outcome.reason.c_str());

@@ -6,7 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "tests/planners/drawn_world.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
+#include "planners/landmark_search/flat_search.hpp"
+#include "tests/maps/hierarchy/graph_laws.hpp"
+#include "tests/planners/landmark_search/graph_world.hpp"
 
 namespace cairn {
 namespace {
@@ -14,88 +17,78 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// A world without a grid.
-struct GraphWorld {
-  OccupancyGrid grid{0.1};
-  LandmarkGraph graph;
-  RobotModel robot;
+using test::GraphWorld;
+using test::line_of;
+using test::request;
 
-  LandmarkId landmark(double x_m, double y_m) {
-    Landmark landmark;
-    landmark.T_map_landmark = {x_m, y_m, 0.0};
-    return graph.add(landmark);
+// The searches over the landmark graph, which must agree.
+class GraphPlanner : public ::testing::TestWithParam<const char*> {
+ protected:
+  static PlanResult plan(const GraphWorld& world, const PlanRequest& asked, const Budget& budget = {}) {
+    const std::string kind = GetParam();
+    if (kind == "Flat") return world.plan(FlatSearch(), asked, budget);
+    const Hierarchies hierarchies = world.hierarchies();
+    return world.plan(LandmarkSearch(), asked, budget, kind == "OnHierarchies" ? &hierarchies : nullptr);
   }
-  RouteId route(LandmarkId from, LandmarkId to, double cost_m, std::vector<Pose2> trajectory = {}) {
-    Route route;
-    route.from = from;
-    route.to = to;
-    route.cost_m = cost_m;
-    route.trajectory = std::move(trajectory);
-    return graph.add_route(route);
-  }
-  PlanResult plan(std::vector<LandmarkId> from, std::vector<LandmarkId> to, const Budget& budget = {}) const {
-    PlanRequest request;
-    request.from.landmarks = std::move(from);
-    request.to.landmarks = std::move(to);
-    return LandmarkSearch().plan(request, {grid, graph, robot, {}, 0.0, nullptr, 0.0}, budget);
+  static PlanResult plan(const GraphWorld& world, std::vector<LandmarkId> from, std::vector<LandmarkId> to,
+                         const Budget& budget = {}) {
+    return plan(world, request(std::move(from), std::move(to)), budget);
   }
 };
 
-// A line of n landmarks a metre apart, joined in rising order.
-GraphWorld line_of(int n) {
-  GraphWorld world;
-  for (int i = 0; i < n; ++i) world.landmark(i, 0.0);
-  for (int i = 1; i < n; ++i) world.route(i, i + 1, 1.0);
-  return world;
-}
+INSTANTIATE_TEST_SUITE_P(, GraphPlanner, ::testing::Values("Flat", "Alone", "OnHierarchies"),
+                         [](const auto& one) { return std::string(one.param); });
 
-TEST(LandmarkSearch, TakesTheCheaperOfTwoWaysAndNotTheShorterList) {
+TEST_P(GraphPlanner, TakesTheCheaperOfTwoWaysAndNotTheShorterList) {
   GraphWorld world = line_of(3);
   world.route(1, 3, 5.0);
-  const PlanResult result = world.plan({1}, {3});
+  const PlanResult result = plan(world, {1}, {3});
   EXPECT_EQ(result.outcome, PlanOutcome::solved);
   EXPECT_DOUBLE_EQ(result.cost_m, 2.0);
   EXPECT_THAT(result.landmarks, ElementsAre(1, 2, 3));
   EXPECT_THAT(result.routes, ElementsAre(1, 2));
-  EXPECT_EQ(result.settled, 2);
   EXPECT_EQ(result.path.size(), 3U);
   EXPECT_DOUBLE_EQ(result.length_m, 2.0);
 }
 
-TEST(LandmarkSearch, OfParallelRoutesTakesTheCheapestThatIsOpen) {
+TEST_P(GraphPlanner, OfParallelRoutesTakesTheCheapestThatIsOpen) {
   GraphWorld world = line_of(2);
   const RouteId cheap = world.route(1, 2, 0.5);
   const RouteId middle = world.route(1, 2, 0.7);
-  EXPECT_THAT(world.plan({1}, {2}).routes, ElementsAre(cheap));
+  EXPECT_THAT(plan(world, {1}, {2}).routes, ElementsAre(cheap));
   world.graph.set_closed(cheap, true);
-  EXPECT_THAT(world.plan({1}, {2}).routes, ElementsAre(middle));
+  EXPECT_THAT(plan(world, {1}, {2}).routes, ElementsAre(middle));
 }
 
-TEST(LandmarkSearch, RoutesAreDirected) {
-  const PlanResult result = line_of(2).plan({2}, {1});
+TEST_P(GraphPlanner, RoutesAreDirected) {
+  const PlanResult result = plan(line_of(2), {2}, {1});
   EXPECT_EQ(result.outcome, PlanOutcome::no_route);
   EXPECT_EQ(result.reason, "no open route leads from L2 to L1");
 }
 
-TEST(LandmarkSearch, WithSeveralGoalsTakesTheCheapest) {
+TEST_P(GraphPlanner, WithSeveralGoalsTakesTheCheapest) {
   GraphWorld world = line_of(5);
-  EXPECT_THAT(world.plan({2}, {5, 4, 1}).landmarks, ElementsAre(2, 3, 4));
-  EXPECT_THAT(world.plan({1, 3}, {5}).landmarks, ElementsAre(3, 4, 5)) << "and of several starts";
+  EXPECT_THAT(plan(world, {2}, {5, 4, 1}).landmarks, ElementsAre(2, 3, 4));
+  EXPECT_THAT(plan(world, {1, 3}, {5}).landmarks, ElementsAre(3, 4, 5)) << "and of several starts";
 }
 
-TEST(LandmarkSearch, StopsAsSoonAsTheGoalIsSettled) {
-  EXPECT_EQ(line_of(1000).plan({1}, {10}).settled, 9);
+TEST(LandmarkSearch, SettlesLittleMoreThanLiesBetween) {
+  const GraphWorld world = line_of(1000);
+  EXPECT_LE(world.plan(LandmarkSearch(), request({1}, {10})).settled, 10);
+  const Hierarchies hierarchies = world.hierarchies();
+  EXPECT_LE(world.plan(LandmarkSearch(), request({1}, {1000}), {}, &hierarchies).settled, 200)
+      << "most clusters are passed as a whole";
 }
 
-TEST(LandmarkSearch, FromALandmarkToItselfCostsNothing) {
-  const PlanResult result = line_of(2).plan({2}, {2});
+TEST_P(GraphPlanner, FromALandmarkToItselfCostsNothing) {
+  const PlanResult result = plan(line_of(2), {2}, {2});
   EXPECT_EQ(result.outcome, PlanOutcome::solved);
   EXPECT_EQ(result.cost_m, 0.0);
   EXPECT_THAT(result.landmarks, ElementsAre(2));
   EXPECT_EQ(result.path.size(), 1U);
 }
 
-TEST(LandmarkSearch, JoinsStoredTrajectoriesAndFillsGapsWithStandingPlaces) {
+TEST_P(GraphPlanner, JoinsStoredTrajectoriesAndFillsGapsWithStandingPlaces) {
   GraphWorld world;
   world.landmark(0.0, 0.0);
   world.landmark(2.0, 0.0);
@@ -103,41 +96,41 @@ TEST(LandmarkSearch, JoinsStoredTrajectoriesAndFillsGapsWithStandingPlaces) {
   world.graph.find(3)->access = Pose2{3.5, 0.0, 0.0};
   world.route(1, 2, 2.0, {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}});
   world.route(2, 3, 2.0);
-  EXPECT_THAT(world.plan({1}, {3}).path, ElementsAre(Pose2{0, 0, 0}, Pose2{1, 1, 0}, Pose2{2, 0, 0}, Pose2{3.5, 0, 0}));
+  EXPECT_THAT(plan(world, {1}, {3}).path,
+              ElementsAre(Pose2{0, 0, 0}, Pose2{1, 1, 0}, Pose2{2, 0, 0}, Pose2{3.5, 0, 0}));
 }
 
-TEST(LandmarkSearch, APlaceItCannotUseIsAnOutcomeWithASentence) {
+TEST_P(GraphPlanner, APlaceItCannotUseIsAnOutcomeWithASentence) {
   const GraphWorld world = line_of(2);
-  EXPECT_EQ(world.plan({1}, {9}).outcome, PlanOutcome::unknown_place);
-  EXPECT_EQ(world.plan({1}, {9}).reason, "the map has no landmark L9 (goal)");
-  EXPECT_EQ(world.plan({}, {1}).reason, "the request names no start");
-  PlanRequest request;
-  request.from.pose = Pose2{};
-  request.to.landmarks = {1};
-  const PlanResult result =
-      LandmarkSearch().plan(request, {world.grid, world.graph, world.robot, {}, 0.0, nullptr, 0.0}, {});
+  EXPECT_EQ(plan(world, {1}, {9}).outcome, PlanOutcome::unknown_place);
+  EXPECT_EQ(plan(world, {1}, {9}).reason, "the map has no landmark L9 (goal)");
+  EXPECT_EQ(plan(world, {}, {1}).reason, "the request names no start");
+  PlanRequest from_pose = request({}, {1});
+  from_pose.from.pose = Pose2{};
+  const PlanResult result = plan(world, from_pose);
   EXPECT_EQ(result.outcome, PlanOutcome::unknown_place);
   EXPECT_THAT(result.reason, HasSubstr("needs landmarks"));
 }
 
-TEST(LandmarkSearch, KeepsToItsBudget) {
+TEST_P(GraphPlanner, KeepsToItsBudget) {
   const GraphWorld world = line_of(2000);
   const std::atomic<bool> cancel{true};
   Budget cancelled;
   cancelled.cancel = &cancel;
-  EXPECT_EQ(world.plan({1}, {2000}, cancelled).outcome, PlanOutcome::cancelled);
+  EXPECT_EQ(plan(world, {1}, {2000}, cancelled).outcome, PlanOutcome::cancelled);
   Budget late;
   late.deadline = Budget::Clock::time_point::min();
-  EXPECT_EQ(world.plan({1}, {2000}, late).outcome, PlanOutcome::out_of_budget);
+  EXPECT_EQ(plan(world, {1}, {2000}, late).outcome, PlanOutcome::out_of_budget);
   Budget few;
+  few.iterations = 10;  // few even for who passes clusters as a whole
+  EXPECT_EQ(plan(world, {1}, {2000}, few).outcome, PlanOutcome::out_of_budget);
   few.iterations = 100;
-  EXPECT_EQ(world.plan({1}, {2000}, few).outcome, PlanOutcome::out_of_budget);
-  EXPECT_EQ(world.plan({1}, {50}, few).outcome, PlanOutcome::solved);
+  EXPECT_EQ(plan(world, {1}, {50}, few).outcome, PlanOutcome::solved);
   few.iterations = 0;
-  EXPECT_EQ(world.plan({1}, {1}, few).outcome, PlanOutcome::out_of_budget);
+  EXPECT_EQ(plan(world, {1}, {1}, few).outcome, PlanOutcome::out_of_budget);
 }
 
-TEST(LandmarkSearch, CostsAreThoseOfFloydWarshallOnRandomGraphs) {
+TEST_P(GraphPlanner, CostsAreThoseOfFloydWarshallOnRandomGraphs) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     std::mt19937_64 random(seed);
@@ -161,7 +154,7 @@ TEST(LandmarkSearch, CostsAreThoseOfFloydWarshallOnRandomGraphs) {
         for (int j = 0; j < n; ++j) best[i][j] = std::min(best[i][j], best[i][k] + best[k][j]);
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) {
-        const PlanResult result = world.plan({i + 1}, {j + 1});
+        const PlanResult result = plan(world, {i + 1}, {j + 1});
         ASSERT_EQ(result.outcome == PlanOutcome::solved, best[i][j] < kInfinity) << "seed " << seed;
         if (result.outcome != PlanOutcome::solved) continue;
         EXPECT_NEAR(result.cost_m, best[i][j], 1e-9) << "seed " << seed << ", L" << i + 1 << " to L" << j + 1;
@@ -179,6 +172,103 @@ TEST(LandmarkSearch, CostsAreThoseOfFloydWarshallOnRandomGraphs) {
       }
     }
   }
+}
+
+TEST_P(GraphPlanner, AvoidedLandmarksAndClosedRoutesAreNotUsed) {
+  GraphWorld world = line_of(3);
+  const RouteId bridge = world.route(1, 3, 5.0);
+  PlanRequest asked = request({1}, {3});
+  asked.avoid = {2, 99};
+  EXPECT_THAT(plan(world, asked).routes, ElementsAre(bridge));
+  asked.closed = {bridge, 99};
+  EXPECT_EQ(plan(world, asked).outcome, PlanOutcome::no_route);
+  EXPECT_EQ(plan(world, asked).reason, "no open route leads from L1 to L3 past what is to be avoided");
+  asked.avoid = {1, 3};
+  EXPECT_THAT(plan(world, asked).landmarks, ElementsAre(1, 2, 3)) << "ends may be among those to be avoided";
+}
+
+TEST_P(GraphPlanner, EndsHaveTheirCosts) {
+  const GraphWorld world = line_of(5);
+  PlanRequest asked = request({1, 2}, {4, 5});
+  asked.from.cost_m = {0.5, 4.0};
+  asked.to.cost_m = {3.0, 0.25};
+  const PlanResult result = plan(world, asked);
+  EXPECT_THAT(result.landmarks, ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_DOUBLE_EQ(result.cost_m, 4.75);
+  asked.to.cost_m = {3.0};
+  EXPECT_EQ(plan(world, asked).reason, "the request gives 1 costs for 2 landmarks (goal)");
+}
+
+TEST(LandmarkSearch, CostsTheSameWithHierarchiesAndWithoutAndAsTheFlatSearch) {
+  GraphWorld world;
+  world.graph = test::random_graph(900, 31);
+  const Hierarchies hierarchies = world.hierarchies();
+  ASSERT_GE(hierarchies.by(CostKind::length).levels(), 2);
+  const LandmarkSearch search;
+  std::mt19937_64 random(31);
+  const auto any = [&] { return static_cast<LandmarkId>(1 + random() % 900); };
+  for (int i = 0; i < 60; ++i) {
+    PlanRequest asked = request({any(), any()}, {any(), any()});
+    if (asked.from.landmarks[0] == asked.from.landmarks[1]) asked.from.landmarks.pop_back();
+    asked.avoid = {any(), any(), any()};
+    asked.closed = {any(), any()};
+    const PlanResult flat = world.plan(FlatSearch(), asked);
+    for (const Hierarchies* const given : {&hierarchies, static_cast<const Hierarchies*>(nullptr)}) {
+      const PlanResult result = world.plan(search, asked, {}, given);
+      ASSERT_EQ(result.outcome, flat.outcome) << i;
+      EXPECT_EQ(result.reason, result.outcome == PlanOutcome::solved ? result.reason : flat.reason) << i;
+      EXPECT_NEAR(result.cost_m, flat.cost_m, 1e-9) << i;
+    }
+  }
+}
+
+TEST(LandmarkSearch, ComparesByTheKindOfCostThatIsAskedFor) {
+  GraphWorld world = line_of(2);
+  const RouteId fast = world.route(1, 2, 1.5);
+  world.graph.remove_route(1);
+  Route slow;
+  slow.from = 1;
+  slow.to = 2;
+  slow.cost_m = 1.0;
+  slow.speed_limit_mps = 0.01;
+  const RouteId slow_id = world.graph.add_route(slow);
+  const Hierarchies hierarchies = world.hierarchies();
+  PlanRequest asked = request({1}, {2});
+  asked.explain = true;
+  for (const Hierarchies* const given : {&hierarchies, static_cast<const Hierarchies*>(nullptr)}) {
+    asked.cost = CostKind::length;
+    EXPECT_THAT(world.plan(LandmarkSearch(), asked, {}, given).routes, ElementsAre(slow_id));
+    asked.cost = CostKind::time;
+    const PlanResult by_time = world.plan(LandmarkSearch(), asked, {}, given);
+    EXPECT_THAT(by_time.routes, ElementsAre(fast));
+    EXPECT_DOUBLE_EQ(by_time.cost_m, 1.5) << "in metres all the same";
+    EXPECT_DOUBLE_EQ(by_time.explanation->cost, 1.5 / world.robot.max_v_mps);
+  }
+}
+
+TEST(LandmarkSearch, HierarchiesThatWereNotUpdatedAreABugItNames) {
+  GraphWorld world = line_of(2);
+  const Hierarchies hierarchies = world.hierarchies();
+  (void)hierarchies.by(CostKind::length);
+  world.landmark(9.0, 9.0);
+  EXPECT_THROW((void)world.plan(LandmarkSearch(), request({1}, {3}), {}, &hierarchies), std::logic_error);
+}
+
+TEST(LandmarkSearch, GivesAlternativesByRisingCost) {
+  GraphWorld world = line_of(3);
+  const RouteId bridge = world.route(1, 3, 5.0);
+  const RouteId second = world.route(2, 3, 1.5);
+  PlanRequest asked = request({1}, {3});
+  asked.alternatives = 9;
+  asked.to.cost_m = {10.0};
+  const PlanResult result = world.plan(LandmarkSearch(), asked);
+  EXPECT_DOUBLE_EQ(result.cost_m, 12.0);
+  ASSERT_EQ(result.alternatives.size(), 2U);
+  EXPECT_THAT(result.alternatives[0].routes, ElementsAre(1, second));
+  EXPECT_THAT(result.alternatives[0].landmarks, ElementsAre(1, 2, 3));
+  EXPECT_DOUBLE_EQ(result.alternatives[0].cost_m, 12.5);
+  EXPECT_THAT(result.alternatives[1].routes, ElementsAre(bridge));
+  EXPECT_DOUBLE_EQ(result.alternatives[1].cost_m, 15.0);
 }
 
 }  // namespace
