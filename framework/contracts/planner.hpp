@@ -65,7 +65,7 @@ struct PlanAlternative {
 struct PlanExplanation {
   std::vector<std::int64_t> settled_of_level;    // vertices settled: [0] landmarks one by one, [l] clusters of level l
   std::vector<std::vector<ClusterId>> clusters;  // passed, in order: [0] of level 1, ...
-  double cost = 0.0;                             // by the kind asked for, in its unit
+  std::optional<double> cost;                    // by the kind asked for, in its unit; none: the graph has no way
   std::vector<RouteId> closed_in_the_way;        // closed routes that a cheaper way would take
   std::optional<double> cost_with_closed_open;   // of that way; none: no cheaper one
 };

@@ -82,6 +82,8 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
     place.landmarks = {landmark->id};
     return place;
   }
+  if (graph.find_by_name("L" + place_text) != nullptr)
+    throw PlaceError("place \"" + place_text + "\" is one number (did you mean \"L" + place_text + "\"?)");
   if (const auto values = numbers(place_text)) return place_of(*values, place_text);  // one number: says what is wrong
   std::vector<std::string> names;
   for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));

@@ -18,6 +18,14 @@ void append_joined(Values& values, const Values& more) {
   values.insert(values.end(), more.begin() + (same ? 1 : 0), more.end());
 }
 
+std::optional<double> sum_of(std::optional<double> a, std::optional<double> b) {
+  return a && b ? std::optional(*a + *b) : std::nullopt;
+}
+
+std::optional<double> cost_with_all_open(const PlanExplanation& leg) {
+  return leg.cost_with_closed_open ? leg.cost_with_closed_open : leg.cost;
+}
+
 void append_explanation(std::optional<PlanExplanation>& sum, const std::optional<PlanExplanation>& leg) {
   if (!leg) return;
   if (!sum) {
@@ -28,11 +36,12 @@ void append_explanation(std::optional<PlanExplanation>& sum, const std::optional
   for (std::size_t l = 0; l < leg->settled_of_level.size(); ++l) sum->settled_of_level[l] += leg->settled_of_level[l];
   sum->clusters.resize(std::max(sum->clusters.size(), leg->clusters.size()));
   for (std::size_t l = 0; l < leg->clusters.size(); ++l) append_joined(sum->clusters[l], leg->clusters[l]);
-  if (sum->cost_with_closed_open || leg->cost_with_closed_open)
-    sum->cost_with_closed_open =
-        sum->cost_with_closed_open.value_or(sum->cost) + leg->cost_with_closed_open.value_or(leg->cost);
-  sum->cost += leg->cost;
+  const auto all_open = sum_of(cost_with_all_open(*sum), cost_with_all_open(*leg));
+  const bool better = all_open && (sum->cost_with_closed_open || leg->cost_with_closed_open);
+  sum->cost_with_closed_open = better ? all_open : std::nullopt;
   append(sum->closed_in_the_way, leg->closed_in_the_way);
+  if (!better) sum->closed_in_the_way.clear();
+  sum->cost = sum_of(sum->cost, leg->cost);
 }
 
 void append_leg(PlanResult& tour, const PlanResult& leg) {

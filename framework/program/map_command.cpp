@@ -47,6 +47,13 @@ ordered_json json_of(const SavedMap& map) {
           {"explored_ratio", known_ratio(map.grid)}};
 }
 
+std::string text_of_grid(const OccupancyGrid& grid) {
+  const CellBox bounds = grid.bounds();
+  if (bounds.empty()) return "no grid";
+  return fmt::format("{:.2f} x {:.2f} m in cells of {:g} m, {:.1f} % known", bounds.width() * grid.cell_m(),
+                     bounds.height() * grid.cell_m(), grid.cell_m(), 100.0 * known_ratio(grid));
+}
+
 }  // namespace
 
 int map_info(const MapCommand& command, const CommonOptions& common) {
@@ -55,10 +62,7 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
     std::cout << json_of(map).dump() << "\n";
     return kExitDone;
   }
-  const CellBox bounds = map.grid.bounds();
-  std::cout << fmt::format("{}: schema {}, {:.2f} x {:.2f} m in cells of {:g} m, {:.1f} % known\n",
-                           command.map.string(), kMapSchemaVersion, bounds.width() * map.grid.cell_m(),
-                           bounds.height() * map.grid.cell_m(), map.grid.cell_m(), 100.0 * known_ratio(map.grid));
+  std::cout << fmt::format("{}: schema {}, {}\n", command.map.string(), kMapSchemaVersion, text_of_grid(map.grid));
   for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
   std::cout << fmt::format("  {} landmarks, {} routes\n", map.graph.landmarks().size(), map.graph.routes().size());
   int level = 0;

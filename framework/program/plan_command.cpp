@@ -93,10 +93,15 @@ class MapPlanner {
   std::shared_ptr<Planner> planner_;
 };
 
+// On one line. Names from the command line may be no UTF-8.
+std::string text_of(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 // JSON to standard output, text for people to `text` unless it is null.
 void tell(const MapPlanner& planner, const PlanQuery& query, const PlanResult& result, bool json, std::ostream* text) {
   const ClusterTree& clusters = result.explanation ? planner.clusters() : planner.map().clusters;
-  if (json) std::cout << json_of(query, result, planner.map(), clusters).dump() << "\n";
+  if (json) std::cout << text_of(json_of(query, result, planner.map(), clusters)) << "\n";
   if (text != nullptr) tell_people(*text, query, result, planner.map(), clusters);
 }
 
@@ -104,6 +109,7 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
   std::ifstream file;
   if (command.queries != "-") file.open(command.queries);
   if (command.queries != "-" && !file) throw ConfigError({command.queries, 0, 0}, "no such file");
+  if (std::filesystem::is_directory(command.queries)) throw ConfigError({command.queries, 0, 0}, "is a folder");
   std::istream& in = command.queries == "-" ? std::cin : file;
   bool all_solved = true;
   std::string line;
@@ -141,6 +147,7 @@ int plan(const PlanCommand& command, const CommonOptions& common) {
     throw std::runtime_error("plan: give --from PLACE and --to PLACE, or --queries FILE");
   if (!command.queries.empty() && !command.picture.empty())
     throw std::runtime_error("plan: --picture draws one route; give it with --from and --to");
+  if (command.queries.empty()) check(command.question);
   const MapPlanner planner(command, common);
   if (!command.queries.empty()) return answer_queries(planner, command, common);
   const PlanQuery query{"", command.question};

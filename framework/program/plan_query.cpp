@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <ostream>
+#include <stdexcept>
 
 #include "framework/config/config_value.hpp"
 #include "framework/host/place.hpp"
@@ -23,8 +24,8 @@ constexpr int kMostAlternatives = 1000;
 CostKind cost_kind_of(const std::string& name) {
   for (const CostKind kind : kCosts)
     if (name_of(kind) == name) return kind;
-  throw PlaceError("cost \"" + name + "\" is not length, time or clearance" +
-                   did_you_mean(name, {"length", "time", "clearance"}));
+  throw std::invalid_argument("cost \"" + name + "\" is not length, time or clearance" +
+                              did_you_mean(name, {"length", "time", "clearance"}));
 }
 
 RouteId route_of(const std::string& text, const LandmarkGraph& graph) {
@@ -47,9 +48,23 @@ std::vector<LandmarkId> landmarks_called(const std::string& name, const SavedMap
           if (id == cluster->id) members.push_back(landmark);
       return members;
     }
-  const Place place = parse_place(name, map.graph);
-  if (place.pose) throw PlaceError("\"" + name + "\": only landmarks and clusters can be avoided");
-  return place.landmarks;
+  if (reads_as_place(name)) throw PlaceError("\"" + name + "\": only landmarks and clusters can be avoided");
+  if (const Landmark* const landmark = map.graph.find_by_name(name)) return {landmark->id};
+  std::vector<std::string> known;
+  for (const auto& [id, landmark] : map.graph.landmarks()) known.push_back(label_of(landmark));
+  for (const auto& [id, cluster] : clusters.clusters) known.push_back(label_of(cluster, map.graph));
+  throw PlaceError("there is no landmark and no cluster \"" + name + "\" to avoid" + did_you_mean(name, known));
+}
+
+json object_of_line(const std::string& line, SourcePlace place) {
+  const std::string expected = "expected one JSON object {\"id\", \"from\", \"to\"} a line";
+  try {
+    if (json value = json::parse(line); value.is_object()) return value;
+  } catch (const json::parse_error& error) {
+    place.column = std::max(1, static_cast<int>(error.byte));
+    throw ConfigError(place, expected + (error.byte > line.size() ? "; the line ends too early" : ""));
+  }
+  throw ConfigError(place, expected);
 }
 
 // Texts or numbers of a list, or one alone.
@@ -113,12 +128,14 @@ ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind ki
     for (const ClusterId id : level) names.push_back(label_of(clusters.clusters.at(id), map.graph));
     passed.push_back(names);
   }
+  ordered_json cost;  // null: the graph has no way
+  if (explanation.cost) cost = *explanation.cost;
   ordered_json better;  // null: no closed route stands in the way
   if (explanation.cost_with_closed_open) better = *explanation.cost_with_closed_open;
   return {{"levels", explanation.clusters.size()},
           {"settled_of_level", explanation.settled_of_level},
           {"clusters", passed},
-          {"cost", explanation.cost},
+          {"cost", cost},
           {"cost_by", std::string(name_of(kind))},
           {"cost_unit", std::string(unit_of(kind))},
           {"cost_with_closed_open", better},
@@ -127,10 +144,15 @@ ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind ki
 
 void tell_explanation(std::ostream& out, const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
                       const ClusterTree& clusters) {
-  out << fmt::format("  by {}: {:.2f} {}; settled", name_of(kind), explanation.cost, unit_of(kind));
-  for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level)
-    out << fmt::format("{} {} {}", level == 0 ? "" : ",", explanation.settled_of_level[level],
-                       level == 0 ? "landmarks" : fmt::format("at clusters of level {}", level));
+  const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no way";
+  out << fmt::format("  by {}: {}; settled", name_of(kind), cost);
+  for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level) {
+    const std::int64_t settled = explanation.settled_of_level[level];
+    if (level == 0)
+      out << fmt::format(" {} landmark{}", settled, settled == 1 ? "" : "s");
+    else
+      out << fmt::format(", {} at clusters of level {}", settled, level);
+  }
   out << "\n";
   for (std::size_t level = explanation.clusters.size(); level-- > 0;) {
     out << fmt::format("  level {}:", level + 1);
@@ -148,14 +170,23 @@ void tell_explanation(std::ostream& out, const PlanExplanation& explanation, Cos
 
 PlanQuery query_of_line(const std::string& line, const std::string& file, int number, const PlanQuestion& defaults) {
   const SourcePlace place{file, number, 1};
-  const json value = json::parse(line, nullptr, false);
-  if (value.is_discarded() || !value.is_object())
-    throw ConfigError(place, "expected one JSON object {\"id\", \"from\", \"to\"} a line");
+  const json value = object_of_line(line, place);
   for (const char* key : {"from", "to"})
     if (!value.contains(key)) throw ConfigError(place, std::string("a query needs the text \"") + key + "\"");
   PlanQuery query{"", defaults};
   for (const auto& [key, part] : value.items()) take(query, key, part, place);
+  try {
+    check(query.question);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError(place, error.what());
+  }
   return query;
+}
+
+void check(const PlanQuestion& question) {
+  static_cast<void>(cost_kind_of(question.cost));
+  if (!question.via.empty() && question.alternatives > 0)
+    throw std::invalid_argument("alternatives are known from place to place, not for a tour");
 }
 
 PlanTask task_of(const PlanQuestion& question, const SavedMap& map, const ClusterTree& clusters) {
@@ -171,8 +202,6 @@ PlanTask task_of(const PlanQuestion& question, const SavedMap& map, const Cluste
   task.request.cost = cost_kind_of(question.cost);
   task.request.alternatives = question.alternatives;
   task.request.explain = question.explain;
-  if (!task.via.empty() && question.alternatives > 0)
-    throw PlaceError("alternatives are known from place to place, not for a tour");
   return task;
 }
 

@@ -22,6 +22,9 @@ struct PlanQuery {
 [[nodiscard]] PlanQuery query_of_line(const std::string& line, const std::string& file, int number,
                                       const PlanQuestion& defaults);
 
+// Throws std::invalid_argument, with a sentence, on a question that no map could answer.
+void check(const PlanQuestion& question);
+
 // The request that a question makes on a map; `via` gets its stops. Throws PlaceError.
 struct PlanTask {
   PlanRequest request;

@@ -24,7 +24,7 @@ PlanExplanation explanation_of(const Way& way, const WayQuery& query, const Plan
   PlanExplanation explanation;
   explanation.settled_of_level = way.settled_of_level;
   explanation.clusters = clusters_along(way, hierarchy.clustering());
-  explanation.cost = way.cost < kNoWay ? way.cost : 0.0;
+  if (way.cost < kNoWay) explanation.cost = way.cost;
   WayQuery open = query;
   for (const RouteId id : request.closed) open.costs.erase(id);
   for (const RouteId id : request.closed)

@@ -1,0 +1,152 @@
+// What `cairn plan` says of questions that it cannot take.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class GraphQuestions : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_text(file("in.graph"), "node 1 0 0 entrance\nnode 2 10 0 hall\nedge 1 2 10\nedge 2 1 10\n");
+    ASSERT_EQ(run_cairn({"map", "import", file("in.graph"), "-o", file("map.cairn")}).exit_status, 0);
+  }
+  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] Finished run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"plan", file("map.cairn")});
+    return run_cairn(arguments);
+  }
+  // Standard error of a query file that is refused, without "cairn: FOLDER/".
+  [[nodiscard]] std::string refused(const std::string& queries, std::vector<std::string> more = {}) const {
+    write_text(file("q.jsonl"), queries);
+    more.insert(more.begin(), {"--queries", file("q.jsonl")});
+    const Finished finished = run(more);
+    EXPECT_EQ(finished.exit_status, 2) << finished.out;
+    const std::string before = "cairn: " + folder_.string() + "/";
+    EXPECT_THAT(finished.err, testing::StartsWith(before));
+    return finished.err.substr(std::min(before.size(), finished.err.size()));
+  }
+  // The same of one query with this besides its ends.
+  [[nodiscard]] std::string refused_key(const std::string& key) const {
+    return refused(R"({"from": "L1", "to": "L2", )" + key + "}\n");
+  }
+  // Of a question that names what the map does not hold.
+  [[nodiscard]] std::string unknown(std::vector<std::string> arguments) const {
+    arguments.emplace_back("--json");
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.exit_status, 1) << finished.err;
+    const json answer = json::parse(finished.out, nullptr, false);
+    EXPECT_EQ(answer.value("outcome", ""), "unknown_place") << finished.out;
+    return answer.value("reason", "");
+  }
+
+  const std::filesystem::path folder_ = fresh_folder("graph_questions");
+};
+
+TEST_F(GraphQuestions, UnknownKeysAreRefusedWithTheNearest) {
+  EXPECT_EQ(refused_key(R"("close": [1])"), "q.jsonl:1:1: a query knows no \"close\" (did you mean \"closed\"?)\n");
+  EXPECT_EQ(refused_key(R"("alternative": 1)"),
+            "q.jsonl:1:1: a query knows no \"alternative\" (did you mean \"alternatives\"?)\n");
+  EXPECT_EQ(refused(R"({"from": "L1", "too": "L2"})"), "q.jsonl:1:1: a query needs the text \"to\"\n");
+}
+
+TEST_F(GraphQuestions, WrongTypesAreRefused) {
+  EXPECT_EQ(refused_key(R"("via": {"a": 1})"), "q.jsonl:1:1: \"via\" must be a list of names\n");
+  EXPECT_EQ(refused_key(R"("avoid": [null])"), "q.jsonl:1:1: \"avoid\" must be a list of names\n");
+  EXPECT_EQ(refused_key(R"("closed": 1.5)"), "q.jsonl:1:1: \"closed\" must be a list of names\n");
+  EXPECT_EQ(refused_key(R"("explain": 1)"), "q.jsonl:1:1: \"explain\" must be true or false\n");
+  EXPECT_EQ(refused_key(R"("cost": 3)"), "q.jsonl:1:1: \"cost\" must be a text\n");
+  EXPECT_EQ(refused_key(R"("cost": "tim")"),
+            "q.jsonl:1:1: cost \"tim\" is not length, time or clearance (did you mean \"time\"?)\n");
+  for (const char* count : {"-1", "1.5", "1001", "\"3\"", "18446744073709551616"})
+    EXPECT_EQ(refused_key(std::string("\"alternatives\": ") + count),
+              "q.jsonl:1:1: \"alternatives\" must be a whole number of 0 to 1000\n");
+  EXPECT_EQ(refused(R"({"from": 1, "to": "L2"})"), "q.jsonl:1:1: \"from\" must be a text\n");
+}
+
+TEST_F(GraphQuestions, ATourHasNoAlternatives) {
+  const std::string told = "alternatives are known from place to place, not for a tour\n";
+  EXPECT_EQ(refused_key(R"("via": ["hall"], "alternatives": 1)"), "q.jsonl:1:1: " + told);
+  const Finished finished = run({"--from", "L1", "--to", "L2", "--via", "hall", "--alternatives", "1"});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_EQ(finished.err, "cairn: " + told);
+}
+
+TEST_F(GraphQuestions, ACutLineSaysWhereAndEarlierAnswersStay) {
+  write_text(file("q.jsonl"), "{\"from\": \"L1\", \"to\": \"L2\"}\n{\"from\": \"L2\", \"to\": \"L");
+  const Finished finished = run({"--queries", file("q.jsonl"), "--json"});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_EQ(json::parse(finished.out, nullptr, false).value("outcome", ""), "solved");
+  EXPECT_EQ(finished.err, "cairn: " + file("q.jsonl") +
+                              ":2:24: expected one JSON object {\"id\", \"from\", \"to\"} a line; the line ends too "
+                              "early\n");
+  const std::string expected = "expected one JSON object {\"id\", \"from\", \"to\"} a line\n";
+  EXPECT_EQ(refused("[1]"), "q.jsonl:1:1: " + expected);
+  EXPECT_EQ(refused("hello"), "q.jsonl:1:1: " + expected);
+  EXPECT_EQ(refused("{\"from\": \"L1\"}{}"), "q.jsonl:1:15: " + expected);
+}
+
+TEST_F(GraphQuestions, FilesOfQueriesThatAreNoneAreRefused) {
+  const Finished none = run({"--queries", file("none.jsonl")});
+  EXPECT_EQ(none.exit_status, 2);
+  EXPECT_EQ(none.err, "cairn: " + file("none.jsonl") + ": no such file\n");
+  const Finished folder = run({"--queries", folder_.string()});
+  EXPECT_EQ(folder.exit_status, 2);
+  EXPECT_EQ(folder.err, "cairn: " + folder_.string() + ": is a folder\n");
+  EXPECT_EQ(run({"--queries", "-", "--json"}).out, "");  // standard input is empty here
+  EXPECT_EQ(run({"--from", "L1"}).err, "cairn: plan: give --from PLACE and --to PLACE, or --queries FILE\n");
+}
+
+TEST_F(GraphQuestions, WhatTheMapDoesNotHoldIsAnUnknownPlace) {
+  const std::vector<std::string> ends{"--from", "L1", "--to", "L2"};
+  const auto with = [&](const std::string& option, const std::string& value) {
+    std::vector<std::string> arguments = ends;
+    arguments.insert(arguments.end(), {option, value});
+    return unknown(arguments);
+  };
+  EXPECT_EQ(with("--close", "77"), "the map has no route 77");
+  for (const char* route : {"L1", "R", "1.5", "99999999999999999999999"})
+    EXPECT_EQ(with("--close", route),
+              std::string("route \"") + route + "\": a route is named by its number, as 12 or R12");
+  EXPECT_EQ(with("--avoid", "hal"), "there is no landmark and no cluster \"hal\" to avoid (did you mean \"hall\"?)");
+  EXPECT_EQ(with("--avoid", "1,2"), "\"1,2\": only landmarks and clusters can be avoided");
+  EXPECT_THAT(with("--via", "hal"), HasSubstr("unknown place \"hal\" (did you mean \"hall\"?)"));
+  EXPECT_EQ(unknown({"--from", "1", "--to", "L2"}), "place \"1\" is one number (did you mean \"L1\"?)");
+  EXPECT_THAT(unknown({"--from", "L1", "--to", "\xff"}), HasSubstr("unknown place"));  // no UTF-8, yet JSON comes out
+  EXPECT_EQ(unknown({"--from", "0,0", "--to", "L2"}),
+            "the start is a pose, and a search over the landmark graph needs landmarks");
+}
+
+TEST_F(GraphQuestions, WrongOptionsAreWrongUsage) {
+  const auto wrong = [&](const std::string& option, const std::string& value) {
+    const Finished finished = run({"--from", "L1", "--to", "L2", option, value});
+    EXPECT_EQ(finished.exit_status, 2) << option;
+    return finished.err;
+  };
+  EXPECT_THAT(wrong("--cost", "tim"), HasSubstr("--cost"));
+  EXPECT_THAT(wrong("--alternatives", "-1"), HasSubstr("--alternatives"));
+  EXPECT_THAT(wrong("--planner", "flat_serch"), HasSubstr("did you mean \"flat_search\"?"));
+}
+
+TEST_F(GraphQuestions, FlatSearchRefusesWhatItDoesNotKnow) {
+  const std::vector<std::string> ends{"--from", "L1", "--to", "L2", "--planner", "flat_search"};
+  const auto told = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = ends;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return unknown(arguments);
+  };
+  EXPECT_EQ(told({"--explain"}), "flat_search does not know an explanation; landmark_search does");
+  EXPECT_EQ(told({"--alternatives", "2"}), "flat_search does not know alternatives; landmark_search does");
+  EXPECT_EQ(told({"--cost", "time"}), "flat_search does not know other costs than length; landmark_search does");
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
