@@ -33,7 +33,7 @@ TEST(Explain, SaysWhatTheClosedRoutesOfTheMapCost) {
   world.graph.set_closed(2, true);
   const PlanResult result = world.plan(LandmarkSearch(), request(1, 4));
   EXPECT_DOUBLE_EQ(result.cost_m, 9.0);
-  EXPECT_DOUBLE_EQ(result.explanation->cost, 9.0);
+  EXPECT_EQ(result.explanation->cost, 9.0);
   EXPECT_THAT(result.explanation->closed_in_the_way, ElementsAre(2));
   EXPECT_DOUBLE_EQ(result.explanation->cost_with_closed_open.value(), 3.0);
 }
