@@ -19,8 +19,9 @@ struct Place {
   std::optional<Pose2> pose;
   bool heading_matters = false;  // of the pose; otherwise its theta is ignored
   std::vector<LandmarkId> landmarks;
-  // What each of the landmarks costs besides: to get to it at the start, to go on from it at the goal. Empty: nothing.
-  std::vector<double> cost_m;
+  // What each of the landmarks costs besides, in the unit of the request's cost: to get to it at the start, to go on
+  // from it at the goal. Empty: nothing.
+  std::vector<double> costs;
 };
 
 struct PlanRequest {

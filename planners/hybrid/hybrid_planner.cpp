@@ -86,7 +86,8 @@ class Query {
       const SymbolicAnswer symbolic = search_graph(query);
       if (symbolic.stopped) return stopped(*symbolic.stopped);
       if (!symbolic.path) break;
-      if (symbolic.path->cost_m > config_.detour_ratio * direct_m) {
+      // Who asks for other than short ways takes longer ones into the bargain.
+      if (request_.cost == CostKind::length && symbolic.path->cost_m > config_.detour_ratio * direct_m) {
         why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct way " +
                       metres_text(direct_m);
         break;

@@ -14,11 +14,11 @@ class End {
     const auto [at, fresh] = reached_.emplace(id, Reached{travel_m, goal});
     if (!fresh && travel_m < at->second.travel_m) at->second = {travel_m, goal};
   }
-  [[nodiscard]] Place place(double travel_weight) const {
+  [[nodiscard]] Place place(double weight) const {
     Place place;
     for (const auto& [id, reached] : reached_) {
       place.landmarks.push_back(id);
-      place.cost_m.push_back(travel_weight * reached.travel_m);
+      place.costs.push_back(weight * reached.travel_m);
     }
     return place;
   }
@@ -85,8 +85,11 @@ SymbolicAnswer symbolic_path(const SymbolicQuery& query, const std::set<RouteId>
   const End goals = joiner.goals();
   if (start.empty() || goals.empty()) return answer;
   PlanRequest request = query.request;
-  request.from = start.place(query.travel_weight);
-  request.to = goals.place(query.travel_weight);
+  // Travel off the routes in the unit that these are counted in.
+  const double weight =
+      request.cost == CostKind::time ? query.travel_weight / query.world.robot.max_v_mps : query.travel_weight;
+  request.from = start.place(weight);
+  request.to = goals.place(weight);
   request.closed.insert(request.closed.end(), blocked.begin(), blocked.end());
   const PlanResult found = graph_planner.plan(request, query.world, budget);
   answer.settled = found.settled;

@@ -18,8 +18,8 @@ std::string complaint_about_end(const Place& place, const LandmarkGraph& graph, 
   if (place.landmarks.empty()) return "the request names no " + end;
   if (const LandmarkId id = unknown_of(place.landmarks, graph))
     return "the map has no landmark L" + std::to_string(id) + " (" + end + ")";
-  if (!place.cost_m.empty() && place.cost_m.size() != place.landmarks.size())
-    return "the request gives " + std::to_string(place.cost_m.size()) + " costs for " +
+  if (!place.costs.empty() && place.costs.size() != place.landmarks.size())
+    return "the request gives " + std::to_string(place.costs.size()) + " costs for " +
            std::to_string(place.landmarks.size()) + " landmarks (" + end + ")";
   return {};
 }
@@ -42,7 +42,7 @@ void append_trajectory(std::vector<Pose2>& path, const Route* route, const Landm
 
 double cost_of_end(const Place& place, LandmarkId id) {
   const auto at = std::find(place.landmarks.begin(), place.landmarks.end(), id);
-  return place.cost_m.empty() ? 0.0 : place.cost_m[static_cast<std::size_t>(at - place.landmarks.begin())];
+  return place.costs.empty() ? 0.0 : place.costs[static_cast<std::size_t>(at - place.landmarks.begin())];
 }
 
 }  // namespace
@@ -73,9 +73,10 @@ std::string by_routes_text(std::size_t routes) {
 
 double cost_m_of(const std::vector<LandmarkId>& landmarks, const std::vector<RouteId>& routes,
                  const PlanRequest& request, const LandmarkGraph& graph) {
-  double cost_m = cost_of_end(request.from, landmarks.front());
+  double cost_m = 0.0;
   for (const RouteId id : routes) cost_m += graph.find_route(id)->cost_m;
-  return cost_m + cost_of_end(request.to, landmarks.back());
+  if (request.cost != CostKind::length) return cost_m;
+  return cost_of_end(request.from, landmarks.front()) + cost_m + cost_of_end(request.to, landmarks.back());
 }
 
 void join_trajectories(PlanResult& result, const LandmarkGraph& graph) {

@@ -15,7 +15,7 @@ namespace cairn {
 // "by 3 stored routes"
 [[nodiscard]] std::string by_routes_text(std::size_t routes);
 
-// Costs by length of a way that answers the request, with what its ends cost.
+// Costs by length of a way that answers the request; with what its ends cost when these count metres too.
 [[nodiscard]] double cost_m_of(const std::vector<LandmarkId>& landmarks, const std::vector<RouteId>& routes,
                                const PlanRequest& request, const LandmarkGraph& graph);
 // Fills path and length_m from landmarks and routes: stored trajectories, or standing places where there are none.

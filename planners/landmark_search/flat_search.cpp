@@ -63,7 +63,7 @@ std::vector<double> costs_of(const Place& place, const BoostLandmarkGraph& model
   std::vector<double> costs_m(model.ids.size(), kInfinity);
   for (std::size_t i = 0; i < place.landmarks.size(); ++i) {
     double& cost_m = costs_m[model.vertex_of(place.landmarks[i])];
-    cost_m = std::min(cost_m, place.cost_m.empty() ? 0.0 : place.cost_m[i]);
+    cost_m = std::min(cost_m, place.costs.empty() ? 0.0 : place.costs[i]);
   }
   return costs_m;
 }

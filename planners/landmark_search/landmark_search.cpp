@@ -42,7 +42,7 @@ std::vector<SearchEnd> ends_of(const Place& place, const Network& network) {
     if (v == kNoVertex)
       throw std::logic_error("landmark_search: the hierarchies lack L" + std::to_string(place.landmarks[i]) +
                              "; they were not updated after the graph");
-    ends.push_back({v, place.cost_m.empty() ? 0.0 : place.cost_m[i]});
+    ends.push_back({v, place.costs.empty() ? 0.0 : place.costs[i]});
   }
   std::sort(ends.begin(), ends.end(), [](const SearchEnd& a, const SearchEnd& b) { return a.vertex < b.vertex; });
   return ends;

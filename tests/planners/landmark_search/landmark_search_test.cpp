@@ -190,12 +190,12 @@ TEST_P(GraphPlanner, AvoidedLandmarksAndClosedRoutesAreNotUsed) {
 TEST_P(GraphPlanner, EndsHaveTheirCosts) {
   const GraphWorld world = line_of(5);
   PlanRequest asked = request({1, 2}, {4, 5});
-  asked.from.cost_m = {0.5, 4.0};
-  asked.to.cost_m = {3.0, 0.25};
+  asked.from.costs = {0.5, 4.0};
+  asked.to.costs = {3.0, 0.25};
   const PlanResult result = plan(world, asked);
   EXPECT_THAT(result.landmarks, ElementsAre(1, 2, 3, 4, 5));
   EXPECT_DOUBLE_EQ(result.cost_m, 4.75);
-  asked.to.cost_m = {3.0};
+  asked.to.costs = {3.0};
   EXPECT_EQ(plan(world, asked).reason, "the request gives 1 costs for 2 landmarks (goal)");
 }
 
@@ -242,7 +242,7 @@ TEST(LandmarkSearch, ComparesByTheKindOfCostThatIsAskedFor) {
     const PlanResult by_time = world.plan(LandmarkSearch(), asked, {}, given);
     EXPECT_THAT(by_time.routes, ElementsAre(fast));
     EXPECT_DOUBLE_EQ(by_time.cost_m, 1.5) << "in metres all the same";
-    EXPECT_DOUBLE_EQ(by_time.explanation->cost, 1.5 / world.robot.max_v_mps);
+    EXPECT_DOUBLE_EQ(by_time.explanation->cost.value(), 1.5 / world.robot.max_v_mps);
   }
 }
 
@@ -260,7 +260,7 @@ TEST(LandmarkSearch, GivesAlternativesByRisingCost) {
   const RouteId second = world.route(2, 3, 1.5);
   PlanRequest asked = request({1}, {3});
   asked.alternatives = 9;
-  asked.to.cost_m = {10.0};
+  asked.to.costs = {10.0};
   const PlanResult result = world.plan(LandmarkSearch(), asked);
   EXPECT_DOUBLE_EQ(result.cost_m, 12.0);
   ASSERT_EQ(result.alternatives.size(), 2U);
