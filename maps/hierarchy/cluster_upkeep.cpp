@@ -196,6 +196,35 @@ Clustering::Upkeep ClusterUpkeep::follow(std::span<const VertexIndex> vertices) 
   return {{touched_.begin(), touched_.end()}, levels_changed_};
 }
 
+// The clusters of one chain, as far as they are not made yet, under each other; gives the lowest.
+ClusterIndex ClusterUpkeep::make_chain(const std::vector<const Cluster*>& chain,
+                                       std::map<const Cluster*, ClusterIndex>& made) {
+  ClusterIndex above = kNoCluster;
+  for (auto cluster = chain.rbegin(); cluster != chain.rend(); ++cluster) {
+    const auto [at, fresh] = made.emplace(*cluster, kNoCluster);
+    if (fresh) {
+      at->second = clustering_.add((*cluster)->level, above);
+      ClusterNode& node = clustering_.nodes_[at->second];
+      node.id = (*cluster)->id;
+      node.anchor = (*cluster)->anchor;
+      node.name = (*cluster)->name;
+    }
+    above = at->second;
+  }
+  return above;
+}
+
+// Members of the clusters that chains have made, from level 1 up.
+void ClusterUpkeep::fill_as_saved(const std::map<ClusterIndex, std::vector<VertexIndex>>& vertices) {
+  for (const auto& [leaf, members] : vertices) clustering_.adopt(leaf, members);
+  for (int level = 1; level <= clustering_.levels_; ++level)
+    for (const ClusterIndex cluster : clustering_.of_level(level)) {
+      if (level > 1) clustering_.adopt(cluster, std::vector(clustering_.nodes_[cluster].members));
+      as_saved_.insert(cluster);
+      if (level == 1) waiting_.insert(cluster);
+    }
+}
+
 void ClusterUpkeep::restore(const ClusterTree& saved) {
   std::map<VertexIndex, std::vector<const Cluster*>> chains;
   std::size_t levels = 0;
@@ -210,34 +239,12 @@ void ClusterUpkeep::restore(const ClusterTree& saved) {
   if (levels == 0) return builder_.build();
   clustering_.levels_ = static_cast<int>(levels);
   std::map<const Cluster*, ClusterIndex> made;
-  std::vector<std::vector<VertexIndex>> vertices;
-  for (const auto& [v, chain] : chains) {
-    if (chain.size() != levels) continue;
-    ClusterIndex above = kNoCluster;
-    for (auto cluster = chain.rbegin(); cluster != chain.rend(); ++cluster) {
-      const auto [at, fresh] = made.emplace(*cluster, kNoCluster);
-      if (fresh) {
-        at->second = clustering_.add((*cluster)->level, above);
-        ClusterNode& node = clustering_.nodes_[at->second];
-        node.id = (*cluster)->id;
-        node.anchor = (*cluster)->anchor;
-        node.name = (*cluster)->name;
-        next_id = std::max(next_id, node.id + 1);
-      }
-      above = at->second;
-    }
-    if (vertices.size() <= above) vertices.resize(above + 1);
-    vertices[above].push_back(v);
-  }
+  std::map<ClusterIndex, std::vector<VertexIndex>> vertices;
+  for (const auto& [v, chain] : chains)
+    if (chain.size() == levels) vertices[make_chain(chain, made)].push_back(v);
+  for (const auto& [cluster, index] : made) next_id = std::max(next_id, cluster->id + 1);
   clustering_.next_id_ = next_id;
-  for (ClusterIndex leaf = 0; leaf < vertices.size(); ++leaf)
-    if (!vertices[leaf].empty()) clustering_.adopt(leaf, vertices[leaf]);
-  for (int level = 1; level <= clustering_.levels_; ++level)
-    for (const ClusterIndex cluster : clustering_.of_level(level)) {
-      if (level > 1) clustering_.adopt(cluster, std::vector(clustering_.nodes_[cluster].members));
-      as_saved_.insert(cluster);
-      if (level == 1) waiting_.insert(cluster);
-    }
+  fill_as_saved(vertices);
   std::vector<VertexIndex> all;
   for (VertexIndex v = 0; v < network_.end(); ++v)
     if (network_.landmark_of(v) != 0) all.push_back(v);

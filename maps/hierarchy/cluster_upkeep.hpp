@@ -1,7 +1,9 @@
 // Keeps clusters connected and of bounded size while their network changes. Private to the hierarchy.
 #pragma once
 
+#include <map>
 #include <set>
+#include <vector>
 
 #include "maps/hierarchy/cluster_builder.hpp"
 
@@ -17,6 +19,8 @@ class ClusterUpkeep {
   void restore(const ClusterTree& saved);
 
  private:
+  ClusterIndex make_chain(const std::vector<const Cluster*>& chain, std::map<const Cluster*, ClusterIndex>& made);
+  void fill_as_saved(const std::map<ClusterIndex, std::vector<VertexIndex>>& vertices);
   void place(std::span<const VertexIndex> vertices);
   void tend_levels();
   void tend(ClusterIndex cluster);
