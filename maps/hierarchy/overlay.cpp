@@ -122,7 +122,13 @@ void Overlay::make(const Network& network, const Clustering& clustering, Cluster
   transpose_through(passage);
 }
 
+void Overlay::list_parents(const Clustering& clustering) {
+  parents_.resize(clustering.end());
+  for (ClusterIndex c = 0; c < clustering.end(); ++c) parents_[c] = clustering.node(c).parent;
+}
+
 void Overlay::build(const Network& network, const Clustering& clustering) {
+  list_parents(clustering);
   passages_.assign(clustering.end(), {});
   for (int level = 1; level <= clustering.levels(); ++level) {
     const std::vector<ClusterIndex> clusters = clustering.of_level(level);
@@ -133,6 +139,7 @@ void Overlay::build(const Network& network, const Clustering& clustering) {
 void Overlay::follow(const Network& network, const Clustering& clustering, const Clustering::Upkeep& upkeep,
                      std::span<const VertexIndex> vertices) {
   if (upkeep.levels_changed) return build(network, clustering);
+  list_parents(clustering);
   passages_.resize(clustering.end());
   std::set<std::pair<int, ClusterIndex>> clusters;  // by rising level
   const auto add_with_ancestors = [&](ClusterIndex cluster) {

@@ -58,6 +58,8 @@ class Overlay {
   void recost(const Network& network, const Clustering& clustering, std::span<const CostChange> changes);
 
   [[nodiscard]] const Passage& passage(ClusterIndex cluster) const { return passages_[cluster]; }
+  // As in its ClusterNode, but side by side: a search climbs from level to level at every step.
+  [[nodiscard]] ClusterIndex parent_of(ClusterIndex cluster) const { return parents_[cluster]; }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -77,7 +79,10 @@ class Overlay {
               const std::vector<InnerChange>& changes, InnerChanges& above);
   [[nodiscard]] std::uint32_t inner_index(const Clustering& clustering, ClusterIndex cluster, VertexIndex v) const;
 
-  std::vector<Passage> passages_;  // by ClusterIndex
+  void list_parents(const Clustering& clustering);
+
+  std::vector<Passage> passages_;      // by ClusterIndex
+  std::vector<ClusterIndex> parents_;  // by ClusterIndex
 };
 
 // Number of v in a rising list that holds it.

@@ -71,7 +71,7 @@ void HierarchySearch::begin(const Hierarchy& hierarchy, const WayQuery& query) {
 void HierarchySearch::look_into_clusters_of(VertexIndex v) {
   const Clustering& clustering = hierarchy_->clustering();
   for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
-       c = clustering.node(c).parent)
+       c = hierarchy_->overlay().parent_of(c))
     opened_[c] = query_number_;
 }
 
@@ -112,8 +112,13 @@ HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v) {
   const Clustering& clustering = hierarchy_->clustering();
   ClusterIndex whole = kNoCluster;
   for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
-       c = clustering.node(c).parent)
+       c = hierarchy_->overlay().parent_of(c))
     whole = c;
+  if (whole != kNoCluster) {
+    // It will be settled soon, and on large graphs most of the time goes by waiting for memory.
+    const char* const passage = reinterpret_cast<const char*>(&hierarchy_->overlay().passage(whole));
+    for (std::size_t line = 0; line < sizeof(Passage); line += 64) __builtin_prefetch(passage + line);
+  }
   return node_at(v, whole, whole == kNoCluster ? 0 : position_of(clustering.node(whole).boundary, v));
 }
 
