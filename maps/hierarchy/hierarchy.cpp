@@ -56,38 +56,45 @@ Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, cons
   overlay_.build(network_, clustering_);
 }
 
-bool Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
+// New landmarks come before their routes, and removed ones go after theirs.
+Hierarchy::NetworkChanges Hierarchy::sync_network(const LandmarkGraph& graph, const GraphChanges& changes) {
+  NetworkChanges synced;
   const std::set<RouteId> routes = routes_of(changes, graph, network_);
   std::set<LandmarkId> landmarks(changes.landmarks.begin(), changes.landmarks.end());
-  std::vector<VertexIndex> moved;  // new, gone, or with other arcs
-  std::vector<CostChange> costs;
-  const auto note_ends = [&](std::pair<VertexIndex, VertexIndex> ends) {
-    if (ends.first != kNoVertex) moved.insert(moved.end(), {ends.first, ends.second});
-  };
   for (const RouteId id : routes)
     if (const Route* const route = graph.find_route(id)) landmarks.insert({route->from, route->to});
   for (const LandmarkId id : landmarks)
     if (graph.find(id) != nullptr && network_.vertex_of(id) == kNoVertex) {
       network_.sync_landmark(graph, id);
-      moved.push_back(network_.vertex_of(id));
+      synced.moved.push_back(network_.vertex_of(id));
     }
-  for (const RouteId id : routes) {
-    const auto ends = network_.ends_of(id);
-    const std::optional<double> before = cost_in(network_, id);
-    network_.sync_route(graph, id, cost_);
-    const std::optional<double> after = cost_in(network_, id);
-    if (network_.ends_of(id) != ends || before.has_value() != after.has_value()) {
-      note_ends(ends);
-      note_ends(network_.ends_of(id));
-    } else if (before != after) {
-      costs.push_back({ends.first, ends.second, id, *before, *after});
-    }
-  }
+  for (const RouteId id : routes) sync_route(graph, id, synced);
   for (const LandmarkId id : landmarks)
     if (const VertexIndex v = network_.vertex_of(id); v != kNoVertex && graph.find(id) == nullptr) {
       network_.sync_landmark(graph, id);
-      moved.push_back(v);
+      synced.moved.push_back(v);
     }
+  return synced;
+}
+
+void Hierarchy::sync_route(const LandmarkGraph& graph, RouteId id, NetworkChanges& synced) {
+  const auto ends = network_.ends_of(id);
+  const std::optional<double> before = cost_in(network_, id);
+  network_.sync_route(graph, id, cost_);
+  const std::optional<double> after = cost_in(network_, id);
+  const auto note_ends = [&](std::pair<VertexIndex, VertexIndex> moved) {
+    if (moved.first != kNoVertex) synced.moved.insert(synced.moved.end(), {moved.first, moved.second});
+  };
+  if (network_.ends_of(id) != ends || before.has_value() != after.has_value()) {
+    note_ends(ends);
+    note_ends(network_.ends_of(id));
+  } else if (before != after) {
+    synced.costs.push_back({ends.first, ends.second, id, *before, *after});
+  }
+}
+
+bool Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
+  auto [moved, costs] = sync_network(graph, changes);
   if (moved.empty()) {
     overlay_.recost(network_, clustering_, costs);
     return false;

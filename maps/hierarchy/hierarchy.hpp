@@ -41,6 +41,13 @@ class Hierarchy {
   [[nodiscard]] ClusterTree tree() const { return clustering_.tree(network_); }
 
  private:
+  struct NetworkChanges {
+    std::vector<VertexIndex> moved;  // new, gone, or with other arcs
+    std::vector<CostChange> costs;
+  };
+  NetworkChanges sync_network(const LandmarkGraph& graph, const GraphChanges& changes);
+  void sync_route(const LandmarkGraph& graph, RouteId id, NetworkChanges& synced);
+
   RouteCost cost_;
   Network network_;
   Clustering clustering_;

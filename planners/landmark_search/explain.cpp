@@ -26,7 +26,7 @@ PlanExplanation explanation_of(const Way& way, const WayQuery& query, const Plan
   explanation.clusters = clusters_along(way, hierarchy.clustering());
   if (way.cost < kNoWay) explanation.cost = way.cost;
   WayQuery open = query;
-  for (const RouteId id : request.closed) open.costs.erase(id);
+  open.costs.clear();  // which held what the request closes
   for (const RouteId id : request.closed)
     if (const Route* const route = graph.find_route(id)) open.costs[id] = cost(*route);
   for (const auto& [id, route] : graph.routes())

@@ -85,6 +85,8 @@ struct Sheet {
   const char* name;
   std::size_t landmarks;
   std::size_t routes;
+  // Or the test would be named by the bytes of an address.
+  friend void PrintTo(const Sheet& sheet, std::ostream* out) { *out << sheet.name; }
 };
 
 class RoadNetwork : public ::testing::TestWithParam<Sheet> {};
