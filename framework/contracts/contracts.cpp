@@ -44,6 +44,22 @@ std::string_view name_of(PlanOutcome outcome) {
   return "?";
 }
 
+std::string_view name_of(PlanPiece::Origin origin) {
+  switch (origin) {
+    case PlanPiece::Origin::stored:
+      return "stored";
+    case PlanPiece::Origin::straight:
+      return "straight";
+    case PlanPiece::Origin::planned:
+      return "planned";
+    case PlanPiece::Origin::cut:
+      return "cut";
+    case PlanPiece::Origin::escape:
+      return "escape";
+  }
+  return "?";
+}
+
 std::string text_of(const AbiStamp& stamp) {
   std::string text = std::string("cairn ") + stamp.cairn_version + ", " + stamp.compiler + ", " + stamp.build +
                      ", Eigen alignment " + std::to_string(stamp.eigen_align) + ", sizes";

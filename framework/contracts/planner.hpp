@@ -71,6 +71,21 @@ struct PlanExplanation {
   std::optional<double> cost_with_closed_open;   // of that way; none: no cheaper one
 };
 
+// A part of the path and where it came from, in the order of the path.
+struct PlanPiece {
+  enum class Origin {
+    stored,    // the trajectory of a stored route, still free today
+    straight,  // a straight line that is free
+    planned,   // searched on the grid
+    cut,       // a corner cut across other pieces
+    escape,    // out of a start that is too near to something
+  };
+  Origin origin = Origin::planned;
+  RouteId route = 0;  // whose leg it is; 0: no route's
+  double length_m = 0.0;
+};
+[[nodiscard]] std::string_view name_of(PlanPiece::Origin origin);
+
 struct PlanResult {
   PlanOutcome outcome = PlanOutcome::no_route;
   std::string reason;  // a sentence for people
@@ -81,7 +96,9 @@ struct PlanResult {
   std::vector<RouteId> routes;          // stored routes used, in order
   std::vector<RouteId> blocked_routes;  // stored routes found blocked on the way to this answer
   std::vector<Pose2> path;
-  std::int64_t settled = 0;  // graph vertices settled
+  std::vector<PlanPiece> pieces;
+  std::optional<double> least_length_m;  // no path on this grid can be shorter
+  std::int64_t settled = 0;              // graph vertices settled
   std::vector<PlanAlternative> alternatives;
   std::optional<PlanExplanation> explanation;
   PlanTimes time_ms;

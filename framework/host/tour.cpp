@@ -52,6 +52,7 @@ void append_leg(PlanResult& tour, const PlanResult& leg) {
   append(tour.routes, leg.routes);
   append(tour.blocked_routes, leg.blocked_routes);
   append_joined(tour.path, leg.path);
+  append(tour.pieces, leg.pieces);
   tour.settled += leg.settled;
   tour.time_ms.graph_ms += leg.time_ms.graph_ms;
   tour.time_ms.route_ms += leg.time_ms.route_ms;
