@@ -65,8 +65,9 @@ int map_check(const MapCommand& command, const CommonOptions& common);
 int map_render(const MapCommand& command, const CommonOptions& common);
 
 struct ExchangeCommand {
-  std::filesystem::path from;  // the file of another tool, or the map
-  std::filesystem::path to;    // the other way round
+  std::filesystem::path from;    // the file of another tool, or the map
+  std::filesystem::path to;      // the other way round
+  std::optional<double> cell_m;  // of a picture that does not say it
 };
 int map_import(const ExchangeCommand& command, const CommonOptions& common);
 int map_export(const ExchangeCommand& command, const CommonOptions& common);

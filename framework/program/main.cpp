@@ -86,9 +86,12 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
 
 void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* map = app.get_subcommand("map");
-  CLI::App* in = map->add_subcommand("import", "Make a map of a landmark graph in another tool's file");
-  in->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json) or *.graphml")->required();
+  CLI::App* in = map->add_subcommand("import", "Make a map of another tool's landmark graph or occupancy grid");
+  in->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json), *.graphml or Moving AI grid (*.map)")
+      ->required();
   in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
+  in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")
+      ->check(number_within(0.001, 1000.0));
   in->callback([&] { action = [&] { return map_import(c, common); }; });
   CLI::App* out = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
   out->add_option("MAP", c.from, "saved map (*.cairn)")->required();

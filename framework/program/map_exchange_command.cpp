@@ -1,13 +1,15 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "framework/contracts/robot_model.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/output_files.hpp"
 #include "framework/program/run_pictures.hpp"
 #include "maps/exchange/graph_file.hpp"
+#include "maps/exchange/moving_ai_map.hpp"
+#include "maps/exchange/source_text.hpp"
 #include "maps/hierarchy/hierarchy.hpp"
 #include "maps/map_store.hpp"
 #include "maps/spelling.hpp"
@@ -16,6 +18,9 @@ namespace cairn {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr const char* kMovingAi = ".map";
+constexpr double kMovingAiCell_m = 1.0;
 
 [[noreturn]] void fail_extension(const std::filesystem::path& file, const char* verb,
                                  const std::vector<std::string>& known) {
@@ -27,16 +32,17 @@ using nlohmann::ordered_json;
                            did_you_mean(extension, known) + "; known are " + list);
 }
 
-void tell(const std::vector<std::string>& warnings) {
+void tell_people(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common) {
+  (common.json ? std::cerr : std::cout) << line << "\n";
   for (const std::string& warning : warnings) std::cerr << "  " << warning << "\n";
 }
 
-}  // namespace
+void tell_json(const ordered_json& json) {
+  std::cout << json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+}
 
-int map_import(const ExchangeCommand& command, const CommonOptions& common) {
-  const std::optional<GraphFormat> format = graph_format_of(command.from);
-  if (!format) fail_extension(command.from, "imported", graph_extensions());
-  ImportedGraph imported = read_graph_file(command.from, *format);
+int import_graph(const ExchangeCommand& command, GraphFormat format, const CommonOptions& common) {
+  ImportedGraph imported = read_graph_file(command.from, format);
   SavedMap map;
   map.graph = std::move(imported.graph);
   map.clusters = cluster_landmarks(map.graph);
@@ -44,17 +50,51 @@ int map_import(const ExchangeCommand& command, const CommonOptions& common) {
   save_map(command.to, map);
   const std::size_t landmarks = map.graph.landmarks().size();
   const std::size_t routes = map.graph.routes().size();
-  (common.json ? std::cerr : std::cout) << fmt::format("wrote {}: {} landmarks, {} routes\n", command.to.string(),
-                                                       landmarks, routes);
-  tell(imported.warnings);
+  tell_people(fmt::format("wrote {}: {} landmarks, {} routes", command.to.string(), landmarks, routes),
+              imported.warnings, common);
   if (common.json)
-    std::cout << ordered_json{{"map", command.to.string()},
-                              {"landmarks", landmarks},
-                              {"routes", routes},
-                              {"warnings", imported.warnings}}
-                     .dump(-1, ' ', false, ordered_json::error_handler_t::replace)
-              << "\n";
+    tell_json(
+        {{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", imported.warnings}});
   return kExitDone;
+}
+
+int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
+  const std::string text = exchange::text_of_file(command.from);
+  ImportedGrid imported = parse_moving_ai_map(text, command.from.string(), command.cell_m.value_or(kMovingAiCell_m));
+  SavedMap map;
+  map.grid = std::move(imported.grid);
+  map.properties["imported_from"] = command.from.filename().string();
+  save_map(command.to, map);
+  const CellBox box = map.grid.bounds();
+  tell_people(fmt::format("wrote {}: {} x {} cells of {:g} m, {:.1f} % of them known; no robot came with them: `cairn "
+                          "plan` takes one of {:g} m radius unless it is told --radius-m",
+                          command.to.string(), box.width(), box.height(), map.grid.cell_m(),
+                          100.0 * known_ratio(map.grid), RobotModel{}.radius_m),
+              imported.warnings, common);
+  if (common.json)
+    tell_json({{"map", command.to.string()},
+               {"size_cells", {box.width(), box.height()}},
+               {"cell_m", map.grid.cell_m()},
+               {"landmarks", 0},
+               {"routes", 0},
+               {"warnings", imported.warnings}});
+  return kExitDone;
+}
+
+}  // namespace
+
+int map_import(const ExchangeCommand& command, const CommonOptions& common) {
+  const std::string extension = command.from.extension().string();
+  const std::optional<GraphFormat> format = graph_format_of(command.from);
+  if (!format && extension != kMovingAi) {
+    std::vector<std::string> known = graph_extensions();
+    known.emplace_back(kMovingAi);
+    fail_extension(command.from, "imported", known);
+  }
+  if (command.cell_m && extension != kMovingAi)
+    throw std::runtime_error("map import: --cell-m is for Moving AI grids (*.map); " + command.from.string() +
+                             " says itself how large it is");
+  return format ? import_graph(command, *format, common) : import_grid(command, common);
 }
 
 int map_export(const ExchangeCommand& command, const CommonOptions& common) {
@@ -74,15 +114,12 @@ int map_export(const ExchangeCommand& command, const CommonOptions& common) {
     write_file(command.to, exported.text);
     warnings = exported.warnings;
   }
-  (common.json ? std::cerr : std::cout) << "wrote " << command.to.string() << "\n";
-  tell(warnings);
+  tell_people("wrote " + command.to.string(), warnings, common);
   if (common.json)
-    std::cout << ordered_json{{"file", command.to.string()},
-                              {"landmarks", map.graph.landmarks().size()},
-                              {"routes", map.graph.routes().size()},
-                              {"warnings", warnings}}
-                     .dump(-1, ' ', false, ordered_json::error_handler_t::replace)
-              << "\n";
+    tell_json({{"file", command.to.string()},
+               {"landmarks", map.graph.landmarks().size()},
+               {"routes", map.graph.routes().size()},
+               {"warnings", warnings}});
   return kExitDone;
 }
 

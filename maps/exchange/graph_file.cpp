@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 #include "maps/exchange/graph_list.hpp"
 #include "maps/exchange/graphml.hpp"
@@ -12,35 +11,12 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{4} << 30;
-constexpr std::size_t kBlock = std::size_t{1} << 20;
-
 struct Extension {
   const char* text;
   GraphFormat format;
 };
 constexpr std::array kExtensions{Extension{".graph", GraphFormat::list}, Extension{".geojson", GraphFormat::nav2},
                                  Extension{".json", GraphFormat::nav2}, Extension{".graphml", GraphFormat::graphml}};
-
-// Read block by block: what is no plain file has no size to ask for.
-std::string text_of(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw ExchangeError(file.string() + ": no such file");
-  if (std::filesystem::is_directory(status)) throw ExchangeError(file.string() + ": is a folder");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw ExchangeError(file.string() + ": cannot be read");
-  std::string text;
-  while (in) {
-    const std::size_t before = text.size();
-    if (before > kMostBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
-    text.resize(before + kBlock);
-    in.read(text.data() + before, static_cast<std::streamsize>(kBlock));
-    text.resize(before + static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw ExchangeError(file.string() + ": cannot be read to its end");
-  return text;
-}
 
 }  // namespace
 
@@ -57,7 +33,7 @@ std::optional<GraphFormat> graph_format_of(const std::filesystem::path& file) {
 }
 
 ImportedGraph read_graph_file(const std::filesystem::path& file, GraphFormat format) {
-  const std::string text = text_of(file);
+  const std::string text = exchange::text_of_file(file);
   switch (format) {
     case GraphFormat::list:
       return parse_graph_list(text, file.string());

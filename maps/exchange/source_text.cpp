@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 
 namespace cairn::exchange {
 namespace {
@@ -28,6 +29,8 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
+constexpr std::size_t kMostBytes = std::size_t{4} << 30;
+constexpr std::size_t kBlock = std::size_t{1} << 20;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
@@ -56,6 +59,26 @@ void SourceText::fail(const std::string& sentence) const {
 
 void SourceText::fail_cut(std::size_t offset, const std::string& sentence) const {
   fail(offset, sentence + "; the file ends here, it may have been cut");
+}
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw ExchangeError(file.string() + ": no such file");
+  if (std::filesystem::is_directory(status)) throw ExchangeError(file.string() + ": is a folder");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw ExchangeError(file.string() + ": cannot be read");
+  std::string text;
+  // Block by block: what is no plain file has no size to ask for.
+  while (in) {
+    const std::size_t before = text.size();
+    if (before > kMostBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
+    text.resize(before + kBlock);
+    in.read(text.data() + before, static_cast<std::streamsize>(kBlock));
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw ExchangeError(file.string() + ": cannot be read to its end");
+  return text;
 }
 
 std::size_t first_not_utf8(std::string_view text) {

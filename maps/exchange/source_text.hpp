@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -34,6 +35,9 @@ class SourceText {
   std::string_view text_;
   std::string file_;
 };
+
+// All bytes of a file. Throws ExchangeError: no such file, a folder, larger than 4 GB, not readable to its end.
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& file);
 
 // The offset of the first byte that does not belong to a UTF-8 character, or npos.
 [[nodiscard]] std::size_t first_not_utf8(std::string_view text);

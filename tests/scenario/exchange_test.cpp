@@ -70,7 +70,7 @@ TEST_F(Exchange, RefusesExtensionsThatItDoesNotKnow) {
   EXPECT_EQ(
       refused({"import", "a.grph", "-o", file("g.cairn")}),
       "cairn: a.grph: cannot be imported: unknown extension \".grph\" (did you mean \".graph\"?); known are .graph, "
-      ".geojson, .json, .graphml\n");
+      ".geojson, .json, .graphml, .map\n");
   EXPECT_EQ(
       refused({"export", file("g.cairn"), "-o", "a"}),
       "cairn: a: cannot be exported to: it has no extension; known are .graph, .geojson, .json, .graphml, .png\n");
@@ -83,6 +83,32 @@ TEST_F(Exchange, ABadFileIsRefusedWithItsPlaceAndNothingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(file("g.cairn")));
   EXPECT_EQ(refused({"import", file("none.graph"), "-o", file("g.cairn")}),
             "cairn: " + file("none.graph") + ": no such file\n");
+}
+
+TEST_F(Exchange, AMovingAiGridBecomesAMapWithCellsOfOneMetre) {
+  write_text(file("small.map"), "type octile\nheight 2\nwidth 3\nmap\n.@.\n...\n");
+  EXPECT_EQ(done({"import", file("small.map"), "-o", file("g.cairn")}), (json{{"map", file("g.cairn")},
+                                                                              {"size_cells", {3, 2}},
+                                                                              {"cell_m", 1.0},
+                                                                              {"landmarks", 0},
+                                                                              {"routes", 0},
+                                                                              {"warnings", json::array()}}));
+  const SavedMap map = load_map(file("g.cairn"));
+  EXPECT_EQ(map.grid.state(map.grid.cell_at({1.5, 1.5})), CellState::occupied);
+  EXPECT_EQ(map.properties.at("imported_from"), "small.map");
+  done({"import", file("small.map"), "-o", file("g.cairn"), "--cell-m", "0.5"});
+  EXPECT_EQ(load_map(file("g.cairn")).grid.cell_m(), 0.5);
+}
+
+TEST_F(Exchange, ABadGridIsRefusedWithItsPlace) {
+  write_text(file("bad.map"), "type octile\nheight 1\nwidth 3\nmap\n.x.\n");
+  EXPECT_EQ(refused({"import", file("bad.map"), "-o", file("g.cairn")}),
+            "cairn: " + file("bad.map") + ":5:2: unknown cell \"x\": free are . G S, blocked are @ O T W\n");
+  write_text(file("roads.graph"), "node 1 0 0\n");
+  EXPECT_EQ(refused({"import", file("roads.graph"), "-o", file("g.cairn"), "--cell-m", "0.5"}),
+            "cairn: map import: --cell-m is for Moving AI grids (*.map); " + file("roads.graph") +
+                " says itself how large it is\n");
+  EXPECT_FALSE(std::filesystem::exists(file("g.cairn")));
 }
 
 TEST_F(Exchange, InfoShowsTheLevelsAndTheFirstOfMany) {
