@@ -136,18 +136,22 @@ std::vector<Point> off_corners(const DiscSpace& space, const std::vector<Point>&
   return route;
 }
 
-// The place nearest to a point, on a lattice of a small part of a cell, where the disc fits.
+// A place near a point, on the lattice of a small part of a cell, where the disc fits. The middles of passages
+// between whole cells lie on that lattice.
 std::optional<Point> place_near(const DiscSpace& space, const Point& p, double radius_m) {
   constexpr int kParts = 16;
   constexpr int kReach = 2 * kParts;  // two cells
   if (space.fits(p, radius_m)) return p;
   const double step_m = space.cell_m() / kParts;
-  for (int ring = 1; ring <= kReach; ++ring) {
+  const Point origin = space.field().origin_m();
+  const Point at = origin + step_m * ((p - origin) / step_m).array().round().matrix();
+  for (int ring = 0; ring <= kReach; ++ring) {
     std::optional<Point> best;
     for (int i = -ring; i <= ring; ++i)
-      for (const Point& off : {Point(i, -ring), Point(i, ring), Point(-ring, i), Point(ring, i)})
-        if ((!best || off.norm() < ((*best - p) / step_m).norm()) && space.fits(p + step_m * off, radius_m))
-          best = p + step_m * off;
+      for (const Point& off : {Point(i, -ring), Point(i, ring), Point(-ring, i), Point(ring, i)}) {
+        const Point place = at + step_m * off;
+        if ((!best || (place - p).norm() < (*best - p).norm()) && space.fits(place, radius_m)) best = place;
+      }
     if (best) return best;
   }
   return std::nullopt;
@@ -334,14 +338,10 @@ DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& bu
 
 std::shared_ptr<const DiscRoutes> DiscRoutesCache::routes_of(const std::shared_ptr<const DiscSpace>& space,
                                                              double radius_m) const {
-  {
-    const std::lock_guard lock(mutex_);
-    if (last_ && &last_->space() == space.get() && last_->radius_m() == radius_m) return last_;
-  }
-  auto made = std::make_shared<const DiscRoutes>(space, radius_m);
   const std::lock_guard lock(mutex_);
-  last_ = made;
-  return made;
+  if (!last_ || &last_->space() != space.get() || last_->radius_m() != radius_m)
+    last_ = std::make_shared<const DiscRoutes>(space, radius_m);
+  return last_;
 }
 
 }  // namespace cairn

@@ -69,7 +69,8 @@ class DiscRoutes {
   mutable std::optional<Meshes> finer_;
 };
 
-// The routes for the space and radius last asked for: many queries on one map build them once. Thread-safe.
+// The routes for the space and radius last asked for: many queries on one map build them once. Thread-safe;
+// while one caller builds, others wait for it.
 class DiscRoutesCache {
  public:
   [[nodiscard]] std::shared_ptr<const DiscRoutes> routes_of(const std::shared_ptr<const DiscSpace>& space,

@@ -20,7 +20,7 @@ std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldVi
   if (robot_stands_at(world, at))
     start.patched_grid = with_ground_under(world.grid, rules.ground, at, rules.radius_m + kLeastRadius_m);
   const OccupancyGrid& grid = start.grid_of(world);
-  start.space = spaces.space_of(grid, rules.ground);
+  start.space = spaces.space_of(grid, rules.ground, start.patched_grid ? 0 : world.grid_version);
   start.leave_from = at;
   if (start.space->fits(at, rules.radius_m + kLeastRadius_m)) return start;
   start.escape = escape_from(grid, *start.space, at, rules.radius_m, rules.start_tolerance_m);
@@ -87,7 +87,7 @@ std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& 
     return Refusal{PlanOutcome::start_blocked,
                    "a robot of radius " + metres_text(rules.radius_m) + " is larger than the map"};
   if (place.pose) return start_at_pose(*place.pose, world, rules, spaces);
-  const auto space = spaces.space_of(world.grid, rules.ground);
+  const auto space = spaces.space_of(world.grid, rules.ground, world.grid_version);
   for (const LandmarkId id : place.landmarks) {
     const std::optional<Pose2> stand = standing_place(*space, *world.graph.find(id), rules.radius_m + kLeastRadius_m);
     if (!stand) continue;

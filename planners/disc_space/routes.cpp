@@ -10,6 +10,22 @@ constexpr double kLeastGain_ratio = 1e-3;  // of a round, else it is the last on
 constexpr double kFinest_cells = 1.0 / 16.0;
 constexpr double kMostWork_cells = 1e5;  // of checked segments, end to end
 
+int across_parts(int a, int b) {
+  return a == b ? a : kSeveralParts;
+}
+
+std::vector<PartedPoint> parted(const std::vector<Point>& route) {
+  std::vector<PartedPoint> points;
+  for (const Point& point : route) points.push_back({point, 0});
+  return points;
+}
+
+double length_of(const std::vector<PartedPoint>& route) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i].at - route[i - 1].at).norm();
+  return length_m;
+}
+
 // Cuts corners round by round. The corner B between A and C first moves to where the straight ways from A and from C
 // round the obstacle meet, then is cut off there.
 class CornerCutter {
@@ -18,33 +34,48 @@ class CornerCutter {
       : space_(space), radius_m_(radius_m), finest_m_(kFinest_cells * space.cell_m()) {}
 
   [[nodiscard]] bool has_work_left() const { return work_cells_ < kMostWork_cells; }
-  [[nodiscard]] std::vector<Point> cut_all(const std::vector<Point>& route, std::size_t keep) {
-    std::vector<Point> cut(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
-    for (std::size_t i = keep; i + 1 < route.size(); ++i)
-      for (const Point& point : cut_corner(cut.back(), route[i], route[i + 1])) cut.push_back(point);
+  [[nodiscard]] std::vector<PartedPoint> cut_all(std::vector<PartedPoint> route, std::size_t keep) {
+    std::vector<PartedPoint> cut(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
+    for (std::size_t i = keep; i + 1 < route.size(); ++i) {
+      const Point a = cut.back().at;
+      for (const PartedPoint& point : cut_corner(a, route[i], route[i + 1])) cut.push_back(point);
+    }
     cut.push_back(route.back());
     return cut;
   }
 
  private:
   // What comes between A and C in place of B.
-  [[nodiscard]] std::vector<Point> cut_corner(Point a, const Point& b, const Point& c) {
+  [[nodiscard]] std::vector<PartedPoint> cut_corner(const Point& a, const PartedPoint& b, PartedPoint& c) {
     if (!has_work_left()) return {b};
-    const Point seen = furthest(b, c, [&](const Point& p) { return fits(a, p); });
-    if (seen == c) return {};
-    const Point corner = furthest(seen, a, [&](const Point& p) { return fits(p, c); });
-    const auto along = [&](const Point& to, double s_m) {
-      const double leg_m = (to - corner).norm();
-      return s_m < leg_m ? Point(corner + (to - corner) * (s_m / leg_m)) : to;
-    };
-    const double most_m = std::min((a - corner).norm(), (c - corner).norm());
-    const Point end =
-        furthest(corner, along(c, most_m), [&](const Point& p) { return fits(along(a, (p - corner).norm()), p); });
-    const std::vector<Point> points =
-        end == corner ? std::vector{corner} : std::vector{along(a, (end - corner).norm()), end};
+    const int across = across_parts(b.part, c.part);
+    const Point seen = furthest(b.at, c.at, [&](const Point& p) { return fits(a, p); });
+    if (seen == c.at) {
+      c.part = across;
+      return {};
+    }
+    const Point corner = furthest(seen, a, [&](const Point& p) { return fits(p, c.at); });
+    const PartedPoint turn{corner, seen == b.at ? b.part : across};
+    const int from_turn = corner == seen ? c.part : across;
+    const std::vector<PartedPoint> points = cut_off(a, turn, {c.at, from_turn});
     // Parts of free segments are free but for the last digit.
-    if (points.size() == 1 && corner == b) return points;
-    return fits(a, points.front()) && fits(points.back(), c) ? points : std::vector{b};
+    const bool same = points.size() == 1 && corner == b.at;
+    if (!same && !(fits(a, points.front().at) && fits(points.back().at, c.at))) return {b};
+    c.part = from_turn;
+    return points;
+  }
+
+  // The corner B, or the two ends of the deepest free cut that takes as much of both legs.
+  [[nodiscard]] std::vector<PartedPoint> cut_off(const Point& a, const PartedPoint& b, const PartedPoint& c) {
+    const auto along = [&](const Point& to, double s_m) {
+      const double leg_m = (to - b.at).norm();
+      return s_m < leg_m ? Point(b.at + (to - b.at) * (s_m / leg_m)) : to;
+    };
+    const auto opposite = [&](const Point& p) { return along(a, (p - b.at).norm()); };
+    const Point deepest = along(c.at, std::min((a - b.at).norm(), (c.at - b.at).norm()));
+    const Point end = furthest(b.at, deepest, [&](const Point& p) { return fits(opposite(p), p); });
+    if (end == b.at) return {b};
+    return {{opposite(end), b.part}, {end, across_parts(b.part, c.part)}};
   }
 
   // The point furthest on from `from` towards `to` that is_free(Point) agrees to, asked for twice as far each time and
@@ -85,38 +116,62 @@ double length_of(const std::vector<Point>& route) {
   return length_m;
 }
 
-std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
-                                std::size_t keep) {
+std::vector<Point> points_of(const std::vector<PartedPoint>& route) {
+  std::vector<Point> points;
+  for (const PartedPoint& point : route) points.push_back(point.at);
+  return points;
+}
+
+std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
+                                      std::size_t keep) {
   if (route.size() <= keep + 1) return route;
   // One sweep that stretches each straight piece as far as it goes, for routes of many points ...
-  std::vector<Point> swept(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
-  for (std::size_t i = keep + 1; i < route.size(); ++i)
-    if (!space.fits_along(swept.back(), route[i], radius_m)) swept.push_back(route[i - 1]);
-  swept.push_back(route.back());
+  std::vector<PartedPoint> swept(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
+  int part = route[keep].part;
+  for (std::size_t i = keep + 1; i < route.size(); ++i) {
+    if (!space.fits_along(swept.back().at, route[i].at, radius_m)) {
+      swept.push_back({route[i - 1].at, part});
+      part = route[i].part;
+    }
+    part = across_parts(part, route[i].part);
+  }
+  swept.push_back({route.back().at, part});
   // ... then from each corner to the furthest one it sees.
-  std::vector<Point> corners(swept.begin(), swept.begin() + static_cast<std::ptrdiff_t>(keep));
+  std::vector<PartedPoint> corners(swept.begin(), swept.begin() + static_cast<std::ptrdiff_t>(keep));
   for (std::size_t at = keep - 1; at + 1 < swept.size();) {
     std::size_t next = swept.size() - 1;
-    while (next > at + 1 && !space.fits_along(swept[at], swept[next], radius_m)) --next;
-    corners.push_back(swept[next]);
+    while (next > at + 1 && !space.fits_along(swept[at].at, swept[next].at, radius_m)) --next;
+    part = swept[at + 1].part;
+    for (std::size_t i = at + 2; i <= next; ++i) part = across_parts(part, swept[i].part);
+    corners.push_back({swept[next].at, part});
     at = next;
   }
   return corners;
 }
 
-std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
-                             std::size_t keep) {
+std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
+                                   std::size_t keep) {
   if (route.size() <= keep + 1) return route;
   CornerCutter cutter(space, radius_m);
-  std::vector<Point> best = route;
+  std::vector<PartedPoint> best = route;
   for (int i = 0; i < kMostRounds && cutter.has_work_left(); ++i) {
-    std::vector<Point> cut = cutter.cut_all(best, keep);
+    std::vector<PartedPoint> cut = cutter.cut_all(best, keep);
     const double before_m = length_of(best);
     const double gain_m = before_m - length_of(cut);
     if (gain_m > 0.0) best = std::move(cut);
     if (gain_m < kLeastGain_ratio * before_m) break;
   }
   return best;
+}
+
+std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
+                                std::size_t keep) {
+  return points_of(straightened(space, parted(route), radius_m, keep));
+}
+
+std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
+                             std::size_t keep) {
+  return points_of(tightened(space, parted(route), radius_m, keep));
 }
 
 bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,

@@ -10,6 +10,13 @@ namespace cairn {
 
 [[nodiscard]] double length_of(const std::vector<Point>& route);
 
+// A point of a route, and which part of the route the straight piece that ends there belongs to.
+struct PartedPoint {
+  Point at{0.0, 0.0};
+  int part = 0;
+};
+inline constexpr int kSeveralParts = -1;  // the piece cuts across
+
 // Drops the corners that a straight free segment can skip; the first `keep` points and the last stay.
 [[nodiscard]] std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
                                               std::size_t keep = 1);
@@ -20,6 +27,13 @@ namespace cairn {
 // Bounded work: the last corners of a route of many thousand cells may stay as they are.
 [[nodiscard]] std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
                                            std::size_t keep = 1);
+
+// The same for routes of several parts: what lies across two of them gets kSeveralParts.
+[[nodiscard]] std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<PartedPoint>& route,
+                                                    double radius_m, std::size_t keep = 1);
+[[nodiscard]] std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<PartedPoint>& route,
+                                                 double radius_m, std::size_t keep = 1);
+[[nodiscard]] std::vector<Point> points_of(const std::vector<PartedPoint>& route);
 
 // The independent re-check, straight from the grid: with an escape the first segment is that escape.
 [[nodiscard]] bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,

@@ -2,19 +2,13 @@
 
 namespace cairn {
 
-std::shared_ptr<const DiscSpace> SpaceCache::space_of(const OccupancyGrid& grid, const GroundRules& rules) const {
-  std::shared_ptr<const Entry> entry;
-  {
-    const std::lock_guard lock(mutex_);
-    entry = last_;
-  }
-  const bool same = entry && entry->space.rules() == rules && entry->grid == grid;
-  if (!same) {
-    entry = std::make_shared<const Entry>(Entry{grid, DiscSpace(grid, rules)});
-    const std::lock_guard lock(mutex_);
-    last_ = entry;
-  }
-  return {entry, &entry->space};
+std::shared_ptr<const DiscSpace> SpaceCache::space_of(const OccupancyGrid& grid, const GroundRules& rules,
+                                                      std::uint64_t version) const {
+  const std::lock_guard lock(mutex_);
+  const auto same_grid = [&] { return version != 0 ? version == last_->version : last_->grid == grid; };
+  if (!last_ || !(last_->space.rules() == rules) || !same_grid())
+    last_ = std::make_shared<const Entry>(Entry{grid, DiscSpace(grid, rules), version});
+  return {last_, &last_->space};
 }
 
 }  // namespace cairn

@@ -8,15 +8,18 @@
 
 namespace cairn {
 
-// Compares whole grids, so that it can never answer for a grid that has changed. Thread-safe.
+// Compares whole grids, unless the version (WorldView::grid_version) says that they are the same, so that it
+// never answers for a grid that has changed. Thread-safe; while one caller builds, others wait for it.
 class SpaceCache {
  public:
-  [[nodiscard]] std::shared_ptr<const DiscSpace> space_of(const OccupancyGrid& grid, const GroundRules& rules) const;
+  [[nodiscard]] std::shared_ptr<const DiscSpace> space_of(const OccupancyGrid& grid, const GroundRules& rules,
+                                                          std::uint64_t version = 0) const;
 
  private:
   struct Entry {
     OccupancyGrid grid;
     DiscSpace space;
+    std::uint64_t version = 0;
   };
 
   mutable std::mutex mutex_;

@@ -7,7 +7,10 @@
 
 #include "planners/disc_space/ends.hpp"
 #include "planners/disc_space/routes.hpp"
+#include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/legs.hpp"
+#include "planners/hybrid/open_ways.hpp"
+#include "planners/hybrid/pieces.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
 
 namespace cairn {
@@ -34,10 +37,12 @@ PlanResult stopped(PlanOutcome outcome) {
 // One request on its way to an answer.
 class Query {
  public:
-  Query(const HybridConfig& config, UnknownPolicy unknown, const SpaceCache& spaces, const Planner& route,
-        const Planner& graph, const PlanRequest& request, const WorldView& world, const Budget& budget)
+  Query(const HybridConfig& config, UnknownPolicy unknown, const HybridGround& usual, const HybridGround& avoiding,
+        const Planner& route, const Planner& graph, const PlanRequest& request, const WorldView& world,
+        const Budget& budget)
       : config_(config),
-        spaces_(spaces),
+        usual_(usual),
+        avoiding_(avoiding),
         route_(route),
         graph_(graph),
         request_(request),
@@ -51,86 +56,148 @@ class Query {
 
   PlanResult answer() {
     if (budget_.exhausted() || budget_.iterations <= 0) return stopped(stop_outcome());
-    if (world_.grid.bounds().empty()) return graph_.plan(request_, world_, budget_);
+    if (world_.grid.bounds().empty()) return answer_of_graph();
     if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused(*refusal);
-    const auto start = start_of(request_.from, world_, ends_, spaces_);
-    if (const auto* refusal = std::get_if<Refusal>(&start)) return refused(*refusal);
-    PlanResult result = answer_from(std::get<StartPlace>(start));
+    const auto usual = start_of(request_.from, world_, ends_, usual_.spaces);
+    if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused(*refusal);
+    const auto& start = std::get<StartPlace>(usual);
+    if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space);
+    PlanResult result = avoided_grid_ ? answer_avoiding() : answer_from(start, world_);
     result.settled = settled_;
     result.alternatives = alternatives_;
     result.explanation = explanation_;
-    result.blocked_routes.assign(blocked_.begin(), blocked_.end());
-    for (const RouteId id : blocked_) result.reason += "; " + text_of_route(id) + " is blocked";
+    tell_blocked(start, result);
     result.time_ms.graph_ms = graph_ms_;
     result.time_ms.route_ms = route_ms_;
     return result;
   }
 
  private:
-  PlanResult answer_from(const StartPlace& start) {
-    const TravelField travel = start.space->travel_at_most(start.leave_from, ends_.radius_m);
-    const auto goals_or_refusal = goals_of(request_.to, world_, ends_, start, [&](const Point& goal) {
-      return travel.reaches(start.space->field().cell_at(goal));
-    });
+  PlanResult answer_of_graph() const {
+    PlanResult result = graph_.plan(request_, world_, budget_);
+    if (result.outcome == PlanOutcome::solved) result.pieces = pieces_of_graph(result, world_.graph);
+    return result;
+  }
+
+  // In the world with obstacles where the robot is not to go.
+  PlanResult answer_avoiding() {
+    const WorldView world = with_grid(*avoided_grid_, world_);
+    const auto start = start_of(request_.from, world, ends_, avoiding_.spaces);
+    PlanResult result = std::holds_alternative<Refusal>(start) ? refused(std::get<Refusal>(start))
+                                                               : answer_from(std::get<StartPlace>(start), world);
+    if (result.outcome != PlanOutcome::solved) result.reason += "; the places of avoided landmarks count as blocked";
+    return result;
+  }
+
+  // A route that only what is avoided blocks is not blocked today.
+  void tell_blocked(const StartPlace& start, PlanResult& result) {
+    for (const RouteId id : blocked_) {
+      const bool avoided =
+          avoided_grid_ &&
+          walker(start, planned_world(start, world_)).walk_alone(*world_.graph.find_route(id)).complete();
+      if (!avoided) result.blocked_routes.push_back(id);
+      result.reason += "; " + text_of_route(id) + (avoided ? " passes an avoided landmark" : " is blocked");
+    }
+  }
+
+  static WorldView with_grid(const OccupancyGrid& grid, const WorldView& world) {
+    return {grid,
+            world.graph,
+            world.robot,
+            world.pose,
+            world.time_s,
+            world.observation,
+            world.held_back_ratio,
+            world.hierarchies,
+            &grid == &world.grid ? world.grid_version : 0};
+  }
+  // The robot's world as it is planned in: with the ground under the robot known, and the robot no
+  // longer where a leg begins.
+  static WorldView planned_world(const StartPlace& start, const WorldView& world) {
+    WorldView planned = with_grid(start.grid_of(world), world);
+    planned.observation = nullptr;
+    planned.hierarchies = nullptr;
+    return planned;
+  }
+  Walker walker(const StartPlace& start, const WorldView& planned_world) const {
+    return {planned_world, *start.space, legs_, route_, budget_};
+  }
+
+  PlanResult answer_from(const StartPlace& start, const WorldView& world) {
+    const HybridGround& ground = avoided_grid_ ? avoiding_ : usual_;
+    const auto routes = ground.routes.routes_of(start.space, ends_.radius_m + kLeastRadius_m);
+    const auto goals_or_refusal = goals_of(
+        request_.to, world, ends_, start, [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
     if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused(*refusal);
-    const auto& goals = std::get<std::vector<GoalPlace>>(goals_or_refusal);
-    const GoalPlace& nearest = nearest_of(goals, *start.space, travel);
-    const double direct_m = travel.cost_m(start.space->field().cell_at(nearest.pose.position()));
+    const auto [goals, direct_m] = nearest_first(std::get<std::vector<GoalPlace>>(goals_or_refusal), start, *routes);
+    const GoalPlace& nearest = goals.front();
     if (start.landmark == nearest.landmark && start.landmark != 0) return stay(start, nearest);
 
-    // The robot's world as it is planned in: with the ground under the robot known, and the robot no
-    // longer where a leg begins.
-    const WorldView planned_world{start.grid_of(world_), world_.graph, world_.robot,          world_.pose,
-                                  world_.time_s,         nullptr,      world_.held_back_ratio};
-    const SymbolicQuery query{
-        request_, world_, start, goals, travel, ends_.radius_m + kLeastRadius_m, config_.detour_ratio};
+    const WorldView planned = planned_world(start, world);
+    const SymbolicQuery query{request_, world_, start, goals, ends_.radius_m + kLeastRadius_m, config_.detour_ratio};
+    const SymbolicSearch search(query, graph_, budget_);
+    std::optional<PlanResult> over = over_graph(search, planned, start, goals, direct_m);
+    PlanResult result = over ? std::move(*over) : direct(planned, start, goals);
+    if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
+      alternatives_ = open_alternatives(search, ways_, result.routes, request_.alternatives,
+                                        OpenRoutes(world_.graph, walker(start, planned), blocked_), budget_);
+    return result;
+  }
+
+  // The way over landmarks: an answer, or none when there is none or the direct one is to be preferred.
+  std::optional<PlanResult> over_graph(const SymbolicSearch& search, const WorldView& planned, const StartPlace& start,
+                                       const std::vector<GoalPlace>& goals, double direct_m) {
+    // Who asks for other than short ways takes longer ones into the bargain.
+    const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
     for (;;) {
-      const SymbolicAnswer symbolic = search_graph(query);
+      const SymbolicAnswer symbolic = search_graph(search);
       if (symbolic.stopped) return stopped(*symbolic.stopped);
-      if (!symbolic.path) break;
-      // Who asks for other than short ways takes longer ones into the bargain.
-      if (request_.cost == CostKind::length && symbolic.path->cost_m > config_.detour_ratio * direct_m) {
+      if (!symbolic.path) return std::nullopt;
+      if (!any_length && symbolic.path->cost_m > config_.detour_ratio * direct_m) {
         why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct way " +
                       metres_text(direct_m);
-        break;
+        return std::nullopt;
       }
       const GoalPlace& goal = goals[symbolic.path->goal];
-      const Walk walk = walk_along(planned_world, start, *symbolic.path, goal);
+      const Walk walk = walk_along(planned, start, *symbolic.path, goal);
       if (walk.stopped) return stopped(*walk.stopped);
-      if (walk.mile_failed) break;
+      if (walk.mile_failed) return std::nullopt;
       if (!walk.blocked) return over_landmarks(start, goal, *symbolic.path, walk);
       blocked_.insert(*walk.blocked);
     }
-    return direct(planned_world, start, goals, travel);
   }
 
-  static const GoalPlace& nearest_of(const std::vector<GoalPlace>& goals, const DiscSpace& space,
-                                     const TravelField& travel) {
-    const auto cost_m = [&](const GoalPlace& g) { return travel.cost_m(space.field().cell_at(g.pose.position())); };
-    return *std::min_element(goals.begin(), goals.end(),
-                             [&](const GoalPlace& a, const GoalPlace& b) { return cost_m(a) < cost_m(b); });
+  // By how long a way to them must be; and that of the first.
+  std::pair<std::vector<GoalPlace>, double> nearest_first(const std::vector<GoalPlace>& goals, const StartPlace& start,
+                                                          const DiscRoutes& routes) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < goals.size(); ++i)
+      order.emplace_back(routes.least_length_m(start.leave_from, goals[i].pose.position(), budget_), i);
+    std::sort(order.begin(), order.end());
+    std::vector<GoalPlace> sorted;
+    for (const auto& [least_m, i] : order) sorted.push_back(goals[i]);
+    return {sorted, order.front().first};
   }
 
-  SymbolicAnswer search_graph(const SymbolicQuery& query) {
+  SymbolicAnswer search_graph(const SymbolicSearch& search) {
     const Time begin = Budget::Clock::now();
-    SymbolicAnswer answer = symbolic_path(query, blocked_, graph_, budget_);
+    SymbolicAnswer answer = search.find(blocked_);
     graph_ms_ += ms_since(begin);
     settled_ += answer.settled;
-    alternatives_ = answer.alternatives;
+    ways_ = answer.ways;
     explanation_ = answer.explanation;
     return answer;
   }
 
-  Walk walk_along(const WorldView& planned_world, const StartPlace& start, const SymbolicPath& path,
-                  const GoalPlace& goal) {
+  Walk walk_along(const WorldView& planned, const StartPlace& start, const SymbolicPath& path, const GoalPlace& goal) {
     const Time begin = Budget::Clock::now();
-    Walk walk = Walker(planned_world, *start.space, legs_, route_, budget_).walk(start.leave_from, path, goal.pose);
+    Walk walk = walker(start, planned).walk(start.leave_from, path, goal.pose);
     route_ms_ += ms_since(begin);
     return walk;
   }
 
   PlanResult stay(const StartPlace& start, const GoalPlace& goal) const {
-    PlanResult result = finished(start, goal, {start.leave_from});
+    PlanResult result = finished(start, goal, {{start.leave_from, 0}}, {});
     result.landmarks = {goal.landmark};
     result.reason = "start and goal are the same landmark";
     return result;
@@ -138,7 +205,7 @@ class Query {
 
   PlanResult over_landmarks(const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path,
                             const Walk& walk) const {
-    PlanResult result = finished(start, goal, walk.route);
+    PlanResult result = finished(start, goal, walk.route, walk.parts);
     result.cost_m = walk.cost_m;
     result.landmarks = path.landmarks;
     result.routes = path.routes;
@@ -148,14 +215,8 @@ class Query {
     return result;
   }
 
-  // Without landmarks in between: goals in the order of their travel, until one is reached.
-  PlanResult direct(const WorldView& planned_world, const StartPlace& start, std::vector<GoalPlace> goals,
-                    const TravelField& travel) {
-    const auto cost_m = [&](const GoalPlace& g) {
-      return travel.cost_m(start.space->field().cell_at(g.pose.position()));
-    };
-    std::stable_sort(goals.begin(), goals.end(),
-                     [&](const GoalPlace& a, const GoalPlace& b) { return cost_m(a) < cost_m(b); });
+  // Without landmarks in between: the goals in their order, until one is reached.
+  PlanResult direct(const WorldView& planned_world, const StartPlace& start, const std::vector<GoalPlace>& goals) {
     PlanResult first;
     for (const GoalPlace& goal : goals) {
       PlanResult result = direct_to(planned_world, start, goal);
@@ -175,16 +236,17 @@ class Query {
     const Time begin = Budget::Clock::now();
     PlanResult planned = route_.plan(request, planned_world, budget_);
     route_ms_ += ms_since(begin);
-    std::vector<Point> route;
-    for (const Pose2& pose : planned.path) route.push_back(pose.position());
+    std::vector<PartedPoint> route;
+    for (const Pose2& pose : planned.path) route.push_back({pose.position(), 0});
     if (planned.outcome == PlanOutcome::solved &&
-        !route_is_free(start.grid_of(world_), ends_.ground, route, ends_.radius_m))
+        !route_is_free(planned_world.grid, ends_.ground, points_of(route), ends_.radius_m))
       return refused({PlanOutcome::no_route, "the route planner's path touches something and was refused"});
     if (planned.outcome != PlanOutcome::solved) {
       if (start.escape && !planned.path.empty()) planned.path.insert(planned.path.begin(), start.pose);
       return planned;
     }
-    PlanResult result = finished(start, goal, route);
+    const auto origin = route.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;
+    PlanResult result = finished(start, goal, route, {{origin, 0, 0.0}});
     for (const LandmarkId id : {start.landmark, goal.landmark})
       if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
     result.reason =
@@ -193,21 +255,33 @@ class Query {
   }
 
   // Joins, shortens and re-checks; `route` begins where the start is left.
-  PlanResult finished(const StartPlace& start, const GoalPlace& goal, std::vector<Point> route) const {
-    if (start.escape) route.insert(route.begin(), start.pose.position());
-    if (config_.shortcut)
-      route = straightened(*start.space, route, ends_.radius_m + kLeastRadius_m, start.escape ? 2 : 1);
-    route.erase(std::unique(route.begin(), route.end()), route.end());
-    if (!route_is_free(start.grid_of(world_), ends_.ground, route, ends_.radius_m, start.escape))
-      throw std::logic_error("hybrid: the re-check refused a path of " + std::to_string(route.size()) +
-                             " points from " + text_of(route.front()) + " to " + text_of(route.back()) + ", radius " +
+  PlanResult finished(const StartPlace& start, const GoalPlace& goal, std::vector<PartedPoint> route,
+                      std::vector<PlanPiece> parts) const {
+    if (start.escape) {
+      parts.push_back({PlanPiece::Origin::escape, 0, 0.0});
+      route.front().part = static_cast<int>(parts.size()) - 1;
+      route.insert(route.begin(), {start.pose.position(), 0});
+    }
+    if (config_.shortcut) {
+      const std::size_t keep = start.escape ? 2 : 1;
+      const double radius_m = ends_.radius_m + kLeastRadius_m;
+      route = tightened(*start.space, straightened(*start.space, route, radius_m, keep), radius_m, keep);
+    }
+    const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
+    route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
+    const std::vector<Point> points = points_of(route);
+    const OccupancyGrid& grid = start.patched_grid ? *start.patched_grid : avoided_grid_ ? *avoided_grid_ : world_.grid;
+    if (!route_is_free(grid, ends_.ground, points, ends_.radius_m, start.escape))
+      throw std::logic_error("hybrid: the re-check refused a path of " + std::to_string(points.size()) +
+                             " points from " + text_of(points.front()) + " to " + text_of(points.back()) + ", radius " +
                              std::to_string(ends_.radius_m));
     PlanResult result;
     result.outcome = PlanOutcome::solved;
-    result.length_m = length_of(route);
+    result.length_m = length_of(points);
     result.cost_m = result.length_m;
-    result.clearance_m = clearance_along(*start.space, route, ends_.radius_m);
-    result.path = poses_along(route, start.pose.theta_rad, goal.heading_rad);
+    result.clearance_m = clearance_along(*start.space, points, ends_.radius_m);
+    result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
+    result.pieces = pieces_of(route, parts);
     return result;
   }
 
@@ -226,7 +300,8 @@ class Query {
   PlanOutcome stop_outcome() const { return budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget; }
 
   const HybridConfig& config_;
-  const SpaceCache& spaces_;
+  const HybridGround& usual_;
+  const HybridGround& avoiding_;
   const Planner& route_;
   const Planner& graph_;
   const PlanRequest& request_;
@@ -234,7 +309,9 @@ class Query {
   const Budget& budget_;
   EndRules ends_;
   LegRules legs_;
+  std::optional<OccupancyGrid> avoided_grid_;
   std::set<RouteId> blocked_;
+  std::vector<PlanAlternative> ways_;  // of the last search
   std::string why_direct_;
   std::int64_t settled_ = 0;
   std::vector<PlanAlternative> alternatives_;
@@ -247,7 +324,8 @@ class Query {
 
 UnknownPolicy unknown_policy_of(const PluginChoice& route) {
   const ConfigValue* unknown = route.config.find("unknown");
-  return unknown != nullptr && unknown->scalar == "allow" ? UnknownPolicy::allow : UnknownPolicy::avoid;
+  return unknown != nullptr && (unknown->scalar == "allow" || unknown->scalar == "cost") ? UnknownPolicy::allow
+                                                                                         : UnknownPolicy::avoid;
 }
 
 HybridPlanner::HybridPlanner(HybridConfig config, std::shared_ptr<const Planner> route,
@@ -264,7 +342,7 @@ PlanResult HybridPlanner::plan(const PlanRequest& request, const WorldView& worl
     throw std::invalid_argument("hybrid: radius_m must be finite and not negative, got " +
                                 std::to_string(request.radius_m));
   const Time begin = Budget::Clock::now();
-  PlanResult result = Query(config_, unknown_, spaces_, *route_, *graph_, request, world, budget).answer();
+  PlanResult result = Query(config_, unknown_, usual_, avoiding_, *route_, *graph_, request, world, budget).answer();
   result.time_ms.total_ms = ms_since(begin);
   return result;
 }

@@ -5,13 +5,14 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/planner.hpp"
+#include "planners/any_angle/disc_routes.hpp"
 #include "planners/disc_space/space_cache.hpp"
 
 namespace cairn {
 
 struct HybridConfig {
-  PluginChoice route = {"ompl", empty_map()};
-  PluginChoice graph = {"landmark_search", empty_map()};
+  PluginChoice route = {"ompl", default_of("route")};
+  PluginChoice graph = {"landmark_search", default_of("graph")};
   double detour_ratio = 1.3;
   double start_tolerance_m = 0.3;
   bool shortcut = true;
@@ -29,9 +30,10 @@ struct HybridConfig {
   }
 
  private:
-  static ConfigValue empty_map() {
+  static ConfigValue default_of(const std::string& key) {
     ConfigValue value;
     value.kind = ConfigValue::Kind::map;
+    value.place.file = "hybrid, its default " + key;
     return value;
   }
 };
@@ -39,12 +41,21 @@ struct HybridConfig {
 // What the route planner's settings say about unknown space, for the hybrid's own checks.
 [[nodiscard]] UnknownPolicy unknown_policy_of(const PluginChoice& route);
 
+// What is kept of a grid from request to request.
+struct HybridGround {
+  SpaceCache spaces;
+  DiscRoutesCache routes;
+};
+
 // Landmarks are passed by stored trajectories that are still free, other legs are planned; a leg that is
 // blocked closes its route for this query and the landmarks are searched again. Without a landmark in
-// between when the direct way is hardly longer. cost_m is that of the graph search (stored costs, lengths
-// where there are none); the path, with its corners cut, may be shorter. On a map without a grid the
-// graph planner's answer is the answer. Every solved path has been re-checked cell by cell. Thread-safe
-// if both planners are.
+// between when the direct way is hardly longer; when landmarks are avoided or routes closed, only where no
+// way over landmarks is left. At an avoided landmark, where a robot would stand is an obstacle to the whole
+// path (avoided.hpp); a closed route matters on the graph only. Alternatives are ways that are open today.
+// cost_m is that of the graph search (stored costs, lengths where there are none); the path, with its
+// corners cut, may be shorter; its pieces say what came from where. On a map without a grid the graph
+// planner's answer is the answer. Every solved path has been re-checked cell by cell. Thread-safe if both
+// planners are.
 class HybridPlanner : public Planner {
  public:
   HybridPlanner(HybridConfig config, std::shared_ptr<const Planner> route, std::shared_ptr<const Planner> graph);
@@ -57,7 +68,8 @@ class HybridPlanner : public Planner {
   UnknownPolicy unknown_;
   std::shared_ptr<const Planner> route_;
   std::shared_ptr<const Planner> graph_;
-  SpaceCache spaces_;
+  HybridGround usual_;
+  HybridGround avoiding_;  // of grids with obstacles at avoided landmarks
 };
 
 }  // namespace cairn

@@ -13,11 +13,17 @@ bool Walker::is_passable(const std::vector<Pose2>& trajectory) const {
   return true;
 }
 
-Walker::Step Walker::go_to(const Point& to, Walk& walk, double at_most_m) const {
-  const Point from = walk.route.back();
+std::optional<PlanOutcome> Walker::stopped() const {
+  if (budget_.cancelled()) return PlanOutcome::cancelled;
+  return budget_.past_deadline() ? std::optional(PlanOutcome::out_of_budget) : std::nullopt;
+}
+
+Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const {
+  const Point from = walk.route.back().at;
   if (from == to) return Step::done;
   if (space_.fits_along(from, to, rules_.radius_m + kLeastRadius_m)) {
-    walk.route.push_back(to);
+    walk.add_part(PlanPiece::Origin::straight, leg);
+    walk.go_on_to(to);
     walk.cost_m += (to - from).norm();
     return Step::done;
   }
@@ -28,41 +34,43 @@ Walker::Step Walker::go_to(const Point& to, Walk& walk, double at_most_m) const 
   request.seed = rules_.seed;
   const PlanResult planned = route_planner_.plan(request, world_, budget_);
   if (planned.outcome == PlanOutcome::cancelled || budget_.exhausted()) {
-    walk.stopped = budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget;
+    walk.stopped = stopped().value_or(planned.outcome);
     return Step::stopped;
   }
   if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return Step::failed;
   // Another planner's word is not enough: with a margin of its own it may leave its start with less.
   if (!is_passable(planned.path) || planned.path.back().position() != to) return Step::failed;
-  for (std::size_t i = 1; i < planned.path.size(); ++i) walk.route.push_back(planned.path[i].position());
+  walk.add_part(PlanPiece::Origin::planned, leg);
+  for (std::size_t i = 1; i < planned.path.size(); ++i) walk.go_on_to(planned.path[i].position());
   walk.cost_m += planned.length_m;
   return Step::done;
 }
 
 void Walker::take_mile(const Point& to, Walk& walk) const {
-  if (go_to(to, walk, std::numeric_limits<double>::infinity()) == Step::failed) walk.mile_failed = true;
+  if (go_to(to, 0, walk, std::numeric_limits<double>::infinity()) == Step::failed) walk.mile_failed = true;
 }
 
 void Walker::take_leg(const Route& leg, Walk& walk) const {
   if (is_passable(leg.trajectory)) {
     take_mile(leg.trajectory.front().position(), walk);
     if (!walk.complete()) return;
-    for (const Pose2& pose : leg.trajectory) walk.route.push_back(pose.position());
+    walk.add_part(PlanPiece::Origin::stored, leg.id);
+    for (const Pose2& pose : leg.trajectory) walk.go_on_to(pose.position());
     walk.cost_m += leg.cost_m;
     ++walk.stored_legs;
     return;
   }
   const auto stand = standing_place(space_, *world_.graph.find(leg.to), rules_.radius_m + kLeastRadius_m);
-  const Point from = walk.route.back();
+  const Point from = walk.route.back().at;
   const double straight_m = stand ? (stand->position() - from).norm() : 0.0;
   const double at_most_m = rules_.detour_ratio * std::max(leg.cost_m, straight_m);
-  if (!stand || go_to(stand->position(), walk, at_most_m) == Step::failed) walk.blocked = leg.id;
+  if (!stand || go_to(stand->position(), leg.id, walk, at_most_m) == Step::failed) walk.blocked = leg.id;
   ++walk.planned_legs;
 }
 
 Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal) const {
   Walk walk;
-  walk.route = {from};
+  walk.route = {{from, 0}};
   // A leg without a passable trajectory begins where its landmark is stood at.
   const Route& first = *world_.graph.find_route(path.routes.front());
   if (!is_passable(first.trajectory)) {
@@ -70,10 +78,22 @@ Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal
     if (stand) take_mile(stand->position(), walk);
   }
   for (const RouteId id : path.routes) {
+    if (walk.complete()) walk.stopped = stopped();
     if (!walk.complete()) return walk;
     take_leg(*world_.graph.find_route(id), walk);
   }
   if (walk.complete()) take_mile(goal.position(), walk);
+  return walk;
+}
+
+Walk Walker::walk_alone(const Route& leg) const {
+  Walk walk;
+  const auto stand = standing_place(space_, *world_.graph.find(leg.from), rules_.radius_m + kLeastRadius_m);
+  walk.stopped = stopped();
+  if (!stand) walk.blocked = leg.id;
+  if (!walk.complete()) return walk;
+  walk.route = {{is_passable(leg.trajectory) ? leg.trajectory.front().position() : stand->position(), 0}};
+  take_leg(leg, walk);
   return walk;
 }
 

@@ -18,8 +18,9 @@ struct LegRules {
 };
 
 struct Walk {
-  std::vector<Point> route;  // from StartPlace::leave_from to the goal
-  double cost_m = 0.0;       // stored costs, or lengths where there was none to use
+  std::vector<PartedPoint> route;  // from StartPlace::leave_from to the goal
+  std::vector<PlanPiece> parts;    // of the route, without their lengths
+  double cost_m = 0.0;             // stored costs, or lengths where there was none to use
   int stored_legs = 0;
   int planned_legs = 0;
   std::optional<RouteId> blocked;      // the route that is not passable today; the walk ends there
@@ -27,6 +28,8 @@ struct Walk {
   std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
 
   [[nodiscard]] bool complete() const { return !blocked && !mile_failed && !stopped; }
+  void add_part(PlanPiece::Origin origin, RouteId of) { parts.push_back({origin, of, 0.0}); }
+  void go_on_to(const Point& to) { route.push_back({to, static_cast<int>(parts.size()) - 1}); }
 };
 
 // Walks a symbolic path: stored trajectories where the disc still fits along them, otherwise legs by the
@@ -38,14 +41,17 @@ class Walker {
       : world_(world), space_(space), rules_(rules), route_planner_(route_planner), budget_(budget) {}
 
   [[nodiscard]] Walk walk(const Point& from, const SymbolicPath& path, const Pose2& goal) const;
+  // One leg by itself, from where its first landmark is stood at.
+  [[nodiscard]] Walk walk_alone(const Route& leg) const;
 
  private:
   enum class Step { done, failed, stopped };
 
-  [[nodiscard]] Step go_to(const Point& to, Walk& walk, double at_most_m) const;
+  [[nodiscard]] Step go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const;
   [[nodiscard]] bool is_passable(const std::vector<Pose2>& trajectory) const;
   void take_leg(const Route& leg, Walk& walk) const;
   void take_mile(const Point& to, Walk& walk) const;
+  [[nodiscard]] std::optional<PlanOutcome> stopped() const;
 
   const WorldView& world_;
   const DiscSpace& space_;

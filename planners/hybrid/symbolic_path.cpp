@@ -1,53 +1,22 @@
 #include "planners/hybrid/symbolic_path.hpp"
 
-#include <algorithm>
-#include <map>
-
 namespace cairn {
 namespace {
 
-// One end of the search: landmarks, each with the travel between it and the request's end, and the goal that this
-// leads to.
-class End {
- public:
-  void add(LandmarkId id, double travel_m, std::size_t goal) {
-    const auto [at, fresh] = reached_.emplace(id, Reached{travel_m, goal});
-    if (!fresh && travel_m < at->second.travel_m) at->second = {travel_m, goal};
-  }
-  [[nodiscard]] Place place(double weight) const {
-    Place place;
-    for (const auto& [id, reached] : reached_) {
-      place.landmarks.push_back(id);
-      place.costs.push_back(weight * reached.travel_m);
-    }
-    return place;
-  }
-  [[nodiscard]] double travel_m(LandmarkId id) const { return reached_.at(id).travel_m; }
-  [[nodiscard]] std::size_t goal(LandmarkId id) const { return reached_.at(id).goal; }
-  [[nodiscard]] bool empty() const { return reached_.empty(); }
-
- private:
-  struct Reached {
-    double travel_m = 0.0;
-    std::size_t goal = 0;
-  };
-  std::map<LandmarkId, Reached> reached_;
-};
-
 class Joiner {
  public:
-  explicit Joiner(const SymbolicQuery& query) : query_(query) {}
+  Joiner(const SymbolicQuery& query, const Budget& budget) : query_(query), budget_(budget) {}
 
-  [[nodiscard]] End start() const {
-    End end;
+  [[nodiscard]] SymbolicEnd start() const {
+    SymbolicEnd end;
     if (query_.start.landmark != 0)
       end.add(query_.start.landmark, 0.0, 0);
     else
-      join(query_.travel_from_start, 0, end);
+      join(query_.start.space->travel_at_most(query_.start.leave_from, query_.radius_m), 0, end);
     return end;
   }
-  [[nodiscard]] End goals() const {
-    End end;
+  [[nodiscard]] SymbolicEnd goals() const {
+    SymbolicEnd end;
     for (std::size_t i = 0; i < query_.goals.size(); ++i) {
       const GoalPlace& goal = query_.goals[i];
       if (goal.landmark != 0)
@@ -60,11 +29,12 @@ class Joiner {
 
  private:
   // Every landmark that has routes and that travel reaches.
-  void join(const TravelField& travel, std::size_t goal, End& end) const {
+  void join(const TravelField& travel, std::size_t goal, SymbolicEnd& end) const {
     const DiscSpace& space = *query_.start.space;
     const LandmarkGraph& graph = query_.world.graph;
     const auto reached = [&](const Point& p) { return travel.reaches(space.field().cell_at(p)); };
     for (const auto& [id, landmark] : graph.landmarks()) {
+      if (budget_.exhausted()) return;  // which the search then says
       if (graph.routes_from(id).empty() && graph.routes_to(id).empty()) continue;
       const auto stand = standing_place(space, landmark, query_.radius_m, reached);
       if (stand) end.add(id, travel.cost_m(space.field().cell_at(stand->position())), goal);
@@ -72,36 +42,57 @@ class Joiner {
   }
 
   const SymbolicQuery& query_;
+  const Budget& budget_;
 };
 
 }  // namespace
 
-SymbolicAnswer symbolic_path(const SymbolicQuery& query, const std::set<RouteId>& blocked, const Planner& graph_planner,
-                             const Budget& budget) {
+void SymbolicEnd::add(LandmarkId id, double travel_m, std::size_t goal) {
+  const auto [at, fresh] = reached_.emplace(id, Reached{travel_m, goal});
+  if (!fresh && travel_m < at->second.travel_m) at->second = {travel_m, goal};
+}
+
+Place SymbolicEnd::place(double weight) const {
+  Place place;
+  for (const auto& [id, reached] : reached_) {
+    place.landmarks.push_back(id);
+    place.costs.push_back(weight * reached.travel_m);
+  }
+  return place;
+}
+
+SymbolicSearch::SymbolicSearch(const SymbolicQuery& query, const Planner& graph_planner, const Budget& budget)
+    : query_(query), graph_planner_(graph_planner), budget_(budget) {
+  if (query.world.graph.routes().empty()) return;
+  const Joiner joiner(query, budget);
+  start_ = joiner.start();
+  goals_ = joiner.goals();
+}
+
+SymbolicAnswer SymbolicSearch::find(const std::set<RouteId>& blocked) const {
   SymbolicAnswer answer;
-  if (query.world.graph.routes().empty()) return answer;
-  const Joiner joiner(query);
-  const End start = joiner.start();
-  const End goals = joiner.goals();
-  if (start.empty() || goals.empty()) return answer;
-  PlanRequest request = query.request;
+  if (budget_.exhausted()) answer.stopped = budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget;
+  if (answer.stopped || start_.empty() || goals_.empty()) return answer;
+  PlanRequest request = query_.request;
   // Travel off the routes in the unit that these are counted in.
   const double weight =
-      request.cost == CostKind::time ? query.travel_weight / query.world.robot.max_v_mps : query.travel_weight;
-  request.from = start.place(weight);
-  request.to = goals.place(weight);
+      request.cost == CostKind::time ? query_.travel_weight / query_.world.robot.max_v_mps : query_.travel_weight;
+  request.from = start_.place(weight);
+  request.to = goals_.place(weight);
   request.closed.insert(request.closed.end(), blocked.begin(), blocked.end());
-  const PlanResult found = graph_planner.plan(request, query.world, budget);
+  const PlanResult found = graph_planner_.plan(request, query_.world, budget_);
   answer.settled = found.settled;
-  answer.alternatives = found.alternatives;
   answer.explanation = found.explanation;
   if (found.outcome == PlanOutcome::cancelled || found.outcome == PlanOutcome::out_of_budget)
     answer.stopped = found.outcome;
-  if (found.outcome != PlanOutcome::solved || found.routes.empty()) return answer;
-  SymbolicPath path{found.landmarks, found.routes, 0.0, goals.goal(found.landmarks.back())};
-  path.cost_m = start.travel_m(found.landmarks.front()) + goals.travel_m(found.landmarks.back());
-  for (const RouteId id : found.routes) path.cost_m += query.world.graph.find_route(id)->cost_m;
-  answer.path = std::move(path);
+  if (found.outcome == PlanOutcome::solved && !found.routes.empty()) {
+    SymbolicPath path{found.landmarks, found.routes, 0.0, goals_.goal(found.landmarks.back())};
+    path.cost_m = start_.travel_m(found.landmarks.front()) + goals_.travel_m(found.landmarks.back());
+    for (const RouteId id : found.routes) path.cost_m += query_.world.graph.find_route(id)->cost_m;
+    answer.path = std::move(path);
+    answer.ways.push_back({found.cost_m, found.landmarks, found.routes});
+  }
+  answer.ways.insert(answer.ways.end(), found.alternatives.begin(), found.alternatives.end());
   return answer;
 }
 

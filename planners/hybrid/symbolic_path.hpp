@@ -1,7 +1,7 @@
 // The symbolic half of a plan: which landmarks to pass, and by which stored routes (METHOD 10).
 #pragma once
 
-#include <memory>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -22,7 +22,7 @@ struct SymbolicAnswer {
   std::optional<SymbolicPath> path;    // none: no way over at least one stored route
   std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
   std::int64_t settled = 0;
-  std::vector<PlanAlternative> alternatives;
+  std::vector<PlanAlternative> ways;  // that path, then the alternatives asked for
   std::optional<PlanExplanation> explanation;
 };
 
@@ -32,16 +32,45 @@ struct SymbolicQuery {
   const WorldView& world;
   const StartPlace& start;
   const std::vector<GoalPlace>& goals;
-  const TravelField& travel_from_start;
   double radius_m = 0.22;
   // What a metre of free travel to the first and from the last landmark counts as against a metre of
   // stored route.
   double travel_weight = 1.3;
 };
 
+// One end of a search: landmarks, each with the travel between it and the request's end, and the goal that this
+// leads to.
+class SymbolicEnd {
+ public:
+  void add(LandmarkId id, double travel_m, std::size_t goal);
+  [[nodiscard]] Place place(double weight) const;
+  [[nodiscard]] double travel_m(LandmarkId id) const { return reached_.at(id).travel_m; }
+  [[nodiscard]] std::size_t goal(LandmarkId id) const { return reached_.at(id).goal; }
+  [[nodiscard]] bool empty() const { return reached_.empty(); }
+
+ private:
+  struct Reached {
+    double travel_m = 0.0;
+    std::size_t goal = 0;
+  };
+  std::map<LandmarkId, Reached> reached_;
+};
+
 // Ends that are poses are joined to the graph by travel over the grid to every landmark with routes;
-// ends that are landmarks are themselves. Routes in `blocked` are left out. One search of the graph planner.
-[[nodiscard]] SymbolicAnswer symbolic_path(const SymbolicQuery& query, const std::set<RouteId>& blocked,
-                                           const Planner& graph_planner, const Budget& budget);
+// ends that are landmarks are themselves. Joined once; each find() is one search of the graph planner.
+class SymbolicSearch {
+ public:
+  SymbolicSearch(const SymbolicQuery& query, const Planner& graph_planner, const Budget& budget);
+
+  // Routes in `blocked` are left out.
+  [[nodiscard]] SymbolicAnswer find(const std::set<RouteId>& blocked) const;
+
+ private:
+  const SymbolicQuery& query_;
+  const Planner& graph_planner_;
+  const Budget& budget_;
+  SymbolicEnd start_;
+  SymbolicEnd goals_;
+};
 
 }  // namespace cairn

@@ -109,10 +109,29 @@ TEST(Routes, TightenedIsNeverLongerAndNeverTouches) {
 
 TEST(Routes, TightenedLeavesRoutesWithoutCornersAlone) {
   const DiscSpace space(box_grid(), {});
-  EXPECT_TRUE(tightened(space, {}, 0.1).empty());
+  EXPECT_TRUE(tightened(space, std::vector<Point>{}, 0.1).empty());
   const std::vector<Point> two{{-0.5, -0.5}, {0.9, -0.5}};
   EXPECT_EQ(tightened(space, two, 0.1), two);
   EXPECT_NEAR(length_of(tightened(space, {two[0], two[0], two[1], two[1]}, 0.1)), length_of(two), 1e-12);
+}
+
+TEST(Routes, ShortenedRoutesKnowWhatLiesAcrossParts) {
+  const OccupancyGrid grid = box_grid();
+  const DiscSpace space(grid, {});
+  const auto parts = [](const std::vector<PartedPoint>& route) {
+    std::vector<int> in_order;
+    for (std::size_t i = 1; i < route.size(); ++i)
+      if (in_order.empty() || in_order.back() != route[i].part) in_order.push_back(route[i].part);
+    return in_order;
+  };
+  const std::vector<PartedPoint> open{{{-0.9, 0.0}, 0}, {{-0.9, 0.5}, 3}, {{-0.8, 1.0}, 3}, {{-0.9, 1.5}, 4}};
+  EXPECT_EQ(parts(straightened(space, {open[0], open[1], open[2]}, 0.2)), std::vector{3});
+  EXPECT_EQ(parts(straightened(space, open, 0.2)), std::vector{kSeveralParts});
+  const std::vector<PartedPoint> round{{{-0.2005, 3.0}, 0}, {{-0.2005, -0.2005}, 1}, {{3.0, -0.2005}, 2}};
+  EXPECT_EQ(parts(straightened(space, round, 0.2)), (std::vector{1, 2}));
+  EXPECT_EQ(parts(tightened(space, round, 0.2)), (std::vector{1, kSeveralParts, 2}))
+      << "parts of both legs, and the cut between them";
+  EXPECT_EQ(parts(tightened(space, {round[0], {round[1].at, 2}, round[2]}, 0.2)), std::vector{2});
 }
 
 TEST(Routes, PosesLookAlongTheRouteAndEndAsTheGoalAsks) {

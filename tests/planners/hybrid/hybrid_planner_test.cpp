@@ -5,97 +5,16 @@
 
 #include <random>
 
-#include "planners/landmark_search/landmark_search.hpp"
-#include "planners/ompl/ompl_planner.hpp"
-#include "tests/planners/drawn_world.hpp"
+#include "tests/planners/hybrid/hybrid_world.hpp"
 
 namespace cairn {
 namespace {
 
-using test::drawn_world;
-using test::DrawnWorld;
+using test::Hybrid;
+using test::kRadius_m;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-constexpr double kRadius_m = 0.14;
-
-// Counts what it passes on.
-class CountingPlanner : public Planner {
- public:
-  explicit CountingPlanner(std::shared_ptr<const Planner> inner) : inner_(std::move(inner)) {}
-  PlanResult plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const override {
-    ++calls;
-    return inner_->plan(request, world, budget);
-  }
-  mutable int calls = 0;
-
- private:
-  std::shared_ptr<const Planner> inner_;
-};
-
-class Hybrid : public ::testing::Test {
- protected:
-  // Two corridors join the left room to the right one.
-  DrawnWorld world = drawn_world(
-      "############################\n"
-      "#......##############......#\n"
-      "#......##############......#\n"
-      "#......##############......#\n"
-      "#......##############......#\n"
-      "#..........................#\n"
-      "#.A....M........U...N....B.#\n"
-      "#..........................#\n"
-      "#..........................#\n"
-      "#......##############......#\n"
-      "#......##############......#\n"
-      "#......##############......#\n"
-      "#..........................#\n"
-      "#.C....P........V...Q....D.#\n"
-      "#..........................#\n"
-      "#..........................#\n"
-      "############################\n");
-  HybridConfig config;
-  std::shared_ptr<CountingPlanner> router =
-      std::make_shared<CountingPlanner>(std::make_shared<OmplPlanner>(OmplConfig{}));
-  std::shared_ptr<CountingPlanner> searcher = std::make_shared<CountingPlanner>(std::make_shared<LandmarkSearch>());
-
-  LandmarkId landmark(char place) {
-    Landmark landmark;
-    landmark.name = std::string(1, place);
-    landmark.T_map_landmark = world.pose(place);
-    landmark.access = world.pose(place);
-    return world.graph.add(landmark);
-  }
-  RouteId route(LandmarkId from, LandmarkId to, const std::string& places, double cost_m = -1.0) {
-    Route route;
-    route.from = from;
-    route.to = to;
-    for (const char place : places) route.trajectory.push_back(world.pose(place));
-    const Point straight =
-        world.graph.find(to)->T_map_landmark.position() - world.graph.find(from)->T_map_landmark.position();
-    route.cost_m = cost_m >= 0.0              ? cost_m
-                   : route.trajectory.empty() ? straight.norm()
-                                              : test::length_of(route.trajectory);
-    return world.graph.add_route(route);
-  }
-  PlanResult plan(const PlanRequest& request, const Budget& budget = {}) const {
-    return HybridPlanner(config, router, searcher).plan(request, world.view(), budget);
-  }
-  PlanRequest request(char from, char to) const { return world.request(from, to, kRadius_m); }
-  static PlanRequest between(LandmarkId from, LandmarkId to) {
-    PlanRequest request;
-    request.from.landmarks = {from};
-    request.to.landmarks = {to};
-    request.radius_m = kRadius_m;
-    return request;
-  }
-  void expect_clear(const PlanResult& result) const {
-    EXPECT_GE(test::distance_by_brute_force(world.grid, result.path, false, 0.01), kRadius_m - 1e-9)
-        << test::drawing_of(world.grid, result.path);
-    EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9);
-  }
-};
 
 TEST_F(Hybrid, PassesLandmarksByAStoredRouteWithoutPlanningAnything) {
   const LandmarkId m = landmark('M');

@@ -1,0 +1,37 @@
+#include "planners/hybrid/open_ways.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+
+bool OpenRoutes::is_open(RouteId id) {
+  if (open_.contains(id)) return true;
+  if (blocked_.contains(id)) return false;
+  const Walk walk = walker_.walk_alone(*graph_.find_route(id));
+  if (walk.blocked) blocked_.insert(id);
+  if (walk.complete()) open_.insert(id);
+  return walk.complete();
+}
+
+bool OpenRoutes::are_open(const std::vector<RouteId>& routes) {
+  return std::all_of(routes.begin(), routes.end(), [&](RouteId id) { return is_open(id); });
+}
+
+std::vector<PlanAlternative> open_alternatives(const SymbolicSearch& search, std::vector<PlanAlternative> ways,
+                                               const std::vector<RouteId>& routes, int count, OpenRoutes open,
+                                               const Budget& budget) {
+  const auto wanted = static_cast<std::size_t>(count);
+  for (;;) {
+    const std::size_t blocked_before = open.blocked().size();
+    std::vector<PlanAlternative> found;
+    for (const PlanAlternative& way : ways)
+      if (found.size() < wanted && way.routes != routes && open.are_open(way.routes)) found.push_back(way);
+    const bool all_open = open.blocked().size() == blocked_before;
+    if (found.size() == wanted || all_open || budget.exhausted()) return found;
+    SymbolicAnswer more = search.find(open.blocked());
+    if (more.stopped) return found;
+    ways = std::move(more.ways);
+  }
+}
+
+}  // namespace cairn
