@@ -14,6 +14,13 @@ namespace cairn {
 [[nodiscard]] std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
                                               std::size_t keep = 1);
 
+// Cuts the corners that cannot be skipped whole as far as straight free segments allow, so that a route round something
+// comes near to its tangents and arcs. For routes that are straightened; corners with ever smaller gains are left.
+// Never longer; a segment of the answer fits where those of the route do. The first `keep` points and the last stay.
+// Bounded work: the last corners of a route of many thousand cells may stay as they are.
+[[nodiscard]] std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
+                                           std::size_t keep = 1);
+
 // A route over the cells' centres, straightened; empty when the grid's coarseness hides the way.
 // Only tried where sampling found nothing: it sees passages as narrow as the disc plus about a cell.
 [[nodiscard]] std::vector<Point> route_over_cells(const DiscSpace& space, const Point& from, const Point& to,

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <random>
+
 #include "tests/planners/drawn_world.hpp"
 
 namespace cairn {
@@ -61,6 +64,76 @@ TEST(Routes, StraightenedKeepsTheEndsAndTheFirstPointsAskedFor) {
   const std::vector<Point> route{{0.25, 0.25}, {0.35, 0.35}, {0.45, 0.25}, {0.65, 0.25}};
   EXPECT_EQ(straightened(space, route, 0.1), (std::vector<Point>{route.front(), route.back()}));
   EXPECT_EQ(straightened(space, route, 0.1, 2), (std::vector<Point>{route[0], route[1], route[3]}));
+}
+
+// Free ground with a box of 40 x 40 occupied cells, [0, 2] x [0, 2] m, in the middle.
+OccupancyGrid box_grid() {
+  OccupancyGrid grid(0.05);
+  for (int y = -80; y < 120; ++y)
+    for (int x = -80; x < 120; ++x) {
+      const bool box = x >= 0 && x < 40 && y >= 0 && y < 40;
+      grid.set_log_odds({x, y}, box ? LogOdds{900} : LogOdds{-900});
+    }
+  return grid;
+}
+
+TEST(Routes, TightenedComesNearToTheTangentsRoundACorner) {
+  const OccupancyGrid grid = box_grid();
+  const DiscSpace space(grid, {});
+  constexpr double kRadius_m = 0.25;
+  // Round the corner (0, 0): tangents of the circle round it, and the arc between them.
+  const Point from(-0.9, 1.7);
+  const Point to(1.3, -0.6);
+  const auto tangent_m = [](const Point& p) { return std::sqrt(p.squaredNorm() - kRadius_m * kRadius_m); };
+  const auto tangent_rad = [](const Point& p) { return std::acos(kRadius_m / p.norm()); };
+  const double between_rad = 2.0 * std::numbers::pi - std::acos(from.dot(to) / (from.norm() * to.norm()));
+  const double arc_m = kRadius_m * (between_rad - tangent_rad(from) - tangent_rad(to));
+  const double best_m = tangent_m(from) + arc_m + tangent_m(to);
+  for (const Point& corner : {Point(-0.9, -0.6), Point(-1.5, -1.4), Point(-0.3, -0.3)}) {
+    const std::vector<Point> route{from, corner, to};
+    const std::vector<Point> tight = tightened(space, route, kRadius_m);
+    EXPECT_GE(length_of(tight), best_m - 1e-9);
+    EXPECT_LE(length_of(tight), 1.01 * best_m) << text_of(corner) << ", " << tight.size() << " points";
+    EXPECT_LT(length_of(tight), length_of(route));
+    EXPECT_TRUE(route_is_free(grid, {}, tight, kRadius_m));
+    EXPECT_EQ(tightened(space, route, kRadius_m), tight);
+  }
+}
+
+TEST(Routes, TightenedIsNeverLongerAndNeverTouches) {
+  int shorter = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    std::mt19937_64 random(seed);
+    OccupancyGrid grid(0.1);
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x) grid.set_log_odds({x, y}, random() % 12 == 0 ? LogOdds{900} : LogOdds{-900});
+    const DiscSpace space(grid, {});
+    const double radius_m = seed % 3 == 0 ? 0.0 : 0.12;
+    std::uniform_real_distribution<double> at(0.2, 3.8);
+    std::vector<Point> route;
+    for (int tries = 0; tries < 4000 && route.size() < 12; ++tries) {
+      const Point next(at(random), at(random));
+      if (space.fits_along(route.empty() ? next : route.back(), next, radius_m)) route.push_back(next);
+    }
+    const std::size_t keep = 1 + seed % 2;
+    if (route.size() <= keep) continue;
+    const std::vector<Point> tight = tightened(space, route, radius_m, keep);
+    ASSERT_GE(tight.size(), keep + 1);
+    for (std::size_t i = 0; i < keep; ++i) EXPECT_EQ(tight[i], route[i]);
+    EXPECT_EQ(tight.back(), route.back());
+    EXPECT_LE(length_of(tight), length_of(route) + 1e-12);
+    EXPECT_TRUE(route_is_free(grid, {}, tight, radius_m)) << test::drawing_of(grid, poses_along(tight, 0, {}));
+    shorter += length_of(tight) < 0.99 * length_of(route);
+  }
+  EXPECT_GT(shorter, 30);
+}
+
+TEST(Routes, TightenedLeavesRoutesWithoutCornersAlone) {
+  const DiscSpace space(box_grid(), {});
+  EXPECT_TRUE(tightened(space, {}, 0.1).empty());
+  const std::vector<Point> two{{-0.5, -0.5}, {0.9, -0.5}};
+  EXPECT_EQ(tightened(space, two, 0.1), two);
+  EXPECT_NEAR(length_of(tightened(space, {two[0], two[0], two[1], two[1]}, 0.1)), length_of(two), 1e-12);
 }
 
 TEST(Routes, PosesLookAlongTheRouteAndEndAsTheGoalAsks) {
