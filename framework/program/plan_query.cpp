@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <ostream>
+#include <set>
 #include <stdexcept>
 
 #include "framework/config/config_value.hpp"
@@ -58,8 +59,14 @@ std::vector<LandmarkId> landmarks_called(const std::string& name, const SavedMap
 
 json object_of_line(const std::string& line, SourcePlace place) {
   const std::string expected = "expected one JSON object {\"id\", \"from\", \"to\"} a line";
+  std::set<std::string> keys;
+  const auto refuse_twice = [&](int depth, json::parse_event_t event, const json& key) {
+    if (depth == 1 && event == json::parse_event_t::key && !keys.insert(key.get<std::string>()).second)
+      throw ConfigError(place, "the key " + shown(key.get<std::string>()) + " stands here twice");
+    return true;
+  };
   try {
-    if (json value = json::parse(line); value.is_object()) return value;
+    if (json value = json::parse(line, refuse_twice); value.is_object()) return value;
   } catch (const json::parse_error& error) {
     place.column = std::max(1, static_cast<int>(error.byte));
     throw ConfigError(place, expected + (error.byte > line.size() ? "; the line ends too early" : ""));
