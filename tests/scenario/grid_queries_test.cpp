@@ -68,7 +68,7 @@ std::string without_times(const std::string& text) {
 }
 
 TEST_F(GridQueries, AnswersAreTheSameAndInOrderHoweverManyAreWorkedOnAtOnce) {
-  const std::string text = queries(300);
+  const std::string text = queries(60);
   const std::string one = asked(text, "1", 1);
   std::istringstream lines(one);
   int id = 0;
@@ -78,9 +78,9 @@ TEST_F(GridQueries, AnswersAreTheSameAndInOrderHoweverManyAreWorkedOnAtOnce) {
     EXPECT_EQ(answer["id"], id);
     solved += answer["outcome"] == "solved" ? 1 : 0;
   }
-  EXPECT_EQ(id, 300);
-  EXPECT_GT(solved, 100);
-  EXPECT_LT(solved, 300);
+  EXPECT_EQ(id, 60);
+  EXPECT_GT(solved, 20);
+  EXPECT_LT(solved, 60);
   for (const char* jobs : {"2", "7"}) EXPECT_EQ(without_times(asked(text, jobs, 1)), without_times(one)) << jobs;
   EXPECT_EQ(without_times(asked(text, "1", 1, false)), without_times(asked(text, "7", 1, false)));
 }

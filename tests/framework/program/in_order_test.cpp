@@ -46,11 +46,11 @@ Ended run(std::size_t threads, const Take& take, const Work& work) {
 TEST(InOrder, ResultsComeInTheOrderOfTheJobsHoweverLongEachTakes) {
   for (const std::size_t threads : {1U, 2U, 7U}) {
     std::atomic<int> taken = 0;
-    const Ended ended = run(threads, counting_to(2000, taken), [](int job) {
-      for (int i = job * 7919 % 50; i > 0; --i) std::this_thread::yield();
+    const Ended ended = run(threads, counting_to(300, taken), [](int job) {
+      for (int i = job * 7919 % 5; i > 0; --i) std::this_thread::yield();
       return job;
     });
-    EXPECT_THAT(ended.given, ElementsAreArray(first(2000)));
+    EXPECT_THAT(ended.given, ElementsAreArray(first(300)));
   }
 }
 
@@ -140,11 +140,11 @@ TEST(InOrder, FewJobsAreUnderWayAtOnce) {
   int given = 0;
   int most_ahead = 0;
   in_order(
-      4, counting_to(5000, taken), [](int job) { return job; },
+      4, counting_to(600, taken), [](int job) { return job; },
       [&](int, bool) {
         ++given;
         most_ahead = std::max(most_ahead, taken - given);
-        for (int i = 0; i < 20; ++i) std::this_thread::yield();
+        for (int i = 0; i < 3; ++i) std::this_thread::yield();
       },
       kNothing);
   EXPECT_LE(most_ahead, 4 * 32 + 1);
