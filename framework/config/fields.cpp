@@ -186,9 +186,10 @@ std::vector<Point> to_points(const ConfigValue& value, const std::string& key) {
   return points;
 }
 
-PluginChoice to_plugin(const ConfigValue& value, const std::string& key) {
+PluginChoice to_plugin(const ConfigValue& value, const std::string& key, const std::string& usual) {
   if (value.kind != ConfigValue::Kind::map) fail(value, key, "a map {plugin: NAME, ...}");
   const ConfigValue* name = value.find("plugin");
+  if (name == nullptr && !usual.empty()) return {usual, value};
   if (name == nullptr) throw ConfigError(value.place, key + " lacks the key \"plugin\": which module does it");
   PluginChoice choice{to_text(*name, "plugin"), value};
   if (choice.name.empty()) fail(*name, "plugin", "the name of a module");

@@ -98,7 +98,8 @@ namespace config_detail {
                              const std::string& unit = "");
 [[nodiscard]] std::vector<double> to_numbers(const ConfigValue& value, const std::string& key, const Range& range);
 [[nodiscard]] std::vector<Point> to_points(const ConfigValue& value, const std::string& key);
-[[nodiscard]] PluginChoice to_plugin(const ConfigValue& value, const std::string& key);
+// usual: the module when the map names none; empty: it must.
+[[nodiscard]] PluginChoice to_plugin(const ConfigValue& value, const std::string& key, const std::string& usual = "");
 [[nodiscard]] const std::vector<ConfigValue>& to_list(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::string number_text(double value);
 // Which one of the keys the map holds. Throws ConfigError when it holds none or several.
@@ -293,8 +294,8 @@ class Fields {
   FieldSpec& plugin(std::string key, PluginChoice Config::*member, std::string kind, std::string meaning) {
     FieldSpec& f = add(std::move(key), "plugin", std::move(meaning), (defaults_.*member).name);
     f.plugin_kind = std::move(kind);
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_plugin(v, key);
+    f.load = [member, key = f.key, usual = f.default_text](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_plugin(v, key, usual);
     };
     return f;
   }

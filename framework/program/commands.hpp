@@ -47,8 +47,11 @@ struct PlanQuestion {
 struct PlanCommand {
   std::filesystem::path map;
   PlanQuestion question;
-  std::string queries;  // a file, "-" for standard input, empty for one query
+  std::string queries;      // a file, "-" for standard input, empty for one query
+  std::optional<int> jobs;  // queries at once; none: as many as there are cores
   std::string planner = "hybrid";
+  std::vector<std::string> settings;  // of the planner, key=value
+  std::filesystem::path robot;        // a robot file
   std::optional<double> radius_m;
   std::optional<double> budget_ms;
   std::int64_t seed = 1;

@@ -60,8 +60,14 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
   sub->add_flag("--explain", c.question.explain, "say how the landmark graph gave the answer");
   sub->add_option("--queries", c.queries,
                   "file of queries, one {\"id\",\"from\",\"to\"} a line, or - (docs/graphs.md)");
+  sub->add_option("--jobs", c.jobs, "answer so many queries at once (without it, as many as there are cores)")
+      ->check(CLI::Range(1, 256));
   sub->add_option("--planner", c.planner, "planner module")->capture_default_str();
-  sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map")
+  sub->add_option("--set", c.settings,
+                  "setting of the planner module: --set route.algorithm=RRTConnect (may be repeated)")
+      ->allow_extra_args(false);
+  sub->add_option("--robot", c.robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
+  sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map or of the robot file")
       ->check(number_within(0.0, kMostRadius_m));
   sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time")->check(number_within(0.0, 1e9));
   sub->add_option("--seed", c.seed, "seed of the planner")->capture_default_str();
@@ -87,7 +93,8 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
 void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* map = app.get_subcommand("map");
   CLI::App* in = map->add_subcommand("import", "Make a map of another tool's landmark graph or occupancy grid");
-  in->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json), *.graphml or Moving AI grid (*.map)")
+  in->add_option("FILE", c.from,
+                 "*.graph, nav2 routes (*.geojson, *.json), *.graphml, Moving AI grid (*.map) or map_server (*.yaml)")
       ->required();
   in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
   in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <ostream>
+#include <set>
 #include <stdexcept>
 
 #include "framework/config/config_value.hpp"
@@ -58,8 +59,14 @@ std::vector<LandmarkId> landmarks_called(const std::string& name, const SavedMap
 
 json object_of_line(const std::string& line, SourcePlace place) {
   const std::string expected = "expected one JSON object {\"id\", \"from\", \"to\"} a line";
+  std::set<std::string> keys;
+  const auto refuse_twice = [&](int depth, json::parse_event_t event, const json& key) {
+    if (depth == 1 && event == json::parse_event_t::key && !keys.insert(key.get<std::string>()).second)
+      throw ConfigError(place, "the key " + shown(key.get<std::string>()) + " stands here twice");
+    return true;
+  };
   try {
-    if (json value = json::parse(line); value.is_object()) return value;
+    if (json value = json::parse(line, refuse_twice); value.is_object()) return value;
   } catch (const json::parse_error& error) {
     place.column = std::max(1, static_cast<int>(error.byte));
     throw ConfigError(place, expected + (error.byte > line.size() ? "; the line ends too early" : ""));
@@ -120,6 +127,18 @@ ordered_json labels(const Ids& ids, const char* letter) {
   return list;
 }
 
+ordered_json json_of(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+ordered_json json_of(const std::vector<PlanPiece>& pieces) {
+  ordered_json list = ordered_json::array();
+  for (const PlanPiece& piece : pieces)
+    list.push_back(
+        {{"origin", std::string(name_of(piece.origin))}, {"route", piece.route}, {"length_m", piece.length_m}});
+  return list;
+}
+
 ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
                                  const ClusterTree& clusters) {
   ordered_json passed = ordered_json::array();
@@ -128,17 +147,13 @@ ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind ki
     for (const ClusterId id : level) names.push_back(label_of(clusters.clusters.at(id), map.graph));
     passed.push_back(names);
   }
-  ordered_json cost;  // null: the graph has no way
-  if (explanation.cost) cost = *explanation.cost;
-  ordered_json better;  // null: no closed route stands in the way
-  if (explanation.cost_with_closed_open) better = *explanation.cost_with_closed_open;
   return {{"levels", explanation.clusters.size()},
           {"settled_of_level", explanation.settled_of_level},
           {"clusters", passed},
-          {"cost", cost},
+          {"cost", json_of(explanation.cost)},
           {"cost_by", std::string(name_of(kind))},
           {"cost_unit", std::string(unit_of(kind))},
-          {"cost_with_closed_open", better},
+          {"cost_with_closed_open", json_of(explanation.cost_with_closed_open)},
           {"closed_in_the_way", explanation.closed_in_the_way}};
 }
 
@@ -163,6 +178,20 @@ void tell_explanation(std::ostream& out, const PlanExplanation& explanation, Cos
   out << fmt::format("  with every closed route open it would be {:.2f} {}, over", *explanation.cost_with_closed_open,
                      unit_of(kind));
   for (const RouteId id : explanation.closed_in_the_way) out << " R" << id;
+  out << "\n";
+}
+
+// What the path is made of, in its order.
+void tell_pieces(std::ostream& out, const PlanResult& result) {
+  if (result.pieces.empty()) return;
+  const char* between = "  made of";
+  for (const PlanPiece& piece : result.pieces) {
+    out << between << ' ' << name_of(piece.origin);
+    if (piece.route != 0) out << " R" << piece.route;
+    out << fmt::format(" {:.2f} m", piece.length_m);
+    between = ",";
+  }
+  if (result.least_length_m) out << fmt::format("; no path can be shorter than {:.2f} m", *result.least_length_m);
   out << "\n";
 }
 
@@ -215,6 +244,7 @@ ordered_json json_of(const PlanQuery& query, const PlanResult& result, const Sav
       {"reason", result.reason},
       {"cost_m", result.cost_m},
       {"length_m", result.length_m},
+      {"least_length_m", json_of(result.least_length_m)},
       {"landmarks", labels(result.landmarks, "L")},
       {"routes", result.routes},
       {"path", path},
@@ -229,6 +259,7 @@ ordered_json json_of(const PlanQuery& query, const PlanResult& result, const Sav
           {{"cost_m", other.cost_m}, {"landmarks", labels(other.landmarks, "L")}, {"routes", other.routes}});
     json["alternatives"] = others;
   }
+  if (query.question.explain) json["pieces"] = json_of(result.pieces);
   if (result.explanation)
     json["explanation"] = json_of_explanation(*result.explanation, cost_kind_of(query.question.cost), map, clusters);
   return json;
@@ -256,6 +287,7 @@ void tell_people(std::ostream& out, const PlanQuery& query, const PlanResult& re
     list(other.landmarks);
     out << "\n";
   }
+  if (query.question.explain) tell_pieces(out, result);
   if (result.explanation) tell_explanation(out, *result.explanation, cost_kind_of(query.question.cost), map, clusters);
 }
 

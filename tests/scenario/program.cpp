@@ -26,17 +26,21 @@ struct Pipe {
   }
 };
 
-[[noreturn]] void become_cairn(const std::vector<std::string>& arguments, const Pipe& out, const Pipe& err) {
-  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
-  dup2(out.write_end, STDOUT_FILENO);
-  dup2(err.write_end, STDERR_FILENO);
-  for (const int end : {out.read_end, out.write_end, err.read_end, err.write_end}) close(end);
+[[noreturn]] void execute_cairn(const std::vector<std::string>& arguments) {
   const std::string program = std::string(CAIRN_BINARY_DIR) + "/bin/cairn";
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   execv(program.c_str(), argv.data());
   _exit(127);
+}
+
+[[noreturn]] void become_cairn(const std::vector<std::string>& arguments, const Pipe& out, const Pipe& err) {
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+  dup2(out.write_end, STDOUT_FILENO);
+  dup2(err.write_end, STDERR_FILENO);
+  for (const int end : {out.read_end, out.write_end, err.read_end, err.write_end}) close(end);
+  execute_cairn(arguments);
 }
 
 // Reads both ends until they close; calls on_output once, when the first bytes of standard output came.
@@ -89,6 +93,46 @@ Finished run_cairn(const std::vector<std::string>& arguments) {
 }
 Finished interrupt_cairn(const std::vector<std::string>& arguments) {
   return start(arguments, true);
+}
+
+Conversation::Conversation(const std::vector<std::string>& arguments) {
+  const Pipe in;
+  const Pipe out;
+  child_ = fork();
+  if (child_ == 0) {
+    dup2(in.read_end, STDIN_FILENO);
+    dup2(out.write_end, STDOUT_FILENO);
+    for (const int end : {in.read_end, in.write_end, out.read_end, out.write_end}) close(end);
+    execute_cairn(arguments);
+  }
+  close(in.read_end);
+  close(out.write_end);
+  input_ = in.write_end;
+  output_ = out.read_end;
+}
+
+Conversation::~Conversation() {
+  close(input_);
+  close(output_);
+  if (child_ > 0) waitpid(child_, nullptr, 0);
+}
+
+void Conversation::say(const std::string& line) const {
+  const std::string text = line + "\n";
+  ASSERT_EQ(write(input_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+}
+
+std::string Conversation::hear() const {
+  std::string line;
+  for (char c = 0; read(output_, &c, 1) == 1 && c != '\n';) line += c;
+  return line;
+}
+
+int Conversation::exit_status() {
+  int status = 0;
+  waitpid(child_, &status, 0);
+  child_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {

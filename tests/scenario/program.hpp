@@ -19,6 +19,26 @@ Finished run_cairn(const std::vector<std::string>& arguments);
 // The same, and sends SIGINT after the first line has come out.
 Finished interrupt_cairn(const std::vector<std::string>& arguments);
 
+// A program that is talked to line by line.
+class Conversation {
+ public:
+  explicit Conversation(const std::vector<std::string>& arguments);
+  Conversation(const Conversation&) = delete;
+  Conversation& operator=(const Conversation&) = delete;
+  ~Conversation();
+
+  void say(const std::string& line) const;
+  // Its next line on standard output, however long that takes; empty when it has ended.
+  [[nodiscard]] std::string hear() const;
+  // Its exit status, once it has ended by itself; its standard input stays open as long.
+  [[nodiscard]] int exit_status();
+
+ private:
+  int input_ = -1;
+  int output_ = -1;
+  int child_ = -1;
+};
+
 // A fresh, empty folder for one test.
 std::filesystem::path fresh_folder(const std::string& name);
 std::string text_of_file(const std::filesystem::path& file);

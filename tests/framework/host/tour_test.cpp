@@ -26,6 +26,7 @@ double x_of(const Place& place) {
 struct Row {
   std::vector<PlanRequest> asked;
   LandmarkId unreachable = 0;
+  bool knows_least = false;
 
   PlanResult operator()(const PlanRequest& request) {
     asked.push_back(request);
@@ -41,6 +42,7 @@ struct Row {
     leg.cost_m = 10.0 * std::abs(to - from);
     leg.length_m = std::abs(to - from);
     leg.clearance_m = to;
+    if (knows_least) leg.least_length_m = 0.5 * leg.length_m;
     leg.path = {Pose2{from, 0.0, 0.0}, Pose2{to, 0.0, 0.0}};
     leg.routes = {static_cast<RouteId>(asked.size())};
     leg.blocked_routes = {static_cast<RouteId>(100 + asked.size())};
@@ -105,6 +107,16 @@ TEST(Tour, PassesItsStopsInTheirOrderAndAddsUp) {
   ASSERT_EQ(result.path.size(), 4U);
   EXPECT_DOUBLE_EQ(result.path[2].x_m, 2.0);
   EXPECT_FALSE(result.explanation);
+}
+
+TEST(Tour, TheLeastLengthsAddUpBetweenSinglePlacesOnly) {
+  Row row;
+  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6})}).least_length_m);
+  row.knows_least = true;
+  EXPECT_EQ(row.tour(from_to(at({1}), at({4})), {at({6})}).least_length_m, 3.5);
+  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6, 2})}).least_length_m);
+  row.unreachable = 4;
+  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6})}).least_length_m);
 }
 
 TEST(Tour, GoesOnFromTheOneOfSeveralThatWasReached) {

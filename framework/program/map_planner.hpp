@@ -1,0 +1,43 @@
+// A saved map with everything that one planner needs to answer questions about it.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "framework/contracts/planner.hpp"
+#include "framework/host/module_library.hpp"
+#include "framework/program/plan_query.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
+#include "maps/map_store.hpp"
+
+namespace cairn {
+
+// The robot that the command and the map say: of the robot file, or of the saved radius; --radius-m makes a disc of
+// that radius of it. Throws ConfigError, StoreError.
+[[nodiscard]] RobotModel robot_of(const PlanCommand& command, const SavedMap& map);
+
+class MapPlanner {
+ public:
+  // The command must outlive it. Throws what loading the map and the modules throws.
+  MapPlanner(const PlanCommand& command, const CommonOptions& common);
+
+  // Thread-safe, like all below.
+  [[nodiscard]] PlanResult answer(const PlanQuery& query) const;
+  // As the hierarchy has them.
+  [[nodiscard]] const ClusterTree& clusters() const;
+  [[nodiscard]] const SavedMap& map() const { return map_; }
+  [[nodiscard]] double radius_m() const { return robot_.radius_m; }
+
+ private:
+  const PlanCommand& command_;
+  bool many_ = false;
+  ModuleLibrary library_;
+  SavedMap map_;
+  RobotModel robot_;
+  Hierarchies hierarchies_;
+  mutable std::once_flag clusters_made_;
+  mutable ClusterTree clusters_;
+  std::shared_ptr<Planner> planner_;
+};
+
+}  // namespace cairn
