@@ -87,7 +87,8 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
 void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* map = app.get_subcommand("map");
   CLI::App* in = map->add_subcommand("import", "Make a map of another tool's landmark graph or occupancy grid");
-  in->add_option("FILE", c.from, "*.graph, nav2 routes (*.geojson, *.json), *.graphml or Moving AI grid (*.map)")
+  in->add_option("FILE", c.from,
+                 "*.graph, nav2 routes (*.geojson, *.json), *.graphml, Moving AI grid (*.map) or map_server (*.yaml)")
       ->required();
   in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
   in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "framework/config/map_server_file.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/output_files.hpp"
@@ -19,7 +22,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kMovingAi = ".map";
+constexpr std::string_view kMovingAi = ".map";
+constexpr std::array<std::string_view, 3> kGridExtensions{kMovingAi, ".yaml", ".yml"};
 constexpr double kMovingAiCell_m = 1.0;
 
 [[noreturn]] void fail_extension(const std::filesystem::path& file, const char* verb,
@@ -58,9 +62,14 @@ int import_graph(const ExchangeCommand& command, GraphFormat format, const Commo
   return kExitDone;
 }
 
+ImportedGrid read_grid(const ExchangeCommand& command) {
+  if (command.from.extension() != kMovingAi) return load_map_server(command.from);
+  return parse_moving_ai_map(exchange::text_of_file(command.from), command.from.string(),
+                             command.cell_m.value_or(kMovingAiCell_m));
+}
+
 int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
-  const std::string text = exchange::text_of_file(command.from);
-  ImportedGrid imported = parse_moving_ai_map(text, command.from.string(), command.cell_m.value_or(kMovingAiCell_m));
+  ImportedGrid imported = read_grid(command);
   SavedMap map;
   map.grid = std::move(imported.grid);
   map.properties["imported_from"] = command.from.filename().string();
@@ -86,9 +95,9 @@ int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
 int map_import(const ExchangeCommand& command, const CommonOptions& common) {
   const std::string extension = command.from.extension().string();
   const std::optional<GraphFormat> format = graph_format_of(command.from);
-  if (!format && extension != kMovingAi) {
+  if (!format && std::ranges::find(kGridExtensions, extension) == kGridExtensions.end()) {
     std::vector<std::string> known = graph_extensions();
-    known.emplace_back(kMovingAi);
+    known.insert(known.end(), kGridExtensions.begin(), kGridExtensions.end());
     fail_extension(command.from, "imported", known);
   }
   if (command.cell_m && extension != kMovingAi)

@@ -70,7 +70,7 @@ TEST_F(Exchange, RefusesExtensionsThatItDoesNotKnow) {
   EXPECT_EQ(
       refused({"import", "a.grph", "-o", file("g.cairn")}),
       "cairn: a.grph: cannot be imported: unknown extension \".grph\" (did you mean \".graph\"?); known are .graph, "
-      ".geojson, .json, .graphml, .map\n");
+      ".geojson, .json, .graphml, .map, .yaml, .yml\n");
   EXPECT_EQ(
       refused({"export", file("g.cairn"), "-o", "a"}),
       "cairn: a: cannot be exported to: it has no extension; known are .graph, .geojson, .json, .graphml, .png\n");
@@ -98,6 +98,21 @@ TEST_F(Exchange, AMovingAiGridBecomesAMapWithCellsOfOneMetre) {
   EXPECT_EQ(map.properties.at("imported_from"), "small.map");
   done({"import", file("small.map"), "-o", file("g.cairn"), "--cell-m", "0.5"});
   EXPECT_EQ(load_map(file("g.cairn")).grid.cell_m(), 0.5);
+}
+
+TEST_F(Exchange, AMapServerGridKeepsItsPlaceAndItsUnknown) {
+  write_text(file("m.pgm"), "P2 3 1 255 0 205 254\n");
+  write_text(file("m.yaml"),
+             "image: m.pgm\nresolution: 0.1\norigin: [-2, 1, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+             "free_thresh: 0.25\n");
+  EXPECT_EQ(done({"import", file("m.yaml"), "-o", file("g.cairn")})["warnings"],
+            (json{"grey 205, by which map_server means unknown, counts as free by these thresholds"}));
+  const OccupancyGrid grid = load_map(file("g.cairn")).grid;
+  EXPECT_EQ(grid.state(grid.cell_at({-1.95, 1.05})), CellState::occupied);
+  EXPECT_EQ(grid.state(grid.cell_at({-1.75, 1.05})), CellState::free);
+  write_text(file("m.pgm"), "P2 3 1 255 0 2x5 254\n");
+  EXPECT_EQ(refused({"import", file("m.yaml"), "-o", file("g.cairn")}),
+            "cairn: " + file("m.pgm") + ":1:14: a pixel \"2x5\" is no whole number of 0 to 255\n");
 }
 
 TEST_F(Exchange, ABadGridIsRefusedWithItsPlace) {
