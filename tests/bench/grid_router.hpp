@@ -18,7 +18,6 @@ class GridRouter {
                                 std::uint64_t seed = 1) const;  // budget 0: none
   [[nodiscard]] PlanResult plan(const PlanRequest& request, double budget_ms = 0.0) const;
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
-  [[nodiscard]] RobotModel& robot() { return robot_; }
 
  private:
   OccupancyGrid grid_;

@@ -141,7 +141,10 @@ void print_motions(const Settings& settings) {
                 quantile(ratios, 0.25), quantile(ratios, 0.75), quantile(ratios, 0.0));
 }
 
+constexpr const char* kDefault = "default";
+
 std::string with_algorithm(const Settings& settings, const std::string& algorithm) {
+  if (algorithm == kDefault) return "{" + settings.module_settings + "}";
   return "{algorithm: " + algorithm + (settings.module_settings.empty() ? "" : ", " + settings.module_settings) + "}";
 }
 
@@ -175,29 +178,37 @@ void compare_quality(const Site& site, const GridRouter& router, const StockOmpl
   if (theirs.exact) sum.lengths.push_back(theirs.length_m / ours.result.length_m);
 }
 
+QualityResult quality_of(const std::vector<Site>& sites, const Settings& settings, const std::string& ours,
+                         const std::string& planner) {
+  QualityResult sum;
+  for (const Site& site : sites) {
+    std::mt19937_64 random(settings.seed);
+    const GridRouter router(site.grid, kRadius_m, with_algorithm(settings, ours));
+    const StockOmpl stock(site.space, kRadius_m, 0.5 * site.grid.cell_m());
+    const std::vector<Motion> pairs = site.random_pairs(settings.pairs, random);
+    static_cast<void>(router.plan(pairs.front().first, pairs.front().second));  // makes what the map's others use
+    for (const Motion& ends : pairs) compare_quality(site, router, stock, planner, ends, settings.limit_s, sum);
+  }
+  return sum;
+}
+
 void print_quality(const Settings& settings) {
   std::printf(
-      "| planner | pairs | ours, median ms | p95 | stock, median ms | stock got there | no path at all | ratio of "
-      "times: quartile | median | quartile | its length / ours at the end, median |\n"
-      "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+      "| ours | stock | pairs | ours, median ms | p95 | stock, median ms | got there | no path at all | ratio of "
+      "times: quartile | median | quartile | stock's length / ours at the end, median |\n"
+      "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   const std::vector<Site> sites = sites_of(settings);
-  for (const std::string planner : {"RRTConnect", "BITstar", "InformedRRTstar", "RRTstar"}) {
-    QualityResult sum;
-    for (const Site& site : sites) {
-      std::mt19937_64 random(settings.seed);
-      const GridRouter router(site.grid, kRadius_m, with_algorithm(settings, planner));
-      const StockOmpl stock(site.space, kRadius_m, 0.5 * site.grid.cell_m());
-      const std::vector<Motion> pairs = site.random_pairs(settings.pairs, random);
-      static_cast<void>(router.plan(pairs.front().first, pairs.front().second));  // makes what the map's others use
-      for (const Motion& ends : pairs) compare_quality(site, router, stock, planner, ends, settings.limit_s, sum);
+  for (const bool same : {false, true})
+    for (const std::string planner : {"RRTConnect", "BITstar", "InformedRRTstar", "RRTstar"}) {
+      const std::string ours = same ? planner : kDefault;
+      const QualityResult sum = quality_of(sites, settings, ours, planner);
+      std::printf("| %s | %s | %zu | %.2f | %.2f | %.0f | %zu | %zu | %.1f | %.1f | %.1f | %.3f |\n", ours.c_str(),
+                  planner.c_str(), sum.pairs - sum.unsolved, quantile(sum.ours_ms, 0.5), quantile(sum.ours_ms, 0.95),
+                  quantile(sum.stock_ms, 0.5), sum.reached, sum.no_path, quantile(sum.ratios, 0.25),
+                  quantile(sum.ratios, 0.5), quantile(sum.ratios, 0.75), quantile(sum.lengths, 0.5));
+      if (sum.unsolved > 0) std::printf("%zu pairs not solved by ours\n", sum.unsolved);
+      std::fflush(stdout);
     }
-    std::printf("| %s | %zu | %.2f | %.2f | %.0f | %zu | %zu | %.1f | %.1f | %.1f | %.3f |\n", planner.c_str(),
-                sum.pairs - sum.unsolved, quantile(sum.ours_ms, 0.5), quantile(sum.ours_ms, 0.95),
-                quantile(sum.stock_ms, 0.5), sum.reached, sum.no_path, quantile(sum.ratios, 0.25),
-                quantile(sum.ratios, 0.5), quantile(sum.ratios, 0.75), quantile(sum.lengths, 0.5));
-    if (sum.unsolved > 0) std::printf("%zu pairs not solved by ours\n", sum.unsolved);
-    std::fflush(stdout);
-  }
 }
 
 struct Cuts {
@@ -220,9 +231,9 @@ void print_cuts(const Settings& settings) {
   for (const Site& site : sites_of(settings)) {
     const PlainCells cells = plain_cells(site.grid);
     const StockOmpl stock(site.space, kRadius_m, 0.0);
+    const GridRouter router(site.grid, kRadius_m, with_algorithm(settings, kDefault));
     for (const std::string planner : {"RRTConnect", "BITstar"}) {
       std::mt19937_64 random(settings.seed);
-      const GridRouter router(site.grid, kRadius_m, with_algorithm(settings, planner));
       Cuts theirs;
       Cuts ours;
       for (const Motion& ends : site.random_pairs(settings.pairs, random)) {
