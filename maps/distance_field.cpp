@@ -5,25 +5,25 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
 
 namespace cairn {
 namespace {
 
-// 0 where the robot cannot be, 255 elsewhere: what cv::distanceTransform reads.
-cv::Mat crossable_cells(const OccupancyGrid& grid, const CellBox& box, UnknownPolicy unknown,
-                        const OccupancyThresholds& thresholds) {
+std::vector<std::uint8_t> free_cells(const OccupancyGrid& grid, const CellBox& box, UnknownPolicy unknown,
+                                     const OccupancyThresholds& thresholds) {
   std::vector<LogOdds> row(static_cast<std::size_t>(box.width()));
-  cv::Mat crossable(box.height(), box.width(), CV_8U);
-  for (int y = 0; y < box.height(); ++y) {
-    grid.copy_log_odds({{box.min.x, box.min.y + y}, {box.max.x, box.min.y + y + 1}}, row);
-    std::uint8_t* const out = crossable.ptr<std::uint8_t>(y);
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      const CellState state = thresholds.state(row[x]);
-      const bool free = state == CellState::free || (state == CellState::unknown && unknown == UnknownPolicy::allow);
-      out[x] = free ? 255 : 0;
+  std::vector<std::uint8_t> free;
+  free.reserve(row.size() * static_cast<std::size_t>(box.height()));
+  for (int y = box.min.y; y < box.max.y; ++y) {
+    grid.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, row);
+    for (const LogOdds log_odds : row) {
+      const CellState state = thresholds.state(log_odds);
+      free.push_back(state == CellState::free || (state == CellState::unknown && unknown == UnknownPolicy::allow));
     }
   }
-  return crossable;
+  return free;
 }
 
 }  // namespace
@@ -32,8 +32,21 @@ DistanceField::DistanceField(const OccupancyGrid& grid, UnknownPolicy unknown, c
     : box_(grid.bounds().empty() ? CellBox{} : grid.bounds().grown(1)),
       cell_m_(grid.cell_m()),
       origin_m_(grid.origin_m()) {
+  measure(free_cells(grid, box_, unknown, thresholds));
+}
+
+DistanceField::DistanceField(const CellBox& box, double cell_m, const Point& origin_m, std::vector<std::uint8_t> free)
+    : box_(box.empty() ? CellBox{} : box), cell_m_(cell_m), origin_m_(origin_m) {
+  const std::int64_t cells = std::int64_t{box_.width()} * box_.height();
+  if (static_cast<std::int64_t>(free.size()) != cells)
+    throw std::invalid_argument("DistanceField: " + std::to_string(free.size()) + " marks for " +
+                                std::to_string(cells) + " cells");
+  measure(std::move(free));
+}
+
+void DistanceField::measure(std::vector<std::uint8_t> free) {
   if (box_.empty()) return;
-  const cv::Mat crossable = crossable_cells(grid, box_, unknown, thresholds);
+  cv::Mat crossable(box_.height(), box_.width(), CV_8U, free.data());
   distance_m_.resize(crossable.total());
   if (cv::countNonZero(crossable) == static_cast<int>(crossable.total())) {
     const double diagonal_m = std::hypot(box_.width(), box_.height()) * cell_m_;

@@ -23,6 +23,9 @@ class DistanceField {
   // Over grid.bounds() grown by one cell. Occupied cells are blocked; unknown ones by policy.
   DistanceField(const OccupancyGrid& grid, UnknownPolicy unknown, const OccupancyThresholds& thresholds = {});
 
+  // Over a box: not 0 is free, row-major, lower left cell first.
+  DistanceField(const CellBox& box, double cell_m, const Point& origin_m, std::vector<std::uint8_t> free);
+
   [[nodiscard]] CellBox box() const { return box_; }
   [[nodiscard]] double cell_m() const { return cell_m_; }
   [[nodiscard]] Point origin_m() const { return origin_m_; }
@@ -40,6 +43,8 @@ class DistanceField {
   [[nodiscard]] double clearance_m(const Point& p_map) const;
 
  private:
+  void measure(std::vector<std::uint8_t> free);
+
   CellBox box_;
   double cell_m_ = 0.05;
   Point origin_m_{0.0, 0.0};

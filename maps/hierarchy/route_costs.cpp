@@ -33,8 +33,7 @@ double time_of(const Route& route, const RouteCostRules& rules) {
 }
 
 double weight_at(const Point& p_map, const DistanceField& field, double radius_m) {
-  const double room_m = field.distance_m(field.cell_at(p_map)) - radius_m;
-  return 1.0 + kNarrowWeight * std::clamp(1.0 - room_m / kRoomy_m, 0.0, 1.0);
+  return room_weight(field.distance_m(field.cell_at(p_map)) - radius_m);
 }
 
 double crampedness_of(const Route& route, const DistanceField& field, double radius_m) {
@@ -58,6 +57,10 @@ std::string_view name_of(CostKind kind) {
 
 std::string_view unit_of(CostKind kind) {
   return kind == CostKind::time ? "s" : "m";
+}
+
+double room_weight(double room_m) {
+  return 1.0 + kNarrowWeight * std::clamp(1.0 - room_m / kRoomy_m, 0.0, 1.0);
 }
 
 RouteCost route_cost(CostKind kind, const RouteCostRules& rules) {

@@ -17,6 +17,9 @@ enum class CostKind : std::uint8_t {
 [[nodiscard]] std::string_view name_of(CostKind kind);
 [[nodiscard]] std::string_view unit_of(CostKind kind);  // m or s
 
+// What a metre counts, by clearance, where the robot's edge keeps so much room: 1 where there is enough.
+[[nodiscard]] double room_weight(double room_m);
+
 struct RouteCostRules {
   double speed_mps = 0.4;    // within the route's own limit
   double turn_radps = 1.75;  // on the spot

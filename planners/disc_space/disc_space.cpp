@@ -2,7 +2,10 @@
 
 #include <array>
 #include <limits>
+#include <mutex>
 #include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -44,21 +47,31 @@ constexpr int floor_divided(int a, int b) {
 
 }  // namespace
 
+// Numbers of connected cells, by row; 0 is blocked.
+struct DiscSpace::Parts {
+  std::once_flag made;
+  cv::Mat numbers;
+};
+
 DiscSpace::DiscSpace(const OccupancyGrid& grid, const GroundRules& rules)
-    : rules_(rules), field_(grid, rules.unknown, rules.thresholds), lattice_{grid.origin_m(), grid.cell_m()} {}
+    : rules_(rules),
+      field_(grid, rules.unknown, rules.thresholds),
+      lattice_{grid.origin_m(), grid.cell_m()},
+      parts_(std::make_shared<Parts>()) {}
 
 DiscSpace::DiscSpace(const DiscSpace& coarse, int parts)
-    : rules_(coarse.rules_), lattice_{coarse.lattice_.origin_m, coarse.lattice_.cell_m / parts} {
-  // Blocked cells as occupied ones and all others as free, so that the finer field blocks the same ground.
-  OccupancyGrid grid(lattice_.cell_m, 4.0, lattice_.origin_m);
+    : rules_(coarse.rules_),
+      lattice_{coarse.lattice_.origin_m, coarse.lattice_.cell_m / parts},
+      parts_(std::make_shared<Parts>()) {
   const CellBox box = coarse.field_.box();
-  for (int y = box.min.y * parts; y < box.max.y * parts; ++y)
-    for (int x = box.min.x * parts; x < box.max.x * parts; ++x) {
-      const bool blocked = coarse.is_blocked({floor_divided(x, parts), floor_divided(y, parts)});
-      grid.set_log_odds({x, y}, static_cast<LogOdds>(blocked ? rules_.thresholds.occupied_above + 1
-                                                             : rules_.thresholds.free_below - 1));
-    }
-  field_ = DistanceField(grid, rules_.unknown, rules_.thresholds);
+  const CellBox fine{{box.min.x * parts, box.min.y * parts}, {box.max.x * parts, box.max.y * parts}};
+  std::vector<std::uint8_t> free;
+  free.reserve(static_cast<std::size_t>(fine.width()) * static_cast<std::size_t>(fine.height()));
+  for (int y = fine.min.y; y < fine.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      free.insert(free.end(), static_cast<std::size_t>(parts),
+                  coarse.is_blocked({x, floor_divided(y, parts)}) ? std::uint8_t{0} : std::uint8_t{1});
+  field_ = DistanceField(fine, lattice_.cell_m, lattice_.origin_m, std::move(free));
 }
 
 DiscSpace DiscSpace::refined(int parts) const {
@@ -151,6 +164,23 @@ double DiscSpace::distance_m(const Point& from, const Point& to) const {
     return false;
   });
   return best_m;
+}
+
+bool DiscSpace::joined(const Point& a, const Point& b) const {
+  if (!contains(a) || !contains(b)) return false;
+  const CellBox box = field_.box();
+  std::call_once(parts_->made, [&] {
+    cv::Mat free(box.height(), box.width(), CV_8U);
+    for (int y = 0; y < box.height(); ++y)
+      for (int x = 0; x < box.width(); ++x)
+        free.at<std::uint8_t>(y, x) = field_.is_blocked({box.min.x + x, box.min.y + y}) ? 0 : 1;
+    cv::connectedComponents(free, parts_->numbers, 4, CV_32S);
+  });
+  const auto number = [&](const Point& p) {
+    const Cell cell = field_.cell_at(p) - box.min;
+    return parts_->numbers.at<std::int32_t>(cell.y, cell.x);
+  };
+  return number(a) != 0 && number(a) == number(b);
 }
 
 TravelField DiscSpace::travel_at_most(const Point& from, double radius_m) const {

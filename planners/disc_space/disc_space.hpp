@@ -5,6 +5,8 @@
 // Immutable and thread-safe. Building it costs O(cells).
 #pragma once
 
+#include <memory>
+
 #include "maps/distance_field.hpp"
 #include "maps/swept_disc.hpp"
 #include "maps/travel_field.hpp"
@@ -31,6 +33,9 @@ class DiscSpace {
   // Distance from a segment inside the map to the nearest blocked square.
   [[nodiscard]] double distance_m(const Point& from, const Point& to) const;
 
+  // Whether a point could get from one to the other, over cells that share a side. False inside what is blocked.
+  [[nodiscard]] bool joined(const Point& a, const Point& b) const;
+
   // The same ground on a lattice `parts` times as fine: the same answers, with narrower doubt below.
   [[nodiscard]] DiscSpace refined(int parts) const;
 
@@ -49,9 +54,12 @@ class DiscSpace {
   [[nodiscard]] Bounds bounds_at(const Point& p_map) const;
   [[nodiscard]] bool nothing_blocks() const;
 
+  struct Parts;
+
   GroundRules rules_;
   DistanceField field_;
   Lattice lattice_;
+  std::shared_ptr<Parts> parts_;  // made when first asked for
 };
 
 }  // namespace cairn

@@ -1,5 +1,6 @@
 #include "planners/disc_space/ends.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cairn {
@@ -44,10 +45,8 @@ std::string not_reached_text(const Place& goal, const LandmarkGraph& graph) {
 // No way at all, or none for a robot of this size?
 Refusal unreached(const Place& place, const WorldView& world, const EndRules& rules, const StartPlace& start,
                   const std::vector<Point>& goals) {
-  const TravelField thin = start.space->travel_at_most(start.leave_from, 0.0);
-  bool open = false;
-  for (const Point& goal : goals) open = open || thin.reaches(start.space->field().cell_at(goal));
-  if (open) return too_narrow(place, world.graph, rules.radius_m);
+  const auto is_open = [&](const Point& goal) { return start.space->joined(start.leave_from, goal); };
+  if (std::any_of(goals.begin(), goals.end(), is_open)) return too_narrow(place, world.graph, rules.radius_m);
   return {PlanOutcome::no_route,
           not_reached_text(place, world.graph) + ": what is free around the start ends before it"};
 }
@@ -103,18 +102,17 @@ std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& 
 
 std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const WorldView& world,
                                                        const EndRules& rules, const StartPlace& start,
-                                                       const TravelField& travel) {
+                                                       const MayReach& may_reach) {
   if (const auto refusal = refusal_of_place(place, world.graph, "goal")) return *refusal;
   const DiscSpace& space = *start.space;
   const double radius_m = rules.radius_m + kLeastRadius_m;
-  const auto reached = [&](Cell cell) { return travel.reaches(cell); };
   if (place.pose) {
     const Point at = place.pose->position();
     if (!space.fits(at, radius_m))
       return Refusal{PlanOutcome::goal_blocked, "the goal " + text_of(at) + " is blocked: " +
                                                     why_blocked(start.grid_of(world), space, at, rules.radius_m) +
                                                     nearest_free_text(space, at, radius_m)};
-    if (!reached(space.field().cell_at(at))) return unreached(place, world, rules, start, {at});
+    if (!may_reach(at)) return unreached(place, world, rules, start, {at});
     const std::optional<double> heading = place.heading_matters ? std::optional(place.pose->theta_rad) : std::nullopt;
     return std::vector{GoalPlace{*place.pose, heading, 0, ""}};
   }
@@ -122,7 +120,7 @@ std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const
   std::vector<Point> out_of_reach;
   for (const LandmarkId id : place.landmarks) {
     const Landmark& landmark = *world.graph.find(id);
-    if (const auto stand = standing_place(space, landmark, radius_m, reached)) {
+    if (const auto stand = standing_place(space, landmark, radius_m, may_reach)) {
       goals.push_back({*stand, std::nullopt, id, note_on(*stand, landmark)});
     } else if (const auto anywhere = standing_place(space, landmark, radius_m)) {
       out_of_reach.push_back(anywhere->position());

@@ -1,6 +1,7 @@
 // The two ends of a request as points on the grid: where the robot sets out and where it may arrive.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,10 +55,12 @@ struct EndRules {
                                                          const EndRules& rules, const SpaceCache& spaces);
 // That the way is too narrow for the robot, for people.
 [[nodiscard]] Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m);
-// Every place that the request would accept, landmarks by their standing places on what `travel`
-// reaches; one that cannot be reached is left out. At least one, or a refusal that says why.
+// Whether a disc that leaves the start may get to a point; false is certain.
+using MayReach = std::function<bool(const Point&)>;
+// Every place that the request would accept, landmarks by their standing places that may be reached; one
+// that cannot be is left out. At least one, or a refusal that says why.
 [[nodiscard]] std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const WorldView& world,
                                                                      const EndRules& rules, const StartPlace& start,
-                                                                     const TravelField& travel);
+                                                                     const MayReach& may_reach);
 
 }  // namespace cairn

@@ -47,7 +47,7 @@ std::string text_of(const Point& p_map) {
 }
 
 std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, double radius_m, double within_m,
-                                 const std::function<bool(Cell)>& accept) {
+                                 const std::function<bool(const Point&)>& accept) {
   if (!near_map.allFinite()) return std::nullopt;
   const DistanceField& field = space.field();
   const Cell at = field.cell_at(near_map);
@@ -60,7 +60,7 @@ std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, 
       const Point centre = field.centre_of({x, y});
       const double away_m = (centre - near_map).norm();
       if (away_m > (best ? best_m - kTie_m : best_m)) continue;
-      if (!space.fits(centre, radius_m) || (accept && !accept({x, y}))) continue;
+      if (!space.fits(centre, radius_m) || (accept && !accept(centre))) continue;
       best = centre;
       best_m = away_m;
     }
@@ -69,11 +69,10 @@ std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, 
 }
 
 std::optional<Pose2> standing_place(const DiscSpace& space, const Landmark& landmark, double radius_m,
-                                    const std::function<bool(Cell)>& accept) {
+                                    const std::function<bool(const Point&)>& accept) {
   const Point centre = landmark.T_map_landmark.position();
   const Point wanted = landmark.access ? landmark.access->position() : centre;
-  if (landmark.access && space.fits(wanted, radius_m) && (!accept || accept(space.field().cell_at(wanted))))
-    return landmark.access;
+  if (landmark.access && space.fits(wanted, radius_m) && (!accept || accept(wanted))) return landmark.access;
   const std::optional<Point> near = nearest_fit(space, wanted, radius_m, kStandNear_m, accept);
   if (!near) return std::nullopt;
   const Point look = centre - *near;
@@ -132,9 +131,10 @@ std::optional<Escape> escape_from(const OccupancyGrid& grid, const DiscSpace& sp
   if (occupied_m <= 0.0) return std::nullopt;
   // A hair less than the start keeps, so that the start itself passes the check.
   Escape escape{start, std::min(occupied_m, radius_m) - kLeastRadius_m};
-  const std::optional<Point> to = nearest_fit(space, start, radius_m + kLeastRadius_m, tolerance_m, [&](Cell cell) {
-    return escape_is_free(grid, space.rules(), start, {space.field().centre_of(cell), escape.keep_m});
-  });
+  const std::optional<Point> to =
+      nearest_fit(space, start, radius_m + kLeastRadius_m, tolerance_m, [&](const Point& place) {
+        return escape_is_free(grid, space.rules(), start, {place, escape.keep_m});
+      });
   if (!to) return std::nullopt;
   escape.to = *to;
   return escape;

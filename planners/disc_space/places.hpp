@@ -15,13 +15,13 @@ inline constexpr double kStandNear_m = 1.5;  // a landmark without an access: ho
 // The cell centre nearest to a point, within a distance, where the disc fits and `accept` (optional)
 // agrees. Ties go to the smaller (y, x).
 [[nodiscard]] std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, double radius_m,
-                                               double within_m, const std::function<bool(Cell)>& accept = {});
+                                               double within_m, const std::function<bool(const Point&)>& accept = {});
 
 // Where a robot stands to be at a landmark: its access where the disc fits, else the nearest place that
 // fits (and that `accept` agrees to) round the access or, without one, round the landmark. The heading
 // of another place than the access looks at the landmark.
 [[nodiscard]] std::optional<Pose2> standing_place(const DiscSpace& space, const Landmark& landmark, double radius_m,
-                                                  const std::function<bool(Cell)>& accept = {});
+                                                  const std::function<bool(const Point&)>& accept = {});
 
 // Why the disc cannot stand there, as the end of a sentence: "an occupied cell is 0.12 m from its centre".
 [[nodiscard]] std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& p_map,

@@ -5,30 +5,6 @@
 namespace cairn {
 namespace {
 
-// The cell nearest to a point whose centre the disc sees from there and which keeps centres_m.
-std::optional<Cell> cell_seen_from(const DiscSpace& space, const Point& p_map, double radius_m, double centres_m) {
-  const auto keeps_clear = [&](Cell cell) {
-    return space.field().distance_m(cell) >= static_cast<float>(centres_m) &&
-           space.fits_along(p_map, space.field().centre_of(cell), radius_m);
-  };
-  const std::optional<Point> centre = nearest_fit(space, p_map, radius_m, 3.0 * space.cell_m(), keeps_clear);
-  if (!centre) return std::nullopt;
-  return space.field().cell_at(*centre);
-}
-
-std::vector<Point> route_at_threshold(const DiscSpace& space, const Point& from, const Point& to, double radius_m,
-                                      double centres_m) {
-  const std::optional<Cell> first = cell_seen_from(space, from, radius_m, centres_m);
-  const std::optional<Cell> last = cell_seen_from(space, to, radius_m, centres_m);
-  if (!first || !last) return {};
-  const TravelField travel(space.field(), space.field().centre_of(*first), centres_m);
-  std::vector<Point> route{from};
-  for (const Cell cell : travel.path_to(*last)) route.push_back(space.field().centre_of(cell));
-  if (route.size() == 1) return {};
-  route.push_back(to);
-  return route;
-}
-
 constexpr int kMostRounds = 6;             // each about halves the turns that are left
 constexpr double kLeastGain_ratio = 1e-3;  // of a round, else it is the last one
 constexpr double kFinest_cells = 1.0 / 16.0;
@@ -101,12 +77,6 @@ class CornerCutter {
   double work_cells_ = 0.0;
 };
 
-bool fits_all_along(const DiscSpace& space, const std::vector<Point>& route, double radius_m) {
-  for (std::size_t i = 1; i < route.size(); ++i)
-    if (!space.fits_along(route[i - 1], route[i], radius_m)) return false;
-  return true;
-}
-
 }  // namespace
 
 double length_of(const std::vector<Point>& route) {
@@ -147,16 +117,6 @@ std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& r
     if (gain_m < kLeastGain_ratio * before_m) break;
   }
   return best;
-}
-
-std::vector<Point> route_over_cells(const DiscSpace& space, const Point& from, const Point& to, double radius_m) {
-  // The first threshold is exact beside straight walls, the second everywhere.
-  for (const double cells : {0.5, std::numbers::sqrt2}) {
-    const std::vector<Point> route =
-        route_at_threshold(space, from, to, radius_m, radius_m + cells * space.cell_m() + 1e-6);
-    if (!route.empty() && fits_all_along(space, route, radius_m)) return straightened(space, route, radius_m);
-  }
-  return {};
 }
 
 bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,

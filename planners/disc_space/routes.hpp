@@ -21,11 +21,6 @@ namespace cairn {
 [[nodiscard]] std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
                                            std::size_t keep = 1);
 
-// A route over the cells' centres, straightened; empty when the grid's coarseness hides the way.
-// Only tried where sampling found nothing: it sees passages as narrow as the disc plus about a cell.
-[[nodiscard]] std::vector<Point> route_over_cells(const DiscSpace& space, const Point& from, const Point& to,
-                                                  double radius_m);
-
 // The independent re-check, straight from the grid: with an escape the first segment is that escape.
 [[nodiscard]] bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,
                                  double radius_m, const std::optional<Escape>& escape = std::nullopt);

@@ -69,7 +69,9 @@ class Query {
  private:
   PlanResult answer_from(const StartPlace& start) {
     const TravelField travel = start.space->travel_at_most(start.leave_from, ends_.radius_m);
-    const auto goals_or_refusal = goals_of(request_.to, world_, ends_, start, travel);
+    const auto goals_or_refusal = goals_of(request_.to, world_, ends_, start, [&](const Point& goal) {
+      return travel.reaches(start.space->field().cell_at(goal));
+    });
     if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused(*refusal);
     const auto& goals = std::get<std::vector<GoalPlace>>(goals_or_refusal);
     const GoalPlace& nearest = nearest_of(goals, *start.space, travel);

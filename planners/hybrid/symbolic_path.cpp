@@ -63,7 +63,7 @@ class Joiner {
   void join(const TravelField& travel, std::size_t goal, End& end) const {
     const DiscSpace& space = *query_.start.space;
     const LandmarkGraph& graph = query_.world.graph;
-    const auto reached = [&](Cell cell) { return travel.reaches(cell); };
+    const auto reached = [&](const Point& p) { return travel.reaches(space.field().cell_at(p)); };
     for (const auto& [id, landmark] : graph.landmarks()) {
       if (graph.routes_from(id).empty() && graph.routes_to(id).empty()) continue;
       const auto stand = standing_place(space, landmark, query_.radius_m, reached);

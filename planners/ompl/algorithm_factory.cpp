@@ -27,6 +27,7 @@
 #include <stdexcept>
 
 #include "planners/ompl/counted_prm.hpp"
+#include "planners/ompl/seeded_rrt_star.hpp"
 
 namespace cairn {
 
@@ -36,6 +37,8 @@ namespace og = ompl::geometric;
 // NOLINTNEXTLINE(readability-function-size)
 ompl::base::PlannerPtr make_algorithm(Algorithm algorithm, const ompl::base::SpaceInformationPtr& space) {
   switch (algorithm) {
+    case Algorithm::any_angle_rrt_star:
+      return std::make_shared<SeededRrtStar>(space);
     case Algorithm::abit_star:
       return std::make_shared<og::ABITstar>(space);
     case Algorithm::ait_star:

@@ -2,6 +2,7 @@
 // seed and iterations alone. PRM and PRM* run without their second thread and their clock (counted_prm).
 // Left out: pRRT, pSBL, CForest, SPARS, AnytimePathShortening (threads), LazyPRM and LazyPRM* (do not heed
 // their termination condition in that version), SORRT* (loses memory), LBKPIECE1 (finds next to nothing here).
+// AnyAngleRRTstar is ours: the shortest route over the cells, improved by InformedRRTstar.
 #pragma once
 
 #include <string>
@@ -11,6 +12,7 @@
 namespace cairn {
 
 enum class Algorithm {
+  any_angle_rrt_star,
   abit_star,
   ait_star,
   bfmt,
@@ -41,7 +43,8 @@ enum class Algorithm {
 // As files name them, which is as OMPL does.
 [[nodiscard]] inline std::vector<std::pair<std::string, Algorithm>> algorithm_names() {
   using enum Algorithm;
-  return {{"BITstar", bit_star},
+  return {{"AnyAngleRRTstar", any_angle_rrt_star},
+          {"BITstar", bit_star},
           {"ABITstar", abit_star},
           {"AITstar", ait_star},
           {"RRTConnect", rrt_connect},

@@ -24,7 +24,7 @@ const char* const kRoom =
 TEST(Places, TheNearestFitIsTheNearestAndTiesGoDownAndLeft) {
   const auto world = drawn_world("...\n.A.\n...\n");
   const DiscSpace space(world.grid, {});
-  const auto accept_ring = [&](Cell c) { return c != Cell{1, 1}; };
+  const auto accept_ring = [&](const Point& p) { return world.grid.cell_at(p) != Cell{1, 1}; };
   EXPECT_EQ(nearest_fit(space, world.places.at('A'), 0.0, 1.0), world.grid.centre_of({1, 1}));
   EXPECT_EQ(nearest_fit(space, world.places.at('A'), 0.0, 1.0, accept_ring), world.grid.centre_of({1, 0}));
   EXPECT_EQ(nearest_fit(space, world.places.at('A'), 0.3, 1.0), std::nullopt);

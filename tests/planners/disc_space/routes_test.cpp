@@ -24,27 +24,6 @@ const char* const kTwoRooms =
     "#...............#\n"
     "#################\n";
 
-TEST(Routes, OverTheCellsRoundAWall) {
-  const auto world = drawn_world(kTwoRooms);
-  const DiscSpace space(world.grid, {});
-  const Point from = world.places.at('A');
-  const Point to = world.places.at('B');
-  const std::vector<Point> route = route_over_cells(space, from, to, 0.1);
-  ASSERT_GE(route.size(), 3U);
-  EXPECT_EQ(route.front(), from);
-  EXPECT_EQ(route.back(), to);
-  EXPECT_TRUE(route_is_free(world.grid, {}, route, 0.1)) << test::drawing_of(world.grid, poses_along(route, 0, {}));
-  EXPECT_LT(length_of(route), 1.9);
-  EXPECT_TRUE(route_over_cells(space, from, to, 0.16).empty()) << "a disc 0.32 m wide, a gap of 0.30 m";
-}
-
-TEST(Routes, ADiscJustNarrowerThanTheGapPasses) {
-  const auto world = drawn_world(kTwoRooms);
-  const DiscSpace space(world.grid, {});
-  const std::vector<Point> route = route_over_cells(space, world.places.at('A'), world.places.at('B'), 0.149);
-  EXPECT_TRUE(route_is_free(world.grid, {}, route, 0.149));
-}
-
 TEST(Routes, TheRecheckKnowsTheEscapeAndNothingElse) {
   const auto world = drawn_world(kTwoRooms);
   const DiscSpace space(world.grid, {});

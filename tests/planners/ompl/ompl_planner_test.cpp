@@ -162,7 +162,7 @@ TEST(OmplPlanner, UnknownSpaceIsCrossedOnlyWhenAllowed) {
       "###########\n");
   OmplConfig config;
   EXPECT_EQ(plan(world, world.request('A', 'B', 0.04), config).outcome, PlanOutcome::no_route);
-  config.unknown = UnknownPolicy::allow;
+  config.unknown = UnknownGround::allow;
   EXPECT_EQ(plan(world, world.request('A', 'B', 0.04), config).outcome, PlanOutcome::solved);
 }
 
@@ -283,17 +283,18 @@ TEST(OmplPlanner, RoutesAreNotMuchLongerThanTheShortest) {
     request.to.pose = Pose2{3.75, 3.75, 0.0};
     request.radius_m = 0.12;
     const DiscSpace space(world.grid, {});
-    const std::vector<Point> over_cells = route_over_cells(space, {0.25, 0.25}, {3.75, 3.75}, 0.12);
+    const std::vector<Cell> cells = TravelField(space.field(), {0.25, 0.25}, 0.17).path_to({37, 37});
+    std::vector<Point> over_cells;
+    for (const Cell cell : cells) over_cells.push_back(space.field().centre_of(cell));
     const PlanResult result = plan(world, request);
     const double over_cells_m = length_of(over_cells);
     if (over_cells.empty()) continue;
     ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
-    // A gap hardly wider than the robot may stay unseen, and the way round it is longer.
-    EXPECT_LT(result.length_m, 1.25 * over_cells_m) << test::drawing_of(world.grid, result.path);
+    EXPECT_LT(result.length_m, 1.0001 * over_cells_m) << test::drawing_of(world.grid, result.path);
     sum_ratio += result.length_m / over_cells_m;
     ++solved;
   }
-  EXPECT_LT(sum_ratio / solved, 1.03);
+  EXPECT_LT(sum_ratio / solved, 0.99) << "at any angle it is shorter than over neighbours";
   EXPECT_GT(solved, 5);
 }
 

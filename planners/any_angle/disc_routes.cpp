@@ -1,0 +1,347 @@
+#include "planners/any_angle/disc_routes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "planners/disc_space/routes.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kPointRadius_m = 2.0 * kLeastRadius_m;
+constexpr double kGap_m = 2.0 * kPointRadius_m;  // what a point keeps from the corners that it turns at
+constexpr int kMostParts = 4;                    // of a cell's side, at first
+constexpr int kFinerParts = 4;
+constexpr std::int64_t kMostCells = 8'000'000;  // of a lattice finer than the grid
+// A route so much longer than any must be may have missed a passage that only a finer lattice shows.
+constexpr double kDoubtfulRatio = 1.05;
+
+std::int64_t cells_of(const CellBox& box) {
+  return std::int64_t{box.width()} * box.height();
+}
+
+int first_parts(const DiscSpace& space, double radius_m) {
+  const double cells = space.cell_m() / radius_m;
+  int parts = std::clamp(static_cast<int>(std::ceil(2.0 * cells)), 1, kMostParts);
+  while (parts > 1 && cells_of(space.field().box()) * parts * parts > kMostCells) --parts;
+  return parts;
+}
+
+bool is_doubtful(const DiscRoute& found) {
+  return found.route.empty() || length_of(found.route) > kDoubtfulRatio * found.least_length_m;
+}
+
+template <class IsOpen>
+CellMesh mesh_where(const DistanceField& field, const IsOpen& is_open) {
+  const CellBox box = field.box();
+  std::vector<std::uint8_t> open;
+  open.reserve(static_cast<std::size_t>(cells_of(box)));
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x) open.push_back(is_open(Cell{x, y}) ? 1 : 0);
+  return {box, open};
+}
+
+// Distances as they are between whole squares: those between centres to what is blocked, each blocked cell
+// with its eight neighbours.
+DistanceField between_squares(const DistanceField& field) {
+  const CellBox box = field.box();
+  std::vector<std::uint8_t> free(static_cast<std::size_t>(cells_of(box)), 1);
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x) {
+      if (!field.is_blocked({x, y})) continue;
+      for (int v = std::max(y - 1, box.min.y); v <= std::min(y + 1, box.max.y - 1); ++v)
+        for (int u = std::max(x - 1, box.min.x); u <= std::min(x + 1, box.max.x - 1); ++u)
+          free[static_cast<std::size_t>(v - box.min.y) * static_cast<std::size_t>(box.width()) +
+               static_cast<std::size_t>(u - box.min.x)] = 0;
+    }
+  return {box, field.cell_m(), field.origin_m(), std::move(free)};
+}
+
+// From metres to the mesh's lattice and back.
+Point to_lattice(const DiscSpace& space, const Point& p_map) {
+  return (p_map - space.field().origin_m()) / space.cell_m();
+}
+std::vector<Point> to_map(const DiscSpace& space, std::vector<Point> points) {
+  for (Point& p : points) p = space.field().origin_m() + p * space.cell_m();
+  return points;
+}
+
+// Beside the corner that the segment comes nearest to, short of the gap, a point that keeps it.
+std::optional<Point> beside_nearest_corner(const DiscSpace& space, const Point& from, const Point& to) {
+  const Point along = to - from;
+  const double length_m = along.norm();
+  const Point normal{-along.y() / length_m, along.x() / length_m};
+  const double half_m = 0.5 * space.cell_m();
+  std::optional<Point> beside;
+  double nearest_m = kGap_m;
+  (void)any_cell_near(Lattice{space.field().origin_m(), space.cell_m()}, from, to, kGap_m, [&](Cell cell) {
+    if (!space.is_blocked(cell)) return false;
+    const Point centre = space.field().centre_of(cell);
+    const double side = (centre - from).dot(normal) > 0.0 ? 1.0 : -1.0;  // on which the square lies
+    for (const double x : {-half_m, half_m})
+      for (const double y : {-half_m, half_m}) {
+        const Point corner = centre + Point(x, y);
+        const double at_m = (corner - from).dot(along) / length_m;
+        const double off_m = (corner - from).dot(normal) * side;
+        if (at_m <= kGap_m || at_m >= length_m - kGap_m || off_m >= nearest_m) continue;
+        nearest_m = off_m;
+        beside = corner - side * kGap_m * normal;
+      }
+    return false;
+  });
+  return beside;
+}
+
+// Goes on to a point, past corners that the straight way grazes.
+void go_past_corners(const DiscSpace& space, const Point& to, int depth, std::vector<Point>& route) {
+  constexpr int kMostDepth = 40;
+  const Point from = route.back();
+  if (depth < kMostDepth && !space.fits_along(from, to, kPointRadius_m)) {
+    if (const std::optional<Point> beside = beside_nearest_corner(space, from, to)) {
+      go_past_corners(space, *beside, depth + 1, route);
+      go_past_corners(space, to, depth + 1, route);
+      return;
+    }
+  }
+  route.push_back(to);
+}
+
+// Without the points at which a path does not turn.
+std::vector<Point> only_turns(const std::vector<Point>& path) {
+  std::vector<Point> turns{path.front()};
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const Point in = path[i] - turns.back();
+    const Point out = path[i + 1] - path[i];
+    if (std::abs(in.x() * out.y() - in.y() * out.x()) > 1e-12 * in.norm() * out.norm()) turns.push_back(path[i]);
+  }
+  turns.push_back(path.back());
+  return turns;
+}
+
+// A path that turns at corners, moved off them by the gap; likewise where it grazes one without turning.
+std::vector<Point> off_corners(const DiscSpace& space, const std::vector<Point>& with_grazed) {
+  const std::vector<Point> path = only_turns(with_grazed);
+  std::vector<Point> moved = path;
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const Point in = (path[i] - path[i - 1]).normalized();
+    const Point out = (path[i + 1] - path[i]).normalized();
+    const Point bend = (in - out);  // away from what the path turns round
+    if (bend.norm() < 1e-12) continue;
+    const double half_turn_cos = std::sqrt(std::max(0.5 * (1.0 + in.dot(out)), 0.25));
+    moved[i] = path[i] + bend.normalized() * (kGap_m / half_turn_cos);
+  }
+  std::vector<Point> route{moved.front()};
+  for (std::size_t i = 1; i < moved.size(); ++i) go_past_corners(space, moved[i], 0, route);
+  return route;
+}
+
+// The place nearest to a point, on a lattice of a small part of a cell, where the disc fits.
+std::optional<Point> place_near(const DiscSpace& space, const Point& p, double radius_m) {
+  constexpr int kParts = 16;
+  constexpr int kReach = 2 * kParts;  // two cells
+  if (space.fits(p, radius_m)) return p;
+  const double step_m = space.cell_m() / kParts;
+  for (int ring = 1; ring <= kReach; ++ring) {
+    std::optional<Point> best;
+    for (int i = -ring; i <= ring; ++i)
+      for (const Point& off : {Point(i, -ring), Point(i, ring), Point(-ring, i), Point(ring, i)})
+        if ((!best || off.norm() < ((*best - p) / step_m).norm()) && space.fits(p + step_m * off, radius_m))
+          best = p + step_m * off;
+    if (best) return best;
+  }
+  return std::nullopt;
+}
+
+// A path that is too near to things for the disc, moved off them point by point; empty where that does not do.
+// It sees passages as narrow as the disc plus a small part of a cell.
+std::vector<Point> pushed_clear(const DiscSpace& space, const std::vector<Point>& path, double radius_m,
+                                const Budget& budget) {
+  std::vector<Point> route{path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const int steps = std::max(1, static_cast<int>(std::ceil((path[i] - path[i - 1]).norm() / (0.5 * space.cell_m()))));
+    for (int k = 1; k <= steps; ++k) {
+      if (budget.exhausted()) return {};
+      const Point wanted = path[i - 1] + (path[i] - path[i - 1]) * (static_cast<double>(k) / steps);
+      const std::optional<Point> place = place_near(space, wanted, radius_m);
+      if (!place || !space.fits_along(route.back(), *place, radius_m)) return {};
+      route.push_back(*place);
+    }
+  }
+  return route;
+}
+
+// A cell near an end from which the mesh's paths may begin, for each part of the mesh that is in sight.
+std::vector<Point> gates_of(const DiscSpace& space, const CellMesh& mesh, const Point& end, double radius_m,
+                            int reach) {
+  const Cell at = space.field().cell_at(end);
+  if (mesh.rectangle_of(at) != CellMesh::kNone) return {end};
+  std::vector<Cell> near;
+  for (int y = at.y - reach; y <= at.y + reach; ++y)
+    for (int x = at.x - reach; x <= at.x + reach; ++x)
+      if (mesh.rectangle_of({x, y}) != CellMesh::kNone) near.push_back({x, y});
+  const auto away = [&](Cell c) { return (space.field().centre_of(c) - end).squaredNorm(); };
+  std::stable_sort(near.begin(), near.end(), [&](Cell a, Cell b) { return away(a) < away(b); });
+  std::vector<Point> gates;
+  std::vector<CellMesh::Index> parts;
+  for (const Cell cell : near) {
+    const CellMesh::Index part = mesh.part_of(mesh.rectangle_of(cell));
+    if (std::find(parts.begin(), parts.end(), part) != parts.end()) continue;
+    if (!space.fits_along(end, space.field().centre_of(cell), radius_m)) continue;
+    parts.push_back(part);
+    gates.push_back(space.field().centre_of(cell));
+  }
+  return gates;
+}
+
+}  // namespace
+
+DiscRoutes::DiscRoutes(std::shared_ptr<const DiscSpace> space, double radius_m)
+    : space_(std::move(space)),
+      radius_m_(radius_m),
+      is_point_(radius_m <= kPointRadius_m),
+      parts_(is_point_ ? 1 : first_parts(*space_, radius_m)),
+      coarse_(meshes_of(parts_)) {}
+
+DiscRoutes::Meshes DiscRoutes::meshes_of(int parts) const {
+  const auto space = parts == 1 ? space_ : std::make_shared<const DiscSpace>(space_->refined(parts));
+  const DistanceField& field = space->field();
+  if (is_point_) return {space, mesh_where(field, [&](Cell c) { return !field.is_blocked(c); }), std::nullopt};
+  // From some point of a cell to any of a square is as far as from centre to centre at most, and at least
+  // as far as between the squares.
+  const auto radius_m = static_cast<float>(radius_m_ - 1e-6);
+  CellMesh may = mesh_where(field, [&](Cell c) { return !field.is_blocked(c) && field.distance_m(c) >= radius_m; });
+  const DistanceField squares = between_squares(field);
+  const auto all_m = static_cast<float>(radius_m_ + 1e-6);
+  return {space, std::move(may), mesh_where(field, [&](Cell c) { return squares.distance_m(c) >= all_m; })};
+}
+
+const DiscRoutes::Meshes* DiscRoutes::finer() const {
+  const int parts = parts_ * kFinerParts;
+  if (is_point_ || cells_of(space_->field().box()) * parts * parts > kMostCells) return nullptr;
+  std::call_once(finer_made_, [&] { finer_ = meshes_of(parts); });
+  return &*finer_;
+}
+
+bool DiscRoutes::may_reach(const Point& from, const Point& to) const {
+  const auto part = [&](const Point& p) {
+    const CellMesh::Index at = coarse_.may.rectangle_of(coarse_.space->field().cell_at(p));
+    return at == CellMesh::kNone ? CellMesh::kNone : coarse_.may.part_of(at);
+  };
+  return part(from) != CellMesh::kNone && part(from) == part(to);
+}
+
+double DiscRoutes::least_length_m(const Point& from, const Point& to, const Budget& budget) const {
+  if (!may_reach(from, to)) return std::numeric_limits<double>::infinity();
+  const DiscSpace& space = *coarse_.space;
+  const auto stop = [&budget] { return budget.exhausted(); };
+  return shortest_path(coarse_.may, to_lattice(space, from), to_lattice(space, to), stop).length * space.cell_m();
+}
+
+std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, double most_m) const {
+  const CellMesh& mesh = coarse_.may;
+  const DistanceField& field = coarse_.space->field();
+  const CellMesh::Index start = mesh.rectangle_of(field.cell_at(from));
+  std::vector<Cell> cells;
+  if (start == CellMesh::kNone) return cells;
+  const double cell_m = field.cell_m();
+  const auto least_m = [&](const CellBox& box) {  // from point to box to point
+    const auto off_m = [&](const Point& p) {
+      const Point low = field.origin_m() + cell_m * Point(box.min.x, box.min.y);
+      const Point high = field.origin_m() + cell_m * Point(box.max.x, box.max.y);
+      return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm();
+    };
+    return off_m(from) + off_m(to);
+  };
+  for (CellMesh::Index i = 0; i < mesh.rectangles(); ++i) {
+    const CellBox& r = mesh.rectangle(i);
+    if (mesh.part_of(i) != mesh.part_of(start) || least_m(r) > most_m) continue;
+    for (int y = r.min.y; y < r.max.y; ++y)
+      for (int x = r.min.x; x < r.max.x; ++x)
+        if (least_m({{x, y}, {x + 1, y + 1}}) <= most_m) cells.push_back({x, y});
+  }
+  return cells;
+}
+
+DiscRoute DiscRoutes::route_on(const Meshes& meshes, const Point& from, const Point& to, const Budget& budget) const {
+  const DiscSpace& space = *meshes.space;
+  const auto stop = [&budget] { return budget.exhausted(); };
+  DiscRoute answer;
+  const MeshPath least = shortest_path(meshes.may, to_lattice(space, from), to_lattice(space, to), stop);
+  answer.expanded = least.expanded;
+  answer.interrupted = least.interrupted;
+  answer.impossible = least.points.empty() && !least.interrupted;
+  if (least.points.empty()) return answer;
+  answer.least_length_m = least.length * space.cell_m();
+  std::vector<Point> least_path = to_map(space, least.points);
+  least_path.front() = from;
+  least_path.back() = to;
+  if (!meshes.surely) {
+    answer.route = off_corners(space, least_path);
+    return answer;
+  }
+  const int reach = 2 * std::max(1, static_cast<int>(std::lround(space_->cell_m() / space.cell_m()))) + 1;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const Point& first : gates_of(space, *meshes.surely, from, radius_m_, reach))
+    for (const Point& last : gates_of(space, *meshes.surely, to, radius_m_, reach)) {
+      const MeshPath path = shortest_path(*meshes.surely, to_lattice(space, first), to_lattice(space, last), stop);
+      answer.expanded += path.expanded;
+      answer.interrupted = answer.interrupted || path.interrupted;
+      if (path.points.empty()) continue;
+      std::vector<Point> route = to_map(space, path.points);
+      first == from ? void(route.front() = from) : void(route.insert(route.begin(), from));
+      last == to ? void(route.back() = to) : route.push_back(to);
+      if (length_of(route) >= best_m) continue;
+      best_m = length_of(route);
+      answer.route = std::move(route);
+    }
+  if (!answer.route.empty()) answer.route = shortest_of(space, answer.route);
+  if (answer.interrupted || !is_doubtful(answer)) return answer;
+  const std::vector<Point> pushed = shortest_of(space, pushed_clear(space, least_path, radius_m_, budget));
+  if (!pushed.empty() && (answer.route.empty() || length_of(pushed) < length_of(answer.route))) answer.route = pushed;
+  return answer;
+}
+
+std::vector<Point> DiscRoutes::shortest_of(const DiscSpace& space, const std::vector<Point>& route) const {
+  if (route.empty()) return route;
+  return tightened(space, straightened(space, route, radius_m_), radius_m_);
+}
+
+DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& budget) const {
+  DiscRoute answer;
+  if (!may_reach(from, to)) {
+    answer.impossible = true;
+    return answer;
+  }
+  if (space_->fits_along(from, to, radius_m_)) {
+    answer.route = {from, to};
+    answer.least_length_m = (to - from).norm();
+    return answer;
+  }
+  answer = route_on(coarse_, from, to, budget);
+  if (answer.interrupted || answer.impossible || !is_doubtful(answer)) return answer;
+  const Meshes* const fine = finer();
+  if (fine == nullptr) return answer;
+  DiscRoute better = route_on(*fine, from, to, budget);
+  better.expanded += answer.expanded;
+  better.least_length_m = std::max(better.least_length_m, answer.least_length_m);
+  if (answer.route.empty()) return better;
+  if (better.route.empty() || length_of(better.route) >= length_of(answer.route)) better.route = answer.route;
+  better.interrupted = false;
+  better.impossible = false;
+  return better;
+}
+
+std::shared_ptr<const DiscRoutes> DiscRoutesCache::routes_of(const std::shared_ptr<const DiscSpace>& space,
+                                                             double radius_m) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (last_ && &last_->space() == space.get() && last_->radius_m() == radius_m) return last_;
+  }
+  auto made = std::make_shared<const DiscRoutes>(space, radius_m);
+  const std::lock_guard lock(mutex_);
+  last_ = made;
+  return made;
+}
+
+}  // namespace cairn

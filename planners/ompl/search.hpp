@@ -1,0 +1,39 @@
+// One search by a planner of OMPL over a problem that is set up.
+//
+// Deterministic for a seed, from any number of threads: OMPL seeds its generators from one process-wide
+// source, so one search runs at a time, with that source set anew; only those that draw nothing from it
+// (seeded_rrt_star.hpp) run side by side. States are drawn by the problem's own samplers.
+#pragma once
+
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "framework/contracts/budget.hpp"
+#include "planners/ompl/algorithm_parameters.hpp"
+
+namespace cairn {
+
+struct SearchRules {
+  Algorithm algorithm = Algorithm::rrt_connect;
+  const AlgorithmParameters& parameters;
+  std::int64_t iterations = 0;  // how often the termination condition may be asked
+  bool simplify = true;
+  std::uint64_t seed = 1;
+};
+
+struct SearchAnswer {
+  std::shared_ptr<ompl::geometric::PathGeometric> path;  // null: none found
+  bool exact = false;                                    // otherwise it ends short of the goal
+  bool interrupted = false;                              // by the budget's deadline or cancel flag
+};
+
+// `known` (optional): a solution to begin with, taken by Algorithm::any_angle_rrt_star alone.
+[[nodiscard]] SearchAnswer search(const ompl::base::SpaceInformationPtr& space,
+                                  const ompl::base::ProblemDefinitionPtr& problem, const SearchRules& rules,
+                                  const Budget& budget, const std::vector<const ompl::base::State*>& known = {});
+
+}  // namespace cairn
