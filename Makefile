@@ -42,6 +42,7 @@ bench: build
 	@build/release/tests/cairn_bench
 	@build/release/tests/map_bench
 	@build/release/tests/graph_bench
+	@build/release/tests/route_bench
 
 experiment: build
 	$(CAIRN) experiment config/experiments/first_mission.yaml --out out/first_mission

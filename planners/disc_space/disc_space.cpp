@@ -1,5 +1,6 @@
 #include "planners/disc_space/disc_space.hpp"
 
+#include <array>
 #include <limits>
 #include <mutex>
 #include <numbers>
@@ -12,6 +13,33 @@ namespace cairn {
 namespace {
 
 constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt2;  // of a cell of side 1
+
+constexpr double kFloatNoise = 1e-6;  // of distances, which are kept as float
+
+// A stretch of a segment, in metres from where that begins.
+struct Part {
+  double begin_m;
+  double end_m;
+};
+
+// First in, first out, without memory of its own.
+class PartQueue {
+ public:
+  [[nodiscard]] bool is_empty() const { return first_ == end_; }
+  // False when it is full.
+  bool push(const Part& part) {
+    if (end_ - first_ == kMost) return false;
+    parts_[end_++ % kMost] = part;
+    return true;
+  }
+  Part pop() { return parts_[first_++ % kMost]; }
+
+ private:
+  static constexpr std::size_t kMost = 128;
+  std::array<Part, kMost> parts_;
+  std::size_t first_ = 0;
+  std::size_t end_ = 0;
+};
 
 constexpr int floor_divided(int a, int b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
@@ -59,27 +87,55 @@ bool DiscSpace::contains(const Point& p_map) const {
   return p_cells.x() >= box.min.x && p_cells.x() < box.max.x && p_cells.y() >= box.min.y && p_cells.y() < box.max.y;
 }
 
-double DiscSpace::at_least_m(const Point& p_map) const {
-  const Cell cell = field_.cell_at(p_map);
-  const double centre_m = field_.distance_m(cell);
-  return centre_m - kHalfDiagonal * lattice_.cell_m - (p_map - lattice_.centre_of(cell)).norm();
+DiscSpace::Bounds DiscSpace::bounds_at(const Point& p_map) const {
+  // The point is in the box, or outside by what rounding does: there, whole numbers are cut as floor() would.
+  const CellBox box = field_.box();
+  const Point p_cells = (p_map - lattice_.origin_m) / lattice_.cell_m;
+  const Cell cell{box.min.x + std::clamp(static_cast<int>(p_cells.x() - box.min.x), 0, box.width() - 1),
+                  box.min.y + std::clamp(static_cast<int>(p_cells.y() - box.min.y), 0, box.height() - 1)};
+  const double centres_m = field_.distance_m(cell);
+  const double off_m = (p_map - lattice_.centre_of(cell)).norm();
+  // A square lies within half its diagonal of its centre, and holds a disc of half its side.
+  return {(1.0 - kFloatNoise) * centres_m - off_m - kHalfDiagonal * lattice_.cell_m,
+          (1.0 + kFloatNoise) * centres_m + off_m - 0.5 * lattice_.cell_m};
 }
 
+bool DiscSpace::nothing_blocks() const {
+  const CellBox box = field_.box();
+  return field_.distance_m(box.min) >= static_cast<float>(std::hypot(box.width(), box.height()) * lattice_.cell_m);
+}
+
+// From the middle outwards: what is blocked shows soon, and what a middle knows to be free is left out of the rest.
 bool DiscSpace::fits_along(const Point& from, const Point& to, double radius_m) const {
   if (!contains(from) || !contains(to)) return false;
   const double length_m = (to - from).norm();
-  const auto at = [&](double s_m) { return length_m > 0.0 ? Point(from + (to - from) * (s_m / length_m)) : from; };
-  for (double s_m = 0.0;;) {
-    const Point here = at(s_m);
-    double step_m = at_least_m(here) - radius_m;
-    if (step_m < lattice_.cell_m) {
-      step_m = std::min(2.0 * lattice_.cell_m, length_m - s_m);
-      if (sweep_touches(lattice_, here, at(s_m + step_m), radius_m, [this](Cell c) { return is_blocked(c); }))
-        return false;
+  const double reach_m = std::max(radius_m, kLeastRadius_m);
+  const Point direction = length_m > 0.0 ? Point((to - from) / length_m) : Point(0.0, 0.0);
+  const auto at = [&](double s_m) { return s_m < length_m ? Point(from + s_m * direction) : to; };
+  const auto touches = [&](const Part& part) {
+    return sweep_touches(lattice_, at(part.begin_m), at(part.end_m), radius_m,
+                         [this](Cell c) { return is_blocked(c); });
+  };
+  PartQueue parts;
+  PartQueue doubtful;
+  parts.push({0.0, length_m});
+  while (!parts.is_empty()) {
+    const Part part = parts.pop();
+    const double middle_m = 0.5 * (part.begin_m + part.end_m);
+    const Bounds bounds = bounds_at(at(middle_m));
+    if (bounds.most_m < reach_m && !nothing_blocks()) return false;
+    double known_m = bounds.least_m - reach_m;
+    if (2.0 * known_m < std::min(lattice_.cell_m, part.end_m - part.begin_m) || known_m < 0.0) {  // too near to tell
+      known_m = 2.0 * lattice_.cell_m;
+      const Part near{std::max(part.begin_m, middle_m - known_m), std::min(part.end_m, middle_m + known_m)};
+      if (!doubtful.push(near) && touches(near)) return false;
     }
-    s_m += step_m;
-    if (s_m >= length_m) return true;
+    for (const Part& rest : {Part{part.begin_m, middle_m - known_m}, Part{middle_m + known_m, part.end_m}})
+      if (rest.begin_m < rest.end_m && !parts.push(rest) && touches(rest)) return false;
   }
+  while (!doubtful.is_empty())
+    if (touches(doubtful.pop())) return false;
+  return true;
 }
 
 double DiscSpace::share_that_fits(const Point& from, const Point& to, double radius_m) const {

@@ -46,7 +46,13 @@ class DiscSpace {
  private:
   DiscSpace(const DiscSpace& coarse, int parts);
 
-  [[nodiscard]] double at_least_m(const Point& p_map) const;  // to the nearest blocked square
+  // What the distance to the nearest blocked square is at least and at most, for a point of the box.
+  struct Bounds {
+    double least_m;
+    double most_m;
+  };
+  [[nodiscard]] Bounds bounds_at(const Point& p_map) const;
+  [[nodiscard]] bool nothing_blocks() const;
 
   struct Parts;
 

@@ -1,25 +1,13 @@
 #include "tests/bench/road_network.hpp"
 
-#include <zlib.h>
-
 #include <array>
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/bench/unpacked.hpp"
+
 namespace cairn {
 namespace {
-
-std::istringstream unpacked(const std::filesystem::path& file) {
-  const gzFile in = gzopen(file.c_str(), "rb");
-  if (in == nullptr) throw std::runtime_error(file.string() + ": cannot be opened");
-  std::string text;
-  std::array<char, 65'536> part{};
-  int count = 0;
-  while ((count = gzread(in, part.data(), part.size())) > 0) text.append(part.data(), static_cast<std::size_t>(count));
-  gzclose(in);
-  if (count < 0 || text.empty()) throw std::runtime_error(file.string() + ": cannot be unpacked");
-  return std::istringstream(text);
-}
 
 // Whether the line begins with that many numbers; headings and notes do not.
 template <std::size_t count>
@@ -34,7 +22,7 @@ bool read_numbers(const std::string& line, std::array<double, count>& numbers) {
 
 LandmarkGraph road_network(const std::filesystem::path& folder, const std::string& name) {
   LandmarkGraph graph;
-  std::istringstream nodes = unpacked(folder / (name + "_node.tntp.gz"));
+  std::istringstream nodes(unpacked(folder / (name + "_node.tntp.gz")));
   std::array<double, 3> node{};  // id, x, y
   for (std::string line; std::getline(nodes, line);) {
     if (!read_numbers(line, node)) continue;
@@ -43,7 +31,7 @@ LandmarkGraph road_network(const std::filesystem::path& folder, const std::strin
     landmark.T_map_landmark = {node[1], node[2], 0.0};
     graph.add(std::move(landmark));
   }
-  std::istringstream links = unpacked(folder / (name + "_net.tntp.gz"));
+  std::istringstream links(unpacked(folder / (name + "_net.tntp.gz")));
   std::array<double, 4> link{};  // from, to, capacity, length
   for (std::string line; std::getline(links, line);) {
     if (!read_numbers(line, link)) continue;

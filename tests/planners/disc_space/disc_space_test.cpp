@@ -54,6 +54,36 @@ TEST(DiscSpace, AnswersLikeTheCellByCellCheckWhateverTheGrid) {
   EXPECT_GT(free, 500) << "the clutter is too dense for the test to mean anything";
 }
 
+TEST(DiscSpace, AnswersLikeTheCellByCellCheckOverLongStretchesOfOpenGround) {
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> radius(0.0, 0.5);
+  int free = 0;
+  for (int trial = 0; trial < 6; ++trial) {
+    OccupancyGrid grid(0.05, 4.0, {1.23, -4.56});
+    std::bernoulli_distribution is_occupied(0.0008);
+    for (int y = 0; y < 150; ++y)
+      for (int x = 0; x < 190; ++x) grid.set_log_odds({x, y}, is_occupied(random) ? LogOdds{900} : LogOdds{-900});
+    const DiscSpace space(grid, {});
+    for (int k = 0; k < 500; ++k) {
+      const Point from = random_point(random, grid);
+      const Point to = random_point(random, grid);
+      const double radius_m = radius(random);
+      const bool fits = space.fits_along(from, to, radius_m);
+      EXPECT_EQ(fits, sweep_is_free(grid, {}, from, to, radius_m)) << "radius " << radius_m;
+      free += fits;
+    }
+  }
+  EXPECT_GT(free, 300);
+  EXPECT_LT(free, 2700);
+}
+
+TEST(DiscSpace, WhereNothingIsBlockedAnyDiscFits) {
+  const auto world = drawn_world("...\n...\n");
+  GroundRules rules;
+  rules.unknown = UnknownPolicy::allow;
+  EXPECT_TRUE(DiscSpace(world.grid, rules).fits_along({0.05, 0.05}, {0.25, 0.15}, 5.0));
+}
+
 TEST(DiscSpace, NothingFitsOutsideTheMapOrAtNumbersThatAreNotFinite) {
   const auto world = drawn_world(".....\n.....\n.....\n");
   const DiscSpace space(world.grid, {});
