@@ -10,6 +10,7 @@
 #include "framework/host/module_library.hpp"
 #include "framework/host/place.hpp"
 #include "framework/host/tour.hpp"
+#include "framework/host/trajectory.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/plan_query.hpp"
 #include "framework/program/saved_radius.hpp"
@@ -72,6 +73,7 @@ class MapPlanner {
   }
   const SavedMap& map() const { return map_; }
   double radius_m() const { return robot_.radius_m; }
+  const RobotModel& robot() const { return robot_; }
 
  private:
   static RobotModel robot_of(const PlanCommand& command, const SavedMap& map) {
@@ -98,11 +100,26 @@ std::string text_of(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+nlohmann::ordered_json json_of(const std::vector<TrajectoryPoint>& trajectory) {
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (const auto& [time_s, pose, v_mps, w_radps] : trajectory)
+    points.push_back({time_s, pose.x_m, pose.y_m, pose.theta_rad, v_mps, w_radps});
+  return points;
+}
+
 // JSON to standard output, text for people to `text` unless it is null.
 void tell(const MapPlanner& planner, const PlanQuery& query, const PlanResult& result, bool json, std::ostream* text) {
   const ClusterTree& clusters = result.explanation ? planner.clusters() : planner.map().clusters;
-  if (json) std::cout << text_of(json_of(query, result, planner.map(), clusters)) << "\n";
+  std::vector<TrajectoryPoint> trajectory;
+  if (query.question.trajectory && result.outcome == PlanOutcome::solved)
+    trajectory = trajectory_of(result.path, planner.robot());
+  if (json) {
+    auto answer = json_of(query, result, planner.map(), clusters);
+    if (query.question.trajectory) answer["trajectory"] = json_of(trajectory);
+    std::cout << text_of(answer) << "\n";
+  }
   if (text != nullptr) tell_people(*text, query, result, planner.map(), clusters);
+  if (text != nullptr && !trajectory.empty()) *text << fmt::format("  driven in {:.1f} s\n", trajectory.back().time_s);
 }
 
 int answer_queries(const MapPlanner& planner, const PlanCommand& command, const CommonOptions& common) {
