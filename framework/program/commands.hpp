@@ -42,6 +42,7 @@ struct PlanQuestion {
   int alternatives = 0;
   std::string cost = "length";
   bool explain = false;
+  bool trajectory = false;
 };
 
 struct PlanCommand {

@@ -58,6 +58,7 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
       ->check(CLI::IsMember({"length", "time", "clearance"}))
       ->capture_default_str();
   sub->add_flag("--explain", c.question.explain, "say how the landmark graph gave the answer");
+  sub->add_flag("--trajectory", c.question.trajectory, "say when the robot is where, within its speeds");
   sub->add_option("--queries", c.queries,
                   "file of queries, one {\"id\",\"from\",\"to\"} a line, or - (docs/graphs.md)");
   sub->add_option("--jobs", c.jobs, "answer so many queries at once (without it, as many as there are cores)")

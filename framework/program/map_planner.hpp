@@ -27,6 +27,7 @@ class MapPlanner {
   [[nodiscard]] const ClusterTree& clusters() const;
   [[nodiscard]] const SavedMap& map() const { return map_; }
   [[nodiscard]] double radius_m() const { return robot_.radius_m; }
+  [[nodiscard]] const RobotModel& robot() const { return robot_; }
 
  private:
   const PlanCommand& command_;

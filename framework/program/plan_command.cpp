@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "framework/host/trajectory.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/in_order.hpp"
 #include "framework/program/line_reader.hpp"
@@ -25,6 +26,30 @@ const ClusterTree& clusters_for(const MapPlanner& planner, const PlanResult& res
   return result.explanation ? planner.clusters() : planner.map().clusters;
 }
 
+std::vector<TrajectoryPoint> trajectory_for(const MapPlanner& planner, const PlanQuery& query,
+                                            const PlanResult& result) {
+  if (!query.question.trajectory || result.outcome != PlanOutcome::solved) return {};
+  return trajectory_of(result.path, planner.robot());
+}
+
+std::string json_line_of(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {
+  nlohmann::ordered_json json = json_of(query, result, planner.map(), clusters_for(planner, result));
+  if (query.question.trajectory) {
+    nlohmann::ordered_json& points = json["trajectory"] = nlohmann::ordered_json::array();
+    for (const auto& [time_s, pose, v_mps, w_radps] : trajectory_for(planner, query, result))
+      points.push_back({time_s, pose.x_m, pose.y_m, pose.theta_rad, v_mps, w_radps});
+  }
+  return text_of(json) + "\n";
+}
+
+std::string text_for_people(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {
+  std::ostringstream text;
+  tell_people(text, query, result, planner.map(), clusters_for(planner, result));
+  if (const auto trajectory = trajectory_for(planner, query, result); !trajectory.empty())
+    text << fmt::format("  driven in {:.1f} s\n", trajectory.back().time_s);
+  return text.str();
+}
+
 struct QueryAnswer {
   std::string text;
   bool is_solved = false;
@@ -32,16 +57,8 @@ struct QueryAnswer {
 
 QueryAnswer answer_to(const PlanQuery& query, const MapPlanner& planner, const CommonOptions& common) {
   const PlanResult result = planner.answer(query);
-  const ClusterTree& clusters = clusters_for(planner, result);
-  QueryAnswer answer{"", result.outcome == PlanOutcome::solved};
-  if (common.json) {
-    answer.text = text_of(json_of(query, result, planner.map(), clusters)) + "\n";
-  } else {
-    std::ostringstream text;
-    tell_people(text, query, result, planner.map(), clusters);
-    answer.text = text.str();
-  }
-  return answer;
+  return {common.json ? json_line_of(query, result, planner) : text_for_people(query, result, planner),
+          result.outcome == PlanOutcome::solved};
 }
 
 std::size_t jobs_of(const PlanCommand& command) {
@@ -111,9 +128,8 @@ int plan(const PlanCommand& command, const CommonOptions& common) {
   if (!command.queries.empty()) return answer_queries(planner, command, common);
   const PlanQuery query{"", command.question};
   const PlanResult result = planner.answer(query);
-  const ClusterTree& clusters = clusters_for(planner, result);
-  if (common.json) std::cout << text_of(json_of(query, result, planner.map(), clusters)) << "\n";
-  tell_people(common.json ? std::cerr : std::cout, query, result, planner.map(), clusters);
+  if (common.json) std::cout << json_line_of(query, result, planner);
+  (common.json ? std::cerr : std::cout) << text_for_people(query, result, planner);
   if (!command.picture.empty()) draw(planner, command, query, result);
   return result.outcome == PlanOutcome::solved ? kExitDone : kExitNotSolved;
 }

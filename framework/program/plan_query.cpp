@@ -110,13 +110,16 @@ void take(PlanQuery& query, const std::string& key, const json& value, const Sou
     if (!value.is_number_unsigned() || value > kMostAlternatives)
       throw ConfigError(place, fmt::format("\"alternatives\" must be a whole number of 0 to {}", kMostAlternatives));
     question.alternatives = value;
+  } else if (key == "trajectory") {
+    if (!value.is_boolean()) throw ConfigError(place, "\"trajectory\" must be true or false");
+    question.trajectory = value;
   } else if (key == "explain") {
     if (!value.is_boolean()) throw ConfigError(place, "\"explain\" must be true or false");
     question.explain = value;
   } else {
     throw ConfigError(place, "a query knows no \"" + key + "\"" +
                                  did_you_mean(key, {"id", "from", "to", "via", "avoid", "closed", "alternatives",
-                                                    "cost", "explain"}));
+                                                    "cost", "explain", "trajectory"}));
   }
 }
 

@@ -17,8 +17,8 @@ struct PlanQuery {
   PlanQuestion question;
 };
 
-// One line {"id", "from", "to"} with, optionally, "via", "avoid", "closed", "alternatives", "cost", "explain"; what
-// it leaves out is as in `defaults`. Throws ConfigError with file:line.
+// One line {"id", "from", "to"} with, optionally, "via", "avoid", "closed", "alternatives", "cost", "explain",
+// "trajectory"; what it leaves out is as in `defaults`. Throws ConfigError with file:line.
 [[nodiscard]] PlanQuery query_of_line(const std::string& line, const std::string& file, int number,
                                       const PlanQuestion& defaults);
 
