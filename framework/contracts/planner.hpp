@@ -111,6 +111,9 @@ class Planner {
   // path as long as the budget's deadline does not cut the call short.
   [[nodiscard]] virtual PlanResult plan(const PlanRequest& request, const WorldView& world,
                                         const Budget& budget) const = 0;
+  // What can be done before anyone waits, when a world will be asked about with discs of that radius. Changes no
+  // answer. Thread-safe like plan().
+  virtual void prepare(const WorldView& /*world*/, double /*radius_m*/) const {}
 };
 
 }  // namespace cairn

@@ -54,6 +54,12 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
   context.modules = &library_;
   if (many_) static_cast<void>(hierarchies_.by(CostKind::length));  // not in the time of the first answer
   planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
+  // Neither is what the planner makes of the grid.
+  const WorldView world{map_.grid, map_.graph, robot_, {}, 0.0, nullptr, 0.0, nullptr, kLoadedGrid};
+  fenced("planner", command.planner, [&] {
+    planner_->prepare(world, robot_.radius_m);
+    return 0;
+  });
 }
 
 PlanResult MapPlanner::answer(const PlanQuery& query) const {

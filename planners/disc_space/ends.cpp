@@ -29,12 +29,6 @@ std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldVi
   return start;
 }
 
-// Such a disc can stand nowhere, and looking at every cell it would cover takes for ever.
-bool is_larger_than(const OccupancyGrid& grid, double radius_m) {
-  const CellBox box = grid.bounds();
-  return radius_m > std::hypot(box.width(), box.height()) * grid.cell_m();
-}
-
 std::string not_reached_text(const Place& goal, const LandmarkGraph& graph) {
   if (goal.pose) return "the goal " + text_of(goal.pose->position()) + " cannot be reached";
   const std::string first = label_of(*graph.find(goal.landmarks.front()));
@@ -60,6 +54,11 @@ std::string note_on(const Pose2& stand, const Landmark& landmark) {
 }
 
 }  // namespace
+
+bool is_larger_than(const OccupancyGrid& grid, double radius_m) {
+  const CellBox box = grid.bounds();
+  return radius_m > std::hypot(box.width(), box.height()) * grid.cell_m();
+}
 
 Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m) {
   return {PlanOutcome::no_route, not_reached_text(goal, graph) +

@@ -47,6 +47,8 @@ struct EndRules {
   double start_tolerance_m = 0.3;
 };
 
+// Such a disc can stand nowhere, and looking at every cell it would cover takes for ever.
+[[nodiscard]] bool is_larger_than(const OccupancyGrid& grid, double radius_m);
 // Landmarks of a place that the graph lacks, non-finite numbers, a place that names nothing.
 [[nodiscard]] std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph,
                                                       const std::string& end);

@@ -34,6 +34,12 @@ PlanResult stopped(PlanOutcome outcome) {
   return refused({outcome, "the budget was used up before a way was found"});
 }
 
+std::vector<Point> points_on(const std::vector<Pose2>& path) {
+  std::vector<Point> points;
+  for (const Pose2& pose : path) points.push_back(pose.position());
+  return points;
+}
+
 // One request on its way to an answer.
 class Query {
  public:
@@ -167,9 +173,10 @@ class Query {
     }
   }
 
-  // By how long a way to them must be; and that of the first.
+  // By how long a way to them must be; and that of the first, which only a graph with routes needs.
   std::pair<std::vector<GoalPlace>, double> nearest_first(const std::vector<GoalPlace>& goals, const StartPlace& start,
                                                           const DiscRoutes& routes) const {
+    if (goals.size() == 1 && world_.graph.routes().empty()) return {goals, 0.0};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < goals.size(); ++i)
       order.emplace_back(routes.least_length_m(start.leave_from, goals[i].pose.position(), budget_), i);
@@ -233,20 +240,33 @@ class Query {
     request.to.heading_matters = goal.heading_rad.has_value();
     request.radius_m = request_.radius_m;
     request.seed = request_.seed;
+    request.cost = request_.cost;
     const Time begin = Budget::Clock::now();
     PlanResult planned = route_.plan(request, planned_world, budget_);
     route_ms_ += ms_since(begin);
-    std::vector<PartedPoint> route;
-    for (const Pose2& pose : planned.path) route.push_back({pose.position(), 0});
     if (planned.outcome == PlanOutcome::solved &&
-        !route_is_free(planned_world.grid, ends_.ground, points_of(route), ends_.radius_m))
+        !route_is_free(planned_world.grid, ends_.ground, points_on(planned.path), ends_.radius_m))
       return refused({PlanOutcome::no_route, "the route planner's path touches something and was refused"});
-    if (planned.outcome != PlanOutcome::solved) {
-      if (start.escape && !planned.path.empty()) planned.path.insert(planned.path.begin(), start.pose);
-      return planned;
+    if (start.escape && !planned.path.empty()) planned.path.insert(planned.path.begin(), start.pose);
+    if (planned.outcome != PlanOutcome::solved) return planned;
+    return direct_result(start, goal, planned);
+  }
+
+  // The route planner's path as it is: there is nothing to join it to.
+  PlanResult direct_result(const StartPlace& start, const GoalPlace& goal, const PlanResult& planned) const {
+    PlanResult result = planned;
+    const auto origin = planned.path.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;
+    result.pieces = {{origin, 0, planned.length_m}};
+    if (start.escape) {
+      const double escape_m = (start.escape->to - start.pose.position()).norm();
+      result.path.front() = poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front();
+      result.pieces.insert(result.pieces.begin(), {PlanPiece::Origin::escape, 0, escape_m});
+      result.length_m += escape_m;
+      result.cost_m += escape_m;
+      result.least_length_m.reset();
     }
-    const auto origin = route.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;
-    PlanResult result = finished(start, goal, route, {{origin, 0, 0.0}});
+    result.clearance_m = clearance_along(*start.space, points_on(result.path), ends_.radius_m);
+    result.landmarks.clear();
     for (const LandmarkId id : {start.landmark, goal.landmark})
       if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
     result.reason =
@@ -337,10 +357,35 @@ HybridPlanner::HybridPlanner(HybridConfig config, std::shared_ptr<const Planner>
   if (!route_ || !graph_) throw std::invalid_argument("hybrid: needs a route planner and a graph planner");
 }
 
+void HybridPlanner::prepare(const WorldView& world, double radius_m) const {
+  if (world.grid.bounds().empty() || is_larger_than(world.grid, radius_m)) return;
+  const auto space = usual_.spaces.space_of(world.grid, {unknown_, {}}, world.grid_version);
+  (void)usual_.routes.routes_of(space, radius_m + kLeastRadius_m);
+  route_->prepare(world, radius_m);
+}
+
+// Landmark legs are joined and smoothed for a disc that turns on the spot.
+bool is_for_discs(const PluginChoice& route) {
+  const ConfigValue* const kinematics = route.config.find("kinematics");
+  const ConfigValue* const footprint = route.config.find("footprint");
+  return (kinematics == nullptr || kinematics->scalar == "disc") &&
+         (footprint == nullptr || footprint->scalar == "disc");
+}
+
+PlanResult HybridPlanner::plan_without_landmarks(const PlanRequest& request, const WorldView& world,
+                                                 const Budget& budget) const {
+  PlanResult result = route_->plan(request, world, budget);
+  if (result.outcome == PlanOutcome::solved) result.pieces = {{PlanPiece::Origin::planned, 0, result.length_m}};
+  result.reason = "directly, since landmark legs are for a disc that turns on the spot; " + result.reason;
+  return result;
+}
+
 PlanResult HybridPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
   if (!(request.radius_m >= 0.0 && std::isfinite(request.radius_m)))
     throw std::invalid_argument("hybrid: radius_m must be finite and not negative, got " +
                                 std::to_string(request.radius_m));
+  if (!is_for_discs(config_.route) && !world.grid.bounds().empty())
+    return plan_without_landmarks(request, world, budget);
   const Time begin = Budget::Clock::now();
   PlanResult result = Query(config_, unknown_, usual_, avoiding_, *route_, *graph_, request, world, budget).answer();
   result.time_ms.total_ms = ms_since(begin);

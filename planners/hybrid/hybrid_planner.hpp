@@ -38,6 +38,8 @@ struct HybridConfig {
   }
 };
 
+// Whether the route planner's settings are for a disc that turns on the spot; for others there are no landmark legs.
+[[nodiscard]] bool is_for_discs(const PluginChoice& route);
 // What the route planner's settings say about unknown space, for the hybrid's own checks.
 [[nodiscard]] UnknownPolicy unknown_policy_of(const PluginChoice& route);
 
@@ -62,8 +64,12 @@ class HybridPlanner : public Planner {
 
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
                                 const Budget& budget) const override;
+  void prepare(const WorldView& world, double radius_m) const override;
 
  private:
+  [[nodiscard]] PlanResult plan_without_landmarks(const PlanRequest& request, const WorldView& world,
+                                                  const Budget& budget) const;
+
   HybridConfig config_;
   UnknownPolicy unknown_;
   std::shared_ptr<const Planner> route_;

@@ -234,7 +234,7 @@ PlanResult DiscQuery::result_of(const StartPlace& start, const GoalPlace& goal, 
   PlanResult result;
   result.outcome = found.exact ? PlanOutcome::solved : PlanOutcome::approximate;
   result.length_m = length_of(route);
-  result.cost_m = cost.is_length() ? result.length_m : cost_of(cost, route);
+  result.cost_m = cost.is_in_metres() ? cost_of(cost, route) : result.length_m;
   if (found.exact && !start.escape) result.least_length_m = found.least_length_m;
   result.clearance_m = clearance_along(*start.space, route, request_.radius_m);
   result.path = poses_along(route, start.pose.theta_rad, found.exact ? goal.heading_rad : std::nullopt);

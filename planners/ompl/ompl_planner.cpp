@@ -51,6 +51,13 @@ OmplPlanner::OmplPlanner(OmplConfig config)
     throw ConfigError({}, "ompl: length_weight and time_weight must not both be 0");
 }
 
+void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
+  const EndRules rules = end_rules_of(config_, radius_m);
+  if (world.grid.bounds().empty() || is_larger_than(world.grid, rules.radius_m)) return;
+  const auto space = caches_.spaces.space_of(world.grid, rules.ground, world.grid_version);
+  (void)caches_.routes.routes_of(space, rules.radius_m + kLeastRadius_m);
+}
+
 PlanResult OmplPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
   if (!(request.radius_m >= 0.0 && std::isfinite(request.radius_m)))
     throw std::invalid_argument("ompl: radius_m must be finite and not negative, got " +

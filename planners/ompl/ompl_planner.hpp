@@ -52,6 +52,7 @@ class OmplPlanner : public Planner {
 
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
                                 const Budget& budget) const override;
+  void prepare(const WorldView& world, double radius_m) const override;
 
  private:
   OmplConfig config_;
