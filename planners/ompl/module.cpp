@@ -6,9 +6,9 @@ namespace {
 
 void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Planner, cairn::OmplConfig>(
-      "ompl", "routes for a disc on the occupancy grid, by any of OMPL's sampling planners",
-      [](const cairn::OmplConfig& config, const cairn::ModuleContext&) {
-        return std::make_unique<cairn::OmplPlanner>(config);
+      "ompl", "routes on the occupancy grid: the shortest, improved by OMPL, or by any of its sampling planners",
+      [](const cairn::OmplConfig& config, const cairn::ModuleContext& context) {
+        return std::make_unique<cairn::OmplPlanner>(config, context.robot);
       });
 }
 

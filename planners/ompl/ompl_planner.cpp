@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "planners/ompl/disc_query.hpp"
+#include "planners/ompl/pose_query.hpp"
 
 namespace cairn {
 
@@ -36,6 +37,22 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
       "whether routes may cross cells that have not been seen; cost: they may, and a metre counts unknown_weight");
   fields.number("unknown_weight", &OmplConfig::unknown_weight, {1.0, 1e6}, "",
                 "what a metre over cells that have not been seen counts, with `unknown: cost`");
+  fields.choice(
+      "kinematics", &OmplConfig::kinematics,
+      {{"disc", MotionKind::disc},
+       {"differential", MotionKind::differential},
+       {"dubins", MotionKind::dubins},
+       {"reeds_shepp", MotionKind::reeds_shepp}},
+      "how the robot moves: a disc any way; differential turns on the spot and drives straight; dubins drives "
+      "forwards on circles and straight lines, reeds_shepp backwards too");
+  fields.choice("footprint", &OmplConfig::footprint,
+                {{"disc", WantedFootprint::disc}, {"robot", WantedFootprint::robot}},
+                "what must fit: a disc of the request's radius, or the robot's own outline (not for kinematics disc)");
+  fields.number("turning_radius_m", &OmplConfig::turning_radius_m, {0.0, 1e3}, "m",
+                "dubins and reeds_shepp: the tightest circle; 0: that of the robot's file");
+  fields.flag("reverse", &OmplConfig::reverse, "differential: may also drive backwards");
+  fields.number("spot_turn_m", &OmplConfig::spot_turn_m, {1e-3, 10.0}, "m",
+                "differential: metres that a radian turned on the spot counts");
   fields.number("margin_m", &OmplConfig::margin_m, {0.0, 2.0}, "m", "added to the robot's radius");
   fields.number("start_tolerance_m", &OmplConfig::start_tolerance_m, {0.0, 1.0}, "m",
                 "how far a start that is too near to something may be left with what clearance it has");
@@ -45,10 +62,29 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
   fields.raw("parameters", &OmplConfig::parameters, "map", "OMPL's own parameters of the algorithm, by name");
 }
 
-OmplPlanner::OmplPlanner(OmplConfig config)
+namespace {
+
+// Sentences without a place: a setting's own is not known here.
+void check_motion(const OmplConfig& config, const RobotModel& robot) {
+  const bool is_car = config.kinematics == MotionKind::dubins || config.kinematics == MotionKind::reeds_shepp;
+  if (is_car && config.turning_radius_m <= 0.0 && robot.min_turning_radius_m <= 0.0)
+    throw ConfigError({}, "ompl: a robot that does not turn on the spot needs turning_radius_m, here or in its file");
+  if (config.kinematics == MotionKind::disc && config.footprint == WantedFootprint::robot && !robot.polygon_m.empty())
+    throw ConfigError({}, "ompl: the robot's outline is no disc; give kinematics differential, dubins or reeds_shepp");
+  if (works_with(config.kinematics, config.algorithm)) return;
+  std::string working;
+  for (const auto& [name, algorithm] : algorithm_names())
+    if (works_with(config.kinematics, algorithm)) working += (working.empty() ? "" : ", ") + name;
+  throw ConfigError({}, "ompl: this algorithm of OMPL does not do for such kinematics; these do: " + working);
+}
+
+}  // namespace
+
+OmplPlanner::OmplPlanner(OmplConfig config, const RobotModel& robot)
     : config_(std::move(config)), parameters_(checked_parameters(config_.algorithm, config_.parameters)) {
   if (config_.length_weight + config_.time_weight <= 0.0)
     throw ConfigError({}, "ompl: length_weight and time_weight must not both be 0");
+  check_motion(config_, robot);
 }
 
 void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
@@ -63,7 +99,9 @@ PlanResult OmplPlanner::plan(const PlanRequest& request, const WorldView& world,
     throw std::invalid_argument("ompl: radius_m must be finite and not negative, got " +
                                 std::to_string(request.radius_m));
   const auto begin = Budget::Clock::now();
-  PlanResult result = DiscQuery({config_, parameters_, caches_}, request, world, budget).answer();
+  const OmplTools tools{config_, parameters_, caches_};
+  PlanResult result = config_.kinematics == MotionKind::disc ? DiscQuery(tools, request, world, budget).answer()
+                                                             : PoseQuery(tools, request, world, budget).answer();
   result.time_ms.route_ms = std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
   result.time_ms.total_ms = result.time_ms.route_ms;
   return result;

@@ -1,4 +1,5 @@
-// Routes on OG1 for a disc (METHOD 10): the shortest over the grid, improved by OMPL, or any of OMPL's planners.
+// Routes on OG1 (METHOD 10) for a disc or an outline: the shortest over the grid, improved by OMPL, or any of
+// OMPL's planners.
 #pragma once
 
 #include "framework/config/fields.hpp"
@@ -6,6 +7,7 @@
 #include "planners/any_angle/disc_routes.hpp"
 #include "planners/disc_space/space_cache.hpp"
 #include "planners/ompl/algorithm_parameters.hpp"
+#include "planners/ompl/motion_kind.hpp"
 #include "planners/ompl/travel_cost.hpp"
 
 namespace cairn {
@@ -14,6 +16,9 @@ enum class UnknownGround : std::uint8_t { avoid, allow, cost };
 
 // What routes are counted by: `as_asked` is the request's cost.
 enum class WantedObjective : std::uint8_t { as_asked, length, time, clearance, weighted };
+
+// Of the request's radius, or as the robot's file describes it.
+enum class WantedFootprint : std::uint8_t { disc, robot };
 
 struct OmplConfig {
   Algorithm algorithm = Algorithm::any_angle_rrt_star;
@@ -26,6 +31,11 @@ struct OmplConfig {
   double clearance_weight = 1.0;
   UnknownGround unknown = UnknownGround::avoid;
   double unknown_weight = 3.0;
+  MotionKind kinematics = MotionKind::disc;
+  WantedFootprint footprint = WantedFootprint::disc;
+  double turning_radius_m = 0.0;
+  bool reverse = false;
+  double spot_turn_m = 0.1;
   double margin_m = 0.0;
   double start_tolerance_m = 0.3;
   bool simplify = true;
@@ -39,6 +49,7 @@ struct OmplConfig {
 struct OmplCaches {
   SpaceCache spaces;
   DiscRoutesCache routes;
+  DiscRoutesCache outer_routes;  // of the disc that holds an outline
 };
 
 // Every route that is called solved has been re-checked against the grid, cell by cell. That a goal
@@ -47,8 +58,9 @@ struct OmplCaches {
 // process-wide; the default algorithm's run side by side.
 class OmplPlanner : public Planner {
  public:
-  // Throws ConfigError on a parameter that the algorithm does not have.
-  explicit OmplPlanner(OmplConfig config);
+  // Throws ConfigError on a parameter that the algorithm does not have, and on settings that do not go together
+  // or ask for what the robot's file does not say.
+  explicit OmplPlanner(OmplConfig config, const RobotModel& robot = {});
 
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
                                 const Budget& budget) const override;

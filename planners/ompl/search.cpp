@@ -7,7 +7,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
 
 #include "planners/ompl/algorithm_factory.hpp"
 #include "planners/ompl/mixed_seed.hpp"
@@ -78,35 +77,40 @@ class Simplifier : public og::PathSimplifier {
 
 }  // namespace
 
-SearchAnswer search(const ob::SpaceInformationPtr& space, const ob::ProblemDefinitionPtr& problem,
-                    const SearchRules& rules, const Budget& budget, const std::vector<const ob::State*>& known) {
-  std::optional<OmplTurn> turn;
-  if (rules.algorithm != Algorithm::any_angle_rrt_star) {
-    turn.emplace(budget);
-    if (!turn->is_mine()) return {nullptr, false, true};
-    ompl::RNG::setSeed(1 + mixed(rules.seed) % 1'000'000'000U);
-  }
+SearchAnswer search_by(ob::Planner& planner, const ob::ProblemDefinitionPtr& problem, const SearchRules& rules,
+                       const Budget& budget) {
   ompl::msg::noOutputHandler();
-  const ob::PlannerPtr planner = make_algorithm(rules.algorithm, space);
-  for (const auto& [name, value] : rules.parameters) planner->params().setParam(name, value);
-  planner->setProblemDefinition(problem);
-  planner->setup();
-  if (auto* const seeded = dynamic_cast<SeededRrtStar*>(planner.get()); seeded != nullptr && !known.empty())
-    seeded->begin_with(known);
-
+  for (const auto& [name, value] : rules.parameters) planner.params().setParam(name, value);
+  planner.setProblemDefinition(problem);
+  planner.setup();
   SearchAnswer answer;
   std::int64_t asked = 0;
   const ob::PlannerTerminationCondition enough([&] {
     answer.interrupted = answer.interrupted || budget.exhausted();
     return answer.interrupted || ++asked > rules.iterations;
   });
-  planner->solve(enough);
+  planner.solve(enough);
   const ob::PathPtr found = problem->getSolutionPath();
   if (!found) return answer;
   answer.exact = problem->hasExactSolution();
   answer.path = std::static_pointer_cast<og::PathGeometric>(found);
-  if (rules.simplify) Simplifier(space, problem, rules.seed).simplify_within(*answer.path, budget);
+  if (rules.simplify)
+    Simplifier(planner.getSpaceInformation(), problem, rules.seed).simplify_within(*answer.path, budget);
   return answer;
+}
+
+SearchAnswer search(const ob::SpaceInformationPtr& space, const ob::ProblemDefinitionPtr& problem,
+                    const SearchRules& rules, const Budget& budget, const std::vector<const ob::State*>& known) {
+  if (rules.algorithm == Algorithm::any_angle_rrt_star) {
+    SeededRrtStar planner(space);
+    planner.begin_with(known);
+    return search_by(planner, problem, rules, budget);
+  }
+  const OmplTurn turn(budget);
+  if (!turn.is_mine()) return {nullptr, false, true};
+  ompl::msg::noOutputHandler();
+  ompl::RNG::setSeed(1 + mixed(rules.seed) % 1'000'000'000U);
+  return search_by(*make_algorithm(rules.algorithm, space), problem, rules, budget);
 }
 
 }  // namespace cairn

@@ -5,6 +5,7 @@
 // (seeded_rrt_star.hpp) run side by side. States are drawn by the problem's own samplers.
 #pragma once
 
+#include <ompl/base/Planner.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/geometric/PathGeometric.h>
 
@@ -30,6 +31,10 @@ struct SearchAnswer {
   bool exact = false;                                    // otherwise it ends short of the goal
   bool interrupted = false;                              // by the budget's deadline or cancel flag
 };
+
+// The same by a planner that draws nothing from OMPL's process-wide seeds.
+[[nodiscard]] SearchAnswer search_by(ompl::base::Planner& planner, const ompl::base::ProblemDefinitionPtr& problem,
+                                     const SearchRules& rules, const Budget& budget);
 
 // `known` (optional): a solution to begin with, taken by Algorithm::any_angle_rrt_star alone.
 [[nodiscard]] SearchAnswer search(const ompl::base::SpaceInformationPtr& space,

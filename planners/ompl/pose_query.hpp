@@ -1,0 +1,55 @@
+// One request for a robot whose heading matters on its way to an answer.
+#pragma once
+
+#include "planners/ompl/disc_query.hpp"
+#include "planners/ompl/pose_problem.hpp"
+
+namespace cairn {
+
+class PoseQuery {
+ public:
+  // Borrows all of it.
+  PoseQuery(const OmplTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget);
+
+  [[nodiscard]] PlanResult answer() const;
+
+ private:
+  // From where to where, once both are known to be free.
+  struct Ends {
+    const StartPlace& start;
+    const GoalPlace& goal;
+    Pose2 from;
+    std::vector<Pose2> goals;  // the headings that the goal may be reached with
+  };
+  struct FoundWay {
+    std::vector<Pose2> states;
+    bool exact = false;
+    bool interrupted = false;
+    std::string how;
+  };
+
+  [[nodiscard]] PlanResult answer_from(const StartPlace& start) const;
+  [[nodiscard]] PlanResult answer_to(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes,
+                                     const PoseSpace& poses) const;
+  [[nodiscard]] std::vector<Pose2> goal_poses(const GoalPlace& goal, const std::vector<Point>& guide,
+                                              const PoseSpace& poses) const;
+  [[nodiscard]] FoundWay find(const PoseProblem& problem, const DiscRoute& guide, const StartPlace& start) const;
+  [[nodiscard]] FoundWay find_along_route(const PoseProblem& problem, const StartPlace& start) const;
+  [[nodiscard]] FoundWay find_by_search(const PoseProblem& problem) const;
+  void improve(FoundWay& found, const PoseProblem& problem) const;
+  [[nodiscard]] PlanResult checked(const PoseProblem& problem, const StartPlace& start, const GoalPlace& goal,
+                                   const FoundWay& found) const;
+  [[nodiscard]] std::optional<Refusal> blocked(const Pose2& pose, const std::string& end, PlanOutcome outcome,
+                                               const PoseSpace& poses) const;
+  [[nodiscard]] bool fits_along(const PoseProblem& problem, const std::vector<Pose2>& states) const;
+
+  OmplTools tools_;
+  const PlanRequest& request_;
+  const WorldView& world_;
+  const Budget& budget_;
+  Footprint footprint_;
+  KinematicRules kinematics_;
+  EndRules rules_;  // for a disc that the outline holds
+};
+
+}  // namespace cairn
