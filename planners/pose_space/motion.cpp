@@ -17,6 +17,39 @@ bool is_finite(const Pose2& pose) {
   return pose.position().allFinite() && std::isfinite(pose.theta_rad);
 }
 
+struct TurnDriveTurn {
+  double first_rad = 0.0;
+  double length_m = 0.0;
+  double last_rad = 0.0;
+
+  TurnDriveTurn(const Pose2& from, const Pose2& to, Driving driving) {
+    const Point way = to.position() - from.position();
+    length_m = way.norm();
+    if (length_m == 0.0) {
+      first_rad = wrap_angle(to.theta_rad - from.theta_rad);
+      return;
+    }
+    face(from, to, driving == Driving::backwards ? Point(-way) : way);
+    if (driving == Driving::either) {
+      TurnDriveTurn reverse = *this;
+      reverse.face(from, to, -way);
+      if (reverse.turned_rad() < turned_rad()) {
+        *this = reverse;
+        driving = Driving::backwards;
+      }
+    }
+    if (driving == Driving::backwards) length_m = -length_m;
+  }
+  [[nodiscard]] double turned_rad() const { return std::abs(first_rad) + std::abs(last_rad); }
+
+ private:
+  void face(const Pose2& from, const Pose2& to, const Point& facing) {
+    const double heading_rad = std::atan2(facing.y(), facing.x());
+    first_rad = wrap_angle(heading_rad - from.theta_rad);
+    last_rad = wrap_angle(to.theta_rad - heading_rad);
+  }
+};
+
 }  // namespace
 
 Pose2 driven(const Pose2& from, const MotionElement& element) {
@@ -26,6 +59,10 @@ Pose2 driven(const Pose2& from, const MotionElement& element) {
   const double heading_rad = from.theta_rad + 0.5 * element.turn_rad;
   return {from.x_m + chord_m * std::cos(heading_rad), from.y_m + chord_m * std::sin(heading_rad),
           wrap_angle(from.theta_rad + element.turn_rad)};
+}
+
+bool are_alike(const Pose2& a, const Pose2& b, double within) {
+  return (a.position() - b.position()).norm() <= within && std::abs(wrap_angle(a.theta_rad - b.theta_rad)) <= within;
 }
 
 Motion::Motion(const Pose2& start, const std::vector<MotionElement>& elements, double spot_turn_m)
@@ -125,22 +162,16 @@ std::vector<Pose2> Motion::sampled(double step_m, double step_rad) const {
 }
 
 Motion turn_drive_turn(const Pose2& from, const Pose2& to, Driving driving, double spot_turn_m) {
-  const Point way = to.position() - from.position();
-  const double length_m = way.norm();
-  if (length_m == 0.0) return {from, {MotionElement::turn(wrap_angle(to.theta_rad - from.theta_rad))}, spot_turn_m};
-  const auto motion = [&](bool forwards) {
-    const Point facing = forwards ? way : Point(-way);
-    const double heading_rad = std::atan2(facing.y(), facing.x());
-    return Motion(from,
-                  {MotionElement::turn(wrap_angle(heading_rad - from.theta_rad)),
-                   MotionElement::straight(forwards ? length_m : -length_m),
-                   MotionElement::turn(wrap_angle(to.theta_rad - heading_rad))},
-                  spot_turn_m);
-  };
-  if (driving != Driving::either) return motion(driving == Driving::forwards);
-  const Motion forwards = motion(true);
-  const Motion backwards = motion(false);
-  return forwards.total_turn_rad() <= backwards.total_turn_rad() ? forwards : backwards;
+  const TurnDriveTurn way(from, to, driving);
+  return {
+      from,
+      {MotionElement::turn(way.first_rad), MotionElement::straight(way.length_m), MotionElement::turn(way.last_rad)},
+      spot_turn_m};
+}
+
+double turn_drive_turn_m(const Pose2& from, const Pose2& to, Driving driving, double spot_turn_m) {
+  const TurnDriveTurn way(from, to, driving);
+  return std::abs(way.length_m) + spot_turn_m * way.turned_rad();
 }
 
 }  // namespace cairn

@@ -32,6 +32,9 @@ struct MotionElement {
 // The pose after an element.
 [[nodiscard]] Pose2 driven(const Pose2& from, const MotionElement& element);
 
+// In metres and radians.
+[[nodiscard]] bool are_alike(const Pose2& a, const Pose2& b, double within);
+
 // Places along a motion are told by s in metres: the way driven, plus spot_turn_m for each radian turned
 // on the spot. s below 0 and beyond extent_m() means the ends.
 class Motion {
@@ -51,6 +54,7 @@ class Motion {
     return element.is_turn_on_the_spot() ? spot_turn_m_ * std::abs(element.turn_rad) : std::abs(element.length_m);
   }
   [[nodiscard]] bool is_finite() const;
+  [[nodiscard]] bool ends_at(const Pose2& pose, double within) const { return are_alike(end(), pose, within); }
 
   [[nodiscard]] double length_m() const;        // driven, either way
   [[nodiscard]] double total_turn_rad() const;  // of all elements, without signs
@@ -77,5 +81,8 @@ enum class Driving { forwards, backwards, either };
 // that turns less, forwards when equal.
 [[nodiscard]] Motion turn_drive_turn(const Pose2& from, const Pose2& to, Driving driving = Driving::forwards,
                                      double spot_turn_m = 1.0);
+// Its extent_m(), at less cost.
+[[nodiscard]] double turn_drive_turn_m(const Pose2& from, const Pose2& to, Driving driving = Driving::forwards,
+                                       double spot_turn_m = 1.0);
 
 }  // namespace cairn
