@@ -22,11 +22,11 @@ bool takes(ob::Planner& planner, const std::string& name, const std::string& val
 }  // namespace
 
 AlgorithmParameters checked_parameters(Algorithm algorithm, const ConfigValue& parameters) {
+  ompl::msg::noOutputHandler();  // here, where every planner of ours begins
   if (parameters.kind == ConfigValue::Kind::null) return {};
   if (parameters.kind != ConfigValue::Kind::map)
     throw ConfigError(parameters.place,
                       "parameters must be a map of OMPL's parameter names, not " + parameters.kind_name());
-  ompl::msg::noOutputHandler();
   auto space = std::make_shared<ob::RealVectorStateSpace>(2);
   space->setBounds(0.0, 1.0);
   const ob::PlannerPtr planner = make_algorithm(algorithm, std::make_shared<ob::SpaceInformation>(space));

@@ -101,6 +101,7 @@ SearchAnswer search_by(ob::Planner& planner, const ob::ProblemDefinitionPtr& pro
 
 SearchAnswer search(const ob::SpaceInformationPtr& space, const ob::ProblemDefinitionPtr& problem,
                     const SearchRules& rules, const Budget& budget, const std::vector<const ob::State*>& known) {
+  ompl::msg::noOutputHandler();
   if (rules.algorithm == Algorithm::any_angle_rrt_star) {
     SeededRrtStar planner(space);
     planner.begin_with(known);
@@ -108,7 +109,6 @@ SearchAnswer search(const ob::SpaceInformationPtr& space, const ob::ProblemDefin
   }
   const OmplTurn turn(budget);
   if (!turn.is_mine()) return {nullptr, false, true};
-  ompl::msg::noOutputHandler();
   ompl::RNG::setSeed(1 + mixed(rules.seed) % 1'000'000'000U);
   return search_by(*make_algorithm(rules.algorithm, space), problem, rules, budget);
 }

@@ -14,7 +14,8 @@ namespace cairn {
 class SeededRrtStar : public ompl::geometric::InformedRRTstar {
  public:
   explicit SeededRrtStar(const ompl::base::SpaceInformationPtr& space) : InformedRRTstar(space) {
-    setNearestNeighbors<ompl::NearestNeighborsLinear>();  // OMPL's trees of neighbours draw pivots by the seeds
+    nn_ = std::make_shared<ompl::NearestNeighborsLinear<Motion*>>();  // OMPL's trees of neighbours draw pivots by the
+                                                                      // seeds
     rng_.setLocalSeed(1);
   }
 

@@ -7,7 +7,7 @@ namespace {
 bool works_where_ways_back_differ(Algorithm algorithm) {
   using enum Algorithm;
   switch (algorithm) {
-    case prm:  // edges without direction: paths drive some against it, through walls
+    case prm:  // edges without direction: paths drive some against it, into walls
     case prm_star:
     case rrt_sharp:
     case rrt_x_static:
@@ -35,10 +35,11 @@ bool works_with(MotionKind kind, Algorithm algorithm) {
     case MotionKind::differential:
       return works_where_ways_back_differ(algorithm);
     case MotionKind::dubins:
-      // RRTConnect's tree from the goal hardly ever meets the other one: no path from any of twelve seeds.
+      // RRTConnect's trees hardly ever meet when both headings point along the way: no path from any of
+      // twelve seeds, where RRT finds one from each.
       return algorithm != rrt_connect && works_where_ways_back_differ(algorithm);
     case MotionKind::reeds_shepp:
-      // LazyRRT hangs for some seeds; AIT* finds no path for most, and takes 0.3 s from one look at its
+      // LazyRRT hangs for some seeds; AIT* finds no path for half of them, and takes 0.3 s from one look at its
       // termination condition to the next; of BFMT* some paths touch.
       return algorithm != ait_star && algorithm != lazy_rrt && algorithm != bfmt;
   }

@@ -89,6 +89,7 @@ TEST(TurnDriveTurn, EndsAtTheOtherPoseAndDrivesStraight) {
     for (const Driving driving : {Driving::forwards, Driving::backwards, Driving::either}) {
       const Motion motion = turn_drive_turn(from, to, driving);
       expect_same(motion.end(), to);
+      EXPECT_NEAR(turn_drive_turn_m(from, to, driving), motion.extent_m(), 1e-12);
       EXPECT_NEAR(motion.length_m(), (to.position() - from.position()).norm(), 1e-12);
       if (driving != Driving::either) {
         EXPECT_EQ(motion.elements()[1].length_m > 0.0, driving == Driving::forwards);
