@@ -1,5 +1,6 @@
 #include "planners/ompl/search.hpp"
 
+#include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
@@ -105,6 +106,10 @@ SearchAnswer search(const ob::SpaceInformationPtr& space, const ob::ProblemDefin
   if (rules.algorithm == Algorithm::any_angle_rrt_star) {
     SeededRrtStar planner(space);
     planner.begin_with(known);
+    if (const auto* const poses = dynamic_cast<const ob::SE2StateSpace*>(space->getStateSpace().get()))
+      planner.choose_neighbours_by([poses](const ob::State* a, const ob::State* b) {
+        return poses->ob::SE2StateSpace::distance(a, b);  // of kinematic spaces too: place and heading
+      });
     return search_by(planner, problem, rules, budget);
   }
   const OmplTurn turn(budget);

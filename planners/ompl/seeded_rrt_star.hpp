@@ -7,6 +7,7 @@
 #include <ompl/datastructures/NearestNeighborsLinear.h>
 #include <ompl/geometric/planners/rrt/InformedRRTstar.h>
 
+#include <functional>
 #include <vector>
 
 namespace cairn {
@@ -17,6 +18,17 @@ class SeededRrtStar : public ompl::geometric::InformedRRTstar {
     nn_ = std::make_shared<ompl::NearestNeighborsLinear<Motion*>>();  // OMPL's trees of neighbours draw pivots by the
                                                                       // seeds
     rng_.setLocalSeed(1);
+  }
+
+  // Neighbours are chosen by this instead of the space's own distance, where that is slow to find.
+  void choose_neighbours_by(std::function<double(const ompl::base::State*, const ompl::base::State*)> apart) {
+    apart_ = std::move(apart);
+  }
+
+  void setup() override {
+    InformedRRTstar::setup();
+    if (apart_)
+      nn_->setDistanceFunction([this](const Motion* a, const Motion* b) { return apart_(a->state, b->state); });
   }
 
   // From the start to the goal, each motion between two of them valid; borrowed until solve() returns.
@@ -54,6 +66,7 @@ class SeededRrtStar : public ompl::geometric::InformedRRTstar {
   }
 
   std::vector<const ompl::base::State*> solution_;
+  std::function<double(const ompl::base::State*, const ompl::base::State*)> apart_;
 };
 
 }  // namespace cairn
