@@ -74,7 +74,7 @@ class Search {
  public:
   Search(const CellMesh& mesh, const Point& from, const Point& to, const std::function<bool()>& stop)
       : mesh_(mesh),
-        from_(from),
+        from_(snapped(from.x()), snapped(from.y())),
         to_(to),
         stop_(stop),
         start_(mesh.rectangle_of(cell_of(from))),
@@ -84,13 +84,16 @@ class Search {
     if (start_ == CellMesh::kNone || goal_ == CellMesh::kNone || mesh_.part_of(start_) != mesh_.part_of(goal_))
       return {};
     roots_.push_back({from_, CellMesh::kNone, 0.0, -1});
-    if (start_ == goal_) return path_over(0);
+    const std::vector<Index> around = rectangles_around_start();
+    if (std::find(around.begin(), around.end(), goal_) != around.end()) return path_over(0);
     allowed_ = mesh_.blocks_between(start_, goal_);
     best_.assign(static_cast<std::size_t>(mesh_.corners()), std::numeric_limits<double>::infinity());
-    for (const CellMesh::Portal& portal : mesh_.portals(start_)) {
-      const auto [left, right] = ends_of(start_, portal);
-      add_part(start_, portal, 0, left, right);
-    }
+    for (const Index rectangle : around)
+      for (const CellMesh::Portal& portal : mesh_.portals(rectangle)) {
+        if (std::find(around.begin(), around.end(), portal.to) != around.end()) continue;
+        const auto [left, right] = ends_of(rectangle, portal);
+        add_part(rectangle, portal, 0, left, right);
+      }
     publish();
     while (!waiting_.empty()) {
       Interval next = waiting_.top();
@@ -112,6 +115,20 @@ class Search {
  private:
   static Cell cell_of(const Point& p) {
     return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+  }
+
+  // Those that hold the start, rims included: several when it lies on a line between them. The search sets out from
+  // all; between them it would go round the start for ever, no way being longer than another.
+  [[nodiscard]] std::vector<Index> rectangles_around_start() const {
+    std::vector<Index> around{start_};
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (const CellMesh::Portal& portal : mesh_.portals(around[i])) {
+        const CellBox& r = mesh_.rectangle(portal.to);
+        const bool holds_it =
+            from_.x() >= r.min.x && from_.x() <= r.max.x && from_.y() >= r.min.y && from_.y() <= r.max.y;
+        if (holds_it && std::find(around.begin(), around.end(), portal.to) == around.end()) around.push_back(portal.to);
+      }
+    return around;
   }
 
   // The ends of a portal as a path sees them that leaves its rectangle through it.

@@ -130,6 +130,32 @@ TEST_P(RandomCells, HaveTheOraclesLength) {
   }
 }
 
+// Where several rectangles meet, too.
+TEST_P(RandomCells, HaveTheOraclesLengthFromLatticeLinesAndPoints) {
+  std::mt19937_64 random(23 + std::llround(100 * GetParam()));
+  int found = 0;
+  for (int round = 0; round < 60; ++round) {
+    const OpenCells cells = random_cells(random, 13, 11, GetParam());
+    const CellMesh mesh(cells.box, cells.open);
+    for (int pair = 0; pair < 6; ++pair) {
+      const auto somewhere = [&] { return Point(0.5 * (1 + random() % 25U), 0.5 * (1 + random() % 21U)); };
+      const auto is_in_the_open = [&](const Point& p) {
+        for (const double x : {-0.25, 0.25})
+          for (const double y : {-0.25, 0.25})
+            if (!cells.is_open(static_cast<int>(p.x() + x), static_cast<int>(p.y() + y))) return false;
+        return true;
+      };
+      const Point from = somewhere();
+      const Point to = somewhere();
+      if (!is_in_the_open(from) || !is_in_the_open(to)) continue;
+      ++found;
+      ASSERT_EQ(fault_of(cells, mesh, from, to), "")
+          << drawing_of(cells, {from, to}) << drawing_of(cells, shortest_path(mesh, from, to).points);
+    }
+  }
+  EXPECT_GT(found, 20);
+}
+
 INSTANTIATE_TEST_SUITE_P(Densities, RandomCells, testing::Values(0.05, 0.12, 0.2, 0.3, 0.4));
 
 }  // namespace
