@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -101,26 +102,32 @@ std::size_t count_fitting(const DiscSpace& space, const std::vector<StraightMoti
   }));
 }
 
+// Random ones, and those that planners ask about, by the planner's name.
+std::vector<std::pair<std::string, std::vector<StraightMotion>>> motions_on(const Site& site, const StockOmpl& stock,
+                                                                            const Settings& settings) {
+  std::mt19937_64 random(settings.seed);
+  std::vector<std::pair<std::string, std::vector<StraightMotion>>> kinds{
+      {"random", site.random_pairs(kMotions, random)}};
+  for (const std::string planner : {"RRTConnect", "RRTstar", "BITstar"}) {
+    kinds.emplace_back(planner, std::vector<StraightMotion>{});
+    for (const StraightMotion& ends : site.random_pairs(settings.pairs, random)) {
+      const auto asked = stock.motions_asked(planner, ends, kMotions / settings.pairs, settings.limit_s);
+      kinds.back().second.insert(kinds.back().second.end(), asked.begin(), asked.end());
+    }
+  }
+  return kinds;
+}
+
 void print_motions(const Settings& settings) {
   std::printf(
       "| map | motions | mean m | free, exactly | free, says stock | ours, 1000/s | stock by distance field | "
       "ratio | stock by cells | ratio |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
-  std::vector<double> field_ratios;
-  std::vector<double> cell_ratios;
+  std::map<std::string, std::vector<double>> field_ratios;  // by kind of motions
+  std::map<std::string, std::vector<double>> cell_ratios;
   for (const Site& site : sites_of(settings)) {
-    std::mt19937_64 random(settings.seed);
     const StockOmpl stock(site.space, kRadius_m, 0.5 * site.grid.cell_m());
     const StockOmpl by_cells(site.space, kRadius_m, 0.5 * site.grid.cell_m(), StockValidity::by_cells);
-    std::vector<std::pair<std::string, std::vector<StraightMotion>>> kinds{
-        {"random", site.random_pairs(kMotions, random)}};
-    for (const std::string planner : {"RRTConnect", "RRTstar", "BITstar"}) {
-      kinds.emplace_back(planner, std::vector<StraightMotion>{});
-      for (const StraightMotion& ends : site.random_pairs(settings.pairs, random)) {
-        const auto asked = stock.motions_asked(planner, ends, kMotions / settings.pairs, settings.limit_s);
-        kinds.back().second.insert(kinds.back().second.end(), asked.begin(), asked.end());
-      }
-    }
-    for (const auto& [kind, motions] : kinds) {
+    for (const auto& [kind, motions] : motions_on(site, stock, settings)) {
       if (motions.empty()) continue;
       double metres = 0.0;
       for (const StraightMotion& motion : motions) metres += (motion.second - motion.first).norm();
@@ -129,17 +136,25 @@ void print_motions(const Settings& settings) {
       const double ours = rate_of(motions.size(), [&] { exact = count_fitting(site.space, motions); });
       const double theirs = rate_of(motions.size(), [&] { says_stock = stock.count_valid(motions); });
       const double scanned = rate_of(motions.size(), [&] { says_stock = by_cells.count_valid(motions); });
-      field_ratios.push_back(ours / theirs);
-      cell_ratios.push_back(ours / scanned);
+      field_ratios[kind].push_back(ours / theirs);
+      field_ratios["all"].push_back(ours / theirs);
+      cell_ratios[kind].push_back(ours / scanned);
+      cell_ratios["all"].push_back(ours / scanned);
       std::printf("| %s | %s | %.1f | %zu of %zu | %zu | %.0f | %.1f | %.1f | %.1f | %.1f |\n", site.name.c_str(),
                   kind.c_str(), metres / static_cast<double>(motions.size()), exact, motions.size(), says_stock,
                   ours / 1e3, theirs / 1e3, ours / theirs, scanned / 1e3, ours / scanned);
       std::fflush(stdout);
     }
   }
-  for (const auto& [name, ratios] : {std::pair("distance field", field_ratios), std::pair("cells", cell_ratios)})
-    std::printf("\nratio, stock by %s: median %.1f, quartiles %.1f and %.1f, least %.1f\n", name, quantile(ratios, 0.5),
-                quantile(ratios, 0.25), quantile(ratios, 0.75), quantile(ratios, 0.0));
+  std::printf(
+      "\n| motions | stock by distance field: least ratio | quartile | median | quartile | stock by cells: "
+      "least | quartile | median | quartile |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+  for (const auto& [kind, ratios] : field_ratios) {
+    std::printf("| %s |", kind.c_str());
+    for (const auto& values : {ratios, cell_ratios[kind]})
+      for (const double share : {0.0, 0.25, 0.5, 0.75}) std::printf(" %.1f |", quantile(values, share));
+    std::printf("\n");
+  }
 }
 
 constexpr const char* kDefault = "default";
