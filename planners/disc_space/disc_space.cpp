@@ -4,10 +4,10 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "maps/connected_cells.hpp"
 
 namespace cairn {
 namespace {
@@ -50,7 +50,7 @@ constexpr int floor_divided(int a, int b) {
 // Numbers of connected cells, by row; 0 is blocked.
 struct DiscSpace::Parts {
   std::once_flag made;
-  cv::Mat numbers;
+  std::vector<std::int32_t> numbers;
 };
 
 DiscSpace::DiscSpace(const OccupancyGrid& grid, const GroundRules& rules)
@@ -169,16 +169,11 @@ double DiscSpace::distance_m(const Point& from, const Point& to) const {
 bool DiscSpace::joined(const Point& a, const Point& b) const {
   if (!contains(a) || !contains(b)) return false;
   const CellBox box = field_.box();
-  std::call_once(parts_->made, [&] {
-    cv::Mat free(box.height(), box.width(), CV_8U);
-    for (int y = 0; y < box.height(); ++y)
-      for (int x = 0; x < box.width(); ++x)
-        free.at<std::uint8_t>(y, x) = field_.is_blocked({box.min.x + x, box.min.y + y}) ? 0 : 1;
-    cv::connectedComponents(free, parts_->numbers, 4, CV_32S);
-  });
+  std::call_once(parts_->made, [&] { parts_->numbers = connected_cells(field_); });
   const auto number = [&](const Point& p) {
     const Cell cell = field_.cell_at(p) - box.min;
-    return parts_->numbers.at<std::int32_t>(cell.y, cell.x);
+    return parts_->numbers[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(box.width()) +
+                           static_cast<std::size_t>(cell.x)];
   };
   return number(a) != 0 && number(a) == number(b);
 }

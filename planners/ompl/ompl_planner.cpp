@@ -92,6 +92,8 @@ void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
   if (world.grid.bounds().empty() || is_larger_than(world.grid, rules.radius_m)) return;
   const auto space = caches_.spaces.space_of(world.grid, rules.ground, world.grid_version);
   (void)caches_.routes.routes_of(space, rules.radius_m + kLeastRadius_m);
+  const Point inside = world.grid.centre_of(world.grid.bounds().min);
+  (void)space->joined(inside, inside);  // numbers the parts that are connected
 }
 
 PlanResult OmplPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {

@@ -15,20 +15,36 @@ const ModuleLibrary& library() {
 
 }  // namespace
 
-GridRouter::GridRouter(OccupancyGrid grid, double radius_m, const std::string& settings, const std::string& module)
-    : grid_(std::move(grid)) {
-  robot_.radius_m = radius_m;
-  PluginChoice choice{module, parse_config_text(settings.empty() ? "{}" : settings, "settings of " + module)};
+GridRouter::GridRouter(OccupancyGrid grid, const RobotModel& robot, const std::string& settings)
+    : grid_(std::move(grid)), robot_(robot) {
+  const PluginChoice choice{"ompl", parse_config_text(settings.empty() ? "{}" : settings, "settings of ompl")};
   ModuleContext context{robot_};
   context.modules = &library();
   planner_ = library().make<Planner>(choice, context);
+  planner_->prepare(world(), robot_.radius_m);
+}
+
+GridRouter::GridRouter(OccupancyGrid grid, double radius_m, const std::string& settings)
+    : GridRouter(
+          std::move(grid),
+          [&] {
+            RobotModel robot;
+            robot.radius_m = radius_m;
+            return robot;
+          }(),
+          settings) {}
+
+WorldView GridRouter::world() const {
+  WorldView view{grid_, graph_, robot_, {}, 0.0, nullptr, 0.0};
+  view.grid_version = 1;
+  return view;
 }
 
 PlanResult GridRouter::plan(const PlanRequest& request, double budget_ms) const {
   Budget budget;
   if (budget_ms > 0.0)
     budget.deadline = Budget::Clock::now() + std::chrono::microseconds(std::llround(budget_ms * 1e3));
-  return planner_->plan(request, {grid_, graph_, robot_, {}, 0.0, nullptr, 0.0}, budget);
+  return planner_->plan(request, world(), budget);
 }
 
 PlanResult GridRouter::plan(const Point& from, const Point& to, double budget_ms, std::uint64_t seed) const {

@@ -1,4 +1,4 @@
-// A planner module on one map, asked as the program asks it.
+// The module `ompl` on one map, asked as the program asks it: prepared, the map loaded.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,8 @@ namespace cairn {
 class GridRouter {
  public:
   // settings: of the module, in YAML; none are its own defaults.
-  GridRouter(OccupancyGrid grid, double radius_m, const std::string& settings = "", const std::string& module = "ompl");
+  GridRouter(OccupancyGrid grid, const RobotModel& robot, const std::string& settings = "");
+  GridRouter(OccupancyGrid grid, double radius_m, const std::string& settings = "");
 
   [[nodiscard]] PlanResult plan(const Point& from, const Point& to, double budget_ms = 0.0,
                                 std::uint64_t seed = 1) const;  // budget 0: none
@@ -20,6 +21,8 @@ class GridRouter {
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
 
  private:
+  [[nodiscard]] WorldView world() const;
+
   OccupancyGrid grid_;
   LandmarkGraph graph_;
   RobotModel robot_;

@@ -33,10 +33,10 @@ PlainCells office_floor() {
   return random_rooms(shape, 1);
 }
 
-std::vector<Motion> random_motions(const DiscSpace& space, const std::vector<Cell>& places, std::size_t count,
-                                   double most_m) {
+std::vector<StraightMotion> random_motions(const DiscSpace& space, const std::vector<Cell>& places, std::size_t count,
+                                           double most_m) {
   std::mt19937_64 random(2);
-  std::vector<Motion> motions;
+  std::vector<StraightMotion> motions;
   while (motions.size() < count) {
     const Point a = space.field().centre_of(places[random() % places.size()]);
     const Point b = space.field().centre_of(places[random() % places.size()]);
@@ -57,7 +57,7 @@ void motion_checks(benchmark::State& state) {
   double ours_s = 0.0;
   for (auto _ : state) {
     const double took_s = seconds_of([&] {
-      free = static_cast<std::size_t>(std::count_if(motions.begin(), motions.end(), [&](const Motion& m) {
+      free = static_cast<std::size_t>(std::count_if(motions.begin(), motions.end(), [&](const StraightMotion& m) {
         return space.fits_along(m.first, m.second, kRadius_m);
       }));
     });

@@ -1,5 +1,5 @@
 // Draws routes of the module `ompl`: route_pictures FOLDER [OFFICE.cairn]
-// On two maps of the Moving AI benchmarks (CAIRN_DATA) beside Lazy Theta*'s, and on a saved map for a disc.
+// On two maps of the Moving AI benchmarks (CAIRN_DATA) beside Lazy Theta*'s, and on a saved map for a disc and a car.
 
 #include <algorithm>
 #include <array>
@@ -29,6 +29,7 @@ constexpr double kMargin_px = 10.0;
 constexpr Colour kTheirs{30, 110, 200};
 constexpr std::size_t kTried = 60;  // instances, of which the one that shows most is drawn
 constexpr double kLong_cells = 200.0;
+constexpr double kTooLong_cells = 650.0;  // to show where the two part
 
 // A page with one map on it, as wide as the page.
 class Page {
@@ -96,7 +97,7 @@ Comparison most_telling(const PlainCells& cells, const GridRouter& router, const
   Comparison best;
   double most_m = -1.0;
   for (const MovingAiInstance& instance : moving_ai_instances(scenario_of(map), cells.height, kTried, 1)) {
-    if (instance.optimum < kLong_cells) continue;
+    if (instance.optimum < kLong_cells || instance.optimum > kTooLong_cells) continue;
     const PlanResult result = router.plan(cells.centre_m(instance.from), cells.centre_m(instance.to));
     if (result.outcome != PlanOutcome::solved) continue;
     const std::vector<Point> lazy = points_of(cells, plain.lazy_theta_star(instance.from, instance.to));
@@ -179,6 +180,37 @@ void draw_office(const std::filesystem::path& saved, const std::filesystem::path
   page.canvas().write_png(file);
 }
 
+// The same places for a car of 0.40 x 0.24 m that turns in 0.40 m and arrives facing the way it came from.
+void draw_office_car(const std::filesystem::path& saved, const std::filesystem::path& file) {
+  const SavedMap map = load_map(saved);
+  RobotModel car;
+  car.polygon_m = {{0.30, 0.12}, {-0.10, 0.12}, {-0.10, -0.12}, {0.30, -0.12}};  // about its rear axle
+  car.radius_m = std::hypot(0.30, 0.12);
+  const GridRouter router(map.grid, car, "{kinematics: reeds_shepp, footprint: robot, turning_radius_m: 0.4}");
+  PlanRequest request;
+  request.from.pose = map.driven_path.front();
+  request.from.heading_matters = request.to.heading_matters = true;
+  request.radius_m = car.radius_m;
+  const GridRouter disc(map.grid, 0.35);
+  const PlanResult there = to_the_farthest_place(disc, request.from.pose->position(), 0.35);
+  const Point back = request.from.pose->position() - there.path.back().position();
+  request.to.pose = Pose2{there.path.back().x_m, there.path.back().y_m, std::atan2(back.y(), back.x())};
+  const PlanResult result = router.plan(request);
+  if (result.outcome != PlanOutcome::solved) throw std::runtime_error("the car: " + result.reason);
+  Page page(router.grid(), extent_of(map.grid), "The office as the sonars saw it: a car of 0.40 x 0.24 m, Reeds-Shepp");
+  for (const Pose2& pose : result.path) {
+    std::vector<Point> corners;
+    for (const Point& p : car.polygon_m) corners.push_back(pose * p);
+    page.canvas().fill_polygon(page.frame().pixels_of(corners), {kPlanned, 0.10});
+    corners.push_back(corners.front());
+    page.canvas().line(page.frame().pixels_of(corners), {kPlanned, 1.0, 0.5, 0.0});
+  }
+  page.draw_path(cairn::points_of(result), kRobot, 3.0,
+                 "its rear axle, " + short_text(result.length_m, 2) + " m; turning radius 0.40 m");
+  page.draw_ends(result.path.front().position(), result.path.back().position());
+  page.canvas().write_png(file);
+}
+
 }  // namespace
 }  // namespace cairn
 
@@ -191,7 +223,10 @@ int main(int count, char** arguments) {
     const std::filesystem::path folder = arguments[1];
     cairn::draw_moving_ai("mazes", "maze512-8-0", folder / "routes_maze.png");
     cairn::draw_moving_ai("cities", "Boston_0_512", folder / "routes_city.png");
-    if (count == 3) cairn::draw_office(arguments[2], folder / "routes_office_disc.png");
+    if (count == 3) {
+      cairn::draw_office(arguments[2], folder / "routes_office_disc.png");
+      cairn::draw_office_car(arguments[2], folder / "routes_office_car.png");
+    }
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "route_pictures: %s\n", error.what());

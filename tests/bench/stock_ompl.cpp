@@ -40,7 +40,7 @@ double seconds_since(Clock::time_point begin) {
 // Writes down what it is asked.
 class ListeningValidator : public ob::DiscreteMotionValidator {
  public:
-  ListeningValidator(const ob::SpaceInformationPtr& info, std::vector<Motion>& heard)
+  ListeningValidator(const ob::SpaceInformationPtr& info, std::vector<StraightMotion>& heard)
       : DiscreteMotionValidator(info), heard_(&heard) {}
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
     heard_->emplace_back(point_of(from), point_of(to));
@@ -49,7 +49,7 @@ class ListeningValidator : public ob::DiscreteMotionValidator {
   using ob::DiscreteMotionValidator::checkMotion;
 
  private:
-  std::vector<Motion>* heard_;
+  std::vector<StraightMotion>* heard_;
 };
 
 ob::PlannerPtr planner_of(const std::string& name, const ob::SpaceInformationPtr& info) {
@@ -108,7 +108,7 @@ struct StockOmpl::Parts {
     return made;
   }
 
-  [[nodiscard]] std::unique_ptr<og::SimpleSetup> setup(const std::string& planner, const Motion& ends,
+  [[nodiscard]] std::unique_ptr<og::SimpleSetup> setup(const std::string& planner, const StraightMotion& ends,
                                                        double enough_m) const {
     auto made = setup();
     ob::ScopedState<Space> from(made->getStateSpace());
@@ -137,7 +137,7 @@ double StockOmpl::step_m() const {
   return setup->getStateSpace()->getLongestValidSegmentLength();
 }
 
-std::size_t StockOmpl::count_valid(const std::vector<Motion>& motions) const {
+std::size_t StockOmpl::count_valid(const std::vector<StraightMotion>& motions) const {
   const auto setup = parts_->setup();
   const ob::SpaceInformationPtr info = setup->getSpaceInformation();
   info->setup();
@@ -152,7 +152,8 @@ std::size_t StockOmpl::count_valid(const std::vector<Motion>& motions) const {
   return valid;
 }
 
-StockAnswer StockOmpl::solve(const std::string& planner, const Motion& ends, double enough_m, double limit_s) const {
+StockAnswer StockOmpl::solve(const std::string& planner, const StraightMotion& ends, double enough_m,
+                             double limit_s) const {
   StockAnswer answer;
   const auto begin = Clock::now();
   const auto setup = parts_->setup(planner, ends, enough_m);
@@ -174,9 +175,9 @@ StockAnswer StockOmpl::solve(const std::string& planner, const Motion& ends, dou
   }
 }
 
-std::vector<Motion> StockOmpl::motions_asked(const std::string& planner, const Motion& ends, std::size_t count,
-                                             double limit_s) const {
-  std::vector<Motion> heard;
+std::vector<StraightMotion> StockOmpl::motions_asked(const std::string& planner, const StraightMotion& ends,
+                                                     std::size_t count, double limit_s) const {
+  std::vector<StraightMotion> heard;
   const auto setup = parts_->setup(planner, ends, 0.0);
   const ob::SpaceInformationPtr info = setup->getSpaceInformation();
   info->setMotionValidator(std::make_shared<ListeningValidator>(info, heard));

@@ -10,7 +10,7 @@
 
 namespace cairn {
 
-using Motion = std::pair<Point, Point>;
+using StraightMotion = std::pair<Point, Point>;
 
 // Where the disc fits, exactly, in one of the two ways that users write it:
 enum class StockValidity {
@@ -37,14 +37,14 @@ class StockOmpl {
 
   [[nodiscard]] double step_m() const;
   // How many of the motions the validator takes for valid.
-  [[nodiscard]] std::size_t count_valid(const std::vector<Motion>& motions) const;
+  [[nodiscard]] std::size_t count_valid(const std::vector<StraightMotion>& motions) const;
   // Until the path is no longer than enough_m or the time is over. RRTConnect's are simplified, and it begins anew as
   // long as they are too long. Planners: BITstar, InformedRRTstar, RRTstar, RRTConnect.
-  [[nodiscard]] StockAnswer solve(const std::string& planner, const Motion& ends, double enough_m,
+  [[nodiscard]] StockAnswer solve(const std::string& planner, const StraightMotion& ends, double enough_m,
                                   double limit_s) const;
   // The first motions that the planner asks about on the way to a solution, and after it.
-  [[nodiscard]] std::vector<Motion> motions_asked(const std::string& planner, const Motion& ends, std::size_t count,
-                                                  double limit_s) const;
+  [[nodiscard]] std::vector<StraightMotion> motions_asked(const std::string& planner, const StraightMotion& ends,
+                                                          std::size_t count, double limit_s) const;
 
  private:
   struct Parts;

@@ -51,8 +51,8 @@ struct Site {
     for (const Cell cell : largest_part(fits)) places.push_back(cell + box.min);
   }
 
-  [[nodiscard]] std::vector<Motion> random_pairs(std::size_t count, std::mt19937_64& random) const {
-    std::vector<Motion> pairs;
+  [[nodiscard]] std::vector<StraightMotion> random_pairs(std::size_t count, std::mt19937_64& random) const {
+    std::vector<StraightMotion> pairs;
     while (pairs.size() < count)
       pairs.emplace_back(grid.centre_of(places[random() % places.size()]),
                          grid.centre_of(places[random() % places.size()]));
@@ -95,8 +95,8 @@ double rate_of(std::size_t count, const std::function<void()>& round) {
   return static_cast<double>(done) / took_s;
 }
 
-std::size_t count_fitting(const DiscSpace& space, const std::vector<Motion>& motions) {
-  return static_cast<std::size_t>(std::count_if(motions.begin(), motions.end(), [&](const Motion& motion) {
+std::size_t count_fitting(const DiscSpace& space, const std::vector<StraightMotion>& motions) {
+  return static_cast<std::size_t>(std::count_if(motions.begin(), motions.end(), [&](const StraightMotion& motion) {
     return space.fits_along(motion.first, motion.second, kRadius_m);
   }));
 }
@@ -111,10 +111,11 @@ void print_motions(const Settings& settings) {
     std::mt19937_64 random(settings.seed);
     const StockOmpl stock(site.space, kRadius_m, 0.5 * site.grid.cell_m());
     const StockOmpl by_cells(site.space, kRadius_m, 0.5 * site.grid.cell_m(), StockValidity::by_cells);
-    std::vector<std::pair<std::string, std::vector<Motion>>> kinds{{"random", site.random_pairs(kMotions, random)}};
+    std::vector<std::pair<std::string, std::vector<StraightMotion>>> kinds{
+        {"random", site.random_pairs(kMotions, random)}};
     for (const std::string planner : {"RRTConnect", "RRTstar", "BITstar"}) {
-      kinds.emplace_back(planner, std::vector<Motion>{});
-      for (const Motion& ends : site.random_pairs(settings.pairs, random)) {
+      kinds.emplace_back(planner, std::vector<StraightMotion>{});
+      for (const StraightMotion& ends : site.random_pairs(settings.pairs, random)) {
         const auto asked = stock.motions_asked(planner, ends, kMotions / settings.pairs, settings.limit_s);
         kinds.back().second.insert(kinds.back().second.end(), asked.begin(), asked.end());
       }
@@ -122,7 +123,7 @@ void print_motions(const Settings& settings) {
     for (const auto& [kind, motions] : kinds) {
       if (motions.empty()) continue;
       double metres = 0.0;
-      for (const Motion& motion : motions) metres += (motion.second - motion.first).norm();
+      for (const StraightMotion& motion : motions) metres += (motion.second - motion.first).norm();
       std::size_t exact = 0;
       std::size_t says_stock = 0;
       const double ours = rate_of(motions.size(), [&] { exact = count_fitting(site.space, motions); });
@@ -160,7 +161,7 @@ struct QualityResult {
 };
 
 void compare_quality(const Site& site, const GridRouter& router, const StockOmpl& stock, const std::string& planner,
-                     const Motion& ends, double limit_s, QualityResult& sum) {
+                     const StraightMotion& ends, double limit_s, QualityResult& sum) {
   const TimedPlan ours = timed_plan(router, ends.first, ends.second);
   ++sum.pairs;
   if (ours.result.outcome != PlanOutcome::solved) {
@@ -185,9 +186,9 @@ QualityResult quality_of(const std::vector<Site>& sites, const Settings& setting
     std::mt19937_64 random(settings.seed);
     const GridRouter router(site.grid, kRadius_m, with_algorithm(settings, ours));
     const StockOmpl stock(site.space, kRadius_m, 0.5 * site.grid.cell_m());
-    const std::vector<Motion> pairs = site.random_pairs(settings.pairs, random);
+    const std::vector<StraightMotion> pairs = site.random_pairs(settings.pairs, random);
     static_cast<void>(router.plan(pairs.front().first, pairs.front().second));  // makes what the map's others use
-    for (const Motion& ends : pairs) compare_quality(site, router, stock, planner, ends, settings.limit_s, sum);
+    for (const StraightMotion& ends : pairs) compare_quality(site, router, stock, planner, ends, settings.limit_s, sum);
   }
   return sum;
 }
@@ -236,7 +237,7 @@ void print_cuts(const Settings& settings) {
       std::mt19937_64 random(settings.seed);
       Cuts theirs;
       Cuts ours;
-      for (const Motion& ends : site.random_pairs(settings.pairs, random)) {
+      for (const StraightMotion& ends : site.random_pairs(settings.pairs, random)) {
         const double enough_m = planner == std::string("RRTConnect") ? 1e9 : 0.0;
         const StockAnswer answer = stock.solve(planner, ends, enough_m, settings.limit_s);
         if (answer.exact) count_cuts(cells, answer.path, theirs);

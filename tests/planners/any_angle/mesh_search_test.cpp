@@ -138,7 +138,9 @@ TEST_P(RandomCells, HaveTheOraclesLengthFromLatticeLinesAndPoints) {
     const OpenCells cells = random_cells(random, 13, 11, GetParam());
     const CellMesh mesh(cells.box, cells.open);
     for (int pair = 0; pair < 6; ++pair) {
-      const auto somewhere = [&] { return Point(0.5 * (1 + random() % 25U), 0.5 * (1 + random() % 21U)); };
+      const auto somewhere = [&] {
+        return Point(0.5 * static_cast<double>(1 + random() % 25), 0.5 * static_cast<double>(1 + random() % 21));
+      };
       const auto is_in_the_open = [&](const Point& p) {
         for (const double x : {-0.25, 0.25})
           for (const double y : {-0.25, 0.25})

@@ -217,6 +217,7 @@ TEST(OmplPlanner, WhatEndsShortOfTheGoalIsNeverCalledSolved) {
 TEST(OmplPlanner, WhereSamplingFindsNothingTheGridHelps) {
   const auto world = drawn_world(test::kOffice);
   OmplConfig config;
+  config.algorithm = Algorithm::rrt_connect;
   config.iterations = 1;
   const PlanResult result = plan(world, world.request('A', 'B', 0.15), config);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;

@@ -1,0 +1,339 @@
+#include "planners/hybrid/hybrid_query.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <stdexcept>
+
+#include "planners/disc_space/ends.hpp"
+#include "planners/disc_space/routes.hpp"
+#include "planners/hybrid/avoided.hpp"
+#include "planners/hybrid/legs.hpp"
+#include "planners/hybrid/open_ways.hpp"
+#include "planners/hybrid/pieces.hpp"
+#include "planners/hybrid/symbolic_path.hpp"
+
+namespace cairn {
+namespace {
+
+using Time = Budget::Clock::time_point;
+
+double ms_since(Time begin) {
+  return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
+}
+
+PlanResult refused(const Refusal& refusal) {
+  PlanResult result;
+  result.outcome = refusal.outcome;
+  result.reason = refusal.reason;
+  return result;
+}
+
+PlanResult stopped(PlanOutcome outcome) {
+  if (outcome == PlanOutcome::cancelled) return refused({outcome, "planning was cancelled"});
+  return refused({outcome, "the budget was used up before a way was found"});
+}
+
+std::vector<Point> points_on(const std::vector<Pose2>& path) {
+  std::vector<Point> points;
+  for (const Pose2& pose : path) points.push_back(pose.position());
+  return points;
+}
+
+// One request on its way to an answer.
+class Query {
+ public:
+  Query(const HybridTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget)
+      : tools_(tools), request_(request), world_(world), budget_(budget) {
+    ends_.ground.unknown = tools.unknown;
+    ends_.radius_m = request.radius_m;
+    ends_.start_tolerance_m = tools.config.start_tolerance_m;
+    legs_ = {request.radius_m, tools.config.detour_ratio, request.seed};
+  }
+
+  PlanResult answer() {
+    if (budget_.exhausted() || budget_.iterations <= 0) return stopped(stop_outcome());
+    if (world_.grid.bounds().empty()) return answer_of_graph();
+    if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused(*refusal);
+    const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
+    if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused(*refusal);
+    const auto& start = std::get<StartPlace>(usual);
+    if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space);
+    PlanResult result = avoided_grid_ ? answer_avoiding() : answer_from(start, world_);
+    result.settled = settled_;
+    result.alternatives = alternatives_;
+    result.explanation = explanation_;
+    tell_blocked(start, result);
+    result.time_ms.graph_ms = graph_ms_;
+    result.time_ms.route_ms = route_ms_;
+    return result;
+  }
+
+ private:
+  PlanResult answer_of_graph() const {
+    PlanResult result = tools_.graph.plan(request_, world_, budget_);
+    if (result.outcome == PlanOutcome::solved) result.pieces = pieces_of_graph(result, world_.graph);
+    return result;
+  }
+
+  // In the world with obstacles where the robot is not to go.
+  PlanResult answer_avoiding() {
+    const WorldView world = with_grid(*avoided_grid_, world_);
+    const auto start = start_of(request_.from, world, ends_, tools_.avoiding.spaces);
+    PlanResult result = std::holds_alternative<Refusal>(start) ? refused(std::get<Refusal>(start))
+                                                               : answer_from(std::get<StartPlace>(start), world);
+    if (result.outcome != PlanOutcome::solved) result.reason += "; the places of avoided landmarks count as blocked";
+    return result;
+  }
+
+  // A route that only what is avoided blocks is not blocked today.
+  void tell_blocked(const StartPlace& start, PlanResult& result) {
+    for (const RouteId id : blocked_) {
+      const bool avoided =
+          avoided_grid_ &&
+          walker(start, planned_world(start, world_)).walk_alone(*world_.graph.find_route(id)).complete();
+      if (!avoided) result.blocked_routes.push_back(id);
+      result.reason += "; " + text_of_route(id) + (avoided ? " passes an avoided landmark" : " is blocked");
+    }
+  }
+
+  static WorldView with_grid(const OccupancyGrid& grid, const WorldView& world) {
+    return {grid,
+            world.graph,
+            world.robot,
+            world.pose,
+            world.time_s,
+            world.observation,
+            world.held_back_ratio,
+            world.hierarchies,
+            &grid == &world.grid ? world.grid_version : 0};
+  }
+  // The robot's world as it is planned in: with the ground under the robot known, and the robot no
+  // longer where a leg begins.
+  static WorldView planned_world(const StartPlace& start, const WorldView& world) {
+    WorldView planned = with_grid(start.grid_of(world), world);
+    planned.observation = nullptr;
+    planned.hierarchies = nullptr;
+    return planned;
+  }
+  Walker walker(const StartPlace& start, const WorldView& planned_world) const {
+    return {planned_world, *start.space, legs_, tools_.route, budget_};
+  }
+
+  PlanResult answer_from(const StartPlace& start, const WorldView& world) {
+    const HybridGround& ground = avoided_grid_ ? tools_.avoiding : tools_.usual;
+    const auto routes = ground.routes.routes_of(start.space, ends_.radius_m + kLeastRadius_m);
+    const auto goals_or_refusal = goals_of(
+        request_.to, world, ends_, start, [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
+    if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused(*refusal);
+    const auto [goals, direct_m] = nearest_first(std::get<std::vector<GoalPlace>>(goals_or_refusal), start, *routes);
+    const GoalPlace& nearest = goals.front();
+    if (start.landmark == nearest.landmark && start.landmark != 0) return stay(start, nearest);
+
+    const WorldView planned = planned_world(start, world);
+    const SymbolicQuery query{
+        request_, world_, start, goals, ends_.radius_m + kLeastRadius_m, tools_.config.detour_ratio};
+    const SymbolicSearch search(query, tools_.graph, budget_);
+    std::optional<PlanResult> over = over_graph(search, planned, start, goals, direct_m);
+    PlanResult result = over ? std::move(*over) : direct(planned, start, goals);
+    if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
+      alternatives_ = open_alternatives(search, ways_, result.routes, request_.alternatives,
+                                        OpenRoutes(world_.graph, walker(start, planned), blocked_), budget_);
+    return result;
+  }
+
+  // The way over landmarks: an answer, or none when there is none or the direct one is to be preferred.
+  std::optional<PlanResult> over_graph(const SymbolicSearch& search, const WorldView& planned, const StartPlace& start,
+                                       const std::vector<GoalPlace>& goals, double direct_m) {
+    // Who asks for other than short ways takes longer ones into the bargain.
+    const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
+    for (;;) {
+      const SymbolicAnswer symbolic = search_graph(search);
+      if (symbolic.stopped) return stopped(*symbolic.stopped);
+      if (!symbolic.path) return std::nullopt;
+      if (!any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m) {
+        why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct way " +
+                      metres_text(direct_m);
+        return std::nullopt;
+      }
+      const GoalPlace& goal = goals[symbolic.path->goal];
+      const Walk walk = walk_along(planned, start, *symbolic.path, goal);
+      if (walk.stopped) return stopped(*walk.stopped);
+      if (walk.mile_failed) return std::nullopt;
+      if (!walk.blocked) return over_landmarks(start, goal, *symbolic.path, walk);
+      blocked_.insert(*walk.blocked);
+    }
+  }
+
+  // By how long a way to them must be; and that of the first, which only a graph with routes needs.
+  std::pair<std::vector<GoalPlace>, double> nearest_first(const std::vector<GoalPlace>& goals, const StartPlace& start,
+                                                          const DiscRoutes& routes) const {
+    if (goals.size() == 1 && world_.graph.routes().empty()) return {goals, 0.0};
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < goals.size(); ++i)
+      order.emplace_back(routes.least_length_m(start.leave_from, goals[i].pose.position(), budget_), i);
+    std::sort(order.begin(), order.end());
+    std::vector<GoalPlace> sorted;
+    for (const auto& [least_m, i] : order) sorted.push_back(goals[i]);
+    return {sorted, order.front().first};
+  }
+
+  SymbolicAnswer search_graph(const SymbolicSearch& search) {
+    const Time begin = Budget::Clock::now();
+    SymbolicAnswer answer = search.find(blocked_);
+    graph_ms_ += ms_since(begin);
+    settled_ += answer.settled;
+    ways_ = answer.ways;
+    explanation_ = answer.explanation;
+    return answer;
+  }
+
+  Walk walk_along(const WorldView& planned, const StartPlace& start, const SymbolicPath& path, const GoalPlace& goal) {
+    const Time begin = Budget::Clock::now();
+    Walk walk = walker(start, planned).walk(start.leave_from, path, goal.pose);
+    route_ms_ += ms_since(begin);
+    return walk;
+  }
+
+  PlanResult stay(const StartPlace& start, const GoalPlace& goal) const {
+    PlanResult result = finished(start, goal, {{start.leave_from, 0}}, {});
+    result.landmarks = {goal.landmark};
+    result.reason = "start and goal are the same landmark";
+    return result;
+  }
+
+  PlanResult over_landmarks(const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path,
+                            const Walk& walk) const {
+    PlanResult result = finished(start, goal, walk.route, walk.parts);
+    result.cost_m = walk.cost_m;
+    result.landmarks = path.landmarks;
+    result.routes = path.routes;
+    result.reason = "over " + std::to_string(path.landmarks.size()) + " landmarks, by " +
+                    std::to_string(walk.stored_legs) + " stored and " + std::to_string(walk.planned_legs) +
+                    " newly planned legs" + goal.note + escape_text(start);
+    return result;
+  }
+
+  // Without landmarks in between: the goals in their order, until one is reached.
+  PlanResult direct(const WorldView& planned_world, const StartPlace& start, const std::vector<GoalPlace>& goals) {
+    PlanResult first;
+    for (const GoalPlace& goal : goals) {
+      PlanResult result = direct_to(planned_world, start, goal);
+      if (result.outcome == PlanOutcome::solved || budget_.exhausted()) return result;
+      if (first.reason.empty()) first = std::move(result);
+    }
+    return first;
+  }
+
+  PlanResult direct_to(const WorldView& planned_world, const StartPlace& start, const GoalPlace& goal) {
+    PlanRequest request;
+    request.from.pose = Pose2{start.leave_from.x(), start.leave_from.y(), start.pose.theta_rad};
+    request.to.pose = goal.pose;
+    request.to.heading_matters = goal.heading_rad.has_value();
+    request.radius_m = request_.radius_m;
+    request.seed = request_.seed;
+    request.cost = request_.cost;
+    const Time begin = Budget::Clock::now();
+    PlanResult planned = tools_.route.plan(request, planned_world, budget_);
+    route_ms_ += ms_since(begin);
+    if (planned.outcome == PlanOutcome::solved &&
+        !route_is_free(planned_world.grid, ends_.ground, points_on(planned.path), ends_.radius_m))
+      return refused({PlanOutcome::no_route, "the route planner's path touches something and was refused"});
+    if (start.escape && !planned.path.empty()) planned.path.insert(planned.path.begin(), start.pose);
+    if (planned.outcome != PlanOutcome::solved) return planned;
+    return direct_result(start, goal, planned);
+  }
+
+  // The route planner's path as it is: there is nothing to join it to.
+  PlanResult direct_result(const StartPlace& start, const GoalPlace& goal, const PlanResult& planned) const {
+    PlanResult result = planned;
+    const auto origin = planned.path.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;
+    result.pieces.clear();
+    if (planned.path.size() > 1) result.pieces.push_back({origin, 0, planned.length_m});
+    if (start.escape) {
+      const double escape_m = (start.escape->to - start.pose.position()).norm();
+      result.path.front() = poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front();
+      result.pieces.insert(result.pieces.begin(), {PlanPiece::Origin::escape, 0, escape_m});
+      result.length_m += escape_m;
+      result.cost_m += escape_m;
+      result.least_length_m.reset();
+    }
+    result.clearance_m = clearance_along(*start.space, points_on(result.path), ends_.radius_m);
+    result.landmarks.clear();
+    for (const LandmarkId id : {start.landmark, goal.landmark})
+      if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
+    result.reason =
+        (why_direct_.empty() ? "directly" : why_direct_) + "; " + planned.reason + goal.note + escape_text(start);
+    return result;
+  }
+
+  // Joins, shortens and re-checks; `route` begins where the start is left.
+  PlanResult finished(const StartPlace& start, const GoalPlace& goal, std::vector<PartedPoint> route,
+                      std::vector<PlanPiece> parts) const {
+    if (start.escape) {
+      parts.push_back({PlanPiece::Origin::escape, 0, 0.0});
+      route.front().part = static_cast<int>(parts.size()) - 1;
+      route.insert(route.begin(), {start.pose.position(), 0});
+    }
+    if (tools_.config.shortcut) {
+      const std::size_t keep = start.escape ? 2 : 1;
+      const double radius_m = ends_.radius_m + kLeastRadius_m;
+      route = tightened(*start.space, straightened(*start.space, route, radius_m, keep), radius_m, keep);
+    }
+    const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
+    route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
+    const std::vector<Point> points = points_of(route);
+    const OccupancyGrid& grid = start.patched_grid ? *start.patched_grid : avoided_grid_ ? *avoided_grid_ : world_.grid;
+    if (!route_is_free(grid, ends_.ground, points, ends_.radius_m, start.escape))
+      throw std::logic_error("hybrid: the re-check refused a path of " + std::to_string(points.size()) +
+                             " points from " + text_of(points.front()) + " to " + text_of(points.back()) + ", radius " +
+                             std::to_string(ends_.radius_m));
+    PlanResult result;
+    result.outcome = PlanOutcome::solved;
+    result.length_m = length_of(points);
+    result.cost_m = result.length_m;
+    result.clearance_m = clearance_along(*start.space, points, ends_.radius_m);
+    result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
+    result.pieces = pieces_of(route, parts);
+    return result;
+  }
+
+  static std::string escape_text(const StartPlace& start) {
+    if (!start.escape) return {};
+    return "; the start is too near to something and is left towards " + text_of(start.escape->to) +
+           " with less clearance than the robot's radius asks for";
+  }
+
+  std::string text_of_route(RouteId id) const {
+    const Route& route = *world_.graph.find_route(id);
+    return "route R" + std::to_string(id) + " (" + label_of(*world_.graph.find(route.from)) + " to " +
+           label_of(*world_.graph.find(route.to)) + ")";
+  }
+
+  PlanOutcome stop_outcome() const { return budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget; }
+
+  const HybridTools& tools_;
+  const PlanRequest& request_;
+  const WorldView& world_;
+  const Budget& budget_;
+  EndRules ends_;
+  LegRules legs_;
+  std::optional<OccupancyGrid> avoided_grid_;
+  std::set<RouteId> blocked_;
+  std::vector<PlanAlternative> ways_;  // of the last search
+  std::string why_direct_;
+  std::int64_t settled_ = 0;
+  std::vector<PlanAlternative> alternatives_;
+  std::optional<PlanExplanation> explanation_;
+  double graph_ms_ = 0.0;
+  double route_ms_ = 0.0;
+};
+
+}  // namespace
+
+PlanResult answer_over_landmarks(const HybridTools& tools, const PlanRequest& request, const WorldView& world,
+                                 const Budget& budget) {
+  return Query(tools, request, world, budget).answer();
+}
+
+}  // namespace cairn
