@@ -10,7 +10,6 @@
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/kpiece/BKPIECE1.h>
 #include <ompl/geometric/planners/kpiece/KPIECE1.h>
-#include <ompl/geometric/planners/pdst/PDST.h>
 #include <ompl/geometric/planners/rrt/BiTRRT.h>
 #include <ompl/geometric/planners/rrt/InformedRRTstar.h>
 #include <ompl/geometric/planners/rrt/LBTRRT.h>
@@ -65,8 +64,6 @@ ompl::base::PlannerPtr make_algorithm(Algorithm algorithm, const ompl::base::Spa
       return std::make_shared<og::LazyRRT>(space);
     case Algorithm::lbt_rrt:
       return std::make_shared<og::LBTRRT>(space);
-    case Algorithm::pdst:
-      return std::make_shared<og::PDST>(space);
     case Algorithm::prm:
       return std::make_shared<CountedPrm>(space, CountedPrm::Stop::at_first_route);
     case Algorithm::prm_star:

@@ -5,6 +5,7 @@
 
 #include "planners/ompl/disc_query.hpp"
 #include "planners/ompl/pose_query.hpp"
+#include "planners/pose_space/footprint.hpp"
 
 namespace cairn {
 
@@ -65,12 +66,21 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
 namespace {
 
 // Sentences without a place: a setting's own is not known here.
+void check_outline(const RobotModel& robot) {
+  try {
+    (void)Footprint::polygon(robot.polygon_m);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError({}, std::string("ompl: the robot's outline is none: ") + error.what());
+  }
+}
+
 void check_motion(const OmplConfig& config, const RobotModel& robot) {
   const bool is_car = config.kinematics == MotionKind::dubins || config.kinematics == MotionKind::reeds_shepp;
   if (is_car && config.turning_radius_m <= 0.0 && robot.min_turning_radius_m <= 0.0)
     throw ConfigError({}, "ompl: a robot that does not turn on the spot needs turning_radius_m, here or in its file");
   if (config.kinematics == MotionKind::disc && config.footprint == WantedFootprint::robot && !robot.polygon_m.empty())
     throw ConfigError({}, "ompl: the robot's outline is no disc; give kinematics differential, dubins or reeds_shepp");
+  if (config.footprint == WantedFootprint::robot && !robot.polygon_m.empty()) check_outline(robot);
   if (works_with(config.kinematics, config.algorithm)) return;
   std::string working;
   for (const auto& [name, algorithm] : algorithm_names())

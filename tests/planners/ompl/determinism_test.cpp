@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <thread>
 
 #include "tests/planners/ompl/ompl_worlds.hpp"
@@ -35,6 +36,49 @@ TEST(OmplDeterminism, SeveralThreadsAtOnceGetWhatOneGets) {
     EXPECT_EQ(alone, together);
     EXPECT_NE(alone[1], alone[2]) << "the seed has no effect";
   }
+}
+
+// Byte for byte, from four threads with two queries each.
+TEST(OmplDeterminism, HoweverTheRobotMovesThreadsChangeNothing) {
+  const auto world = test::drawn_world(test::kOffice);
+  for (const MotionKind kind :
+       {MotionKind::disc, MotionKind::differential, MotionKind::dubins, MotionKind::reeds_shepp})
+    for (const Algorithm algorithm :
+         {Algorithm::any_angle_rrt_star, Algorithm::rrt, Algorithm::bit_star, Algorithm::kpiece}) {
+      OmplConfig config;
+      config.algorithm = algorithm;
+      config.kinematics = kind;
+      config.turning_radius_m = 0.15;
+      config.iterations = 800;
+      config.improve_iterations = 50;
+      config.good_enough_ratio = 1.0;
+      const OmplPlanner planner(config);
+      constexpr std::pair<char, char> kEnds[] = {{'A', 'B'}, {'B', 'C'}, {'C', 'D'}, {'D', 'A'}};
+      const auto path_of = [&](const OmplPlanner& by, std::size_t query) {
+        PlanRequest request = world.request(kEnds[query % 4].first, kEnds[query % 4].second, 0.1);
+        request.seed = query;
+        return by.plan(request, world.view(), {}).path;
+      };
+      std::vector<std::vector<Pose2>> alone;
+      std::size_t found = 0;
+      for (std::size_t query = 0; query < 8; ++query) {
+        alone.push_back(path_of(planner, query));
+        found += alone.back().empty() ? 0 : 1;
+      }
+      EXPECT_GT(found, 0U);
+      const OmplPlanner other(config);
+      std::vector<std::vector<Pose2>> together(8);
+      std::vector<std::thread> threads;
+      for (std::size_t thread = 0; thread < 4; ++thread)
+        threads.emplace_back([&, thread] {
+          for (const std::size_t query : {thread, thread + 4}) together[query] = path_of(other, query);
+        });
+      for (std::thread& thread : threads) thread.join();
+      for (std::size_t query = 0; query < 8; ++query) {
+        ASSERT_EQ(alone[query].size(), together[query].size());
+        EXPECT_EQ(0, std::memcmp(alone[query].data(), together[query].data(), alone[query].size() * sizeof(Pose2)));
+      }
+    }
 }
 
 TEST(OmplDeterminism, AWaitingCallHeedsItsCancelFlag) {
