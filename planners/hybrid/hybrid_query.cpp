@@ -236,11 +236,11 @@ class Query {
     const Time begin = Budget::Clock::now();
     PlanResult planned = tools_.route.plan(request, planned_world, budget_);
     route_ms_ += ms_since(begin);
-    if (planned.outcome == PlanOutcome::solved &&
+    if (!planned.path.empty() &&
         !route_is_free(planned_world.grid, ends_.ground, points_on(planned.path), ends_.radius_m))
       return refused({PlanOutcome::no_route, "the route planner's path touches something and was refused"});
-    if (start.escape && !planned.path.empty()) planned.path.insert(planned.path.begin(), start.pose);
-    if (planned.outcome != PlanOutcome::solved) return planned;
+    if (planned.path.empty()) return planned;
+    if (start.escape) planned.path.insert(planned.path.begin(), start.pose);
     return direct_result(start, goal, planned);
   }
 
@@ -260,10 +260,11 @@ class Query {
     }
     result.clearance_m = clearance_along(*start.space, points_on(result.path), ends_.radius_m);
     result.landmarks.clear();
-    for (const LandmarkId id : {start.landmark, goal.landmark})
+    const bool is_there = planned.outcome == PlanOutcome::solved;
+    for (const LandmarkId id : {start.landmark, is_there ? goal.landmark : 0})
       if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
-    result.reason =
-        (why_direct_.empty() ? "directly" : why_direct_) + "; " + planned.reason + goal.note + escape_text(start);
+    result.reason = (why_direct_.empty() ? "directly" : why_direct_) + "; " + planned.reason +
+                    (is_there ? goal.note : "") + escape_text(start);
     return result;
   }
 
