@@ -1,6 +1,7 @@
 #include "planners/any_angle/disc_routes.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -91,6 +92,13 @@ std::vector<Point> gates_of(const DiscSpace& space, const CellMesh& mesh, const 
 
 }  // namespace
 
+bool has_time_for(const Budget& budget, std::int64_t cells) {
+  constexpr double kSecondsPerCell = 5e-7;
+  if (budget.deadline == Budget::Clock::time_point::max()) return true;
+  const double left_s = std::chrono::duration<double>(budget.deadline - Budget::Clock::now()).count();
+  return left_s > kSecondsPerCell * static_cast<double>(cells);
+}
+
 DiscRoutes::DiscRoutes(std::shared_ptr<const DiscSpace> space, double radius_m)
     : space_(std::move(space)),
       radius_m_(radius_m),
@@ -111,11 +119,13 @@ DiscRoutes::Meshes DiscRoutes::meshes_of(int parts) const {
   return {space, std::move(may), mesh_where(field, [&](Cell c) { return squares.distance_m(c) >= all_m; })};
 }
 
-const DiscRoutes::Meshes* DiscRoutes::finer() const {
+const DiscRoutes::Meshes* DiscRoutes::finer(const Budget& budget) const {
   const int parts = parts_ * kFinerParts;
-  if (is_point_ || cells_of(space_->field().box()) * parts * parts > kMostCells) return nullptr;
-  std::call_once(finer_made_, [&] { finer_ = meshes_of(parts); });
-  return &*finer_;
+  const std::int64_t cells = cells_of(space_->field().box()) * parts * parts;
+  if (is_point_ || cells > kMostCells) return nullptr;
+  const std::lock_guard lock(finer_mutex_);
+  if (!finer_ && has_time_for(budget, cells)) finer_ = meshes_of(parts);
+  return finer_ ? &*finer_ : nullptr;
 }
 
 bool DiscRoutes::may_reach(const Point& from, const Point& to) const {
@@ -215,7 +225,7 @@ DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& bu
   }
   answer = route_on(coarse_, from, to, budget);
   if (answer.interrupted || answer.impossible || !is_doubtful(answer)) return answer;
-  const Meshes* const fine = finer();
+  const Meshes* const fine = finer(budget);
   if (fine == nullptr) return answer;
   DiscRoute better = route_on(*fine, from, to, budget);
   better.expanded += answer.expanded;

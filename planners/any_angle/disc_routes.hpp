@@ -16,6 +16,9 @@
 
 namespace cairn {
 
+// Whether work on so many cells, at a generous price for each, ends before the budget's deadline.
+[[nodiscard]] bool has_time_for(const Budget& budget, std::int64_t cells);
+
 struct DiscRoute {
   std::vector<Point> route;     // corner points, ends included; empty: none found
   double least_length_m = 0.0;  // no route is shorter
@@ -54,7 +57,8 @@ class DiscRoutes {
   };
 
   [[nodiscard]] Meshes meshes_of(int parts) const;
-  [[nodiscard]] const Meshes* finer() const;
+  // Null where it would be too large, or where it is not made yet and the budget has no time for it.
+  [[nodiscard]] const Meshes* finer(const Budget& budget) const;
   [[nodiscard]] DiscRoute route_on(const Meshes& meshes, const Point& from, const Point& to,
                                    const Budget& budget) const;
 
@@ -65,7 +69,7 @@ class DiscRoutes {
   bool is_point_;
   int parts_;
   Meshes coarse_;
-  mutable std::once_flag finer_made_;
+  mutable std::mutex finer_mutex_;
   mutable std::optional<Meshes> finer_;
 };
 

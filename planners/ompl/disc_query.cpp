@@ -149,7 +149,8 @@ FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& c
   if (found.interrupted && !found.route.empty()) found.interrupted = false;  // it is a route all the same
   if (found.impossible || found.interrupted) return found;
   found.how = "the shortest way over the grid";
-  if (!cost.is_length() && !budget_.exhausted()) {
+  const CellBox box = routes.space().field().box();
+  if (!cost.is_length() && has_time_for(budget_, std::int64_t{box.width()} * box.height())) {
     std::vector<Point> cheap = weighted_route(routes, cost, from, to);
     if (!cheap.empty() && (found.route.empty() || cost_of(cost, cheap) < cost_of(cost, found.route))) {
       found.route = std::move(cheap);

@@ -103,9 +103,12 @@ PlanResult PoseQuery::answer_from(const StartPlace& start) const {
   const auto goals =
       goals_of(request_.to, world_, rules_, start, [&](const Point& goal) { return routes->may_reach(from, goal); });
   if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused(*refusal);
+  const auto& places = std::get<std::vector<GoalPlace>>(goals);
   std::vector<std::pair<double, const GoalPlace*>> order;
-  for (const GoalPlace& goal : std::get<std::vector<GoalPlace>>(goals))
-    order.emplace_back(routes->least_length_m(from, goal.pose.position(), budget_), &goal);
+  for (const GoalPlace& goal : places) {
+    const double least_m = places.size() == 1 ? 0.0 : routes->least_length_m(from, goal.pose.position(), budget_);
+    order.emplace_back(least_m, &goal);
+  }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   PlanResult first;
   for (const auto& [least_m, goal] : order) {
@@ -136,7 +139,7 @@ PlanResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, 
                         cost_rules_of(tools_.config, request_, world_.robot, rules_.radius_m));
   const PoseProblem problem{kinematics_,  lattice_poses, start.pose, goals, draw, cost, world_.robot.max_w_radps,
                             request_.seed};
-  FoundWay found = find(problem, guide, start);
+  FoundWay found = find(problem, start);
   if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped(budget_);
   PlanResult result = checked(problem, start, goal, found);
   if (found.exact) result.least_length_m = guide.least_length_m;
@@ -164,14 +167,13 @@ std::vector<Pose2> PoseQuery::goal_poses(const GoalPlace& goal, const std::vecto
   return fitting;
 }
 
-PoseQuery::FoundWay PoseQuery::find(const PoseProblem& problem, const DiscRoute& guide, const StartPlace& start) const {
+PoseQuery::FoundWay PoseQuery::find(const PoseProblem& problem, const StartPlace& start) const {
   if (are_alike(problem.from, problem.goals.front(), 1e-9)) return {{problem.from}, true, false, "already there"};
   if (tools_.config.algorithm != Algorithm::any_angle_rrt_star) return find_by_search(problem);
   FoundWay found;
   if (kinematics_.kind == MotionKind::differential) found = find_along_route(problem, start);
   if (!found.exact) found = find_by_search(problem);
   if (found.exact) improve(found, problem);
-  (void)guide;
   return found;
 }
 

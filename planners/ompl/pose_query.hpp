@@ -14,13 +14,6 @@ class PoseQuery {
   [[nodiscard]] PlanResult answer() const;
 
  private:
-  // From where to where, once both are known to be free.
-  struct Ends {
-    const StartPlace& start;
-    const GoalPlace& goal;
-    Pose2 from;
-    std::vector<Pose2> goals;  // the headings that the goal may be reached with
-  };
   struct FoundWay {
     std::vector<Pose2> states;
     bool exact = false;
@@ -33,7 +26,7 @@ class PoseQuery {
                                      const PoseSpace& poses) const;
   [[nodiscard]] std::vector<Pose2> goal_poses(const GoalPlace& goal, const std::vector<Point>& guide,
                                               const PoseSpace& poses) const;
-  [[nodiscard]] FoundWay find(const PoseProblem& problem, const DiscRoute& guide, const StartPlace& start) const;
+  [[nodiscard]] FoundWay find(const PoseProblem& problem, const StartPlace& start) const;
   [[nodiscard]] FoundWay find_along_route(const PoseProblem& problem, const StartPlace& start) const;
   [[nodiscard]] FoundWay find_by_search(const PoseProblem& problem) const;
   void improve(FoundWay& found, const PoseProblem& problem) const;
