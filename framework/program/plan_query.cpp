@@ -70,6 +70,8 @@ json object_of_line(const std::string& line, SourcePlace place) {
   } catch (const json::parse_error& error) {
     place.column = std::max(1, static_cast<int>(error.byte));
     throw ConfigError(place, expected + (error.byte > line.size() ? "; the line ends too early" : ""));
+  } catch (const json::exception&) {  // a number that none can hold
+    throw ConfigError(place, expected + ", with numbers that are some");
   }
   throw ConfigError(place, expected);
 }

@@ -4,6 +4,7 @@
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -133,7 +134,9 @@ Pose2 pose_of(const ob::State* state) {
 void set_pose(ob::State* state, const Pose2& pose) {
   auto* values = state->as<ob::SE2StateSpace::StateType>();
   values->setXY(pose.x_m, pose.y_m);
-  values->setYaw(wrap_angle(pose.theta_rad));
+  // OMPL's headings end short of half a turn; ours begin behind it. At the wrong one OMPL aborts.
+  const double yaw_rad = wrap_angle(pose.theta_rad);
+  values->setYaw(yaw_rad < std::numbers::pi ? yaw_rad : -std::numbers::pi);
 }
 
 std::shared_ptr<ob::SE2StateSpace> make_kinematic_space(const KinematicRules& rules, const DistanceField& field) {

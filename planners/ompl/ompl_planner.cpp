@@ -65,27 +65,33 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
 
 namespace {
 
+const SourcePlace kPlace{"ompl", 0, 0};
+
 // Sentences without a place: a setting's own is not known here.
 void check_outline(const RobotModel& robot) {
   try {
     (void)Footprint::polygon(robot.polygon_m);
   } catch (const std::invalid_argument& error) {
-    throw ConfigError({}, std::string("ompl: the robot's outline is none: ") + error.what());
+    throw ConfigError(kPlace, std::string("the robot's outline is none: ") + error.what());
   }
 }
 
 void check_motion(const OmplConfig& config, const RobotModel& robot) {
   const bool is_car = config.kinematics == MotionKind::dubins || config.kinematics == MotionKind::reeds_shepp;
   if (is_car && config.turning_radius_m <= 0.0 && robot.min_turning_radius_m <= 0.0)
-    throw ConfigError({}, "ompl: a robot that does not turn on the spot needs turning_radius_m, here or in its file");
+    throw ConfigError(kPlace, "a robot that does not turn on the spot needs turning_radius_m, here or in its file");
   if (config.kinematics == MotionKind::disc && config.footprint == WantedFootprint::robot && !robot.polygon_m.empty())
-    throw ConfigError({}, "ompl: the robot's outline is no disc; give kinematics differential, dubins or reeds_shepp");
+    throw ConfigError(kPlace, "the robot's outline is no disc; give kinematics differential, dubins or reeds_shepp");
   if (config.footprint == WantedFootprint::robot && !robot.polygon_m.empty()) check_outline(robot);
   if (works_with(config.kinematics, config.algorithm)) return;
   std::string working;
+  std::string chosen;
   for (const auto& [name, algorithm] : algorithm_names())
-    if (works_with(config.kinematics, algorithm)) working += (working.empty() ? "" : ", ") + name;
-  throw ConfigError({}, "ompl: this algorithm of OMPL does not do for such kinematics; these do: " + working);
+    if (algorithm == config.algorithm)
+      chosen = name;
+    else if (works_with(config.kinematics, algorithm))
+      working += (working.empty() ? "" : ", ") + name;
+  throw ConfigError(kPlace, chosen + " does not do for such kinematics; these do: " + working);
 }
 
 }  // namespace
@@ -93,7 +99,7 @@ void check_motion(const OmplConfig& config, const RobotModel& robot) {
 OmplPlanner::OmplPlanner(OmplConfig config, const RobotModel& robot)
     : config_(std::move(config)), parameters_(checked_parameters(config_.algorithm, config_.parameters)) {
   if (config_.length_weight + config_.time_weight <= 0.0)
-    throw ConfigError({}, "ompl: length_weight and time_weight must not both be 0");
+    throw ConfigError(kPlace, "length_weight and time_weight must not both be 0");
   check_motion(config_, robot);
 }
 

@@ -286,7 +286,8 @@ PlanResult PoseQuery::checked(const PoseProblem& problem, const StartPlace& star
   if (start.landmark != 0) result.landmarks.push_back(start.landmark);
   if (goal.landmark != 0 && goal.landmark != start.landmark) result.landmarks.push_back(goal.landmark);
   result.reason = found.how + goal.note;
-  if (reversals > 0) result.reason += "; it reverses " + std::to_string(reversals) + " times";
+  if (reversals == 1) result.reason += "; it turns back once";
+  if (reversals > 1) result.reason += "; it turns back " + std::to_string(reversals) + " times";
   if (found.interrupted) result.reason += "; the budget ended the search for a shorter one";
   return result;
 }

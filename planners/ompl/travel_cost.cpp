@@ -25,7 +25,9 @@ TravelCost::TravelCost(const OccupancyGrid& grid, const DiscSpace& space, const 
 double TravelCost::per_m_at(const Point& p_map) const {
   double per_m = base_;
   const DistanceField& field = space_.field();
-  if (room_ > 0.0) per_m += room_ * (room_weight(field.distance_m(field.cell_at(p_map)) - rules_.radius_m) - 1.0);
+  // From the middle of the cell to the nearest wall's face, which matters where cells are large.
+  const double room_m = field.distance_m(field.cell_at(p_map)) - 0.5 * field.cell_m() - rules_.radius_m;
+  if (room_ > 0.0) per_m += room_ * (room_weight(room_m) - 1.0);
   const bool unknown =
       rules_.unknown_weight > 1.0 && grid_.state(grid_.cell_at(p_map), space_.rules().thresholds) == CellState::unknown;
   return unknown ? per_m * rules_.unknown_weight : per_m;

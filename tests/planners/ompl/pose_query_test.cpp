@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <thread>
 
 #include "planners/ompl/ompl_planner.hpp"
@@ -166,6 +167,29 @@ TEST_P(PoseQueryOf, AnEndThatTouchesIsNamedWithAPlaceThatFits) {
     ASSERT_EQ(
         std::sscanf(result.reason.c_str() + at, "nearest free place for it is (%lf, %lf)", &place.x_m, &place.y_m), 2);
     EXPECT_GT(test::outline_distance_m(world.grid, {}, footprint, place, 0.002), 0.001) << result.reason;
+  }
+}
+
+// OMPL's headings end short of half a turn, ours with it.
+TEST_P(PoseQueryOf, HalfATurnIsAHeadingLikeAnyOther) {
+  Random random(1);
+  test::DrawnWorld world = room_with_boxes(random);
+  for (int y = 1; y < 49; ++y)
+    for (int x = 1; x < 59; ++x) world.grid.set_log_odds({x, y}, LogOdds{-900});
+  world.robot.polygon_m = kRectangle;
+  const OmplPlanner planner(config_of(GetParam()), world.robot);
+  constexpr double kHalf = std::numbers::pi;
+  const Pose2 right{4.0, 2.5, 0.0};
+  const Pose2 left{1.5, 2.5, 0.0};
+  for (const auto& [from_rad, to_rad] : {std::pair(kHalf, kHalf), {-kHalf, kHalf}, {0.0, -kHalf}, {0.0, 3.0 * kHalf}}) {
+    PlanRequest request;
+    request.from.pose = Pose2{right.x_m, right.y_m, from_rad};
+    request.to.pose = Pose2{left.x_m, left.y_m, to_rad};
+    request.to.heading_matters = true;
+    const PlanResult result = planner.plan(request, world.view(), Budget{});
+    ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason << ", " << from_rad << " to " << to_rad;
+    EXPECT_NEAR(wrap_angle(result.path.back().theta_rad - to_rad), 0.0, 1e-6);
+    EXPECT_LT(result.length_m, 9.0);
   }
 }
 
