@@ -9,18 +9,9 @@
 
 namespace cairn {
 
-void OmplConfig::describe(Fields<OmplConfig>& fields) {
-  fields.choice("algorithm", &OmplConfig::algorithm, algorithm_names(),
-                "AnyAngleRRTstar: the shortest route over the grid, at any angle, improved by OMPL's InformedRRTstar; "
-                "or a planner of OMPL alone, by OMPL's name");
-  fields.integer("iterations", &OmplConfig::iterations, {1, 1e9},
-                 "how often a search from nothing may ask whether to go on; a count, so that answers do not depend on "
-                 "the machine's speed");
-  fields.integer("improve_iterations", &OmplConfig::improve_iterations, {0, 1e9},
-                 "AnyAngleRRTstar: iterations to improve a route that is longer than good_enough_ratio times what any "
-                 "must be; 0: until the budget's deadline, none without one");
-  fields.number("good_enough_ratio", &OmplConfig::good_enough_ratio, {1.0, 100.0}, "",
-                "AnyAngleRRTstar: a route at most so much longer than any route must be is not improved");
+namespace {
+
+void describe_cost(Fields<OmplConfig>& fields) {
   fields.choice("objective", &OmplConfig::objective,
                 {{"as_asked", WantedObjective::as_asked},
                  {"length", WantedObjective::length},
@@ -38,6 +29,9 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
       "whether routes may cross cells that have not been seen; cost: they may, and a metre counts unknown_weight");
   fields.number("unknown_weight", &OmplConfig::unknown_weight, {1.0, 1e6}, "",
                 "what a metre over cells that have not been seen counts, with `unknown: cost`");
+}
+
+void describe_motion(Fields<OmplConfig>& fields) {
   fields.choice(
       "kinematics", &OmplConfig::kinematics,
       {{"disc", MotionKind::disc},
@@ -54,6 +48,24 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
   fields.flag("reverse", &OmplConfig::reverse, "differential: may also drive backwards");
   fields.number("spot_turn_m", &OmplConfig::spot_turn_m, {1e-3, 10.0}, "m",
                 "differential: metres that a radian turned on the spot counts");
+}
+
+}  // namespace
+
+void OmplConfig::describe(Fields<OmplConfig>& fields) {
+  fields.choice("algorithm", &OmplConfig::algorithm, algorithm_names(),
+                "AnyAngleRRTstar: the shortest route over the grid, at any angle, improved by OMPL's InformedRRTstar; "
+                "or a planner of OMPL alone, by OMPL's name");
+  fields.integer("iterations", &OmplConfig::iterations, {1, 1e9},
+                 "how often a search from nothing may ask whether to go on; a count, so that answers do not depend on "
+                 "the machine's speed");
+  fields.integer("improve_iterations", &OmplConfig::improve_iterations, {0, 1e9},
+                 "AnyAngleRRTstar: iterations to improve a route that is longer than good_enough_ratio times what any "
+                 "must be; 0: until the budget's deadline, none without one");
+  fields.number("good_enough_ratio", &OmplConfig::good_enough_ratio, {1.0, 100.0}, "",
+                "AnyAngleRRTstar: a route at most so much longer than any route must be is not improved");
+  describe_cost(fields);
+  describe_motion(fields);
   fields.number("margin_m", &OmplConfig::margin_m, {0.0, 2.0}, "m", "added to the robot's radius");
   fields.number("start_tolerance_m", &OmplConfig::start_tolerance_m, {0.0, 1.0}, "m",
                 "how far a start that is too near to something may be left with what clearance it has");
