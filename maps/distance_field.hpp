@@ -16,7 +16,7 @@ enum class UnknownPolicy : std::uint8_t { avoid, allow };
 // is unknown then, so distances inside are those of the endless plane). When unknown space is
 // allowed it repels nothing, yet cannot be entered: distance_m() is 0 there all the same. A field
 // without any blocked cell holds the box's diagonal everywhere; one of an empty grid has no cells.
-// Immutable after construction; O(cells) to build.
+// O(cells) to build.
 class DistanceField {
  public:
   DistanceField() = default;
@@ -25,6 +25,11 @@ class DistanceField {
 
   // Over a box: not 0 is free, row-major, lower left cell first.
   DistanceField(const CellBox& box, double cell_m, const Point& origin_m, std::vector<std::uint8_t> free);
+
+  // Follows a grid that differs from the one it was made of, by the same rules, within `changed` only: looks only at
+  // what that may concern, and holds what a field made anew would, to the bit. Made anew where the bounds differ.
+  void follow(const OccupancyGrid& grid, UnknownPolicy unknown, const OccupancyThresholds& thresholds,
+              const CellBox& changed);
 
   [[nodiscard]] CellBox box() const { return box_; }
   [[nodiscard]] double cell_m() const { return cell_m_; }
@@ -44,6 +49,8 @@ class DistanceField {
 
  private:
   void measure(std::vector<std::uint8_t> free);
+  [[nodiscard]] CellBox concerned_by(const CellBox& changed) const;
+  [[nodiscard]] bool measure_within(const CellBox& cells, const CellBox& window, std::vector<std::uint8_t> free);
 
   CellBox box_;
   double cell_m_ = 0.05;

@@ -59,6 +59,14 @@ DiscSpace::DiscSpace(const OccupancyGrid& grid, const GroundRules& rules)
       lattice_{grid.origin_m(), grid.cell_m()},
       parts_(std::make_shared<Parts>()) {}
 
+DiscSpace::DiscSpace(const DiscSpace& before, const OccupancyGrid& grid, const CellBox& changed)
+    : rules_(before.rules_),
+      field_(before.field_),
+      lattice_{grid.origin_m(), grid.cell_m()},
+      parts_(std::make_shared<Parts>()) {
+  field_.follow(grid, rules_.unknown, rules_.thresholds, changed);
+}
+
 DiscSpace::DiscSpace(const DiscSpace& coarse, int parts)
     : rules_(coarse.rules_),
       lattice_{coarse.lattice_.origin_m, coarse.lattice_.cell_m / parts},

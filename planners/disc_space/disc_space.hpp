@@ -16,6 +16,8 @@ namespace cairn {
 class DiscSpace {
  public:
   DiscSpace(const OccupancyGrid& grid, const GroundRules& rules);
+  // Of a grid that differs from that of `before`, with its rules, within `changed` only: finds anew what that concerns.
+  DiscSpace(const DiscSpace& before, const OccupancyGrid& grid, const CellBox& changed);
 
   [[nodiscard]] const DistanceField& field() const { return field_; }
   [[nodiscard]] const GroundRules& rules() const { return rules_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "maps/differing_cells.hpp"
 #include "tests/maps/drawn_grid.hpp"
 
 namespace cairn {
@@ -123,6 +124,36 @@ TEST(DistanceField, HasTheGridsLattice) {
   EXPECT_EQ(field.origin_m(), grid.origin_m());
   EXPECT_EQ(field.cell_at({0.3, -0.9}), grid.cell_at({0.3, -0.9}));
   EXPECT_EQ(field.centre_of({-3, 4}), grid.centre_of({-3, 4}));
+}
+
+TEST(DistanceField, FollowingAGridIsAsMakingItAnew) {
+  std::mt19937_64 random(5);
+  for (const UnknownPolicy unknown : {UnknownPolicy::avoid, UnknownPolicy::allow}) {
+    OccupancyGrid grid(0.1);
+    for (int y = -20; y < 130; ++y)
+      for (int x = -10; x < 170; ++x) grid.set_log_odds({x, y}, random() % 200 == 0 ? LogOdds{900} : LogOdds{-900});
+    DistanceField field(grid, unknown);
+    for (int round = 0; round < 60; ++round) {
+      const OccupancyGrid before = grid;
+      const Cell at{static_cast<int>(random() % 170) - 8, static_cast<int>(random() % 140) - 18};
+      const int side = 1 + static_cast<int>(random() % 12);
+      const auto value = static_cast<LogOdds>(round % 3 == 0 ? 900 : round % 3 == 1 ? -900 : 0);
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) grid.set_log_odds(at + Cell{x, y}, value);
+      if (round == 40)  // all that is left to be near to goes
+        for (int y = -20; y < 130; ++y)
+          for (int x = -10; x < 170; ++x) grid.set_log_odds({x, y}, LogOdds{-900});
+      field.follow(grid, unknown, {},
+                   round % 2 == 0 ? differing_cells(before, grid)
+                                  : CellBox{at, at + Cell{side, side}}.grown(round == 40 ? 400 : 0));
+      const DistanceField fresh(grid, unknown);
+      ASSERT_EQ(field.box(), fresh.box());
+      for (int y = fresh.box().min.y; y < fresh.box().max.y; ++y)
+        for (int x = fresh.box().min.x; x < fresh.box().max.x; ++x)
+          ASSERT_EQ(field.distance_m({x, y}), fresh.distance_m({x, y}))
+              << "round " << round << ", cell " << x << ", " << y;
+    }
+  }
 }
 
 }  // namespace
