@@ -128,7 +128,8 @@ class Drive {
       v = v_to;
     };
     const double least_m = kLeastPart_ratio * leg.length_m;
-    if (rise_m > least_m && leg.length_m - rise_m > least_m) add(rise_m, std::sqrt(peak2));
+    // However short, what brings it from rest is not left out: nothing else does.
+    if ((rise_m > least_m || v2_from <= 0.0) && leg.length_m - rise_m > least_m) add(rise_m, std::sqrt(peak2));
     if (fall_m > least_m && leg.length_m - fall_m - s_m > least_m) add(leg.length_m - fall_m, std::sqrt(peak2));
     add(leg.length_m, std::sqrt(v2_to));
   }
@@ -165,7 +166,10 @@ std::vector<TrajectoryPoint> trajectory_of(const std::vector<Pose2>& path, const
   std::vector<Leg> legs;
   const Pose2* last = &path.front();
   for (const Pose2& pose : path) {
-    if ((pose.position() - last->position()).norm() <= kLeastStep_m) continue;
+    if ((pose.position() - last->position()).norm() <= kLeastStep_m) {
+      if (pose.position() == last->position()) last = &pose;  // it turns on the spot, then drives
+      continue;
+    }
     legs.push_back(leg_between(*last, pose, can_turn));
     last = &pose;
   }

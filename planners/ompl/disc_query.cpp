@@ -145,7 +145,7 @@ FoundRoute DiscQuery::find(const StartPlace& start, const GoalPlace& goal, const
 FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                    const Point& to) const {
   DiscRoute grid = routes.route(from, to, budget_);
-  FoundRoute found{std::move(grid.route), true, grid.interrupted, grid.impossible, grid.least_length_m, ""};
+  FoundRoute found{std::move(grid.route), false, grid.interrupted, grid.impossible, grid.least_length_m, ""};
   if (found.interrupted && !found.route.empty()) found.interrupted = false;  // it is a route all the same
   if (found.impossible || found.interrupted) return found;
   found.how = "the shortest way over the grid";

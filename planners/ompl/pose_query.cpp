@@ -13,10 +13,10 @@ namespace cairn {
 namespace {
 
 constexpr int kGoalHeadings = 16;
-constexpr double kGuideShare = 0.6;       // of the poses that are drawn, about the shortest route of a disc
-constexpr double kPathStep_m = 0.1;       // between the poses of an answer
-constexpr double kPathStep_rad = 0.0873;  // 5 degrees
-constexpr double kTextSearch_m = 3.0;     // how far a message looks for a free place
+constexpr double kGuideShare = 0.6;             // of the poses that are drawn, about the shortest route of a disc
+constexpr double kPathStep_m = 0.1;             // between the poses of an answer
+constexpr double kPathStep_rad = radians(5.0);  // 5 degrees
+constexpr double kTextSearch_m = 3.0;           // how far a message looks for a free place
 constexpr int kStepsOfKnown = 40;
 
 Footprint footprint_of(const OmplConfig& config, const PlanRequest& request, const RobotModel& robot) {

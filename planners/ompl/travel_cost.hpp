@@ -32,7 +32,9 @@ class TravelCost {
   // Nothing but the length counts.
   [[nodiscard]] bool is_length() const { return rules_.objective == Objective::length && rules_.unknown_weight <= 1.0; }
   // What it counts can be told beside lengths.
-  [[nodiscard]] bool is_in_metres() const { return rules_.objective != Objective::time; }
+  [[nodiscard]] bool is_in_metres() const {
+    return rules_.objective == Objective::length || rules_.objective == Objective::clearance;
+  }
   // Straight, both ways the same; by room and unknown ground to a cell's accuracy.
   [[nodiscard]] double between(const Point& from, const Point& to) const;
   // What a metre counts there, at least least_per_m().
