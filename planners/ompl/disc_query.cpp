@@ -197,7 +197,8 @@ void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const Trave
   const DiscProblem problem{routes.space(), radius_m(), from, to, samples, cost, request_.seed};
   const auto info = space_information(problem);
   const auto definition = definition_of(problem, info);
-  const KnownStates states(info, found.route);
+  KnownStates states(info);
+  add_route(states, found.route);
   const SearchAnswer answer = search(
       info, definition, {config.algorithm, tools_.parameters, iterations, false, request_.seed}, budget_, states.all());
   if (!answer.path || !answer.exact) return;

@@ -206,7 +206,7 @@ ob::ProblemDefinitionPtr definition_of(const DiscProblem& problem, const ob::Spa
   return definition;
 }
 
-KnownStates::KnownStates(ob::SpaceInformationPtr info, const std::vector<Point>& route) : info_(std::move(info)) {
+void add_route(KnownStates& states, const std::vector<Point>& route) {
   constexpr double kMostSteps = 40.0;
   double length_m = 0.0;
   for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i] - route[i - 1]).norm();
@@ -215,15 +215,9 @@ KnownStates::KnownStates(ob::SpaceInformationPtr info, const std::vector<Point>&
     const int steps =
         std::max(1, static_cast<int>(std::ceil((route[i] - before).norm() / std::max(length_m / kMostSteps, 1e-9))));
     for (int k = i == 0 ? steps : 1; k <= steps; ++k) {
-      states_.push_back(info_->allocState());
-      set_point(states_.back(), k == steps ? route[i] : Point(before + (route[i] - before) * k / steps));
-      borrowed_.push_back(states_.back());
+      set_point(states.add(), k == steps ? route[i] : Point(before + (route[i] - before) * k / steps));
     }
   }
-}
-
-KnownStates::~KnownStates() {
-  for (ob::State* const state : states_) info_->freeState(state);
 }
 
 }  // namespace cairn

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "planners/ompl/known_states.hpp"
 #include "planners/ompl/travel_cost.hpp"
 
 namespace cairn {
@@ -40,19 +41,6 @@ struct DiscProblem {
                                                              const ompl::base::SpaceInformationPtr& info);
 
 // The corners of a route, with states between so that none is far from the next.
-class KnownStates {
- public:
-  KnownStates(ompl::base::SpaceInformationPtr info, const std::vector<Point>& route);
-  ~KnownStates();
-  KnownStates(const KnownStates&) = delete;
-  KnownStates& operator=(const KnownStates&) = delete;
-
-  [[nodiscard]] const std::vector<const ompl::base::State*>& all() const { return borrowed_; }
-
- private:
-  ompl::base::SpaceInformationPtr info_;
-  std::vector<ompl::base::State*> states_;
-  std::vector<const ompl::base::State*> borrowed_;
-};
+void add_route(KnownStates& states, const std::vector<Point>& route);
 
 }  // namespace cairn

@@ -119,16 +119,4 @@ std::vector<Pose2> poses_of(const ompl::geometric::PathGeometric& path) {
   return poses;
 }
 
-PoseStates::PoseStates(ob::SpaceInformationPtr info, const std::vector<Pose2>& poses) : info_(std::move(info)) {
-  for (const Pose2& pose : poses) {
-    states_.push_back(info_->allocState());
-    set_pose(states_.back(), pose);
-    borrowed_.push_back(states_.back());
-  }
-}
-
-PoseStates::~PoseStates() {
-  for (ob::State* const state : states_) info_->freeState(state);
-}
-
 }  // namespace cairn

@@ -34,20 +34,4 @@ struct PoseProblem {
 [[nodiscard]] std::vector<Motion> motions_of(const ompl::base::StateSpace& space, const std::vector<Pose2>& poses);
 [[nodiscard]] std::vector<Pose2> poses_of(const ompl::geometric::PathGeometric& path);
 
-// States that live as long as this.
-class PoseStates {
- public:
-  PoseStates(ompl::base::SpaceInformationPtr info, const std::vector<Pose2>& poses);
-  ~PoseStates();
-  PoseStates(const PoseStates&) = delete;
-  PoseStates& operator=(const PoseStates&) = delete;
-
-  [[nodiscard]] const std::vector<const ompl::base::State*>& all() const { return borrowed_; }
-
- private:
-  ompl::base::SpaceInformationPtr info_;
-  std::vector<ompl::base::State*> states_;
-  std::vector<const ompl::base::State*> borrowed_;
-};
-
 }  // namespace cairn

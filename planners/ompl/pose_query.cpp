@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planners/disc_space/routes.hpp"
+#include "planners/ompl/known_states.hpp"
 #include "planners/ompl/search.hpp"
 #include "planners/ompl/seeded_trees.hpp"
 #include "planners/pose_space/pose_recheck.hpp"
@@ -237,7 +238,8 @@ void PoseQuery::improve(FoundWay& found, const PoseProblem& problem) const {
   const ompl::base::StateSpace& space = *info->getStateSpace();
   const std::vector<Pose2> known = with_steps(space, found.states);
   if (!fits_along(problem, known)) return;  // between nearly alike poses rounding may choose other motions
-  const PoseStates states(info, known);
+  KnownStates states(info);
+  for (const Pose2& pose : known) set_pose(states.add(), pose);
   const std::int64_t iterations =
       std::min(timed ? std::numeric_limits<std::int64_t>::max() : config.improve_iterations, budget_.iterations);
   const SearchAnswer answer =
