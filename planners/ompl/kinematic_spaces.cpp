@@ -128,7 +128,7 @@ std::shared_ptr<ob::SE2StateSpace> space_for(const KinematicRules& rules) {
 
 Pose2 pose_of(const ob::State* state) {
   const auto* pose = state->as<ob::SE2StateSpace::StateType>();
-  return {pose->getX(), pose->getY(), pose->getYaw()};
+  return {pose->getX(), pose->getY(), pose->getYaw() > -std::numbers::pi ? pose->getYaw() : std::numbers::pi};
 }
 
 void set_pose(ob::State* state, const Pose2& pose) {

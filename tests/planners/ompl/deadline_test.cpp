@@ -1,25 +1,24 @@
 // A call that is cut off ends within 10 ms, whatever the algorithm and however the robot moves.
 //
-// Time on a shared machine: the least overshoot of several runs is judged, so that what a neighbour takes
-// does not count, and what the planner takes does.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "planners/ompl/ompl_planner.hpp"
 #include "tests/planners/drawn_world.hpp"
 #include "tests/planners/ompl/kind_cases.hpp"
+#include "tests/planners/ompl/overrun.hpp"
 
 namespace cairn {
 namespace {
 
 using Clock = Budget::Clock;
 using test::KindCase;
+using test::Overrun;
+using test::overrun_of;
 
 constexpr int kRuns = 3;
-constexpr int kMostRuns = 30;  // on a machine that does other things, one in time shows it
+constexpr int kMostRuns = 30;  // the least overshoot is judged: a run may be disturbed, a habit shows in all
 constexpr auto kPromised = std::chrono::milliseconds(10);
 
 // 200 x 200 cells: corridors two metres wide, one after another, with a post in the middle of each.
@@ -79,11 +78,14 @@ TEST_P(InTime, ADeadlineHolds) {
     for (int run = 0; run < kMostRuns && (run < kRuns || least > kPromised); ++run) {
       Budget budget;
       budget.deadline = Clock::now() + given;
-      const PlanResult result = plan(planner, budget, 10 + run);
-      least = std::min(least, Clock::now() - budget.deadline);
+      const Overrun run_of = overrun_of(
+          budget.deadline, [&] { return plan(planner, budget, 10 + run); }, [] {});
+      if (run_of.late <= test::kMostLate) least = std::min(least, run_of.over + run_of.late);
+      const PlanResult& result = run_of.result;
       EXPECT_TRUE(result.outcome == PlanOutcome::solved || result.outcome == PlanOutcome::out_of_budget)
           << name_of(result.outcome) << ": " << result.reason;
     }
+    if (least == Clock::duration::max()) GTEST_SKIP() << "the machine is too busy to tell";
     EXPECT_LE(least, kPromised) << given.count() << " ms given";
   }
 }
@@ -94,19 +96,15 @@ TEST_P(InTime, ACancelHolds) {
   auto least = Clock::duration::max();
   for (int run = 0; run < kMostRuns && (run < kRuns || least > kPromised); ++run) {
     std::atomic<bool> cancel{false};
-    Clock::time_point at;
-    std::thread other([&] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      at = Clock::now();
-      cancel = true;
-    });
     Budget budget;
     budget.cancel = &cancel;
-    const PlanResult result = plan(planner, budget, 10 + run);
-    const auto end = Clock::now();
-    other.join();
-    least = std::min(least, end - at);
+    // However late the flag is set, the work after it counts from then on.
+    const Overrun run_of = overrun_of(
+        Clock::now() + std::chrono::milliseconds(5), [&] { return plan(planner, budget, 10 + run); },
+        [&] { cancel = true; });
+    least = std::min(least, run_of.over);
     // What was found by then may be answered.
+    const PlanResult& result = run_of.result;
     EXPECT_TRUE(result.outcome == PlanOutcome::cancelled || result.outcome == PlanOutcome::solved) << result.reason;
   }
   EXPECT_LE(least, kPromised);

@@ -6,6 +6,7 @@
 
 #include "planners/disc_space/routes.hpp"
 #include "tests/planners/ompl/ompl_worlds.hpp"
+#include "tests/planners/ompl/overrun.hpp"
 
 namespace cairn {
 namespace {
@@ -198,13 +199,14 @@ TEST(Objectives, WithoutACountImprovementLastsUntilTheDeadline) {
   for (int run = 0; run < 4; ++run) {
     Budget budget;
     budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(60);
-    const PlanResult result = planner.plan(request, world.view(), budget);
-    const auto over = Budget::Clock::now() - budget.deadline;
-    EXPECT_GE(over.count(), 0) << "it stopped before";
-    least = std::min(least, over);
-    ASSERT_EQ(result.outcome, PlanOutcome::solved);
-    EXPECT_LE(result.cost_m, plain.cost_m * (1.0 + 1e-9));
+    const test::Overrun run_of = test::overrun_of(
+        budget.deadline, [&] { return planner.plan(request, world.view(), budget); }, [] {});
+    EXPECT_GE(Budget::Clock::now(), budget.deadline) << "it stopped before";
+    if (run_of.late <= test::kMostLate) least = std::min(least, run_of.over + run_of.late);
+    ASSERT_EQ(run_of.result.outcome, PlanOutcome::solved);
+    EXPECT_LE(run_of.result.cost_m, plain.cost_m * (1.0 + 1e-9));
   }
+  if (least == Budget::Clock::duration::max()) GTEST_SKIP() << "the machine is too busy to tell";
   EXPECT_LE(least, std::chrono::milliseconds(10));
 }
 

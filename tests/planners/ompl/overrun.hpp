@@ -1,0 +1,52 @@
+// How long a call works on after it should have ended.
+//
+// By the processor clock of its thread: on a machine that does other things the time on the wall says how long it had
+// to wait for its turn.
+#pragma once
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <ctime>
+#include <thread>
+#include <utility>
+
+#include "framework/contracts/planner.hpp"
+
+namespace cairn::test {
+
+constexpr auto kMostLate = std::chrono::milliseconds(2);
+
+// Processor time of one thread.
+inline Budget::Clock::duration worked(clockid_t thread) {
+  timespec time{};
+  clock_gettime(thread, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+struct Overrun {
+  PlanResult result;
+  Budget::Clock::duration over;  // at least
+  Budget::Clock::duration late;  // how long after the end the counting began: the thread may have worked so much more
+};
+
+// Calls, and tells how long this thread works on after `end`, when `at_end` is called by another thread.
+template <class Call, class AtEnd>
+Overrun overrun_of(Budget::Clock::time_point end, const Call& call, const AtEnd& at_end) {
+  clockid_t mine{};
+  pthread_getcpuclockid(pthread_self(), &mine);
+  Budget::Clock::duration before{};
+  Budget::Clock::duration late{};
+  std::thread other([&] {
+    std::this_thread::sleep_until(end);
+    before = worked(mine);
+    late = Budget::Clock::now() - end;
+    at_end();
+  });
+  PlanResult result = call();
+  const Budget::Clock::duration after = worked(mine);
+  other.join();
+  return {std::move(result), std::max(after - before, Budget::Clock::duration::zero()), late};
+}
+
+}  // namespace cairn::test
