@@ -28,8 +28,7 @@ std::vector<Cell> cells_under(const OccupancyGrid& grid, const Point& p_map, dou
 }  // namespace
 
 std::optional<OccupancyGrid> with_avoided_blocked(const WorldView& world, const PlanRequest& request,
-                                                  const DiscSpace& space) {
-  const double radius_m = request.radius_m + kLeastRadius_m;
+                                                  const DiscSpace& space, double radius_m) {
   std::vector<Point> ends;
   add_points(request.from, world.graph, space, radius_m, ends);
   add_points(request.to, world.graph, space, radius_m, ends);
@@ -50,6 +49,18 @@ std::optional<OccupancyGrid> with_avoided_blocked(const WorldView& world, const 
     for (const Cell cell : cells) blocked->set_log_odds(cell, occupied);
   }
   return blocked;
+}
+
+WorldView with_grid(const OccupancyGrid& grid, const WorldView& world) {
+  return {grid,
+          world.graph,
+          world.robot,
+          world.pose,
+          world.time_s,
+          world.observation,
+          world.held_back_ratio,
+          world.hierarchies,
+          &grid == &world.grid ? world.grid_version : 0};
 }
 
 }  // namespace cairn

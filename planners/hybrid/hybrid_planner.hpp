@@ -18,8 +18,9 @@ struct HybridConfig {
   bool shortcut = true;
 
   static void describe(Fields<HybridConfig>& fields) {
-    fields.plugin("route", &HybridConfig::route, "planner",
-                  "planner of routes on the grid; its `unknown` holds for stored routes too");
+    fields.plugin(
+        "route", &HybridConfig::route, "planner",
+        "planner of routes on the grid; its `unknown` and `margin_m` hold for stored routes and cut corners too");
     fields.plugin("graph", &HybridConfig::graph, "planner", "planner over the landmark graph");
     fields.number("detour_ratio", &HybridConfig::detour_ratio, {1.0, 100.0}, "",
                   "a way over landmarks is taken when it is at most this much longer than the direct one, and a "
@@ -40,8 +41,9 @@ struct HybridConfig {
 
 // Whether the route planner's settings are for a disc that turns on the spot; for others there are no landmark legs.
 [[nodiscard]] bool is_for_discs(const PluginChoice& route);
-// What the route planner's settings say about unknown space, for the hybrid's own checks.
+// What the route planner's settings say about the ground, for the hybrid's own checks.
 [[nodiscard]] UnknownPolicy unknown_policy_of(const PluginChoice& route);
+[[nodiscard]] double margin_m_of(const PluginChoice& route);
 
 // What is kept of a grid from request to request.
 struct HybridGround {
@@ -53,11 +55,10 @@ struct HybridGround {
 // blocked closes its route for this query and the landmarks are searched again. Without a landmark in
 // between when the direct way is hardly longer; when landmarks are avoided or routes closed, only where no
 // way over landmarks is left. At an avoided landmark, where a robot would stand is an obstacle to the whole
-// path (avoided.hpp); a closed route matters on the graph only. Alternatives are ways that are open today.
-// cost_m is that of the graph search (stored costs, lengths where there are none); the path, with its
-// corners cut, may be shorter; its pieces say what came from where. On a map without a grid the graph
-// planner's answer is the answer. Every solved path has been re-checked cell by cell. Thread-safe if both
-// planners are.
+// path (avoided.hpp), whatever its shape; a closed route matters on the graph only. Alternatives are ways that are open
+// today. cost_m is that of the graph search (stored costs, lengths where there are none); the path, with its corners
+// cut, may be shorter; its pieces say what came from where. On a map without a grid the graph planner's answer is the
+// answer. Every solved path has been re-checked cell by cell. Thread-safe if both planners are.
 class HybridPlanner : public Planner {
  public:
   HybridPlanner(HybridConfig config, std::shared_ptr<const Planner> route, std::shared_ptr<const Planner> graph);
@@ -72,6 +73,7 @@ class HybridPlanner : public Planner {
 
   HybridConfig config_;
   UnknownPolicy unknown_;
+  double margin_m_;
   std::shared_ptr<const Planner> route_;
   std::shared_ptr<const Planner> graph_;
   HybridGround usual_;

@@ -46,9 +46,9 @@ class Query {
   Query(const HybridTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget)
       : tools_(tools), request_(request), world_(world), budget_(budget) {
     ends_.ground.unknown = tools.unknown;
-    ends_.radius_m = request.radius_m;
+    ends_.radius_m = request.radius_m + tools.margin_m;
     ends_.start_tolerance_m = tools.config.start_tolerance_m;
-    legs_ = {request.radius_m, tools.config.detour_ratio, request.seed};
+    legs_ = {request.radius_m, disc_m(), tools.config.detour_ratio, request.seed};
   }
 
   PlanResult answer() {
@@ -58,7 +58,7 @@ class Query {
     const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
     if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused(*refusal);
     const auto& start = std::get<StartPlace>(usual);
-    if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space);
+    if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space, disc_m());
     PlanResult result = avoided_grid_ ? answer_avoiding() : answer_from(start, world_);
     result.settled = settled_;
     result.alternatives = alternatives_;
@@ -82,32 +82,24 @@ class Query {
     const auto start = start_of(request_.from, world, ends_, tools_.avoiding.spaces);
     PlanResult result = std::holds_alternative<Refusal>(start) ? refused(std::get<Refusal>(start))
                                                                : answer_from(std::get<StartPlace>(start), world);
-    if (result.outcome != PlanOutcome::solved) result.reason += "; the places of avoided landmarks count as blocked";
+    if (result.outcome != PlanOutcome::solved) result.reason += kAvoidedCount;
     return result;
   }
 
   // A route that only what is avoided blocks is not blocked today.
   void tell_blocked(const StartPlace& start, PlanResult& result) {
     for (const RouteId id : blocked_) {
-      const bool avoided =
-          avoided_grid_ &&
-          walker(start, planned_world(start, world_)).walk_alone(*world_.graph.find_route(id)).complete();
-      if (!avoided) result.blocked_routes.push_back(id);
-      result.reason += "; " + text_of_route(id) + (avoided ? " passes an avoided landmark" : " is blocked");
+      const bool is_blocked =
+          !avoided_grid_ ||
+          walker(start, planned_world(start, world_)).walk_alone(*world_.graph.find_route(id)).blocked;
+      if (is_blocked) result.blocked_routes.push_back(id);
+      result.reason += "; " + text_of_route(id) + (is_blocked ? " is blocked" : " passes an avoided landmark");
     }
   }
 
-  static WorldView with_grid(const OccupancyGrid& grid, const WorldView& world) {
-    return {grid,
-            world.graph,
-            world.robot,
-            world.pose,
-            world.time_s,
-            world.observation,
-            world.held_back_ratio,
-            world.hierarchies,
-            &grid == &world.grid ? world.grid_version : 0};
-  }
+  // With a hair more than is re-checked, so that rounding cannot tell them apart.
+  double disc_m() const { return ends_.radius_m + kLeastRadius_m; }
+
   // The robot's world as it is planned in: with the ground under the robot known, and the robot no
   // longer where a leg begins.
   static WorldView planned_world(const StartPlace& start, const WorldView& world) {
@@ -122,7 +114,7 @@ class Query {
 
   PlanResult answer_from(const StartPlace& start, const WorldView& world) {
     const HybridGround& ground = avoided_grid_ ? tools_.avoiding : tools_.usual;
-    const auto routes = ground.routes.routes_of(start.space, ends_.radius_m + kLeastRadius_m);
+    const auto routes = ground.routes.routes_of(start.space, disc_m());
     const auto goals_or_refusal = goals_of(
         request_.to, world, ends_, start, [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
     if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused(*refusal);
@@ -131,8 +123,7 @@ class Query {
     if (start.landmark == nearest.landmark && start.landmark != 0) return stay(start, nearest);
 
     const WorldView planned = planned_world(start, world);
-    const SymbolicQuery query{
-        request_, world_, start, goals, ends_.radius_m + kLeastRadius_m, tools_.config.detour_ratio};
+    const SymbolicQuery query{request_, world_, start, goals, disc_m(), tools_.config.detour_ratio};
     const SymbolicSearch search(query, tools_.graph, budget_);
     std::optional<PlanResult> over = over_graph(search, planned, start, goals, direct_m);
     PlanResult result = over ? std::move(*over) : direct(planned, start, goals);
@@ -238,10 +229,8 @@ class Query {
     route_ms_ += ms_since(begin);
     if (!planned.path.empty() &&
         !route_is_free(planned_world.grid, ends_.ground, points_on(planned.path), ends_.radius_m))
-      return refused({PlanOutcome::no_route, "the route planner's path touches something and was refused"});
-    if (planned.path.empty()) return planned;
-    if (start.escape) planned.path.insert(planned.path.begin(), start.pose);
-    return direct_result(start, goal, planned);
+      return refused({PlanOutcome::out_of_budget, "the route planner's path touches something and was refused"});
+    return planned.path.empty() ? planned : direct_result(start, goal, planned);
   }
 
   // The route planner's path as it is: there is nothing to join it to.
@@ -252,13 +241,14 @@ class Query {
     if (planned.path.size() > 1) result.pieces.push_back({origin, 0, planned.length_m});
     if (start.escape) {
       const double escape_m = (start.escape->to - start.pose.position()).norm();
-      result.path.front() = poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front();
+      result.path.insert(result.path.begin(),
+                         poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front());
       result.pieces.insert(result.pieces.begin(), {PlanPiece::Origin::escape, 0, escape_m});
       result.length_m += escape_m;
       result.cost_m += escape_m;
       result.least_length_m.reset();
     }
-    result.clearance_m = clearance_along(*start.space, points_on(result.path), ends_.radius_m);
+    result.clearance_m = clearance_along(*start.space, points_on(result.path), request_.radius_m);
     result.landmarks.clear();
     const bool is_there = planned.outcome == PlanOutcome::solved;
     for (const LandmarkId id : {start.landmark, is_there ? goal.landmark : 0})
@@ -278,8 +268,7 @@ class Query {
     }
     if (tools_.config.shortcut) {
       const std::size_t keep = start.escape ? 2 : 1;
-      const double radius_m = ends_.radius_m + kLeastRadius_m;
-      route = tightened(*start.space, straightened(*start.space, route, radius_m, keep), radius_m, keep);
+      route = tightened(*start.space, straightened(*start.space, route, disc_m(), keep), disc_m(), keep);
     }
     const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
     route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
@@ -293,7 +282,7 @@ class Query {
     result.outcome = PlanOutcome::solved;
     result.length_m = length_of(points);
     result.cost_m = result.length_m;
-    result.clearance_m = clearance_along(*start.space, points, ends_.radius_m);
+    result.clearance_m = clearance_along(*start.space, points, request_.radius_m);
     result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
     result.pieces = pieces_of(route, parts);
     return result;

@@ -9,6 +9,7 @@ namespace cairn {
 struct HybridTools {
   const HybridConfig& config;
   UnknownPolicy unknown;
+  double margin_m;  // that the route planner adds to a request's radius
   const HybridGround& usual;
   const HybridGround& avoiding;
   const Planner& route;

@@ -6,10 +6,9 @@
 namespace cairn {
 
 bool Walker::is_passable(const std::vector<Pose2>& trajectory) const {
-  const double radius_m = rules_.radius_m + kLeastRadius_m;
-  if (trajectory.empty() || !space_.fits(trajectory.front().position(), radius_m)) return false;
+  if (trajectory.empty() || !space_.fits(trajectory.front().position(), rules_.disc_m)) return false;
   for (std::size_t i = 1; i < trajectory.size(); ++i)
-    if (!space_.fits_along(trajectory[i - 1].position(), trajectory[i].position(), radius_m)) return false;
+    if (!space_.fits_along(trajectory[i - 1].position(), trajectory[i].position(), rules_.disc_m)) return false;
   return true;
 }
 
@@ -21,7 +20,7 @@ std::optional<PlanOutcome> Walker::stopped() const {
 Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const {
   const Point from = walk.route.back().at;
   if (from == to) return Step::done;
-  if (space_.fits_along(from, to, rules_.radius_m + kLeastRadius_m)) {
+  if (space_.fits_along(from, to, rules_.disc_m)) {
     walk.add_part(PlanPiece::Origin::straight, leg);
     walk.go_on_to(to);
     walk.cost_m += (to - from).norm();
@@ -38,7 +37,7 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
     return Step::stopped;
   }
   if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return Step::failed;
-  // Another planner's word is not enough: with a margin of its own it may leave its start with less.
+  // Another planner's word is not enough: it may leave its start with less.
   if (!is_passable(planned.path) || planned.path.back().position() != to) return Step::failed;
   walk.add_part(PlanPiece::Origin::planned, leg);
   for (std::size_t i = 1; i < planned.path.size(); ++i) walk.go_on_to(planned.path[i].position());
@@ -60,7 +59,7 @@ void Walker::take_leg(const Route& leg, Walk& walk) const {
     ++walk.stored_legs;
     return;
   }
-  const auto stand = standing_place(space_, *world_.graph.find(leg.to), rules_.radius_m + kLeastRadius_m);
+  const auto stand = standing_place(space_, *world_.graph.find(leg.to), rules_.disc_m);
   const Point from = walk.route.back().at;
   const double straight_m = stand ? (stand->position() - from).norm() : 0.0;
   const double at_most_m = rules_.detour_ratio * std::max(leg.cost_m, straight_m);
@@ -74,7 +73,7 @@ Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal
   // A leg without a passable trajectory begins where its landmark is stood at.
   const Route& first = *world_.graph.find_route(path.routes.front());
   if (!is_passable(first.trajectory)) {
-    const auto stand = standing_place(space_, *world_.graph.find(first.from), rules_.radius_m + kLeastRadius_m);
+    const auto stand = standing_place(space_, *world_.graph.find(first.from), rules_.disc_m);
     if (stand) take_mile(stand->position(), walk);
   }
   for (const RouteId id : path.routes) {
@@ -88,7 +87,7 @@ Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal
 
 Walk Walker::walk_alone(const Route& leg) const {
   Walk walk;
-  const auto stand = standing_place(space_, *world_.graph.find(leg.from), rules_.radius_m + kLeastRadius_m);
+  const auto stand = standing_place(space_, *world_.graph.find(leg.from), rules_.disc_m);
   walk.stopped = stopped();
   if (!stand) walk.blocked = leg.id;
   if (!walk.complete()) return walk;

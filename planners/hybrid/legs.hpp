@@ -12,7 +12,8 @@
 namespace cairn {
 
 struct LegRules {
-  double radius_m = 0.22;     // of the request
+  double radius_m = 0.22;     // of the request, to which the route planner adds its margin
+  double disc_m = 0.22;       // radius of the disc that has to fit: with the margin, and a hair more
   double detour_ratio = 1.3;  // a leg planned anew may be this much longer than its stored cost
   std::uint64_t seed = 1;
 };

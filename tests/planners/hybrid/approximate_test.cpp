@@ -31,9 +31,7 @@ TEST_F(Hybrid, AnApproximateAnswerIsToldAsItIsAlsoFromATightStart) {
       EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9) << result.reason;
       EXPECT_THAT(result.reason, ::testing::HasSubstr("short of the goal"));
       EXPECT_FALSE(result.least_length_m);
-      double pieces_m = 0.0;
-      for (const PlanPiece& piece : result.pieces) pieces_m += piece.length_m;
-      EXPECT_NEAR(pieces_m, result.length_m, 1e-9);
+      expect_pieces_add_up(result);
     }
   EXPECT_GT(approximate, 4);
 }

@@ -97,6 +97,28 @@ TEST_F(Avoided, WithoutAnyOtherWayTheReasonSaysSo) {
   EXPECT_THAT(plan(request('A', 'B')).reason, Not(HasSubstr("avoided")));
 }
 
+TEST_F(Avoided, ACarKeepsOffToo) {
+  const LandmarkId u = landmark('U');
+  OmplConfig car;
+  car.kinematics = MotionKind::dubins;
+  car.turning_radius_m = 0.1;
+  config.route.config = parse_config_text("kinematics: dubins", "test");
+  router = std::make_shared<test::CountingPlanner>(std::make_shared<OmplPlanner>(car));
+  PlanRequest direct = request('A', 'B');
+  const PlanResult before = plan(direct);
+  ASSERT_EQ(before.outcome, PlanOutcome::solved) << before.reason;
+  EXPECT_LT(distance_to('U', before), kRadius_m);
+  direct.avoid = {u};
+  const PlanResult result = plan(direct);
+  ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
+  EXPECT_GE(distance_to('U', result), 2.0 * kRadius_m) << test::drawing_of(world.grid, result.path);
+  direct.avoid = {u, landmark('V')};
+  EXPECT_THAT(plan(direct).reason, HasSubstr("the places of avoided landmarks count as blocked"));
+  PlanRequest nowhere = direct;
+  nowhere.from.pose->x_m = NAN;
+  EXPECT_EQ(plan(nowhere).outcome, PlanOutcome::unknown_place);
+}
+
 TEST_F(Avoided, OneQuerysObstaclesAreNoneToTheNext) {
   const LandmarkId u = landmark('U');
   const HybridPlanner planner(config, router, searcher);
@@ -112,7 +134,7 @@ TEST_F(Avoided, OnlyTheGroundUnderARobotThereIsBlocked) {
   const LandmarkId u = landmark('U');
   PlanRequest direct = request('A', 'B');
   direct.avoid = {u};
-  const auto grid = with_avoided_blocked(world.view(), direct, DiscSpace(world.grid, {}));
+  const auto grid = with_avoided_blocked(world.view(), direct, DiscSpace(world.grid, {}), kRadius_m);
   ASSERT_TRUE(grid);
   const CellBox box = world.grid.bounds();
   for (int y = box.min.y; y < box.max.y; ++y)
@@ -125,7 +147,7 @@ TEST_F(Avoided, OnlyTheGroundUnderARobotThereIsBlocked) {
         EXPECT_EQ(grid->log_odds({x, y}), world.grid.log_odds({x, y})) << x << ", " << y;
     }
   direct.avoid = {};
-  EXPECT_FALSE(with_avoided_blocked(world.view(), direct, DiscSpace(world.grid, {})));
+  EXPECT_FALSE(with_avoided_blocked(world.view(), direct, DiscSpace(world.grid, {}), kRadius_m));
 }
 
 }  // namespace

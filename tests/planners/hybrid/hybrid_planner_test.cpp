@@ -204,6 +204,40 @@ TEST_F(Hybrid, TheRoutersPolicyOnUnknownSpaceHoldsForStoredRoutesToo) {
 }
 
 // Random worlds and graphs: whatever happens, an answer is never unsafe and never differs from itself.
+TEST_F(Hybrid, TheRoutersMarginHoldsForStoredRoutesAndCutCornersToo) {
+  route(landmark('M'), landmark('N'), "MUN");  // 0.15 m from the wall
+  const auto stored = [](const PlanResult& result) {
+    return std::any_of(result.pieces.begin(), result.pieces.end(),
+                       [](const PlanPiece& piece) { return piece.origin == PlanPiece::Origin::stored; });
+  };
+  EXPECT_TRUE(stored(plan(request('M', 'N'))));
+  const auto with_margin = [&](double margin_m) {
+    OmplConfig wide;
+    wide.margin_m = margin_m;
+    config.route.config = parse_config_text("margin_m: " + std::to_string(margin_m), "test");
+    EXPECT_EQ(margin_m_of(config.route), margin_m);
+    router = std::make_shared<test::CountingPlanner>(std::make_shared<OmplPlanner>(wide));
+  };
+  with_margin(0.005);
+  EXPECT_TRUE(stored(plan(request('M', 'N'))));
+  with_margin(0.03);
+  EXPECT_FALSE(stored(plan(request('M', 'N'))));
+  for (const double y_m : {0.3, 0.65, 1.0, 1.4}) {
+    PlanRequest across = request('A', 'B');
+    across.from.pose = Pose2{0.45, 1.0, 0.0};
+    across.to.pose = Pose2{2.4, y_m, 0.0};
+    const PlanResult result = plan(across);
+    ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
+    EXPECT_GE(test::distance_by_brute_force(world.grid, result.path, false, 0.01), kRadius_m + 0.03 - 1e-9) << y_m;
+    EXPECT_GE(result.clearance_m, 0.03 - 1e-9) << "counted from the robot itself";
+  }
+  with_margin(0.1);
+  PlanRequest across = request('A', 'B');
+  across.from.pose = Pose2{0.45, 1.0, 0.0};
+  across.to.pose = Pose2{2.4, 1.0, 0.0};
+  EXPECT_EQ(plan(across).outcome, PlanOutcome::no_route) << "no corridor is so wide";
+}
+
 TEST_F(Hybrid, AnswersAreSafeAndRepeatableOnRandomWorlds) {
   config.detour_ratio = 2.0;
   int solved = 0;

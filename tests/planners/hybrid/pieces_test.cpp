@@ -61,9 +61,22 @@ TEST_F(Pieces, AnEscapeComesFirst) {
   const PlanResult result = plan(tight);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_EQ(names(result).front(), "escape");
-  double sum_m = 0.0;
-  for (const PlanPiece& piece : result.pieces) sum_m += piece.length_m;
-  EXPECT_NEAR(sum_m, result.length_m, 1e-9);
+  expect_pieces_add_up(result);
+  const auto refuge = result.path[1];
+  tight.to.pose = refuge;
+  const PlanResult out = plan(tight);
+  ASSERT_EQ(out.outcome, PlanOutcome::solved) << out.reason;
+  EXPECT_THAT(names(out), ElementsAre("escape")) << "there is nothing behind it";
+  EXPECT_EQ(out.path.size(), 2U);
+  expect_pieces_add_up(out);
+}
+
+TEST_F(Pieces, BehindAnEscapeAreWhatTheyWouldBeWithoutIt) {
+  PlanRequest tight = request('A', 'D');
+  tight.from.pose = Pose2{0.19, 1.0, 0.0};
+  EXPECT_THAT(names(plan(tight)), ElementsAre("escape", "planned"));
+  tight.to.pose = Pose2{0.45, 1.0, 0.0};
+  EXPECT_THAT(names(plan(tight)), ElementsAre("escape", "straight"));
 }
 
 TEST_F(Pieces, OnAMapWithoutAGridAreTheRoutes) {
