@@ -1,0 +1,198 @@
+// What a large saved map costs: 4000 x 4000 cells with 10,000 landmarks and their routes.
+//   saved_map_table FOLDER [SIDE_CELLS [LANDMARKS [SEED]]]
+// Two grids of one building, rooms with doors: one of three values, as other tools' maps have it, and one as it is
+// sensed, where what was seen less often is less sure. The maps stay in the folder. The first answer is that of a
+// `cairn plan` of its own, with starting the program.
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <random>
+
+#include "framework/contracts/budget.hpp"
+#include "maps/map_store.hpp"
+#include "planners/any_angle/disc_routes.hpp"
+#include "tests/bench/random_rooms.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kRadius_m = 0.22;
+constexpr double kNear_m = 12.0;  // landmarks so near to each other are joined
+constexpr int kRoutesOfEach = 3;
+constexpr int kAnswers = 11;
+
+using Clock = Budget::Clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+struct Site {
+  int side_cells = 4000;
+  std::size_t landmarks = 10'000;
+  std::uint64_t seed = 1;
+};
+
+// Free and occupied for sure, or each by as many readings as happened to fall on it; ground beyond a metre from the
+// walls of every third room is never seen.
+OccupancyGrid grid_of(const PlainCells& cells, bool as_sensed, std::uint64_t seed) {
+  OccupancyGrid grid(cells.cell_m, 4.0, cells.origin_m);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> evidence(1200.0, 500.0);
+  for (int y = 0; y < cells.height; ++y)
+    for (int x = 0; x < cells.width; ++x) {
+      const double sure = as_sensed ? std::clamp(evidence(random), 160.0, 1024.0) : 900.0;
+      grid.set_log_odds({x, y}, static_cast<LogOdds>(cells.is_open(x, y) ? -sure : sure));
+    }
+  return grid;
+}
+
+class Landmarks {
+ public:
+  Landmarks(const DiscRoutes& routes, const std::vector<Cell>& open, const Site& site)
+      : routes_(routes), open_(open), site_(site) {}
+
+  LandmarkGraph graph() {
+    LandmarkGraph graph;
+    std::mt19937_64 random(site_.seed + 1);
+    std::uniform_int_distribution<std::size_t> any(0, open_.size() - 1);
+    const DistanceField& field = routes_.space().field();
+    while (graph.landmarks().size() < site_.landmarks) {
+      const Point at = field.centre_of(open_[any(random)]);
+      if (!routes_.space().fits(at, routes_.radius_m())) continue;
+      Landmark landmark;
+      landmark.category = "square";
+      landmark.T_map_landmark = {at.x(), at.y(), 0.0};
+      landmark.access = landmark.T_map_landmark;
+      landmark.degree = 0.7;
+      landmark.sightings = 3;
+      graph.add(landmark);
+    }
+    for (const auto& [id, landmark] : graph.landmarks()) join(graph, landmark);
+    return graph;
+  }
+
+ private:
+  void join(LandmarkGraph& graph, const Landmark& from) const {
+    std::vector<std::pair<double, LandmarkId>> near;
+    for (const auto& [id, other] : graph.landmarks()) {
+      const double away_m = (other.access->position() - from.access->position()).norm();
+      if (id != from.id && away_m < kNear_m) near.emplace_back(away_m, id);
+    }
+    std::sort(near.begin(), near.end());
+    near.resize(std::min<std::size_t>(near.size(), kRoutesOfEach));
+    for (const auto& [away_m, id] : near) {
+      const DiscRoute found = routes_.route(from.access->position(), graph.find(id)->access->position(), Budget{});
+      if (found.route.empty()) continue;
+      Route route;
+      route.from = from.id;
+      route.to = id;
+      for (std::size_t i = 1; i < found.route.size(); ++i) {  // a pose each tenth of a metre, as robots leave them
+        const Point step = found.route[i] - found.route[i - 1];
+        const double heading_rad = std::atan2(step.y(), step.x());
+        for (double s_m = 0.0; s_m < step.norm(); s_m += 0.1) {
+          const Point p = found.route[i - 1] + step * (s_m / step.norm());
+          route.trajectory.push_back({p.x(), p.y(), heading_rad});
+        }
+        route.cost_m += step.norm();
+      }
+      route.trajectory.push_back({found.route.back().x(), found.route.back().y(), 0.0});
+      graph.add_route(route);
+    }
+  }
+
+  const DiscRoutes& routes_;
+  const std::vector<Cell>& open_;
+  const Site& site_;
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+// Seconds of the whole command.
+std::vector<double> first_answers(const std::string& map, const LandmarkGraph& graph, bool near, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<LandmarkId> any(1, static_cast<LandmarkId>(graph.landmarks().size()));
+  std::vector<double> seconds;
+  for (int i = 0; i < kAnswers; ++i) {
+    const LandmarkId from = any(random);
+    LandmarkId to = any(random);
+    if (near && !graph.routes_from(from).empty()) to = graph.find_route(graph.routes_from(from).front())->to;
+    const std::string command = std::string(CAIRN_BINARY_DIR "/bin/cairn plan ") + map + " --from L" +
+                                std::to_string(from) + " --to L" + std::to_string(to) + " --json > /dev/null";
+    const auto begin = Clock::now();
+    const int status = std::system(command.c_str());
+    seconds.push_back(seconds_since(begin));
+    if (status != 0) std::fprintf(stderr, "%s: status %d\n", command.c_str(), status);
+  }
+  return seconds;
+}
+
+void measure(const std::filesystem::path& file, const SavedMap& map, const Site& site) {
+  double saved_s = 1e9;
+  for (int run = 0; run < 3; ++run) {
+    const auto begin = Clock::now();
+    save_map(file, map);
+    saved_s = std::min(saved_s, seconds_since(begin));
+  }
+  const auto begin = Clock::now();
+  const bool same = load_map(file).grid == map.grid;
+  const double loaded_s = seconds_since(begin);
+  const double raw = 2.0 * site.side_cells * site.side_cells;
+  const double bytes = static_cast<double>(std::filesystem::file_size(file));
+  const std::vector<double> far = first_answers(file.string(), map.graph, false, site.seed + 2);
+  const std::vector<double> near = first_answers(file.string(), map.graph, true, site.seed + 3);
+  std::printf("| %s | %.2f | %.1f | %.1f | %.2f | %.2f | %.2f | %.2f | %.2f |%s\n", file.stem().c_str(), saved_s,
+              bytes / 1e6, 100.0 * bytes / raw, loaded_s, median(near), *std::max_element(near.begin(), near.end()),
+              median(far), *std::max_element(far.begin(), far.end()), same ? "" : " DIFFERENT");
+  std::fflush(stdout);
+}
+
+int run(const std::filesystem::path& folder, const Site& site) {
+  std::filesystem::create_directories(folder);
+  RoomsShape shape;
+  shape.side_cells = site.side_cells;
+  shape.room_cells = 79;
+  shape.door_cells = 20;
+  shape.cell_m = 0.05;
+  const PlainCells cells = random_rooms(shape, site.seed);
+  SavedMap map;
+  map.properties["robot_radius_m"] = std::to_string(kRadius_m);
+  map.grid = grid_of(cells, false, site.seed);
+  {
+    const DiscRoutes routes(std::make_shared<const DiscSpace>(map.grid, GroundRules{}), kRadius_m + 1e-6);
+    map.graph = Landmarks(routes, largest_part(cells), site).graph();
+  }
+  std::printf("%zu landmarks, %zu routes\n\n", map.graph.landmarks().size(), map.graph.routes().size());
+  std::printf("| map | saved, s | MB | %% of raw | loaded, s | near answer, s | worst | far answer, s | worst |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|\n");
+  measure(folder / "three_values.cairn", map, site);
+  map.grid = grid_of(cells, true, site.seed);
+  measure(folder / "as_sensed.cairn", map, site);
+  return 0;
+}
+
+}  // namespace
+}  // namespace cairn
+
+int main(int argc, char** argv) {
+  if (argc < 2 || argc > 5) {
+    std::fprintf(stderr, "usage: saved_map_table FOLDER [SIDE_CELLS [LANDMARKS [SEED]]]\n");
+    return 2;
+  }
+  try {
+    cairn::Site site;
+    if (argc > 2) site.side_cells = std::atoi(argv[2]);
+    if (argc > 3) site.landmarks = static_cast<std::size_t>(std::atoi(argv[3]));
+    if (argc > 4) site.seed = std::strtoull(argv[4], nullptr, 10);
+    return cairn::run(argv[1], site);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
