@@ -7,12 +7,17 @@
 #include "framework/host/fence.hpp"
 #include "framework/host/place.hpp"
 #include "framework/host/tour.hpp"
+#include "framework/program/map_part.hpp"
 #include "framework/program/saved_radius.hpp"
 
 namespace cairn {
 namespace {
 
-constexpr std::uint64_t kLoadedGrid = 1;  // its planner sees this one grid, as it was loaded
+constexpr std::uint64_t kLoadedGrid = 1;  // its planner sees this grid as it was loaded, and parts of it as the next
+constexpr std::int64_t kLarge_cells = 1'000'000;  // smaller grids are not worth taking apart
+constexpr double kLikelyDetour_ratio = 1.4;       // of a way against the straight one, for the first part tried
+constexpr double kAround_m = 5.0;                 // of a part, beyond what ways may pass: what stands there counts too
+constexpr int kParts = 3;                         // that are tried
 
 RouteCostRules rules_of(const RobotModel& robot, const SavedMap& map) {
   return {robot.max_v_mps, robot.max_w_radps, robot.radius_m, &map.grid};
@@ -54,12 +59,56 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
   context.modules = &library_;
   if (many_) static_cast<void>(hierarchies_.by(CostKind::length));  // not in the time of the first answer
   planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
-  // Neither is what the planner makes of the grid.
-  const WorldView world{map_.grid, map_.graph, robot_, {}, 0.0, nullptr, 0.0, nullptr, kLoadedGrid};
-  fenced("planner", command.planner, [&] {
+  if (many_) prepare(map_.grid, kLoadedGrid);  // neither is what the planner makes of the grid
+}
+
+void MapPlanner::prepare(const OccupancyGrid& grid, std::uint64_t version) const {
+  const WorldView world{grid, map_.graph, robot_, {}, 0.0, nullptr, 0.0, nullptr, version};
+  fenced("planner", command_.planner, [&] {
     planner_->prepare(world, robot_.radius_m);
     return 0;
   });
+}
+
+PlanResult MapPlanner::plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
+                               const Budget& budget) const {
+  // One answer is not worth making the hierarchy for.
+  const bool on_hierarchy = many_ || request.explain;
+  const WorldView world{grid,   map_.graph, robot_, {}, 0.0, nullptr, 0.0, on_hierarchy ? &hierarchies_ : nullptr,
+                        version};
+  return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
+}
+
+// What is made of the map before does not count.
+Budget MapPlanner::budget_from_now() const {
+  Budget budget;
+  if (command_.budget_ms)
+    budget.deadline = Budget::Clock::now() + std::chrono::microseconds(std::llround(*command_.budget_ms * 1e3));
+  return budget;
+}
+
+std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request) const {
+  const CellBox whole = map_.grid.bounds();
+  const auto ends = ends_of(request, map_.graph);
+  const bool counts_lengths = command_.settings.empty() && request.cost == CostKind::length;
+  const bool asks_more = request.alternatives > 0 || request.explain || !request.avoid.empty();
+  if (!ends || !counts_lengths || asks_more || std::int64_t{whole.width()} * whole.height() < kLarge_cells ||
+      !costs_are_lengths(map_.graph))
+    return std::nullopt;
+  double length_m = kLikelyDetour_ratio * (ends->to - ends->from).norm() + kAround_m;
+  for (std::uint64_t version = kLoadedGrid + 1; version <= kLoadedGrid + kParts; ++version) {
+    const CellBox box = part_for(*ends, length_m, kAround_m, map_.grid, whole);
+    if (box == whole) return std::nullopt;
+    const OccupancyGrid part = part_of(map_.grid, box);
+    prepare(part, version);
+    PlanResult result = plan_on(part, version, request, budget_from_now());
+    if (result.outcome != PlanOutcome::solved) return std::nullopt;
+    length_m = std::max(result.cost_m, result.length_m);
+    if (length_m <= least_outside_m({result.path.front().position(), result.path.back().position()}, box, kAround_m / 2,
+                                    map_.grid, whole))
+      return result;
+  }
+  return std::nullopt;
 }
 
 PlanResult MapPlanner::answer(const PlanQuery& query) const {
@@ -74,18 +123,12 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
   }
   task.request.radius_m = robot_.radius_m;
   task.request.seed = static_cast<std::uint64_t>(command_.seed);
-  Budget budget;
-  if (command_.budget_ms)
-    budget.deadline = Budget::Clock::now() + std::chrono::microseconds(std::llround(*command_.budget_ms * 1e3));
-  // One answer is not worth making the hierarchy for.
-  const bool on_hierarchy = many_ || task.request.explain;
-  const WorldView world{map_.grid,  map_.graph, robot_, {}, 0.0, nullptr, 0.0, on_hierarchy ? &hierarchies_ : nullptr,
-                        kLoadedGrid};
-  return plan_tour(
-      [&](const PlanRequest& request) {
-        return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
-      },
-      task.request, task.via);
+  if (!many_ && task.via.empty())
+    if (auto result = plan_on_part(task.request)) return *std::move(result);
+  if (!many_) prepare(map_.grid, kLoadedGrid);
+  const Budget budget = budget_from_now();
+  return plan_tour([&](const PlanRequest& request) { return plan_on(map_.grid, kLoadedGrid, request, budget); },
+                   task.request, task.via);
 }
 
 const ClusterTree& MapPlanner::clusters() const {

@@ -1,8 +1,12 @@
 // A saved map with everything that one planner needs to answer questions about it.
+//
+// One question alone is answered on the part of the grid that it needs, where that gives an answer that is as good as
+// one on the whole map (map_part.hpp).
 #pragma once
 
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "framework/contracts/planner.hpp"
 #include "framework/host/module_library.hpp"
@@ -30,6 +34,13 @@ class MapPlanner {
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
 
  private:
+  void prepare(const OccupancyGrid& grid, std::uint64_t version) const;
+  [[nodiscard]] PlanResult plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
+                                   const Budget& budget) const;
+  // None: no answer that is surely as good as one on the whole map.
+  [[nodiscard]] std::optional<PlanResult> plan_on_part(const PlanRequest& request) const;
+  [[nodiscard]] Budget budget_from_now() const;
+
   const PlanCommand& command_;
   bool many_ = false;
   ModuleLibrary library_;

@@ -67,6 +67,62 @@ std::string without_times(const std::string& text) {
   return std::regex_replace(text, times, "TIME");
 }
 
+// 1200 x 1000 cells: rooms of 40 with a door in most walls, which ways must find.
+std::string large_map() {
+  constexpr int kRoom = 40;
+  std::mt19937_64 random(6);
+  std::vector<std::string> rows(1000, std::string(1200, '.'));
+  for (int y = 0; y < 1000; ++y)
+    for (int x = 0; x < 1200; ++x)
+      if (x % kRoom == 0 || y % kRoom == 0) rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = '@';
+  for (int y = kRoom; y < 1000; y += kRoom)
+    for (int x = kRoom; x < 1200; x += kRoom) {
+      const auto open = [&](int door_x, int door_y) {
+        if (random() % 3 != 0) rows[static_cast<std::size_t>(door_y)][static_cast<std::size_t>(door_x)] = '.';
+      };
+      open(x, y - 1 - static_cast<int>(random() % 38));
+      open(x - 1 - static_cast<int>(random() % 38), y);
+    }
+  std::string text = "type octile\nheight 1000\nwidth 1200\nmap\n";
+  for (const std::string& row : rows) text += row + "\n";
+  return text;
+}
+
+TEST_F(GridQueries, OneQuestionToALargeMapHasTheAnswerOfMany) {
+  write_text(file("large.map"), large_map());
+  ASSERT_EQ(run_cairn({"map", "import", file("large.map"), "-o", file("map.cairn")}).exit_status, 0);
+  std::mt19937_64 random(7);
+  std::string text;
+  std::vector<json> questions;
+  for (int i = 0; i < 8; ++i) {
+    const int reach = i < 5 ? 150 : 900;
+    const int x = 20 + static_cast<int>(random() % 250);
+    const int y = 20 + static_cast<int>(random() % 80);
+    const auto place = [](int at_x, int at_y) { return std::to_string(at_x) + ".5," + std::to_string(at_y) + ".5"; };
+    questions.push_back(
+        {{"id", i},
+         {"from", place(x, y)},
+         {"to", place(x + static_cast<int>(random() % reach), y + static_cast<int>(random() % reach))}});
+    text += questions.back().dump() + "\n";
+  }
+  write_text(file("q.jsonl"), text);
+  std::istringstream lines(run({"--queries", file("q.jsonl"), "--json"}).out);
+  int solved = 0;
+  std::string line;
+  for (const json& question : questions) {
+    ASSERT_TRUE(std::getline(lines, line));
+    const json of_many = json::parse(line);
+    const json alone = json::parse(run({"--from", question["from"], "--to", question["to"], "--json"}).out);
+    EXPECT_EQ(alone["outcome"], of_many["outcome"]) << question;
+    EXPECT_EQ(alone["reason"], of_many["reason"]);
+    if (alone["outcome"] != "solved") continue;
+    ++solved;
+    EXPECT_NEAR(alone["length_m"].get<double>(), of_many["length_m"].get<double>(), 1e-6) << question;
+    EXPECT_EQ(alone["path"].front(), of_many["path"].front());
+  }
+  EXPECT_GT(solved, 3);
+}
+
 TEST_F(GridQueries, AnswersAreTheSameAndInOrderHoweverManyAreWorkedOnAtOnce) {
   const std::string text = queries(60);
   const std::string one = asked(text, "1", 1);
