@@ -5,6 +5,7 @@
 // `cairn plan` of its own, with starting the program.
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,14 +15,15 @@
 #include "framework/contracts/budget.hpp"
 #include "maps/map_store.hpp"
 #include "planners/any_angle/disc_routes.hpp"
+#include "planners/disc_space/routes.hpp"
 #include "tests/bench/random_rooms.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr double kRadius_m = 0.22;
-constexpr double kNear_m = 12.0;  // landmarks so near to each other are joined
-constexpr int kRoutesOfEach = 3;
+constexpr double kNear_m = 12.0;       // landmarks so near to each other are joined
+constexpr double kDetour_ratio = 1.3;  // of routes, at most
 constexpr int kAnswers = 11;
 
 using Clock = Budget::Clock;
@@ -36,8 +38,7 @@ struct Site {
   std::uint64_t seed = 1;
 };
 
-// Free and occupied for sure, or each by as many readings as happened to fall on it; ground beyond a metre from the
-// walls of every third room is never seen.
+// Free and occupied for sure, or each as sure as the readings that happened to fall on it make it.
 OccupancyGrid grid_of(const PlainCells& cells, bool as_sensed, std::uint64_t seed) {
   OccupancyGrid grid(cells.cell_m, 4.0, cells.origin_m);
   std::mt19937_64 random(seed);
@@ -77,31 +78,31 @@ class Landmarks {
 
  private:
   void join(LandmarkGraph& graph, const Landmark& from) const {
-    std::vector<std::pair<double, LandmarkId>> near;
+    std::array<std::vector<std::pair<double, LandmarkId>>, 4> near;  // by quarter
+    const Point at = from.access->position();
     for (const auto& [id, other] : graph.landmarks()) {
-      const double away_m = (other.access->position() - from.access->position()).norm();
-      if (id != from.id && away_m < kNear_m) near.emplace_back(away_m, id);
+      const Point off = other.access->position() - at;
+      if (id != from.id && off.norm() < kNear_m)
+        near[(off.x() > 0.0 ? 1 : 0) + (off.y() > 0.0 ? 2 : 0)].emplace_back(off.norm(), id);
     }
-    std::sort(near.begin(), near.end());
-    near.resize(std::min<std::size_t>(near.size(), kRoutesOfEach));
-    for (const auto& [away_m, id] : near) {
-      const DiscRoute found = routes_.route(from.access->position(), graph.find(id)->access->position(), Budget{});
-      if (found.route.empty()) continue;
-      Route route;
-      route.from = from.id;
-      route.to = id;
-      for (std::size_t i = 1; i < found.route.size(); ++i) {  // a pose each tenth of a metre, as robots leave them
-        const Point step = found.route[i] - found.route[i - 1];
-        const double heading_rad = std::atan2(step.y(), step.x());
-        for (double s_m = 0.0; s_m < step.norm(); s_m += 0.1) {
-          const Point p = found.route[i - 1] + step * (s_m / step.norm());
-          route.trajectory.push_back({p.x(), p.y(), heading_rad});
-        }
-        route.cost_m += step.norm();
+    for (auto& quarter : near) {
+      std::sort(quarter.begin(), quarter.end());
+      for (const auto& [away_m, id] : quarter) {
+        const DiscRoute found = routes_.route(at, graph.find(id)->access->position(), Budget{});
+        if (found.route.empty() || length_of(found.route) > kDetour_ratio * away_m) continue;
+        graph.add_route(route_along(found.route, from.id, id));
+        break;
       }
-      route.trajectory.push_back({found.route.back().x(), found.route.back().y(), 0.0});
-      graph.add_route(route);
     }
+  }
+  // The corners, as missions leave them.
+  static Route route_along(const std::vector<Point>& corners, LandmarkId from, LandmarkId to) {
+    Route route;
+    route.from = from;
+    route.to = to;
+    route.cost_m = length_of(corners);
+    route.trajectory = poses_along(corners, 0.0, std::nullopt);
+    return route;
   }
 
   const DiscRoutes& routes_;
