@@ -132,6 +132,9 @@ class OccupancyGrid {
   std::vector<std::unique_ptr<Tile>> tiles_;  // row-major over tiles_box_; null = all unknown
 };
 
+// What the grid holds inside a box, with that box (as far as it is in bounds()) for its bounds.
+[[nodiscard]] OccupancyGrid part_of(const OccupancyGrid& grid, const CellBox& box);
+
 // Share of known cells in the smallest box that holds every occupied cell: readings without an echo
 // reach out of a room through its doors and would count against it. All of bounds() as long as no cell
 // is occupied; 0 for an empty grid.

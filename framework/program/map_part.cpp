@@ -73,23 +73,4 @@ double least_outside_m(const MapEnds& ends, const CellBox& part, double around_m
   return least_m;
 }
 
-OccupancyGrid part_of(const OccupancyGrid& grid, const CellBox& box) {
-  constexpr int kSide = OccupancyGrid::kTileSide;
-  OccupancyGrid part(grid.cell_m(), grid.clamp_nat(), grid.origin_m());
-  const CellBox within = intersected(box, grid.bounds());
-  part.include(within);
-  for (int ty = within.min.y >> 6; ty <= (within.max.y - 1) >> 6; ++ty)
-    for (int tx = within.min.x >> 6; tx <= (within.max.x - 1) >> 6; ++tx) {
-      const LogOdds* const from = grid.cells_of_tile({tx, ty});
-      if (from == nullptr) continue;
-      LogOdds* const to = part.cells_of_tile_for_writing({tx, ty});
-      const CellBox cells = intersected({{tx * kSide, ty * kSide}, {(tx + 1) * kSide, (ty + 1) * kSide}}, within);
-      for (int y = cells.min.y; y < cells.max.y; ++y) {
-        const auto row = static_cast<std::size_t>((y - ty * kSide) * kSide + cells.min.x - tx * kSide);
-        std::copy_n(from + row, cells.width(), to + row);
-      }
-    }
-  return part;
-}
-
 }  // namespace cairn

@@ -31,7 +31,4 @@ struct MapEnds {
 [[nodiscard]] double least_outside_m(const MapEnds& ends, const CellBox& part, double around_m,
                                      const OccupancyGrid& lattice, const CellBox& whole);
 
-// The grid with what it holds inside a box, and those bounds.
-[[nodiscard]] OccupancyGrid part_of(const OccupancyGrid& grid, const CellBox& box);
-
 }  // namespace cairn

@@ -100,7 +100,7 @@ std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request) c
     const CellBox box = part_for(*ends, length_m, kAround_m, map_.grid, whole);
     if (box == whole) return std::nullopt;
     const OccupancyGrid part = part_of(map_.grid, box);
-    prepare(part, version);
+    if (request.from.pose || request.to.pose) prepare(part, version);  // over landmarks, most of it is not needed
     PlanResult result = plan_on(part, version, request, budget_from_now());
     if (result.outcome != PlanOutcome::solved) return std::nullopt;
     length_m = std::max(result.cost_m, result.length_m);

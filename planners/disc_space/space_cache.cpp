@@ -16,4 +16,9 @@ std::shared_ptr<const DiscSpace> SpaceCache::space_of(const OccupancyGrid& grid,
   return {last_, &last_->space};
 }
 
+bool SpaceCache::empty() const {
+  const std::lock_guard lock(mutex_);
+  return last_ == nullptr;
+}
+
 }  // namespace cairn

@@ -15,6 +15,8 @@ class SpaceCache {
   [[nodiscard]] std::shared_ptr<const DiscSpace> space_of(const OccupancyGrid& grid, const GroundRules& rules,
                                                           std::uint64_t version = 0) const;
 
+  [[nodiscard]] bool empty() const;
+
  private:
   struct Entry {
     OccupancyGrid grid;

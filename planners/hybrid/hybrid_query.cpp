@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
-#include <stdexcept>
 
 #include "planners/disc_space/ends.hpp"
-#include "planners/disc_space/routes.hpp"
+#include "planners/hybrid/answers.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/legs.hpp"
 #include "planners/hybrid/open_ways.hpp"
 #include "planners/hybrid/pieces.hpp"
+#include "planners/hybrid/stored_way.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
 
 namespace cairn {
@@ -34,10 +34,9 @@ PlanResult stopped(PlanOutcome outcome) {
   return refused({outcome, "the budget was used up before a way was found"});
 }
 
-std::vector<Point> points_on(const std::vector<Pose2>& path) {
-  std::vector<Point> points;
-  for (const Pose2& pose : path) points.push_back(pose.position());
-  return points;
+bool is_large(const OccupancyGrid& grid) {
+  constexpr std::int64_t kLarge_cells = 1'000'000;
+  return std::int64_t{grid.bounds().width()} * grid.bounds().height() >= kLarge_cells;
 }
 
 // One request on its way to an answer.
@@ -49,12 +48,16 @@ class Query {
     ends_.radius_m = request.radius_m + tools.margin_m;
     ends_.start_tolerance_m = tools.config.start_tolerance_m;
     legs_ = {request.radius_m, disc_m(), tools.config.detour_ratio, request.seed};
+    answers_ = {ends_.ground, request.radius_m, ends_.radius_m, tools.config.shortcut};
   }
 
   PlanResult answer() {
     if (budget_.exhausted() || budget_.iterations <= 0) return stopped(stop_outcome());
     if (world_.grid.bounds().empty()) return answer_of_graph();
     if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused(*refusal);
+    // Before the ground is known as a whole, which on a large map takes longer than the answer.
+    if (is_large(world_.grid) && tools_.usual.spaces.empty())
+      if (auto answer = stored_way(tools_, legs_, answers_, request_, world_, budget_)) return *std::move(answer);
     const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
     if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused(*refusal);
     const auto& start = std::get<StartPlace>(usual);
@@ -151,7 +154,7 @@ class Query {
       const Walk walk = walk_along(planned, start, *symbolic.path, goal);
       if (walk.stopped) return stopped(*walk.stopped);
       if (walk.mile_failed) return std::nullopt;
-      if (!walk.blocked) return over_landmarks(start, goal, *symbolic.path, walk);
+      if (!walk.blocked) return over_landmarks(answers_, planned_grid(start), start, goal, *symbolic.path, walk);
       blocked_.insert(*walk.blocked);
     }
   }
@@ -187,21 +190,9 @@ class Query {
   }
 
   PlanResult stay(const StartPlace& start, const GoalPlace& goal) const {
-    PlanResult result = finished(start, goal, {{start.leave_from, 0}}, {});
+    PlanResult result = joined(answers_, planned_grid(start), start, goal, {{start.leave_from, 0}}, {});
     result.landmarks = {goal.landmark};
     result.reason = "start and goal are the same landmark";
-    return result;
-  }
-
-  PlanResult over_landmarks(const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path,
-                            const Walk& walk) const {
-    PlanResult result = finished(start, goal, walk.route, walk.parts);
-    result.cost_m = walk.cost_m;
-    result.landmarks = path.landmarks;
-    result.routes = path.routes;
-    result.reason = "over " + std::to_string(path.landmarks.size()) + " landmarks, by " +
-                    std::to_string(walk.stored_legs) + " stored and " + std::to_string(walk.planned_legs) +
-                    " newly planned legs" + goal.note + escape_text(start);
     return result;
   }
 
@@ -227,77 +218,20 @@ class Query {
     const Time begin = Budget::Clock::now();
     PlanResult planned = tools_.route.plan(request, planned_world, budget_);
     route_ms_ += ms_since(begin);
-    if (!planned.path.empty() &&
-        !route_is_free(planned_world.grid, ends_.ground, points_on(planned.path), ends_.radius_m))
-      return refused({PlanOutcome::out_of_budget, "the route planner's path touches something and was refused"});
-    return planned.path.empty() ? planned : direct_result(start, goal, planned);
-  }
-
-  // The route planner's path as it is: there is nothing to join it to.
-  PlanResult direct_result(const StartPlace& start, const GoalPlace& goal, const PlanResult& planned) const {
-    PlanResult result = planned;
-    const auto origin = planned.path.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;
-    result.pieces.clear();
-    if (planned.path.size() > 1) result.pieces.push_back({origin, 0, planned.length_m});
-    if (start.escape) {
-      const double escape_m = (start.escape->to - start.pose.position()).norm();
-      result.path.insert(result.path.begin(),
-                         poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front());
-      result.pieces.insert(result.pieces.begin(), {PlanPiece::Origin::escape, 0, escape_m});
-      result.length_m += escape_m;
-      result.cost_m += escape_m;
-      result.least_length_m.reset();
-    }
-    result.clearance_m = clearance_along(*start.space, points_on(result.path), request_.radius_m);
-    result.landmarks.clear();
-    const bool is_there = planned.outcome == PlanOutcome::solved;
-    for (const LandmarkId id : {start.landmark, is_there ? goal.landmark : 0})
-      if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
-    result.reason = (why_direct_.empty() ? "directly" : why_direct_) + "; " + planned.reason +
-                    (is_there ? goal.note : "") + escape_text(start);
+    if (planned.path.empty()) return planned;
+    PlanResult result = as_planned(answers_, planned_world.grid, start, goal, planned);
+    if (!result.path.empty()) result.reason = (why_direct_.empty() ? "directly" : why_direct_) + "; " + result.reason;
     return result;
-  }
-
-  // Joins, shortens and re-checks; `route` begins where the start is left.
-  PlanResult finished(const StartPlace& start, const GoalPlace& goal, std::vector<PartedPoint> route,
-                      std::vector<PlanPiece> parts) const {
-    if (start.escape) {
-      parts.push_back({PlanPiece::Origin::escape, 0, 0.0});
-      route.front().part = static_cast<int>(parts.size()) - 1;
-      route.insert(route.begin(), {start.pose.position(), 0});
-    }
-    if (tools_.config.shortcut) {
-      const std::size_t keep = start.escape ? 2 : 1;
-      route = tightened(*start.space, straightened(*start.space, route, disc_m(), keep), disc_m(), keep);
-    }
-    const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
-    route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
-    const std::vector<Point> points = points_of(route);
-    const OccupancyGrid& grid = start.patched_grid ? *start.patched_grid : avoided_grid_ ? *avoided_grid_ : world_.grid;
-    if (!route_is_free(grid, ends_.ground, points, ends_.radius_m, start.escape))
-      throw std::logic_error("hybrid: the re-check refused a path of " + std::to_string(points.size()) +
-                             " points from " + text_of(points.front()) + " to " + text_of(points.back()) + ", radius " +
-                             std::to_string(ends_.radius_m));
-    PlanResult result;
-    result.outcome = PlanOutcome::solved;
-    result.length_m = length_of(points);
-    result.cost_m = result.length_m;
-    result.clearance_m = clearance_along(*start.space, points, request_.radius_m);
-    result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
-    result.pieces = pieces_of(route, parts);
-    return result;
-  }
-
-  static std::string escape_text(const StartPlace& start) {
-    if (!start.escape) return {};
-    return "; the start is too near to something and is left towards " + text_of(start.escape->to) +
-           " with less clearance than the robot's radius asks for";
   }
 
   std::string text_of_route(RouteId id) const {
     const Route& route = *world_.graph.find_route(id);
     return "route R" + std::to_string(id) + " (" + label_of(*world_.graph.find(route.from)) + " to " +
            label_of(*world_.graph.find(route.to)) + ")";
+  }
+
+  const OccupancyGrid& planned_grid(const StartPlace& start) const {
+    return start.patched_grid ? *start.patched_grid : avoided_grid_ ? *avoided_grid_ : world_.grid;
   }
 
   PlanOutcome stop_outcome() const { return budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget; }
@@ -308,6 +242,7 @@ class Query {
   const Budget& budget_;
   EndRules ends_;
   LegRules legs_;
+  AnswerRules answers_;
   std::optional<OccupancyGrid> avoided_grid_;
   std::set<RouteId> blocked_;
   std::vector<PlanAlternative> ways_;  // of the last search

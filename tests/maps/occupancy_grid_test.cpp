@@ -214,5 +214,23 @@ TEST(OccupancyGrid, NamesTheValueThatItRefuses) {
   EXPECT_THROW(OccupancyGrid(0.05, 4.0, {kNaN, 0.0}), std::invalid_argument);
 }
 
+TEST(OccupancyGrid, APartIsWhatItHoldsInsideTheBox) {
+  OccupancyGrid grid(0.1, 4.0, {-3.0, 2.0});
+  grid.include({{-20, 10}, {180, 110}});
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 3000; ++i)
+    grid.set_log_odds({static_cast<int>(random() % 200) - 20, static_cast<int>(random() % 100) + 10},
+                      static_cast<LogOdds>(static_cast<int>(random() % 2000) - 1000));
+  for (const CellBox& box :
+       {CellBox{{-7, 30}, {100, 75}}, CellBox{{-500, 0}, {64, 64}}, grid.bounds(), CellBox{{900, 900}, {910, 910}}}) {
+    const OccupancyGrid part = part_of(grid, box);
+    const CellBox within = intersected(box, grid.bounds());
+    EXPECT_EQ(part.bounds(), within);
+    for (int y = 0; y < 120; ++y)
+      for (int x = -30; x < 190; ++x)
+        ASSERT_EQ(part.log_odds({x, y}), within.contains({x, y}) ? grid.log_odds({x, y}) : 0) << x << ", " << y;
+  }
+}
+
 }  // namespace
 }  // namespace cairn

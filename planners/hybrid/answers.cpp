@@ -1,0 +1,96 @@
+#include "planners/hybrid/answers.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "planners/hybrid/pieces.hpp"
+
+namespace cairn {
+namespace {
+
+std::vector<Point> points_on(const std::vector<Pose2>& path) {
+  std::vector<Point> points;
+  for (const Pose2& pose : path) points.push_back(pose.position());
+  return points;
+}
+
+}  // namespace
+
+PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start, const GoalPlace& goal,
+                  std::vector<PartedPoint> route, std::vector<PlanPiece> parts) {
+  if (start.escape) {
+    parts.push_back({PlanPiece::Origin::escape, 0, 0.0});
+    route.front().part = static_cast<int>(parts.size()) - 1;
+    route.insert(route.begin(), {start.pose.position(), 0});
+  }
+  if (rules.shortcut) {
+    const std::size_t keep = start.escape ? 2 : 1;
+    const double disc_m = rules.radius_m + kLeastRadius_m;
+    route = tightened(*start.space, straightened(*start.space, route, disc_m, keep), disc_m, keep);
+  }
+  const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
+  route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
+  const std::vector<Point> points = points_of(route);
+  if (!route_is_free(grid, rules.ground, points, rules.radius_m, start.escape))
+    throw std::logic_error("hybrid: the re-check refused a path of " + std::to_string(points.size()) + " points from " +
+                           text_of(points.front()) + " to " + text_of(points.back()) + ", radius " +
+                           std::to_string(rules.radius_m));
+  PlanResult result;
+  result.outcome = PlanOutcome::solved;
+  result.length_m = length_of(points);
+  result.cost_m = result.length_m;
+  result.clearance_m = clearance_along(*start.space, points, rules.robot_m);
+  result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
+  result.pieces = pieces_of(route, parts);
+  return result;
+}
+
+PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
+                          const GoalPlace& goal, const SymbolicPath& path, const Walk& walk) {
+  PlanResult result = joined(rules, grid, start, goal, walk.route, walk.parts);
+  result.cost_m = walk.cost_m;
+  result.landmarks = path.landmarks;
+  result.routes = path.routes;
+  result.reason = "over " + std::to_string(path.landmarks.size()) + " landmarks, by " +
+                  std::to_string(walk.stored_legs) + " stored and " + std::to_string(walk.planned_legs) +
+                  " newly planned legs" + goal.note + escape_text(start);
+  return result;
+}
+
+PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
+                      const GoalPlace& goal, const PlanResult& planned) {
+  if (!route_is_free(grid, rules.ground, points_on(planned.path), rules.radius_m)) {
+    PlanResult none;
+    none.outcome = PlanOutcome::out_of_budget;
+    none.reason = "the route planner's path touches something and was refused";
+    return none;
+  }
+  PlanResult result = planned;
+  const auto origin = planned.path.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;
+  result.pieces.clear();
+  if (planned.path.size() > 1) result.pieces.push_back({origin, 0, planned.length_m});
+  if (start.escape) {
+    const double escape_m = (start.escape->to - start.pose.position()).norm();
+    result.path.insert(result.path.begin(),
+                       poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front());
+    result.pieces.insert(result.pieces.begin(), {PlanPiece::Origin::escape, 0, escape_m});
+    result.length_m += escape_m;
+    result.cost_m += escape_m;
+    result.least_length_m.reset();
+  }
+  result.clearance_m = clearance_along(*start.space, points_on(result.path), rules.robot_m);
+  result.landmarks.clear();
+  const bool is_there = planned.outcome == PlanOutcome::solved;
+  for (const LandmarkId id : {start.landmark, is_there ? goal.landmark : 0})
+    if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
+  result.reason = planned.reason + (is_there ? goal.note : "") + escape_text(start);
+  return result;
+}
+
+std::string escape_text(const StartPlace& start) {
+  if (!start.escape) return {};
+  return "; the start is too near to something and is left towards " + text_of(start.escape->to) +
+         " with less clearance than the robot's radius asks for";
+}
+
+}  // namespace cairn

@@ -1,0 +1,36 @@
+// Answers of what was walked or planned: joined, shortened, re-checked and told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planners/disc_space/ends.hpp"
+#include "planners/hybrid/legs.hpp"
+
+namespace cairn {
+
+struct AnswerRules {
+  GroundRules ground;
+  double robot_m = 0.22;   // radius of the robot, from which clearances are counted
+  double radius_m = 0.22;  // of the disc that must fit, with the margin
+  bool shortcut = true;
+};
+
+// Joins, shortens and re-checks on `grid`; `route` begins where the start is left. std::logic_error when the re-check
+// refuses it.
+[[nodiscard]] PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
+                                const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PlanPiece> parts);
+
+// Of a walk that is complete, along its symbolic path.
+[[nodiscard]] PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
+                                        const GoalPlace& goal, const SymbolicPath& path, const Walk& walk);
+
+// The route planner's path as it is, from where the start is left: there is nothing to join it to. Without a path when
+// it touches something.
+[[nodiscard]] PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
+                                    const GoalPlace& goal, const PlanResult& planned);
+
+// For the end of a reason, when the start is left by an escape.
+[[nodiscard]] std::string escape_text(const StartPlace& start);
+
+}  // namespace cairn

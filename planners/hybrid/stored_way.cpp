@@ -1,0 +1,115 @@
+#include "planners/hybrid/stored_way.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planners/hybrid/avoided.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kBeside_m = 3.0;  // of the grid on each side of the way; clearances are known up to there
+
+bool may_be_asked(const PlanRequest& request, const WorldView& world) {
+  const bool between_landmarks = !request.from.pose && request.from.landmarks.size() == 1 && !request.to.pose;
+  const bool asks_more = request.cost != CostKind::length || !request.avoid.empty() || !request.closed.empty() ||
+                         request.alternatives > 0 || request.explain;
+  return between_landmarks && !asks_more && world.observation == nullptr && !world.graph.routes().empty();
+}
+
+class StoredWay {
+ public:
+  StoredWay(const HybridTools& tools, const LegRules& legs, const AnswerRules& answers, const PlanRequest& request,
+            const WorldView& world, const Budget& budget)
+      : tools_(tools), legs_(legs), answers_(answers), request_(request), world_(world), budget_(budget) {}
+
+  std::optional<PlanResult> find() {
+    if (!take_ends()) return std::nullopt;
+    const SymbolicQuery query{request_, world_, start_, goals_, legs_.disc_m, legs_.detour_ratio};
+    const Budget::Clock::time_point begin = Budget::Clock::now();
+    const SymbolicAnswer symbolic = SymbolicSearch(query, tools_.graph, budget_).find({});
+    const auto graph_time = Budget::Clock::now() - begin;
+    if (!symbolic.path || symbolic.path->cost_m > legs_.detour_ratio * straight_m_) return std::nullopt;
+    auto result = walked(*symbolic.path, goals_[symbolic.path->goal]);
+    if (!result) return std::nullopt;
+    result->settled = symbolic.settled;
+    result->time_ms.graph_ms = std::chrono::duration<double, std::milli>(graph_time).count();
+    result->time_ms.route_ms =
+        std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin - graph_time).count();
+    return result;
+  }
+
+ private:
+  // Where one stands at a landmark when that is its usual place.
+  std::optional<Pose2> usual_stand(LandmarkId id) const {
+    const Landmark* const landmark = world_.graph.find(id);
+    if (landmark == nullptr || !landmark->access) return std::nullopt;
+    const Point at = landmark->access->position();
+    return sweep_is_free(world_.grid, answers_.ground, at, at, legs_.disc_m) ? landmark->access : std::nullopt;
+  }
+
+  bool take_ends() {
+    start_.landmark = request_.from.landmarks.front();
+    const auto start = usual_stand(start_.landmark);
+    if (!start) return false;
+    start_.pose = *start;
+    start_.leave_from = start->position();
+    for (const LandmarkId id : request_.to.landmarks) {
+      const auto stand = usual_stand(id);
+      if (!stand || id == start_.landmark) return false;
+      goals_.push_back({*stand, std::nullopt, id, ""});
+      straight_m_ = std::min(straight_m_, (stand->position() - start_.leave_from).norm());
+    }
+    return !goals_.empty();
+  }
+
+  CellBox box_along(const SymbolicPath& path, const GoalPlace& goal) const {
+    std::vector<Point> points{start_.leave_from, goal.pose.position()};
+    for (const RouteId id : path.routes)
+      for (const Pose2& pose : world_.graph.find_route(id)->trajectory) points.push_back(pose.position());
+    CellBox box;
+    for (const Point& point : points) {
+      const Cell cell = world_.grid.cell_at(point);
+      box = united(box, {cell, cell + Cell{1, 1}});
+    }
+    return box.grown(static_cast<int>(std::ceil((kBeside_m + legs_.disc_m) / world_.grid.cell_m())));
+  }
+
+  std::optional<PlanResult> walked(const SymbolicPath& path, const GoalPlace& goal) {
+    for (const RouteId id : path.routes)
+      if (world_.graph.find_route(id)->trajectory.empty()) return std::nullopt;
+    const OccupancyGrid grid = part_of(world_.grid, box_along(path, goal));
+    start_.space = std::make_shared<const DiscSpace>(grid, answers_.ground);
+    WorldView beside = with_grid(grid, world_);
+    beside.hierarchies = nullptr;
+    const Walk walk =
+        Walker(beside, *start_.space, legs_, tools_.route, budget_).walk(start_.leave_from, path, goal.pose);
+    const bool all_stored = walk.planned_legs == 0 &&
+                            std::none_of(walk.parts.begin(), walk.parts.end(),
+                                         [](const auto& part) { return part.origin == PlanPiece::Origin::planned; });
+    if (!walk.complete() || !all_stored) return std::nullopt;
+    PlanResult result = over_landmarks(answers_, grid, start_, goal, path, walk);
+    return result.clearance_m < kBeside_m ? std::optional(std::move(result)) : std::nullopt;
+  }
+
+  const HybridTools& tools_;
+  const LegRules& legs_;
+  const AnswerRules& answers_;
+  const PlanRequest& request_;
+  const WorldView& world_;
+  const Budget& budget_;
+  StartPlace start_;
+  std::vector<GoalPlace> goals_;
+  double straight_m_ = std::numeric_limits<double>::infinity();  // to the nearest goal
+};
+
+}  // namespace
+
+std::optional<PlanResult> stored_way(const HybridTools& tools, const LegRules& legs, const AnswerRules& answers,
+                                     const PlanRequest& request, const WorldView& world, const Budget& budget) {
+  if (!may_be_asked(request, world)) return std::nullopt;
+  return StoredWay(tools, legs, answers, request, world, budget).find();
+}
+
+}  // namespace cairn

@@ -1,0 +1,18 @@
+// A way over stored routes that needs no look at the rest of a large grid.
+#pragma once
+
+#include <optional>
+
+#include "planners/hybrid/answers.hpp"
+#include "planners/hybrid/hybrid_query.hpp"
+
+namespace cairn {
+
+// Between landmarks: the cheapest way over the graph, when all its trajectories are free and it is so short that no
+// direct way could be preferred to it. Looks at the grid along that way only, and answers what a full look would; none
+// where that is not certain.
+[[nodiscard]] std::optional<PlanResult> stored_way(const HybridTools& tools, const LegRules& legs,
+                                                   const AnswerRules& answers, const PlanRequest& request,
+                                                   const WorldView& world, const Budget& budget);
+
+}  // namespace cairn
