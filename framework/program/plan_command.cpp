@@ -98,7 +98,9 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const PlanQuery
     picture.start = result.path.front().position();
     picture.goal = result.path.back().position();
   }
+  picture.robot_path = result.path;
   picture.robot_radius_m = planner.radius_m();
+  picture.robot_polygon_m = planner.robot().polygon_m;
   picture.title = fmt::format("{} to {}: {}", query.question.from, query.question.to, name_of(result.outcome));
   if (result.outcome == PlanOutcome::solved) picture.title += fmt::format(", {:.2f} m", result.length_m);
   write_map_picture(command.picture, picture);
