@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "framework/config/config_value.hpp"
 #include "framework/host/trajectory.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/in_order.hpp"
@@ -74,8 +75,10 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
         return query_of_line(line, command.queries, lines.number(), command.question);
     return std::nullopt;
   };
+  bool has_any = false;
   bool all_solved = true;
   const auto give = [&](const QueryAnswer& answer, bool more_follow) {
+    has_any = true;
     all_solved = all_solved && answer.is_solved;
     std::cout << answer.text;
     if (!more_follow) std::cout.flush();
@@ -84,6 +87,7 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
   in_order(
       jobs_of(command), take, [&](const PlanQuery& query) { return answer_to(query, planner, common); }, give,
       [&] { lines.stop(); });
+  if (!has_any) throw ConfigError({command.queries, 0, 0}, "holds no query");
   return all_solved ? kExitDone : kExitNotSolved;
 }
 

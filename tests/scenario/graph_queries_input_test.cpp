@@ -109,7 +109,11 @@ TEST_F(GraphQuestions, FilesOfQueriesThatAreNoneAreRefused) {
   const Finished folder = run({"--queries", folder_.string()});
   EXPECT_EQ(folder.exit_status, 2);
   EXPECT_EQ(folder.err, "cairn: " + folder_.string() + ": is a folder\n");
-  EXPECT_EQ(run({"--queries", "-", "--json"}).out, "");  // standard input is empty here
+  const Finished empty = run({"--queries", "-", "--json"});  // standard input is empty here
+  EXPECT_EQ(empty.exit_status, 2);
+  EXPECT_EQ(empty.out, "");
+  EXPECT_EQ(empty.err, "cairn: -: holds no query\n");
+  EXPECT_EQ(refused("\n \n"), "q.jsonl: holds no query\n");
   EXPECT_EQ(run({"--from", "L1"}).err, "cairn: plan: give --from PLACE and --to PLACE, or --queries FILE\n");
 }
 
