@@ -54,9 +54,18 @@ void warn_of_rounding(double resolution_m, const ConfigValue& value, std::vector
   const bool has_three = dot != std::string::npos && value.scalar.size() == dot + 4;
   if (!has_three || value.scalar.back() == '0' || value.scalar.back() == '5') return;
   const double error_percent = std::round(1000.0 * 0.0005 / resolution_m) / 10.0;
-  warnings.push_back("resolution " + value.scalar + " at " + value.place.text() +
+  warnings.push_back(value.place.text() + ": resolution " + value.scalar +
                      ": map_server saves three decimals only, so it may be up to " +
                      exchange::number_text(error_percent) + " % off");
+}
+
+// A picture that is not there is the YAML file's mistake.
+std::string text_of_picture(const MapServerFile& file) {
+  try {
+    return exchange::text_of_file(file.picture);
+  } catch (const ExchangeError& error) {
+    throw ConfigError(file.picture_place, std::string("image: ") + error.what());
+  }
 }
 
 }  // namespace
@@ -66,6 +75,7 @@ MapServerFile parse_map_server_yaml(const std::string& text, const std::string& 
   const auto config = load_config<MapServerConfig>(root, "the map");
   MapServerFile file;
   file.picture = config.image;
+  file.picture_place = root.find("image")->place;
   MapServerSettings& settings = file.settings;
   settings.mode = config.mode;
   settings.resolution_m = config.resolution_m;
@@ -84,8 +94,8 @@ MapServerFile parse_map_server_yaml(const std::string& text, const std::string& 
 ImportedGrid load_map_server(const std::filesystem::path& file) {
   MapServerFile server = parse_map_server_yaml(exchange::text_of_file(file), file.string());
   const std::string picture = server.picture.string();
-  ImportedGrid imported =
-      grid_of(parse_grey_picture(exchange::text_of_file(server.picture), picture), server.settings, picture);
+  ImportedGrid imported = grid_of(parse_grey_picture(text_of_picture(server), picture), server.settings, picture);
+  for (std::string& warning : imported.warnings) warning.insert(0, file.string() + ": ");
   imported.warnings.insert(imported.warnings.begin(), server.warnings.begin(), server.warnings.end());
   return imported;
 }

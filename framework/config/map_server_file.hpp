@@ -5,21 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "framework/config/config_value.hpp"
 #include "maps/exchange/map_server.hpp"
 
 namespace cairn {
 
 struct MapServerFile {
   MapServerSettings settings;
-  std::filesystem::path picture;  // relative ones are taken from the folder of the file
-  std::vector<std::string> warnings;
+  std::filesystem::path picture;      // relative ones are taken from the folder of the file
+  SourcePlace picture_place;          // where the file names it
+  std::vector<std::string> warnings;  // each with its place, "file:line:column: " or "file: "
 };
 
 // Keys as nav2_map_server has them: image, resolution, origin [x, y, yaw], negate (0, 1, true, false), occupied_thresh,
 // free_thresh, and mode (trinary, scale, raw), the only one that may be left out. Throws ConfigError.
 [[nodiscard]] MapServerFile parse_map_server_yaml(const std::string& text, const std::string& file_name);
 
-// Throws ConfigError for the YAML file, ExchangeError for the picture.
+// Warnings begin with the file. Throws ConfigError for the YAML file and a picture that cannot be read, ExchangeError
+// for what is in the picture.
 [[nodiscard]] ImportedGrid load_map_server(const std::filesystem::path& file);
 
 }  // namespace cairn

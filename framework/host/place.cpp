@@ -1,5 +1,7 @@
 #include "framework/host/place.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -12,6 +14,12 @@ namespace cairn {
 namespace {
 
 constexpr std::string_view kNearest = "nearest ";
+constexpr std::string_view kWhatAPlaceIs =
+    "a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`";
+
+[[noreturn]] void refuse(const std::string& place, const std::string& why) {
+  throw MalformedPlace("place \"" + place + "\" " + why + "; " + std::string(kWhatAPlaceIs));
+}
 
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t");
@@ -41,13 +49,21 @@ std::optional<std::vector<double>> numbers(const std::string& text) {
   }
 }
 
+// "1,", "1,a", "1;2", "1 2": meant as x,y, and no name.
+bool begins_with_a_coordinate(const std::string& text) {
+  const std::size_t end = text.find_first_of(",; \t");
+  if (end == std::string::npos || !number(text.substr(0, end))) return false;
+  const bool has_letters = std::ranges::any_of(text, [](unsigned char c) { return std::isalpha(c) != 0 || c > 127; });
+  return text[end] == ',' || !has_letters;
+}
+
 Place place_of(const std::vector<double>& values, const std::string& text) {
-  if (values.size() != 2 && values.size() != 3)
-    throw PlaceError("place \"" + text + "\": expected x,y or x,y,angle_deg, found " + std::to_string(values.size()) +
-                     " numbers");
+  if (values.size() > 3) refuse(text, "has " + std::to_string(values.size()) + " numbers");
+  for (const double value : values)
+    if (!std::isfinite(value)) refuse(text, "has a number that is not finite");
   Place place;
   const bool heading = values.size() == 3;
-  place.pose = Pose2{values[0], values[1], heading && std::isfinite(values[2]) ? wrap_angle(radians(values[2])) : 0.0};
+  place.pose = Pose2{values[0], values[1], heading ? wrap_angle(radians(values[2])) : 0.0};
   place.heading_matters = heading;
   return place;
 }
@@ -82,13 +98,17 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
     place.landmarks = {landmark->id};
     return place;
   }
-  if (graph.find_by_name("L" + place_text) != nullptr)
-    throw PlaceError("place \"" + place_text + "\" is one number (did you mean \"L" + place_text + "\"?)");
-  if (const auto values = numbers(place_text)) return place_of(*values, place_text);  // one number: says what is wrong
+  if (place_text.empty()) refuse(place_text, "is empty");
+  if (place_text + " " == kNearest) refuse(place_text, "names no category");
+  if (numbers(place_text))
+    refuse(place_text, "is one number" + std::string(graph.find_by_name("L" + place_text) == nullptr
+                                                         ? ""
+                                                         : " (did you mean \"L" + place_text + "\"?)"));
+  if (begins_with_a_coordinate(place_text)) refuse(place_text, "is not made of numbers alone");
   std::vector<std::string> names;
   for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
-  throw PlaceError("unknown place \"" + place_text + "\"" + did_you_mean(place_text, names) +
-                   "; a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`");
+  throw PlaceError("unknown place \"" + place_text + "\"" + did_you_mean(place_text, names) + "; " +
+                   std::string(kWhatAPlaceIs));
 }
 
 }  // namespace cairn

@@ -15,9 +15,16 @@ class PlaceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The text is wrong on any map: what is no place of any kind, or no route's number.
+class MalformedPlace : public PlaceError {
+ public:
+  using PlaceError::PlaceError;
+};
+
 // Whether the text is a place without any landmark's help, a sound one or not: numbers with commas, "nearest ...".
 [[nodiscard]] bool reads_as_place(const std::string& text);
 
+// Throws MalformedPlace, and PlaceError when the map does not hold what is named.
 [[nodiscard]] Place parse_place(const std::string& text, const LandmarkGraph& graph);
 
 }  // namespace cairn

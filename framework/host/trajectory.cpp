@@ -16,35 +16,50 @@ constexpr double kLeastPart_ratio = 1e-6;            // of a leg, to be a part o
 constexpr double kOffTrack_m = 0.005;                // how far an arc may miss the next pose
 constexpr double kMostOffChord_rad = radians(45.0);  // of an arc's ends
 
+// Chord by arc, of an arc that turns by so much.
+double chord_ratio(double turn_rad) {
+  const double half_rad = 0.5 * std::abs(turn_rad);
+  return half_rad < kLeastTurn_rad ? 1.0 : std::sin(half_rad) / half_rad;
+}
+
 // From one point of the path to the next.
 struct Leg {
   Point from;
-  Point to;
-  double length_m = 0.0;
+  Point chord;
+  double length_m = 0.0;     // as driven
   double heading_rad = 0.0;  // where it begins
   double turn_rad = 0.0;     // on the way
   bool backwards = false;
+  bool is_arc = false;  // else it is driven straight
+
+  [[nodiscard]] Pose2 at(double share) const {
+    Point gone = share * chord;
+    if (is_arc)
+      gone = Pose2{0.0, 0.0, 0.5 * (share - 1.0) * turn_rad} * gone *
+             (chord_ratio(share * turn_rad) / chord_ratio(turn_rad));
+    return {from.x() + gone.x(), from.y() + gone.y(), wrap_angle(heading_rad + share * turn_rad)};
+  }
 
   [[nodiscard]] double curvature() const { return turn_rad / length_m; }
   [[nodiscard]] double last_heading_rad() const { return heading_rad + turn_rad; }
 };
 
 Leg leg_between(const Pose2& from, const Pose2& to, bool turns_on_the_spot) {
-  Leg leg{from.position(), to.position()};
-  const Point step = leg.to - leg.from;
-  leg.length_m = step.norm();
-  double along_rad = std::atan2(step.y(), step.x());
+  Leg leg{from.position(), to.position() - from.position()};
+  leg.length_m = leg.chord.norm();
+  double along_rad = std::atan2(leg.chord.y(), leg.chord.x());
   leg.backwards = std::cos(along_rad - from.theta_rad) < 0.0;
   if (leg.backwards) along_rad += std::numbers::pi;
   const double before_rad = wrap_angle(along_rad - from.theta_rad);
   const double after_rad = wrap_angle(to.theta_rad - along_rad);
-  const bool is_arc = std::max(std::abs(before_rad), std::abs(after_rad)) <= kMostOffChord_rad &&
-                      0.25 * leg.length_m * std::abs(before_rad - after_rad) <= kOffTrack_m;
+  leg.is_arc = std::max(std::abs(before_rad), std::abs(after_rad)) <= kMostOffChord_rad &&
+               0.25 * leg.length_m * std::abs(before_rad - after_rad) <= kOffTrack_m;
   leg.heading_rad = along_rad;
-  if (is_arc || !turns_on_the_spot) {
+  if (leg.is_arc || !turns_on_the_spot) {
     leg.heading_rad = from.theta_rad;
     leg.turn_rad = before_rad + after_rad;
   }
+  if (leg.is_arc) leg.length_m /= chord_ratio(leg.turn_rad);
   return leg;
 }
 
@@ -120,10 +135,8 @@ class Drive {
     double v = std::sqrt(v2_from);
     const auto add = [&](double to_m, double v_to) {
       const double share = to_m / leg.length_m;
-      const Point at = leg.from + share * (leg.to - leg.from);
       const double curvature = curvature_a + share * (curvature_b - curvature_a);
-      add_point(2.0 * (to_m - s_m) / (v + v_to), {at.x(), at.y(), wrap_angle(leg.heading_rad + share * leg.turn_rad)},
-                leg.backwards ? -v_to : v_to, curvature * v_to);
+      add_point(2.0 * (to_m - s_m) / (v + v_to), leg.at(share), leg.backwards ? -v_to : v_to, curvature * v_to);
       s_m = to_m;
       v = v_to;
     };

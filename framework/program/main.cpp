@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,15 @@ CLI::Validator number_within(double min, double max) {
           "FLOAT in [" + CLI::detail::to_string(min) + " - " + CLI::detail::to_string(max) + "]", "number"};
 }
 
+CLI::Range seed_range() {
+  return {std::int64_t{0}, std::int64_t{9000000000000000}};
+}
+
 void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* sub = app.add_subcommand("run", "Run a mission: map, recognise, plan and drive");
   sub->add_option("MISSION", c.mission, "mission file (config/missions/*.yaml)")->required();
   sub->add_option("--out", c.out, "folder for map, pictures and report")->capture_default_str();
-  sub->add_option("--seed", c.seed, "seed, in place of the mission's")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{9000000000000000}));
+  sub->add_option("--seed", c.seed, "seed, in place of the mission's")->check(seed_range());
   sub->add_option("--set", c.overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
       ->allow_extra_args(false);
   sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
@@ -64,14 +68,16 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
   sub->add_option("--jobs", c.jobs, "answer so many queries at once (without it, as many as there are cores)")
       ->check(CLI::Range(1, 256));
   sub->add_option("--planner", c.planner, "planner module")->capture_default_str();
-  sub->add_option("--set", c.settings,
-                  "setting of the planner module: --set route.algorithm=RRTConnect (may be repeated)")
+  sub->add_option(
+         "--set", c.settings,
+         "setting of the planner module (may be repeated): --set route.margin_m=0.05 or --set "
+         "route.algorithm=RRTConnect, without route. when it is `--planner ompl`; `cairn plugins info ompl` lists them")
       ->allow_extra_args(false);
   sub->add_option("--robot", c.robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
   sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map or of the robot file")
       ->check(number_within(0.0, kMostRadius_m));
   sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time")->check(number_within(0.0, 1e9));
-  sub->add_option("--seed", c.seed, "seed of the planner")->capture_default_str();
+  sub->add_option("--seed", c.seed, "seed of the planner")->check(seed_range())->capture_default_str();
   sub->add_option("--picture", c.picture, "draw the route into this PNG file");
   sub->callback([&] { action = [&] { return plan(c, common); }; });
 }
@@ -218,6 +224,25 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   return std::nullopt;
 }
 
+// The nearest of the options that the command has.
+std::optional<std::string> unknown_option(const CLI::App& app) {
+  std::string called = "cairn";
+  std::vector<const CLI::App*> commands{&app};
+  while (!commands.back()->get_subcommands().empty()) {
+    commands.push_back(commands.back()->get_subcommands().front());
+    called += " " + commands.back()->get_name();
+  }
+  const std::vector<std::string> left = app.remaining(true);
+  const auto found = std::ranges::find_if(left, [](const std::string& text) { return text.starts_with("--"); });
+  if (found == left.end()) return std::nullopt;
+  const std::string option = found->substr(0, found->find('='));
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands)
+    for (const CLI::Option* known : command->get_options())
+      for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+  return "unknown option " + shown(option) + did_you_mean(option, names) + "; " + called + " --help lists the options";
+}
+
 int main_of(int argc, char** argv) {
   CLI::App app{"Cairn: landmark navigation for mobile robots", "cairn"};
   app.set_version_flag("--version", "cairn " CAIRN_VERSION);
@@ -255,14 +280,20 @@ int main_of(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (const std::optional<std::string> unknown = unknown_command(app, argc, argv);
-        unknown && error.get_exit_code() != 0) {
-      std::cerr << "cairn: " << *unknown << "; cairn --help lists the commands\n";
+    std::optional<std::string> unknown = unknown_command(app, argc, argv);
+    if (unknown)
+      *unknown += "; cairn --help lists the commands";
+    else if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+      unknown = unknown_option(app);
+    if (unknown && error.get_exit_code() != 0) {
+      std::cerr << "cairn: " << *unknown << "\n";
       return kExitBadInput;
     }
     return app.exit(error) == 0 ? kExitDone : kExitBadInput;
   }
-  return action();
+  const int status = action();
+  if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
+  return status;
 }
 
 }  // namespace

@@ -41,6 +41,11 @@ void tell_people(const std::string& line, const std::vector<std::string>& warnin
   for (const std::string& warning : warnings) std::cerr << "  " << warning << "\n";
 }
 
+std::vector<std::string> about(const std::filesystem::path& file, std::vector<std::string> warnings) {
+  for (std::string& warning : warnings) warning.insert(0, file.string() + ": ");
+  return warnings;
+}
+
 void tell_json(const ordered_json& json) {
   std::cout << json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
 }
@@ -52,13 +57,13 @@ int import_graph(const ExchangeCommand& command, GraphFormat format, const Commo
   map.clusters = cluster_landmarks(map.graph);
   map.properties["imported_from"] = command.from.filename().string();
   save_map(command.to, map);
+  const std::vector<std::string> warnings = about(command.from, std::move(imported.warnings));
   const std::size_t landmarks = map.graph.landmarks().size();
   const std::size_t routes = map.graph.routes().size();
-  tell_people(fmt::format("wrote {}: {} landmarks, {} routes", command.to.string(), landmarks, routes),
-              imported.warnings, common);
+  tell_people(fmt::format("wrote {}: {} landmarks, {} routes", command.to.string(), landmarks, routes), warnings,
+              common);
   if (common.json)
-    tell_json(
-        {{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", imported.warnings}});
+    tell_json({{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", warnings}});
   return kExitDone;
 }
 
@@ -119,9 +124,9 @@ int map_export(const ExchangeCommand& command, const CommonOptions& common) {
   if (is_picture) {
     draw_saved_map(command.to, map, command.from.filename().string());
   } else {
-    const ExportedGraph exported = graph_text_of(map.graph, *format);
+    ExportedGraph exported = graph_text_of(map.graph, *format);
     write_file(command.to, exported.text);
-    warnings = exported.warnings;
+    warnings = about(command.to, std::move(exported.warnings));
   }
   tell_people("wrote " + command.to.string(), warnings, common);
   if (common.json)

@@ -31,6 +31,13 @@ PluginChoice choice_of(const PlanCommand& command) {
   return choice;
 }
 
+PlanResult unknown_place(const PlaceError& error) {
+  PlanResult unknown;
+  unknown.outcome = PlanOutcome::unknown_place;
+  unknown.reason = error.what();
+  return unknown;
+}
+
 }  // namespace
 
 RobotModel robot_of(const PlanCommand& command, const SavedMap& map) {
@@ -115,11 +122,11 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
   PlanTask task;
   try {
     task = task_of(query.question, map_, query.question.avoid.empty() ? ClusterTree{} : clusters());
+  } catch (const MalformedPlace& error) {
+    if (!many_) throw;
+    return unknown_place(error);
   } catch (const PlaceError& error) {
-    PlanResult unknown;
-    unknown.outcome = PlanOutcome::unknown_place;
-    unknown.reason = error.what();
-    return unknown;
+    return unknown_place(error);
   }
   task.request.radius_m = robot_.radius_m;
   task.request.seed = static_cast<std::uint64_t>(command_.seed);

@@ -25,7 +25,8 @@ class MapPlanner {
   // The command must outlive it. Throws what loading the map and the modules throws.
   MapPlanner(const PlanCommand& command, const CommonOptions& common);
 
-  // Thread-safe, like all below.
+  // A text that names nothing on any map ends a single question with a MalformedPlace; among many it is answered, like
+  // a name that this map does not know, with `unknown_place`. Thread-safe, like all below.
   [[nodiscard]] PlanResult answer(const PlanQuery& query) const;
   // As the hierarchy has them.
   [[nodiscard]] const ClusterTree& clusters() const;

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "framework/config/config_value.hpp"
 #include "framework/host/trajectory.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/in_order.hpp"
@@ -74,8 +75,10 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
         return query_of_line(line, command.queries, lines.number(), command.question);
     return std::nullopt;
   };
+  bool has_any = false;
   bool all_solved = true;
   const auto give = [&](const QueryAnswer& answer, bool more_follow) {
+    has_any = true;
     all_solved = all_solved && answer.is_solved;
     std::cout << answer.text;
     if (!more_follow) std::cout.flush();
@@ -84,6 +87,7 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
   in_order(
       jobs_of(command), take, [&](const PlanQuery& query) { return answer_to(query, planner, common); }, give,
       [&] { lines.stop(); });
+  if (!has_any) throw ConfigError({command.queries, 0, 0}, "holds no query");
   return all_solved ? kExitDone : kExitNotSolved;
 }
 
@@ -98,7 +102,9 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const PlanQuery
     picture.start = result.path.front().position();
     picture.goal = result.path.back().position();
   }
+  picture.robot_path = result.path;
   picture.robot_radius_m = planner.radius_m();
+  picture.robot_polygon_m = planner.robot().polygon_m;
   picture.title = fmt::format("{} to {}: {}", query.question.from, query.question.to, name_of(result.outcome));
   if (result.outcome == PlanOutcome::solved) picture.title += fmt::format(", {:.2f} m", result.length_m);
   write_map_picture(command.picture, picture);

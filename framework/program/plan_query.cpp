@@ -6,21 +6,18 @@
 #include <array>
 #include <charconv>
 #include <ostream>
-#include <set>
 #include <stdexcept>
 
-#include "framework/config/config_value.hpp"
 #include "framework/host/place.hpp"
 #include "maps/cluster_tree.hpp"
+#include "maps/spelling.hpp"
 
 namespace cairn {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::array kCosts{CostKind::length, CostKind::time, CostKind::clearance};
-constexpr int kMostAlternatives = 1000;
 
 CostKind cost_kind_of(const std::string& name) {
   for (const CostKind kind : kCosts)
@@ -34,7 +31,7 @@ RouteId route_of(const std::string& text, const LandmarkGraph& graph) {
   const std::string digits = text.starts_with('R') ? text.substr(1) : text;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
   if (error != std::errc{} || end != digits.data() + digits.size())
-    throw PlaceError("route \"" + text + "\": a route is named by its number, as 12 or R12");
+    throw MalformedPlace("route \"" + text + "\": a route is named by its number, as 12 or R12");
   if (graph.find_route(id) == nullptr) throw PlaceError("the map has no route " + std::to_string(id));
   return id;
 }
@@ -49,80 +46,12 @@ std::vector<LandmarkId> landmarks_called(const std::string& name, const SavedMap
           if (id == cluster->id) members.push_back(landmark);
       return members;
     }
-  if (reads_as_place(name)) throw PlaceError("\"" + name + "\": only landmarks and clusters can be avoided");
+  if (reads_as_place(name)) throw MalformedPlace("\"" + name + "\": only landmarks and clusters can be avoided");
   if (const Landmark* const landmark = map.graph.find_by_name(name)) return {landmark->id};
   std::vector<std::string> known;
   for (const auto& [id, landmark] : map.graph.landmarks()) known.push_back(label_of(landmark));
   for (const auto& [id, cluster] : clusters.clusters) known.push_back(label_of(cluster, map.graph));
   throw PlaceError("there is no landmark and no cluster \"" + name + "\" to avoid" + did_you_mean(name, known));
-}
-
-json object_of_line(const std::string& line, SourcePlace place) {
-  const std::string expected = "expected one JSON object {\"id\", \"from\", \"to\"} a line";
-  std::set<std::string> keys;
-  const auto refuse_twice = [&](int depth, json::parse_event_t event, const json& key) {
-    if (depth == 1 && event == json::parse_event_t::key && !keys.insert(key.get<std::string>()).second)
-      throw ConfigError(place, "the key " + shown(key.get<std::string>()) + " stands here twice");
-    return true;
-  };
-  try {
-    if (json value = json::parse(line, refuse_twice); value.is_object()) return value;
-  } catch (const json::parse_error& error) {
-    place.column = std::max(1, static_cast<int>(error.byte));
-    throw ConfigError(place, expected + (error.byte > line.size() ? "; the line ends too early" : ""));
-  } catch (const json::exception&) {  // a number that none can hold
-    throw ConfigError(place, expected + ", with numbers that are some");
-  }
-  throw ConfigError(place, expected);
-}
-
-// Texts or numbers of a list, or one alone.
-std::vector<std::string> texts_of(const json& value, const std::string& key, const SourcePlace& place) {
-  std::vector<std::string> texts;
-  for (const json& item : value.is_array() ? value : json::array({value})) {
-    if (!item.is_string() && !item.is_number_integer())
-      throw ConfigError(place, "\"" + key + "\" must be a list of names");
-    texts.push_back(item.is_string() ? item.get<std::string>() : item.dump());
-  }
-  return texts;
-}
-
-std::string text_of(const json& value, const std::string& key, const SourcePlace& place) {
-  if (!value.is_string()) throw ConfigError(place, "\"" + key + "\" must be a text");
-  return value;
-}
-
-void take(PlanQuery& query, const std::string& key, const json& value, const SourcePlace& place) {
-  PlanQuestion& question = query.question;
-  if (key == "id") {
-    query.id = value;
-  } else if (key == "from") {
-    question.from = text_of(value, key, place);
-  } else if (key == "to") {
-    question.to = text_of(value, key, place);
-  } else if (key == "cost") {
-    question.cost = text_of(value, key, place);
-  } else if (key == "via") {
-    question.via = texts_of(value, key, place);
-  } else if (key == "avoid") {
-    question.avoid = texts_of(value, key, place);
-  } else if (key == "closed") {
-    question.closed = texts_of(value, key, place);
-  } else if (key == "alternatives") {
-    if (!value.is_number_unsigned() || value > kMostAlternatives)
-      throw ConfigError(place, fmt::format("\"alternatives\" must be a whole number of 0 to {}", kMostAlternatives));
-    question.alternatives = value;
-  } else if (key == "trajectory") {
-    if (!value.is_boolean()) throw ConfigError(place, "\"trajectory\" must be true or false");
-    question.trajectory = value;
-  } else if (key == "explain") {
-    if (!value.is_boolean()) throw ConfigError(place, "\"explain\" must be true or false");
-    question.explain = value;
-  } else {
-    throw ConfigError(place, "a query knows no \"" + key + "\"" +
-                                 did_you_mean(key, {"id", "from", "to", "via", "avoid", "closed", "alternatives",
-                                                    "cost", "explain", "trajectory"}));
-  }
 }
 
 template <class Ids>
@@ -201,21 +130,6 @@ void tell_pieces(std::ostream& out, const PlanResult& result) {
 }
 
 }  // namespace
-
-PlanQuery query_of_line(const std::string& line, const std::string& file, int number, const PlanQuestion& defaults) {
-  const SourcePlace place{file, number, 1};
-  const json value = object_of_line(line, place);
-  for (const char* key : {"from", "to"})
-    if (!value.contains(key)) throw ConfigError(place, std::string("a query needs the text \"") + key + "\"");
-  PlanQuery query{"", defaults};
-  for (const auto& [key, part] : value.items()) take(query, key, part, place);
-  try {
-    check(query.question);
-  } catch (const std::invalid_argument& error) {
-    throw ConfigError(place, error.what());
-  }
-  return query;
-}
 
 void check(const PlanQuestion& question) {
   static_cast<void>(cost_kind_of(question.cost));

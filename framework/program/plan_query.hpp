@@ -18,7 +18,7 @@ struct PlanQuery {
 };
 
 // One line {"id", "from", "to"} with, optionally, "via", "avoid", "closed", "alternatives", "cost", "explain",
-// "trajectory"; what it leaves out is as in `defaults`. Throws ConfigError with file:line.
+// "trajectory"; what it leaves out is as in `defaults`. Throws ConfigError with file:line:column.
 [[nodiscard]] PlanQuery query_of_line(const std::string& line, const std::string& file, int number,
                                       const PlanQuestion& defaults);
 

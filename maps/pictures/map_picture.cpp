@@ -6,6 +6,7 @@
 
 #include "maps/pictures/colours.hpp"
 #include "maps/pictures/graph_layer.hpp"
+#include "maps/pictures/robot_layer.hpp"
 
 namespace cairn {
 namespace {
@@ -33,6 +34,10 @@ CellBox known_box(const OccupancyGrid& grid) {
   return known.empty() ? bounds : known;
 }
 
+RobotShape shape_of(const MapPicture& picture) {
+  return {picture.robot_polygon_m, picture.robot_radius_m};
+}
+
 // All that is drawn; the grid's part in whole cells.
 Extent extent_of(const MapPicture& picture, const GraphLayer& graph) {
   Extent extent = graph.extent();
@@ -42,6 +47,7 @@ Extent extent_of(const MapPicture& picture, const GraphLayer& graph) {
   }
   for (const auto* path : {&picture.driven, &picture.planned})
     for (const Point& p : *path) extent.include(p, kLandmarkMarginM);
+  for (const Pose2& pose : picture.robot_path) extent.include(pose.position(), shape_of(picture).reach_m());
   for (const auto& place : {picture.start, picture.goal})
     if (place) extent.include(*place, 2.0 * kLandmarkMarginM);
   if (picture.robot) extent.include(picture.robot->position(), picture.robot_radius_m + kLandmarkMarginM);
@@ -151,6 +157,8 @@ std::vector<LegendEntry> legend_of(const MapPicture& picture, const GraphLayer& 
   if (!picture.planned.empty()) entries.push_back(line_entry("planned", kPlannedStroke));
   if (picture.start) entries.push_back({"start", draw_start});
   if (picture.goal) entries.push_back({"goal", draw_goal});
+  if (!picture.robot_path.empty() && shape_of(picture).reach_m() > 0.0)
+    entries.push_back(robot_entry(shape_of(picture)));
   if (picture.robot)
     entries.push_back({"robot", [](Canvas& canvas, const Pixel& at) { draw_robot(canvas, at, 8.0, 0.0); }});
   return entries;
@@ -194,6 +202,7 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   canvas.line(frame.pixels_of(picture.driven), kDrivenStroke);
   graph.draw_routes(canvas, frame);
   graph.draw_landmarks(canvas, frame);
+  draw_robot_along(canvas, frame, shape_of(picture), picture.robot_path);
   canvas.line(frame.pixels_of(picture.planned), kPlannedStroke);
   draw_marks(canvas, picture, frame);
   LabelPlacer placer = placer_for(picture, frame);

@@ -23,10 +23,12 @@ struct MapPicture {
   std::vector<LandmarkShape> shapes;      // outlines of the graph's categories; a dot where there is none
   std::vector<Point> driven;              // in the map frame, as all below
   std::vector<Point> planned;
+  std::vector<Pose2> robot_path;  // the robot's outline is drawn at both ends and some way apart between
   std::optional<Point> start;
   std::optional<Point> goal;
   std::optional<Pose2> robot;
   double robot_radius_m = 0.0;
+  std::vector<Point> robot_polygon_m;  // in the robot's frame, of robot_path; empty: a disc of that radius
   std::string title;
 };
 

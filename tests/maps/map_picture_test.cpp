@@ -2,6 +2,7 @@
 
 #include "maps/pictures/coarse_picture.hpp"
 #include "maps/pictures/label_placer.hpp"
+#include "maps/pictures/robot_layer.hpp"
 #include "maps/pictures/template_sheet.hpp"
 #include "tests/maps/picture_fixture.hpp"
 
@@ -141,6 +142,54 @@ TEST_F(MapPictures, DrawWhatIsGivenAndNothingElse) {
   EXPECT_GT(full.height, bare.height) << "the legend grows with what is drawn";
 }
 
+// The pixels of the map, without legend and title, that differ.
+PixelBox box_of_differences(const Png& a, const Png& b) {
+  PixelBox box{{1e9, 1e9}, {-1e9, -1e9}};
+  for (int y = 60; y < std::min(a.height, b.height) - 90; ++y)
+    for (int x = 0; x < a.width; ++x)
+      if (a.at(x, y) != b.at(x, y)) {
+        box.min = box.min.cwiseMin(Pixel(x, y));
+        box.max = box.max.cwiseMax(Pixel(x, y));
+      }
+  return box;
+}
+
+TEST_F(MapPictures, DrawTheRobotAsItStandsOnItsWay) {
+  MapPicture picture;
+  picture.grid = &room_;
+  picture.robot_path = {{3.0, 2.5, radians(90.0)}};
+  picture.robot_radius_m = 1.0;
+  picture.robot_polygon_m = {{-0.5, -0.25}, {1.0, -0.25}, {1.0, 0.25}, {-0.5, 0.25}};
+  MapPicture without = picture;
+  without.robot_path.clear();
+  const Png bare = drawn(without);
+  const double px_per_m = 930.0 / 6.5;  // about: of walls, and a margin of 5 cells
+  const PixelBox car = box_of_differences(bare, drawn(picture));
+  EXPECT_NEAR(car.width(), 0.5 * px_per_m, 6);  // it looks up
+  EXPECT_NEAR(car.height(), 1.5 * px_per_m, 10);
+  picture.robot_polygon_m.clear();
+  const PixelBox disc = box_of_differences(bare, drawn(picture));
+  EXPECT_NEAR(disc.width(), 2.0 * px_per_m, 10);
+  EXPECT_NEAR(disc.height(), disc.width(), 2);
+  picture.robot_radius_m = 0.0;
+  EXPECT_LT(box_of_differences(bare, drawn(picture)).width(), 0);
+}
+
+TEST(RobotLayer, SpreadsThePosesEvenlyAndKeepsBothEnds) {
+  const std::vector<Pose2> corner{{0, 0, 0}, {4, 0, 0}, {4, 0, radians(90)}, {4, 6, radians(90)}};
+  const std::vector<Pose2> chosen = pictures::spread_along(corner, 1.9);
+  ASSERT_EQ(chosen.size(), 6U);  // 10 m in 5 steps
+  EXPECT_EQ(chosen.front(), corner.front());
+  EXPECT_EQ(chosen.back(), corner.back());
+  EXPECT_TRUE(chosen[1].position().isApprox(Point(2, 0)));
+  EXPECT_TRUE(chosen[4].position().isApprox(Point(4, 4)));
+  EXPECT_NEAR(chosen[4].theta_rad, radians(90), 1e-9);
+  EXPECT_EQ(pictures::spread_along(corner, 100.0).size(), 2U);
+  EXPECT_EQ(pictures::spread_along({{1, 1, 0}}, 1.0).size(), 1U);
+  EXPECT_TRUE(pictures::spread_along({}, 1.0).empty());
+  EXPECT_TRUE(pictures::spread_along({{0, 0, 0}, {kNan, 0, 0}}, 1.0).empty());
+}
+
 TEST_F(MapPictures, OfTheSameInputAreTheSameBytes) {
   MapPicture picture;
   picture.grid = &room_;
@@ -163,6 +212,7 @@ TEST_F(MapPictures, SurviveNothingAndNonsense) {
   picture.planned = {{0.0, std::numeric_limits<double>::infinity()}};
   picture.start = Point(kNan, kNan);
   picture.robot = Pose2{1e300, kNan, kNan};
+  picture.robot_path = {{1e300, kNan, 0.0}, {1.0, 1.0, kNan}};
   picture.title = std::string(500, 'x') + "\xC3\xA4\n";
   EXPECT_GT(drawn(picture).width, 400);
   Landmark far;

@@ -184,6 +184,34 @@ TEST(BadCommand, APlanWithoutPlacesIsWrongUsage) {
   EXPECT_EQ(run_cairn({"plan", "x.cairn"}).exit_status, 2);
 }
 
+TEST(BadCommand, AMisspeltOptionIsNamedWithTheNearest) {
+  const auto told = [](const std::vector<std::string>& arguments) {
+    const Finished finished = run_cairn(arguments);
+    EXPECT_EQ(finished.exit_status, 2);
+    return finished.err;
+  };
+  EXPECT_EQ(told({"plan", "a.cairn", "--form=1,1", "--to", "2,2"}),
+            "cairn: unknown option \"--form\" (did you mean \"--from\"?); cairn plan --help lists the options\n");
+  EXPECT_EQ(told({"map", "info", "a.cairn", "--jsn"}),
+            "cairn: unknown option \"--jsn\" (did you mean \"--json\"?); cairn map info --help lists the options\n");
+  EXPECT_THAT(told({"plan", "a.cairn", "1,1"}), HasSubstr("1,1"));
+}
+
+TEST(BadCommand, AnswersThatCannotBeWrittenAreNotDone) {
+  const std::filesystem::path told = fresh_folder("full") / "told.txt";
+  const std::string command = "'" CAIRN_BINARY_DIR "/bin/cairn' plugins > /dev/full 2> '" + told.string() + "'";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_EQ(text_of_file(told), "cairn: standard output cannot be written\n");
+}
+
+TEST(BadCommand, SeedsThatNoNumberHoldsAreRefused) {
+  for (const std::string seed : {"99999999999999999999", "-1", "abc"}) {
+    const Finished finished = run_cairn({"plan", "a.cairn", "--from", "1,1", "--to", "2,2", "--seed", seed});
+    EXPECT_EQ(finished.exit_status, 2) << seed;
+    EXPECT_THAT(finished.err, AllOf(HasSubstr("--seed"), HasSubstr(seed)));
+  }
+}
+
 TEST(BadCommand, NumbersOutsideTheirRangeAreRefusedAndNanIsOutsideEvery) {
   const std::vector<std::vector<std::string>> commands{
       {"plan", "x.cairn", "--from", "0,0", "--to", "1,1", "--radius-m"},

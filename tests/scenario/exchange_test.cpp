@@ -48,8 +48,8 @@ TEST_F(Exchange, ImportSaysWhatCameIn) {
                         {"landmarks", 3},
                         {"routes", 1},
                         {"warnings",
-                         {"the last line has no line end: the file may have been cut",
-                          "node 0 is landmark L18: ids of landmarks begin at 1"}}}));
+                         {file("roads.graph") + ": the last line has no line end: the file may have been cut",
+                          file("roads.graph") + ": node 0 is landmark L18: ids of landmarks begin at 1"}}}));
   EXPECT_EQ(graph().find(17)->T_map_landmark.position(), Point(1.0, 2.0));
 }
 
@@ -105,14 +105,18 @@ TEST_F(Exchange, AMapServerGridKeepsItsPlaceAndItsUnknown) {
   write_text(file("m.yaml"),
              "image: m.pgm\nresolution: 0.1\norigin: [-2, 1, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
              "free_thresh: 0.25\n");
-  EXPECT_EQ(done({"import", file("m.yaml"), "-o", file("g.cairn")})["warnings"],
-            (json{"grey 205, by which map_server means unknown, counts as free by these thresholds"}));
+  EXPECT_EQ(
+      done({"import", file("m.yaml"), "-o", file("g.cairn")})["warnings"],
+      (json{file("m.yaml") + ": grey 205, by which map_server means unknown, counts as free by these thresholds"}));
   const OccupancyGrid grid = load_map(file("g.cairn")).grid;
   EXPECT_EQ(grid.state(grid.cell_at({-1.95, 1.05})), CellState::occupied);
   EXPECT_EQ(grid.state(grid.cell_at({-1.75, 1.05})), CellState::free);
   write_text(file("m.pgm"), "P2 3 1 255 0 2x5 254\n");
   EXPECT_EQ(refused({"import", file("m.yaml"), "-o", file("g.cairn")}),
             "cairn: " + file("m.pgm") + ":1:14: a pixel \"2x5\" is no whole number of 0 to 255\n");
+  std::filesystem::remove(file("m.pgm"));
+  EXPECT_EQ(refused({"import", file("m.yaml"), "-o", file("g.cairn")}),
+            "cairn: " + file("m.yaml") + ":1:8: image: " + file("m.pgm") + ": no such file\n");
 }
 
 TEST_F(Exchange, ABadGridIsRefusedWithItsPlace) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/scenario/program.hpp"
 
@@ -52,29 +53,36 @@ class GraphQuestions : public testing::Test {
 };
 
 TEST_F(GraphQuestions, UnknownKeysAreRefusedWithTheNearest) {
-  EXPECT_EQ(refused_key(R"("close": [1])"), "q.jsonl:1:1: a query knows no \"close\" (did you mean \"closed\"?)\n");
+  EXPECT_EQ(refused_key(R"("close": [1])"), "q.jsonl:1:28: a query knows no \"close\" (did you mean \"closed\"?)\n");
   EXPECT_EQ(refused_key(R"("alternative": 1)"),
-            "q.jsonl:1:1: a query knows no \"alternative\" (did you mean \"alternatives\"?)\n");
-  EXPECT_EQ(refused(R"({"from": "L1", "too": "L2"})"), "q.jsonl:1:1: a query needs the text \"to\"\n");
+            "q.jsonl:1:28: a query knows no \"alternative\" (did you mean \"alternatives\"?)\n");
+  EXPECT_EQ(refused(R"({"from": "L1", "too": "L2"})"),
+            "q.jsonl:1:16: a query knows no \"too\" (did you mean \"to\"?)\n");
+  EXPECT_EQ(refused(R"({"id": 1, "from": "L1"})"), "q.jsonl:1:1: a query needs the text \"to\"\n");
+  // Neither a text with quotes and brackets nor a key inside another value moves the place.
+  EXPECT_EQ(refused(R"({"id": {"too": ["\"}", 1]}, "from": "L1", "to": "L2",  "vla": "L2"})"),
+            "q.jsonl:1:56: a query knows no \"vla\" (did you mean \"via\"?)\n");
+  EXPECT_EQ(refused(R"({"from": "L1", "to": "L2", "fr\u006fm": "L2"})"),
+            "q.jsonl:1:28: the key \"from\" stands here twice\n");
 }
 
 TEST_F(GraphQuestions, WrongTypesAreRefused) {
-  EXPECT_EQ(refused_key(R"("via": {"a": 1})"), "q.jsonl:1:1: \"via\" must be a list of names\n");
-  EXPECT_EQ(refused_key(R"("avoid": [null])"), "q.jsonl:1:1: \"avoid\" must be a list of names\n");
-  EXPECT_EQ(refused_key(R"("closed": 1.5)"), "q.jsonl:1:1: \"closed\" must be a list of names\n");
-  EXPECT_EQ(refused_key(R"("explain": 1)"), "q.jsonl:1:1: \"explain\" must be true or false\n");
-  EXPECT_EQ(refused_key(R"("cost": 3)"), "q.jsonl:1:1: \"cost\" must be a text\n");
+  EXPECT_EQ(refused_key(R"("via": {"a": 1})"), "q.jsonl:1:35: \"via\" must be a list of names\n");
+  EXPECT_EQ(refused_key(R"("avoid": [null])"), "q.jsonl:1:37: \"avoid\" must be a list of names\n");
+  EXPECT_EQ(refused_key(R"("closed": 1.5)"), "q.jsonl:1:38: \"closed\" must be a list of names\n");
+  EXPECT_EQ(refused_key(R"("explain": 1)"), "q.jsonl:1:39: \"explain\" must be true or false\n");
+  EXPECT_EQ(refused_key(R"("cost": 3)"), "q.jsonl:1:36: \"cost\" must be a text\n");
   EXPECT_EQ(refused_key(R"("cost": "tim")"),
-            "q.jsonl:1:1: cost \"tim\" is not length, time or clearance (did you mean \"time\"?)\n");
+            "q.jsonl:1:36: cost \"tim\" is not length, time or clearance (did you mean \"time\"?)\n");
   for (const char* count : {"-1", "1.5", "1001", "\"3\"", "18446744073709551616"})
     EXPECT_EQ(refused_key(std::string("\"alternatives\": ") + count),
-              "q.jsonl:1:1: \"alternatives\" must be a whole number of 0 to 1000\n");
-  EXPECT_EQ(refused(R"({"from": 1, "to": "L2"})"), "q.jsonl:1:1: \"from\" must be a text\n");
+              "q.jsonl:1:44: \"alternatives\" must be a whole number of 0 to 1000\n");
+  EXPECT_EQ(refused(R"({"from": 1, "to": "L2"})"), "q.jsonl:1:10: \"from\" must be a text\n");
 }
 
 TEST_F(GraphQuestions, ATourHasNoAlternatives) {
   const std::string told = "alternatives are known from place to place, not for a tour\n";
-  EXPECT_EQ(refused_key(R"("via": ["hall"], "alternatives": 1)"), "q.jsonl:1:1: " + told);
+  EXPECT_EQ(refused_key(R"("via": ["hall"], "alternatives": 1)"), "q.jsonl:1:61: " + told);
   const Finished finished = run({"--from", "L1", "--to", "L2", "--via", "hall", "--alternatives", "1"});
   EXPECT_EQ(finished.exit_status, 2);
   EXPECT_EQ(finished.err, "cairn: " + told);
@@ -101,7 +109,11 @@ TEST_F(GraphQuestions, FilesOfQueriesThatAreNoneAreRefused) {
   const Finished folder = run({"--queries", folder_.string()});
   EXPECT_EQ(folder.exit_status, 2);
   EXPECT_EQ(folder.err, "cairn: " + folder_.string() + ": is a folder\n");
-  EXPECT_EQ(run({"--queries", "-", "--json"}).out, "");  // standard input is empty here
+  const Finished empty = run({"--queries", "-", "--json"});  // standard input is empty here
+  EXPECT_EQ(empty.exit_status, 2);
+  EXPECT_EQ(empty.out, "");
+  EXPECT_EQ(empty.err, "cairn: -: holds no query\n");
+  EXPECT_EQ(refused("\n \n"), "q.jsonl: holds no query\n");
   EXPECT_EQ(run({"--from", "L1"}).err, "cairn: plan: give --from PLACE and --to PLACE, or --queries FILE\n");
 }
 
@@ -113,16 +125,48 @@ TEST_F(GraphQuestions, WhatTheMapDoesNotHoldIsAnUnknownPlace) {
     return unknown(arguments);
   };
   EXPECT_EQ(with("--close", "77"), "the map has no route 77");
-  for (const char* route : {"L1", "R", "1.5", "99999999999999999999999"})
-    EXPECT_EQ(with("--close", route),
-              std::string("route \"") + route + "\": a route is named by its number, as 12 or R12");
   EXPECT_EQ(with("--avoid", "hal"), "there is no landmark and no cluster \"hal\" to avoid (did you mean \"hall\"?)");
-  EXPECT_EQ(with("--avoid", "1,2"), "\"1,2\": only landmarks and clusters can be avoided");
   EXPECT_THAT(with("--via", "hal"), HasSubstr("unknown place \"hal\" (did you mean \"hall\"?)"));
-  EXPECT_EQ(unknown({"--from", "1", "--to", "L2"}), "place \"1\" is one number (did you mean \"L1\"?)");
   EXPECT_THAT(unknown({"--from", "L1", "--to", "\xff"}), HasSubstr("unknown place"));  // no UTF-8, yet JSON comes out
   EXPECT_EQ(unknown({"--from", "0,0", "--to", "L2"}),
             "the start is a pose, and a search over the landmark graph needs landmarks");
+}
+
+TEST_F(GraphQuestions, WhatIsAPlaceOnNoMapIsWrongUsage) {
+  const auto told = [&](const std::vector<std::string>& arguments) {
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.exit_status, 2) << finished.out;
+    EXPECT_EQ(finished.out, "");
+    return finished.err;
+  };
+  const std::string place = "; a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`\n";
+  EXPECT_EQ(told({"--from", "0.6", "--to", "1,1"}), "cairn: place \"0.6\" is one number" + place);
+  EXPECT_EQ(told({"--from", "L1", "--to", "1"}), "cairn: place \"1\" is one number (did you mean \"L1\"?)" + place);
+  EXPECT_EQ(told({"--from", "L1", "--to", "nan,1"}), "cairn: place \"nan,1\" has a number that is not finite" + place);
+  EXPECT_EQ(told({"--from", "L1", "--to", "L2", "--via", "1;2", "--json"}),
+            "cairn: place \"1;2\" is not made of numbers alone" + place);
+  EXPECT_EQ(told({"--from", "L1", "--to", "L2", "--avoid", "1,2"}),
+            "cairn: \"1,2\": only landmarks and clusters can be avoided\n");
+  for (const std::string route : {"L1", "R", "1.5", "99999999999999999999999"})
+    EXPECT_EQ(told({"--from", "L1", "--to", "L2", "--close", route}),
+              "cairn: route \"" + route + "\": a route is named by its number, as 12 or R12\n");
+}
+
+TEST_F(GraphQuestions, AWrongPlaceAmongManyQuestionsIsAnsweredAndTheRestToo) {
+  write_text(file("q.jsonl"), R"({"id": 1, "from": "0.6", "to": "L2"})"
+                              "\n"
+                              R"({"id": 2, "from": "L1", "to": "L2"})");
+  const Finished finished = run({"--queries", file("q.jsonl"), "--json"});
+  EXPECT_EQ(finished.exit_status, 1) << finished.err;
+  std::istringstream lines(finished.out);
+  std::string line;
+  std::getline(lines, line);
+  const json first = json::parse(line, nullptr, false);
+  EXPECT_EQ(first.value("id", 0), 1);
+  EXPECT_EQ(first.value("outcome", ""), "unknown_place");
+  EXPECT_THAT(first.value("reason", ""), testing::StartsWith("place \"0.6\" is one number"));
+  std::getline(lines, line);
+  EXPECT_EQ(json::parse(line, nullptr, false).value("outcome", ""), "solved");
 }
 
 TEST_F(GraphQuestions, WrongOptionsAreWrongUsage) {

@@ -145,7 +145,7 @@ TEST_F(GridQueries, ABadLineComesAfterTheAnswersToAllBefore) {
   write_text(file("q.jsonl"), queries(50) + "{\"from\": \"1,1\", \"to\": \"2,2\", \"to\": \"3,3\"}\n" + queries(50));
   const Finished finished = run({"--queries", file("q.jsonl"), "--jobs", "4", "--json"});
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_EQ(finished.err, "cairn: " + file("q.jsonl") + ":51:1: the key \"to\" stands here twice\n");
+  EXPECT_EQ(finished.err, "cairn: " + file("q.jsonl") + ":51:30: the key \"to\" stands here twice\n");
   EXPECT_EQ(std::ranges::count(finished.out, '\n'), 50);
 }
 

@@ -1,5 +1,6 @@
 #include "framework/config/map_server_file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -87,7 +88,7 @@ TEST(MapServerFile, WrongValuesAreRefusedWithTheirPlace) {
 
 TEST(MapServerFile, TellsWhenTheResolutionMayHaveBeenRounded) {
   EXPECT_EQ(parse(Keys{}.with("resolution", "0.013")).warnings,
-            std::vector<std::string>{"resolution 0.013 at folder/map.yaml:6:13: map_server saves three decimals only, "
+            std::vector<std::string>{"folder/map.yaml:6:13: resolution 0.013: map_server saves three decimals only, "
                                      "so it may be up to 3.8 % off"});
   for (const char* resolution : {"0.025", "0.050", "0.05", "1", "0.0125"})
     EXPECT_TRUE(parse(Keys{}.with("resolution", resolution)).warnings.empty()) << resolution;
@@ -101,8 +102,18 @@ TEST(MapServerFile, TheGridIsWhatThePictureShows) {
   EXPECT_EQ(imported.grid.state(imported.grid.cell_at({1.575, -1.925})), CellState::unknown);
   EXPECT_EQ(imported.grid.state(imported.grid.cell_at({1.625, -1.925})), CellState::free);
   EXPECT_EQ(imported.grid.state(imported.grid.cell_at({1.625, -1.975})), CellState::occupied);
-  EXPECT_THROW(static_cast<void>(load_map_server(folder.write("b.yaml", Keys{}.with("image", "none.pgm").text()))),
-               ExchangeError);
+}
+
+TEST(MapServerFile, APictureThatIsNotThereIsRefusedWhereItIsNamed) {
+  const TestFolder folder;
+  const std::filesystem::path yaml = folder.write("b.yaml", Keys{}.with("image", "none.pgm").text());
+  try {
+    static_cast<void>(load_map_server(yaml));
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::MatchesRegex(yaml.string() + ":[0-9]+:8: image: " +
+                                                    (folder.path() / "none.pgm").string() + ": no such file"));
+  }
 }
 
 // Recorded maps, whose pictures are kept as gzip.

@@ -17,6 +17,8 @@ LandmarkGraph two_landmarks() {
   return graph;
 }
 
+const std::string kWhatAPlaceIs = "; a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`";
+
 std::string error_of(const std::string& text) {
   try {
     (void)parse_place(text, two_landmarks());
@@ -48,7 +50,8 @@ TEST(Place, ALoneNumberIsALandmarksNameOrAMistake) {
   LandmarkGraph graph = two_landmarks();
   graph.find(2)->name = "0";
   EXPECT_EQ(parse_place("0", graph).landmarks, std::vector<LandmarkId>{2});
-  EXPECT_EQ(error_of("0"), "place \"0\": expected x,y or x,y,angle_deg, found 1 numbers");
+  EXPECT_EQ(error_of("0"), "place \"0\" is one number" + kWhatAPlaceIs);
+  EXPECT_EQ(error_of("1"), "place \"1\" is one number (did you mean \"L1\"?)" + kWhatAPlaceIs);
 }
 
 TEST(Place, WhatReadsAsAPlaceIsNoName) {
@@ -72,8 +75,26 @@ TEST(Place, AnUnknownPlaceSaysWhatAPlaceIs) {
       "or `nearest CATEGORY`");
 }
 
-TEST(Place, FourNumbersAreTooMany) {
-  EXPECT_EQ(error_of("1,2,3,4"), "place \"1,2,3,4\": expected x,y or x,y,angle_deg, found 4 numbers");
+TEST(Place, WhatIsAPlaceOnNoMapIsMalformed) {
+  const auto malformed = [](const std::string& text) -> std::string {
+    try {
+      (void)parse_place(text, two_landmarks());
+    } catch (const MalformedPlace& error) {
+      return error.what();
+    } catch (const PlaceError&) {
+      return "unknown";
+    }
+    return "no error";
+  };
+  EXPECT_EQ(malformed("1,2,3,4"), "place \"1,2,3,4\" has 4 numbers" + kWhatAPlaceIs);
+  for (const char* text : {"nan,1", "1,inf", "1,2,nan"})
+    EXPECT_EQ(malformed(text), std::string("place \"") + text + "\" has a number that is not finite" + kWhatAPlaceIs);
+  for (const char* text : {"1,", "1,a", "1;2", "1 2", "1.5, ,2"})
+    EXPECT_EQ(malformed(text), std::string("place \"") + text + "\" is not made of numbers alone" + kWhatAPlaceIs);
+  EXPECT_EQ(malformed(" "), "place \"\" is empty" + kWhatAPlaceIs);
+  EXPECT_EQ(malformed("nearest "), "place \"nearest\" names no category" + kWhatAPlaceIs);
+  for (const char* name : {"desc", "L9", "2 desks", "desk,1", "nearest dock"})
+    EXPECT_EQ(malformed(name), "unknown") << name;
 }
 
 }  // namespace

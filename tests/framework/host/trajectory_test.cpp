@@ -74,7 +74,10 @@ void expect_drivable(const std::vector<TrajectoryPoint>& points, const RobotMode
     EXPECT_LE(std::abs(b.v_mps - a.v_mps) / dt, robot.max_acceleration_mps2 + kRounding) << i;
     EXPECT_LE(std::abs(b.w_radps - a.w_radps) / dt, robot.max_turn_acceleration_radps2 + kRounding) << i;
     const Point step = b.pose.position() - a.pose.position();
-    EXPECT_NEAR(step.norm(), 0.5 * std::abs(a.v_mps + b.v_mps) * dt, 1e-9) << i;
+    const double way_m = 0.5 * std::abs(a.v_mps + b.v_mps) * dt;
+    const double half_rad = 0.5 * std::abs(wrap_angle(b.pose.theta_rad - a.pose.theta_rad));
+    EXPECT_LE(step.norm(), way_m + 1e-9) << i;
+    EXPECT_GE(step.norm(), way_m * (half_rad < 1e-9 ? 1.0 : std::sin(half_rad) / half_rad) - 1e-9) << i;
     EXPECT_NEAR(wrap_angle(b.pose.theta_rad - a.pose.theta_rad), 0.5 * (a.w_radps + b.w_radps) * dt, heading_rad) << i;
   }
 }
@@ -104,6 +107,21 @@ TEST(Trajectory, ACornerIsTurnedOnTheSpot) {
   EXPECT_NEAR(points.back().time_s, 2.0 * 5.8 + turn_s, 1e-9);
   for (const TrajectoryPoint& point : points)
     EXPECT_TRUE(point.w_radps == 0.0 || point.pose.position() == Point(2, 0)) << point.time_s;
+}
+
+TEST(Trajectory, AnArcIsDrivenOnItsCircleHoweverFewItsPoses) {
+  RobotModel car = robot();
+  car.kinematics = Kinematics::car;
+  car.min_turning_radius_m = 0.5;
+  for (const double step_m : {0.04, 0.3}) {
+    const std::vector<TrajectoryPoint> points = trajectory_of(sampled({{1.5, 2.0}}, step_m), car);
+    expect_drivable(points, car);
+    for (const TrajectoryPoint& point : points) {
+      EXPECT_NEAR((point.pose.position() - Point(0.0, 0.5)).norm(), 0.5, 1e-9) << point.time_s;
+      EXPECT_NEAR(point.w_radps * car.min_turning_radius_m, point.v_mps, 1e-9) << point.time_s;
+      EXPECT_NEAR(point.pose.x_m, 0.5 * std::sin(point.pose.theta_rad), 1e-9) << point.time_s;
+    }
+  }
 }
 
 TEST(Trajectory, TheFirstAndLastHeadingAreTurnedTo) {
