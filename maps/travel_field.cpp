@@ -69,7 +69,7 @@ bool step_is_free(Cell from, Cell step, const auto& is_free) {
 }  // namespace
 
 TravelField::TravelField(const DistanceField& space, const Point& start_map, double clearance_m,
-                         const std::function<double(Cell)>& step_weight)
+                         const std::function<double(Cell)>& step_weight, const std::function<bool(Cell)>& enough)
     : box_(space.box()), start_(space.cell_at(start_map)) {
   const auto cells = static_cast<std::size_t>(box_.width()) * static_cast<std::size_t>(box_.height());
   cost_m_.assign(cells, std::numeric_limits<float>::infinity());
@@ -92,6 +92,7 @@ TravelField::TravelField(const DistanceField& space, const Point& start_map, dou
     if (here_m > cost_m_[from_index]) continue;
     const auto at = static_cast<int>(from_index);
     const Cell from{box_.min.x + at % box_.width(), box_.min.y + at / box_.width()};
+    if (enough && enough(from)) return;
     for (int k = 0; k < 8; ++k) {
       const Cell step = kNeighbours[k];
       if (!box_.contains(from + step)) continue;

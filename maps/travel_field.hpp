@@ -20,8 +20,10 @@ class TravelField {
   // step_weight (>= 1, optional) makes cells dearer than their length, e.g. near walls; a step costs
   // its length times the mean weight of its two cells, so that there and back cost the same. It is
   // asked once a cell; throws std::invalid_argument when it answers less than 1.
+  // enough (optional) is asked with each cell as it is settled, in order of cost; once it is true, cells not settled
+  // by then need not be reached, and their costs and paths need not be the least.
   TravelField(const DistanceField& space, const Point& start_map, double clearance_m,
-              const std::function<double(Cell)>& step_weight = {});
+              const std::function<double(Cell)>& step_weight = {}, const std::function<bool(Cell)>& enough = {});
 
   [[nodiscard]] CellBox box() const { return box_; }
   [[nodiscard]] bool reaches(Cell cell) const { return cost_m(cell) < std::numeric_limits<float>::infinity(); }

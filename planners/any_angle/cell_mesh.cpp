@@ -143,11 +143,14 @@ void CellMesh::find_blocks() {
       }
     }
   }
-  for (Index i = 0; i < rectangles(); ++i)
-    for (std::size_t p = first_portal_[static_cast<std::size_t>(i)]; p < first_portal_[static_cast<std::size_t>(i) + 1];
-         ++p)
-      portals_[p].block =
-          graph[boost::edge(static_cast<std::size_t>(i), static_cast<std::size_t>(portals_[p].to), graph).first].block;
+  // Two rectangles share one portal, and so an edge, at most: each rectangle's edges first, then its portals.
+  std::vector<Index> block_to(rectangles_.size(), kNone);
+  for (std::size_t i = 0; i < rectangles_.size(); ++i) {
+    for (const auto edge : boost::make_iterator_range(boost::out_edges(i, graph)))
+      block_to[boost::target(edge, graph)] = graph[edge].block;
+    for (std::size_t p = first_portal_[i]; p < first_portal_[i + 1]; ++p)
+      portals_[p].block = block_to[static_cast<std::size_t>(portals_[p].to)];
+  }
 }
 
 void CellMesh::find_corners(std::span<const std::uint8_t> open) {

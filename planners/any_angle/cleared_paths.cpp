@@ -61,42 +61,45 @@ std::vector<Point> only_turns(const std::vector<Point>& path) {
   return turns;
 }
 
-// A place near a point, on the lattice of a small part of a cell, where the disc fits. The middles of passages
-// between whole cells lie on that lattice.
-std::optional<Point> place_near(const DiscSpace& space, const Point& p, double radius_m) {
-  constexpr int kParts = 16;
-  constexpr int kReach = 2 * kParts;  // two cells
-  if (space.fits(p, radius_m)) return p;
+constexpr int kParts = 16;  // of a cell's side
+
+// Places of the lattice of a small part of a cell, in rings round a point, each ring's one after another, until
+// visit(place) is true or end_of_ring() is. The middles of passages between whole cells lie on that lattice.
+template <class Visit, class EndOfRing>
+void go_round(const DiscSpace& space, const Point& p, int rings, const Visit& visit, const EndOfRing& end_of_ring) {
   const double step_m = space.cell_m() / kParts;
   const Point origin = space.field().origin_m();
   const Point at = origin + step_m * ((p - origin) / step_m).array().round().matrix();
-  for (int ring = 0; ring <= kReach; ++ring) {
-    std::optional<Point> best;
+  for (int ring = 0; ring <= rings; ++ring) {
     for (int i = -ring; i <= ring; ++i)
-      for (const Point& off : {Point(i, -ring), Point(i, ring), Point(-ring, i), Point(ring, i)}) {
-        const Point place = at + step_m * off;
-        if ((!best || (place - p).norm() < (*best - p).norm()) && space.fits(place, radius_m)) best = place;
-      }
-    if (best) return best;
+      for (const Point& off : {Point(i, -ring), Point(i, ring), Point(-ring, i), Point(ring, i)})
+        if (visit(Point(at + step_m * off))) return;
+    if (end_of_ring()) return;
   }
-  return std::nullopt;
 }
 
-// A place near one that joins two others in straight free lines.
+// A place within two cells of a point where the disc fits.
+std::optional<Point> place_near(const DiscSpace& space, const Point& p, double radius_m) {
+  if (space.fits(p, radius_m)) return p;
+  std::optional<Point> best;
+  const auto choose = [&](const Point& place) {
+    if ((!best || (place - p).norm() < (*best - p).norm()) && space.fits(place, radius_m)) best = place;
+    return false;
+  };
+  go_round(space, p, 2 * kParts, choose, [&] { return best.has_value(); });
+  return best;
+}
+
+// A place within a cell of one that joins two others in straight free lines.
 std::optional<Point> joint_near(const DiscSpace& space, const Point& p, const Point& before, const Point& after,
                                 double radius_m) {
-  constexpr int kParts = 16;
-  constexpr int kReach = kParts;  // a cell
-  const double step_m = space.cell_m() / kParts;
-  const Point origin = space.field().origin_m();
-  const Point at = origin + step_m * ((p - origin) / step_m).array().round().matrix();
-  for (int ring = 0; ring <= kReach; ++ring)
-    for (int i = -ring; i <= ring; ++i)
-      for (const Point& off : {Point(i, -ring), Point(i, ring), Point(-ring, i), Point(ring, i)}) {
-        const Point place = at + step_m * off;
-        if (space.fits_along(place, after, radius_m) && space.fits_along(before, place, radius_m)) return place;
-      }
-  return std::nullopt;
+  std::optional<Point> joint;
+  const auto take = [&](const Point& place) {
+    if (space.fits_along(place, after, radius_m) && space.fits_along(before, place, radius_m)) joint = place;
+    return joint.has_value();
+  };
+  go_round(space, p, kParts, take, [] { return false; });
+  return joint;
 }
 
 }  // namespace

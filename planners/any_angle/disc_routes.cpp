@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "planners/any_angle/cleared_paths.hpp"
+#include "planners/disc_space/field_box.hpp"
 #include "planners/disc_space/routes.hpp"
 
 namespace cairn {
@@ -123,9 +124,19 @@ const DiscRoutes::Meshes* DiscRoutes::finer(const Budget& budget) const {
   const int parts = parts_ * kFinerParts;
   const std::int64_t cells = cells_of(space_->field().box()) * parts * parts;
   if (is_point_ || cells > kMostCells) return nullptr;
-  const std::lock_guard lock(finer_mutex_);
-  if (!finer_ && has_time_for(budget, cells)) finer_ = meshes_of(parts);
-  return finer_ ? &*finer_ : nullptr;
+  constexpr std::chrono::milliseconds kLookEvery{1};
+  std::shared_future<Meshes> made;
+  {
+    const std::lock_guard lock(finer_mutex_);
+    const bool has_time = has_time_for(budget, cells);
+    if (!finer_.valid() && has_time)
+      finer_ = std::async(std::launch::async, [this, parts] { return meshes_of(parts); }).share();
+    made = finer_;
+    if (!made.valid() || (!has_time && made.wait_for(kLookEvery * 0) != std::future_status::ready)) return nullptr;
+  }
+  while (made.wait_for(kLookEvery) != std::future_status::ready)
+    if (budget.exhausted()) return nullptr;
+  return &finer_.get();
 }
 
 bool DiscRoutes::may_reach(const Point& from, const Point& to) const {
@@ -143,27 +154,28 @@ double DiscRoutes::least_length_m(const Point& from, const Point& to, const Budg
   return shortest_path(coarse_.may, to_lattice(space, from), to_lattice(space, to), stop).length * space.cell_m();
 }
 
-std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, double most_m) const {
+std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, double most_m,
+                                            const Budget& budget) const {
+  constexpr int kAskEvery = 4096;
   const CellMesh& mesh = coarse_.may;
   const DistanceField& field = coarse_.space->field();
   const CellMesh::Index start = mesh.rectangle_of(field.cell_at(from));
   std::vector<Cell> cells;
   if (start == CellMesh::kNone) return cells;
-  const double cell_m = field.cell_m();
-  const auto least_m = [&](const CellBox& box) {  // from point to box to point
-    const auto off_m = [&](const Point& p) {
-      const Point low = field.origin_m() + cell_m * Point(box.min.x, box.min.y);
-      const Point high = field.origin_m() + cell_m * Point(box.max.x, box.max.y);
-      return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm();
-    };
+  const auto least_m = [&](const CellBox& cells_of_box) {  // from point to box to point
+    const FieldBox box = box_of(field, cells_of_box);
+    const auto off_m = [&box](const Point& p) { return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).norm(); };
     return off_m(from) + off_m(to);
   };
+  int asked = 0;
   for (CellMesh::Index i = 0; i < mesh.rectangles(); ++i) {
     const CellBox& r = mesh.rectangle(i);
     if (mesh.part_of(i) != mesh.part_of(start) || least_m(r) > most_m) continue;
     for (int y = r.min.y; y < r.max.y; ++y)
-      for (int x = r.min.x; x < r.max.x; ++x)
+      for (int x = r.min.x; x < r.max.x; ++x) {
+        if (++asked % kAskEvery == 0 && budget.exhausted()) return {};
         if (least_m({{x, y}, {x + 1, y + 1}}) <= most_m) cells.push_back({x, y});
+      }
   }
   return cells;
 }
@@ -200,16 +212,17 @@ DiscRoute DiscRoutes::route_on(const Meshes& meshes, const Point& from, const Po
       best_m = length_of(route);
       answer.route = std::move(route);
     }
-  if (!answer.route.empty()) answer.route = shortest_of(space, answer.route);
+  if (!answer.route.empty()) answer.route = shortest_of(space, answer.route, budget);
   if (answer.interrupted || !is_doubtful(answer)) return answer;
-  const std::vector<Point> pushed = shortest_of(space, pushed_clear(space, least_path, radius_m_, budget));
+  const std::vector<Point> pushed = shortest_of(space, pushed_clear(space, least_path, radius_m_, budget), budget);
   if (!pushed.empty() && (answer.route.empty() || length_of(pushed) < length_of(answer.route))) answer.route = pushed;
   return answer;
 }
 
-std::vector<Point> DiscRoutes::shortest_of(const DiscSpace& space, const std::vector<Point>& route) const {
+std::vector<Point> DiscRoutes::shortest_of(const DiscSpace& space, const std::vector<Point>& route,
+                                           const Budget& budget) const {
   if (route.empty()) return route;
-  return tightened(space, straightened(space, route, radius_m_), radius_m_);
+  return tightened(space, straightened(space, route, radius_m_, 1, budget), radius_m_, 1, budget);
 }
 
 DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& budget) const {
@@ -242,6 +255,11 @@ std::shared_ptr<const DiscRoutes> DiscRoutesCache::routes_of(const std::shared_p
   const std::lock_guard lock(mutex_);
   if (!last_ || &last_->space() != space.get() || last_->radius_m() != radius_m)
     last_ = std::make_shared<const DiscRoutes>(space, radius_m);
+  return last_;
+}
+
+std::shared_ptr<const DiscRoutes> DiscRoutesCache::last() const {
+  const std::lock_guard lock(mutex_);
   return last_;
 }
 

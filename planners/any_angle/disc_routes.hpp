@@ -5,6 +5,7 @@
 // path; a path over the second is a route. For a point the two are one, and the route is the shortest.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -40,8 +41,10 @@ class DiscRoutes {
   [[nodiscard]] bool may_reach(const Point& from, const Point& to) const;
   // No route is shorter; +inf when there is none. Less than nothing is known when the budget ends: 0.
   [[nodiscard]] double least_length_m(const Point& from, const Point& to, const Budget& budget) const;
-  // The lattice's cells that routes between two points may pass, of those not longer than most_m.
-  [[nodiscard]] std::vector<Cell> cells_between(const Point& from, const Point& to, double most_m) const;
+  // The lattice's cells that routes between two points may pass, of those not longer than most_m. O(cells); none when
+  // the budget ends it.
+  [[nodiscard]] std::vector<Cell> cells_between(const Point& from, const Point& to, double most_m,
+                                                const Budget& budget = {}) const;
   [[nodiscard]] const std::shared_ptr<const DiscSpace>& lattice() const { return coarse_.space; }
 
   // Between two places where the disc fits. None without `impossible`: the way, if there is one, is narrower
@@ -57,12 +60,14 @@ class DiscRoutes {
   };
 
   [[nodiscard]] Meshes meshes_of(int parts) const;
-  // Null where it would be too large, or where it is not made yet and the budget has no time for it.
+  // Null where it would be too large, or where it is not made yet and the budget has no time for it. Made by a thread
+  // of its own, so that whoever waits for it heeds its budget; the end of this object waits for that thread.
   [[nodiscard]] const Meshes* finer(const Budget& budget) const;
   [[nodiscard]] DiscRoute route_on(const Meshes& meshes, const Point& from, const Point& to,
                                    const Budget& budget) const;
 
-  [[nodiscard]] std::vector<Point> shortest_of(const DiscSpace& space, const std::vector<Point>& route) const;
+  [[nodiscard]] std::vector<Point> shortest_of(const DiscSpace& space, const std::vector<Point>& route,
+                                               const Budget& budget) const;
 
   std::shared_ptr<const DiscSpace> space_;
   double radius_m_;
@@ -70,7 +75,7 @@ class DiscRoutes {
   int parts_;
   Meshes coarse_;
   mutable std::mutex finer_mutex_;
-  mutable std::optional<Meshes> finer_;
+  mutable std::shared_future<Meshes> finer_;  // last: what its thread uses outlives it
 };
 
 // The routes for the space and radius last asked for: many queries on one map build them once. Thread-safe;
@@ -79,6 +84,8 @@ class DiscRoutesCache {
  public:
   [[nodiscard]] std::shared_ptr<const DiscRoutes> routes_of(const std::shared_ptr<const DiscSpace>& space,
                                                             double radius_m) const;
+  // What it holds; null before anything is asked for.
+  [[nodiscard]] std::shared_ptr<const DiscRoutes> last() const;
 
  private:
   mutable std::mutex mutex_;

@@ -12,13 +12,18 @@ Refusal start_blocked(const OccupancyGrid& grid, const DiscSpace& space, const P
                                           nearest_free_text(space, at, radius_m + kLeastRadius_m)};
 }
 
+std::optional<OccupancyGrid> with_ground_covered(const Pose2& pose, const OccupancyGrid& grid, const EndRules& rules) {
+  if (!rules.covering) return with_ground_under(grid, rules.ground, pose.position(), rules.radius_m + kLeastRadius_m);
+  return with_ground_under(grid, rules.ground, pose.position(), rules.covering->reach_m,
+                           [&](Cell cell) { return rules.covering->covers(pose, cell); });
+}
+
 std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldView& world, const EndRules& rules,
                                                 const SpaceCache& spaces) {
   StartPlace start;
   start.pose = pose;
   const Point at = pose.position();
-  if (robot_stands_at(world, at))
-    start.patched_grid = with_ground_under(world.grid, rules.ground, at, rules.radius_m + kLeastRadius_m);
+  if (robot_stands_at(world, at)) start.patched_grid = with_ground_covered(pose, world.grid, rules);
   const OccupancyGrid& grid = start.grid_of(world);
   start.space = spaces.space_of(grid, rules.ground, start.patched_grid ? 0 : world.grid_version);
   start.leave_from = at;
@@ -54,6 +59,23 @@ std::string note_on(const Pose2& stand, const Landmark& landmark) {
 }
 
 }  // namespace
+
+PlanResult refused_plan(const Refusal& refusal) {
+  PlanResult result;
+  result.outcome = refusal.outcome;
+  result.reason = refusal.reason;
+  return result;
+}
+
+PlanOutcome stop_outcome(const Budget& budget) {
+  return budget.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget;
+}
+
+PlanResult stopped_plan(PlanOutcome stop_outcome) {
+  if (stop_outcome == PlanOutcome::cancelled)
+    return refused_plan({stop_outcome, "the search for a route was cancelled"});
+  return refused_plan({stop_outcome, "the budget was used up before a route was found"});
+}
 
 bool is_larger_than(const OccupancyGrid& grid, double radius_m) {
   const CellBox box = grid.bounds();

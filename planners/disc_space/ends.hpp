@@ -19,6 +19,11 @@ struct Refusal {
   std::string reason;
 };
 
+[[nodiscard]] PlanResult refused_plan(const Refusal& refusal);
+// Of a call that its budget ended: `cancelled` or `out_of_budget`.
+[[nodiscard]] PlanOutcome stop_outcome(const Budget& budget);
+[[nodiscard]] PlanResult stopped_plan(PlanOutcome stop_outcome);
+
 // The robot at the start. The grid is the world's, with the unknown ground under the robot made free
 // when it stands there now.
 struct StartPlace {
@@ -41,10 +46,17 @@ struct GoalPlace {
   std::string note;  // for people, when it is not where one usually stands at the landmark
 };
 
+// What a robot that stands at a pose covers of the grid.
+struct Covering {
+  double reach_m = 0.0;  // no further from the pose
+  std::function<bool(const Pose2&, Cell)> covers;
+};
+
 struct EndRules {
   GroundRules ground;
   double radius_m = 0.22;
   double start_tolerance_m = 0.3;
+  std::optional<Covering> covering;  // none: the disc
 };
 
 // Such a disc can stand nowhere, and looking at every cell it would cover takes for ever.

@@ -5,7 +5,6 @@
 namespace cairn {
 namespace {
 
-constexpr double kTextSearch_m = 3.0;  // how far a message looks for a free place
 constexpr double kTie_m = 1e-9;
 
 std::string metres(double value_m) {
@@ -83,7 +82,9 @@ std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const
   if (!space.contains(p_map)) return "it lies outside the map";
   const GroundRules& rules = space.rules();
   const double occupied_m = distance_to_state_m(grid, rules, p_map, radius_m, CellState::occupied);
-  const double unknown_m = distance_to_state_m(grid, rules, p_map, radius_m, CellState::unknown);
+  const double unknown_m = rules.blocks(CellState::unknown)
+                               ? distance_to_state_m(grid, rules, p_map, radius_m, CellState::unknown)
+                               : std::numeric_limits<double>::infinity();
   if (occupied_m == 0.0) return "it lies on an occupied cell";
   if (unknown_m == 0.0) return "it lies in unknown space";
   const bool occupied = occupied_m <= unknown_m;
@@ -94,8 +95,10 @@ std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const
          " m";
 }
 
-std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m) {
-  const std::optional<Point> free = nearest_fit(space, p_map, radius_m, kTextSearch_m);
+std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m,
+                              const std::function<bool(const Point&)>& accept) {
+  constexpr double kTextSearch_m = 3.0;
+  const std::optional<Point> free = nearest_fit(space, p_map, radius_m, kTextSearch_m, accept);
   if (!free) return "; there is no free place for it within " + metres(kTextSearch_m) + " m";
   // To the millimetre, so that what is printed is free too.
   char place[64];
@@ -109,14 +112,20 @@ bool robot_stands_at(const WorldView& world, const Point& p_map) {
 
 std::optional<OccupancyGrid> with_ground_under(const OccupancyGrid& grid, const GroundRules& rules, const Point& p_map,
                                                double radius_m) {
+  return with_ground_under(grid, rules, p_map, radius_m, [&](Cell cell) {
+    return distance_to_square_m(p_map, p_map, grid.centre_of(cell), grid.cell_m()) <= radius_m;
+  });
+}
+
+std::optional<OccupancyGrid> with_ground_under(const OccupancyGrid& grid, const GroundRules& rules, const Point& p_map,
+                                               double reach_m, const std::function<bool(Cell)>& covers) {
   if (rules.unknown == UnknownPolicy::allow) return std::nullopt;
   std::optional<OccupancyGrid> patched;
   const Cell at = grid.cell_at(p_map);
-  const int reach = static_cast<int>(std::ceil(radius_m / grid.cell_m())) + 1;
+  const int reach = static_cast<int>(std::ceil(reach_m / grid.cell_m())) + 1;
   for (int y = at.y - reach; y <= at.y + reach; ++y) {
     for (int x = at.x - reach; x <= at.x + reach; ++x) {
-      if (grid.state({x, y}, rules.thresholds) != CellState::unknown) continue;
-      if (distance_to_square_m(p_map, p_map, grid.centre_of({x, y}), grid.cell_m()) > radius_m) continue;
+      if (grid.state({x, y}, rules.thresholds) != CellState::unknown || !covers({x, y})) continue;
       if (!patched) patched = grid;
       patched->set_log_odds({x, y}, static_cast<LogOdds>(rules.thresholds.free_below - 1));
     }

@@ -26,8 +26,9 @@ inline constexpr double kStandNear_m = 1.5;  // a landmark without an access: ho
 // Why the disc cannot stand there, as the end of a sentence: "an occupied cell is 0.12 m from its centre".
 [[nodiscard]] std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& p_map,
                                       double radius_m);
-// "; the nearest free place is (1.20, 0.85), 0.25 m away", or that there is none.
-[[nodiscard]] std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m);
+// "; the nearest free place is (1.200, 0.850), 0.25 m away", or that there is none; `accept` as in nearest_fit.
+[[nodiscard]] std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m,
+                                            const std::function<bool(const Point&)>& accept = {});
 [[nodiscard]] std::string text_of(const Point& p_map);
 [[nodiscard]] std::string metres_text(double value_m);  // "0.25 m"
 
@@ -36,6 +37,10 @@ inline constexpr double kStandNear_m = 1.5;  // a landmark without an access: ho
 // The grid with the unknown cells under the disc made free, or none when there are no such cells.
 [[nodiscard]] std::optional<OccupancyGrid> with_ground_under(const OccupancyGrid& grid, const GroundRules& rules,
                                                              const Point& p_map, double radius_m);
+// The same under a robot of any form, none of which is further than reach_m from the point.
+[[nodiscard]] std::optional<OccupancyGrid> with_ground_under(const OccupancyGrid& grid, const GroundRules& rules,
+                                                             const Point& p_map, double reach_m,
+                                                             const std::function<bool(Cell)>& covers);
 
 // A straight way out of a start that is too near to something. On it the disc keeps keep_m, which is
 // what the start itself keeps from occupied cells, and may cross unknown ones.

@@ -30,10 +30,10 @@ double length_of(const std::vector<PartedPoint>& route) {
 // round the obstacle meet, then is cut off there.
 class CornerCutter {
  public:
-  CornerCutter(const DiscSpace& space, double radius_m)
-      : space_(space), radius_m_(radius_m), finest_m_(kFinest_cells * space.cell_m()) {}
+  CornerCutter(const DiscSpace& space, double radius_m, const Budget& budget)
+      : space_(space), radius_m_(radius_m), budget_(budget), finest_m_(kFinest_cells * space.cell_m()) {}
 
-  [[nodiscard]] bool has_work_left() const { return work_cells_ < kMostWork_cells; }
+  [[nodiscard]] bool may_go_on() const { return work_cells_ < kMostWork_cells && !budget_.exhausted(); }
   [[nodiscard]] std::vector<PartedPoint> cut_all(std::vector<PartedPoint> route, std::size_t keep) {
     std::vector<PartedPoint> cut(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
     for (std::size_t i = keep; i + 1 < route.size(); ++i) {
@@ -47,7 +47,7 @@ class CornerCutter {
  private:
   // What comes between A and C in place of B.
   [[nodiscard]] std::vector<PartedPoint> cut_corner(const Point& a, const PartedPoint& b, PartedPoint& c) {
-    if (!has_work_left()) return {b};
+    if (!may_go_on()) return {b};
     const int across = across_parts(b.part, c.part);
     const Point seen = furthest(b.at, c.at, [&](const Point& p) { return fits(a, p); });
     if (seen == c.at) {
@@ -104,6 +104,7 @@ class CornerCutter {
 
   const DiscSpace& space_;
   double radius_m_;
+  const Budget& budget_;
   double finest_m_;
   double work_cells_ = 0.0;
 };
@@ -123,13 +124,16 @@ std::vector<Point> points_of(const std::vector<PartedPoint>& route) {
 }
 
 std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
-                                      std::size_t keep) {
+                                      std::size_t keep, const Budget& budget) {
   if (route.size() <= keep + 1) return route;
+  const auto fits = [&](const Point& from, const Point& to) {
+    return !budget.exhausted() && space.fits_along(from, to, radius_m);
+  };
   // One sweep that stretches each straight piece as far as it goes, for routes of many points ...
   std::vector<PartedPoint> swept(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
   int part = route[keep].part;
   for (std::size_t i = keep + 1; i < route.size(); ++i) {
-    if (!space.fits_along(swept.back().at, route[i].at, radius_m)) {
+    if (!fits(swept.back().at, route[i].at)) {
       swept.push_back({route[i - 1].at, part});
       part = route[i].part;
     }
@@ -140,7 +144,8 @@ std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<
   std::vector<PartedPoint> corners(swept.begin(), swept.begin() + static_cast<std::ptrdiff_t>(keep));
   for (std::size_t at = keep - 1; at + 1 < swept.size();) {
     std::size_t next = swept.size() - 1;
-    while (next > at + 1 && !space.fits_along(swept[at].at, swept[next].at, radius_m)) --next;
+    if (budget.exhausted()) next = at + 1;
+    while (next > at + 1 && !fits(swept[at].at, swept[next].at)) --next;
     part = swept[at + 1].part;
     for (std::size_t i = at + 2; i <= next; ++i) part = across_parts(part, swept[i].part);
     corners.push_back({swept[next].at, part});
@@ -150,11 +155,11 @@ std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<
 }
 
 std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
-                                   std::size_t keep) {
+                                   std::size_t keep, const Budget& budget) {
   if (route.size() <= keep + 1) return route;
-  CornerCutter cutter(space, radius_m);
+  CornerCutter cutter(space, radius_m, budget);
   std::vector<PartedPoint> best = route;
-  for (int i = 0; i < kMostRounds && cutter.has_work_left(); ++i) {
+  for (int i = 0; i < kMostRounds && cutter.may_go_on(); ++i) {
     std::vector<PartedPoint> cut = cutter.cut_all(best, keep);
     const double before_m = length_of(best);
     const double gain_m = before_m - length_of(cut);
@@ -165,13 +170,13 @@ std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<Par
 }
 
 std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
-                                std::size_t keep) {
-  return points_of(straightened(space, parted(route), radius_m, keep));
+                                std::size_t keep, const Budget& budget) {
+  return points_of(straightened(space, parted(route), radius_m, keep, budget));
 }
 
-std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
-                             std::size_t keep) {
-  return points_of(tightened(space, parted(route), radius_m, keep));
+std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m, std::size_t keep,
+                             const Budget& budget) {
+  return points_of(tightened(space, parted(route), radius_m, keep, budget));
 }
 
 bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,

@@ -21,11 +21,11 @@ class SpaceCache {
   struct Entry {
     OccupancyGrid grid;
     DiscSpace space;
-    std::uint64_t version = 0;
   };
 
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Entry> last_;
+  mutable std::uint64_t version_ = 0;  // of the grid; 0: not known
 };
 
 }  // namespace cairn

@@ -24,69 +24,61 @@
 #include <ompl/geometric/planners/stride/STRIDE.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "planners/ompl/counted_prm.hpp"
 #include "planners/ompl/seeded_rrt_star.hpp"
 
 namespace cairn {
 
-namespace og = ompl::geometric;
+namespace {
 
-// One line an algorithm.
-// NOLINTNEXTLINE(readability-function-size)
-ompl::base::PlannerPtr make_algorithm(Algorithm algorithm, const ompl::base::SpaceInformationPtr& space) {
-  switch (algorithm) {
-    case Algorithm::any_angle_rrt_star:
-      return std::make_shared<SeededRrtStar>(space);
-    case Algorithm::abit_star:
-      return std::make_shared<og::ABITstar>(space);
-    case Algorithm::ait_star:
-      return std::make_shared<og::AITstar>(space);
-    case Algorithm::bfmt:
-      return std::make_shared<og::BFMT>(space);
-    case Algorithm::bi_est:
-      return std::make_shared<og::BiEST>(space);
-    case Algorithm::bit_star:
-      return std::make_shared<og::BITstar>(space);
-    case Algorithm::bi_trrt:
-      return std::make_shared<og::BiTRRT>(space);
-    case Algorithm::bkpiece:
-      return std::make_shared<og::BKPIECE1>(space);
-    case Algorithm::est:
-      return std::make_shared<og::EST>(space);
-    case Algorithm::fmt:
-      return std::make_shared<og::FMT>(space);
-    case Algorithm::informed_rrt_star:
-      return std::make_shared<og::InformedRRTstar>(space);
-    case Algorithm::kpiece:
-      return std::make_shared<og::KPIECE1>(space);
-    case Algorithm::lazy_rrt:
-      return std::make_shared<og::LazyRRT>(space);
-    case Algorithm::lbt_rrt:
-      return std::make_shared<og::LBTRRT>(space);
-    case Algorithm::prm:
-      return std::make_shared<CountedPrm>(space, CountedPrm::Stop::at_first_route);
-    case Algorithm::prm_star:
-      return std::make_shared<CountedPrm>(space, CountedPrm::Stop::when_told);
-    case Algorithm::proj_est:
-      return std::make_shared<og::ProjEST>(space);
-    case Algorithm::rrt:
-      return std::make_shared<og::RRT>(space);
-    case Algorithm::rrt_connect:
-      return std::make_shared<og::RRTConnect>(space);
-    case Algorithm::rrt_sharp:
-      return std::make_shared<og::RRTsharp>(space);
-    case Algorithm::rrt_star:
-      return std::make_shared<og::RRTstar>(space);
-    case Algorithm::rrt_x_static:
-      return std::make_shared<og::RRTXstatic>(space);
-    case Algorithm::sbl:
-      return std::make_shared<og::SBL>(space);
-    case Algorithm::stride:
-      return std::make_shared<og::STRIDE>(space);
-    case Algorithm::trrt:
-      return std::make_shared<og::TRRT>(space);
-  }
+namespace og = ompl::geometric;
+using ompl::base::PlannerPtr;
+using Space = ompl::base::SpaceInformationPtr;
+
+template <class Planner>
+PlannerPtr made(const Space& space) {
+  return std::make_shared<Planner>(space);
+}
+template <CountedPrm::Stop stop>
+PlannerPtr made_prm(const Space& space) {
+  return std::make_shared<CountedPrm>(space, stop);
+}
+
+constexpr std::pair<Algorithm, PlannerPtr (*)(const Space&)> kMakers[] = {
+    {Algorithm::any_angle_rrt_star, made<SeededRrtStar>},
+    {Algorithm::abit_star, made<og::ABITstar>},
+    {Algorithm::ait_star, made<og::AITstar>},
+    {Algorithm::bfmt, made<og::BFMT>},
+    {Algorithm::bi_est, made<og::BiEST>},
+    {Algorithm::bit_star, made<og::BITstar>},
+    {Algorithm::bi_trrt, made<og::BiTRRT>},
+    {Algorithm::bkpiece, made<og::BKPIECE1>},
+    {Algorithm::est, made<og::EST>},
+    {Algorithm::fmt, made<og::FMT>},
+    {Algorithm::informed_rrt_star, made<og::InformedRRTstar>},
+    {Algorithm::kpiece, made<og::KPIECE1>},
+    {Algorithm::lazy_rrt, made<og::LazyRRT>},
+    {Algorithm::lbt_rrt, made<og::LBTRRT>},
+    {Algorithm::prm, made_prm<CountedPrm::Stop::at_first_route>},
+    {Algorithm::prm_star, made_prm<CountedPrm::Stop::when_told>},
+    {Algorithm::proj_est, made<og::ProjEST>},
+    {Algorithm::rrt, made<og::RRT>},
+    {Algorithm::rrt_connect, made<og::RRTConnect>},
+    {Algorithm::rrt_sharp, made<og::RRTsharp>},
+    {Algorithm::rrt_star, made<og::RRTstar>},
+    {Algorithm::rrt_x_static, made<og::RRTXstatic>},
+    {Algorithm::sbl, made<og::SBL>},
+    {Algorithm::stride, made<og::STRIDE>},
+    {Algorithm::trrt, made<og::TRRT>},
+};
+
+}  // namespace
+
+PlannerPtr make_algorithm(Algorithm algorithm, const Space& space) {
+  for (const auto& [name, maker] : kMakers)
+    if (name == algorithm) return maker(space);
   throw std::logic_error("no OMPL planner for algorithm " + std::to_string(static_cast<int>(algorithm)));
 }
 

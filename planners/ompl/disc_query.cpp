@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "planners/any_angle/nearest_goals.hpp"
 #include "planners/disc_space/routes.hpp"
 #include "planners/ompl/disc_states.hpp"
 #include "planners/ompl/search.hpp"
@@ -18,18 +19,6 @@ double cost_of(const TravelCost& cost, const std::vector<Point>& route) {
 }
 
 }  // namespace
-
-PlanResult refused(const Refusal& refusal) {
-  PlanResult result;
-  result.outcome = refusal.outcome;
-  result.reason = refusal.reason;
-  return result;
-}
-
-PlanResult stopped(const Budget& budget) {
-  if (budget.cancelled()) return refused({PlanOutcome::cancelled, "the search for a route was cancelled"});
-  return refused({PlanOutcome::out_of_budget, "the budget was used up before a route was found"});
-}
 
 EndRules end_rules_of(const OmplConfig& config, double radius_m) {
   EndRules rules;
@@ -80,11 +69,11 @@ double DiscQuery::radius_m() const {
 }
 
 PlanResult DiscQuery::answer() const {
-  if (budget_.exhausted() || budget_.iterations <= 0) return stopped(budget_);
+  if (budget_.exhausted() || budget_.iterations <= 0) return stopped_plan(stop_outcome(budget_));
   // Both ends are looked at before either is worked on.
-  if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused(*refusal);
+  if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused_plan(*refusal);
   const auto start = start_of(request_.from, world_, rules_, tools_.caches.spaces);
-  if (const auto* refusal = std::get_if<Refusal>(&start)) return refused(*refusal);
+  if (const auto* refusal = std::get_if<Refusal>(&start)) return refused_plan(*refusal);
   return answer_from(std::get<StartPlace>(start));
 }
 
@@ -92,29 +81,18 @@ PlanResult DiscQuery::answer_from(const StartPlace& start) const {
   const auto routes = tools_.caches.routes.routes_of(start.space, radius_m());
   const auto goals = goals_of(request_.to, world_, rules_, start,
                               [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
-  if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused(*refusal);
+  if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused_plan(*refusal);
   PlanResult first;
-  for (const GoalPlace& goal : nearest_first(std::get<std::vector<GoalPlace>>(goals), start, *routes)) {
-    if (budget_.exhausted()) return stopped(budget_);
-    const FoundRoute found = find(start, goal, *routes);
-    if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped(budget_);
-    PlanResult result = checked(start, goal, found);
+  for (const RankedGoal& goal :
+       nearest_first(std::get<std::vector<GoalPlace>>(goals), start.leave_from, *routes, budget_)) {
+    if (budget_.exhausted()) return stopped_plan(stop_outcome(budget_));
+    const FoundRoute found = find(start, goal.place, *routes);
+    if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped_plan(stop_outcome(budget_));
+    PlanResult result = checked(start, goal.place, found);
     if (found.exact) return result;
     if (first.reason.empty()) first = std::move(result);
   }
   return first;
-}
-
-std::vector<GoalPlace> DiscQuery::nearest_first(std::vector<GoalPlace> goals, const StartPlace& start,
-                                                const DiscRoutes& routes) const {
-  if (goals.size() < 2) return goals;
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < goals.size(); ++i)
-    order.emplace_back(routes.least_length_m(start.leave_from, goals[i].pose.position(), budget_), i);
-  std::sort(order.begin(), order.end());
-  std::vector<GoalPlace> sorted;
-  for (const auto& [least_m, i] : order) sorted.push_back(std::move(goals[i]));
-  return sorted;
 }
 
 FoundRoute DiscQuery::find(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes) const {
@@ -149,9 +127,8 @@ FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& c
   if (found.interrupted && !found.route.empty()) found.interrupted = false;  // it is a route all the same
   if (found.impossible || found.interrupted) return found;
   found.how = "the shortest way over the grid";
-  const CellBox box = routes.space().field().box();
-  if (!cost.is_length() && has_time_for(budget_, std::int64_t{box.width()} * box.height())) {
-    std::vector<Point> cheap = weighted_route(routes, cost, from, to);
+  if (!cost.is_length()) {
+    std::vector<Point> cheap = weighted_route(routes, cost, from, to, budget_);
     if (!cheap.empty() && (found.route.empty() || cost_of(cost, cheap) < cost_of(cost, found.route))) {
       found.route = std::move(cheap);
       found.how = "the cheapest way over the grid";
@@ -163,7 +140,9 @@ FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& c
 
 FoundRoute DiscQuery::find_by_sampling(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                        const Point& to) const {
-  const SampledCells samples{routes.lattice(), routes.cells_between(from, to, std::numeric_limits<double>::infinity())};
+  const SampledCells samples{routes.lattice(),
+                             routes.cells_between(from, to, std::numeric_limits<double>::infinity(), budget_)};
+  if (samples.cells.empty()) return {{}, false, true, false, std::nullopt, ""};
   const DiscProblem problem{routes.space(), radius_m(), from, to, samples, cost, request_.seed};
   const auto info = space_information(problem);
   const auto definition = definition_of(problem, info);
@@ -176,9 +155,16 @@ FoundRoute DiscQuery::find_by_sampling(const DiscRoutes& routes, const TravelCos
   if (!answer.path) return found;
   for (const ompl::base::State* const state : answer.path->getStates()) found.route.push_back(point_of(state));
   if (!answer.exact || !tools_.config.simplify) return found;
-  found.route = cost.is_length() ? straightened(routes.space(), found.route, radius_m())
-                                 : shortened_by_cost(routes.space(), cost, found.route, radius_m());
+  found.route = cost.is_length() ? straightened(routes.space(), found.route, radius_m(), 1, budget_)
+                                 : shortened_by_cost(routes.space(), cost, found.route, radius_m(), budget_);
   return found;
+}
+
+std::vector<Point> DiscQuery::shortened(const DiscRoutes& routes, const TravelCost& cost,
+                                        const std::vector<Point>& route) const {
+  const DiscSpace& space = routes.space();
+  if (!cost.is_length()) return shortened_by_cost(space, cost, route, radius_m(), budget_);
+  return tightened(space, straightened(space, route, radius_m(), 1, budget_), radius_m(), 1, budget_);
 }
 
 void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const TravelCost& cost) const {
@@ -192,33 +178,43 @@ void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const Trave
   const Point from = found.route.front();
   const Point to = found.route.back();
   const double known = cost_of(cost, found.route);
-  const SampledCells samples{routes.lattice(), routes.cells_between(from, to, known / cost.least_per_m())};
+  const SampledCells samples{routes.lattice(), routes.cells_between(from, to, known / cost.least_per_m(), budget_)};
   if (samples.cells.empty()) return;
   const DiscProblem problem{routes.space(), radius_m(), from, to, samples, cost, request_.seed};
   const auto info = space_information(problem);
   const auto definition = definition_of(problem, info);
   KnownStates states(info);
   add_route(states, found.route);
-  const SearchAnswer answer = search(
-      info, definition, {config.algorithm, tools_.parameters, iterations, false, request_.seed}, budget_, states.all());
-  if (!answer.path || !answer.exact) return;
-  std::vector<Point> better;
-  for (const ompl::base::State* const state : answer.path->getStates()) better.push_back(point_of(state));
-  if (cost.is_length())
-    better = tightened(routes.space(), straightened(routes.space(), better, radius_m()), radius_m());
-  else
-    better = shortened_by_cost(routes.space(), cost, better, radius_m());
-  if (cost_of(cost, better) >= known * (1.0 - 1e-9)) return;
-  found.route = std::move(better);
+  // Each better solution counts by what it can be shortened to, so that going on never makes the answer worse.
+  std::vector<Point> best;
+  double best_cost = known;
+  definition->setIntermediateSolutionCallback([&](const ompl::base::Planner*,
+                                                  const std::vector<const ompl::base::State*>& between_backwards,
+                                                  ompl::base::Cost) {
+    std::vector<Point> better{from};
+    for (auto state = between_backwards.rbegin(); state != between_backwards.rend(); ++state)
+      better.push_back(point_of(*state));
+    better.push_back(to);
+    better = shortened(routes, cost, better);
+    const double better_cost = cost_of(cost, better);
+    if (better_cost >= best_cost * (1.0 - 1e-9)) return;
+    best_cost = better_cost;
+    best = std::move(better);
+  });
+  (void)search(info, definition, {config.algorithm, tools_.parameters, iterations, false, request_.seed}, budget_,
+               states.all());
+  if (best.empty()) return;
+  found.route = std::move(best);
   found.how += ", improved by OMPL";
 }
 
 PlanResult DiscQuery::checked(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found) const {
-  if (found.impossible) return refused(too_narrow(request_.to, world_.graph, rules_.radius_m));
+  if (found.impossible) return refused_plan(too_narrow(request_.to, world_.graph, rules_.radius_m));
   if (found.route.size() < (found.exact ? 1U : 2U)) {
-    return refused({PlanOutcome::out_of_budget,
-                    "no route was found in " + std::to_string(std::min(tools_.config.iterations, budget_.iterations)) +
-                        " iterations; if there is one, it is hardly wider than the robot"});
+    return refused_plan(
+        {PlanOutcome::out_of_budget, "no route was found in " +
+                                         std::to_string(std::min(tools_.config.iterations, budget_.iterations)) +
+                                         " iterations; if there is one, it is hardly wider than the robot"});
   }
   std::vector<Point> route = found.route;
   if (start.escape) route.insert(route.begin(), start.pose.position());

@@ -13,8 +13,6 @@ struct OmplTools {
   const OmplCaches& caches;
 };
 
-[[nodiscard]] PlanResult refused(const Refusal& refusal);
-[[nodiscard]] PlanResult stopped(const Budget& budget);
 [[nodiscard]] EndRules end_rules_of(const OmplConfig& config, double radius_m);
 [[nodiscard]] TravelCostRules cost_rules_of(const OmplConfig& config, const PlanRequest& request,
                                             const RobotModel& robot, double radius_m);
@@ -38,13 +36,13 @@ class DiscQuery {
 
  private:
   [[nodiscard]] PlanResult answer_from(const StartPlace& start) const;
-  [[nodiscard]] std::vector<GoalPlace> nearest_first(std::vector<GoalPlace> goals, const StartPlace& start,
-                                                     const DiscRoutes& routes) const;
   [[nodiscard]] FoundRoute find(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes) const;
   [[nodiscard]] FoundRoute find_on_grid(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                         const Point& to) const;
   [[nodiscard]] FoundRoute find_by_sampling(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                             const Point& to) const;
+  [[nodiscard]] std::vector<Point> shortened(const DiscRoutes& routes, const TravelCost& cost,
+                                             const std::vector<Point>& route) const;
   void improve(FoundRoute& found, const DiscRoutes& routes, const TravelCost& cost) const;
   [[nodiscard]] PlanResult checked(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found) const;
   [[nodiscard]] PlanResult result_of(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found,

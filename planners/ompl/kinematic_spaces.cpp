@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "planners/disc_space/field_box.hpp"
 #include "planners/ompl/mixed_seed.hpp"
 #include "planners/pose_space/dubins.hpp"
 
@@ -140,9 +141,7 @@ void set_pose(ob::State* state, const Pose2& pose) {
 }
 
 std::shared_ptr<ob::SE2StateSpace> make_kinematic_space(const KinematicRules& rules, const DistanceField& field) {
-  const CellBox box = field.box();
-  const Point low = field.origin_m() + field.cell_m() * Point(box.min.x, box.min.y);
-  const Point high = field.origin_m() + field.cell_m() * Point(box.max.x, box.max.y);
+  const auto [low, high] = box_of(field, field.box());
   ob::RealVectorBounds bounds(2);
   for (int axis = 0; axis < 2; ++axis) {
     bounds.setLow(static_cast<unsigned>(axis), low[axis]);

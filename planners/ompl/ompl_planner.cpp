@@ -5,6 +5,7 @@
 
 #include "planners/ompl/disc_query.hpp"
 #include "planners/ompl/pose_query.hpp"
+#include "planners/ompl/pose_setup.hpp"
 #include "planners/pose_space/footprint.hpp"
 
 namespace cairn {
@@ -92,6 +93,10 @@ void check_motion(const OmplConfig& config, const RobotModel& robot) {
   const bool is_car = config.kinematics == MotionKind::dubins || config.kinematics == MotionKind::reeds_shepp;
   if (is_car && config.turning_radius_m <= 0.0 && robot.min_turning_radius_m <= 0.0)
     throw ConfigError(kPlace, "a robot that does not turn on the spot needs turning_radius_m, here or in its file");
+  if (is_car && config.turning_radius_m > 0.0 && config.turning_radius_m < robot.min_turning_radius_m)
+    throw ConfigError(kPlace, "turning_radius_m " + config_detail::number_text(config.turning_radius_m) +
+                                  " is tighter than the robot's own min_turning_radius_m " +
+                                  config_detail::number_text(robot.min_turning_radius_m));
   if (config.kinematics == MotionKind::disc && config.footprint == WantedFootprint::robot && !robot.polygon_m.empty())
     throw ConfigError(kPlace, "the robot's outline is no disc; give kinematics differential, dubins or reeds_shepp");
   if (config.footprint == WantedFootprint::robot && !robot.polygon_m.empty()) check_outline(robot);
@@ -116,10 +121,17 @@ OmplPlanner::OmplPlanner(OmplConfig config, const RobotModel& robot)
 }
 
 void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
-  const EndRules rules = end_rules_of(config_, radius_m);
-  if (world.grid.bounds().empty() || is_larger_than(world.grid, rules.radius_m)) return;
+  if (world.grid.bounds().empty()) return;
+  std::optional<PoseSetup> poses;
+  if (config_.kinematics != MotionKind::disc) poses.emplace(config_, radius_m, world.robot, world.grid);
+  const EndRules rules = poses ? poses->ends : end_rules_of(config_, radius_m);
+  if (is_larger_than(world.grid, rules.radius_m)) return;
   const auto space = caches_.spaces.space_of(world.grid, rules.ground, world.grid_version);
   (void)caches_.routes.routes_of(space, rules.radius_m + kLeastRadius_m);
+  const bool on_outer = config_.kinematics == MotionKind::differential &&
+                        config_.algorithm == Algorithm::any_angle_rrt_star &&
+                        !is_larger_than(world.grid, poses->outer_radius_m());
+  if (on_outer) (void)caches_.outer_routes.routes_of(space, poses->outer_radius_m());
   const Point inside = world.grid.centre_of(world.grid.bounds().min);
   (void)space->joined(inside, inside);  // numbers the parts that are connected
 }

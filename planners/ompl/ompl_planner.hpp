@@ -64,7 +64,9 @@ class OmplPlanner : public Planner {
 
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
                                 const Budget& budget) const override;
+  // For requests of the same radius on the same grid; builds all that the first of them would wait for.
   void prepare(const WorldView& world, double radius_m) const override;
+  [[nodiscard]] const OmplCaches& caches() const { return caches_; }
 
  private:
   OmplConfig config_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "planners/ompl/disc_query.hpp"
-#include "planners/ompl/pose_problem.hpp"
+#include "planners/ompl/pose_result.hpp"
 
 namespace cairn {
 
@@ -14,13 +14,6 @@ class PoseQuery {
   [[nodiscard]] PlanResult answer() const;
 
  private:
-  struct FoundWay {
-    std::vector<Pose2> states;
-    bool exact = false;
-    bool interrupted = false;
-    std::string how;
-  };
-
   [[nodiscard]] PlanResult answer_from(const StartPlace& start) const;
   [[nodiscard]] PlanResult answer_to(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes,
                                      const PoseSpace& poses) const;
@@ -30,8 +23,6 @@ class PoseQuery {
   [[nodiscard]] FoundWay find_along_route(const PoseProblem& problem, const StartPlace& start) const;
   [[nodiscard]] FoundWay find_by_search(const PoseProblem& problem) const;
   void improve(FoundWay& found, const PoseProblem& problem) const;
-  [[nodiscard]] PlanResult checked(const PoseProblem& problem, const StartPlace& start, const GoalPlace& goal,
-                                   const FoundWay& found) const;
   [[nodiscard]] std::optional<Refusal> blocked(const Pose2& pose, const std::string& end, PlanOutcome outcome,
                                                const PoseSpace& poses) const;
   [[nodiscard]] bool fits_along(const PoseProblem& problem, const std::vector<Pose2>& states) const;
@@ -40,9 +31,7 @@ class PoseQuery {
   const PlanRequest& request_;
   const WorldView& world_;
   const Budget& budget_;
-  Footprint footprint_;
-  KinematicRules kinematics_;
-  EndRules rules_;  // for a disc that the outline holds
+  PoseSetup setup_;
 };
 
 }  // namespace cairn

@@ -1,8 +1,12 @@
 // One search by a planner of OMPL over a problem that is set up.
 //
 // Deterministic for a seed, from any number of threads: OMPL seeds its generators from one process-wide
-// source, so one search runs at a time, with that source set anew; only those that draw nothing from it
+// source, so one search runs at a time, with that source set anew; only those whose answers do not hang on it
 // (seeded_rrt_star.hpp) run side by side. States are drawn by the problem's own samplers.
+//
+// What cannot be had: the latter shift that source all the same. Every planner and every state sampler of OMPL holds
+// a generator as a member, and each takes a seed from the source as it is made, wanted or not. So a search by one of
+// OMPL's own planners may answer differently while searches by the default algorithm run in the same process.
 #pragma once
 
 #include <ompl/base/Planner.h>

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "planners/disc_space/field_box.hpp"
+
 namespace cairn {
 namespace {
 
@@ -67,9 +69,7 @@ double at_least_m(const DiscSpace& space, const Point& p) {
 
 double to_rim_m(const DiscSpace& space, const Point& p) {
   const DistanceField& field = space.field();
-  const CellBox box = field.box();
-  const Point low = field.origin_m() + field.cell_m() * Point(box.min.x, box.min.y);
-  const Point high = field.origin_m() + field.cell_m() * Point(box.max.x, box.max.y);
+  const auto [low, high] = box_of(field, field.box());
   return std::min((p - low).minCoeff(), (high - p).minCoeff());
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <map>
 #include <queue>
 #include <set>
@@ -100,6 +101,21 @@ TEST(CellMesh, PartsAreWhatFloodingReaches) {
           }
       }
   }
+}
+
+// A corridor with a niche at every other cell: what is done for a niche must not grow with their number.
+TEST(CellMesh, ALongRectangleWithManyNeighboursCostsWhatManyShortOnesCost) {
+  const auto seconds_to_build = [](int corridors, int niches) {
+    const int width = 2 * niches;
+    OpenCells cells{{{0, 0}, {width, 3 * corridors}}, {}};
+    for (int y = 0; y < 3 * corridors; ++y)
+      for (int x = 0; x < width; ++x) cells.open.push_back(y % 3 == 0 || (y % 3 == 1 && x % 2 == 0) ? 1 : 0);
+    const std::clock_t begin = std::clock();  // of the processor
+    const CellMesh mesh = mesh_of(cells);
+    EXPECT_EQ(mesh.rectangles(), corridors * (niches + 1));
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  };
+  EXPECT_LT(seconds_to_build(1, 200'000), 10.0 * seconds_to_build(1000, 200) + 0.1);
 }
 
 TEST(CellMesh, BlocksLeaveOutDeadEnds) {

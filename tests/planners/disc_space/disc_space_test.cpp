@@ -160,5 +160,16 @@ TEST(SpaceCache, AnswersForTheGridAsItIsNow) {
   EXPECT_TRUE(before->fits(world.places['A'], 0.0)) << "what was handed out stays as it was";
 }
 
+TEST(SpaceCache, KeepsWhatItHasWhileTheCellsAreTheSame) {
+  const auto world = test::drawn_world(".....\n..#..\n.....\n");
+  const SpaceCache cache;
+  const auto first = cache.space_of(world.grid, {}, 1);
+  EXPECT_EQ(cache.space_of(world.grid, {}, 1), first);
+  EXPECT_EQ(cache.space_of(world.grid, {}, 2), first) << "a version of the same cells";
+  EXPECT_EQ(cache.space_of(world.grid, {}), first);
+  const auto larger = test::drawn_world(".....\n..#..\n.....\n", 0.2);
+  EXPECT_EQ(cache.space_of(larger.grid, {})->cell_m(), 0.2) << "the same cells on another lattice";
+}
+
 }  // namespace
 }  // namespace cairn

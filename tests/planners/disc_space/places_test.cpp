@@ -43,6 +43,16 @@ TEST(Places, WhyBlockedNamesWhatBlocks) {
   EXPECT_EQ(why_blocked(world.grid, space, {7.0, 7.0}, radius_m), "it lies outside the map");
 }
 
+TEST(Places, UnknownGroundThatMayBeCrossedBlocksNothing) {
+  const auto world = drawn_world(kRoom);
+  GroundRules rules;
+  rules.unknown = UnknownPolicy::allow;
+  const DiscSpace space(world.grid, rules);
+  // In unknown ground, and further from it than from the wall.
+  EXPECT_EQ(why_blocked(world.grid, space, {0.75, 0.25}, 0.2),
+            "an occupied cell is 0.15 m from its centre, and the robot needs 0.20 m");
+}
+
 TEST(Places, ATightStartIsLeftForTheNearestFreePlace) {
   const auto world = drawn_world(kRoom);
   const DiscSpace space(world.grid, {});

@@ -97,12 +97,24 @@ TEST(BadSettings, NamesThatAreNoneComeWithTheNearest) {
               AllOf(HasSubstr("mission.yaml:2:14"), HasSubstr("\"goal_bias\"")));
 }
 
+TEST(BadSettings, ParametersOfTheDefaultAlgorithmAreCheckedBeforeAnythingIsImproved) {
+  EXPECT_THAT(error_of("parameters: {goal_bais: 0.1}"),
+              AllOf(HasSubstr("mission.yaml:1:14"), HasSubstr("\"goal_bias\"")));
+  EXPECT_THAT(error_of("{improve_iterations: 0, parameters: {goal_bias: often}}"),
+              HasSubstr("does not take \"often\""));
+  EXPECT_EQ(error_of("parameters: {goal_bias: 0.1}"), "no error");
+}
+
 TEST(BadSettings, WhatDoesNotGoTogetherIsTold) {
   EXPECT_THAT(error_of("kinematics: dubins"), HasSubstr("needs turning_radius_m"));
   EXPECT_THAT(error_of("{kinematics: reeds_shepp, turning_radius_m: 0}"), HasSubstr("needs turning_radius_m"));
   RobotModel car;
   car.min_turning_radius_m = 0.7;
   EXPECT_EQ(error_of("kinematics: dubins", car), "no error");
+  EXPECT_THAT(error_of("{kinematics: dubins, turning_radius_m: 0.5}", car),
+              HasSubstr("turning_radius_m 0.5 is tighter than the robot's own min_turning_radius_m 0.7"));
+  EXPECT_EQ(error_of("{kinematics: dubins, turning_radius_m: 0.7}", car), "no error");
+  EXPECT_EQ(error_of("{kinematics: differential, turning_radius_m: 0.5}", car), "no error") << "it is not asked for";
   RobotModel outlined;
   outlined.polygon_m = {{-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}, {-0.2, 0.1}};
   EXPECT_THAT(error_of("footprint: robot", outlined), HasSubstr("the robot's outline is no disc"));

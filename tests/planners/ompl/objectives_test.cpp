@@ -153,7 +153,7 @@ TEST(Objectives, UnknownGroundIsCrossedOnlyWhereItSavesEnough) {
   EXPECT_FALSE(crosses(30.0));
 }
 
-TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsHardlyEverMakeItWorse) {
+TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeItWorse) {
   int better = 0;
   for (const WantedObjective objective : {WantedObjective::length, WantedObjective::clearance})
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -174,11 +174,10 @@ TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsHardlyEver
       double before =
           objective == WantedObjective::length ? test::length_of(plain) : counted(world, plain, clearance_rules());
       const double at_first = before;
-      for (const std::int64_t iterations : {0, 50, 200, 800}) {
+      for (const std::int64_t iterations : {0, 25, 50, 100, 200, 400, 800}) {
         const double cost = cost_after(iterations);
         EXPECT_LE(cost, at_first * (1.0 + 1e-9)) << "seed " << seed << ", " << iterations << " iterations";
-        // Of two ways nearly alike, the dearer one may be shortened to the cheaper.
-        EXPECT_LE(cost, before * 1.005) << "seed " << seed << ", " << iterations << " iterations";
+        EXPECT_LE(cost, before * (1.0 + 1e-9)) << "seed " << seed << ", " << iterations << " iterations";
         before = cost;
       }
       better += before < at_first * 0.999;

@@ -265,6 +265,56 @@ TEST(OmplPlanner, OfSeveralLandmarksTakesTheNearestByTravelThatCanBeReached) {
   EXPECT_EQ(plan(world, request).outcome, PlanOutcome::unknown_place);
 }
 
+// That the nearer one cannot be reached shows only on a lattice finer than the grid: a door of 0.5 m, a disc of 0.54 m.
+TEST(OmplPlanner, AGoalThatProvesOutOfReachWhileItIsSearchedForLeavesTheOthers) {
+  for (const MotionKind kind : {MotionKind::disc, MotionKind::differential}) {
+    auto world = drawn_world(
+        "##############################################\n"
+        "#............................................#\n"
+        "#............................................#\n"
+        "#............................................#\n"
+        "#............................................#\n"
+        "#............................................#\n"
+        "#...................................D........#\n"
+        "#............................................#\n"
+        "#............................................#\n"
+        "#............................................#\n"
+        "#............................................#\n"
+        "#...........###########......................#\n"
+        "#...........#.........#......................#\n"
+        "#...........#.........#......................#\n"
+        "#.....................#......................#\n"
+        "#.....................#......................#\n"
+        "#....A...........C....#......................#\n"
+        "#.....................#......................#\n"
+        "#.....................#......................#\n"
+        "#...........#.........#......................#\n"
+        "#...........#.........#......................#\n"
+        "#...........###########......................#\n"
+        "#............................................#\n"
+        "##############################################\n");
+    Landmark landmark;
+    landmark.access = world.pose('C');
+    landmark.T_map_landmark = world.pose('C');
+    const LandmarkId behind = world.graph.add(landmark);
+    landmark.access = world.pose('D');
+    landmark.T_map_landmark = world.pose('D');
+    const LandmarkId far = world.graph.add(landmark);
+    PlanRequest request = world.request('A', 'D', 0.27);
+    request.to = {};
+    request.to.landmarks = {behind};
+    OmplConfig config;
+    config.kinematics = kind;
+    const PlanResult narrow = plan(world, request, config);
+    ASSERT_EQ(narrow.outcome, PlanOutcome::no_route) << narrow.reason;
+    EXPECT_THAT(narrow.reason, HasSubstr("too narrow"));
+    request.to.landmarks = {behind, far};
+    const PlanResult result = plan(world, request, config);
+    ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
+    EXPECT_THAT(result.landmarks, ElementsAre(far));
+  }
+}
+
 // The route may not be much longer than the best over the cells, on rooms full of boxes.
 TEST(OmplPlanner, RoutesAreNotMuchLongerThanTheShortest) {
   std::mt19937_64 random(1);

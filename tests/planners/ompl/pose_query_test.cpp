@@ -161,11 +161,10 @@ TEST_P(PoseQueryOf, AnEndThatTouchesIsNamedWithAPlaceThatFits) {
     const PlanResult result = OmplPlanner(config_of(GetParam())).plan(request, world.view(), {});
     ASSERT_EQ(result.outcome, from_start ? PlanOutcome::start_blocked : PlanOutcome::goal_blocked) << result.reason;
     EXPECT_THAT(result.reason, HasSubstr("outline touches something"));
-    const std::size_t at = result.reason.find("nearest free place for it is (");
+    const std::size_t at = result.reason.find("nearest free place is (");
     ASSERT_NE(at, std::string::npos) << result.reason;
     Pose2 place = from_start ? *request.from.pose : *request.to.pose;
-    ASSERT_EQ(
-        std::sscanf(result.reason.c_str() + at, "nearest free place for it is (%lf, %lf)", &place.x_m, &place.y_m), 2);
+    ASSERT_EQ(std::sscanf(result.reason.c_str() + at, "nearest free place is (%lf, %lf)", &place.x_m, &place.y_m), 2);
     EXPECT_GT(test::outline_distance_m(world.grid, {}, footprint, place, 0.002), 0.001) << result.reason;
   }
 }
@@ -191,6 +190,28 @@ TEST_P(PoseQueryOf, HalfATurnIsAHeadingLikeAnyOther) {
     EXPECT_NEAR(wrap_angle(result.path.back().theta_rad - to_rad), 0.0, 1e-6);
     EXPECT_LT(result.length_m, 9.0);
   }
+}
+
+// All of it, not only under the disc that the outline holds.
+TEST_P(PoseQueryOf, UnknownGroundUnderTheRobotItselfDoesNotBlock) {
+  Random random(7);
+  test::DrawnWorld world = room_with_boxes(random);
+  const Pose2 stand{3.0, 2.5, radians(30.0)};
+  for (int y = 1; y < 49; ++y)
+    for (int x = 1; x < 59; ++x) {
+      const Point off = world.grid.centre_of({x, y}) - stand.position();
+      world.grid.set_log_odds({x, y}, off.norm() < 0.4 ? LogOdds{0} : LogOdds{-900});
+    }
+  world.robot.polygon_m = kRectangle;
+  const OmplPlanner planner(config_of(GetParam()), world.robot);
+  PlanRequest request;
+  request.from.pose = stand;
+  request.to.pose = Pose2{5.0, 2.5, 0.0};
+  EXPECT_EQ(planner.plan(request, world.view(), {}).outcome, PlanOutcome::start_blocked) << "nobody says it is there";
+  const Observation observation;
+  const WorldView live{world.grid, world.graph, world.robot, {stand, {}}, 1.0, &observation, 0.0};
+  const PlanResult result = planner.plan(request, live, {});
+  EXPECT_NE(result.outcome, PlanOutcome::start_blocked) << result.reason;
 }
 
 TEST_P(PoseQueryOf, AnOutlineLargerThanAnyPassageIsAnOutcome) {
