@@ -3,9 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <string_view>
 
 namespace cairn::store {
+
+// By number, from 1.
+using DefinitionPages = std::map<std::uint32_t, std::string>;
 
 // Gives the file this content: whoever opens it at any moment, also after a kill or a power cut,
 // finds the whole old or the whole new content. Writes beside the file, then renames over it.
@@ -14,6 +19,12 @@ void replace_file(const std::filesystem::path& file, std::string_view bytes);
 
 // Refuses, with a StoreError, what no saved map of a known schema version begins like.
 void check_header(const std::filesystem::path& file);
+
+// The same for what may be damaged behind its first 100 bytes; its schema version.
+[[nodiscard]] int check_kind(const std::filesystem::path& file);
+// A file's bytes as SQLite takes them when some are missing at the end. The pages that define the tables
+// are the same in every map of a version: they take the place of those that are there.
+[[nodiscard]] std::string as_far_as_it_goes(std::string bytes, const DefinitionPages& definitions);
 
 // Whether the file is absent, empty or some SQLite file, so that saving a map over it destroys no
 // mission or picture that was named by mistake.

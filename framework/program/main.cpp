@@ -37,6 +37,7 @@ void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& 
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{9000000000000000}));
   sub->add_option("--set", c.overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
       ->allow_extra_args(false);
+  sub->add_option("--resume", c.resume, "saved or autosaved map of this mission (*.cairn) to go on from");
   sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
   sub->callback([&] { action = [&] { return run(c, common); }; });
 }
@@ -86,7 +87,10 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
     return sub;
   };
   add("info", "Size, landmarks and routes of a map", map_info);
-  add("check", "Prove a map sound, or say what is wrong", map_check);
+  add("check", "Prove a map sound, or say exactly what is lost; exit status 2 when it is damaged", map_check);
+  add("repair", "Save what a damaged map still holds", map_repair)
+      ->add_option("-o,--out", c.repaired, "saved map to write; never the damaged one")
+      ->required();
   CLI::App* render = add("render", "Draw a map into a PNG file", map_render);
   render->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
 }
