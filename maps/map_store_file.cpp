@@ -151,8 +151,8 @@ void check_header(const std::filesystem::path& file) {
 std::string as_far_as_it_goes(std::string bytes, const DefinitionPages& definitions) {
   const std::size_t page_bytes = definitions.empty() ? page_bytes_of(bytes) : definitions.at(1).size();
   bytes.resize((bytes.size() + page_bytes - 1) / page_bytes * page_bytes, '\0');
-  for (const auto& [number, page] : definitions)
-    if (number * page_bytes <= bytes.size()) bytes.replace((number - 1) * page_bytes, page_bytes, page);
+  if (!definitions.empty()) bytes.resize(std::max(bytes.size(), definitions.rbegin()->first * page_bytes), '\0');
+  for (const auto& [number, page] : definitions) bytes.replace((number - 1) * page_bytes, page_bytes, page);
   const std::size_t pages = bytes.size() / page_bytes;
   for (std::size_t i = 0; i < 4; ++i) bytes[28 + i] = static_cast<char>((pages >> (8 * (3 - i))) & 0xFF);
   for (std::size_t i = 0; i < 4; ++i) bytes[92 + i] = bytes[24 + i];  // so that the number of pages is believed

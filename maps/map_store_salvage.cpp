@@ -12,7 +12,7 @@ namespace cairn {
 namespace store {
 namespace {
 
-constexpr std::int64_t kMostProbes = 4'000'000;
+constexpr std::int64_t kMostProbes = 500'000;
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);

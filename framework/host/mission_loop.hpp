@@ -59,6 +59,7 @@ class MissionLoop : private Orders {
   [[nodiscard]] bool is_known_already(const Observation& observation);
   [[nodiscard]] MissionProgress progress() const;
   void autosave();
+  void tell_of_autosave();
   void finish();
   void write_last_map();
   void stop();

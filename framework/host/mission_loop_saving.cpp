@@ -61,16 +61,20 @@ MissionProgress MissionLoop::progress() const {
 // Nothing in here may change what the mission does next. The hierarchies are not brought in line: when they are
 // decides which ids their clusters get, and autosaves come when the wall clock says so.
 void MissionLoop::autosave() {
-  if (const auto news = autosaver_.news()) {
-    if (news->saved)
-      tell(Autosaved{autosaver_.file().filename().string(), news->time_s, news->took_ms});
-    else if (!autosave_has_failed_)
-      tell(AutosaveFailed{news->reason});
-    autosave_has_failed_ = autosave_has_failed_ || !news->saved;
-  }
+  tell_of_autosave();
   if (!autosaver_.is_due()) return;
   const Autosaver::Clock::time_point begin = Autosaver::Clock::now();
   autosaver_.save(map_of_mission(mission_, *grid_, keeper_, hierarchies_.last_tree(), progress()), begin);
+}
+
+void MissionLoop::tell_of_autosave() {
+  const auto news = autosaver_.news();
+  if (!news) return;
+  if (news->saved)
+    tell(Autosaved{autosaver_.file().filename().string(), news->time_s, news->took_ms});
+  else if (!autosave_has_failed_)
+    tell(AutosaveFailed{news->reason});
+  autosave_has_failed_ = autosave_has_failed_ || !news->saved;
 }
 
 // Whatever happened: the robot stops, and the map so far is saved.
@@ -89,6 +93,7 @@ void MissionLoop::finish() {
 // The autosave has done its work when a whole map has taken its place.
 void MissionLoop::write_last_map() {
   autosaver_.finish();
+  tell_of_autosave();
   result_.autosave = autosaver_.figures();
   const std::string name = mission_.config.mission + ".cairn";
   const Status saved = write_map(name);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -273,6 +274,7 @@ int main_of(int argc, char** argv) {
 }  // namespace cairn
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is told like a full disk
   try {
     return cairn::main_of(argc, argv);
   } catch (const std::exception& error) {

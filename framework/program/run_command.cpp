@@ -63,7 +63,8 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
                      result.time_s / std::max(wall_s, 1e-9));
   if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
   if (!result.map_file.empty()) out << "  map         " << (folder / result.map_file).string() << "\n";
-  out << "  report      " << (folder / "report.json").string() << "\n";
+  if (std::filesystem::exists(folder / "report.json"))
+    out << "  report      " << (folder / "report.json").string() << "\n";
   for (const std::string& picture : pictures.files) out << "  picture     " << (folder / picture).string() << "\n";
   for (const std::string& sentence : pictures.missing) out << "  no picture  " << sentence << "\n";
 }
