@@ -148,11 +148,17 @@ void check_header(const std::filesystem::path& file) {
   check_size(header_of(file), std::filesystem::file_size(file));
 }
 
-std::string as_far_as_it_goes(std::string bytes, const DefinitionPages& definitions) {
-  const std::size_t page_bytes = definitions.empty() ? page_bytes_of(bytes) : definitions.at(1).size();
-  bytes.resize((bytes.size() + page_bytes - 1) / page_bytes * page_bytes, '\0');
-  if (!definitions.empty()) bytes.resize(std::max(bytes.size(), definitions.rbegin()->first * page_bytes), '\0');
-  for (const auto& [number, page] : definitions) bytes.replace((number - 1) * page_bytes, page_bytes, page);
+std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions) {
+  const std::size_t page_bytes = page_bytes_of(definitions == nullptr ? bytes : definitions->bytes);
+  const std::size_t found = (bytes.size() + page_bytes - 1) / page_bytes;
+  bytes.resize(found * page_bytes, '\0');
+  if (definitions != nullptr) {
+    const std::size_t least = definitions->bytes.size() / page_bytes;
+    bytes.resize(std::max(found, least) * page_bytes, '\0');
+    for (std::uint32_t number = 1; number <= least; ++number)
+      if (number > found || !definitions->content_pages.contains(number))
+        bytes.replace((number - 1) * page_bytes, page_bytes, definitions->bytes, (number - 1) * page_bytes, page_bytes);
+  }
   const std::size_t pages = bytes.size() / page_bytes;
   for (std::size_t i = 0; i < 4; ++i) bytes[28 + i] = static_cast<char>((pages >> (8 * (3 - i))) & 0xFF);
   for (std::size_t i = 0; i < 4; ++i) bytes[92 + i] = bytes[24 + i];  // so that the number of pages is believed

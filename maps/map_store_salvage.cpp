@@ -172,11 +172,12 @@ class Copying {
 // their place.
 Database opened(const std::string& bytes, int version) {
   try {
-    Database database = Database::of_bytes(as_far_as_it_goes(bytes, {}));
+    Database database = Database::of_bytes(as_far_as_it_goes(bytes, nullptr));
     check_schema(database, version);
     return database;
   } catch (const StoreError&) {
-    return Database::of_bytes(as_far_as_it_goes(bytes, tables_pages(version)));
+    const EmptyMapFile definitions = empty_map_file(version);
+    return Database::of_bytes(as_far_as_it_goes(bytes, &definitions));
   }
 }
 
@@ -191,9 +192,14 @@ SalvagedMap salvaged_from(Database& damaged, int version) {
   Copying copying(damaged, sound, salvaged.losses);
   for (const Table& table : tables())
     if (table.since <= version) copying.copy(table);
-  Reading reading(sound, version, &salvaged.losses);
+  const bool missed_clusters = std::ranges::any_of(salvaged.losses, concerns_clusters);
+  std::vector<StoreLoss> wrong;
+  Reading reading(sound, version, &wrong);
   salvaged.map = read_content(reading);
-  if (std::ranges::any_of(salvaged.losses, concerns_clusters)) {
+  salvaged.losses.insert(salvaged.losses.end(), wrong.begin(), wrong.end());
+  // What fits the landmarks as it is was not touched.
+  if (std::ranges::any_of(wrong, concerns_clusters) ||
+      (missed_clusters && salvaged.map.clusters.cluster_of.empty() && !salvaged.map.graph.landmarks().empty())) {
     const ClusterId next_id = salvaged.map.clusters.next_id;
     salvaged.map.clusters = cluster_landmarks(salvaged.map.graph);
     salvaged.map.clusters.next_id = std::max(next_id, salvaged.map.clusters.next_id);
@@ -211,9 +217,9 @@ SalvagedMap salvage_map(const std::filesystem::path& file) {
     const int version = check_kind(file);
     Database damaged = opened(bytes_of(file), version);
     SalvagedMap salvaged = salvaged_from(damaged, version);
-    const auto lost_grid = [](const StoreLoss& loss) { return loss.table == "grid"; };
-    const bool has_nothing = salvaged.map.graph.landmarks().empty() && salvaged.map.driven_path.empty();
-    if (has_nothing && std::ranges::any_of(salvaged.losses, lost_grid))
+    const SavedMap& map = salvaged.map;
+    if (!salvaged.losses.empty() && map.properties.empty() && map.grid.bounds().empty() &&
+        map.graph.landmarks().empty() && map.driven_path.empty())
       throw StoreError("nothing of it can be read: " + salvaged.losses.front().what);
     return salvaged;
   } catch (const StoreError& error) {

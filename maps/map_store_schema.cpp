@@ -138,17 +138,13 @@ Database empty_map(int version) {
   return database;
 }
 
-DefinitionPages tables_pages(int version) {
+EmptyMapFile empty_map_file(int version) {
   Database database = empty_map(version);
   database.execute("COMMIT");
-  const std::string bytes = database.serialized();
-  constexpr std::size_t kPage = 4096;
-  DefinitionPages pages;
-  for (std::size_t i = 0; i < bytes.size() / kPage; ++i)
-    pages.emplace(static_cast<std::uint32_t>(i + 1), bytes.substr(i * kPage, kPage));
+  EmptyMapFile file{database.serialized(), {}};
   Statement roots(database, "SELECT rootpage FROM sqlite_schema");
-  while (roots.step()) pages.erase(static_cast<std::uint32_t>(roots.integer(0)));
-  return pages;
+  while (roots.step()) file.content_pages.insert(static_cast<std::uint32_t>(roots.integer(0)));
+  return file;
 }
 
 void check_schema(Database& database, int version) {

@@ -26,9 +26,8 @@ struct Table {
 [[nodiscard]] std::span<const Table> tables();
 // A map of that version without content, and a transaction begun in it.
 [[nodiscard]] Database empty_map(int version);
-// The pages of a map of that version in which SQLite keeps the definitions of its tables. They are written before all
-// content, so every map has the same ones.
-[[nodiscard]] DefinitionPages tables_pages(int version);
+// The tables are made before all content, so every map of a version has their definitions and roots in these pages.
+[[nodiscard]] EmptyMapFile empty_map_file(int version);
 // Every table of that version exists exactly as create_tables makes it; throws StoreError with the first that
 // does not.
 void check_schema(Database& database, int version);
