@@ -83,8 +83,10 @@ void kill_and_go_on(const fs::path& mission, const fs::path& out, double delay_s
   fs::path file = out / "office.autosave.cairn";
   kills.ended_before += killed.has_ended ? 1 : 0;
   if (!fs::exists(file)) file = out / "office.cairn";  // the mission had saved its map
+  std::string told;
+  for (const Killed::Line& line : killed.lines) told += line.text + "\n";
   SavedMap map;
-  ASSERT_NO_THROW(map = load_map(file));
+  ASSERT_NO_THROW(map = load_map(file)) << (killed.has_ended ? "it had ended by itself: " : "") << told;
   ++kills.files;
   expect_all_up_to_the_last_autosave(killed, map, kills);
   const Finished resumed = run_mission(mission, out, {"--resume", file.string()});
@@ -137,7 +139,8 @@ TEST(SavedMap, AnotherMissionsRobotsOrCellsMapIsRefused) {
   };
   EXPECT_THAT(refusal({"--set", "mission=attic"}),
               HasSubstr("the map was made by mission \"office\", the mission's is \"attic\""));
-  EXPECT_THAT(refusal({"--set", "robot=" + source_folder() + "/config/robots/small_car.yaml"}), HasSubstr("with robot"));
+  EXPECT_THAT(refusal({"--set", "robot=" + source_folder() + "/config/robots/small_car.yaml"}),
+              HasSubstr("with robot"));
   EXPECT_THAT(refusal({"--set", "map.cell_m=0.1"}), HasSubstr("the map has cells of 0.05 m, the mission's of 0.1 m"));
   EXPECT_THAT(refusal({"--seed", "8"}), HasSubstr("the map was made with seed \"7\", the mission's is \"8\""));
   small_mission(folder, "{}", "[wait: 1, wait: 2, wait: 3]");
