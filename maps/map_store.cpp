@@ -58,22 +58,82 @@ void save_map(const std::filesystem::path& file, const SavedMap& map) {
   }
 }
 
-SavedMap load_map(const std::filesystem::path& file) {
+namespace {
+
+// Puts the file in front of what is wrong.
+template <typename Read>
+auto in_file(const std::filesystem::path& file, Read read) {
   try {
-    store::check_header(file);
-    Database database = Database::read_only(file);
-    database.execute("BEGIN");  // one state of the file for all that follows
+    return read();
+  } catch (const StoreError& error) {
+    throw StoreError(file.string() + ": " + error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw StoreError(file.string() + ": cannot be read: " + error.code().message());
+  }
+}
+
+Database opened(const std::filesystem::path& file) {
+  store::check_header(file);
+  Database database = Database::read_only(file);
+  database.execute("BEGIN");  // one state of the file for all that follows
+  return database;
+}
+
+}  // namespace
+
+SavedMap load_map(const std::filesystem::path& file) {
+  return in_file(file, [&] {
+    Database database = opened(file);
     check_pages(database);
     const int version = version_of(database);
     store::check_schema(database, version);
     store::check_checksums(database, version);
     store::Reading reading(database, version);
     return store::read_content(reading);
-  } catch (const StoreError& error) {
-    throw StoreError(file.string() + ": " + error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw StoreError(file.string() + ": cannot be read: " + error.code().message());
-  }
+  });
+}
+
+struct MapFile::Opened {
+  std::filesystem::path file;
+  Database database;
+  int version = 0;
+};
+
+MapFile::MapFile(const std::filesystem::path& file) {
+  opened_ = in_file(file, [&] {
+    auto opened_file = std::make_unique<Opened>(Opened{file, opened(file), 0});
+    opened_file->version = version_of(opened_file->database);
+    store::check_schema(opened_file->database, opened_file->version);
+    store::check_checksums(opened_file->database, opened_file->version);
+    return opened_file;
+  });
+}
+MapFile::MapFile(MapFile&&) noexcept = default;
+MapFile& MapFile::operator=(MapFile&&) noexcept = default;
+MapFile::~MapFile() = default;
+
+OccupancyGrid MapFile::lattice() const {
+  return in_file(opened_->file, [&] {
+    store::Reading reading(opened_->database, opened_->version);
+    return store::read_lattice(reading);
+  });
+}
+
+SavedMap MapFile::without_cells() const {
+  return in_file(opened_->file, [&] {
+    store::Reading reading(opened_->database, opened_->version);
+    return store::read_content_without_tiles(reading);
+  });
+}
+
+OccupancyGrid MapFile::grid_within(const CellBox& box) const {
+  return in_file(opened_->file, [&] {
+    store::Reading reading(opened_->database, opened_->version);
+    OccupancyGrid grid = store::read_lattice(reading);
+    const CellBox within = intersected(box, grid.bounds());
+    store::read_tiles_within(reading, within, grid);
+    return part_of(grid, within);
+  });
 }
 
 }  // namespace cairn

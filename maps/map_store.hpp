@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -58,5 +59,27 @@ struct SavedMap {
 void save_map(const std::filesystem::path& file, const SavedMap& map);
 // Throws StoreError with the file, the table and what is wrong.
 [[nodiscard]] SavedMap load_map(const std::filesystem::path& file);
+
+// A saved map of which only a part of the grid is read, for who needs no more of a large one. What is read is checked
+// as load_map does; what is not read may be damaged. Keeps to the content that the file had when it was opened.
+class MapFile {
+ public:
+  // Throws StoreError, like all below.
+  explicit MapFile(const std::filesystem::path& file);
+  MapFile(MapFile&&) noexcept;
+  MapFile& operator=(MapFile&&) noexcept;
+  ~MapFile();
+
+  // The grid's lattice and its bounds, all unknown.
+  [[nodiscard]] OccupancyGrid lattice() const;
+  // All but the cells of the grid, which is lattice().
+  [[nodiscard]] SavedMap without_cells() const;
+  // The grid, unknown outside the box (cells), which its bounds do not exceed either.
+  [[nodiscard]] OccupancyGrid grid_within(const CellBox& box) const;
+
+ private:
+  struct Opened;
+  std::unique_ptr<Opened> opened_;
+};
 
 }  // namespace cairn

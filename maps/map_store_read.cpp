@@ -59,27 +59,35 @@ OccupancyGrid read_grid(Reading& reading) {
   return grid;
 }
 
-void take_tile(OccupancyGrid& grid, Cell tile, const std::string& raw, const std::string& what) {
+// The cells of a tile that lie in the box. A tile far off would grow the grid: nothing is written before all is
+// checked.
+void take_tile(OccupancyGrid& grid, Cell tile, const std::string& raw, const CellBox& box, const std::string& what) {
   const CellBox bounds = grid.bounds();
   const auto clamp = static_cast<int>(grid.clamp_nat() * kLogOddsPerNat);
+  const auto value_at = [&raw](int i) { return little_endian_at<LogOdds>(raw, 2 * static_cast<std::size_t>(i)); };
+  const auto cell_at = [&](int i) { return Cell{tile.x * kSide + i % kSide, tile.y * kSide + i / kSide}; };
   for (int i = 0; i < kSide * kSide; ++i) {
-    const auto value = little_endian_at<LogOdds>(raw, 2 * static_cast<std::size_t>(i));
-    if (value == 0) continue;
-    const Cell cell{tile.x * kSide + i % kSide, tile.y * kSide + i / kSide};
-    if (!bounds.contains(cell)) throw StoreError(what + " has known cells outside the grid's bounds");
+    const LogOdds value = value_at(i);
+    if (value != 0 && !bounds.contains(cell_at(i)))
+      throw StoreError(what + " has known cells outside the grid's bounds");
     if (value > clamp || value < -clamp) throw StoreError(what + " holds log-odds beyond the grid's clamp");
-    grid.set_log_odds(cell, value);
   }
+  const CellBox inside = intersected({cell_at(0), cell_at(kSide * kSide - 1) + Cell{1, 1}}, box);
+  if (inside.empty()) return;
+  LogOdds* const cells = grid.cells_of_tile_for_writing(tile);
+  for (int i = 0; i < kSide * kSide; ++i)
+    if (inside.contains(cell_at(i))) cells[i] = value_at(i);
 }
 
-void read_tiles(Reading& reading, OccupancyGrid& grid) {
-  reading.rows("tiles", "SELECT level, tx, ty, log_odds, crc32 FROM tiles ORDER BY level, ty, tx", [&](Statement& row) {
+void read_tiles(Reading& reading, const std::string& where, const CellBox& box, OccupancyGrid& grid) {
+  const std::string select = "SELECT level, tx, ty, log_odds, crc32 FROM tiles" + where + " ORDER BY level, ty, tx";
+  reading.rows("tiles", select, [&](Statement& row) {
     require_level_zero(row, 0);
     const Cell tile{static_cast<int>(row.integer_within(1, -kMaxCellIndex / kSide, kMaxCellIndex / kSide)),
                     static_cast<int>(row.integer_within(2, -kMaxCellIndex / kSide, kMaxCellIndex / kSide))};
     const std::string what = "tile (" + std::to_string(tile.x) + ", " + std::to_string(tile.y) + ")";
     reading.at_tile(tile);
-    take_tile(grid, tile, unpacked(row, 3, kTileBytes, what), what);
+    take_tile(grid, tile, unpacked(row, 3, kTileBytes, what), box, what);
   });
 }
 
@@ -178,12 +186,33 @@ void read_shapes(Reading& reading, std::vector<LandmarkShape>& shapes) {
 }  // namespace
 
 SavedMap read_content(Reading& reading) {
+  SavedMap map = read_content_without_tiles(reading);
+  read_tiles(reading, "", map.grid.bounds(), map.grid);
+  return map;
+}
+
+OccupancyGrid read_lattice(Reading& reading) {
+  OccupancyGrid grid(1.0);
+  reading.in_table("grid", [&] { grid = read_grid(reading); });
+  reading.tile_m = {grid.origin_m(), kSide * grid.cell_m()};
+  return grid;
+}
+
+void read_tiles_within(Reading& reading, const CellBox& box, OccupancyGrid& grid) {
+  if (box.empty()) return;
+  const auto between = [](const char* column, int min, int max) {
+    return std::string(column) + " BETWEEN " + std::to_string(min >> 6) + " AND " + std::to_string((max - 1) >> 6);
+  };
+  const std::string where =
+      " WHERE level = 0 AND " + between("ty", box.min.y, box.max.y) + " AND " + between("tx", box.min.x, box.max.x);
+  read_tiles(reading, where, box, grid);
+}
+
+SavedMap read_content_without_tiles(Reading& reading) {
   SavedMap map;
   reading.rows("meta", "SELECT key, value FROM meta ORDER BY key",
                [&](Statement& row) { map.properties.emplace(row.text(0), row.text(1)); });
-  reading.in_table("grid", [&] { map.grid = read_grid(reading); });
-  reading.tile_m = {map.grid.origin_m(), kSide * map.grid.cell_m()};
-  read_tiles(reading, map.grid);
+  map.grid = read_lattice(reading);
   read_all_landmarks(reading, map.graph);
   read_routes(reading, map.graph);
   if (reading.version >= 4) read_progress(reading, map);

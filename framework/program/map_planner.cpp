@@ -19,6 +19,17 @@ constexpr double kLikelyDetour_ratio = 1.4;       // of a way against the straig
 constexpr double kAround_m = 5.0;                 // of a part, beyond what ways may pass: what stands there counts too
 constexpr int kParts = 3;                         // that are tried
 
+bool is_large(const CellBox& cells) {
+  return std::int64_t{cells.width()} * cells.height() >= kLarge_cells;
+}
+
+// For one question, which a part of the grid may answer.
+std::optional<MapFile> opened_in_part(const PlanCommand& command) {
+  if (!command.queries.empty() || !command.picture.empty()) return std::nullopt;
+  std::optional<MapFile> file(command.map);
+  return is_large(file->lattice().bounds()) ? std::move(file) : std::nullopt;
+}
+
 RouteCostRules rules_of(const RobotModel& robot, const SavedMap& map) {
   return {robot.max_v_mps, robot.max_w_radps, robot.radius_m, &map.grid};
 }
@@ -57,7 +68,8 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
     : command_(command),
       many_(!command.queries.empty()),
       library_(plugin_folders(common.plugin_folders)),
-      map_(load_map(command.map)),
+      file_(opened_in_part(command)),
+      map_(file_ ? file_->without_cells() : load_map(command.map)),
       robot_(robot_of(command, map_)),
       hierarchies_(map_.graph, map_.clusters, rules_of(robot_, map_)) {
   const PluginChoice choice = choice_of(command);
@@ -99,14 +111,14 @@ std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request) c
   const auto ends = ends_of(request, map_.graph);
   const bool counts_lengths = command_.settings.empty() && request.cost == CostKind::length;
   const bool asks_more = request.alternatives > 0 || request.explain || !request.avoid.empty();
-  if (!ends || !counts_lengths || asks_more || std::int64_t{whole.width()} * whole.height() < kLarge_cells ||
+  if (!file_ || !ends || !counts_lengths || asks_more || robot_.radius_m > kAround_m / 2 ||
       !costs_are_lengths(map_.graph))
     return std::nullopt;
   double length_m = kLikelyDetour_ratio * (ends->to - ends->from).norm() + kAround_m;
   for (std::uint64_t version = kLoadedGrid + 1; version <= kLoadedGrid + kParts; ++version) {
     const CellBox box = part_for(*ends, length_m, kAround_m, map_.grid, whole);
     if (box == whole) return std::nullopt;
-    const OccupancyGrid part = part_of(map_.grid, box);
+    const OccupancyGrid part = file_->grid_within(box);
     if (request.from.pose || request.to.pose) prepare(part, version);  // over landmarks, most of it is not needed
     PlanResult result = plan_on(part, version, request, budget_from_now());
     if (result.outcome != PlanOutcome::solved) return std::nullopt;
@@ -132,10 +144,18 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
   task.request.seed = static_cast<std::uint64_t>(command_.seed);
   if (!many_ && task.via.empty())
     if (auto result = plan_on_part(task.request)) return *std::move(result);
-  if (!many_) prepare(map_.grid, kLoadedGrid);
+  const OccupancyGrid& grid = whole_grid();
+  if (!many_) prepare(grid, kLoadedGrid);
   const Budget budget = budget_from_now();
-  return plan_tour([&](const PlanRequest& request) { return plan_on(map_.grid, kLoadedGrid, request, budget); },
+  return plan_tour([&](const PlanRequest& request) { return plan_on(grid, kLoadedGrid, request, budget); },
                    task.request, task.via);
+}
+
+const OccupancyGrid& MapPlanner::whole_grid() const {
+  std::call_once(grid_read_, [&] {
+    if (file_) map_.grid = file_->grid_within(map_.grid.bounds());
+  });
+  return map_.grid;
 }
 
 const ClusterTree& MapPlanner::clusters() const {

@@ -30,7 +30,9 @@ class MapPlanner {
   [[nodiscard]] PlanResult answer(const PlanQuery& query) const;
   // As the hierarchy has them.
   [[nodiscard]] const ClusterTree& clusters() const;
+  // Its grid may not be read yet where one question has not needed it.
   [[nodiscard]] const SavedMap& map() const { return map_; }
+  [[nodiscard]] const OccupancyGrid& whole_grid() const;
   [[nodiscard]] double radius_m() const { return robot_.radius_m; }
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
 
@@ -45,7 +47,9 @@ class MapPlanner {
   const PlanCommand& command_;
   bool many_ = false;
   ModuleLibrary library_;
-  SavedMap map_;
+  std::optional<MapFile> file_;  // of a large map for one question: its grid is read as far as it is needed
+  mutable std::once_flag grid_read_;
+  mutable SavedMap map_;
   RobotModel robot_;
   Hierarchies hierarchies_;
   mutable std::once_flag clusters_made_;
