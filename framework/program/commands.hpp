@@ -69,9 +69,12 @@ int map_check(const MapCommand& command, const CommonOptions& common);
 int map_render(const MapCommand& command, const CommonOptions& common);
 
 struct ExchangeCommand {
-  std::filesystem::path from;    // the file of another tool, or the map
-  std::filesystem::path to;      // the other way round
-  std::optional<double> cell_m;  // of a picture that does not say it
+  std::filesystem::path from;         // the file of another tool, or the map
+  std::filesystem::path to;           // the other way round
+  std::optional<double> cell_m;       // of a picture that does not say it
+  std::string mode;                   // of a map_server file: trinary, scale, raw; empty: trinary
+  std::string picture;                // of a map_server file: pgm, png, bmp; empty: what suits the mode
+  std::optional<double> px_per_cell;  // of a plain picture
 };
 int map_import(const ExchangeCommand& command, const CommonOptions& common);
 int map_export(const ExchangeCommand& command, const CommonOptions& common);

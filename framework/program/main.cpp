@@ -101,9 +101,17 @@ void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& co
   in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")
       ->check(number_within(0.001, 1000.0));
   in->callback([&] { action = [&] { return map_import(c, common); }; });
-  CLI::App* out = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
+  CLI::App* out = map->add_subcommand("export", "Write a map's landmark graph or grid for other tools, or its picture");
   out->add_option("MAP", c.from, "saved map (*.cairn)")->required();
-  out->add_option("-o,--out", c.to, "file to write: *.graph, *.geojson, *.json, *.graphml or *.png")->required();
+  out->add_option("-o,--out", c.to,
+                  "file to write: *.graph, *.geojson, *.json, *.graphml, map_server (*.yaml and its picture) or *.png")
+      ->required();
+  out->add_option("--mode", c.mode, "how map_server is to read the picture: trinary (without it), scale or raw")
+      ->check(CLI::IsMember({"trinary", "scale", "raw"}));
+  out->add_option("--picture", c.picture, "map_server's picture: pgm, png or bmp (without it pgm, in mode scale png)")
+      ->check(CLI::IsMember({"pgm", "png", "bmp"}));
+  out->add_option("--scale", c.px_per_cell, "a *.png of the bare grid with so many pixels a cell, 0.25 or 3")
+      ->check(number_within(1e-6, 65536.0));
   out->callback([&] { action = [&] { return map_export(c, common); }; });
 }
 
