@@ -23,9 +23,10 @@ OccupancyGrid written_and_read(const OccupancyGrid& grid, MapServerMode mode, Pi
 
 void expect_round_trip(const OccupancyGrid& grid, MapServerMode mode, const std::string& what) {
   for (const PictureFormat format : {PictureFormat::pgm, PictureFormat::png, PictureFormat::bmp})
-    if (mode != MapServerMode::scale || format != PictureFormat::pgm)
+    if (mode != MapServerMode::scale || format != PictureFormat::pgm) {
       EXPECT_TRUE(written_and_read(grid, mode, format) == grid)
           << what << " mode " << static_cast<int>(mode) << " format " << static_cast<int>(format);
+    }
 }
 
 // 205, transparency, what lies at the thresholds.
