@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/config/map_server_file.hpp"
+#include "framework/config/rmf_file.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/exchange_told.hpp"
@@ -23,11 +24,11 @@ constexpr std::string_view kMovingAi = ".map";
 constexpr std::array<std::string_view, 3> kGridExtensions{kMovingAi, ".yaml", ".yml"};
 constexpr double kMovingAiCell_m = 1.0;
 
-int import_graph(const ExchangeCommand& command, GraphFormat format, const CommonOptions& common) {
-  ImportedGraph imported = read_graph_file(command.from, format);
+int import_graph(const ExchangeCommand& command, ImportedGraph imported, const CommonOptions& common) {
   SavedMap map;
   map.graph = std::move(imported.graph);
   map.clusters = cluster_landmarks(map.graph);
+  map.properties = imported.properties;
   map.properties["imported_from"] = command.from.filename().string();
   save_map(command.to, map);
   const std::size_t landmarks = map.graph.landmarks().size();
@@ -81,7 +82,12 @@ int map_import(const ExchangeCommand& command, const CommonOptions& common) {
   if (command.cell_m && extension != kMovingAi)
     throw std::runtime_error("map import: --cell-m is for Moving AI grids (*.map); " + command.from.string() +
                              " says itself how large it is");
-  return format ? import_graph(command, *format, common) : import_grid(command, common);
+  if (format) return import_graph(command, read_graph_file(command.from, *format), common);
+  if (extension != kMovingAi) {
+    const ConfigValue root = parse_config_text(exchange::text_of_file(command.from), command.from.string());
+    if (is_rmf(root)) return import_graph(command, rmf_graph_of(root), common);
+  }
+  return import_grid(command, common);
 }
 
 }  // namespace cairn

@@ -10,6 +10,7 @@
 #include "maps/exchange/grey_picture_write.hpp"
 #include "maps/exchange/grid_picture.hpp"
 #include "maps/exchange/map_server_write.hpp"
+#include "maps/exchange/rmf_nav_graph.hpp"
 #include "maps/exchange/source_text.hpp"
 #include "maps/map_store.hpp"
 
@@ -59,7 +60,8 @@ Written write_map_server(const ExchangeCommand& command, const SavedMap& map) {
   if (std::filesystem::equivalent(picture, command.from, error))
     throw std::runtime_error("map export: the picture " + picture.string() +
                              " would overwrite the map that is exported; give -o another name");
-  ExportedGrid exported = map_server_of(grid_of(map, command, "map_server files are of grids"), mode);
+  ExportedGrid exported =
+      map_server_of(grid_of(map, command, "map_server files are of grids, *.nav.yaml of landmarks and routes"), mode);
   if (mode == MapServerMode::scale && format == "pgm") {
     exported.picture.alpha.clear();
     exported.warnings.emplace_back(
@@ -86,6 +88,21 @@ Written write_scaled(const ExchangeCommand& command, const SavedMap& map) {
   return written;
 }
 
+// "x.nav.yaml"
+bool is_nav_graph(const std::filesystem::path& file) {
+  return file.extension() == kMapServer[0] && file.stem().extension() == ".nav";
+}
+
+Written write_nav_graph(const ExchangeCommand& command, const SavedMap& map) {
+  if (map.graph.landmarks().empty())
+    throw std::runtime_error(command.from.string() + ": holds no landmark to make a vertex of");
+  const auto site = map.properties.find("rmf");
+  const ExportedGraph exported =
+      rmf_nav_graph_of(map.graph, site == map.properties.end() ? std::string() : site->second);
+  write_file(command.to, exported.text);
+  return {{command.to}, exported.warnings};
+}
+
 Written write_graph(const ExchangeCommand& command, const SavedMap& map, GraphFormat format) {
   const ExportedGraph exported = graph_text_of(map.graph, format);
   write_file(command.to, exported.text);
@@ -97,9 +114,10 @@ Written write_graph(const ExchangeCommand& command, const SavedMap& map, GraphFo
 int map_export(const ExchangeCommand& command, const CommonOptions& common) {
   const std::string extension = command.to.extension().string();
   const bool is_picture = extension == kPicture;
-  const bool is_map_server = extension == kMapServer[0] || extension == kMapServer[1];
+  const bool is_rmf = is_nav_graph(command.to);
+  const bool is_map_server = !is_rmf && (extension == kMapServer[0] || extension == kMapServer[1]);
   const std::optional<GraphFormat> format = graph_format_of(command.to);
-  if (!format && !is_picture && !is_map_server) {
+  if (!format && !is_picture && !is_map_server && !is_rmf) {
     std::vector<std::string> known = graph_extensions();
     known.emplace_back(kPicture);
     known.insert(known.end(), kMapServer.begin(), kMapServer.end());
@@ -110,7 +128,9 @@ int map_export(const ExchangeCommand& command, const CommonOptions& common) {
   if (!is_picture && command.px_per_cell) fail_option("--scale", command.to, "for pictures (*.png)");
   const SavedMap map = load_map(command.from);
   Written written;
-  if (is_map_server)
+  if (is_rmf)
+    written = write_nav_graph(command, map);
+  else if (is_map_server)
     written = write_map_server(command, map);
   else if (command.px_per_cell)
     written = write_scaled(command, map);

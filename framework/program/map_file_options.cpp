@@ -6,7 +6,8 @@ namespace {
 void add_exchange(CLI::App& map, ExchangeCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* in = map.add_subcommand("import", "Make a map of another tool's landmark graph or occupancy grid");
   in->add_option("FILE", c.from,
-                 "*.graph, nav2 routes (*.geojson, *.json), *.graphml, Moving AI grid (*.map) or map_server (*.yaml)")
+                 "*.graph, nav2 routes (*.geojson, *.json), *.graphml, Open-RMF building or navigation graph (*.yaml), "
+                 "Moving AI grid (*.map) or map_server (*.yaml)")
       ->required();
   in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
   in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")
@@ -14,8 +15,10 @@ void add_exchange(CLI::App& map, ExchangeCommand& c, const CommonOptions& common
   in->callback([&] { action = [&] { return map_import(c, common); }; });
   CLI::App* out = map.add_subcommand("export", "Write a map's landmark graph or grid for other tools, or its picture");
   out->add_option("MAP", c.from, "saved map (*.cairn)")->required();
-  out->add_option("-o,--out", c.to,
-                  "file to write: *.graph, *.geojson, *.json, *.graphml, map_server (*.yaml and its picture) or *.png")
+  out->add_option(
+         "-o,--out", c.to,
+         "file to write: *.graph, *.geojson, *.json, *.graphml, Open-RMF (*.nav.yaml), map_server (*.yaml and its "
+         "picture) or *.png")
       ->required();
   out->add_option("--mode", c.mode, "how map_server is to read the picture: trinary (without it), scale or raw")
       ->check(CLI::IsMember({"trinary", "scale", "raw"}));

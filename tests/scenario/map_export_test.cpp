@@ -78,10 +78,30 @@ TEST_F(MapExport, AMapWithoutAGridAndOneThatIsNotThereAreRefused) {
   map.graph.add({});
   save("g.cairn", map);
   EXPECT_EQ(refused({"export", file("g.cairn"), "-o", file("a.yaml")}),
-            "cairn: " + file("g.cairn") + ": holds no grid; map_server files are of grids\n");
+            "cairn: " + file("g.cairn") +
+                ": holds no grid; map_server files are of grids, *.nav.yaml of landmarks and routes\n");
   EXPECT_EQ(refused({"export", file("g.cairn"), "-o", file("a.png"), "--scale", "1"}),
             "cairn: " + file("g.cairn") + ": holds no grid; without --scale its landmarks and routes are drawn\n");
   EXPECT_THAT(refused({"export", file("none.cairn"), "-o", file("a.yaml")}), HasSubstr("none.cairn"));
+}
+
+TEST_F(MapExport, AnOpenRmfGraphComesInAndGoesOut) {
+  write_text(file("0.yaml"),
+             "building_name: lab\nlevels:\n  L1:\n    vertices: [[0, 0, {name: dock, is_charger: true}], [3, 4]]\n"
+             "    lanes: [[0, 1, {speed_limit: 0.5}], [1, 0]]\ndoors: {}\nlifts: {}\n");
+  const json told = done({"import", file("0.yaml"), "-o", file("g.cairn")});
+  EXPECT_EQ(told["landmarks"], 2);
+  EXPECT_EQ(told["routes"], 2);
+  EXPECT_EQ(done({"export", file("g.cairn"), "-o", file("out.nav.yaml")})["warnings"], json::array());
+  EXPECT_TRUE(text_of_file(file("out.nav.yaml")).starts_with("building_name: lab\nlevels:\n  L1:\n"));
+  done({"import", file("out.nav.yaml"), "-o", file("again.cairn")});
+  EXPECT_EQ(map("again.cairn").graph, map("g.cairn").graph);
+  write_text(file("bad.yaml"), "levels: {L1: {vertices: [[0, 0]], lanes: [[0, 1]]}}\n");
+  EXPECT_EQ(refused({"import", file("bad.yaml"), "-o", file("b.cairn")}),
+            "cairn: " + file("bad.yaml") + ":1:47: there is no vertex 1: the level has 1, the first is 0\n");
+  save("empty.cairn", SavedMap());
+  EXPECT_EQ(refused({"export", file("empty.cairn"), "-o", file("e.nav.yaml")}),
+            "cairn: " + file("empty.cairn") + ": holds no landmark to make a vertex of\n");
 }
 
 TEST_F(MapExport, ThePictureNeverOverwritesTheMap) {
