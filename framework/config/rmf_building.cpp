@@ -136,7 +136,8 @@ class Drawing {  // one level, in its own units, y upwards
     }
     for (Lane& lane : lanes) take_lane(lane, place, level);
     if (const std::size_t unused = vertices_.size() - place.size(); unused > 0)
-      site.warnings.push_back("level " + shown(name_) + ": " + exchange::counted(unused, "vertex") +
+      site.warnings.push_back("level " + shown(name_) + ": " + std::to_string(unused) +
+                              (unused == 1 ? " vertex" : " vertices") +
                               " without name and lane, of walls and floors: no landmark");
     const std::size_t doors = list_in(level_, "doors").size();
     if (doors > 0)
