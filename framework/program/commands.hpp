@@ -74,12 +74,42 @@ int map_repair(const MapCommand& command, const CommonOptions& common);
 int map_render(const MapCommand& command, const CommonOptions& common);
 
 struct ExchangeCommand {
-  std::filesystem::path from;    // the file of another tool, or the map
-  std::filesystem::path to;      // the other way round
-  std::optional<double> cell_m;  // of a picture that does not say it
+  std::filesystem::path from;         // the file of another tool, or the map
+  std::filesystem::path to;           // the other way round
+  std::optional<double> cell_m;       // of a picture that does not say it
+  std::string mode;                   // of a map_server file: trinary, scale, raw; empty: trinary
+  std::string picture;                // of a map_server file: pgm, png, bmp; empty: what suits the mode
+  std::optional<double> px_per_cell;  // of a plain picture
 };
 int map_import(const ExchangeCommand& command, const CommonOptions& common);
 int map_export(const ExchangeCommand& command, const CommonOptions& common);
+
+inline constexpr double kMostCoordinate = 1e6;  // of a box or a transform, in metres or degrees
+
+struct MergeCommand {
+  std::filesystem::path a;
+  std::filesystem::path b;
+  std::string transform = "0,0,0";  // x,y,deg: where b's frame lies in a's
+  double near_m = 0.4;              // landmarks of one category this near to each other are one
+  std::filesystem::path out;
+};
+int map_merge(const MergeCommand& command, const CommonOptions& common);
+
+struct CropCommand {
+  std::filesystem::path map;
+  std::string box;  // x0,y0,x1,y1: two opposite corners
+  std::filesystem::path out;
+};
+int map_crop(const CropCommand& command, const CommonOptions& common);
+
+struct DiffCommand {
+  std::filesystem::path a;
+  std::filesystem::path b;
+  double near_m = 0.4;
+  std::filesystem::path picture;  // empty: none
+};
+// 0 the same, 1 different.
+int map_diff(const DiffCommand& command, const CommonOptions& common);
 
 struct NameCommand {
   std::filesystem::path map;

@@ -14,22 +14,11 @@
 #include "framework/config/config_value.hpp"
 #include "framework/contracts/abi_stamp.hpp"
 #include "framework/program/commands.hpp"
+#include "framework/program/map_file_options.hpp"
+#include "framework/program/option_checks.hpp"
 
 namespace cairn {
 namespace {
-
-using Action = std::function<int()>;
-
-// CLI::Range lets nan pass.
-CLI::Validator number_within(double min, double max) {
-  const std::string range = "a number from " + CLI::detail::to_string(min) + " to " + CLI::detail::to_string(max);
-  return {[min, max, range](std::string& text) {
-            double value = 0.0;
-            const bool is_within = CLI::detail::lexical_cast(text, value) && value >= min && value <= max;
-            return is_within ? std::string() : "must be " + range + ", found \"" + text + "\"";
-          },
-          "FLOAT in [" + CLI::detail::to_string(min) + " - " + CLI::detail::to_string(max) + "]", "number"};
-}
 
 CLI::Range seed_range() {
   return {std::int64_t{0}, std::int64_t{9000000000000000}};
@@ -85,7 +74,7 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
 }
 
 void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* map = app.add_subcommand("map", "Look at saved maps, import, export and name");
+  CLI::App* map = app.add_subcommand("map", "Look at saved maps, import, export, name, merge, crop and compare");
   map->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, auto command) {
     CLI::App* sub = map->add_subcommand(name, text);
@@ -100,22 +89,6 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
       ->required();
   CLI::App* render = add("render", "Draw a map into a PNG file", map_render);
   render->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
-}
-
-void add_map_exchange(CLI::App& app, ExchangeCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* map = app.get_subcommand("map");
-  CLI::App* in = map->add_subcommand("import", "Make a map of another tool's landmark graph or occupancy grid");
-  in->add_option("FILE", c.from,
-                 "*.graph, nav2 routes (*.geojson, *.json), *.graphml, Moving AI grid (*.map) or map_server (*.yaml)")
-      ->required();
-  in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
-  in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")
-      ->check(number_within(0.001, 1000.0));
-  in->callback([&] { action = [&] { return map_import(c, common); }; });
-  CLI::App* out = map->add_subcommand("export", "Write a map's landmark graph for other tools, or its picture");
-  out->add_option("MAP", c.from, "saved map (*.cairn)")->required();
-  out->add_option("-o,--out", c.to, "file to write: *.graph, *.geojson, *.json, *.graphml or *.png")->required();
-  out->callback([&] { action = [&] { return map_export(c, common); }; });
 }
 
 void add_map_name(CLI::App& app, NameCommand& c, const CommonOptions& common, Action& action) {
@@ -260,7 +233,7 @@ int main_of(int argc, char** argv) {
   RunCommand run_options;
   PlanCommand plan_options;
   MapCommand map_options;
-  ExchangeCommand exchange_options;
+  MapFileOptions map_file_options;
   NameCommand name_options;
   LintCommand lint_options;
   TemplateCommand template_options;
@@ -273,7 +246,7 @@ int main_of(int argc, char** argv) {
   add_run(app, run_options, common, action);
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
-  add_map_exchange(app, exchange_options, common, action);
+  add_map_files(app, map_file_options, common, action);
   add_map_name(app, name_options, common, action);
   add_map_lint(app, lint_options, common, action);
   add_template(app, template_options, common, action);

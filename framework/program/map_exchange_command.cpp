@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "framework/config/map_server_file.hpp"
+#include "framework/config/rmf_file.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/program/commands.hpp"
-#include "framework/program/output_files.hpp"
-#include "framework/program/run_pictures.hpp"
+#include "framework/program/exchange_told.hpp"
 #include "maps/exchange/graph_file.hpp"
 #include "maps/exchange/moving_ai_map.hpp"
 #include "maps/exchange/source_text.hpp"
 #include "maps/hierarchy/hierarchy.hpp"
 #include "maps/map_store.hpp"
-#include "maps/spelling.hpp"
 
 namespace cairn {
 namespace {
@@ -26,35 +24,11 @@ constexpr std::string_view kMovingAi = ".map";
 constexpr std::array<std::string_view, 3> kGridExtensions{kMovingAi, ".yaml", ".yml"};
 constexpr double kMovingAiCell_m = 1.0;
 
-[[noreturn]] void fail_extension(const std::filesystem::path& file, const char* verb,
-                                 const std::vector<std::string>& known) {
-  std::string list;
-  for (const std::string& extension : known) list += (list.empty() ? "" : ", ") + extension;
-  const std::string extension = file.extension().string();
-  throw std::runtime_error(file.string() + ": cannot be " + verb + ": " +
-                           (extension.empty() ? "it has no extension" : "unknown extension " + shown(extension)) +
-                           did_you_mean(extension, known) + "; known are " + list);
-}
-
-void tell_people(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common) {
-  (common.json ? std::cerr : std::cout) << line << "\n";
-  for (const std::string& warning : warnings) std::cerr << "  " << warning << "\n";
-}
-
-std::vector<std::string> about(const std::filesystem::path& file, std::vector<std::string> warnings) {
-  for (std::string& warning : warnings) warning.insert(0, file.string() + ": ");
-  return warnings;
-}
-
-void tell_json(const ordered_json& json) {
-  std::cout << json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
-}
-
-int import_graph(const ExchangeCommand& command, GraphFormat format, const CommonOptions& common) {
-  ImportedGraph imported = read_graph_file(command.from, format);
+int import_graph(const ExchangeCommand& command, ImportedGraph imported, const CommonOptions& common) {
   SavedMap map;
   map.graph = std::move(imported.graph);
   map.clusters = cluster_landmarks(map.graph);
+  map.properties = imported.properties;
   map.properties["imported_from"] = command.from.filename().string();
   save_map(command.to, map);
   const std::vector<std::string> warnings = about(command.from, std::move(imported.warnings));
@@ -108,33 +82,12 @@ int map_import(const ExchangeCommand& command, const CommonOptions& common) {
   if (command.cell_m && extension != kMovingAi)
     throw std::runtime_error("map import: --cell-m is for Moving AI grids (*.map); " + command.from.string() +
                              " says itself how large it is");
-  return format ? import_graph(command, *format, common) : import_grid(command, common);
-}
-
-int map_export(const ExchangeCommand& command, const CommonOptions& common) {
-  const bool is_picture = command.to.extension() == ".png";
-  const std::optional<GraphFormat> format = graph_format_of(command.to);
-  if (!format && !is_picture) {
-    std::vector<std::string> known = graph_extensions();
-    known.emplace_back(".png");
-    fail_extension(command.to, "exported to", known);
+  if (format) return import_graph(command, read_graph_file(command.from, *format), common);
+  if (extension != kMovingAi) {
+    const ConfigValue root = parse_config_text(exchange::text_of_file(command.from), command.from.string());
+    if (is_rmf(root)) return import_graph(command, rmf_graph_of(root), common);
   }
-  const SavedMap map = load_map(command.from);
-  std::vector<std::string> warnings;
-  if (is_picture) {
-    draw_saved_map(command.to, map, command.from.filename().string());
-  } else {
-    ExportedGraph exported = graph_text_of(map.graph, *format);
-    write_file(command.to, exported.text);
-    warnings = about(command.to, std::move(exported.warnings));
-  }
-  tell_people("wrote " + command.to.string(), warnings, common);
-  if (common.json)
-    tell_json({{"file", command.to.string()},
-               {"landmarks", map.graph.landmarks().size()},
-               {"routes", map.graph.routes().size()},
-               {"warnings", warnings}});
-  return kExitDone;
+  return import_grid(command, common);
 }
 
 }  // namespace cairn

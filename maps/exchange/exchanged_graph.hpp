@@ -1,6 +1,7 @@
 // What importing and exporting a landmark graph gives.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace cairn {
 struct ImportedGraph {
   LandmarkGraph graph;
   std::vector<std::string> warnings;  // sentences: by which rule something doubtful was accepted
+  // What other tools keep with the whole graph, by format: the text of a JSON object.
+  std::map<std::string, std::string> properties = {};
 };
 
 struct ExportedGraph {

@@ -71,9 +71,9 @@ TEST_F(Exchange, RefusesExtensionsThatItDoesNotKnow) {
       refused({"import", "a.grph", "-o", file("g.cairn")}),
       "cairn: a.grph: cannot be imported: unknown extension \".grph\" (did you mean \".graph\"?); known are .graph, "
       ".geojson, .json, .graphml, .map, .yaml, .yml\n");
-  EXPECT_EQ(
-      refused({"export", file("g.cairn"), "-o", "a"}),
-      "cairn: a: cannot be exported to: it has no extension; known are .graph, .geojson, .json, .graphml, .png\n");
+  EXPECT_EQ(refused({"export", file("g.cairn"), "-o", "a"}),
+            "cairn: a: cannot be exported to: it has no extension; known are .graph, .geojson, .json, .graphml, .png, "
+            ".yaml, .yml\n");
 }
 
 TEST_F(Exchange, ABadFileIsRefusedWithItsPlaceAndNothingIsWritten) {

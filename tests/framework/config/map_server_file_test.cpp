@@ -2,14 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
-#include <array>
-#include <cstdlib>
 #include <map>
 
 #include "maps/exchange/source_text.hpp"
 #include "tests/framework/config/config_test_support.hpp"
+#include "tests/framework/config/recorded_maps.hpp"
 
 namespace cairn {
 namespace {
@@ -116,24 +114,8 @@ TEST(MapServerFile, APictureThatIsNotThereIsRefusedWhereItIsNamed) {
   }
 }
 
-// Recorded maps, whose pictures are kept as gzip.
-std::string unpacked(const std::filesystem::path& file) {
-  std::string text;
-  const gzFile in = gzopen(file.c_str(), "rb");
-  std::array<char, 65536> block{};
-  for (int count = 1; in != nullptr && count > 0;) {
-    count = gzread(in, block.data(), block.size());
-    if (count > 0) text.append(block.data(), static_cast<std::size_t>(count));
-  }
-  if (in != nullptr) gzclose(in);
-  return text;
-}
-
 TEST(MapServerFile, RecordedMapsAreRead) {
-  const char* const named = std::getenv("CAIRN_DATA");
-  const std::filesystem::path data =
-      (named != nullptr ? std::filesystem::path(named) : std::filesystem::path(CAIRN_SOURCE_DIR) / "../shared/data") /
-      "occ_maps";
+  const std::filesystem::path data = config_test::recorded_maps();
   if (!std::filesystem::exists(data / "nav2/depot.yaml"))
     GTEST_SKIP() << "needs occ_maps of the data folder (CAIRN_DATA)";
   struct Expected {
@@ -146,11 +128,8 @@ TEST(MapServerFile, RecordedMapsAreRead) {
                                    Expected{"nav2/tb3_sandbox", {{0, 0}, {384, 384}}, 0.05, 0},
                                    Expected{"patrolling_sim/cumberland/cumberland", {{0, 0}, {688, 499}}, 0.075, 0}}) {
     const TestFolder folder;
-    const std::filesystem::path source = data / expected.file;
-    static_cast<void>(folder.write(source.stem().string() + ".pgm", unpacked(source.string() + ".pgm.gz")));
-    const std::filesystem::path yaml = folder.path() / (source.stem().string() + ".yaml");
-    std::filesystem::copy_file(source.string() + ".yaml", yaml);
-    const ImportedGrid imported = load_map_server(yaml);
+    const ImportedGrid imported =
+        load_map_server(config_test::unpacked_map((data / expected.file).string() + ".yaml", folder));
     EXPECT_EQ(imported.grid.bounds(), expected.cells) << expected.file;
     EXPECT_EQ(imported.grid.cell_m(), expected.cell_m);
     EXPECT_EQ(imported.warnings.size(), expected.warnings);

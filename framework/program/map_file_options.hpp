@@ -1,0 +1,19 @@
+// The options of the commands that make files of maps: import, export, merge, crop, diff.
+#pragma once
+
+#include "framework/program/commands.hpp"
+#include "framework/program/option_checks.hpp"
+
+namespace cairn {
+
+struct MapFileOptions {
+  ExchangeCommand exchange;
+  MergeCommand merge;
+  CropCommand crop;
+  DiffCommand diff;
+};
+
+// Below `cairn map`. The options and the action must outlive the parsing.
+void add_map_files(CLI::App& app, MapFileOptions& options, const CommonOptions& common, Action& action);
+
+}  // namespace cairn

@@ -1,0 +1,123 @@
+// Merging, cropping and comparing saved maps, as a user sees them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/map_files.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class MapEdit : public MapFiles {
+ protected:
+  MapEdit() : MapFiles("map_edit") {}
+  void SetUp() override {
+    save("a.cairn", drawn_map({"####", "#..#", "#..?"}, {0.0, 0.0}));
+    save("b.cairn", drawn_map({"..##", "...#"}, {0.0, 0.0}));
+  }
+};
+
+TEST_F(MapEdit, MergeLaysTheSecondMapIntoTheFrameOfTheFirst) {
+  const json told =
+      done({"merge", file("a.cairn"), file("b.cairn"), "--transform", "0.2, 0.05,0", "-o", file("m.cairn")});
+  EXPECT_EQ(told["size_cells"], (json{8, 3}));
+  EXPECT_EQ(told["joined_landmarks"], 1);
+  EXPECT_EQ(told["landmarks"], 1);
+  const SavedMap merged = map("m.cairn");
+  EXPECT_EQ(merged.grid.state({4, 1}), CellState::free);
+  EXPECT_EQ(merged.grid.state({7, 2}), CellState::occupied);
+  EXPECT_EQ(merged.grid.state({3, 0}), CellState::unknown);
+  EXPECT_EQ(merged.properties.at("merged_from"), "b.cairn at 0.2, 0.05,0");
+  EXPECT_EQ(done({"merge", file("a.cairn"), file("b.cairn"), "--transform", "9,0,90", "--near-m", "0.1", "-o",
+                  file("m.cairn")})["landmarks"],
+            2);
+}
+
+TEST_F(MapEdit, NoInputIsOverwrittenUnlessOutNamesIt) {
+  const std::string a = text_of_file(file("a.cairn"));
+  const std::string b = text_of_file(file("b.cairn"));
+  done({"merge", file("a.cairn"), file("b.cairn"), "--transform", "1,0,0", "-o", file("m.cairn")});
+  done({"crop", file("a.cairn"), "--box", "0,0,0.1,0.1", "-o", file("c.cairn")});
+  done({"diff", file("a.cairn"), file("b.cairn"), "--picture", file("d.png")}, 1);
+  EXPECT_EQ(text_of_file(file("a.cairn")), a);
+  EXPECT_EQ(text_of_file(file("b.cairn")), b);
+  done({"crop", file("a.cairn"), "--box", "0,0,0.1,0.1", "-o", file("a.cairn")});
+  EXPECT_EQ(map("a.cairn").grid.bounds(), (CellBox{{0, 0}, {2, 2}}));
+}
+
+TEST_F(MapEdit, CropTellsWhatItDrops) {
+  const json told = done({"crop", file("a.cairn"), "--box", "0.05,0,0.0,0.05", "-o", file("c.cairn")});
+  EXPECT_EQ(told["size_cells"], (json{1, 1}));
+  EXPECT_EQ(told["landmarks_dropped"], 1);
+  EXPECT_EQ(told["warnings"], (json{"1 landmark outside: dropped"}));
+}
+
+TEST_F(MapEdit, DiffSaysSameOrDifferentByItsExitStatus) {
+  EXPECT_EQ(done({"diff", file("a.cairn"), file("a.cairn")})["outcome"], "same");
+  const json told = done({"diff", file("a.cairn"), file("b.cairn"), "--picture", file("d.png")}, 1);
+  EXPECT_EQ(told["outcome"], "different");
+  // One row of b lies on a's lowest but unknown, one above.
+  EXPECT_EQ(told["cells"]["free_to_occupied"], 1);
+  EXPECT_EQ(told["cells"]["occupied_to_free"], 2);
+  EXPECT_EQ(told["cells"]["occupied_to_unknown"], 4);
+  EXPECT_EQ(told["cells"]["unknown_to_occupied"], 1);
+  EXPECT_EQ(told["cells"]["other_state"], 8);
+  EXPECT_EQ(told["landmarks"]["moved"][0]["b"]["id"], "L1");
+  EXPECT_EQ(text_of_file(file("d.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(MapEdit, BadTransformsAndBoxesAreRefused) {
+  for (const char* const text : {"nan,0,0", "1,2", "1,2,3,4", "a,0,0", "", "1,,2", "inf,0,0", "1e9,0,0"})
+    EXPECT_EQ(refused({"merge", file("a.cairn"), file("b.cairn"), "--transform", text, "-o", file("m.cairn")}),
+              "cairn: map merge: --transform must be x,y,deg, finite numbers within +-1e+06 with commas between them, "
+              "found \"" +
+                  std::string(text) + "\"\n");
+  for (const char* const text : {"0,0,nan,1", "0,0,1", "x"})
+    EXPECT_THAT(refused({"crop", file("a.cairn"), "--box", text, "-o", file("m.cairn")}),
+                HasSubstr("map crop: --box must be x0,y0,x1,y1"));
+  EXPECT_EQ(
+      refused({"crop", file("a.cairn"), "--box", "5,5,6,6", "-o", file("m.cairn")}),
+      "cairn: map crop: " + file("a.cairn") +
+          ": nothing of the map lies in the box 5,5 to 6,6; the map reaches from 0,0 to 0.2,0.15000000000000002\n");
+  EXPECT_THAT(refused({"crop", file("a.cairn"), "--box", "0,0,0,1", "-o", file("m.cairn")}),
+              HasSubstr("some width and height"));
+  EXPECT_THAT(refused({"merge", file("a.cairn"), file("b.cairn"), "--transform", "900000,0,0", "-o", file("m.cairn")}),
+              HasSubstr("are too many"));
+  EXPECT_FALSE(std::filesystem::exists(file("m.cairn")));
+}
+
+TEST_F(MapEdit, FilesThatAreNoMapsAreRefused) {
+  write_text(file("text.cairn"), "no map");
+  for (const char* const name : {"none.cairn", "text.cairn"}) {
+    EXPECT_THAT(refused({"merge", file("a.cairn"), file(name), "--transform", "0,0,0", "-o", file("m.cairn")}),
+                HasSubstr(name));
+    EXPECT_THAT(refused({"crop", file(name), "--box", "0,0,1,1", "-o", file("m.cairn")}), HasSubstr(name));
+    EXPECT_THAT(refused({"diff", file(name), file("a.cairn")}), HasSubstr(name));
+  }
+  EXPECT_EQ(refused({"merge", file("a.cairn"), file("a.cairn"), "--transform", "1,0,0", "-o", file("m.cairn")}),
+            "cairn: map merge: " + file("a.cairn") + " and " + file("a.cairn") +
+                " are the same file, whose evidence would count twice\n");
+  EXPECT_THAT(refused({"diff", file("a.cairn"), file("b.cairn"), "--picture", "d.jpg"}), HasSubstr("known are .png"));
+  EXPECT_FALSE(std::filesystem::exists(file("m.cairn")));
+}
+
+TEST_F(MapEdit, CellsOfAnotherSizeAreRefused) {
+  SavedMap other = map("b.cairn");
+  other.grid = OccupancyGrid(0.1);
+  other.grid.set_log_odds({0, 0}, 9);
+  save("other.cairn", other);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"merge", "--transform", "0,0,0", "-o", file("m.cairn")}, {"diff"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.begin() + 1, {file("a.cairn"), file("other.cairn")});
+    EXPECT_THAT(refused(arguments), HasSubstr("cells of different size, 0.05 m and 0.1 m"));
+  }
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
