@@ -72,6 +72,7 @@ struct ExchangeCommand {
   std::filesystem::path from;    // the file of another tool, or the map
   std::filesystem::path to;      // the other way round
   std::optional<double> cell_m;  // of a picture that does not say it
+  bool allow_outside = false;    // a picture may be outside the folder of the file that names it
 };
 int map_import(const ExchangeCommand& command, const CommonOptions& common);
 int map_export(const ExchangeCommand& command, const CommonOptions& common);
