@@ -1,6 +1,7 @@
 #include "maps/map_store.hpp"
 
 #include "maps/map_store_file.hpp"
+#include "maps/map_store_reading.hpp"
 #include "maps/map_store_schema.hpp"
 #include "maps/map_store_tables.hpp"
 
@@ -14,16 +15,12 @@ using store::Database;
 // map gives the same bytes, and no journal lies beside a map after a kill.
 // Nothing is written that would not load again: what the tables refuse is a bug of the caller.
 Database database_of(const SavedMap& map) {
-  Database database = Database::in_memory();
-  database.execute("PRAGMA page_size = 4096; PRAGMA encoding = 'UTF-8'; PRAGMA secure_delete = ON");
-  database.execute(("PRAGMA application_id = " + std::to_string(store::kMapApplicationId)).c_str());
-  database.execute(("PRAGMA user_version = " + std::to_string(kMapSchemaVersion)).c_str());
-  database.execute("BEGIN");
-  store::create_tables(database);
+  Database database = store::empty_map(kMapSchemaVersion);
   store::write_content(database, map);
   store::write_checksums(database);
   database.execute("COMMIT");
-  static_cast<void>(store::read_content(database, kMapSchemaVersion));
+  store::Reading check(database, kMapSchemaVersion);
+  static_cast<void>(store::read_content(check));
   return database;
 }
 
@@ -70,7 +67,8 @@ SavedMap load_map(const std::filesystem::path& file) {
     const int version = version_of(database);
     store::check_schema(database, version);
     store::check_checksums(database, version);
-    return store::read_content(database, version);
+    store::Reading reading(database, version);
+    return store::read_content(reading);
   } catch (const StoreError& error) {
     throw StoreError(file.string() + ": " + error.what());
   } catch (const std::filesystem::filesystem_error& error) {

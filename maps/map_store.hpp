@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,11 +20,26 @@
 
 namespace cairn {
 
-inline constexpr int kMapSchemaVersion = 3;
+inline constexpr int kMapSchemaVersion = 4;
 
 class StoreError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// How far the mission had come that made the map: what `cairn run --resume` goes on from.
+struct MissionProgress {
+  double time_s = 0.0;                    // of the mission's clock
+  int step = 0;                           // under way, from 0; as many as the mission has: it has ended
+  std::string step_name;                  // its behaviour; empty when the mission has ended
+  Pose2 T_map_robot;                      // as estimated
+  std::optional<Pose2> true_T_map_robot;  // simulation only
+  double distance_m = 0.0;
+  std::int64_t readings = 0;
+  std::int64_t matchings = 0;
+  std::int64_t collisions = 0;
+  LandmarkGraph candidates;  // seen, but not often enough to be landmarks; ids of their own, no routes
+  bool operator==(const MissionProgress&) const = default;
 };
 
 struct SavedMap {
@@ -33,6 +49,7 @@ struct SavedMap {
   std::vector<LandmarkShape> shapes;              // the categories the map was made with
   std::vector<Pose2> driven_path;                 // estimated poses, thinned
   std::map<std::string, std::string> properties;  // mission, seed, robot_radius_m, ...
+  std::optional<MissionProgress> progress;        // none: no mission made it
 };
 
 // Throws StoreError with the file and the reason when it cannot be written, or is there already and is

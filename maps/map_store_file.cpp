@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -84,10 +85,13 @@ std::string header_of(const std::filesystem::path& file) {
 }
 
 // Offsets as SQLite's file format lays them down.
-void check_size(const std::string& header, std::uintmax_t found) {
+std::uint64_t page_bytes_of(const std::string& header) {
   const std::uint32_t page = big_endian_at(header, 16) >> 16;
-  const std::uint64_t page_bytes = page == 1 ? 65536 : page;
-  const std::uint64_t expected = page_bytes * big_endian_at(header, 28);
+  return page == 1 ? 65536 : std::max(page, 1U);
+}
+
+void check_size(const std::string& header, std::uintmax_t found) {
+  const std::uint64_t expected = page_bytes_of(header) * big_endian_at(header, 28);
   if (found < expected)
     throw StoreError("is truncated: " + std::to_string(found) + " of " + std::to_string(expected) + " bytes are there");
 }
@@ -120,7 +124,7 @@ void replace_file(const std::filesystem::path& file, std::string_view bytes) {
   if (opened.get() >= 0) ::fsync(opened.get());
 }
 
-void check_header(const std::filesystem::path& file) {
+int check_kind(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw StoreError("no such file");
@@ -134,8 +138,31 @@ void check_header(const std::filesystem::path& file) {
     throw StoreError("is not a saved map (an SQLite file of another program: application_id " +
                      std::to_string(big_endian_at(header, 68)) + ", a map has " + std::to_string(kMapApplicationId) +
                      ")");
-  check_version(static_cast<std::int32_t>(big_endian_at(header, 60)));
-  check_size(header, std::filesystem::file_size(file));
+  const auto version = static_cast<std::int32_t>(big_endian_at(header, 60));
+  check_version(version);
+  return version;
+}
+
+void check_header(const std::filesystem::path& file) {
+  static_cast<void>(check_kind(file));
+  check_size(header_of(file), std::filesystem::file_size(file));
+}
+
+std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions) {
+  const std::size_t page_bytes = page_bytes_of(definitions == nullptr ? bytes : definitions->bytes);
+  const std::size_t found = (bytes.size() + page_bytes - 1) / page_bytes;
+  bytes.resize(found * page_bytes, '\0');
+  if (definitions != nullptr) {
+    const std::size_t least = definitions->bytes.size() / page_bytes;
+    bytes.resize(std::max(found, least) * page_bytes, '\0');
+    for (std::uint32_t number = 1; number <= least; ++number)
+      if (number > found || !definitions->content_pages.contains(number))
+        bytes.replace((number - 1) * page_bytes, page_bytes, definitions->bytes, (number - 1) * page_bytes, page_bytes);
+  }
+  const std::size_t pages = bytes.size() / page_bytes;
+  for (std::size_t i = 0; i < 4; ++i) bytes[28 + i] = static_cast<char>((pages >> (8 * (3 - i))) & 0xFF);
+  for (std::size_t i = 0; i < 4; ++i) bytes[92 + i] = bytes[24 + i];  // so that the number of pages is believed
+  return bytes;
 }
 
 bool may_be_replaced(const std::filesystem::path& file) {

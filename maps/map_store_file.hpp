@@ -3,9 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <string_view>
 
 namespace cairn::store {
+
+// The file of a map without content.
+struct EmptyMapFile {
+  std::string bytes;
+  std::set<std::uint32_t> content_pages;  // those that hold rows when there are any, by number from 1
+};
 
 // Gives the file this content: whoever opens it at any moment, also after a kill or a power cut,
 // finds the whole old or the whole new content. Writes beside the file, then renames over it.
@@ -14,6 +22,12 @@ void replace_file(const std::filesystem::path& file, std::string_view bytes);
 
 // Refuses, with a StoreError, what no saved map of a known schema version begins like.
 void check_header(const std::filesystem::path& file);
+
+// The same for what may be damaged behind its first 100 bytes; its schema version.
+[[nodiscard]] int check_kind(const std::filesystem::path& file);
+// A file's bytes as SQLite takes them when some are missing at the end. The pages that define the tables are the same
+// in every map of a version: with definitions, not null, they take the place of those that are there.
+[[nodiscard]] std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions);
 
 // Whether the file is absent, empty or some SQLite file, so that saving a map over it destroys no
 // mission or picture that was named by mistake.

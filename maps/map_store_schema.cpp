@@ -7,6 +7,7 @@
 namespace cairn::store {
 namespace {
 
+// What a table is for, column by column: docs/formats.md.
 constexpr std::array kTables{
     Table{"meta", "key", "key TEXT NOT NULL PRIMARY KEY, value TEXT NOT NULL", " WITHOUT ROWID"},
     Table{"grid", "level",
@@ -57,27 +58,37 @@ constexpr std::array kTables{
           "number INTEGER PRIMARY KEY, category TEXT NOT NULL, kind TEXT NOT NULL, parameters TEXT NOT NULL", ""},
     Table{"driven_path", "number",
           "number INTEGER PRIMARY KEY, x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL", ""},
+    // One row, or none when no mission made the map. true_: where the simulated robot really was.
+    Table{"progress", "number",
+          "number INTEGER PRIMARY KEY, time_s REAL NOT NULL, step INTEGER NOT NULL, step_name TEXT NOT NULL, "
+          "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, "
+          "true_x_m REAL, true_y_m REAL, true_theta_rad REAL, distance_m REAL NOT NULL, readings INTEGER NOT NULL, "
+          "matchings INTEGER NOT NULL, collisions INTEGER NOT NULL",
+          "", 4},
+    // As landmarks, with ids and a history of their own.
+    Table{"candidates", "id",
+          "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, name TEXT NOT NULL, category TEXT NOT NULL, "
+          "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, degree REAL NOT NULL, "
+          "sightings INTEGER NOT NULL, access_x_m REAL, access_y_m REAL, access_theta_rad REAL, "
+          "annotations TEXT NOT NULL",
+          "", 4},
+    Table{"candidate_templates", "landmark, rank",
+          "landmark INTEGER NOT NULL, rank INTEGER NOT NULL, category TEXT NOT NULL, orientation_rad REAL NOT NULL, "
+          "degree REAL NOT NULL, PRIMARY KEY (landmark, rank)",
+          " WITHOUT ROWID", 4},
+    Table{"candidate_evidence", "landmark, category",
+          "landmark INTEGER NOT NULL, category TEXT NOT NULL, matchings INTEGER NOT NULL, mean_degree REAL NOT NULL, "
+          "best_degree REAL NOT NULL, last_degree REAL NOT NULL, PRIMARY KEY (landmark, category)",
+          " WITHOUT ROWID", 4},
 };
 
 constexpr Table kChecksums{"checksums", "table_name",
                            "table_name TEXT NOT NULL PRIMARY KEY, row_count INTEGER NOT NULL, crc32 INTEGER NOT NULL",
                            " WITHOUT ROWID"};
 
-struct Checksum {
-  std::int64_t row_count = 0;
-  std::uint32_t crc = 0;
-};
-
 std::string definition_of(const Table& table, int version) {
   const char* const added = version >= table.added_since ? table.added : "";
   return std::string("CREATE TABLE ") + table.name + " (" + table.columns + added + ")" + table.options;
-}
-
-Checksum checksum_of(Database& database, const Table& table) {
-  Checksum sum;
-  Statement rows(database, std::string("SELECT * FROM ") + table.name + " ORDER BY " + table.order);
-  for (; rows.step(); ++sum.row_count) sum.crc = crc32_of(rows.row_bytes(), sum.crc);
-  return sum;
 }
 
 void check_definition(Database& database, const Table& table, int version) {
@@ -108,9 +119,32 @@ std::span<const Table> tables() {
   return kTables;
 }
 
-void create_tables(Database& database) {
-  for (const Table& table : kTables) database.execute(definition_of(table, kMapSchemaVersion).c_str());
-  database.execute(definition_of(kChecksums, kMapSchemaVersion).c_str());
+Checksum checksum_of(Database& database, const Table& table) {
+  Checksum sum;
+  Statement rows(database, std::string("SELECT * FROM ") + table.name + " ORDER BY " + table.order);
+  for (; rows.step(); ++sum.row_count) sum.crc = crc32_of(rows.row_bytes(), sum.crc);
+  return sum;
+}
+
+Database empty_map(int version) {
+  Database database = Database::in_memory();
+  database.execute("PRAGMA page_size = 4096; PRAGMA encoding = 'UTF-8'; PRAGMA secure_delete = ON");
+  database.execute(("PRAGMA application_id = " + std::to_string(kMapApplicationId)).c_str());
+  database.execute(("PRAGMA user_version = " + std::to_string(version)).c_str());
+  database.execute("BEGIN");
+  for (const Table& table : kTables)
+    if (table.since <= version) database.execute(definition_of(table, version).c_str());
+  database.execute(definition_of(kChecksums, version).c_str());
+  return database;
+}
+
+EmptyMapFile empty_map_file(int version) {
+  Database database = empty_map(version);
+  database.execute("COMMIT");
+  EmptyMapFile file{database.serialized(), {}};
+  Statement roots(database, "SELECT rootpage FROM sqlite_schema");
+  while (roots.step()) file.content_pages.insert(static_cast<std::uint32_t>(roots.integer(0)));
+  return file;
 }
 
 void check_schema(Database& database, int version) {

@@ -1,10 +1,11 @@
 // The saved map's tables, and a checksum over each. Version 2 added evidence and retired landmarks, version 3
-// clusters, annotations and speed limits.
+// clusters, annotations and speed limits, version 4 how far the mission has come.
 #pragma once
 
 #include <span>
 #include <string>
 
+#include "maps/map_store_file.hpp"
 #include "maps/map_store_sqlite.hpp"
 
 namespace cairn::store {
@@ -23,10 +24,19 @@ struct Table {
 };
 
 [[nodiscard]] std::span<const Table> tables();
-void create_tables(Database& database);
+// A map of that version without content, and a transaction begun in it.
+[[nodiscard]] Database empty_map(int version);
+// The tables are made before all content, so every map of a version has their definitions and roots in these pages.
+[[nodiscard]] EmptyMapFile empty_map_file(int version);
 // Every table of that version exists exactly as create_tables makes it; throws StoreError with the first that
 // does not.
 void check_schema(Database& database, int version);
+
+struct Checksum {
+  std::int64_t row_count = 0;
+  std::uint32_t crc = 0;
+};
+[[nodiscard]] Checksum checksum_of(Database& database, const Table& table);
 
 void write_checksums(Database& database);
 void check_checksums(Database& database, int version);

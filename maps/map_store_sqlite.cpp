@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "maps/map_store_codec.hpp"
@@ -51,6 +52,17 @@ Database Database::in_memory() {
 Database Database::read_only(const std::filesystem::path& file) {
   // Absolute, so that no file name reads as ":memory:" or as a URI.
   return {std::filesystem::absolute(file).string(), SQLITE_OPEN_READONLY};
+}
+
+Database Database::of_bytes(const std::string& bytes) {
+  Database database = in_memory();
+  const auto size = static_cast<sqlite3_int64>(bytes.size());
+  auto* copy = static_cast<unsigned char*>(sqlite3_malloc64(bytes.size() + 1));
+  if (copy == nullptr) throw StoreError("SQLite is out of memory");
+  std::ranges::copy(bytes, copy);
+  constexpr unsigned kFlags = SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_READONLY;
+  if (sqlite3_deserialize(database.handle_.get(), "main", copy, size, size, kFlags) != SQLITE_OK) database.fail();
+  return database;
 }
 
 void Database::execute(const char* sql) {
@@ -112,6 +124,13 @@ Statement& Statement::bind_blob(const std::string& value) {
   return *this;
 }
 
+Statement& Statement::bind_row(const Statement& row) {
+  for (int column = 0; column < row.columns(); ++column)
+    if (sqlite3_bind_value(handle_.get(), ++bound_, sqlite3_column_value(row.handle_.get(), column)) != SQLITE_OK)
+      database_->fail();
+  return *this;
+}
+
 void Statement::run() {
   if (sqlite3_step(handle_.get()) != SQLITE_DONE) database_->fail();
   sqlite3_reset(handle_.get());
@@ -170,6 +189,15 @@ std::string Statement::blob(int column) const {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column));
   if (bytes == nullptr) return {};
   return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column))};
+}
+
+int Statement::columns() const {
+  return sqlite3_column_count(handle_.get());
+}
+
+std::string Statement::first_text() const {
+  const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), 0));
+  return bytes == nullptr ? "?" : bytes;
 }
 
 std::string Statement::row_bytes() const {

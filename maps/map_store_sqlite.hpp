@@ -19,6 +19,8 @@ class Database {
  public:
   [[nodiscard]] static Database in_memory();
   [[nodiscard]] static Database read_only(const std::filesystem::path& file);
+  // In memory, with the bytes that a file would have; not to be written to.
+  [[nodiscard]] static Database of_bytes(const std::string& bytes);
 
   void execute(const char* sql);
   // The bytes that the database would have as a file.
@@ -45,8 +47,9 @@ class Statement {
   Statement& bind(const std::optional<double>& value);
   Statement& bind_text(const std::string& value);
   Statement& bind_blob(const std::string& value);
-  void run();   // a statement without rows; ready for the next bindings afterwards
-  bool step();  // to the next row; false behind the last
+  Statement& bind_row(const Statement& row);  // all columns of its current row
+  void run();                                 // a statement without rows; ready for the next bindings afterwards
+  bool step();                                // to the next row; false behind the last
 
   // Of the current row. A value of another type throws StoreError with the column's name.
   [[nodiscard]] std::int64_t integer(int column) const;
@@ -55,6 +58,8 @@ class Statement {
   [[nodiscard]] std::optional<double> optional_real(int column) const;
   [[nodiscard]] std::string text(int column) const;
   [[nodiscard]] std::string blob(int column) const;
+  [[nodiscard]] int columns() const;
+  [[nodiscard]] std::string first_text() const;  // the first column as people read it, whatever its type
   // Canonical bytes of the row but for the content of blobs, which carry checksums of their own.
   [[nodiscard]] std::string row_bytes() const;
 

@@ -5,10 +5,18 @@
 
 namespace cairn::store {
 
+class Reading;
+
 void write_content(Database& database, const SavedMap& map);
 // What the version does not know stays empty. Checks every value it takes over; throws StoreError with the table and
-// what is wrong.
-[[nodiscard]] SavedMap read_content(Database& database, int version);
+// what is wrong, unless the reading notes it and goes on.
+[[nodiscard]] SavedMap read_content(Reading& reading);
+
+// Landmarks, retired ones, and what is known of both.
+void read_all_landmarks(Reading& reading, LandmarkGraph& graph);
+void read_progress(Reading& reading, SavedMap& map);
+// The text of a JSON object, or nothing.
+[[nodiscard]] std::string annotations_in(const Statement& row, int column);
 
 // The tables of the clusters, into a map whose graph and next ids are there. Both check what they take over and throw
 // StoreError, without the table's name.

@@ -56,31 +56,35 @@ void bind_landmark(Statement& insert, const Landmark& landmark) {
   insert.bind(access(&Pose2::x_m)).bind(access(&Pose2::y_m)).bind(access(&Pose2::theta_rad));
 }
 
-void write_history(Database& database, const Landmark& landmark) {
+// prefix: of the tables, "landmark" or "candidate".
+void write_history(Database& database, const std::string& prefix, const Landmark& landmark) {
   if (landmark.templates.empty() && landmark.evidence.empty()) return;
-  Statement insert_template(database, "INSERT INTO landmark_templates VALUES (?, ?, ?, ?, ?)");
+  Statement insert_template(database, "INSERT INTO " + prefix + "_templates VALUES (?, ?, ?, ?, ?)");
   std::int64_t rank = 0;
   for (const auto& [category, orientation_rad, degree] : landmark.templates)
     insert_template.bind(landmark.id).bind(++rank).bind_text(category).bind(orientation_rad).bind(degree).run();
-  Statement insert(database, "INSERT INTO landmark_evidence VALUES (?, ?, ?, ?, ?, ?)");
+  Statement insert(database, "INSERT INTO " + prefix + "_evidence VALUES (?, ?, ?, ?, ?, ?)");
   for (const auto& [category, matchings, mean_degree, best_degree, last_degree] : landmark.evidence) {
     insert.bind(landmark.id).bind_text(category).bind(std::int64_t{matchings});
     insert.bind(mean_degree).bind(best_degree).bind(last_degree).run();
   }
 }
 
-void write_landmarks(Database& database, const LandmarkGraph& graph) {
-  Statement insert(database, "INSERT INTO landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+void write_landmarks(Database& database, const std::string& prefix, const LandmarkGraph& graph) {
+  Statement insert(database, "INSERT INTO " + prefix + "s VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, landmark] : graph.landmarks()) {
     bind_landmark(insert, landmark);
     insert.bind_text(landmark.annotations).run();
-    write_history(database, landmark);
+    write_history(database, prefix, landmark);
   }
-  Statement insert_retired(database, "INSERT INTO retired_landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+}
+
+void write_retired_landmarks(Database& database, const LandmarkGraph& graph) {
+  Statement insert(database, "INSERT INTO retired_landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, retired] : graph.retired()) {
-    bind_landmark(insert_retired, retired.landmark);
-    insert_retired.bind_text(retired.reason).bind_text(retired.landmark.annotations).run();
-    write_history(database, retired.landmark);
+    bind_landmark(insert, retired.landmark);
+    insert.bind_text(retired.reason).bind_text(retired.landmark.annotations).run();
+    write_history(database, "landmark", retired.landmark);
   }
 }
 
@@ -110,6 +114,8 @@ void write_clusters(Database& database, const ClusterTree& tree) {
 
 void write_next_ids(Database& database, const SavedMap& map) {
   Statement next(database, "INSERT INTO next_ids VALUES (?, ?)");
+  const LandmarkId next_candidate = map.progress ? map.progress->candidates.next_landmark_id() : 1;
+  next.bind_text("candidate").bind(next_candidate).run();
   next.bind_text("cluster").bind(map.clusters.next_id).run();
   next.bind_text("landmark").bind(map.graph.next_landmark_id()).run();
   next.bind_text("route").bind(map.graph.next_route_id()).run();
@@ -152,6 +158,17 @@ void write_driven_path(Database& database, const std::vector<Pose2>& path) {
   for (const Pose2& pose : path) insert.bind(++number).bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).run();
 }
 
+void write_progress(Database& database, const MissionProgress& progress) {
+  Statement insert(database, "INSERT INTO progress VALUES (0, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const Pose2& pose = progress.T_map_robot;
+  insert.bind(progress.time_s).bind(std::int64_t{progress.step}).bind_text(progress.step_name);
+  insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad);
+  for (double Pose2::*part : {&Pose2::x_m, &Pose2::y_m, &Pose2::theta_rad})
+    insert.bind(progress.true_T_map_robot ? std::optional((*progress.true_T_map_robot).*part) : std::nullopt);
+  insert.bind(progress.distance_m).bind(progress.readings).bind(progress.matchings).bind(progress.collisions).run();
+  write_landmarks(database, "candidate", progress.candidates);
+}
+
 }  // namespace
 
 void write_content(Database& database, const SavedMap& map) {
@@ -159,12 +176,14 @@ void write_content(Database& database, const SavedMap& map) {
   for (const auto& [key, value] : map.properties) insert.bind_text(key).bind_text(value).run();
   write_grid(database, map.grid);
   write_tiles(database, map.grid);
-  write_landmarks(database, map.graph);
+  write_landmarks(database, "landmark", map.graph);
+  write_retired_landmarks(database, map.graph);
   write_routes(database, map.graph);
   write_clusters(database, map.clusters);
   write_next_ids(database, map);
   write_shapes(database, map.shapes);
   write_driven_path(database, map.driven_path);
+  if (map.progress) write_progress(database, *map.progress);
 }
 
 }  // namespace cairn::store

@@ -61,6 +61,9 @@ struct ModuleContext {
   std::uint64_t seed = 1;                          // of this module alone
   std::shared_ptr<const TemplateSet> templates{};  // rendered; for detectors
   const ModuleMaker* modules = nullptr;
+  // For maps: what an earlier run of the mission has mapped, with the cells, origin and clamp that the settings give.
+  // The new map begins with it. Null: with nothing.
+  const OccupancyGrid* grid_so_far = nullptr;
 };
 
 struct RegisteredModule {

@@ -39,13 +39,23 @@ struct StepEnded {
 struct MapSaved {
   std::string file_name;
 };
+// Told when it has happened, at a moment that differs from run to run: not for reports.
+struct Autosaved {
+  std::string file_name;
+  double time_s = 0.0;   // of the mission, up to which the file holds everything
+  double took_ms = 0.0;  // wall clock, from taking the copy to the file on the disk
+};
+// The first time only; the mission goes on.
+struct AutosaveFailed {
+  std::string reason;
+};
 struct Said {
   std::string sentence;
 };
 struct Bumped {};
 
 using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
-                           MapSaved, Said, Bumped>;
+                           MapSaved, Autosaved, AutosaveFailed, Said, Bumped>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

@@ -86,6 +86,12 @@ LandmarkKeeper::LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotMo
                                std::vector<LandmarkShape> shapes)
     : config_(config), robot_(robot), shapes_(std::move(shapes)) {}
 
+void LandmarkKeeper::go_on_from(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path) {
+  graph_ = std::move(graph);
+  candidates_ = std::move(candidates);
+  driven_path_ = std::move(driven_path);
+}
+
 std::vector<LandmarkKeeper::Change> LandmarkKeeper::fold(const Matching& matching) {
   if (matching.detection) see(*matching.detection);
   std::vector<LandmarkId> changed;

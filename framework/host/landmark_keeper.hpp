@@ -42,6 +42,9 @@ class LandmarkKeeper {
   // Retires the landmarks, and drops the candidates, whose place has been seen free.
   [[nodiscard]] std::vector<Change> retire_freed(const OccupancyGrid& grid);
 
+  // Goes on from what an earlier run has known.
+  void go_on_from(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path);
+
   // Remembers where the robot has been (thinned to 5 cm).
   void follow(const Pose2& T_map_robot);
 
@@ -50,6 +53,7 @@ class LandmarkKeeper {
   void connect(const WorldView& world, const Planner& planner, const Budget& budget, std::uint64_t seed);
 
   [[nodiscard]] const LandmarkGraph& graph() const { return graph_; }
+  [[nodiscard]] const LandmarkGraph& candidates() const { return candidates_; }
   [[nodiscard]] const std::vector<Pose2>& driven_path() const { return driven_path_; }
 
  private:

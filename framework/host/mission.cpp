@@ -63,6 +63,14 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
   }
 }
 
+// A plain name: an autosave never leaves the output folder.
+void check_autosave(const ConfigValue& root, const std::string& file) {
+  if (file != "." && file != ".." && file.find_first_of("/\\") == std::string::npos) return;
+  throw ConfigError(
+      root.find("autosave")->find("file")->place,
+      "autosave.file: " + shown(file) + " is not a plain file name; maps are saved into the output folder");
+}
+
 }  // namespace
 
 void StartConfig::describe(Fields<StartConfig>& fields) {
@@ -94,7 +102,12 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6},
                  "every n-th range reading is withheld from the map, so that an experiment can ask how well the "
                  "map foretells it; 0: none");
+  fields.group("autosave", &C::autosave, "the map is saved while the mission runs, for `cairn run --resume`");
   fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
+}
+
+std::string autosave_file_of(const MissionConfig& config) {
+  return config.autosave.file.empty() ? config.mission + ".autosave.cairn" : config.autosave.file;
 }
 
 void use_detector(Mission& mission, const PluginChoice& detector) {
@@ -111,6 +124,7 @@ Mission load_mission(const std::filesystem::path& file, const std::vector<std::s
   for (const std::string& assignment : overrides) apply_override(root, assignment);
   Mission mission;
   mission.config = load_config<MissionConfig>(root, "mission");
+  check_autosave(root, mission.config.autosave.file);
   if (seed) mission.config.seed = *seed;
   mission.robot = load_robot(mission.config.robot);
   if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);

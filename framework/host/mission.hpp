@@ -12,6 +12,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
 #include "framework/host/landmark_keeper.hpp"
+#include "framework/host/mission_autosave.hpp"
 #include "framework/host/stop_layer.hpp"
 #include "maps/landmark_template.hpp"
 
@@ -40,6 +41,7 @@ struct MissionConfig {
   double watchdog_s = 30.0;
   std::string record;
   int withhold_every = 0;
+  AutosaveConfig autosave;
   ConfigValue steps;
   static void describe(Fields<MissionConfig>& fields);
 };
@@ -57,6 +59,9 @@ struct Mission {
   std::vector<LandmarkShape> shapes;
   std::vector<MissionStep> steps;
 };
+
+// Name of the autosaved map in the output folder.
+[[nodiscard]] std::string autosave_file_of(const MissionConfig& config);
 
 // Takes the detector and loads its templates. Throws ConfigError.
 void use_detector(Mission& mission, const PluginChoice& detector);

@@ -5,8 +5,6 @@
 
 #include "framework/host/fence.hpp"
 #include "framework/host/landmark_evidence.hpp"
-#include "framework/host/mission_map.hpp"
-#include "maps/map_store.hpp"
 
 namespace cairn {
 namespace {
@@ -22,12 +20,14 @@ constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all lan
 MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
     : mission_(mission),
       options_(options),
-      modules_(build_modules(mission_, library)),
+      modules_(build_modules(mission_, library, options.resume)),
       keeper_(mission_.config.landmarks, mission_.robot, mission_.shapes),
-      hierarchies_(keeper_.graph(), {},
+      hierarchies_(keeper_.graph(), options.resume != nullptr ? options.resume->clusters : ClusterTree{},
                    {mission_.robot.max_v_mps, mission_.robot.max_w_radps, mission_.robot.radius_m}),
       stop_layer_(mission_.config.stop_layer, mission_.robot),
-      withholding_(mission_.config.withhold_every, mission_.config.seed) {
+      withholding_(mission_.config.withhold_every, mission_.config.seed),
+      autosaver_(options_.out / autosave_file_of(mission_.config),
+                 options_.autosave ? mission_.config.autosave.every_s : 0.0) {
   budget_.cancel = options_.cancel;
   pose_.T_map_robot = modules_.T_map_start;
   const MissionConfig& config = mission_.config;
@@ -41,6 +41,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
   }
   for (const MissionStep& step : mission_.steps) behaviours_.push_back(clock_.add("behaviour", step.name));
   drive_stage_ = clock_.add("drive", config.sensor.name);
+  if (options.resume != nullptr) go_on_from(*options.resume);
 }
 
 template <class Call>
@@ -58,6 +59,7 @@ void MissionLoop::run() {
   try {
     drive_ = in_stage(sensor_, [&] { return modules_.sensor->drive(); });
     grid_ = &in_stage(mapper_, [&]() -> const OccupancyGrid& { return modules_.mapper->grid(); });
+    if (result_.resumed_s) show_grid_to_detector();
     result_.outcome = loop();
   } catch (const GivenUp&) {
     return;  // the one who gave up tells
@@ -89,18 +91,19 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   if (grid_is_lost_)
     result_.reason += "; the map it works on could not be saved";
   else
-    (void)write_map(mission_.config.mission + ".cairn");
+    write_last_map();
   return true;
 }
 
 MissionOutcome MissionLoop::loop() {
-  if (mission_.steps.empty() && drive_ != nullptr) return MissionOutcome::done;
+  if (step_ == mission_.steps.size() && drive_ != nullptr) return MissionOutcome::done;
   while (true) {
     if (budget_.cancelled()) return ended(MissionOutcome::cancelled, "cancelled by the user");
     SensorStep step = in_stage(sensor_, [&] { return modules_.sensor->next(budget_); });
     if (step.state == SensorState::fault) return ended(MissionOutcome::sensor_fault, step.reason);
     if (step.state == SensorState::end_of_data) return at_end_of_data(step.reason);
     observation_ = std::move(step.observation);
+    if (is_known_already(observation_)) continue;
     tick();
     if (failed_step_) return ended(MissionOutcome::step_failed, failure_);
     if (!mission_.steps.empty() && step_ == mission_.steps.size()) return MissionOutcome::done;
@@ -120,10 +123,11 @@ void MissionLoop::tick() {
   behave();
   drive_on();
   tell(TickDone{});
+  autosave();
 }
 
 void MissionLoop::account_for(const Observation& observation) {
-  if (!begun_) begin_s_ = observation.stamp_s;
+  if (!begun_ && !skipped_) begin_s_ = observation.stamp_s - result_.resumed_s.value_or(0.0);
   if (begun_) result_.distance_m += (observation.T_odom_robot.position() - T_odom_last_.position()).norm();
   begun_ = true;
   T_odom_last_ = observation.T_odom_robot;
@@ -173,6 +177,19 @@ void MissionLoop::detect(const CellChanges& changes) {
   tell_changes(keeper_.retire_freed(*grid_));
 }
 
+// What the earlier run has mapped is no news: it is shown with a budget that allows no matching, so that old evidence
+// does not count twice.
+void MissionLoop::show_grid_to_detector() {
+  if (!modules_.detector || grid_->bounds().empty()) return;
+  const std::atomic<bool> cancelled = true;
+  Budget nothing;
+  nothing.cancel = &cancelled;
+  in_stage(detector_, [&] {
+    (void)modules_.detector->detect(*grid_, everything_in(grid_->bounds()), nothing);
+    coarse_ = modules_.detector->coarse_grid();
+  });
+}
+
 void MissionLoop::tell_changes(const std::vector<LandmarkKeeper::Change>& changes) {
   for (const auto& [id, news] : changes) {
     if (news == LandmarkKeeper::News::retired) {
@@ -189,6 +206,7 @@ void MissionLoop::behave() {
   if (step_ >= modules_.behaviours.size()) return;
   const std::string& name = mission_.steps[step_].name;
   if (!step_begun_) begin_step(name);
+  save_failed_ = false;
   const Status status = in_stage(behaviours_[step_], [&] { return modules_.behaviours[step_]->tick(view(), *this); });
   if (status.progress != Progress::running) end_step(name, status);
 }
@@ -206,7 +224,7 @@ void MissionLoop::end_step(const std::string& name, const Status& status) {
   wanted_ = Twist{};
   step_begun_ = false;
   ++step_;
-  failed_step_ = status.progress == Progress::failure;
+  failed_step_ = status.progress == Progress::failure && !save_failed_;
   failure_ = "step " + std::to_string(step_) + " (" + name + "): " + status.reason;
   connect_landmarks();
 }
@@ -233,22 +251,6 @@ MissionOutcome MissionLoop::at_end_of_data(const std::string& reason) {
 MissionOutcome MissionLoop::ended(MissionOutcome outcome, std::string reason) {
   result_.reason = std::move(reason);
   return outcome;
-}
-
-// Whatever happened: the robot stops, and the map so far is saved.
-void MissionLoop::finish() {
-  if (drive_ != nullptr) stop();
-  if (step_begun_) halt_step();
-  try {
-    if (result_.outcome != MissionOutcome::cancelled) connect_landmarks();
-  } catch (const ModuleFault& fault) {
-    result_.reason += (result_.reason.empty() ? "" : "; ") + std::string(fault.what());
-    result_.outcome = MissionOutcome::module_fault;
-  }
-  const Status saved = write_map(mission_.config.mission + ".cairn");
-  if (saved.progress == Progress::success) return;
-  result_.reason += (result_.reason.empty() ? "" : "; ") + saved.reason;
-  if (result_.outcome == MissionOutcome::done) result_.outcome = MissionOutcome::map_not_saved;
 }
 
 void MissionLoop::stop() {
@@ -311,24 +313,6 @@ PlanResult MissionLoop::plan(const PlanRequest& request) {
   const StageClock::Visit visit(clock_, StageClock::kHost);
   tell(PlanDone{result});
   return result;
-}
-
-Status MissionLoop::save(const std::string& file_name) {
-  const StageClock::Visit visit(clock_, StageClock::kHost);
-  return write_map(file_name);
-}
-
-Status MissionLoop::write_map(const std::string& file_name) {
-  if (grid_ == nullptr) return {Progress::failure, "there is no map to save"};
-  hierarchies_.update();
-  try {
-    save_map(options_.out / file_name, map_of_mission(mission_, *grid_, keeper_, hierarchies_.tree()));
-  } catch (const std::exception& error) {
-    return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
-  }
-  result_.map_file = file_name;
-  tell(MapSaved{file_name});
-  return {Progress::success, "saved " + file_name};
 }
 
 void MissionLoop::say(const std::string& sentence) {

@@ -17,7 +17,7 @@ namespace cairn {
 
 class MissionLoop : private Orders {
  public:
-  // Throws ConfigError or ModuleFault.
+  // Throws ConfigError, ModuleFault or StoreError.
   MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
 
   void subscribe(Listener& listener) { listeners_.push_back(&listener); }
@@ -54,7 +54,14 @@ class MissionLoop : private Orders {
   void connect_landmarks();
   MissionOutcome at_end_of_data(const std::string& reason);
   MissionOutcome ended(MissionOutcome outcome, std::string reason);
+  void go_on_from(const SavedMap& map);
+  void show_grid_to_detector();
+  [[nodiscard]] bool is_known_already(const Observation& observation);
+  [[nodiscard]] MissionProgress progress() const;
+  void autosave();
+  void tell_of_autosave();
   void finish();
+  void write_last_map();
   void stop();
   void halt_step();
   Status write_map(const std::string& file_name);
@@ -94,10 +101,16 @@ class MissionLoop : private Orders {
   double held_back_ratio_ = 0.0;
   std::size_t step_ = 0;
   bool begun_ = false;
+  bool skipped_ = false;  // observations that the map gone on from holds already
   bool bumped_ = false;
   bool step_begun_ = false;
   bool failed_step_ = false;
   std::string failure_;
+  bool save_failed_ = false;  // in this tick
+  std::string not_saved_;     // the first reason
+  Autosaver autosaver_;
+  bool autosave_has_failed_ = false;
+  std::optional<Pose2> resumed_true_pose_;
   const std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
 };
 

@@ -7,7 +7,10 @@
 
 namespace cairn {
 
+// Which mission, seed and robot.
+[[nodiscard]] std::map<std::string, std::string> properties_of(const Mission& mission);
+// The keeper's candidates are part of the progress.
 [[nodiscard]] SavedMap map_of_mission(const Mission& mission, const OccupancyGrid& grid, const LandmarkKeeper& keeper,
-                                      ClusterTree clusters);
+                                      ClusterTree clusters, MissionProgress progress);
 
 }  // namespace cairn

@@ -1,6 +1,7 @@
 #include "framework/host/mission_modules.hpp"
 
 #include "framework/host/fence.hpp"
+#include "framework/host/mission_resume.hpp"
 #include "framework/host/sensed_templates.hpp"
 
 namespace cairn {
@@ -29,6 +30,17 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
   built.templates = std::make_shared<TemplateSet>(
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, cell_m, library); }));
   built.detector = build<Detector>(library, detector, context_for(mission, library, built, PluginKind::detector));
+}
+
+std::shared_ptr<Mapper> mapper_that_goes_on(const ModuleLibrary& library, const PluginChoice& map,
+                                            ModuleContext context, const Mapper& empty, const OccupancyGrid& saved) {
+  check_same_cells(saved, fenced("map", map.name, [&]() -> const OccupancyGrid& { return empty.grid(); }));
+  context.grid_so_far = &saved;
+  std::shared_ptr<Mapper> mapper = build<Mapper>(library, map, context);
+  if (fenced("map", map.name, [&]() -> const OccupancyGrid& { return mapper->grid(); }) != saved)
+    throw StoreError("cannot go on with this mission: its map module " + map.name +
+                     " does not begin with a grid that is given to it");
+  return mapper;
 }
 
 }  // namespace
@@ -64,18 +76,26 @@ std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLib
   return built.detector;
 }
 
-MissionModules build_modules(const Mission& mission, const ModuleLibrary& library) {
+MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume) {
   const MissionConfig& config = mission.config;
   MissionModules built;
   built.T_map_start = {config.start.at_m.x(), config.start.at_m.y(), config.start.angle_rad};
+  if (resume != nullptr) {
+    check_resumable(*resume, mission);
+    // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
+    built.T_map_start = resume->progress->true_T_map_robot.value_or(resume->progress->T_map_robot);
+  }
   const auto context = [&](PluginKind kind, std::size_t index = 0) {
     return context_for(mission, library, built, kind, index);
   };
   built.sensor = build<Sensor>(library, config.sensor, context(PluginKind::sensor));
   const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
   if (start) built.T_map_start = *start;
+  if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
   built.localizer = build<Localizer>(library, config.localizer, context(PluginKind::localizer));
   built.mapper = build<Mapper>(library, config.map, context(PluginKind::map));
+  if (resume != nullptr)
+    built.mapper = mapper_that_goes_on(library, config.map, context(PluginKind::map), *built.mapper, resume->grid);
   if (!config.detector.name.empty()) add_detector(mission, library, built.mapper->grid().cell_m(), built);
   if (!config.planner.name.empty())
     built.planner = build<Planner>(library, config.planner, context(PluginKind::planner));

@@ -6,6 +6,7 @@
 
 #include "framework/host/mission.hpp"
 #include "framework/host/module_library.hpp"
+#include "maps/map_store.hpp"
 
 namespace cairn {
 
@@ -20,8 +21,9 @@ struct MissionModules {
   Pose2 T_map_start;
 };
 
-// Throws ConfigError or ModuleFault.
-[[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library);
+// resume: the map to go on from, or null. Throws ConfigError or ModuleFault; StoreError when the map does not fit.
+[[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
+                                           const SavedMap* resume = nullptr);
 
 // Templates as the mission's detector gets them: rendered for the mission's cell size, or taken from the
 // user's cache.

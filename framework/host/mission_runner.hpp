@@ -11,6 +11,7 @@
 #include "framework/host/mission.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/stage_clock.hpp"
+#include "maps/map_store.hpp"
 
 namespace cairn {
 
@@ -21,6 +22,8 @@ struct RunOptions {
   std::filesystem::path out;  // folder of everything written; must exist
   bool realtime = false;      // pace simulated time to the wall clock
   const std::atomic<bool>* cancel = nullptr;
+  bool autosave = false;             // as the mission's settings say
+  const SavedMap* resume = nullptr;  // go on from this map; must outlive the constructor's call only
 };
 
 struct StepReport {
@@ -38,7 +41,9 @@ struct MissionResult {
   std::int64_t matchings = 0;
   std::int64_t collisions = 0;
   double distance_m = 0.0;
-  double time_s = 0.0;   // simulated or recorded
+  double time_s = 0.0;                             // simulated or recorded
+  std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
+  AutosaveFigures autosave{};
   std::string map_file;  // name in the output folder; empty: could not be saved
 };
 
@@ -46,7 +51,8 @@ class MissionLoop;
 
 class MissionRunner {
  public:
-  // Builds every module. Throws ConfigError (the user's files) or ModuleFault (a module's fault).
+  // Builds every module. Throws ConfigError (the user's files), ModuleFault (a module's fault) or StoreError (the
+  // map to go on from does not fit).
   MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
   ~MissionRunner();
 

@@ -71,6 +71,14 @@ ordered_json json_of(const std::vector<StageTime>& times) {
   return list;
 }
 
+ordered_json json_of(const AutosaveFigures& autosave) {
+  return {{"saved", autosave.saved},
+          {"failed", autosave.failed},
+          {"reason", autosave.failure},
+          {"in_loop_s", rounded(autosave.in_loop_s)},
+          {"writing_s", rounded(autosave.writing_s)}};
+}
+
 ordered_json main_figures(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph) {
   return {{"mission", mission.config.mission},
           {"seed", mission.config.seed},
@@ -130,6 +138,10 @@ struct Sentence {
            (e.status.reason.empty() ? "" : ", " + e.status.reason);
   }
   std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
+  std::string operator()(const Autosaved&) const { return {}; }
+  std::string operator()(const AutosaveFailed& e) const {
+    return "autosaving failed, the mission goes on: " + e.reason;
+  }
   std::string operator()(const Said& e) const { return e.sentence; }
   std::string operator()(const Bumped&) const { return "bumped into something"; }
 };
@@ -165,6 +177,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
     report["retired"].push_back(std::move(landmark));
   }
   report["explored_ratio"] = rounded(explored_ratio_);
+  if (result.resumed_s) report["resumed_s"] = rounded(*result.resumed_s);
   report["steps"] = json_of(result.steps);
   report["map"] = result.map_file;
   report["pictures"] = pictures;
@@ -190,8 +203,11 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   ordered_json summary = main_figures(mission, result, runner.graph());
   summary["explored_ratio"] = rounded(explored_ratio_);
   summary["wall_s"] = rounded(wall_s);
+  if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
+  summary["autosave"] = json_of(result.autosave);
   summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();
-  summary["report"] = (out / "report.json").string();
+  const std::filesystem::path report = out / "report.json";
+  summary["report"] = std::filesystem::exists(report) ? report.string() : "";
   ordered_json files = ordered_json::array();
   for (const std::string& picture : pictures) files.push_back((out / picture).string());
   summary["pictures"] = files;

@@ -26,6 +26,7 @@ struct CommonOptions {
 struct RunCommand {
   std::filesystem::path mission;
   std::filesystem::path out = "out";
+  std::filesystem::path resume;  // a saved map to go on from; empty: from the beginning
   std::optional<std::int64_t> seed;
   std::vector<std::string> overrides;
   bool realtime = false;
@@ -63,9 +64,13 @@ int plan(const PlanCommand& command, const CommonOptions& common);
 struct MapCommand {
   std::filesystem::path map;
   std::filesystem::path picture = "map.png";
+  std::filesystem::path repaired;
 };
 int map_info(const MapCommand& command, const CommonOptions& common);
+// 2 when the map is damaged: what is lost is told.
 int map_check(const MapCommand& command, const CommonOptions& common);
+// Writes what the map still holds to another file.
+int map_repair(const MapCommand& command, const CommonOptions& common);
 int map_render(const MapCommand& command, const CommonOptions& common);
 
 struct ExchangeCommand {

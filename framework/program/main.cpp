@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -41,6 +42,7 @@ void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& 
   sub->add_option("--seed", c.seed, "seed, in place of the mission's")->check(seed_range());
   sub->add_option("--set", c.overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
       ->allow_extra_args(false);
+  sub->add_option("--resume", c.resume, "saved or autosaved map of this mission (*.cairn) to go on from");
   sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
   sub->callback([&] { action = [&] { return run(c, common); }; });
 }
@@ -92,7 +94,10 @@ void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& 
     return sub;
   };
   add("info", "Size, landmarks and routes of a map", map_info);
-  add("check", "Prove a map sound, or say what is wrong", map_check);
+  add("check", "Prove a map sound, or say exactly what is lost; exit status 2 when it is damaged", map_check);
+  add("repair", "Save what a damaged map still holds", map_repair)
+      ->add_option("-o,--out", c.repaired, "saved map to write; never the damaged one")
+      ->required();
   CLI::App* render = add("render", "Draw a map into a PNG file", map_render);
   render->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
 }
@@ -301,6 +306,7 @@ int main_of(int argc, char** argv) {
 }  // namespace cairn
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is told like a full disk
   try {
     return cairn::main_of(argc, argv);
   } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "framework/program/commands.hpp"
 #include "framework/program/run_pictures.hpp"
@@ -33,6 +34,11 @@ void list_first(const Things& things, const char* what, Text text_of) {
   if (things.size() > kShown) std::cout << fmt::format("  ... and {} more {}\n", things.size() - kShown, what);
 }
 
+ordered_json json_of(const std::optional<MissionProgress>& progress) {
+  if (!progress) return nullptr;
+  return {{"time_s", progress->time_s}, {"step", progress->step + 1}, {"step_name", progress->step_name}};
+}
+
 ordered_json json_of(const SavedMap& map) {
   const CellBox bounds = map.grid.bounds();
   const double cell_m = map.grid.cell_m();
@@ -44,7 +50,8 @@ ordered_json json_of(const SavedMap& map) {
           {"landmarks", map.graph.landmarks().size()},
           {"routes", map.graph.routes().size()},
           {"levels", levels_json(map)},
-          {"explored_ratio", known_ratio(map.grid)}};
+          {"explored_ratio", known_ratio(map.grid)},
+          {"progress", json_of(map.progress)}};
 }
 
 std::string text_of_grid(const OccupancyGrid& grid) {
@@ -64,6 +71,11 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
   }
   std::cout << fmt::format("{}: schema {}, {}\n", command.map.string(), kMapSchemaVersion, text_of_grid(map.grid));
   for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
+  if (map.progress)
+    std::cout << fmt::format("  saved {:.1f} s after the mission began, {}\n", map.progress->time_s,
+                             map.progress->step_name.empty()
+                                 ? "all steps done"
+                                 : fmt::format("at step {}: {}", map.progress->step + 1, map.progress->step_name));
   std::cout << fmt::format("  {} landmarks, {} routes\n", map.graph.landmarks().size(), map.graph.routes().size());
   int level = 0;
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
@@ -78,15 +90,6 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
     return fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", route.id, route.from, route.to, route.cost_m,
                        route.driven ? "driven" : "planned", route.closed ? ", closed" : "");
   });
-  return kExitDone;
-}
-
-int map_check(const MapCommand& command, const CommonOptions& common) {
-  const SavedMap map = load_map(command.map);  // throws on anything that is not sound
-  if (common.json)
-    std::cout << ordered_json{{"file", command.map.string()}, {"outcome", "sound"}}.dump() << "\n";
-  else
-    std::cout << command.map.string() << ": sound\n";
   return kExitDone;
 }
 

@@ -16,7 +16,10 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  if (out) return;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);  // half of it is of no use
+  throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 }  // namespace cairn

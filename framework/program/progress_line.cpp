@@ -25,6 +25,11 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     tell(fmt::format("step {}: {} {}{}", e->index + 1, e->name,
                      e->status.progress == Progress::success ? "done" : "failed",
                      e->status.reason.empty() ? "" : " (" + e->status.reason + ")"));
+  if (const auto* e = std::get_if<Autosaved>(&event)) {
+    tell(fmt::format("autosaved {}: all up to {:.3f} s, in {:.0f} ms", e->file_name, e->time_s, e->took_ms));
+    out_ << std::flush;
+  }
+  if (const auto* e = std::get_if<AutosaveFailed>(&event)) tell("autosaving failed, the mission goes on: " + e->reason);
   if (const auto* e = std::get_if<Said>(&event)) tell(e->sentence);
   if (std::holds_alternative<Bumped>(event)) tell("bumped into something: stopped");
 }

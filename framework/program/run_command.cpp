@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "framework/host/fence.hpp"
+#include "framework/host/mission_resume.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/run_recording.hpp"
 #include "framework/host/run_report.hpp"
@@ -62,9 +63,52 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
                      result.time_s / std::max(wall_s, 1e-9));
   if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
   if (!result.map_file.empty()) out << "  map         " << (folder / result.map_file).string() << "\n";
-  out << "  report      " << (folder / "report.json").string() << "\n";
+  if (std::filesystem::exists(folder / "report.json"))
+    out << "  report      " << (folder / "report.json").string() << "\n";
   for (const std::string& picture : pictures.files) out << "  picture     " << (folder / picture).string() << "\n";
   for (const std::string& sentence : pictures.missing) out << "  no picture  " << sentence << "\n";
+}
+
+// The map to go on from, and its seed when the command line names none.
+std::optional<SavedMap> map_to_resume(const RunCommand& command, std::optional<std::int64_t>& seed) {
+  if (command.resume.empty()) return std::nullopt;
+  SavedMap map = load_map(command.resume);
+  try {
+    if (!seed) seed = seed_of(map);
+  } catch (const StoreError& error) {
+    throw StoreError(command.resume.string() + ": " + error.what());
+  }
+  return map;
+}
+
+MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
+                        const RunCommand& command) {
+  try {
+    return MissionRunner(mission, library, options);
+  } catch (const StoreError& error) {
+    throw StoreError(command.resume.string() + ": " + error.what());
+  }
+}
+
+// An autosave that this run does not go on from is all that is left of a run that was cut short.
+void keep_earlier_run(const RunCommand& command, const MissionConfig& config, std::ostream& people) {
+  const std::filesystem::path file = command.out / autosave_file_of(config);
+  std::error_code error;
+  if (config.autosave.every_s <= 0.0 || std::filesystem::equivalent(file, command.resume, error)) return;
+  if (const auto kept = keep_earlier_autosave(file))
+    people << "an earlier run here did not end: its map is kept as " << kept->string()
+           << " (--resume goes on from it)\n";
+}
+
+// What cannot be written is told, and the rest of the run's outcome is not lost for it.
+bool try_to_write(const std::filesystem::path& file, const std::string& text) {
+  try {
+    write_file(file, text);
+    return true;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return false;
+  }
 }
 
 }  // namespace
@@ -72,14 +116,18 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
 int run(const RunCommand& command, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
   const std::atomic<bool>& interrupted = cancel_on_interrupt();
-  const Mission mission = load_mission(command.mission, command.overrides, command.seed);
+  std::optional<std::int64_t> seed = command.seed;
+  const std::optional<SavedMap> resume = map_to_resume(command, seed);
+  const Mission mission = load_mission(command.mission, command.overrides, seed);
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   make_folder(command.out);
   std::ostream& people = common.json ? std::cerr : std::cout;
   const bool live = isatty(common.json ? STDERR_FILENO : STDOUT_FILENO) != 0;
   people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
-  MissionRunner runner(mission, library, {command.out, command.realtime, &interrupted});
+  RunOptions options{command.out, command.realtime, &interrupted, true, resume ? &*resume : nullptr};
+  MissionRunner runner = runner_of(mission, library, options, command);
+  keep_earlier_run(command, mission.config, people);
   RunReport report;
   MissionResult result;
   std::optional<RunRecording> recording;
@@ -94,8 +142,9 @@ int run(const RunCommand& command, const CommonOptions& common) {
   for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
   if (recording) finish(*recording);
   const RunPictures pictures = draw_run(command.out, mission, runner, report);
-  write_file(command.out / "timing.json", timing_json(runner.times()) + "\n");
-  write_file(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
+  try_to_write(command.out / "timing.json", timing_json(runner.times()) + "\n");
+  const bool reported =
+      try_to_write(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   print_times(people, runner.times());
   print_summary(people, mission, result, runner, pictures, command.out, wall_s);
@@ -107,7 +156,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
     std::cerr.flush();
     std::_Exit(kExitNotSolved);
   }
-  return result.outcome == MissionOutcome::done ? kExitDone : kExitNotSolved;
+  return result.outcome == MissionOutcome::done && reported ? kExitDone : kExitNotSolved;
 }
 
 }  // namespace cairn

@@ -17,6 +17,12 @@ const Hierarchy& Hierarchies::by(CostKind kind) const {
   return kind == CostKind::length ? by_length : make(kind, by_length.tree());
 }
 
+ClusterTree Hierarchies::last_tree() const {
+  const std::scoped_lock lock(making_);
+  const std::unique_ptr<Hierarchy>& by_length = made_[static_cast<std::size_t>(CostKind::length)];
+  return by_length == nullptr ? clusters_ : by_length->tree();
+}
+
 // Each on its own would cut its clusters by its own costs, and names would no longer mean the same.
 template <class Update>
 void Hierarchies::update_all(Update update) {

@@ -21,6 +21,8 @@ class Hierarchies {
   // by length follows; the others are made anew from its clusters when they are next asked for.
   void update(const GraphChanges& changes);
   void update();
+  // As of the last update, and nothing is made for it.
+  [[nodiscard]] ClusterTree last_tree() const;
   [[nodiscard]] ClusterTree tree() const { return by(CostKind::length).tree(); }
 
  private:

@@ -16,8 +16,8 @@ std::vector<Point> points_on(const std::vector<Pose2>& path) {
 
 }  // namespace
 
-PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start, const GoalPlace& goal,
-                  std::vector<PartedPoint> route, std::vector<PlanPiece> parts) {
+PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget, const StartPlace& start,
+                  const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PlanPiece> parts) {
   if (start.escape) {
     parts.push_back({PlanPiece::Origin::escape, 0, 0.0});
     route.front().part = static_cast<int>(parts.size()) - 1;
@@ -26,7 +26,7 @@ PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Sta
   if (rules.shortcut) {
     const std::size_t keep = start.escape ? 2 : 1;
     const double disc_m = rules.radius_m + kLeastRadius_m;
-    route = tightened(*start.space, straightened(*start.space, route, disc_m, keep), disc_m, keep);
+    route = tightened(*start.space, straightened(*start.space, route, disc_m, keep, budget), disc_m, keep, budget);
   }
   const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
   route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
@@ -45,9 +45,9 @@ PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Sta
   return result;
 }
 
-PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
-                          const GoalPlace& goal, const SymbolicPath& path, const Walk& walk) {
-  PlanResult result = joined(rules, grid, start, goal, walk.route, walk.parts);
+PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,
+                          const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path, const Walk& walk) {
+  PlanResult result = joined(rules, grid, budget, start, goal, walk.route, walk.parts);
   result.cost_m = walk.cost_m;
   result.landmarks = path.landmarks;
   result.routes = path.routes;
@@ -60,10 +60,7 @@ PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, c
 PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
                       const GoalPlace& goal, const PlanResult& planned) {
   if (!route_is_free(grid, rules.ground, points_on(planned.path), rules.radius_m)) {
-    PlanResult none;
-    none.outcome = PlanOutcome::out_of_budget;
-    none.reason = "the route planner's path touches something and was refused";
-    return none;
+    return refused_plan({PlanOutcome::out_of_budget, "the route planner's path touches something and was refused"});
   }
   PlanResult result = planned;
   const auto origin = planned.path.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;

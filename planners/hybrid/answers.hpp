@@ -17,13 +17,15 @@ struct AnswerRules {
 };
 
 // Joins, shortens and re-checks on `grid`; `route` begins where the start is left. std::logic_error when the re-check
-// refuses it.
-[[nodiscard]] PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
-                                const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PlanPiece> parts);
+// refuses it. Corners that the budget leaves no time for stay.
+[[nodiscard]] PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,
+                                const StartPlace& start, const GoalPlace& goal, std::vector<PartedPoint> route,
+                                std::vector<PlanPiece> parts);
 
 // Of a walk that is complete, along its symbolic path.
-[[nodiscard]] PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
-                                        const GoalPlace& goal, const SymbolicPath& path, const Walk& walk);
+[[nodiscard]] PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,
+                                        const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path,
+                                        const Walk& walk);
 
 // The route planner's path as it is, from where the start is left: there is nothing to join it to. Without a path when
 // it touches something.

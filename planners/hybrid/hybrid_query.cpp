@@ -1,9 +1,9 @@
 #include "planners/hybrid/hybrid_query.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <set>
 
+#include "planners/any_angle/nearest_goals.hpp"
 #include "planners/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"
 #include "planners/hybrid/avoided.hpp"
@@ -20,18 +20,6 @@ using Time = Budget::Clock::time_point;
 
 double ms_since(Time begin) {
   return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
-}
-
-PlanResult refused(const Refusal& refusal) {
-  PlanResult result;
-  result.outcome = refusal.outcome;
-  result.reason = refusal.reason;
-  return result;
-}
-
-PlanResult stopped(PlanOutcome outcome) {
-  if (outcome == PlanOutcome::cancelled) return refused({outcome, "planning was cancelled"});
-  return refused({outcome, "the budget was used up before a way was found"});
 }
 
 bool is_large(const OccupancyGrid& grid) {
@@ -52,14 +40,14 @@ class Query {
   }
 
   PlanResult answer() {
-    if (budget_.exhausted() || budget_.iterations <= 0) return stopped(stop_outcome());
+    if (budget_.exhausted() || budget_.iterations <= 0) return stopped_plan(stop_outcome(budget_));
     if (world_.grid.bounds().empty()) return answer_of_graph();
-    if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused(*refusal);
+    if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused_plan(*refusal);
     // Before the ground is known as a whole, which on a large map takes longer than the answer.
     if (is_large(world_.grid) && tools_.usual.spaces.empty())
       if (auto answer = stored_way(tools_, legs_, answers_, request_, world_, budget_)) return *std::move(answer);
     const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
-    if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused(*refusal);
+    if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused_plan(*refusal);
     const auto& start = std::get<StartPlace>(usual);
     if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space, disc_m());
     PlanResult result = avoided_grid_ ? answer_avoiding() : answer_from(start, world_);
@@ -83,7 +71,7 @@ class Query {
   PlanResult answer_avoiding() {
     const WorldView world = with_grid(*avoided_grid_, world_);
     const auto start = start_of(request_.from, world, ends_, tools_.avoiding.spaces);
-    PlanResult result = std::holds_alternative<Refusal>(start) ? refused(std::get<Refusal>(start))
+    PlanResult result = std::holds_alternative<Refusal>(start) ? refused_plan(std::get<Refusal>(start))
                                                                : answer_from(std::get<StartPlace>(start), world);
     if (result.outcome != PlanOutcome::solved) result.reason += kAvoidedCount;
     return result;
@@ -120,14 +108,21 @@ class Query {
     const auto routes = ground.routes.routes_of(start.space, disc_m());
     const auto goals_or_refusal = goals_of(
         request_.to, world, ends_, start, [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
-    if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused(*refusal);
-    const auto [goals, direct_m] = nearest_first(std::get<std::vector<GoalPlace>>(goals_or_refusal), start, *routes);
+    if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused_plan(*refusal);
+    std::vector<GoalPlace> goals;
+    for (RankedGoal& goal :
+         nearest_first(std::get<std::vector<GoalPlace>>(goals_or_refusal), start.leave_from, *routes, budget_))
+      goals.push_back(std::move(goal.place));
     const GoalPlace& nearest = goals.front();
     if (start.landmark == nearest.landmark && start.landmark != 0) return stay(start, nearest);
 
     const WorldView planned = planned_world(start, world);
     const SymbolicQuery query{request_, world_, start, goals, disc_m(), tools_.config.detour_ratio};
     const SymbolicSearch search(query, tools_.graph, budget_);
+    // What only a graph with routes needs.
+    const double direct_m = world_.graph.routes().empty()
+                                ? 0.0
+                                : routes->least_length_m(start.leave_from, nearest.pose.position(), budget_);
     std::optional<PlanResult> over = over_graph(search, planned, start, goals, direct_m);
     PlanResult result = over ? std::move(*over) : direct(planned, start, goals);
     if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
@@ -143,7 +138,7 @@ class Query {
     const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
     for (;;) {
       const SymbolicAnswer symbolic = search_graph(search);
-      if (symbolic.stopped) return stopped(*symbolic.stopped);
+      if (symbolic.stopped) return stopped_plan(*symbolic.stopped);
       if (!symbolic.path) return std::nullopt;
       if (!any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m) {
         why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct way " +
@@ -152,24 +147,12 @@ class Query {
       }
       const GoalPlace& goal = goals[symbolic.path->goal];
       const Walk walk = walk_along(planned, start, *symbolic.path, goal);
-      if (walk.stopped) return stopped(*walk.stopped);
+      if (walk.stopped) return stopped_plan(*walk.stopped);
       if (walk.mile_failed) return std::nullopt;
-      if (!walk.blocked) return over_landmarks(answers_, planned_grid(start), start, goal, *symbolic.path, walk);
+      if (!walk.blocked)
+        return over_landmarks(answers_, planned_grid(start), budget_, start, goal, *symbolic.path, walk);
       blocked_.insert(*walk.blocked);
     }
-  }
-
-  // By how long a way to them must be; and that of the first, which only a graph with routes needs.
-  std::pair<std::vector<GoalPlace>, double> nearest_first(const std::vector<GoalPlace>& goals, const StartPlace& start,
-                                                          const DiscRoutes& routes) const {
-    if (goals.size() == 1 && world_.graph.routes().empty()) return {goals, 0.0};
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < goals.size(); ++i)
-      order.emplace_back(routes.least_length_m(start.leave_from, goals[i].pose.position(), budget_), i);
-    std::sort(order.begin(), order.end());
-    std::vector<GoalPlace> sorted;
-    for (const auto& [least_m, i] : order) sorted.push_back(goals[i]);
-    return {sorted, order.front().first};
   }
 
   SymbolicAnswer search_graph(const SymbolicSearch& search) {
@@ -190,7 +173,7 @@ class Query {
   }
 
   PlanResult stay(const StartPlace& start, const GoalPlace& goal) const {
-    PlanResult result = joined(answers_, planned_grid(start), start, goal, {{start.leave_from, 0}}, {});
+    PlanResult result = joined(answers_, planned_grid(start), budget_, start, goal, {{start.leave_from, 0}}, {});
     result.landmarks = {goal.landmark};
     result.reason = "start and goal are the same landmark";
     return result;
@@ -233,8 +216,6 @@ class Query {
   const OccupancyGrid& planned_grid(const StartPlace& start) const {
     return start.patched_grid ? *start.patched_grid : avoided_grid_ ? *avoided_grid_ : world_.grid;
   }
-
-  PlanOutcome stop_outcome() const { return budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget; }
 
   const HybridTools& tools_;
   const PlanRequest& request_;

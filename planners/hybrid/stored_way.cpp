@@ -89,7 +89,7 @@ class StoredWay {
                             std::none_of(walk.parts.begin(), walk.parts.end(),
                                          [](const auto& part) { return part.origin == PlanPiece::Origin::planned; });
     if (!walk.complete() || !all_stored) return std::nullopt;
-    PlanResult result = over_landmarks(answers_, grid, start_, goal, path, walk);
+    PlanResult result = over_landmarks(answers_, grid, budget_, start_, goal, path, walk);
     return result.clearance_m < kBeside_m ? std::optional(std::move(result)) : std::nullopt;
   }
 

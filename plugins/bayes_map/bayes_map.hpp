@@ -18,6 +18,7 @@ class BayesMap final : public Mapper {
   // The spans cover the cells whose log-odds really changed. O(cells in the beams).
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
+  void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
 
  private:
   void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);

@@ -9,7 +9,11 @@ void register_module(cairn::Registrar& registrar) {
   using cairn::bayes_map::Config;
   registrar.add<cairn::Mapper, Config>(
       "bayes", "occupancy grid from sonar: recursive Bayes in log-odds, each reading on its own",
-      [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<BayesMap>(config); });
+      [](const Config& config, const cairn::ModuleContext& context) {
+        auto map = std::make_unique<BayesMap>(config);
+        if (context.grid_so_far != nullptr) map->begin_with(*context.grid_so_far);
+        return map;
+      });
 }
 
 }  // namespace

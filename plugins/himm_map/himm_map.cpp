@@ -26,6 +26,20 @@ HimmMap::HimmMap(const Config& config)
       log_odds_of_certainty_(log_odds_table(config.certainty_max)),
       grid_(config.cell_m, kRoomForEveryCertainty_nat) {}
 
+void HimmMap::begin_with(const OccupancyGrid& grid) {
+  grid_ = grid;
+  const CellBox box = grid.bounds();
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x) {
+      const LogOdds value = grid.log_odds({x, y});
+      if (value == 0) continue;
+      const auto nearest = std::ranges::lower_bound(log_odds_of_certainty_, value);
+      const auto certainty = std::min<std::ptrdiff_t>(nearest - log_odds_of_certainty_.begin(), config_.certainty_max);
+      certainties_.at(sonar_model::tile_holding({x, y}))[sonar_model::place_in_tile({x, y})] =
+          static_cast<std::uint8_t>(certainty);
+    }
+}
+
 const CellChanges& HimmMap::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;

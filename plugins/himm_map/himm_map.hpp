@@ -22,6 +22,8 @@ class HimmMap final : public Mapper {
 
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
+  // Certainties as its values say; a cell that was in the middle of the scale is one never seen.
+  void begin_with(const OccupancyGrid& grid);
   [[nodiscard]] int certainty(Cell cell) const;
 
  private:

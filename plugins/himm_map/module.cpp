@@ -9,7 +9,11 @@ void register_module(cairn::Registrar& registrar) {
   using cairn::himm_map::HimmMap;
   registrar.add<cairn::Mapper, Config>(
       "himm", "occupancy grid from sonar, for comparison: histogrammic in-motion mapping (HIMM)",
-      [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<HimmMap>(config); });
+      [](const Config& config, const cairn::ModuleContext& context) {
+        auto map = std::make_unique<HimmMap>(config);
+        if (context.grid_so_far != nullptr) map->begin_with(*context.grid_so_far);
+        return map;
+      });
 }
 
 }  // namespace

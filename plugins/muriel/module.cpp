@@ -9,7 +9,11 @@ void register_module(cairn::Registrar& registrar) {
   using cairn::muriel::Muriel;
   registrar.add<cairn::Mapper, Config>(
       "muriel", "occupancy grid from sonar and laser: Bayes with specular weighting and an independence log (MURIEL)",
-      [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<Muriel>(config); });
+      [](const Config& config, const cairn::ModuleContext& context) {
+        auto map = std::make_unique<Muriel>(config);
+        if (context.grid_so_far != nullptr) map->begin_with(*context.grid_so_far);
+        return map;
+      });
 }
 
 }  // namespace

@@ -34,6 +34,8 @@ class Muriel final : public Mapper {
   // One span a row, from the first cell whose log-odds changed to the last. O(cells in the beams).
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
+  // What it was read from is not known: the log begins empty.
+  void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
 
   // Memory of OG1 and the log.
   [[nodiscard]] std::size_t bytes() const { return grid_.bytes() + log_.bytes(); }

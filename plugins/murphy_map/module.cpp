@@ -7,9 +7,13 @@ namespace {
 void register_module(cairn::Registrar& registrar) {
   using cairn::murphy_map::Config;
   using cairn::murphy_map::MurphyMap;
-  registrar.add<cairn::Mapper, Config>(
-      "murphy", "occupancy grid from sonar, for comparison: the model of Murphy's textbook",
-      [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<MurphyMap>(config); });
+  registrar.add<cairn::Mapper, Config>("murphy",
+                                       "occupancy grid from sonar, for comparison: the model of Murphy's textbook",
+                                       [](const Config& config, const cairn::ModuleContext& context) {
+                                         auto map = std::make_unique<MurphyMap>(config);
+                                         if (context.grid_so_far != nullptr) map->begin_with(*context.grid_so_far);
+                                         return map;
+                                       });
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ class MurphyMap final : public Mapper {
 
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
+  void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
 
  private:
   void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);

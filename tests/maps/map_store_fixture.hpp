@@ -53,6 +53,7 @@ inline void expect_equal(const SavedMap& a, const SavedMap& b) {
   EXPECT_EQ(a.clusters, b.clusters);
   EXPECT_EQ(a.driven_path, b.driven_path);
   EXPECT_EQ(a.properties, b.properties);
+  EXPECT_EQ(a.progress, b.progress);
   ASSERT_EQ(a.shapes.size(), b.shapes.size());
   for (std::size_t i = 0; i < a.shapes.size(); ++i) {
     EXPECT_EQ(a.shapes[i].category, b.shapes[i].category);
@@ -127,6 +128,23 @@ inline SavedMap map_with_clusters() {
   map.clusters.clusters = {{2, {2, 1, 5, 1, ""}}, {3, {3, 1, 5, 4, "front desk"}}, {5, {5, 2, 0, 1, "ground floor"}}};
   map.clusters.cluster_of = {{1, 2}, {4, 3}};
   map.clusters.next_id = 8;
+  return map;
+}
+
+// What version 3 had no place for.
+inline SavedMap map_of_a_mission() {
+  SavedMap map = map_with_clusters();
+  MissionProgress progress{12.5, 1, "goto", {1.0 / 3.0, -2.0, 0.5}, Pose2{0.3, -2.1, 0.4}, 7.25, 1200, 17, 1, {}};
+  Landmark maybe;
+  maybe.category = "circle";
+  maybe.T_map_landmark = {2.0, 0.1, 0.0};
+  maybe.sightings = 1;
+  maybe.templates = {{"circle", 0.0, 0.66}};
+  maybe.evidence = {{"circle", 2, 0.61, 0.66, 0.5}};
+  progress.candidates.add(maybe);
+  progress.candidates.add(maybe);
+  progress.candidates.remove(1);
+  map.progress = progress;
   return map;
 }
 

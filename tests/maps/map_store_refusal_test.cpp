@@ -25,9 +25,9 @@ TEST_F(MapStore, RefusesWhatIsNoSavedMap) {
 }
 
 TEST_F(MapStore, RefusesNewerAndUnknownVersions) {
-  EXPECT_EQ(refusal_after("PRAGMA user_version = 4"),
-            "was written with schema version 4, this Cairn reads up to version 3: use a newer Cairn");
-  EXPECT_EQ(refusal_after("PRAGMA user_version = -1"), "has schema version -1, this Cairn reads versions 1 to 3");
+  EXPECT_EQ(refusal_after("PRAGMA user_version = 5"),
+            "was written with schema version 5, this Cairn reads up to version 4: use a newer Cairn");
+  EXPECT_EQ(refusal_after("PRAGMA user_version = -1"), "has schema version -1, this Cairn reads versions 1 to 4");
 }
 
 TEST_F(MapStore, RefusesATruncatedFileAtEveryLength) {
@@ -85,7 +85,7 @@ TEST_F(MapStore, NamesTheTableThatWasEdited) {
             "table checksums: has no row for table routes");
   EXPECT_EQ(refusal_after("DROP TABLE shapes"), "table shapes: is missing");
   EXPECT_EQ(refusal_after("ALTER TABLE grid ADD COLUMN extra"),
-            "table grid: its columns are not those of schema version 3");
+            "table grid: its columns are not those of schema version 4");
   EXPECT_EQ(refusal_after("DROP TABLE meta; CREATE VIEW meta AS SELECT 1 AS key, 2 AS value"),
             "table meta: is missing");
 }

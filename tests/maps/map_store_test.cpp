@@ -95,6 +95,16 @@ TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionThree) {
   expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_3.cairn"), map_with_clusters());
 }
 
+TEST_F(MapStore, KeepsHowFarAMissionHadCome) {
+  save_map(file(), map_of_a_mission());
+  expect_equal(load_map(file()), map_of_a_mission());
+  EXPECT_EQ(load_map(file()).progress->candidates.next_landmark_id(), 3);
+}
+
+TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionFour) {
+  expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_4.cairn"), map_of_a_mission());
+}
+
 TEST_F(MapStore, KeepsRemovedIdsRetired) {
   save_map(file(), small_map());
   LandmarkGraph graph = load_map(file()).graph;
@@ -133,7 +143,7 @@ TEST_F(MapStore, IsAnSqliteFileThatNamesItsProgramAndVersion) {
   const std::string bytes = bytes_of(file());
   EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
   EXPECT_EQ(bytes.substr(68, 4), "CRN1");
-  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\3", 4));
+  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\4", 4));
 }
 
 TEST_F(MapStore, SavesThroughALinkWithoutReplacingTheLink) {

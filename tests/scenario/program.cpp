@@ -3,14 +3,19 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace cairn::testing_program {
 namespace {
@@ -69,11 +74,23 @@ void drain(const Pipe& out, const Pipe& err, Finished& finished, OnOutput on_out
   }
 }
 
-Finished start(const std::vector<std::string>& arguments, bool interrupt) {
+void meet(const Circumstances& circumstances) {
+  if (circumstances.most_file_bytes) {
+    const rlimit limit{*circumstances.most_file_bytes, *circumstances.most_file_bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  constexpr uid_t kNobody = 65534;
+  if (circumstances.as_nobody && geteuid() == 0 && setuid(kNobody) != 0) _exit(126);
+}
+
+Finished start(const std::vector<std::string>& arguments, bool interrupt, const Circumstances& circumstances = {}) {
   const Pipe out;
   const Pipe err;
   const pid_t child = fork();
-  if (child == 0) become_cairn(arguments, out, err);
+  if (child == 0) {
+    meet(circumstances);
+    become_cairn(arguments, out, err);
+  }
   close(out.write_end);
   close(err.write_end);
   Finished finished;
@@ -91,6 +108,44 @@ Finished start(const std::vector<std::string>& arguments, bool interrupt) {
 Finished run_cairn(const std::vector<std::string>& arguments) {
   return start(arguments, false);
 }
+Finished run_cairn(const std::vector<std::string>& arguments, const Circumstances& circumstances) {
+  return start(arguments, false, circumstances);
+}
+
+Killed kill_cairn(const std::vector<std::string>& arguments, const std::string& from, double delay_s) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const auto now_s = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const Pipe out;
+  const pid_t child = fork();
+  if (child == 0) become_cairn(arguments, out, Pipe());
+  close(out.write_end);
+  Killed killed;
+  double kill_at_s = std::numeric_limits<double>::infinity();
+  std::string line;
+  while (now_s() < kill_at_s) {
+    pollfd ready{out.read_end, POLLIN, 0};
+    const double left_s = std::min(kill_at_s - now_s(), 1.0);
+    if (poll(&ready, 1, std::max(0, static_cast<int>(1e3 * left_s))) <= 0) continue;
+    char c = 0;
+    if (read(out.read_end, &c, 1) != 1) {
+      killed.has_ended = true;
+      break;
+    }
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    if (line.find(from) != std::string::npos) kill_at_s = std::min(kill_at_s, now_s() + delay_s);
+    killed.lines.push_back({now_s(), std::exchange(line, {})});
+  }
+  killed.killed_s = now_s();
+  kill(child, SIGKILL);
+  close(out.read_end);
+  waitpid(child, nullptr, 0);
+  return killed;
+}
+
 Finished interrupt_cairn(const std::vector<std::string>& arguments) {
   return start(arguments, true);
 }

@@ -1,7 +1,9 @@
 // Starting the `cairn` program from a test.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,26 @@ struct Finished {
 
 // Runs build/.../bin/cairn with these arguments, standard input empty.
 Finished run_cairn(const std::vector<std::string>& arguments);
+
+// What a run meets.
+struct Circumstances {
+  std::optional<std::uint64_t> most_file_bytes{};  // no file can grow beyond: like a disk that is full
+  bool as_nobody = false;                          // when the tests run as root, whom no folder is read-only to
+};
+Finished run_cairn(const std::vector<std::string>& arguments, const Circumstances& circumstances);
+
+// Ended with SIGKILL, unless it has ended before.
+struct Killed {
+  struct Line {
+    double at_s = 0.0;  // wall clock since the start
+    std::string text;
+  };
+  std::vector<Line> lines;  // of standard output
+  double killed_s = 0.0;    // wall clock since the start
+  bool has_ended = false;
+};
+// The delay runs from the first line that holds this text.
+Killed kill_cairn(const std::vector<std::string>& arguments, const std::string& from, double delay_s);
 
 // The same, and sends SIGINT after the first line has come out.
 Finished interrupt_cairn(const std::vector<std::string>& arguments);

@@ -1,0 +1,138 @@
+// The mission's map on the disk: at its end, when a step asks for it, and meanwhile; and how it goes on from there.
+
+#include <cmath>
+
+#include "framework/host/fence.hpp"
+#include "framework/host/mission_loop.hpp"
+#include "framework/host/mission_map.hpp"
+#include "maps/map_store.hpp"
+
+namespace cairn {
+namespace {
+
+void add_sentence(std::string& reason, const std::string& sentence) {
+  reason += (reason.empty() ? "" : "; ") + sentence;
+}
+
+}  // namespace
+
+void MissionLoop::go_on_from(const SavedMap& map) {
+  const MissionProgress& progress = *map.progress;
+  keeper_.go_on_from(map.graph, progress.candidates, map.driven_path);
+  result_.resumed_s = result_.time_s = last_freed_check_s_ = progress.time_s;
+  result_.distance_m = progress.distance_m;
+  result_.readings = progress.readings;
+  result_.matchings = progress.matchings;
+  result_.collisions = progress.collisions;
+  step_ = static_cast<std::size_t>(progress.step);
+  resumed_true_pose_ = progress.true_T_map_robot;
+}
+
+// A log begins at its beginning again. The last observation that the map holds tells the localizer where the odometry
+// was then.
+bool MissionLoop::is_known_already(const Observation& observation) {
+  if (drive_ != nullptr || !result_.resumed_s || begun_) return false;
+  if (!skipped_) begin_s_ = observation.stamp_s;
+  skipped_ = true;
+  const double time_s = observation.stamp_s - begin_s_;
+  if (time_s > *result_.resumed_s) return false;
+  if (time_s == *result_.resumed_s) {
+    pose_ = localize();
+    T_odom_last_ = observation.T_odom_robot;
+  }
+  return true;
+}
+
+MissionProgress MissionLoop::progress() const {
+  MissionProgress progress;
+  progress.time_s = result_.time_s;
+  const std::size_t step = failed_step_ ? step_ - 1 : step_;
+  progress.step = static_cast<int>(step);
+  if (step < mission_.steps.size()) progress.step_name = mission_.steps[step].name;
+  progress.T_map_robot = pose_.T_map_robot;
+  progress.true_T_map_robot = begun_ ? observation_.true_T_map_robot : resumed_true_pose_;
+  progress.distance_m = result_.distance_m;
+  progress.readings = result_.readings;
+  progress.matchings = result_.matchings;
+  progress.collisions = result_.collisions;
+  return progress;
+}
+
+// Nothing in here may change what the mission does next. The hierarchies are not brought in line: when they are
+// decides which ids their clusters get, and autosaves come when the wall clock says so.
+void MissionLoop::autosave() {
+  tell_of_autosave();
+  if (!autosaver_.is_due()) return;
+  const Autosaver::Clock::time_point begin = Autosaver::Clock::now();
+  autosaver_.save(map_of_mission(mission_, *grid_, keeper_, hierarchies_.last_tree(), progress()), begin);
+}
+
+void MissionLoop::tell_of_autosave() {
+  const auto news = autosaver_.news();
+  if (!news) return;
+  if (news->saved)
+    tell(Autosaved{autosaver_.file().filename().string(), news->time_s, news->took_ms});
+  else if (!autosave_has_failed_)
+    tell(AutosaveFailed{news->reason});
+  autosave_has_failed_ = autosave_has_failed_ || !news->saved;
+}
+
+// Whatever happened: the robot stops, and the map so far is saved.
+void MissionLoop::finish() {
+  if (drive_ != nullptr) stop();
+  if (step_begun_) halt_step();
+  try {
+    if (result_.outcome != MissionOutcome::cancelled) connect_landmarks();
+  } catch (const ModuleFault& fault) {
+    add_sentence(result_.reason, fault.what());
+    result_.outcome = MissionOutcome::module_fault;
+  }
+  write_last_map();
+}
+
+// The autosave has done its work when a whole map has taken its place.
+void MissionLoop::write_last_map() {
+  autosaver_.finish();
+  tell_of_autosave();
+  result_.autosave = autosaver_.figures();
+  const std::string name = mission_.config.mission + ".cairn";
+  const Status saved = write_map(name);
+  if (saved.progress != Progress::success) {
+    not_saved_ = saved.reason;
+    if (result_.autosave.saved > 0)
+      not_saved_ += "; " + autosaver_.file().filename().string() + " holds it up to " +
+                    std::to_string(std::lround(result_.autosave.last_time_s)) + " s";
+  } else if (result_.autosave.saved > 0 && autosaver_.file().filename() != name) {
+    std::error_code error;
+    std::filesystem::remove(autosaver_.file(), error);
+  }
+  if (not_saved_.empty()) return;
+  add_sentence(result_.reason, not_saved_);
+  if (result_.outcome == MissionOutcome::done) result_.outcome = MissionOutcome::map_not_saved;
+}
+
+// A step that could not save does not end the mission: where it drives matters too.
+Status MissionLoop::save(const std::string& file_name) {
+  const StageClock::Visit visit(clock_, StageClock::kHost);
+  const Status saved = write_map(file_name);
+  if (saved.progress != Progress::success) {
+    save_failed_ = true;
+    if (not_saved_.empty()) not_saved_ = saved.reason;
+  }
+  return saved;
+}
+
+Status MissionLoop::write_map(const std::string& file_name) {
+  if (grid_ == nullptr) return {Progress::failure, "there is no map to save"};
+  hierarchies_.update();
+  try {
+    save_map(options_.out / file_name, map_of_mission(mission_, *grid_, keeper_, hierarchies_.tree(), progress()));
+  } catch (const std::exception& error) {
+    return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
+  }
+  result_.map_file = file_name;
+  tell(MapSaved{file_name});
+  return {Progress::success, "saved " + file_name};
+}
+
+}  // namespace cairn

@@ -1,0 +1,71 @@
+#include "framework/host/mission_resume.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "framework/host/mission_map.hpp"
+
+namespace cairn {
+namespace {
+
+std::string property(const SavedMap& map, const std::string& key) {
+  const auto found = map.properties.find(key);
+  return found == map.properties.end() ? "" : found->second;
+}
+
+void require_same(const SavedMap& map, const std::string& key, const std::string& wanted, const char* what) {
+  if (const std::string found = property(map, key); found != wanted)
+    throw StoreError(fmt::format("cannot go on with this mission: the map was made {} \"{}\", the mission's is \"{}\"",
+                                 what, found, wanted));
+}
+
+void require_same_steps(const MissionProgress& progress, const std::vector<MissionStep>& steps) {
+  const auto step = static_cast<std::size_t>(progress.step);
+  const std::string here = step < steps.size() ? steps[step].name : "";
+  if (step <= steps.size() && progress.step_name == here) return;
+  const auto called = [](const std::string& name) { return name.empty() ? std::string("the end") : name; };
+  throw StoreError(
+      fmt::format("cannot go on with this mission: the map was saved at step {}, {}; in this mission "
+                  "there comes {}",
+                  step + 1, called(progress.step_name), called(here)));
+}
+
+}  // namespace
+
+std::int64_t seed_of(const SavedMap& map) {
+  const std::string text = property(map, "seed");
+  std::int64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw StoreError("cannot be gone on from: it does not say with which seed it was made");
+  return seed;
+}
+
+void check_resumable(const SavedMap& map, const Mission& mission) {
+  if (!map.progress)
+    throw StoreError(
+        "cannot be gone on from: it does not say how far a mission had come (only maps that `cairn run` "
+        "has saved do)");
+  const std::map<std::string, std::string> wanted = properties_of(mission);
+  require_same(map, "mission", wanted.at("mission"), "by mission");
+  require_same(map, "robot", wanted.at("robot"), "with robot");
+  require_same(map, "robot_radius_m", wanted.at("robot_radius_m"), "with a robot radius, in metres, of");
+  require_same(map, "seed", wanted.at("seed"), "with seed");
+  require_same_steps(*map.progress, mission.steps);
+}
+
+void check_same_cells(const OccupancyGrid& saved, const OccupancyGrid& of_mission) {
+  if (saved.cell_m() != of_mission.cell_m())
+    throw StoreError(fmt::format("cannot go on with this mission: the map has cells of {} m, the mission's of {} m",
+                                 saved.cell_m(), of_mission.cell_m()));
+  if (saved.origin_m() != of_mission.origin_m() || saved.clamp_quanta() != of_mission.clamp_quanta())
+    throw StoreError(
+        fmt::format("cannot go on with this mission: the map's grid begins at ({}, {}) m and is clamped at {} nat, the "
+                    "mission's at "
+                    "({}, {}) m and {} nat",
+                    saved.origin_m().x(), saved.origin_m().y(), saved.clamp_nat(), of_mission.origin_m().x(),
+                    of_mission.origin_m().y(), of_mission.clamp_nat()));
+}
+
+}  // namespace cairn

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "framework/program/commands.hpp"
+#include "maps/map_store_repair.hpp"
+
+namespace cairn {
+namespace {
+
+using nlohmann::ordered_json;
+
+// What is damaged may be no text.
+constexpr auto kBadText = ordered_json::error_handler_t::replace;
+
+std::string text_of(const StoreLoss& loss) {
+  std::string text = "table " + loss.table + ": " + loss.what;
+  if (loss.box)
+    text += fmt::format("; x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m are lost", loss.box->min_m.x(),
+                        loss.box->max_m.x(), loss.box->min_m.y(), loss.box->max_m.y());
+  return text;
+}
+
+ordered_json json_of(const std::vector<StoreLoss>& losses) {
+  ordered_json list = ordered_json::array();
+  for (const StoreLoss& loss : losses) {
+    ordered_json item = {{"table", loss.table}, {"what", loss.what}};
+    if (loss.box)
+      item["box_m"] = {{loss.box->min_m.x(), loss.box->min_m.y()}, {loss.box->max_m.x(), loss.box->max_m.y()}};
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
+ordered_json json_of_kept(const SavedMap& map) {
+  return {{"landmarks", map.graph.landmarks().size()},
+          {"routes", map.graph.routes().size()},
+          {"explored_ratio", known_ratio(map.grid)}};
+}
+
+// What load_map says against it; empty when it is sound.
+std::string fault_of(const std::filesystem::path& file) {
+  try {
+    static_cast<void>(load_map(file));
+  } catch (const StoreError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+int map_check(const MapCommand& command, const CommonOptions& common) {
+  const std::string fault = fault_of(command.map);
+  std::vector<StoreLoss> losses;
+  if (!fault.empty()) losses = salvage_map(command.map).losses;  // throws on what is no saved map at all
+  if (common.json) {
+    ordered_json report = {{"file", command.map.string()}, {"outcome", fault.empty() ? "sound" : "damaged"}};
+    if (!fault.empty()) {
+      report["reason"] = fault;
+      report["lost"] = json_of(losses);
+    }
+    std::cout << report.dump(-1, ' ', false, kBadText) << "\n";
+  } else if (fault.empty()) {
+    std::cout << command.map.string() << ": sound\n";
+  }
+  if (fault.empty()) return kExitDone;
+  std::cerr << "cairn: " << fault << "\n";
+  for (const StoreLoss& loss : losses) std::cerr << "  " << text_of(loss) << "\n";
+  if (losses.empty()) std::cerr << "  but nothing in it is lost\n";
+  std::cerr << "  cairn map repair " << command.map.string() << " -o OUT saves the rest\n";
+  return kExitBadInput;
+}
+
+int map_repair(const MapCommand& command, const CommonOptions& common) {
+  std::error_code error;
+  if (std::filesystem::equivalent(command.map, command.repaired, error))
+    throw StoreError(command.repaired.string() + ": is the damaged map itself, which is never written to");
+  const SalvagedMap salvaged = salvage_map(command.map);
+  save_map(command.repaired, salvaged.map);
+  std::ostream& people = common.json ? std::cerr : std::cout;
+  for (const StoreLoss& loss : salvaged.losses) people << "  " << text_of(loss) << "\n";
+  people << fmt::format("{}: {}; {} landmarks, {} routes, {:.1f} % of the grid known\n", command.repaired.string(),
+                        salvaged.losses.empty() ? "nothing was lost" : "saved without the above",
+                        salvaged.map.graph.landmarks().size(), salvaged.map.graph.routes().size(),
+                        100.0 * known_ratio(salvaged.map.grid));
+  if (common.json)
+    std::cout << ordered_json{{"file", command.map.string()},
+                              {"map", command.repaired.string()},
+                              {"outcome", salvaged.losses.empty() ? "sound" : "repaired"},
+                              {"lost", json_of(salvaged.losses)},
+                              {"kept", json_of_kept(salvaged.map)}}
+                     .dump(-1, ' ', false, kBadText)
+              << "\n";
+  return kExitDone;
+}
+
+}  // namespace cairn

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "maps/hierarchy/hierarchy.hpp"
+#include "maps/map_store_file.hpp"
+#include "maps/map_store_reading.hpp"
+#include "maps/map_store_schema.hpp"
+#include "maps/map_store_tables.hpp"
+
+namespace cairn {
+namespace store {
+namespace {
+
+constexpr std::int64_t kMostProbes = 500'000;
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw StoreError("cannot be read");
+  return bytes;
+}
+
+std::string descending(std::string keys) {
+  for (std::size_t at = keys.find(','); at != std::string::npos; at = keys.find(',', at + 6)) keys.insert(at, " DESC");
+  return keys + " DESC";
+}
+
+// Copies every row that SQLite can still reach into tables whose pages are sound. A page that it cannot read hides
+// those behind it: so each table is read from both ends, and what lies between is asked for key by key.
+class Copying {
+ public:
+  Copying(Database& from, Database& to, std::vector<StoreLoss>& losses) : from_(from), to_(to), losses_(losses) {}
+
+  void copy(const Table& table) {
+    table_ = &table;
+    unreadable_ = false;
+    try {
+      copy_readable();
+    } catch (const StoreError& error) {
+      lose(std::string("cannot be read: ") + error.what());
+      unreadable_ = true;
+    }
+    compare_with_checksum();
+  }
+
+ private:
+  [[nodiscard]] std::string select(const std::string& behind) const {
+    return std::string("SELECT * FROM ") + table_->name + behind;
+  }
+  [[nodiscard]] std::string key() const { return table_->order; }
+  void lose(const std::string& what, std::optional<MetreBox> box = {}) { losses_.push_back({table_->name, what, box}); }
+
+  void copy_readable() {
+    const std::string forwards = copy_in_order(key());
+    if (forwards.empty()) return;
+    unreadable_ = true;
+    static_cast<void>(copy_in_order(descending(key())));
+    const std::string name = table_->name;
+    if (name == "tiles")
+      probe_tiles();
+    else if (std::string_view(table_->columns).starts_with(key() + " INTEGER PRIMARY KEY"))
+      probe_numbers();
+    else
+      lose("a part of its rows cannot be read: " + forwards);
+  }
+
+  // What stopped it; empty at the end of the table.
+  std::string copy_in_order(const std::string& order) {
+    try {
+      for (Statement row(from_, select(" ORDER BY " + order)); row.step();) take(row);
+    } catch (const StoreError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  void take(const Statement& row) {
+    std::string places = "?";
+    for (int i = 1; i < row.columns(); ++i) places += ", ?";
+    Statement(to_, std::string("INSERT OR IGNORE INTO ") + table_->name + " VALUES (" + places + ")")
+        .bind_row(row)
+        .run();
+  }
+
+  // Whether the row with these keys can be read, if there is one.
+  bool probe(const std::string& where, std::initializer_list<std::int64_t> keys) {
+    try {
+      Statement row(from_, select(where));
+      for (const std::int64_t value : keys) row.bind(value);
+      if (row.step()) take(row);
+      return true;
+    } catch (const StoreError&) {
+      return false;
+    }
+  }
+
+  void probe_numbers() {
+    std::int64_t most = most_number();
+    std::optional<std::int64_t> first_lost;
+    const auto close = [&](std::int64_t last) {
+      if (first_lost) lose("rows " + std::to_string(*first_lost) + " to " + std::to_string(last) + " cannot be read");
+      first_lost.reset();
+    };
+    for (std::int64_t number = 0; number <= most; ++number) {
+      if (probe(" WHERE " + key() + " = ?", {number}))
+        close(number - 1);
+      else if (!first_lost)
+        first_lost = number;
+    }
+    close(most);
+  }
+
+  std::int64_t most_number() {
+    std::int64_t most = 0;
+    Statement copied(to_, "SELECT ifnull(max(" + key() + "), 0) FROM " + table_->name);
+    if (copied.step()) most = copied.integer(0);
+    Statement rows(from_, "SELECT row_count FROM checksums WHERE table_name = ?");
+    rows.bind_text(table_->name);
+    // The last ones may be lost, and then their numbers are not known: about as many as there were.
+    if (rows.step()) most = std::max(most, 2 * std::max<std::int64_t>(rows.integer(0), 0));
+    return std::min(most, kMostProbes);
+  }
+
+  void probe_tiles() {
+    Statement grid(from_, "SELECT min_x, min_y, max_x, max_y, cell_m, origin_x_m, origin_y_m FROM grid");
+    if (!grid.step()) return lose("a part of its rows cannot be read");
+    const auto index = [&](int column) {
+      return grid.integer_within(column, -OccupancyGrid::kLargestCellIndex, OccupancyGrid::kLargestCellIndex);
+    };
+    const std::int64_t x_begin = index(0) >> 6, y_begin = index(1) >> 6;
+    const std::int64_t x_end = (index(2) + 63) >> 6, y_end = (index(3) + 63) >> 6;
+    if ((x_end - x_begin) * (y_end - y_begin) > kMostProbes) return lose("a part of its rows cannot be read");
+    const TileMetres tiles{{grid.real(5), grid.real(6)}, OccupancyGrid::kTileSide * grid.real(4)};
+    for (std::int64_t y = y_begin; y < y_end; ++y)
+      for (std::int64_t x = x_begin; x < x_end; ++x) {
+        std::int64_t lost = x;
+        while (lost < x_end && !probe(" WHERE level = 0 AND ty = ? AND tx = ?", {y, lost})) ++lost;
+        if (lost == x) continue;
+        const auto tile = [&](std::int64_t at) { return Cell{static_cast<int>(at), static_cast<int>(y)}; };
+        lose("row " + std::to_string(y) + " from tile " + std::to_string(x) + " to " + std::to_string(lost - 1) +
+                 " cannot be read",
+             MetreBox{tiles.box_of(tile(x)).min_m, tiles.box_of(tile(lost - 1)).max_m});
+        x = lost;
+      }
+  }
+
+  void compare_with_checksum() {
+    try {
+      Statement stored(from_, "SELECT row_count, crc32 FROM checksums WHERE table_name = ?");
+      stored.bind_text(table_->name);
+      if (!stored.step()) return lose("has no checksum: what is missing in it cannot be told");
+      const Checksum found = checksum_of(to_, *table_);
+      if (found.row_count != stored.integer(0))
+        return lose(std::to_string(found.row_count) + " of its " + std::to_string(stored.integer(0)) +
+                    " rows can be read");
+      if (found.crc != stored.integer(1) && !unreadable_)
+        lose("its content does not match its checksum: some value in it was damaged or edited");
+    } catch (const StoreError& error) {
+      lose(std::string("its checksum cannot be read: ") + error.what());
+    }
+  }
+
+  Database& from_;
+  Database& to_;
+  std::vector<StoreLoss>& losses_;
+  const Table* table_ = nullptr;
+  bool unreadable_ = false;
+};
+
+// Where the definitions of the tables are damaged, SQLite cannot read anything: then those of any other map take
+// their place.
+Database opened(const std::string& bytes, int version) {
+  try {
+    Database database = Database::of_bytes(as_far_as_it_goes(bytes, nullptr));
+    check_schema(database, version);
+    return database;
+  } catch (const StoreError&) {
+    const EmptyMapFile definitions = empty_map_file(version);
+    return Database::of_bytes(as_far_as_it_goes(bytes, &definitions));
+  }
+}
+
+bool concerns_clusters(const StoreLoss& loss) {
+  return loss.table == "clusters" || loss.table == "landmark_clusters";
+}
+
+SalvagedMap salvaged_from(Database& damaged, int version) {
+  SalvagedMap salvaged;
+  salvaged.version = version;
+  Database sound = empty_map(version);
+  Copying copying(damaged, sound, salvaged.losses);
+  for (const Table& table : tables())
+    if (table.since <= version) copying.copy(table);
+  const bool missed_clusters = std::ranges::any_of(salvaged.losses, concerns_clusters);
+  std::vector<StoreLoss> wrong;
+  Reading reading(sound, version, &wrong);
+  salvaged.map = read_content(reading);
+  salvaged.losses.insert(salvaged.losses.end(), wrong.begin(), wrong.end());
+  // What fits the landmarks as it is was not touched.
+  if (std::ranges::any_of(wrong, concerns_clusters) ||
+      (missed_clusters && salvaged.map.clusters.cluster_of.empty() && !salvaged.map.graph.landmarks().empty())) {
+    const ClusterId next_id = salvaged.map.clusters.next_id;
+    salvaged.map.clusters = cluster_landmarks(salvaged.map.graph);
+    salvaged.map.clusters.next_id = std::max(next_id, salvaged.map.clusters.next_id);
+    salvaged.losses.push_back({"clusters", "were made anew: their names and ids are lost"});
+  }
+  return salvaged;
+}
+
+}  // namespace
+}  // namespace store
+
+SalvagedMap salvage_map(const std::filesystem::path& file) {
+  using namespace store;
+  try {
+    const int version = check_kind(file);
+    Database damaged = opened(bytes_of(file), version);
+    SalvagedMap salvaged = salvaged_from(damaged, version);
+    const SavedMap& map = salvaged.map;
+    if (!salvaged.losses.empty() && map.properties.empty() && map.grid.bounds().empty() &&
+        map.graph.landmarks().empty() && map.driven_path.empty())
+      throw StoreError("nothing of it can be read: " + salvaged.losses.front().what);
+    return salvaged;
+  } catch (const StoreError& error) {
+    throw StoreError(file.string() + ": " + error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw StoreError(file.string() + ": cannot be read: " + error.code().message());
+  }
+}
+
+}  // namespace cairn

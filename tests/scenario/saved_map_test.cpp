@@ -1,0 +1,224 @@
+// What becomes of the map when a mission is killed, or cannot write.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "maps/map_store.hpp"
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+// The office without a planner: a second or two of work.
+fs::path small_mission(const fs::path& folder, const std::string& autosave, const std::string& steps) {
+  const std::string config = source_folder() + "/config/";
+  write_text(folder / "mission.yaml", "mission: office\nseed: 7\nrobot: " + config +
+                                          "robots/pioneer1.yaml\nworld: " + config + "worlds/office.yaml\n" +
+                                          "start: {at_m: [0.6, 0.6], angle_deg: 0}\n"
+                                          "sensor: {plugin: simulated_robot}\nlocalizer: {plugin: odometry_compass}\n"
+                                          "map: {plugin: muriel, cell_m: 0.05}\n"
+                                          "detector: {plugin: template_matcher, templates: " +
+                                          config + "templates, coarse_cells: 5}\n" + "autosave: " + autosave +
+                                          "\nsteps: " + steps + "\n");
+  return folder / "mission.yaml";
+}
+
+const char* const kExplore = "[explore: {until_known_ratio: 0.95, at_most_s: 900}, wait: 5, save: office.cairn]";
+
+Finished run_mission(const fs::path& mission, const fs::path& out, std::vector<std::string> more = {},
+                     const Circumstances& circumstances = {}) {
+  std::vector<std::string> arguments = {"run", mission.string(), "--out", out.string(), "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_cairn(arguments, circumstances);
+}
+
+TEST(SavedMap, AnAutosaveChangesNothingButGoesWhenTheMissionEnds) {
+  const fs::path folder = fresh_folder("autosave");
+  const fs::path mission = small_mission(folder, "{every_s: 0.02}", kExplore);
+  const Finished with = run_mission(mission, folder / "with");
+  const Finished without = run_mission(mission, folder / "without", {"--set", "autosave.every_s=0"});
+  ASSERT_EQ(with.exit_status, 0) << with.err;
+  ASSERT_EQ(without.exit_status, 0) << without.err;
+  EXPECT_GT(json::parse(with.out)["autosave"]["saved"], 1);
+  EXPECT_EQ(json::parse(without.out)["autosave"]["saved"], 0);
+  EXPECT_EQ(text_of_file(folder / "with/report.json"), text_of_file(folder / "without/report.json"));
+  EXPECT_EQ(text_of_file(folder / "with/office.cairn"), text_of_file(folder / "without/office.cairn"));
+  EXPECT_FALSE(fs::exists(folder / "with/office.autosave.cairn"));
+}
+
+struct Kills {
+  int files = 0;
+  int resumed = 0;
+  int ended_before = 0;
+  std::vector<double> losses_s;  // wall clock from the copy in the file to the kill, at most
+};
+
+double number_behind(const std::string& text, const std::string& what) {
+  return std::stod(text.substr(text.find(what) + what.size()));
+}
+
+// The last autosave that was told, against what is in the file.
+void expect_all_up_to_the_last_autosave(const Killed& killed, const SavedMap& map, Kills& kills) {
+  const auto last = std::find_if(killed.lines.rbegin(), killed.lines.rend(), [](const Killed::Line& line) {
+    return line.text.find("autosaved") != std::string::npos;
+  });
+  ASSERT_NE(last, killed.lines.rend());
+  ASSERT_TRUE(map.progress);
+  EXPECT_GE(map.progress->time_s + 0.0006, number_behind(last->text, "all up to "));
+  if (killed.has_ended) return;
+  kills.losses_s.push_back(killed.killed_s - last->at_s + 1e-3 * number_behind(last->text, "s, in "));
+}
+
+void kill_and_go_on(const fs::path& mission, const fs::path& out, double delay_s, Kills& kills) {
+  const Killed killed = kill_cairn({"run", mission.string(), "--out", out.string()}, "autosaved", delay_s);
+  fs::path file = out / "office.autosave.cairn";
+  kills.ended_before += killed.has_ended ? 1 : 0;
+  if (!fs::exists(file)) file = out / "office.cairn";  // the mission had saved its map
+  std::string told;
+  for (const Killed::Line& line : killed.lines) told += line.text + "\n";
+  SavedMap map;
+  ASSERT_NO_THROW(map = load_map(file)) << (killed.has_ended ? "it had ended by itself: " : "") << told;
+  ++kills.files;
+  expect_all_up_to_the_last_autosave(killed, map, kills);
+  const Finished resumed = run_mission(mission, out, {"--resume", file.string()});
+  ASSERT_EQ(resumed.exit_status, 0) << resumed.err;
+  const json report = json::parse(resumed.out);
+  EXPECT_EQ(report["outcome"], "done");
+  EXPECT_EQ(report["resumed_s"].get<double>(), std::round(map.progress->time_s * 1e6) / 1e6);
+  EXPECT_GE(report["landmarks"].size(), map.graph.landmarks().size());
+  EXPECT_GE(load_map(out / "office.cairn").driven_path.size(), map.driven_path.size());
+  ++kills.resumed;
+}
+
+// CAIRN_KILLS=200 for the figures of docs/results/saved_maps.md.
+TEST(SavedMap, IsWholeAfterAKillAtAnyMomentAndTheMissionGoesOnFromIt) {
+  const char* const wanted = std::getenv("CAIRN_KILLS");
+  const int count = wanted == nullptr ? 5 : std::atoi(wanted);
+  const fs::path folder = fresh_folder("kills");
+  const fs::path mission = small_mission(folder, "{every_s: 0.1}", kExplore);
+  const Finished whole = run_mission(mission, folder / "whole");
+  ASSERT_EQ(whole.exit_status, 0) << whole.err;
+  const double longest_s = json::parse(whole.out)["wall_s"];
+  std::mt19937_64 random(11);
+  Kills kills;
+  for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
+    const fs::path out = folder / "killed";
+    fs::remove_all(out);
+    kill_and_go_on(mission, out, longest_s * static_cast<double>(random() >> 11) * 0x1.0p-53, kills);
+  }
+  EXPECT_EQ(kills.files, count);
+  EXPECT_EQ(kills.resumed, count);
+  if (wanted == nullptr || kills.losses_s.empty()) return;
+  std::ranges::sort(kills.losses_s);
+  std::printf(
+      "%d kills, %d after the mission's end; %d files open, %d gone on from; lost: median %.3f s, most %.3f s\n", count,
+      kills.ended_before, kills.files, kills.resumed, kills.losses_s[kills.losses_s.size() / 2], kills.losses_s.back());
+}
+
+TEST(SavedMap, AnotherMissionsRobotsOrCellsMapIsRefused) {
+  const fs::path folder = fresh_folder("resume");
+  const fs::path mission = small_mission(folder, "{}", "[wait: 1]");
+  ASSERT_EQ(run_mission(mission, folder / "out").exit_status, 0);
+  const fs::path map = folder / "out/office.cairn";
+  const std::string before = text_of_file(map);
+  const auto refusal = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--resume", map.string()});
+    const Finished run = run_mission(mission, folder / "out", more);
+    EXPECT_EQ(run.exit_status, 2);
+    EXPECT_THAT(run.err, HasSubstr(map.string() + ": cannot go on with this mission: "));
+    return run.err;
+  };
+  EXPECT_THAT(refusal({"--set", "mission=attic"}),
+              HasSubstr("the map was made by mission \"office\", the mission's is \"attic\""));
+  EXPECT_THAT(refusal({"--set", "robot=" + source_folder() + "/config/robots/small_car.yaml"}),
+              HasSubstr("with robot"));
+  EXPECT_THAT(refusal({"--set", "map.cell_m=0.1"}), HasSubstr("the map has cells of 0.05 m, the mission's of 0.1 m"));
+  EXPECT_THAT(refusal({"--seed", "8"}), HasSubstr("the map was made with seed \"7\", the mission's is \"8\""));
+  small_mission(folder, "{}", "[wait: 1, wait: 2, wait: 3]");
+  EXPECT_THAT(refusal({}), HasSubstr("the map was saved at step 2, the end; in this mission there comes wait"));
+  EXPECT_EQ(text_of_file(map), before);
+}
+
+TEST(SavedMap, WhatARunHasLeftThatDidNotEndIsKept) {
+  const fs::path folder = fresh_folder("earlier");
+  const fs::path mission = small_mission(folder, "{}", "[wait: 1]");
+  ASSERT_EQ(run_mission(mission, folder / "out").exit_status, 0);
+  fs::copy_file(folder / "out/office.cairn", folder / "out/office.autosave.cairn");
+  const Finished run = run_mission(mission, folder / "out");
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_THAT(run.err, HasSubstr("an earlier run here did not end: its map is kept as"));
+  EXPECT_NO_THROW((void)load_map(folder / "out/office.autosave.1.cairn"));
+}
+
+// What the program says when nothing more can be written: all of it, and soon.
+void expect_a_clear_end(const Finished& run, const std::string& why) {
+  EXPECT_EQ(run.exit_status, 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("autosaving failed, the mission goes on: "));
+  const json report = json::parse(run.out);
+  EXPECT_EQ(report["outcome"], "map_not_saved");
+  EXPECT_THAT(report["reason"], HasSubstr("the map could not be saved: "));
+  EXPECT_THAT(report["reason"], HasSubstr(why));
+  EXPECT_EQ(report["map"], "");
+  EXPECT_GT(report["autosave"]["failed"], 0);
+  EXPECT_THAT(report["autosave"]["reason"], HasSubstr(why));
+  EXPECT_GT(report["time_s"], 4.9);  // the steps behind the save were done too
+}
+
+TEST(SavedMap, AMissionOnAFullDiskGoesOnAndSaysThatItsMapIsNotSaved) {
+  const fs::path folder = fresh_folder("full");
+  const fs::path mission = small_mission(folder, "{every_s: 0.01}", "[save: office.cairn, wait: 5]");
+  ASSERT_EQ(run_mission(mission, folder / "warm").exit_status, 0);
+  const fs::path out = folder / "out";
+  fs::create_directories(out);
+  write_text(out / "office.cairn", text_of_file(folder / "warm/office.cairn"));
+  expect_a_clear_end(run_mission(mission, out, {}, {1024, false}), "File too large");
+  EXPECT_EQ(text_of_file(out / "office.cairn"), text_of_file(folder / "warm/office.cairn")) << "the old map is lost";
+}
+
+TEST(SavedMap, AMissionInAReadOnlyFolderGoesOnAndSaysThatItsMapIsNotSaved) {
+  const fs::path folder = fresh_folder("read_only");
+  const fs::path mission = small_mission(folder, "{every_s: 0.01}", "[save: office.cairn, wait: 5]");
+  const fs::path out = folder / "out";
+  fs::create_directories(out);
+  fs::permissions(out, fs::perms(0555));
+  const Finished run = run_mission(mission, out, {}, {{}, true});
+  if (run.exit_status == 126 || run.exit_status == 127) GTEST_SKIP() << "nobody may not run the program";
+  expect_a_clear_end(run, "Permission denied");
+  EXPECT_TRUE(fs::is_empty(out));
+}
+
+TEST(SavedMap, IsCheckedAndRepairedByTheProgram) {
+  const fs::path folder = fresh_folder("repair");
+  const fs::path mission = small_mission(folder, "{}", "[wait: 3]");
+  ASSERT_EQ(run_mission(mission, folder).exit_status, 0);
+  const std::string map = folder / "office.cairn";
+  EXPECT_EQ(run_cairn({"map", "check", map, "--json"}).exit_status, 0);
+  const std::string sound = text_of_file(map);
+  const std::string damaged = sound.substr(0, sound.size() * 2 / 3);
+  write_text(map, damaged);
+  const Finished check = run_cairn({"map", "check", map, "--json"});
+  EXPECT_EQ(check.exit_status, 2);
+  const json found = json::parse(check.out);
+  EXPECT_EQ(found["outcome"], "damaged");
+  EXPECT_FALSE(found["lost"].empty());
+  EXPECT_THAT(check.err, HasSubstr("is truncated: "));
+  const std::string repaired = folder / "repaired.cairn";
+  EXPECT_EQ(run_cairn({"map", "repair", map, "-o", map}).exit_status, 2);
+  const Finished repair = run_cairn({"map", "repair", map, "-o", repaired, "--json"});
+  EXPECT_EQ(repair.exit_status, 0) << repair.err;
+  EXPECT_EQ(json::parse(repair.out)["lost"], found["lost"]);
+  EXPECT_EQ(text_of_file(map), damaged);
+  EXPECT_EQ(run_cairn({"map", "check", repaired}).exit_status, 0);
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
