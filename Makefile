@@ -1,6 +1,6 @@
 # Each verb works alone on a fresh Debian 12 machine: it installs what packages.txt lists (only what
 # is missing), configures and builds.
-.PHONY: build demo test check package bench deps experiment reference
+.PHONY: build demo test check fuzz package bench deps experiment reference
 .DEFAULT_GOAL := build
 
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
@@ -36,6 +36,9 @@ package: build
 
 check: build
 	@cmake/check.sh
+
+fuzz: deps
+	@cmake/fuzz.sh $(FUZZ)
 
 bench: build
 	@cmake --build --preset release --target cairn_benches

@@ -17,14 +17,6 @@ cmake --preset asan >/dev/null
 cmake --build --preset asan --target all cairn_tests
 ASAN_OPTIONS=detect_leaks=1 ctest --test-dir build/asan --output-on-failure -j "$jobs"
 
-echo "== fuzzers of the readers of logs and graphs, a minute each"
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target cairn_fuzzers
-for fuzzer in build/fuzz/fuzz/fuzz_*; do
-  name=$(basename "$fuzzer" | sed 's/^fuzz_//')
-  found=build/fuzz/found/$name
-  mkdir -p "$found"
-  "$fuzzer" -max_total_time=60 -timeout=10 -rss_limit_mb=2048 -max_len=8192 -verbosity=0 -artifact_prefix="$found/" \
-    "$found" "tests/fuzz/corpus/$name"
-done
+echo "== fuzzers of all readers, ${FUZZ_S:-60} s each"
+cmake/fuzz.sh
 echo "check: all good"

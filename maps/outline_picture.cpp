@@ -21,7 +21,10 @@ struct PngImage : png_image {
 };
 
 cv::Mat1b grey_picture(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) throw std::invalid_argument("no such picture: " + file.string());
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw std::invalid_argument("no such picture: " + file.string());
+  // A pipe would be waited for without end.
+  if (!std::filesystem::is_regular_file(file, error)) throw std::invalid_argument(file.string() + " is no plain file");
   PngImage image;
   if (png_image_begin_read_from_file(&image, file.c_str()) == 0)
     throw std::invalid_argument(file.string() + " is no PNG picture: " + image.message);

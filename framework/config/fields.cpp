@@ -15,6 +15,8 @@ namespace {
 constexpr Range kCoordinateRange{-1e5, 1e5};
 // Checking that a polygon does not cross itself takes quadratic time.
 constexpr std::size_t kMaxPoints = 10'000;
+// File systems end at 255; what is saved gets an ending.
+constexpr std::size_t kMaxFileName = 200;
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
@@ -144,6 +146,15 @@ bool to_flag(const ConfigValue& value, const std::string& key) {
 std::string to_text(const ConfigValue& value, const std::string& key) {
   if (value.kind != ConfigValue::Kind::scalar) fail(value, key, "text");
   return value.scalar;
+}
+
+std::string to_file_name(const ConfigValue& value, const std::string& key) {
+  const std::string name = to_text(value, key);
+  const auto is_kept_out = [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' '; };
+  if (name.empty() || name == "." || name == ".." || name.size() > kMaxFileName ||
+      std::ranges::any_of(name, is_kept_out))
+    fail(value, key, "a plain file name of up to " + std::to_string(kMaxFileName) + " bytes, without a folder");
+  return name;
 }
 
 std::size_t to_choice(const ConfigValue& value, const std::string& key, const std::vector<std::string>& choices) {

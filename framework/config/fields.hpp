@@ -92,6 +92,8 @@ namespace config_detail {
 [[nodiscard]] std::int64_t to_integer(const ConfigValue& value, const std::string& key, const Range& range);
 [[nodiscard]] bool to_flag(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::string to_text(const ConfigValue& value, const std::string& key);
+// Text that names a file or folder within a folder, and nothing outside it.
+[[nodiscard]] std::string to_file_name(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::size_t to_choice(const ConfigValue& value, const std::string& key,
                                     const std::vector<std::string>& choices);
 [[nodiscard]] Point to_point(const ConfigValue& value, const std::string& key, const Range& range = {},
@@ -165,6 +167,14 @@ class Fields {
     FieldSpec& f = add(std::move(key), "text", std::move(meaning), defaults_.*member);
     f.load = [member, key = f.key](void* c, const ConfigValue& v) {
       static_cast<Config*>(c)->*member = config_detail::to_text(v, key);
+    };
+    return f;
+  }
+  // Text that is also the name of a file or folder.
+  FieldSpec& file_name(std::string key, std::string Config::*member, std::string meaning) {
+    FieldSpec& f = text(std::move(key), member, std::move(meaning));
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_file_name(v, key);
     };
     return f;
   }

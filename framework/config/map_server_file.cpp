@@ -59,6 +59,15 @@ void warn_of_rounding(double resolution_m, const ConfigValue& value, std::vector
                      exchange::number_text(error_percent) + " % off");
 }
 
+// As the path is written; a link that lies in the folder is nothing that the file could have made.
+void check_inside(const MapServerFile& file, const std::filesystem::path& yaml) {
+  const std::filesystem::path folder = std::filesystem::absolute(yaml).parent_path().lexically_normal();
+  const std::filesystem::path within = std::filesystem::absolute(file.picture).lexically_relative(folder);
+  if (!within.empty() && std::ranges::find(within, std::filesystem::path("..")) == within.end()) return;
+  throw ConfigError(file.picture_place, "image: " + shown(file.picture.string()) +
+                                            " is outside the folder of the map; --allow-outside reads it all the same");
+}
+
 // A picture that is not there is the YAML file's mistake.
 std::string text_of_picture(const MapServerFile& file) {
   try {
@@ -91,8 +100,9 @@ MapServerFile parse_map_server_yaml(const std::string& text, const std::string& 
   return file;
 }
 
-ImportedGrid load_map_server(const std::filesystem::path& file) {
+ImportedGrid load_map_server(const std::filesystem::path& file, PictureFolder pictures) {
   MapServerFile server = parse_map_server_yaml(exchange::text_of_file(file), file.string());
+  if (pictures == PictureFolder::own) check_inside(server, file);
   const std::string picture = server.picture.string();
   ImportedGrid imported = grid_of(parse_grey_picture(text_of_picture(server), picture), server.settings, picture);
   for (std::string& warning : imported.warnings) warning.insert(0, file.string() + ": ");

@@ -21,8 +21,13 @@ struct MapServerFile {
 // free_thresh, and mode (trinary, scale, raw), the only one that may be left out. Throws ConfigError.
 [[nodiscard]] MapServerFile parse_map_server_yaml(const std::string& text, const std::string& file_name);
 
+// Where the picture may be that a file names. Outside the file's own folder it could be any file of whoever reads a map
+// that comes from elsewhere.
+enum class PictureFolder { own, any };
+
 // Warnings begin with the file. Throws ConfigError for the YAML file and a picture that cannot be read, ExchangeError
 // for what is in the picture.
-[[nodiscard]] ImportedGrid load_map_server(const std::filesystem::path& file);
+[[nodiscard]] ImportedGrid load_map_server(const std::filesystem::path& file,
+                                           PictureFolder pictures = PictureFolder::own);
 
 }  // namespace cairn

@@ -57,7 +57,7 @@ void check_worlds(const RandomWorldConfig& worlds, const ConfigValue& value) {
 std::vector<std::string> checked_names(const ExperimentConfig& config, const ConfigValue& root) {
   std::vector<std::string> names;
   for (const ExperimentVariant& variant : config.variants) {
-    if (variant.name.empty() || variant.name.find('/') != std::string::npos || variant.name.front() == '.')
+    if (variant.name.empty() || variant.name.front() == '.')
       throw ConfigError(root.find("variants")->place,
                         "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
     if (std::ranges::find(names, variant.name) != names.end())
@@ -110,7 +110,7 @@ void SeedRange::describe(Fields<SeedRange>& fields) {
 }
 
 void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
-  fields.text("name", &ExperimentVariant::name, "what it is called in tables").required = true;
+  fields.file_name("name", &ExperimentVariant::name, "what it is called in tables").required = true;
   fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
   fields.file("robot", &ExperimentVariant::robot, "robot file in place of the missions' own");
   fields.number("specular_ratio", &ExperimentVariant::specular_ratio, {0.0, 1.0}, "",

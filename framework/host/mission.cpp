@@ -80,7 +80,7 @@ void StartConfig::describe(Fields<StartConfig>& fields) {
 
 void MissionConfig::describe(Fields<MissionConfig>& fields) {
   using C = MissionConfig;
-  fields.text("mission", &C::mission, "name of the mission").required = true;
+  fields.file_name("mission", &C::mission, "name of the mission").required = true;
   fields.integer("seed", &C::seed, {0.0, 9.0e15}, "of all randomness; the same seed gives the same bytes");
   fields.file("robot", &C::robot, "robot file").required = true;
   fields.file("world", &C::world, "world file; leave out when the sensor is a log");
@@ -96,8 +96,9 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.number(
       "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
       "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
-  fields.text("record", &C::record,
-              "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
+  fields.file_name(
+      "record", &C::record,
+      "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
   fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6},
                  "every n-th range reading is withheld from the map, so that an experiment can ask how well the "
                  "map foretells it; 0: none");

@@ -42,7 +42,8 @@ int import_graph(const ExchangeCommand& command, ImportedGraph imported, const C
 }
 
 ImportedGrid read_grid(const ExchangeCommand& command) {
-  if (command.from.extension() != kMovingAi) return load_map_server(command.from);
+  if (command.from.extension() != kMovingAi)
+    return load_map_server(command.from, command.allow_outside ? PictureFolder::any : PictureFolder::own);
   return parse_moving_ai_map(exchange::text_of_file(command.from), command.from.string(),
                              command.cell_m.value_or(kMovingAiCell_m));
 }

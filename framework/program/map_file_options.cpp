@@ -12,6 +12,7 @@ void add_exchange(CLI::App& map, ExchangeCommand& c, const CommonOptions& common
   in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
   in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")
       ->check(number_within(0.001, 1000.0));
+  in->add_flag("--allow-outside", c.allow_outside, "read a picture that is outside the folder of the file");
   in->callback([&] { action = [&] { return map_import(c, common); }; });
   CLI::App* out = map.add_subcommand("export", "Write a map's landmark graph or grid for other tools, or its picture");
   out->add_option("MAP", c.from, "saved map (*.cairn)")->required();

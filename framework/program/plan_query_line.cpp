@@ -7,6 +7,7 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/program/plan_query.hpp"
+#include "maps/exchange/json_text.hpp"
 
 namespace cairn {
 namespace {
@@ -49,7 +50,25 @@ std::vector<KeyPlace> key_places_of(const std::string& line) {
   throw ConfigError(place, "the key " + shown(key) + " stands here twice");
 }
 
+// The JSON library copies and writes values by recursion.
+void check_depth(const std::string& line, SourcePlace place) {
+  std::size_t depth = 0;
+  bool in_text = false;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (c == '"') in_text = !in_text;
+    if (in_text && c == '\\') ++at;
+    if (in_text) continue;
+    if (c == '{' || c == '[') ++depth;
+    if ((c == '}' || c == ']') && depth > 0) --depth;
+    if (depth <= exchange::kMaxJsonDepth) continue;
+    place.column = static_cast<int>(at) + 1;
+    throw ConfigError(place, "nests deeper than " + std::to_string(exchange::kMaxJsonDepth) + " brackets");
+  }
+}
+
 json object_of_line(const std::string& line, SourcePlace place) {
+  check_depth(line, place);
   std::set<std::string> keys;
   const auto refuse_twice = [&](int depth, json::parse_event_t event, const json& key) {
     if (depth == 1 && event == json::parse_event_t::key && !keys.insert(key.get<std::string>()).second)

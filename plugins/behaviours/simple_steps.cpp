@@ -101,12 +101,8 @@ void SaveConfig::describe(Fields<SaveConfig>& fields) {
   fields.shorthand("file");
 }
 
-Save::Save(const SaveConfig& config) : file_name_(config_detail::to_text(config.file, "file")) {
-  if (file_name_.empty() || file_name_ == "." || file_name_ == ".." ||
-      file_name_.find_first_of("/\\") != std::string::npos)
-    throw ConfigError(config.file.place,
-                      "save: \"" + file_name_ + "\" is not a plain file name; maps are saved into the output folder");
-}
+// Maps are saved into the output folder.
+Save::Save(const SaveConfig& config) : file_name_(config_detail::to_file_name(config.file, "save")) {}
 
 Status Save::tick(const WorldView&, Orders& orders) {
   return orders.save(file_name_);

@@ -28,6 +28,25 @@ TEST_F(Charts, HaveAScriptThatCarriesItsDataAndQuotesEveryName) {
   EXPECT_THAT(script, HasSubstr("$data2 << END_OF_DATA\nNaN NaN\nEND_OF_DATA\n"));
 }
 
+// gnuplot runs what stands between backquotes, and system().
+TEST_F(Charts, RunNothingThatANameSays) {
+  const std::string touched = file("touched").string();
+  Chart chart;
+  for (const std::string& command :
+       {"`touch " + touched + "`", "'`touch " + touched + "`", "' . system('touch " + touched + "') . '",
+        "a\n!touch " + touched + "\n", "\\'\nsystem 'touch " + touched + "'\n#", "@touch",
+        "\"`touch " + touched + "`\""}) {
+    chart.title += command;
+    chart.x_label = chart.y_label = command;
+    chart.series = {{command, {{0, 0.2}, {1, 0.3}}, SeriesStyle::points, {}}};
+    chart.horizontal_lines = {{command, 0.25}};
+    chart.x_names = {command, command + "\\"};
+    const ChartOutcome outcome = write_chart(file("names.png"), chart);
+    EXPECT_TRUE(outcome.drawn) << command << ": " << outcome.reason;
+    EXPECT_FALSE(fs::exists(touched)) << command;
+  }
+}
+
 TEST_F(Charts, NamePlacesAndDrawErrorBarsWhereTheyAreGiven) {
   Chart chart;
   chart.series = {{"muriel", {{0, 0.2}, {1, 0.3}}, SeriesStyle::points, {0.01, 0.02}}};

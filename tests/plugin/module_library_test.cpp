@@ -93,6 +93,19 @@ TEST(ModuleLibrary, AnUnknownNameIsAnErrorWithPlaceAndNearestName) {
             "are: nan_localizer, still_localizer, throwing_constructor");
 }
 
+// A name is looked up, never opened: a mission that comes from elsewhere brings no code along.
+TEST(ModuleLibrary, ANameIsNoPath) {
+  const ModuleLibrary library({folder_of("needs_missing_library")});
+  const fs::path file = folder_of("faulty") / "faulty.so";
+  ASSERT_TRUE(fs::exists(file));
+  const std::string up_and_down = "../faulty/faulty.so";
+  for (const std::string& name : {file.string(), file.string() + std::string("\0.so", 4), up_and_down,
+                                  "../faulty/faulty", "still_localizer", std::string("..")})
+    EXPECT_THAT(error_of(library, name), HasSubstr("unknown localizer plugin")) << name;
+  EXPECT_THAT(error_of(ModuleLibrary({folder_of("faulty")}), std::string("still_localizer\0", 16)),
+              HasSubstr("unknown localizer plugin"));
+}
+
 TEST(ModuleLibrary, ANameOfAnotherKindIsAnError) {
   const ModuleLibrary library({folder_of("faulty")});
   EXPECT_EQ(error_of(library, "empty_map"), "mission.yaml:7:3: \"empty_map\" is a map plugin, not a localizer");

@@ -48,6 +48,26 @@ TEST_F(BadMission, AGoodOneRuns) {
   EXPECT_EQ(run("for_s: 1", "for_s: 1").exit_status, 0);
 }
 
+// The map is saved under the mission's name, the recording beside it.
+TEST_F(BadMission, NothingIsWrittenOutsideTheOutputFolder) {
+  for (const char* name : {"../bad", "/tmp/bad", "..", "\"a\\0b\"", "a/b"}) {
+    const Finished finished = run("mission: bad", std::string("mission: ") + name);
+    EXPECT_EQ(finished.exit_status, 2) << name;
+    EXPECT_THAT(finished.err, StartsWith(place("1:10: mission must be a plain file name of up to 200 bytes"))) << name;
+  }
+  const Finished finished = run("mission: bad", "mission: bad\nrecord: ../a.log");
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, StartsWith(place("2:9: record must be a plain file name")));
+}
+
+TEST_F(BadMission, AModuleIsNamedAndNeverAPath) {
+  for (const char* name : {"../../evil.so", "/tmp/evil.so", "./simulated_robot.so", "\"simulated_robot\\0\""}) {
+    const Finished finished = run("plugin: simulated_robot", std::string("plugin: ") + name);
+    EXPECT_EQ(finished.exit_status, 2) << name;
+    EXPECT_THAT(finished.err, AllOf(StartsWith(place("5:")), HasSubstr("unknown sensor plugin"))) << name;
+  }
+}
+
 TEST_F(BadMission, ATemplateThatIsTooLargeOrTooSmallIsNamed) {
   std::filesystem::copy(config("templates"), folder_ / "templates");
   const auto with_circle = [&](const std::string& diameter_m) {

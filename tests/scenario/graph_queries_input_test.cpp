@@ -66,6 +66,18 @@ TEST_F(GraphQuestions, UnknownKeysAreRefusedWithTheNearest) {
             "q.jsonl:1:28: the key \"from\" stands here twice\n");
 }
 
+TEST_F(GraphQuestions, DeepNestingIsRefused) {
+  const auto nested = [](std::size_t depth) {
+    return R"({"id": )" + std::string(depth, '[') + std::string(depth, ']') + R"(, "from": "L1", "to": "L2"})";
+  };
+  for (const std::size_t depth : {std::size_t{64}, std::size_t{400'000}})  // one bracket is the line's own
+    EXPECT_EQ(refused(nested(depth)), "q.jsonl:1:71: nests deeper than 64 brackets\n");
+  write_text(file("q.jsonl"), nested(63));
+  EXPECT_EQ(run({"--queries", file("q.jsonl"), "--json"}).exit_status, 0);
+  write_text(file("q.jsonl"), R"({"id": ")" + std::string(100, '[') + R"(\"[", "from": "L1", "to": "L2"})");
+  EXPECT_EQ(run({"--queries", file("q.jsonl"), "--json"}).exit_status, 0);
+}
+
 TEST_F(GraphQuestions, WrongTypesAreRefused) {
   EXPECT_EQ(refused_key(R"("via": {"a": 1})"), "q.jsonl:1:35: \"via\" must be a list of names\n");
   EXPECT_EQ(refused_key(R"("avoid": [null])"), "q.jsonl:1:37: \"avoid\" must be a list of names\n");

@@ -114,6 +114,32 @@ TEST(MapServerFile, APictureThatIsNotThereIsRefusedWhereItIsNamed) {
   }
 }
 
+TEST(MapServerFile, APictureOutsideTheFolderIsReadOnlyWhenThatIsAllowed) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder.path() / "maps" / "pictures");
+  static_cast<void>(folder.write("map.pgm", "P2 1 1 255\n0\n"));
+  static_cast<void>(folder.write("maps/pictures/map.pgm", "P2 2 1 255\n0 0\n"));
+  const auto yaml_of = [&](const std::string& image) {
+    return folder.write("maps/m.yaml", Keys{}.with("image", image).text());
+  };
+  for (const std::string& image : {std::string("../map.pgm"), std::string("pictures/../../map.pgm"),
+                                   (folder.path() / "map.pgm").string(), std::string("/etc/passwd")}) {
+    const std::filesystem::path yaml = yaml_of(image);
+    try {
+      static_cast<void>(load_map_server(yaml));
+      ADD_FAILURE() << image;
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(),
+                  testing::MatchesRegex(yaml.string() + ":[0-9]+:8: image: .* is outside the folder of "
+                                                        "the map; --allow-outside reads it all the same"));
+    }
+  }
+  EXPECT_EQ(load_map_server(yaml_of("../map.pgm"), PictureFolder::any).grid.bounds().width(), 1);
+  for (const std::string& image : {std::string("pictures/map.pgm"), std::string("./pictures/../pictures/map.pgm"),
+                                   (folder.path() / "maps/pictures/map.pgm").string()})
+    EXPECT_EQ(load_map_server(yaml_of(image)).grid.bounds().width(), 2) << image;
+}
+
 TEST(MapServerFile, RecordedMapsAreRead) {
   const std::filesystem::path data = config_test::recorded_maps();
   if (!std::filesystem::exists(data / "nav2/depot.yaml"))

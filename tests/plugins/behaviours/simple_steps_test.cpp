@@ -115,7 +115,7 @@ TEST(Save, AsksForTheFileByName) {
 }
 
 TEST(Save, RefusesAnythingButAPlainName) {
-  for (const char* name : {"maps/office.cairn", "../office.cairn", "/etc/passwd", "..", "", "a\\b"}) {
+  for (const char* name : {"maps/office.cairn", "../office.cairn", "/etc/passwd", "..", "", "a\\b", "a\nb"}) {
     try {
       Save save({.file = scalar(name)});
       ADD_FAILURE() << name;

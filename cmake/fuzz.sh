@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Runs every fuzzer, or those named, for FUZZ_S seconds each (60), FUZZ_JOBS of them at a time (2). Inputs that show
+# something new gather in build/fuzz/found/NAME. What breaks a reader, takes longer than 10 s or more than 2 GB is kept in
+# build/fuzz/broken/NAME, and the exit status is 1.
+set -eu
+cd "$(dirname "$0")/.."
+export FUZZ_S=${FUZZ_S:-60}
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target cairn_fuzzers
+
+run_one() {
+  name=$1
+  found=build/fuzz/found/$name broken=build/fuzz/broken/$name log=build/fuzz/logs/$name.log
+  mkdir -p "$found" "$broken" build/fuzz/logs
+  options=(-max_len=8192)
+  case $name in
+    saved_map) options=(-max_len=65536) ;;
+    yaml | mission | world | template | robot | experiment | map_server) options+=(-dict=tests/fuzz/yaml.dict) ;;
+    plan_queries | json_log | nav2_routes) options+=(-dict=tests/fuzz/json.dict) ;;
+  esac
+  if "build/fuzz/fuzz/fuzz_$name" -max_total_time="$FUZZ_S" -timeout=10 -rss_limit_mb=2048 "${options[@]}" \
+    -print_final_stats=1 -artifact_prefix="$broken/" "$found" "tests/fuzz/corpus/$name" </dev/null >"$log" 2>&1; then
+    echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, nothing broken"
+  else
+    echo "$name: broken, the input is in $broken/, the report is $log:"
+    grep -m 3 -E 'ERROR|runtime error|what\(\)|SUMMARY' "$log" || tail -n 5 "$log"
+    return 1
+  fi
+}
+export -f run_one
+
+[ $# -gt 0 ] || set -- $(cd build/fuzz/fuzz && ls | sed -n 's/^fuzz_//p')
+printf '%s\n' "$@" | xargs -P "${FUZZ_JOBS:-2}" -I{} bash -c 'run_one {}'

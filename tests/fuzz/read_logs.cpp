@@ -1,0 +1,114 @@
+// Every log is read to its end, and what its observations promise is looked at.
+#include <cmath>
+#include <limits>
+
+#include "plugins/carmen_log/carmen_log.hpp"
+#include "plugins/json_log/json_log.hpp"
+#include "plugins/lego_log/lego_log.hpp"
+#include "plugins/log_common/scan_log.hpp"
+#include "plugins/player_log/player_log.hpp"
+#include "plugins/table_log/log_reader.hpp"
+#include "tests/fuzz/scratch.hpp"
+
+namespace cairn::fuzz {
+namespace {
+
+std::filesystem::path log_file(Input input) {
+  return scratch_file("log", text_of(input));
+}
+
+void check(const RangeReading& reading) {
+  const Pose2& at = reading.T_robot_sensor;
+  promise(std::isfinite(at.x_m) && std::isfinite(at.y_m) && std::isfinite(at.theta_rad), "a sensor has a place");
+  promise(reading.half_beam_rad >= 0.0 && reading.min_m >= 0.0 && reading.min_m < reading.max_m &&
+              std::isfinite(reading.max_m) && reading.sensor >= 0,
+          "a sensor has limits");
+  promise(!std::isfinite(reading.range_m) || (reading.range_m >= reading.min_m && reading.range_m <= reading.max_m),
+          "a range is within its limits");
+}
+
+void check(const Observation& seen, double last_s) {
+  const Pose2& odom = seen.T_odom_robot;
+  promise(seen.stamp_s >= last_s, "time does not go back");
+  promise(std::isfinite(odom.x_m + odom.y_m + odom.theta_rad), "odometry is finite");
+  for (const RangeReading& reading : seen.ranges) check(reading);
+}
+
+// What read() refuses by ConfigError is fine.
+template <class Read>
+void play(Read read) {
+  try {
+    log_common::ScanPlayer player(read());
+    double last_s = -std::numeric_limits<double>::infinity();
+    for (;;) {
+      const SensorStep step = player.next({});
+      if (step.state != SensorState::observation) {
+        promise(!step.reason.empty(), "the end has a reason");
+        return;
+      }
+      check(step.observation, last_s);
+      last_s = step.observation.stamp_s;
+    }
+  } catch (const ConfigError&) {
+  }
+}
+
+}  // namespace
+
+void read_carmen_log(Input input) {
+  carmen_log::Config config;
+  config.file = log_file(input);
+  config.on_bad_line = log_common::BadLine::skip;
+  play([&] { return carmen_log::read_carmen_log(config); });
+}
+
+void read_json_log(Input input) {
+  json_log::Config config;
+  config.file = log_file(input);
+  config.on_bad_line = log_common::BadLine::skip;
+  play([&] { return json_log::read_json_log(config); });
+}
+
+// Scans and motors from one file: each reader counts the other's lines as unknown.
+void read_lego_log(Input input) {
+  lego_log::Config config;
+  config.file = log_file(input);
+  config.motors = config.file;
+  config.range_offset_m = 0.05;
+  config.on_bad_line = log_common::BadLine::skip;
+  play([&] { return lego_log::read_lego_log(config, 0.5); });
+}
+
+void read_player_log(Input input) {
+  static const RobotModel robot;
+  player_log::Config config;
+  config.file = log_file(input);
+  config.on_bad_line = log_common::BadLine::skip;
+  play([&] { return player_log::read_player_log(config, robot); });
+}
+
+// Columns: time, x, y, heading, three ranges; the poses once more by time from the same file.
+void read_table_log(Input input) {
+  static const RobotModel robot;
+  TableLogConfig config;
+  config.file = log_file(input);
+  config.time_column = 1;
+  config.x_column = 2;
+  config.y_column = 3;
+  config.heading_column = 4;
+  config.first_range_column = 5;
+  config.sonars = {{.angle_rad = 0.5}, {}, {.angle_rad = -0.5}};
+  config.on_bad_line = BadLine::skip;
+  try {
+    const RecordedLog log = read_log(config, robot);
+    promise(!log.observations.empty(), "a log without a good line is refused");
+    double last_s = -std::numeric_limits<double>::infinity();
+    for (const Observation& seen : log.observations) {
+      check(seen, last_s);
+      last_s = seen.stamp_s;
+    }
+  } catch (const ConfigError&) {
+  }
+}
+
+}  // namespace cairn::fuzz

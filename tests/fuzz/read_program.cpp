@@ -1,0 +1,87 @@
+// What `cairn plan` is asked, and the map that it is asked about.
+#include <cmath>
+#include <fstream>
+
+#include "framework/config/config_value.hpp"
+#include "framework/host/place.hpp"
+#include "framework/program/line_reader.hpp"
+#include "framework/program/plan_query.hpp"
+#include "tests/fuzz/scratch.hpp"
+
+namespace cairn::fuzz {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Landmark landmark(LandmarkId id, const std::string& name, const std::string& category, double x_m) {
+  Landmark made;
+  made.id = id;
+  made.name = name;
+  made.category = category;
+  made.T_map_landmark = {x_m, 1.0, 0.0};
+  return made;
+}
+
+SavedMap two_landmarks_and_a_route() {
+  SavedMap map;
+  map.graph.add(landmark(1, "door", "square", 1.0));
+  map.graph.add(landmark(2, "bay 3", "circle", 4.0));
+  Route route;
+  route.id = 1;
+  route.from = 1;
+  route.to = 2;
+  route.cost_m = 3.0;
+  map.graph.add_route(std::move(route));
+  return map;
+}
+
+const SavedMap& small_map() {
+  static const SavedMap kept = two_landmarks_and_a_route();
+  return kept;
+}
+
+}  // namespace
+
+// A map that loads is one that can be saved, and then gives the same bytes for ever.
+void read_saved_map(Input input) {
+  const std::filesystem::path file = scratch_file("fuzzed.cairn", text_of(input));
+  SavedMap map;
+  try {
+    map = load_map(file);
+  } catch (const StoreError&) {
+    return;
+  }
+  const std::filesystem::path first = scratch() / "first.cairn";
+  const std::filesystem::path second = scratch() / "second.cairn";
+  save_map(first, map);
+  save_map(second, load_map(first));
+  promise(bytes_of(first) == bytes_of(second), "a saved map reads as what was saved");
+}
+
+void read_plan_queries(Input input) {
+  const std::filesystem::path file = scratch_file("queries", text_of(input));
+  try {
+    LineReader lines(file.string());
+    for (std::string line; lines.next(line);) {
+      const PlanQuery query = query_of_line(line, "fuzzed", lines.number(), {});
+      static_cast<void>(task_of(query.question, small_map(), small_map().clusters));
+    }
+  } catch (const ConfigError&) {
+  } catch (const PlaceError&) {
+  }
+}
+
+void read_place(Input input) {
+  try {
+    const Place place = parse_place(std::string(text_of(input)), small_map().graph);
+    promise(place.pose.has_value() != !place.landmarks.empty(), "a place is a pose or landmarks");
+    if (place.pose)
+      promise(place.pose->position().allFinite() && std::isfinite(place.pose->theta_rad), "a place is finite");
+  } catch (const PlaceError&) {
+  }
+}
+
+}  // namespace cairn::fuzz

@@ -1,0 +1,43 @@
+#include <algorithm>
+#include <array>
+
+#include "tests/fuzz/reader.hpp"
+
+namespace cairn::fuzz {
+namespace {
+
+constexpr std::array kReaders{
+    Reader{"carmen_log", read_carmen_log},
+    Reader{"experiment", read_experiment},
+    Reader{"graph_list", read_graph_list},
+    Reader{"graphml", read_graphml},
+    Reader{"json_log", read_json_log},
+    Reader{"lego_log", read_lego_log},
+    Reader{"map_server", read_map_server},
+    Reader{"mission", read_mission},
+    Reader{"moving_ai_map", read_moving_ai_map},
+    Reader{"nav2_routes", read_nav2_routes},
+    Reader{"place", read_place},
+    Reader{"plan_queries", read_plan_queries},
+    Reader{"player_log", read_player_log},
+    Reader{"robot", read_robot},
+    Reader{"saved_map", read_saved_map},
+    Reader{"table_log", read_table_log},
+    Reader{"template", read_template},
+    Reader{"world", read_world},
+    Reader{"yaml", read_yaml},
+};
+
+}  // namespace
+
+std::span<const Reader> readers() {
+  return kReaders;
+}
+
+const Reader& reader_called(std::string_view name) {
+  const auto found = std::ranges::find(kReaders, name, &Reader::name);
+  if (found == kReaders.end()) throw std::invalid_argument("no reader is called " + std::string(name));
+  return *found;
+}
+
+}  // namespace cairn::fuzz
