@@ -14,7 +14,7 @@ run_one() {
   mkdir -p "$found" "$broken" build/fuzz/logs
   options=(-max_len=8192)
   case $name in
-    saved_map) options=(-max_len=65536) ;;
+    saved_map | damaged_map) options=(-max_len=65536) ;;
     yaml | mission | world | template | robot | experiment | map_server) options+=(-dict=tests/fuzz/yaml.dict) ;;
     plan_queries | json_log | nav2_routes) options+=(-dict=tests/fuzz/json.dict) ;;
   esac

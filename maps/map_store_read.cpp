@@ -14,6 +14,7 @@ constexpr std::size_t kPoseBytes = 3 * sizeof(double);
 // A grid beyond these would only exhaust the memory of whoever works with it.
 constexpr std::int64_t kMaxCellIndex = OccupancyGrid::kLargestCellIndex;
 constexpr std::int64_t kMaxCells = OccupancyGrid::kMostCells;
+constexpr double kMinCellM = 1e-6;  // below it places overflow the indices of their cells
 constexpr double kMaxCellM = 1000.0;
 constexpr double kMaxClampNat = 127.0;
 constexpr std::int64_t kMaxPoses = 10'000'000;
@@ -41,8 +42,8 @@ OccupancyGrid read_grid(Reading& reading) {
   require_level_zero(row, 0);
   const double cell_m = row.real(1);
   const double clamp_nat = row.real(4);
-  if (!(cell_m > 0.0) || cell_m > kMaxCellM)
-    throw StoreError("cell_m must be in (0, 1000], is " + std::to_string(cell_m));
+  if (!(cell_m >= kMinCellM) || cell_m > kMaxCellM)
+    throw StoreError("cell_m must be in [0.000001, 1000], is " + std::to_string(cell_m));
   if (!(clamp_nat > 0.0) || clamp_nat > kMaxClampNat)
     throw StoreError("clamp_nat must be in (0, 127], is " + std::to_string(clamp_nat));
   const auto index = [&row](int column) {

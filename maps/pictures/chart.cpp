@@ -34,12 +34,15 @@ constexpr const char* kHead =
     "set key outside right top textcolor '#26323a' noenhanced samplen 2\n"
     "set offsets graph 0, 0, graph 0.05, graph 0.02\n";
 
-// In single quotes gnuplot takes every character as it is, but for the quote itself.
+// In single quotes gnuplot takes every character as it is, but for the quote itself; and a doubled one it does not take
+// at the beginning of a text. So it becomes an apostrophe.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    if (c == '\'')
+      result += "\u2019";
+    else
+      result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
   return result + "'";
 }

@@ -6,6 +6,7 @@
 #include "framework/host/place.hpp"
 #include "framework/program/line_reader.hpp"
 #include "framework/program/plan_query.hpp"
+#include "maps/map_store_repair.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace cairn::fuzz {
@@ -59,6 +60,19 @@ void read_saved_map(Input input) {
   save_map(first, map);
   save_map(second, load_map(first));
   promise(bytes_of(first) == bytes_of(second), "a saved map reads as what was saved");
+}
+
+// What is saved of a file is a map; when nothing is lost, the file is one itself.
+void read_damaged_map(Input input) {
+  const std::filesystem::path file = scratch_file("fuzzed.cairn", text_of(input));
+  SalvagedMap salvaged;
+  try {
+    salvaged = salvage_map(file);
+  } catch (const StoreError&) {
+    return;
+  }
+  save_map(scratch() / "first.cairn", salvaged.map);
+  if (salvaged.losses.empty()) static_cast<void>(load_map(file));
 }
 
 void read_plan_queries(Input input) {

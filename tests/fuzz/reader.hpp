@@ -60,6 +60,7 @@ void read_table_log(Input input);
 
 // The program's own.
 void read_saved_map(Input input);
+void read_damaged_map(Input input);  // what can be saved of a saved map
 void read_plan_queries(Input input);
 void read_place(Input input);
 

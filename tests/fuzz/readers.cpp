@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::array kReaders{
     Reader{"carmen_log", read_carmen_log},
+    Reader{"damaged_map", read_damaged_map},
     Reader{"experiment", read_experiment},
     Reader{"graph_list", read_graph_list},
     Reader{"graphml", read_graphml},

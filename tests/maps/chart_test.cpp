@@ -23,7 +23,7 @@ Chart degrees_chart() {
 TEST_F(Charts, HaveAScriptThatCarriesItsDataAndQuotesEveryName) {
   const std::string script = gnuplot_script(degrees_chart());
   EXPECT_THAT(script, HasSubstr("$data0 << END_OF_DATA\n0 0.1\n1 0.5\n\n3 0.75\nEND_OF_DATA\n"));
-  EXPECT_THAT(script, HasSubstr("title 'it''s a \"circle\"; `date`'"));
+  EXPECT_THAT(script, HasSubstr("title 'it\u2019s a \"circle\"; `date`'"));
   EXPECT_THAT(script, HasSubstr("0.6 with lines dashtype 2"));
   EXPECT_THAT(script, HasSubstr("$data2 << END_OF_DATA\nNaN NaN\nEND_OF_DATA\n"));
 }
@@ -32,10 +32,14 @@ TEST_F(Charts, HaveAScriptThatCarriesItsDataAndQuotesEveryName) {
 TEST_F(Charts, RunNothingThatANameSays) {
   const std::string touched = file("touched").string();
   Chart chart;
-  for (const std::string& command :
-       {"`touch " + touched + "`", "'`touch " + touched + "`", "' . system('touch " + touched + "') . '",
-        "a\n!touch " + touched + "\n", "\\'\nsystem 'touch " + touched + "'\n#", "@touch",
-        "\"`touch " + touched + "`\""}) {
+  const std::vector<std::string> commands{"`touch " + touched + "`",
+                                          "'`touch " + touched + "`",
+                                          "' . system('touch " + touched + "') . '",
+                                          "a\n!touch " + touched + "\n",
+                                          "\\'\nsystem 'touch " + touched + "'\n#",
+                                          "@touch",
+                                          "\"`touch " + touched + "`\""};
+  for (const std::string& command : commands) {
     chart.title += command;
     chart.x_label = chart.y_label = command;
     chart.series = {{command, {{0, 0.2}, {1, 0.3}}, SeriesStyle::points, {}}};
@@ -54,7 +58,7 @@ TEST_F(Charts, NamePlacesAndDrawErrorBarsWhereTheyAreGiven) {
   const std::string script = gnuplot_script(chart);
   EXPECT_THAT(script, HasSubstr("0 0.2 0.01\n1 0.3 0.02\n"));
   EXPECT_THAT(script, HasSubstr("using 1:2:3 with yerrorbars"));
-  EXPECT_THAT(script, HasSubstr("('office' 0, 'hall''s' 1)"));
+  EXPECT_THAT(script, HasSubstr("('office' 0, 'hall\u2019s' 1)"));
   EXPECT_TRUE(write_chart(file("bars.png"), chart).drawn);
 }
 

@@ -160,7 +160,9 @@ TEST_F(ForgedMap, LoadsWhenNothingElseIsWrong) {
 
 TEST_F(ForgedMap, RefusesImpossibleGrids) {
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET cell_m = 0"),
-            "table grid: cell_m must be in (0, 1000], is 0.000000");
+            "table grid: cell_m must be in [0.000001, 1000], is 0.000000");
+  EXPECT_EQ(refusal_after_forging("UPDATE grid SET cell_m = 1e-300"),
+            "table grid: cell_m must be in [0.000001, 1000], is 0.000000");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET cell_m = 9e999"), "table grid: column cell_m is not finite");
   EXPECT_EQ(refusal_after_forging("UPDATE grid SET clamp_nat = -4"),
             "table grid: clamp_nat must be in (0, 127], is -4.000000");

@@ -99,8 +99,10 @@ TEST(ModuleLibrary, ANameIsNoPath) {
   const fs::path file = folder_of("faulty") / "faulty.so";
   ASSERT_TRUE(fs::exists(file));
   const std::string up_and_down = "../faulty/faulty.so";
-  for (const std::string& name : {file.string(), file.string() + std::string("\0.so", 4), up_and_down,
-                                  "../faulty/faulty", "still_localizer", std::string("..")})
+  const std::vector<std::string> names{file.string(),     file.string() + std::string("\0.so", 4),
+                                       up_and_down,       "../faulty/faulty",
+                                       "still_localizer", std::string("..")};
+  for (const std::string& name : names)
     EXPECT_THAT(error_of(library, name), HasSubstr("unknown localizer plugin")) << name;
   EXPECT_THAT(error_of(ModuleLibrary({folder_of("faulty")}), std::string("still_localizer\0", 16)),
               HasSubstr("unknown localizer plugin"));
