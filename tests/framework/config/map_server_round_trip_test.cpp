@@ -83,7 +83,7 @@ TEST(MapServerRoundTrip, OfAllFloorPlans) {
     const std::string yaml = "image: " + entry.path().string() +
                              "\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
                              "free_thresh: 0.196\n";
-    const OccupancyGrid grid = load_map_server(folder.write("plan.yaml", yaml)).grid;
+    const OccupancyGrid grid = load_map_server(folder.write("plan.yaml", yaml), PictureFolder::any).grid;
     for (const MapServerMode mode : {MapServerMode::trinary, MapServerMode::raw})
       EXPECT_TRUE(written_and_read(grid, mode, PictureFormat::pgm) == grid) << entry.path();
     ++pictures;
