@@ -91,6 +91,9 @@ CroppedMap crop_map(const SavedMap& map, const Point& corner_m, const Point& opp
                                 (extent ? "; the map reaches from " + text_of(*extent) : "; the map is empty"));
   }
   std::erase_if(cropped.map.driven_path, [&](const Pose2& pose) { return !box.contains(pose.position()); });
+  if (cropped.map.progress)
+    cropped.warnings.emplace_back("no mission goes on from a part of its map: how far it had come is left away");
+  cropped.map.progress.reset();
   cropped.map.clusters = cluster_landmarks(graph);
   cropped.landmarks_dropped = map.graph.landmarks().size() - graph.landmarks().size();
   cropped.routes_dropped = map.graph.routes().size() - graph.routes().size();

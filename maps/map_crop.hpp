@@ -17,7 +17,8 @@ struct CroppedMap {
 
 // What lies between two opposite corners: cells by their centres, landmarks by their places, routes with both ends and
 // every pose of their trajectory. Frame, lattice and ids stay; the ids of what is gone are not given again. Where a
-// robot stands at a landmark is forgotten when it lies outside. Clusters are made anew. Throws std::invalid_argument
+// robot stands at a landmark is forgotten when it lies outside. Clusters are made anew,
+// the progress of a mission is left away. Throws std::invalid_argument
 // when a corner is not finite, the box has no width or height, or nothing of the map lies in it.
 [[nodiscard]] CroppedMap crop_map(const SavedMap& map, const Point& corner_m, const Point& opposite_m);
 

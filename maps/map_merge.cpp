@@ -152,6 +152,7 @@ class Merger {
   }
 
   void take_rest() {
+    merged_.map.progress.reset();
     for (const LandmarkShape& shape : b_.shapes)
       if (std::ranges::find(merged_.map.shapes, shape.category, &LandmarkShape::category) == merged_.map.shapes.end())
         merged_.map.shapes.push_back(shape);
@@ -175,6 +176,8 @@ class Merger {
     tell(closed_lost_, "route", "closed in one of the maps only; the first map counts");
     tell(trajectories_lost_, "route",
          "the trajectory ends elsewhere than where a robot stands at the joined landmark, so only the cost is kept");
+    tell(a_.progress || b_.progress ? 1 : 0, "mission",
+         "none goes on from a merged map: how far it had come is left away");
     tell(b_.driven_path.empty() ? 0 : 1, "driven path", "the second map's is not taken over");
     const auto named = [](const SavedMap& map) {
       return static_cast<std::size_t>(

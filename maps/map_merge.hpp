@@ -24,9 +24,10 @@ struct MergedMap {
 // none), with the sightings and evidence of both; the others of b get new ids. A name of b that a has too gets a
 // suffix, "dock" becomes "dock_2". Routes of b get new ids; one whose ends a joins by a route in the same direction
 // that costs the same, but for 2 near_m, is that route. A trajectory of b that would not end where a robot stands at
-// a's landmark is left away, the route keeps its cost. Clusters are made anew. The rest (driven path, properties) is
-// a's; of two robot radii the larger counts, of shapes those that a lacks are added. Throws std::invalid_argument for
-// grids of different cell size, std::length_error when the grid would get too large.
+// a's landmark is left away, the route keeps its cost. Clusters are made anew. How far a mission had come is left away.
+// The rest (driven path, properties) is a's; of two robot radii the larger counts, of shapes those that a lacks are
+// added. Throws std::invalid_argument for grids of different cell size, std::length_error when the grid would get too
+// large.
 [[nodiscard]] MergedMap merge_maps(const SavedMap& a, const SavedMap& b, const MergeOptions& options);
 
 }  // namespace cairn

@@ -18,7 +18,8 @@ void fail_extension(const std::filesystem::path& file, const char* verb, const s
 }
 
 std::vector<std::string> about(const std::filesystem::path& file, std::vector<std::string> warnings) {
-  for (std::string& warning : warnings) warning.insert(0, file.string() + ": ");
+  for (std::string& warning : warnings)
+    if (!warning.starts_with(file.string() + ":")) warning.insert(0, file.string() + ": ");
   return warnings;
 }
 

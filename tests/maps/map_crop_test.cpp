@@ -97,9 +97,17 @@ TEST(MapCrop, TellsWhatItForgets) {
   landmark.access = Pose2{5, 0, 0};
   map.graph.add(landmark);
   map.clusters.clusters = {{1, {1, 1, 0, 1, "wing"}}};
+  map.progress = MissionProgress();
   EXPECT_THAT(crop_map(map, {-1, -1}, {1, 1}).warnings,
-              ElementsAre("1 landmark: where a robot stands at it lies outside and is forgotten",
+              ElementsAre("no mission goes on from a part of its map: how far it had come is left away",
+                          "1 landmark: where a robot stands at it lies outside and is forgotten",
                           "1 cluster: made anew, the name is lost"));
+}
+
+TEST(MapCrop, NoMissionGoesOnFromAPart) {
+  SavedMap map = random_map(1);
+  map.progress = MissionProgress();
+  EXPECT_FALSE(crop_map(map, {-100, -100}, {100, 100}).map.progress);
 }
 
 std::string refusal(const SavedMap& map, const Point& a, const Point& b) {

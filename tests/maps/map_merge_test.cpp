@@ -237,6 +237,7 @@ TEST_F(MergedMaps, ATrajectoryThatEndsElsewhereIsLeftAway) {
 
 TEST_F(MergedMaps, RetiredLandmarksShapesAndTheLargerRobotAreKept) {
   a_.graph.add(landmark("square", 0, 0));
+  a_.progress = MissionProgress();
   a_.properties = {{"robot_radius_m", "0.2"}, {"mission", "one"}};
   b_.properties = {{"robot_radius_m", "0.3"}, {"mission", "two"}};
   b_.graph.add(landmark("square", 3, 0));
@@ -247,6 +248,7 @@ TEST_F(MergedMaps, RetiredLandmarksShapesAndTheLargerRobotAreKept) {
   EXPECT_NEAR(map.graph.retired().begin()->second.landmark.T_map_landmark.x_m, 4.0, 1e-12);
   EXPECT_EQ(map.properties.at("robot_radius_m"), "0.3");
   EXPECT_EQ(map.properties.at("mission"), "one");
+  EXPECT_FALSE(map.progress);
 }
 
 TEST_F(MergedMaps, AMapAndItsLikeAreTheMapItself) {
