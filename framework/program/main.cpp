@@ -221,6 +221,19 @@ std::optional<std::string> unknown_option(const CLI::App& app) {
   return "unknown option " + shown(option) + did_you_mean(option, names) + "; " + called + " --help lists the options";
 }
 
+int told_of_parse_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  std::optional<std::string> unknown = unknown_command(app, argc, argv);
+  if (unknown)
+    *unknown += "; cairn --help lists the commands";
+  else if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    unknown = unknown_option(app);
+  if (unknown && error.get_exit_code() != 0) {
+    std::cerr << "cairn: " << *unknown << "\n";
+    return kExitBadInput;
+  }
+  return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+}
+
 int main_of(int argc, char** argv) {
   CLI::App app{"Cairn: landmark navigation for mobile robots", "cairn"};
   app.set_version_flag("--version", "cairn " CAIRN_VERSION);
@@ -258,16 +271,7 @@ int main_of(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    std::optional<std::string> unknown = unknown_command(app, argc, argv);
-    if (unknown)
-      *unknown += "; cairn --help lists the commands";
-    else if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-      unknown = unknown_option(app);
-    if (unknown && error.get_exit_code() != 0) {
-      std::cerr << "cairn: " << *unknown << "\n";
-      return kExitBadInput;
-    }
-    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+    return told_of_parse_error(app, error, argc, argv);
   }
   const int status = action();
   if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
