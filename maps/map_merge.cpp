@@ -168,7 +168,7 @@ class Merger {
 
   void warn() {
     const auto tell = [&](std::size_t count, const char* noun, const char* sentence) {
-      if (count > 0) merged_.warnings.push_back(exchange::counted(count, noun) + ": " + sentence);
+      exchange::warn_of(count, noun, sentence, merged_.warnings);
     };
     tell(renamed_, "landmark", "the name is taken, so it got a suffix");
     tell(names_lost_, "landmark", "one with a landmark of another name, which it keeps");

@@ -28,8 +28,7 @@ class Warnings {
 
  private:
   void tell(std::ptrdiff_t count, const char* noun, const char* what) {
-    if (count == 0) return;
-    warnings_.push_back(counted(static_cast<std::size_t>(count), noun) + ": " + what);
+    warn_of(static_cast<std::size_t>(count), noun, what, warnings_);
   }
 
   const LandmarkGraph& graph_;

@@ -295,7 +295,7 @@ class Reader {
 
   void warn(ImportedGraph& imported, const exchange::NodeIds& nodes, const exchange::EdgeIds& edges) const {
     const auto tell = [&](std::size_t count, const char* noun, const std::string& sentence) {
-      if (count > 0) imported.warnings.push_back(exchange::counted(count, noun) + ": " + sentence);
+      exchange::warn_of(count, noun, sentence, imported.warnings);
     };
     if (crs_.empty()) {
       imported.warnings.emplace_back("there is no crs: coordinates are taken as metres in the map frame");

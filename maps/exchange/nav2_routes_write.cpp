@@ -190,7 +190,7 @@ class Writer {
     holds.trajectory = true;
     exported_.warnings = exchange::warnings_of_loss(graph_, holds);
     const auto tell = [&](std::size_t count, const char* noun, const char* sentence) {
-      if (count > 0) exported_.warnings.push_back(exchange::counted(count, noun) + ": " + sentence);
+      exchange::warn_of(count, noun, sentence, exported_.warnings);
     };
     tell(renumbered_, "edge", "the id is a node's, so it got one above all others: nav2 wants them unique");
     tell(too_large_, "feature", "the id is above 65535, which nav2's messages cannot name");

@@ -132,7 +132,7 @@ class Writer {
     holds.category = holds.level = holds.annotations = holds.speed_limit = true;
     exported_.warnings = exchange::warnings_of_loss(graph_, holds);
     const auto tell = [&](std::size_t count, const char* noun, const char* sentence) {
-      if (count > 0) exported_.warnings.push_back(exchange::counted(count, noun) + ": " + sentence);
+      exchange::warn_of(count, noun, sentence, exported_.warnings);
     };
     tell(categories_lost_, "landmark", "the category is not written");
     tell(costs_lost_, "route", "the cost is not written; to Open-RMF a lane is straight");

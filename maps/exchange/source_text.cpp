@@ -106,4 +106,9 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+void warn_of(std::size_t count, const std::string& noun, const std::string& sentence,
+             std::vector<std::string>& warnings) {
+  if (count > 0) warnings.push_back(counted(count, noun) + ": " + sentence);
+}
+
 }  // namespace cairn::exchange

@@ -20,6 +20,11 @@ Landmark landmark(const std::string& category, double x_m, double y_m, const std
   return made;
 }
 
+Landmark with_id(LandmarkId id, Landmark landmark) {
+  landmark.id = id;
+  return landmark;
+}
+
 RouteId add_route(LandmarkGraph& graph, LandmarkId from, LandmarkId to, double cost_m, bool closed = false) {
   Route made;
   made.from = from;
@@ -102,31 +107,11 @@ TEST(MapDifference, LandmarksAreFoundAgainByPlaceThenByIdThenByName) {
   a.graph.add(landmark("circle", 9, 0));           // L3: same id, far away
   a.graph.add(landmark("circle", 20, 0, "dock"));  // L4: by name
   a.graph.add(landmark("triangle", 30, 0));        // L5: gone
-  b.graph.add([] {
-    Landmark l = landmark("square", 0, 0, "gate");
-    l.id = 10;
-    return l;
-  }());
-  b.graph.add([] {
-    Landmark l = landmark("square", 5.3, 0);
-    l.id = 11;
-    return l;
-  }());
-  b.graph.add([] {
-    Landmark l = landmark("circle", 12, 4);
-    l.id = 3;
-    return l;
-  }());
-  b.graph.add([] {
-    Landmark l = landmark("circle", 40, 0, "dock");
-    l.id = 12;
-    return l;
-  }());
-  b.graph.add([] {
-    Landmark l = landmark("square", 30, 0);
-    l.id = 13;
-    return l;
-  }());  // another category
+  b.graph.add(with_id(10, landmark("square", 0, 0, "gate")));
+  b.graph.add(with_id(11, landmark("square", 5.3, 0)));
+  b.graph.add(with_id(3, landmark("circle", 12, 4)));
+  b.graph.add(with_id(12, landmark("circle", 40, 0, "dock")));
+  b.graph.add(with_id(13, landmark("square", 30, 0)));  // another category
   const MapDifference difference = difference_of(a, b);
   EXPECT_THAT(difference.same, ElementsAre(LandmarkPair{1, 10, 0.0}));
   ASSERT_EQ(difference.moved.size(), 3U);
