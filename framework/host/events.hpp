@@ -47,7 +47,8 @@ struct NodeEnded {
   std::string path;
   std::string name;
   NodeKind kind = NodeKind::behaviour;
-  Status status;  // halted: a failure
+  Status status;
+  bool is_halted = false;  // a failure
 };
 struct MapSaved {
   std::string file_name;

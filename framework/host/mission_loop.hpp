@@ -84,7 +84,7 @@ class MissionLoop : private Orders, private TreeHost {
   LeafTick tick_leaf(const TreeNode& leaf) override;
   void halt_leaf(const TreeNode& leaf) override;
   void started(const TreeNode& node) override;
-  void ended(const TreeNode& node, const Status& status) override;
+  void ended(const TreeNode& node, const NodeReport& how) override;
 
   const Mission mission_;
   const RunOptions options_;

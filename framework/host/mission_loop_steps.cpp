@@ -80,8 +80,8 @@ void MissionLoop::started(const TreeNode& node) {
   tell(NodeStarted{node.path, node.name, node.kind});
 }
 
-void MissionLoop::ended(const TreeNode& node, const Status& status) {
-  tell(NodeEnded{node.path, node.name, node.kind, status});
+void MissionLoop::ended(const TreeNode& node, const NodeReport& how) {
+  tell(NodeEnded{node.path, node.name, node.kind, how.status, how.is_halted});
 }
 
 }  // namespace cairn

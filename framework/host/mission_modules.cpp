@@ -35,7 +35,14 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
 // What is no behaviour may be meant for a node.
 std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const PluginChoice& choice,
                                            const ModuleContext& context) {
-  if (library.find_any(choice.name) != nullptr) return build<Behaviour>(library, choice, context);
+  if (library.find_any(choice.name) != nullptr) try {
+      return build<Behaviour>(library, choice, context);
+    } catch (const ConfigError& error) {
+      // A module knows no place for a setting that is not there.
+      const std::string text = error.what();
+      if (text.starts_with(": ")) throw ConfigError(choice.config.place, text.substr(2));
+      throw;
+    }
   std::string known;
   std::vector<std::string> names;
   for (const ModuleEntry& entry : library.entries()) {

@@ -159,7 +159,9 @@ struct Sentence {
     return "step " + std::to_string(e.index + 1) + " (" + e.name + ")" + ended(e.status);
   }
   std::string operator()(const NodeStarted& e) const { return "node " + e.path + " (" + e.name + ") begins"; }
-  std::string operator()(const NodeEnded& e) const { return "node " + e.path + " (" + e.name + ")" + ended(e.status); }
+  std::string operator()(const NodeEnded& e) const {
+    return "node " + e.path + " (" + e.name + ")" + (e.is_halted ? " is halted: " + e.status.reason : ended(e.status));
+  }
   std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
   std::string operator()(const Autosaved&) const { return {}; }
   std::string operator()(const AutosaveFailed& e) const {

@@ -257,7 +257,7 @@ void TreeRunner::end(std::size_t at, const Status& status) {
   report.end_s = now_s_;
   if (at == 0 || !is_news) return;
   tell_start(at);
-  host_.ended(*state.node, status);
+  host_.ended(*state.node, report);
 }
 
 void TreeRunner::halt(double time_s, const std::string& reason) {
@@ -275,7 +275,7 @@ void TreeRunner::halt_node(std::size_t at, const std::string& reason) {
   if (!state.is_running) return;
   halt_children(state, 0, reason);
   state.is_running = false;
-  state.report.status = {Progress::failure, "halted: " + reason};
+  state.report.status = {Progress::failure, reason};
   state.report.is_halted = true;
   state.report.end_s = now_s_;
   if (driver_ == at) {
@@ -283,7 +283,7 @@ void TreeRunner::halt_node(std::size_t at, const std::string& reason) {
     wanted_.reset();
   }
   if (state.node->kind == NodeKind::behaviour) host_.halt_leaf(*state.node);
-  if (state.is_told) host_.ended(*state.node, state.report.status);
+  if (state.is_told) host_.ended(*state.node, state.report);
 }
 
 void TreeRunner::abandon(double time_s, const std::string& reason) {

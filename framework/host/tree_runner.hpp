@@ -20,6 +20,19 @@ struct LeafTick {
   bool is_forgiven = false;       // its failure is told, but the nodes above go on as after a success
 };
 
+// A node that was ticked, over the whole run.
+struct NodeReport {
+  std::string path{};
+  std::string kind{};  // as the file calls it: "retry", "goto"
+  std::string name{};
+  Status status{};         // how it ended the last time; running: it has not
+  bool is_halted = false;  // the last time it was halted: a failure, with the reason why
+  double begin_s = 0.0;    // first begun
+  double end_s = 0.0;      // last ended
+  std::int64_t ticks = 0;
+  std::int64_t runs = 0;  // how often it was begun
+};
+
 class TreeHost {
  public:
   virtual ~TreeHost() = default;
@@ -29,20 +42,7 @@ class TreeHost {
   // Never the root: whoever ticks knows. A node that begins and ends in one tick, as it did the last time, is not told
   // again: conditions below reactive nodes would be told in every tick.
   virtual void started(const TreeNode& node) = 0;
-  virtual void ended(const TreeNode& node, const Status& status) = 0;
-};
-
-// A node that was ticked, over the whole run.
-struct NodeReport {
-  std::string path{};
-  std::string kind{};  // as the file calls it: "retry", "goto"
-  std::string name{};
-  Status status{};         // how it ended the last time; running: it has not
-  bool is_halted = false;  // the last time it was halted: a failure with its reason
-  double begin_s = 0.0;    // first begun
-  double end_s = 0.0;      // last ended
-  std::int64_t ticks = 0;
-  std::int64_t runs = 0;  // how often it was begun
+  virtual void ended(const TreeNode& node, const NodeReport& how) = 0;
 };
 
 class TreeRunner {

@@ -21,8 +21,8 @@ std::string config(const std::string& path) {
 std::filesystem::path mission_in(const std::filesystem::path& folder, const std::string& steps) {
   write_text(folder / "sub.yaml", "parameters: {for_s: 1}\nsteps:\n  - wait: {for_s: $for_s}\n");
   write_text(folder / "tree.yaml", "mission: tree\nrobot: " + config("robots/pioneer1.yaml") +
-                                       "\nworld: " + config("worlds/office.yaml") +
-                                       "\nstart: {at_m: [0.6, 0.6]}\nsensor: {plugin: simulated_robot}\n"
+                                       "\nworld: " + config("worlds/mapping_smooth_hallway.yaml") +
+                                       "\nstart: {at_m: [1.727, 1.774]}\nsensor: {plugin: simulated_robot}\n"
                                        "localizer: {plugin: odometry_compass}\nmap: {plugin: bayes}\nsteps:\n" +
                                        steps);
   return folder / "tree.yaml";
@@ -50,15 +50,15 @@ TEST(MissionCommand, CheckTellsAllErrorsOfTheTreeAndOfTheModules) {
   EXPECT_EQ(rows[1]["outcome"], "fine");
   ASSERT_EQ(rows[0]["errors"].size(), 6U) << rows[0].dump(1);
   const std::string place = file.string() + ":";
-  const std::vector<std::string> expected = {place + "9:21: times must be",
+  const std::vector<std::string> expected = {place + "9:20: times must be",
                                              place +
                                                  "10:24: unknown key \"landmrk\" in plugin goto (did you mean "
                                                  "\"landmark\"?)",
-                                             place + "10:57: for_s",
+                                             place + "10:54: for_s",
                                              place +
                                                  "11:5: unknown behaviour plugin \"sequnce\" (did you mean "
                                                  "\"sequence\"?)",
-                                             place + "12:47: for_s must be a number",
+                                             place + "12:45: for_s must be a number",
                                              place + "13:5: goto: needs a landmark"};
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_THAT(rows[0]["errors"][i].get<std::string>(), HasSubstr(expected[i]));

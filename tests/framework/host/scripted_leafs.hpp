@@ -41,12 +41,12 @@ class ScriptedLeafs : public TreeHost {
     if (leaf.name == throws_in_halt) throw std::runtime_error("halt of " + leaf.name);
   }
   void started(const TreeNode& node) override { told += "+" + node.path + " "; }
-  void ended(const TreeNode& node, const Status& status) override {
-    told += (status.progress == Progress::success ? "S" : "F") + node.path + " ";
+  void ended(const TreeNode& node, const NodeReport& how) override {
+    told += (how.is_halted ? "H" : how.status.progress == Progress::success ? "S" : "F") + node.path + " ";
   }
 
   std::string log;   // leafs in the order in which they were ticked, !leaf halted
-  std::string told;  // +path started, Spath and Fpath ended
+  std::string told;  // +path started, Spath, Fpath and Hpath ended
   std::string throws_in_halt;
 
  private:

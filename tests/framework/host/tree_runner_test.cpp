@@ -257,7 +257,7 @@ TEST(TreeRunner, NodesThatBeginAndEndInOneTickAreToldWhenTheirOutcomeChanges) {
   } leafs(std::map<std::string, std::string>{{"a", "R"}});
   TreeRunner runner(steps.front(), leafs);
   for (int i = 0; i < 4; ++i) (void)runner.tick(i * kTick_s);
-  EXPECT_EQ(leafs.told, "+1/1 +1/1/1 F1/1/1 S1/1 +1/2 +1/2/1 +1/1 +1/1/1 S1/1/1 F1/1 F1/2/1 F1/2 ");
+  EXPECT_EQ(leafs.told, "+1/1 +1/1/1 F1/1/1 S1/1 +1/2 +1/2/1 +1/1 +1/1/1 S1/1/1 F1/1 H1/2/1 H1/2 ");
 }
 
 TEST(TreeRunner, ReportsHoldWhatHasComeOfEachNodeThatWasTicked) {
@@ -278,7 +278,7 @@ TEST(TreeRunner, ReportsHoldWhatHasComeOfEachNodeThatWasTicked) {
   EXPECT_EQ(reports[2].end_s, 2.0);
   EXPECT_EQ(reports[2].status, (Status{Progress::failure, "no a"}));
   EXPECT_EQ(reports[3].path, "1/2");
-  EXPECT_EQ(reports[3].status, (Status{Progress::failure, "halted: enough"}));
+  EXPECT_EQ(reports[3].status, (Status{Progress::failure, "enough"}));
   EXPECT_EQ(reports[3].begin_s, 2.0);
   EXPECT_EQ(reports[3].end_s, 9.0);
 }
