@@ -194,6 +194,18 @@ TEST(RmfBuilding, WhatCannotBePlacedIsRefusedOrTold) {
               HasSubstr("has no two fiducials in common"));
 }
 
+TEST(RmfBuilding, MeasurementsThatPutAVertexAnywhereAreRefused) {
+  const auto refusal_at = [](const std::string& near) {
+    return refusal("name: b\nlevels:\n  L1:\n    measurements: [[0, 1, {distance: [3, 9]}]]\n    vertices:\n" +
+                   ("      - [0, 0, 0, a]\n      - [" + near + ", 0, 0, b]\n      - [1, 0, 0, c]\n"));
+  };
+  EXPECT_EQ(refusal_at("0.00001"), "no ConfigError");
+  for (const char* const near : {"0.000008", "1e-150"})
+    EXPECT_EQ(refusal_at(near),
+              "nav.yaml:8:9: by the level's measurements and fiducials the vertex is more than 1000 km away");
+  EXPECT_EQ(refusal_at("1e-200"), "nav.yaml:4:20: a measurement between two vertices of one place");
+}
+
 TEST(RmfBuilding, RecordedBuildingsAreRead) {
   const char* const named = std::getenv("CAIRN_DATA");
   const std::filesystem::path folder =
