@@ -45,17 +45,30 @@ const SavedMap& small_map() {
   return kept;
 }
 
+// Without the pages that nobody asks for. nullopt when it is refused.
+std::optional<OccupancyGrid> grid_read_in_part(const std::filesystem::path& file) {
+  try {
+    const MapFile opened(file);
+    static_cast<void>(opened.without_cells());
+    return opened.grid_within(opened.lattice().bounds());
+  } catch (const StoreError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 // A map that loads is one that can be saved, and then gives the same bytes for ever.
 void read_saved_map(Input input) {
   const std::filesystem::path file = scratch_file("fuzzed.cairn", text_of(input));
+  const std::optional<OccupancyGrid> grid = grid_read_in_part(file);
   SavedMap map;
   try {
     map = load_map(file);
   } catch (const StoreError&) {
     return;
   }
+  promise(grid == map.grid, "all parts of a map are the map");
   const std::filesystem::path first = scratch() / "first.cairn";
   const std::filesystem::path second = scratch() / "second.cairn";
   save_map(first, map);
@@ -67,6 +80,7 @@ void read_saved_map(Input input) {
 // are replaced, and there is room in a file that holds nothing.
 void read_damaged_map(Input input) {
   const std::filesystem::path file = scratch_file("fuzzed.cairn", text_of(input));
+  const std::optional<OccupancyGrid> grid = grid_read_in_part(file);
   std::optional<SavedMap> whole;
   try {
     whole = load_map(file);
@@ -82,6 +96,7 @@ void read_damaged_map(Input input) {
   const std::filesystem::path first = scratch() / "first.cairn";
   save_map(first, salvaged.map);
   if (!whole) return;
+  promise(grid == whole->grid, "all parts of a map are the map");
   promise(salvaged.losses.empty(), "a map that loads has lost nothing");
   const std::filesystem::path second = scratch() / "second.cairn";
   save_map(second, *whole);
