@@ -18,7 +18,7 @@ run_one() {
   case $name in
     saved_map | damaged_map) options=(-max_len=65536) ;;
     yaml | mission | world | template | robot | experiment | map_server | rmf) options+=(-dict=tests/fuzz/yaml.dict) ;;
-    plan_queries | json_log | nav2_routes) options+=(-dict=tests/fuzz/json.dict) ;;
+    plan_queries | json_log | nav2_routes | annotations) options+=(-dict=tests/fuzz/json.dict) ;;
   esac
   result=ok
   { time "build/fuzz/fuzz/fuzz_$name" -max_total_time="$FUZZ_S" -timeout=10 -rss_limit_mb=2048 "${options[@]}" \

@@ -8,4 +8,4 @@ echo "| reader | inputs | CPU time, min | turns | broken |"
 echo "|---|---:|---:|---:|---:|"
 awk '{ inputs[$2] += $3; cpu_s[$2] += $4; ++turns[$2]; broken[$2] += $5 != "ok" }
   END { for (name in turns)
-    printf "| %s | %d | %.0f | %d | %d |\n", name, inputs[name], cpu_s[name] / 60, turns[name], broken[name] }' "$@" | sort
+    printf "| %s | %d | %.1f | %d | %d |\n", name, inputs[name], cpu_s[name] / 60, turns[name], broken[name] }' "$@" | sort

@@ -53,6 +53,8 @@ void read_graph_list(Input input);
 void read_graphml(Input input);
 void read_nav2_routes(Input input);
 void read_rmf(Input input);
+// What a map keeps for other tools, when it is written for them again; parts, each behind a byte 0.
+void read_annotations(Input input);
 
 // Recorded logs.
 void read_carmen_log(Input input);

@@ -7,6 +7,7 @@ namespace cairn::fuzz {
 namespace {
 
 constexpr std::array kReaders{
+    Reader{"annotations", read_annotations},
     Reader{"carmen_log", read_carmen_log},
     Reader{"damaged_map", read_damaged_map},
     Reader{"experiment", read_experiment},

@@ -66,6 +66,19 @@ TEST(RmfNavGraph, VerticesAreLandmarksAndLanesAreRoutes) {
   EXPECT_EQ(graph.find_route(4)->from, 3);
 }
 
+TEST(RmfNavGraph, FloorsOfOneNameAreToldApart) {
+  LandmarkGraph graph;
+  for (const int level : {0, 1, 2}) {
+    Landmark landmark;
+    landmark.level = level;
+    if (level != 1) landmark.annotations = R"({"rmf": {"level": "L2"}})";  // as the second floor is called unasked
+    graph.add(landmark);
+  }
+  const std::string text = rmf_nav_graph_of(graph, "").text;
+  for (const char* const name : {"\n  L2:\n", "\n  L2_1:\n", "\n  L2_2:\n"}) EXPECT_THAT(text, HasSubstr(name));
+  EXPECT_EQ(read(text).graph.landmarks().size(), 3U);
+}
+
 TEST(RmfNavGraph, GoesOutAsItCameIn) {
   const ImportedGraph once = read(kNav);
   const ExportedGraph written = rmf_nav_graph_of(once.graph, once.properties.at("rmf"));
