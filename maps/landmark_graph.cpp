@@ -51,6 +51,13 @@ const std::vector<RouteId> kNoRoutes;
 
 }  // namespace
 
+std::vector<Pose2> in_whole_steps(std::vector<Pose2> trajectory) {
+  // Adding 0.0 makes 0.0 of -0.0.
+  const auto rounded = [](double value) { return std::round(value * kTrajectorySteps) / kTrajectorySteps + 0.0; };
+  for (Pose2& pose : trajectory) pose = {rounded(pose.x_m), rounded(pose.y_m), rounded(pose.theta_rad)};
+  return trajectory;
+}
+
 void LandmarkGraph::check(const Landmark& landmark) const {
   if (landmarks_.contains(landmark.id) || retired_.contains(landmark.id))
     throw std::invalid_argument(named("landmark", landmark.id) + " exists already");

@@ -21,7 +21,7 @@
 
 namespace cairn {
 
-inline constexpr int kMapSchemaVersion = 4;
+inline constexpr int kMapSchemaVersion = 5;
 
 class StoreError : public std::runtime_error {
  public:

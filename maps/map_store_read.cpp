@@ -3,13 +3,14 @@
 #include "maps/map_store_codec.hpp"
 #include "maps/map_store_reading.hpp"
 #include "maps/map_store_tables.hpp"
+#include "maps/map_store_trajectory.hpp"
 
 namespace cairn::store {
 namespace {
 
 constexpr int kSide = OccupancyGrid::kTileSide;
 constexpr std::size_t kTileBytes = 2 * kSide * kSide;
-constexpr std::size_t kPoseBytes = 3 * sizeof(double);
+constexpr std::size_t kPoseBytes = 3 * sizeof(double);  // before version 5
 
 // A grid beyond these would only exhaust the memory of whoever works with it.
 constexpr std::int64_t kMaxCellIndex = OccupancyGrid::kLargestCellIndex;
@@ -92,16 +93,17 @@ void read_tiles(Reading& reading, const std::string& where, const CellBox& box, 
   });
 }
 
-std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, const std::string& what) {
+std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, int version, const std::string& what) {
   const auto poses = static_cast<std::size_t>(row.integer_within(poses_column, 0, kMaxPoses));
-  if (poses == 0 && row.blob(poses_column + 1).empty() && row.integer(poses_column + 2) == 0) return {};
-  const std::string raw = unpacked(row, poses_column + 1, poses * kPoseBytes, what);
-  std::vector<Pose2> trajectory(poses);
-  for (std::size_t i = 0; i < poses; ++i) {
-    const auto value = [&](std::size_t part) { return little_endian_at<double>(raw, i * kPoseBytes + part * 8); };
-    trajectory[i] = {value(0), value(1), value(2)};
+  const std::string packed = row.blob(poses_column + 1);
+  if (poses == 0 && packed.empty() && row.integer(poses_column + 2) == 0) return {};
+  if (version < 5) return trajectory_of_doubles(unpacked(row, poses_column + 1, poses * kPoseBytes, what));
+  try {
+    if (crc32_of(packed) != row.integer(poses_column + 2)) throw StoreError("its bytes do not match its checksum");
+    return unpacked_trajectory(packed, poses);
+  } catch (const StoreError& error) {
+    throw StoreError(what + " is damaged: " + error.what());
   }
-  return trajectory;
 }
 
 Route route_in(const Statement& row, int version) {
@@ -113,7 +115,7 @@ Route route_in(const Statement& row, int version) {
   route.cost_m = row.real(4);
   route.driven = row.integer_within(5, 0, 1) != 0;
   route.closed = row.integer_within(6, 0, 1) != 0;
-  route.trajectory = read_trajectory(row, 7, "the trajectory of " + numbered("route", route.id));
+  route.trajectory = read_trajectory(row, 7, version, "the trajectory of " + numbered("route", route.id));
   if (version >= 3) {
     route.speed_limit_mps = row.optional_real(10);
     route.annotations = annotations_in(row, 11);

@@ -30,7 +30,8 @@ std::string descending(std::string keys) {
 // those behind it: so each table is read from both ends, and what lies between is asked for key by key.
 class Copying {
  public:
-  Copying(Database& from, Database& to, std::vector<StoreLoss>& losses) : from_(from), to_(to), losses_(losses) {}
+  Copying(Database& from, Database& to, int version, std::vector<StoreLoss>& losses)
+      : from_(from), to_(to), version_(version), losses_(losses) {}
 
   void copy(const Table& table) {
     table_ = &table;
@@ -56,6 +57,10 @@ class Copying {
     if (forwards.empty()) return;
     unreadable_ = true;
     static_cast<void>(copy_in_order(descending(key())));
+    // Past the index of the keys, which may be all that is damaged.
+    if (has_rowid(*table_, version_) && copy_in_order("rowid").empty())
+      return lose("the index of its keys was damaged, its rows are read without");
+    if (has_rowid(*table_, version_)) static_cast<void>(copy_in_order("rowid DESC"));
     const std::string name = table_->name;
     if (name == "tiles")
       probe_tiles();
@@ -85,9 +90,14 @@ class Copying {
 
   // Whether the row with these keys can be read, if there is one.
   bool probe(const std::string& where, std::initializer_list<std::int64_t> keys) {
-    try {
-      Statement row(from_, select(where));
+    const auto with_keys = [&](Database& database) {
+      Statement row(database, select(where));
       for (const std::int64_t value : keys) row.bind(value);
+      return row;
+    };
+    if (with_keys(to_).step()) return true;
+    try {
+      Statement row = with_keys(from_);
       if (row.step()) take(row);
       return true;
     } catch (const StoreError&) {
@@ -163,6 +173,7 @@ class Copying {
 
   Database& from_;
   Database& to_;
+  const int version_;
   std::vector<StoreLoss>& losses_;
   const Table* table_ = nullptr;
   bool unreadable_ = false;
@@ -189,7 +200,7 @@ SalvagedMap salvaged_from(Database& damaged, int version) {
   SalvagedMap salvaged;
   salvaged.version = version;
   Database sound = empty_map(version);
-  Copying copying(damaged, sound, salvaged.losses);
+  Copying copying(damaged, sound, version, salvaged.losses);
   for (const Table& table : tables())
     if (table.since <= version) copying.copy(table);
   const bool missed_clusters = std::ranges::any_of(salvaged.losses, concerns_clusters);

@@ -19,7 +19,7 @@ constexpr std::array kTables{
     Table{"tiles", "level, ty, tx",
           "level INTEGER NOT NULL, ty INTEGER NOT NULL, tx INTEGER NOT NULL, log_odds BLOB NOT NULL, "
           "crc32 INTEGER NOT NULL, PRIMARY KEY (level, ty, tx)",
-          " WITHOUT ROWID"},
+          " WITHOUT ROWID", 1, "", 1, 4},
     Table{"landmarks", "id",
           "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, name TEXT NOT NULL, category TEXT NOT NULL, "
           "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, degree REAL NOT NULL, "
@@ -39,8 +39,9 @@ constexpr std::array kTables{
           "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, degree REAL NOT NULL, "
           "sightings INTEGER NOT NULL, access_x_m REAL, access_y_m REAL, access_theta_rad REAL, reason TEXT NOT NULL",
           "", 2, ", annotations TEXT NOT NULL", 3},
-    // trajectory: little-endian doubles x_m, y_m, theta_rad of each pose, zlib; crc32 of the raw bytes. No bytes at
-    // all when there is no pose, since version 3.
+    // trajectory: see map_store_trajectory.hpp; crc32 of the blob, before version
+    // 5 of the doubles in it. No bytes at all when there is no pose, since
+    // version 3.
     Table{"routes", "id",
           "id INTEGER PRIMARY KEY, level INTEGER NOT NULL, from_landmark INTEGER NOT NULL, "
           "to_landmark INTEGER NOT NULL, cost_m REAL NOT NULL, driven INTEGER NOT NULL, closed INTEGER NOT NULL, "
@@ -86,9 +87,13 @@ constexpr Table kChecksums{"checksums", "table_name",
                            "table_name TEXT NOT NULL PRIMARY KEY, row_count INTEGER NOT NULL, crc32 INTEGER NOT NULL",
                            " WITHOUT ROWID"};
 
+const char* options_of(const Table& table, int version) {
+  return version <= table.options_until ? table.options : "";
+}
+
 std::string definition_of(const Table& table, int version) {
   const char* const added = version >= table.added_since ? table.added : "";
-  return std::string("CREATE TABLE ") + table.name + " (" + table.columns + added + ")" + table.options;
+  return std::string("CREATE TABLE ") + table.name + " (" + table.columns + added + ")" + options_of(table, version);
 }
 
 void check_definition(Database& database, const Table& table, int version) {
@@ -117,6 +122,10 @@ void check_table(Database& database, const Table& table) {
 
 std::span<const Table> tables() {
   return kTables;
+}
+
+bool has_rowid(const Table& table, int version) {
+  return *options_of(table, version) == '\0';
 }
 
 Checksum checksum_of(Database& database, const Table& table) {

@@ -1,10 +1,12 @@
 // The saved map's tables, and a checksum over each. Version 2 added evidence and retired landmarks, version 3
-// clusters, annotations and speed limits, version 4 how far the mission has come.
+// clusters, annotations and speed limits, version 4 how far the mission has come, version 5 smaller
+// tiles and trajectories.
 #pragma once
 
 #include <span>
 #include <string>
 
+#include "maps/map_store.hpp"
 #include "maps/map_store_file.hpp"
 #include "maps/map_store_sqlite.hpp"
 
@@ -21,9 +23,11 @@ struct Table {
   // Columns that a later version put behind the others, and which: none before that version.
   const char* added = "";
   int added_since = 1;
+  int options_until = kMapSchemaVersion;  // a later version has none
 };
 
 [[nodiscard]] std::span<const Table> tables();
+[[nodiscard]] bool has_rowid(const Table& table, int version);
 // A map of that version without content, and a transaction begun in it.
 [[nodiscard]] Database empty_map(int version);
 // The tables are made before all content, so every map of a version has their definitions and roots in these pages.

@@ -3,6 +3,7 @@
 
 #include "maps/map_store_codec.hpp"
 #include "maps/map_store_tables.hpp"
+#include "maps/map_store_trajectory.hpp"
 
 namespace cairn::store {
 namespace {
@@ -91,13 +92,11 @@ void write_retired_landmarks(Database& database, const LandmarkGraph& graph) {
 void write_routes(Database& database, const LandmarkGraph& graph) {
   Statement insert(database, "INSERT INTO routes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, route] : graph.routes()) {
-    std::string raw;
-    for (const Pose2& pose : route.trajectory)
-      for (const double value : {pose.x_m, pose.y_m, pose.theta_rad}) append_little_endian(raw, value);
     insert.bind(id).bind(std::int64_t{route.level}).bind(route.from).bind(route.to).bind(route.cost_m);
     insert.bind(std::int64_t{route.driven}).bind(std::int64_t{route.closed});
     insert.bind(static_cast<std::int64_t>(route.trajectory.size()));
-    insert.bind_blob(raw.empty() ? raw : compressed(raw)).bind(std::int64_t{crc32_of(raw)});
+    const std::string packed = packed_trajectory(route.trajectory);
+    insert.bind_blob(packed).bind(std::int64_t{crc32_of(packed)});
     insert.bind(route.speed_limit_mps).bind_text(route.annotations).run();
   }
 }

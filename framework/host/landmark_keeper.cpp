@@ -202,7 +202,7 @@ void LandmarkKeeper::join(const Landmark& from, const Landmark& to, const WorldV
   PlanRequest request;
   request.from.pose = from.access;
   request.to.pose = to.access;
-  request.radius_m = robot_.radius_m;
+  request.radius_m = robot_.radius_m + kMostRounding_m;
   request.seed = seed;
   const PlanResult planned = planner.plan(request, world, budget);
   if (planned.outcome != PlanOutcome::solved) return;
@@ -211,11 +211,11 @@ void LandmarkKeeper::join(const Landmark& from, const Landmark& to, const WorldV
   route.from = from.id;
   route.to = to.id;
   route.driven = !driven.empty() && length_of(driven) <= config_.driven_detour_ratio * planned.length_m;
-  route.trajectory = route.driven ? driven : planned.path;
+  route.trajectory = in_whole_steps(route.driven ? driven : planned.path);
   route.cost_m = length_of(route.trajectory);
   Route back = route;
   std::swap(back.from, back.to);
-  back.trajectory = reversed(back.trajectory);
+  back.trajectory = in_whole_steps(reversed(back.trajectory));
   graph_.add_route(std::move(route));
   graph_.add_route(std::move(back));
 }

@@ -101,7 +101,8 @@ class Landmarks {
     route.from = from;
     route.to = to;
     route.cost_m = length_of(corners);
-    route.trajectory = poses_along(corners, 0.0, std::nullopt);
+    route.trajectory = in_whole_steps(poses_along(corners, 0.0, std::nullopt));
+
     return route;
   }
 
@@ -125,7 +126,7 @@ std::vector<double> first_answers(const std::string& map, const LandmarkGraph& g
     LandmarkId to = any(random);
     if (near && !graph.routes_from(from).empty()) to = graph.find_route(graph.routes_from(from).front())->to;
     const std::string command = std::string(CAIRN_BINARY_DIR "/bin/cairn plan ") + map + " --from L" +
-                                std::to_string(from) + " --to L" + std::to_string(to) + " --json > /dev/null";
+                                std::to_string(from) + " --to L" + std::to_string(to) + " --json > /dev/null 2>&1";
     const auto begin = Clock::now();
     const int status = std::system(command.c_str());
     seconds.push_back(seconds_since(begin));
@@ -166,7 +167,7 @@ int run(const std::filesystem::path& folder, const Site& site) {
   map.properties["robot_radius_m"] = std::to_string(kRadius_m);
   map.grid = grid_of(cells, false, site.seed);
   {
-    const DiscRoutes routes(std::make_shared<const DiscSpace>(map.grid, GroundRules{}), kRadius_m + 1e-6);
+    const DiscRoutes routes(std::make_shared<const DiscSpace>(map.grid, GroundRules{}), kRadius_m + kMostRounding_m);
     map.graph = Landmarks(routes, largest_part(cells), site).graph();
   }
   std::printf("%zu landmarks, %zu routes\n\n", map.graph.landmarks().size(), map.graph.routes().size());

@@ -77,11 +77,13 @@ std::string where_of_any_row(MapFile& map, const std::string& table, Random& ran
          std::to_string(random() % std::stoull(counts.front())) + ")";
 }
 
-// A blob's content, packed again, with its checksum in the column behind it.
+// A blob's content, packed again if it was, with its checksum in the column behind it.
 void change_blob(MapFile& map, const Field& field) {
-  const std::string raw =
-      mutated(unpacked(map.blob("SELECT " + field.column + " FROM \"" + field.table + "\"" + field.where)), 24);
-  map.execute_with_blob("UPDATE \"" + field.table + "\" SET " + field.column + " = ?" + field.where, packed(raw));
+  const std::string stored = map.blob("SELECT " + field.column + " FROM \"" + field.table + "\"" + field.where);
+  const bool plain = stored.starts_with('\1');  // a trajectory of steps
+  const std::string raw = mutated(plain ? stored : unpacked(stored), 24);
+  map.execute_with_blob("UPDATE \"" + field.table + "\" SET " + field.column + " = ?" + field.where,
+                        plain ? raw : packed(raw));
   const auto sum = crc32(0, reinterpret_cast<const Bytef*>(raw.data()), static_cast<uInt>(raw.size()));
   map.execute("UPDATE \"" + field.table + "\" SET crc32 = " + std::to_string(sum) + field.where);
 }

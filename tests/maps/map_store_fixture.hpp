@@ -148,6 +148,14 @@ inline SavedMap map_of_a_mission() {
   return map;
 }
 
+// Version 4 had them all as doubles.
+inline SavedMap map_with_trajectories() {
+  SavedMap map = map_of_a_mission();
+  map.graph.add_route({0, 4, 1, 9.0, {{7.0, 1.5, 0.0}, {1.0 / 3.0, -2.5, -0.0}}, true, false, 0});
+  map.graph.add_route({0, 1, 4, 9.0, {{-7.00001, 100.5, 3.14159}, {1.0, -2.5, 0.0}, {1.1, -2.5, 0.0}}, true, false, 0});
+  return map;
+}
+
 class MapStore : public testing::Test {
  protected:
   MapStore() {

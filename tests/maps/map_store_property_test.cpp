@@ -102,12 +102,20 @@ class RandomMap {
     route.to = any_of(graph);
     route.cost_m = static_cast<double>(below(1'000'000)) / 7.0;
     for (std::int64_t i = below(30); i > 0; --i) route.trajectory.push_back(pose());
+    if (below(2) == 0) route.trajectory = steps(below(30));
     route.driven = below(2) == 0;
     route.closed = below(2) == 0;
     route.level = static_cast<int>(below(3)) - 1;
     if (below(2) == 0) route.speed_limit_mps = std::numeric_limits<double>::min();
     route.annotations = annotations();
     return route;
+  }
+  std::vector<Pose2> steps(std::int64_t poses) {
+    std::vector<Pose2> trajectory;
+    const auto number_below = [this](std::int64_t end) { return static_cast<double>(below(end) - end / 2) / 7e5; };
+    for (; poses > 0; --poses)
+      trajectory.push_back({number_below(100'000'000), number_below(1LL << 50), number_below(4'000'000)});
+    return in_whole_steps(trajectory);
   }
   LandmarkShape shape() {
     if (below(2) == 0) return {text(), Contour::circle(0.1 + static_cast<double>(below(100)) / 7.0)};

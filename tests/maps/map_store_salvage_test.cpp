@@ -56,7 +56,7 @@ TEST_F(MapSalvage, OfASoundFileIsTheMapAndNothingIsLost) {
 }
 
 TEST_F(MapSalvage, ReadsStoredFilesOfEveryVersion) {
-  for (const int version : {1, 2, 3, 4}) {
+  for (const int version : {1, 2, 3, 4, 5}) {
     const fs::path stored =
         fs::path(CAIRN_SOURCE_DIR) / ("tests/data/map_schema_" + std::to_string(version) + ".cairn");
     const SalvagedMap salvaged = salvage_map(stored);
@@ -128,6 +128,27 @@ TEST_F(MapSalvage, OfAFileWithAnyOnePageDestroyed) {
     EXPECT_NO_THROW((void)load_map(file("repaired.cairn")));
   }
   EXPECT_LE(mostly_lost, 1U);  // the page at the root of their table
+}
+
+TEST_F(MapSalvage, ReadsEveryTilePastADamagedIndex) {
+  std::string bytes = bytes_of(file("sound.cairn"));
+  std::size_t page = 0;
+  for (sqlite3* database = nullptr; database == nullptr; sqlite3_close(database)) {
+    ASSERT_EQ(sqlite3_open(file("sound.cairn").c_str(), &database), SQLITE_OK);
+    const auto take = [](void* to, int, char** values, char**) {
+      *static_cast<std::size_t*>(to) = std::stoul(values[0]);
+      return 0;
+    };
+    const char* const index = "SELECT rootpage FROM sqlite_schema WHERE type = 'index' AND tbl_name = 'tiles'";
+    ASSERT_EQ(sqlite3_exec(database, index, take, &page, nullptr), SQLITE_OK);
+  }
+  ASSERT_GT(page, 1U);
+  bytes.replace((page - 1) * 4096, 4096, std::string(4096, '\x5a'));
+  write_bytes(file(), bytes);
+  EXPECT_THROW((void)load_map(file()), StoreError);
+  const SalvagedMap salvaged = salvage_map(file());
+  EXPECT_THAT(salvaged.losses, testing::ElementsAre(loss_in("tiles", "index")));
+  expect_equal(salvaged.map, large_map());
 }
 
 TEST_F(MapSalvage, OfATruncatedFile) {

@@ -105,6 +105,15 @@ TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionFour) {
   expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_4.cairn"), map_of_a_mission());
 }
 
+TEST_F(MapStore, KeepsTrajectoriesOfWholeStepsAndAnyOthers) {
+  save_map(file(), map_with_trajectories());
+  expect_equal(load_map(file()), map_with_trajectories());
+}
+
+TEST_F(MapStore, LoadsTheStoredFileOfSchemaVersionFive) {
+  expect_equal(load_map(fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_5.cairn"), map_with_trajectories());
+}
+
 TEST_F(MapStore, KeepsRemovedIdsRetired) {
   save_map(file(), small_map());
   LandmarkGraph graph = load_map(file()).graph;
@@ -143,7 +152,7 @@ TEST_F(MapStore, IsAnSqliteFileThatNamesItsProgramAndVersion) {
   const std::string bytes = bytes_of(file());
   EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
   EXPECT_EQ(bytes.substr(68, 4), "CRN1");
-  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\4", 4));
+  EXPECT_EQ(bytes.substr(60, 4), std::string("\0\0\0\5", 4));
 }
 
 TEST_F(MapStore, SavesThroughALinkWithoutReplacingTheLink) {
