@@ -16,7 +16,7 @@ run_one() {
   mkdir -p "$found" "$broken" build/fuzz/logs
   options=(-max_len=8192)
   case $name in
-    saved_map | damaged_map) options=(-max_len=65536) ;;
+    saved_map | damaged_map) options=(-max_len=131072) ;;
     yaml | mission | world | template | robot | experiment | map_server | rmf) options+=(-dict=tests/fuzz/yaml.dict) ;;
     plan_queries | json_log | nav2_routes | annotations) options+=(-dict=tests/fuzz/json.dict) ;;
   esac
