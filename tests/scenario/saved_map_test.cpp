@@ -223,6 +223,16 @@ TEST(SavedMap, IsCheckedAndRepairedByTheProgram) {
   EXPECT_EQ(json::parse(repair.out)["lost"], found["lost"]);
   EXPECT_EQ(text_of_file(map), damaged);
   EXPECT_EQ(run_cairn({"map", "check", repaired}).exit_status, 0);
+
+  std::string misspelt = sound;
+  misspelt[misspelt.find("CREATE TABLE tiles")] = 'K';
+  write_text(map, misspelt);
+  const Finished misspelt_check = run_cairn({"map", "check", map, "--json"});
+  EXPECT_EQ(misspelt_check.exit_status, 2);
+  EXPECT_EQ(json::parse(misspelt_check.out)["lost"], json::array());
+  const Finished all_saved = run_cairn({"map", "repair", map, "-o", repaired, "--json"});
+  EXPECT_EQ(json::parse(all_saved.out)["outcome"], "repaired") << "nothing is lost, but the file was damaged";
+  EXPECT_TRUE(text_of_file(repaired) == sound);
 }
 
 }  // namespace
