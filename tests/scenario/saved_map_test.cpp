@@ -129,6 +129,46 @@ TEST(SavedMap, IsWholeAfterAKillAtAnyMomentAndTheMissionGoesOnFromIt) {
       kills.losses_s.back(), static_cast<int>(more), every_s);
 }
 
+TEST(SavedMap, EveryMapModulesMissionIsGoneOnWith) {
+  for (const std::string map : {"bayes", "himm", "murphy", "muriel"}) {
+    SCOPED_TRACE(map);
+    const fs::path folder = fresh_folder("resume_" + map);
+    const fs::path mission = small_mission(folder, "{}", "[wait: 20, save: office.cairn]");
+    const std::string module = "map={plugin: " + map + ", cell_m: 0.05}";
+    ASSERT_EQ(run_mission(mission, folder / "out", {"--set", module, "--set", "at_most_s=8"}).exit_status, 1);
+    const fs::path saved = folder / "out/office.cairn";
+    const SavedMap first = load_map(saved);
+    const Finished resumed = run_mission(mission, folder / "out", {"--set", module, "--resume", saved.string()});
+    ASSERT_EQ(resumed.exit_status, 0) << resumed.err;
+    EXPECT_EQ(json::parse(resumed.out)["resumed_s"], first.progress->time_s);
+    const SavedMap last = load_map(saved);
+    EXPECT_GT(last.progress->time_s, first.progress->time_s + 19.0);
+    EXPECT_FALSE(last.grid == first.grid);
+    EXPECT_EQ(united(last.grid.bounds(), first.grid.bounds()), last.grid.bounds());
+  }
+}
+
+// The part that the map holds is skipped: together the two runs are the one in a single piece.
+TEST(SavedMap, ARecordedRunIsGoneOnWith) {
+  const fs::path folder = fresh_folder("resume_log");
+  const fs::path driven = small_mission(folder, "{}", "[explore: {until_known_ratio: 0.95, at_most_s: 60}]");
+  (void)run_mission(driven, folder / "out", {"--set", "record=run.log"});
+  const std::string config = source_folder() + "/config/";
+  write_text(folder / "log.yaml", "mission: replay\nrobot: " + config + "robots/pioneer1.yaml\nsensor: {plugin: " +
+                                      "carmen_log, file: out/run.log}\nlocalizer: {plugin: odometry_compass}\n" +
+                                      "map: {plugin: bayes, cell_m: 0.05}\n");
+  ASSERT_EQ(run_mission(folder / "log.yaml", folder / "whole").exit_status, 0);
+  ASSERT_EQ(run_mission(folder / "log.yaml", folder / "part", {"--set", "at_most_s=20"}).exit_status, 1);
+  const fs::path part = folder / "part/replay.cairn";
+  const Finished resumed = run_mission(folder / "log.yaml", folder / "rest", {"--resume", part.string()});
+  ASSERT_EQ(resumed.exit_status, 0) << resumed.err;
+  const SavedMap whole = load_map(folder / "whole/replay.cairn");
+  const SavedMap rest = load_map(folder / "rest/replay.cairn");
+  EXPECT_EQ(rest.progress->time_s, whole.progress->time_s);
+  EXPECT_EQ(rest.progress->readings, whole.progress->readings);
+  EXPECT_EQ(rest.grid.bounds(), whole.grid.bounds());
+}
+
 TEST(SavedMap, AnotherMissionsRobotsOrCellsMapIsRefused) {
   const fs::path folder = fresh_folder("resume");
   const fs::path mission = small_mission(folder, "{}", "[wait: 1]");
