@@ -63,7 +63,7 @@ struct Route {
   LandmarkId from = 0;
   LandmarkId to = 0;
   double cost_m = 0.0;
-  std::vector<Pose2> trajectory;  // from access to access; empty when only the cost is known
+  std::vector<Pose2> trajectory;  // from access to access, to kMostRounding_m; empty when only the cost is known
   bool driven = false;            // the robot has driven it; otherwise planned or imported
   bool closed = false;            // found blocked
   int level = 0;

@@ -188,8 +188,9 @@ TEST_F(LandmarkKeeperTest, AWayThatTheRobotDroveIsPreferredToAPlannedOne) {
   const Route& route = *keeper_.graph().route_between(1, 2);
   EXPECT_TRUE(route.driven);
   EXPECT_GT(route.trajectory.size(), 20U);
-  EXPECT_EQ(route.trajectory.front(), from);
-  EXPECT_EQ(route.trajectory.back(), to);
+  EXPECT_EQ(route.trajectory, in_whole_steps(route.trajectory));
+  EXPECT_EQ(route.trajectory.front(), in_whole_steps({from}).front());
+  EXPECT_EQ(route.trajectory.back(), in_whole_steps({to}).front());
 }
 
 }  // namespace
