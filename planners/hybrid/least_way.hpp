@@ -7,8 +7,8 @@
 namespace cairn {
 
 // No way for the disc between the two points is shorter, nor is the least length that DiscRoutes knows of. +inf when
-// there is no way; 0 when the budget ends first. Less than the shortest way by what blocks of cells, each less than the
-// disc's radius across, cut off at its turns.
+// there is no way; 0 when the budget ends first. The look is at blocks of cells, about as large as the disc's radius:
+// it cuts turns shorter, and goes through gaps that only just are too narrow.
 //
 // Takes O(cells) bit operations and a mesh of the blocks: no distance field, no mesh of the cells.
 [[nodiscard]] double least_way_m(const OccupancyGrid& grid, const GroundRules& rules, double radius_m,
