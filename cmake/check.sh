@@ -10,7 +10,8 @@ git ls-files '*.hpp' '*.cpp' | xargs clang-format --dry-run -Werror
 
 echo "== clang-tidy"
 git ls-files 'maps/*.cpp' 'framework/*.cpp' 'plugins/*.cpp' 'planners/*.cpp' |
-  xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet --warnings-as-errors='*' 2>/dev/null
+  xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet --warnings-as-errors='*' 2>build/clang-tidy.log ||
+  { tail -n 20 build/clang-tidy.log; exit 1; }
 
 echo "== address and undefined behaviour sanitizers"
 cmake --preset asan >/dev/null
