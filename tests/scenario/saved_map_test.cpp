@@ -274,7 +274,7 @@ TEST(SavedMap, AutosavesHaveANameOfTheirOwn) {
   for (const std::string name : {"office.cairn", "report.json", "../x.cairn"}) {
     const Finished run = run_mission(small_mission(folder, "{file: " + name + "}", "[wait: 1]"), folder / "out");
     EXPECT_EQ(run.exit_status, 2) << name;
-    EXPECT_THAT(run.err, HasSubstr("mission.yaml:9:")) << name;
+    EXPECT_THAT(run.err, HasSubstr("mission.yaml:10:18: autosave.file: ")) << name;
   }
   const fs::path saves = small_mission(folder, "{file: a.cairn}", "[save: a.cairn]");
   const Finished run = run_mission(saves, folder / "out");
