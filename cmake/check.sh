@@ -14,9 +14,7 @@ git ls-files 'maps/*.cpp' 'framework/*.cpp' 'plugins/*.cpp' 'planners/*.cpp' |
   { tail -n 20 build/clang-tidy.log; exit 1; }
 
 echo "== address and undefined behaviour sanitizers"
-cmake --preset asan >/dev/null
-cmake --build --preset asan --target all cairn_tests
-ASAN_OPTIONS=detect_leaks=1 ctest --test-dir build/asan --output-on-failure -j "$jobs"
+cmake/sanitized_tests.sh
 
 echo "== fuzzers of all readers, ${FUZZ_S:-60} s each"
 cmake/fuzz.sh
