@@ -26,7 +26,7 @@ struct StoreLoss {
 struct SalvagedMap {
   SavedMap map;
   int version = 0;                // schema version of the file
-  std::vector<StoreLoss> losses;  // none: the file is sound
+  std::vector<StoreLoss> losses;  // none: nothing is lost, though the file may not load as it is
 };
 
 // Reads past damaged rows, damaged pages and the end of a truncated file. Routes whose landmarks are lost are left

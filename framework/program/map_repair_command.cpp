@@ -78,6 +78,7 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
   if (std::filesystem::equivalent(command.map, command.repaired, error))
     throw StoreError(command.repaired.string() + ": is the damaged map itself, which is never written to");
   const SalvagedMap salvaged = salvage_map(command.map);
+  const bool is_sound = fault_of(command.map).empty();  // damage may have hit what holds nothing
   save_map(command.repaired, salvaged.map);
   std::ostream& people = common.json ? std::cerr : std::cout;
   for (const StoreLoss& loss : salvaged.losses) people << "  " << text_of(loss) << "\n";
@@ -88,7 +89,7 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
   if (common.json)
     std::cout << ordered_json{{"file", command.map.string()},
                               {"map", command.repaired.string()},
-                              {"outcome", salvaged.losses.empty() ? "sound" : "repaired"},
+                              {"outcome", is_sound ? "sound" : "repaired"},
                               {"lost", json_of(salvaged.losses)},
                               {"kept", json_of_kept(salvaged.map)}}
                      .dump(-1, ' ', false, kBadText)
