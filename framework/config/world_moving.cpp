@@ -7,7 +7,7 @@ namespace cairn::world_config {
 namespace {
 
 TimeSpan time_span_of(const ConfigValue& value) {
-  const std::vector<double> ends = config_detail::to_numbers(value, "each item of closed_s", {0.0, 1e9});
+  const std::vector<double> ends = config_detail::to_numbers(value, "closed_s", {0.0, 1e9});
   if (ends.size() != 2)
     throw ConfigError(value.place, "each item of closed_s must be two times [begin, end], found a list of " +
                                        std::to_string(ends.size()));

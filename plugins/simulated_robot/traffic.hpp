@@ -24,6 +24,8 @@ class Traffic {
  public:
   // As it is at time 0.
   Traffic(const World& world, const RobotModel& robot, const Pose2& T_map_start);
+  Traffic(const Traffic&) = delete;  // its parts refer to each other
+  Traffic& operator=(const Traffic&) = delete;
 
   // Until time_s, which is period_s later than before, while the robot stands. Nothing comes to overlap it.
   void advance(double time_s, double period_s, const Pose2& T_map_robot);

@@ -80,15 +80,15 @@ TEST(WorldMoving, SaysWhatIsWrongWithADoor) {
             "w.yaml:2:32: to_m [9, 1] lies outside bounds_m [0, 0] to [6, 5]");
   EXPECT_EQ(error_in("doors: [{from_m: [1, 1], to_m: [2, 1]}]"), "w.yaml:2:9: a door needs one of closed_s, closes");
   EXPECT_EQ(error_in_door("closed_s: [[5, 9], [8, 10]]"),
-            "w.yaml:3:56: a door's times closed must follow each other: [8, 10] begins before [5, 9] ends");
+            "w.yaml:3:55: a door's times closed must follow each other: [8, 10] begins before [5, 9] ends");
   EXPECT_EQ(error_in_door("closed_s: [[9, 5]]"),
-            "w.yaml:3:48: a door's time closed must end after it begins, found [9, 5]");
+            "w.yaml:3:47: a door's time closed must end after it begins, found [9, 5]");
   EXPECT_EQ(error_in_door("closed_s: [[9]]"),
-            "w.yaml:3:48: each item of closed_s must be two times [begin, end], found a list of 1");
-  EXPECT_THAT(error_in_door("closed_s: [[-1, 5]]"), HasSubstr("w.yaml:3:49: each item of closed_s must be"));
-  EXPECT_THAT(error_in_door("closed_s: 5"), HasSubstr("w.yaml:3:47: closed_s must be a list"));
+            "w.yaml:3:47: each item of closed_s must be two times [begin, end], found a list of 1");
+  EXPECT_THAT(error_in_door("closed_s: [[-1, 5]]"), HasSubstr("w.yaml:3:48: each item of closed_s must be a number"));
+  EXPECT_THAT(error_in_door("closed_s: 5"), HasSubstr("w.yaml:3:46: closed_s must be a list"));
   EXPECT_EQ(error_in_door("closes: {every_s: 5, for_s: 5}"),
-            "w.yaml:3:45: a door that closes every 5 s must be closed for less than that, found 5 s");
+            "w.yaml:3:44: a door that closes every 5 s must be closed for less than that, found 5 s");
   EXPECT_THAT(error_in_door("closd_s: []"), HasSubstr("(did you mean \"closed_s\"?)"));
 }
 
@@ -100,7 +100,7 @@ TEST(WorldMoving, SaysWhatIsWrongWithAMover) {
   EXPECT_THAT(error_in_mover("path_m: [[1, 1], [2, 1], [1, 1]], course: round"),
               HasSubstr("w.yaml:3:55: a round goes back"));
   EXPECT_EQ(error_in_mover("path_m: [[1, 1], [2, 1]], speed_mps: 0"),
-            "w.yaml:3:66: speed_mps must be a number from 0.01 to 10 m/s, found \"0\"");
+            "w.yaml:3:67: speed_mps must be a number from 0.01 to 10 m/s, found \"0\"");
   EXPECT_THAT(error_in_mover("path_m: [[1, 1], [2, 1]], speed_mps: -1"), HasSubstr("found \"-1\""));
   EXPECT_THAT(error_in_mover("path_m: [[1, 1], [2, 1]], course: raund"), HasSubstr("(did you mean \"round\"?)"));
   EXPECT_THAT(error_in_mover("path_m: [[1, 1], [2, 1]], waits: false, keeps_m: 1"),
