@@ -25,7 +25,7 @@ run_one() {
     -print_final_stats=1 -artifact_prefix="$broken/" "$found" "tests/fuzz/corpus/$name" </dev/null >"$log" 2>&1; } \
     2>"$log.cpu" || result=broken
   inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
-  echo "$(date -u +%FT%TZ) $name ${inputs:-0} $(awk '{ print $1 + $2 }' "$log.cpu") $result" >>build/fuzz/turns.log
+  echo "$(date -u +%FT%TZ) $name ${inputs:-0} $(tail -n 1 "$log.cpu" | awk '{ print $1 + $2 }') $result" >>build/fuzz/turns.log
   if [ $result = ok ]; then
     echo "$name: $inputs inputs, nothing broken"
   else

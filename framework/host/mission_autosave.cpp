@@ -45,8 +45,13 @@ void Autosaver::save(SavedMap copy, Clock::time_point taken) {
   const std::scoped_lock lock(mutex_);
   copy_ = std::move(copy);
   taken_ = taken;
-  if (!thread_.joinable()) thread_ = std::thread([this] { write_copies(); });
-  changed_.notify_all();
+  try {
+    if (!thread_.joinable()) thread_ = std::thread([this] { write_copies(); });
+    changed_.notify_all();
+  } catch (const std::system_error& error) {
+    copy_.reset();
+    note({.reason = std::string("no thread can be started: ") + error.what()});
+  }
   figures_.in_loop_s += seconds_since(taken);
 }
 
@@ -90,6 +95,11 @@ void Autosaver::write(SavedMap& copy) {
   news.took_ms = 1e3 * took_s;
   longest_write_ = std::max(longest_write_, std::chrono::duration<double>(took_s));
   figures_.writing_s += seconds_since(begin);
+  note(std::move(news));
+}
+
+// With the mutex held.
+void Autosaver::note(News news) {
   ++(news.saved ? figures_.saved : figures_.failed);
   if (news.saved) figures_.last_time_s = news.time_s;
   if (figures_.failure.empty()) figures_.failure = news.reason;

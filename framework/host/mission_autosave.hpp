@@ -66,6 +66,7 @@ class Autosaver {
  private:
   void write_copies();
   void write(SavedMap& copy);
+  void note(News news);
 
   const std::filesystem::path file_;
   const std::chrono::duration<double> every_;

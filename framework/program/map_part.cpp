@@ -43,7 +43,15 @@ bool costs_are_lengths(const LandmarkGraph& graph) {
   };
   return std::all_of(graph.routes().begin(), graph.routes().end(), [&](const auto& entry) {
     const Route& route = entry.second;
-    return route.cost_m >= kRounding * (stand(route.to) - stand(route.from)).norm();
+    const Point& from = stand(route.from);
+    const Point& to = stand(route.to);
+    const auto by_way_of = [&](const Pose2& pose) {
+      return (pose.position() - from).norm() + (to - pose.position()).norm();
+    };
+    return route.cost_m >= kRounding * (to - from).norm() &&
+           std::all_of(route.trajectory.begin(), route.trajectory.end(), [&](const Pose2& pose) {
+             return route.cost_m >= kRounding * by_way_of(pose) - kMostRounding_m;
+           });
   });
 }
 

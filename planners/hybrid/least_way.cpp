@@ -6,10 +6,9 @@
 
 #include "planners/any_angle/mesh_search.hpp"
 
-// Why it is a bound. While the centre of the disc is somewhere in a cell, that cell's centre is no nearer to the centre
-// of a blocked cell than the radius: both squares reach as far from their centres, so the nearest points of two squares
-// are no further apart than their centres. So the way stays on cells that are as far as the radius from all blocked
-// ones. It stays on the blocks that hold such a cell all the more, and where it goes from cell to cell over a side, it
+// Why it is a bound. Let the disc's centre p be somewhere in a cell with centre c, and b the centre of a blocked cell.
+// p + (b - c) lies in the blocked square, so that square is no further from p than |b - c|, and the radius is no more
+// than that. So the way stays on cells whose centres are as far as the radius from those of all blocked cells. It stays on the blocks that hold such a cell all the more, and where it goes from cell to cell over a side, it
 // goes over a side from block to block or stays in one. The shortest path of a point over these blocks is no longer.
 
 namespace cairn {

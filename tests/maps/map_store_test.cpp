@@ -252,6 +252,20 @@ TEST_F(MapStore, AFullDiskLeavesTheOldMapAndNothingElse) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
+TEST_F(MapStore, SavingOverAFileKeepsWhoMayReadIt) {
+  save_map(file(), small_map());
+  fs::permissions(file(), fs::perms::owner_read | fs::perms::owner_write);
+  save_map(file(), small_map());
+  EXPECT_EQ(fs::status(file()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(MapStore, IsNotSavedOverAnotherProgramsDatabase) {
+  run_sql(file(), "CREATE TABLE other (x); INSERT INTO other VALUES (1)");
+  const std::string before = bytes_of(file());
+  EXPECT_THROW(save_map(file(), small_map()), StoreError);
+  EXPECT_EQ(bytes_of(file()), before);
+}
+
 TEST_F(MapStore, SaversOfOneFileTakeTurns) {
   std::vector<pid_t> savers;
   for (int i = 0; i < 4; ++i)

@@ -1,6 +1,8 @@
 // What becomes of the map when a mission is killed, or cannot write.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -239,6 +241,45 @@ TEST(SavedMap, AMissionInAReadOnlyFolderGoesOnAndSaysThatItsMapIsNotSaved) {
   if (run.exit_status == 126 || run.exit_status == 127) GTEST_SKIP() << "nobody may not run the program";
   expect_a_clear_end(run, "Permission denied");
   EXPECT_TRUE(fs::is_empty(out));
+}
+
+TEST(SavedMap, AFinishedMapIsKeptWhenALaterRunDoesNotEnd) {
+  const fs::path folder = fresh_folder("finished");
+  const fs::path mission = small_mission(folder, "{}", "[wait: 6]");
+  ASSERT_EQ(run_mission(mission, folder / "out").exit_status, 0);
+  const std::string finished = text_of_file(folder / "out/office.cairn");
+  const Finished cut = run_mission(mission, folder / "out", {"--set", "at_most_s=2"});
+  EXPECT_EQ(cut.exit_status, 1);
+  EXPECT_THAT(cut.err, HasSubstr("the map of an earlier one that did is kept as office.1.cairn"));
+  EXPECT_EQ(text_of_file(folder / "out/office.1.cairn"), finished);
+  ASSERT_EQ(run_mission(mission, folder / "out").exit_status, 0);
+  EXPECT_FALSE(fs::exists(folder / "out/office.2.cairn"));
+}
+
+TEST(SavedMap, TwoRunsDoNotWriteIntoOneFolder) {
+  const fs::path folder = fresh_folder("held");
+  const fs::path mission = small_mission(folder, "{}", "[wait: 6]");
+  fs::create_directories(folder / "out");
+  const int held = ::open((folder / "out").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(held, LOCK_EX), 0);
+  const Finished second = run_mission(mission, folder / "out");
+  EXPECT_EQ(second.exit_status, 2);
+  EXPECT_THAT(second.err, HasSubstr("another run is writing into this folder"));
+  ::close(held);
+  EXPECT_EQ(run_mission(mission, folder / "out").exit_status, 0);
+}
+
+TEST(SavedMap, AutosavesHaveANameOfTheirOwn) {
+  const fs::path folder = fresh_folder("names");
+  for (const std::string name : {"office.cairn", "report.json", "../x.cairn"}) {
+    const Finished run = run_mission(small_mission(folder, "{file: " + name + "}", "[wait: 1]"), folder / "out");
+    EXPECT_EQ(run.exit_status, 2) << name;
+    EXPECT_THAT(run.err, HasSubstr("mission.yaml:10:18: autosave.file: ")) << name;
+  }
+  const fs::path saves = small_mission(folder, "{file: a.cairn}", "[save: a.cairn]");
+  const Finished run = run_mission(saves, folder / "out");
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_THAT(run.err + run.out, HasSubstr("a.cairn is the name of the mission's autosaves"));
 }
 
 TEST(SavedMap, IsCheckedAndRepairedByTheProgram) {
