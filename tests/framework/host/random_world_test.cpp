@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <regex>
@@ -16,7 +17,8 @@ std::vector<LandmarkShape> shapes() {
 }
 
 World loaded(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "random_world.yaml";
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("random_world_" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(file) << text;
   return load_world(file, shapes());
 }
