@@ -20,7 +20,9 @@ function(cairn_add_module name)
   else()
     target_link_libraries(${name} PRIVATE cairn::framework ${own_options} ${arg_LINK})
   endif()
-  target_link_options(${name} PRIVATE -Wl,--no-undefined)  # found when linking, not when loading
+  if(NOT CAIRN_SANITIZERS)  # whose functions are in the program
+    target_link_options(${name} PRIVATE -Wl,--no-undefined)  # found when linking, not when loading
+  endif()
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                                            LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/cairn
                                            BUILD_RPATH "$ORIGIN/.." INSTALL_RPATH "$ORIGIN/..")

@@ -10,12 +10,11 @@ git ls-files '*.hpp' '*.cpp' | xargs clang-format --dry-run -Werror
 
 echo "== clang-tidy"
 git ls-files 'maps/*.cpp' 'framework/*.cpp' 'plugins/*.cpp' 'planners/*.cpp' |
-  xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet --warnings-as-errors='*' 2>/dev/null
+  xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet --warnings-as-errors='*' 2>build/clang-tidy.log ||
+  { tail -n 20 build/clang-tidy.log; exit 1; }
 
 echo "== address and undefined behaviour sanitizers"
-cmake --preset asan >/dev/null
-cmake --build --preset asan --target all cairn_tests
-ASAN_OPTIONS=detect_leaks=1 ctest --test-dir build/asan --output-on-failure -j "$jobs"
+cmake/sanitized_tests.sh
 
 echo "== fuzzers of all readers, ${FUZZ_S:-60} s each"
 cmake/fuzz.sh

@@ -47,6 +47,12 @@ void insert_sorted(std::vector<RouteId>& ids, RouteId id) {
   ids.insert(std::upper_bound(ids.begin(), ids.end(), id), id);
 }
 
+// What is loaded comes by rising id, and then nothing has to be looked for.
+template <class Value>
+bool holds(const std::map<std::int64_t, Value>& values, std::int64_t id) {
+  return !values.empty() && id <= values.rbegin()->first && values.contains(id);
+}
+
 const std::vector<RouteId> kNoRoutes;
 
 }  // namespace
@@ -59,7 +65,7 @@ std::vector<Pose2> in_whole_steps(std::vector<Pose2> trajectory) {
 }
 
 void LandmarkGraph::check(const Landmark& landmark) const {
-  if (landmarks_.contains(landmark.id) || retired_.contains(landmark.id))
+  if (holds(landmarks_, landmark.id) || holds(retired_, landmark.id))
     throw std::invalid_argument(named("landmark", landmark.id) + " exists already");
   if (!is_finite(landmark.T_map_landmark) || (landmark.access && !is_finite(*landmark.access)))
     throw std::invalid_argument(named("landmark", landmark.id) + ": its place is not finite");
@@ -69,14 +75,16 @@ LandmarkId LandmarkGraph::add(Landmark landmark) {
   check(landmark);
   landmark.id = claim_id("landmark", landmark.id, next_landmark_);
   const LandmarkId id = landmark.id;
-  landmarks_.emplace(id, std::move(landmark));
+  landmarks_.emplace_hint(landmarks_.end(), id, std::move(landmark));
   return id;
 }
 
 RouteId LandmarkGraph::add_route(Route route) {
-  if (routes_.contains(route.id)) throw std::invalid_argument(named("route", route.id) + " exists already");
-  for (const LandmarkId end : {route.from, route.to})
-    if (!landmarks_.contains(end))
+  if (holds(routes_, route.id)) throw std::invalid_argument(named("route", route.id) + " exists already");
+  const auto out = touching_.find(route.from);
+  const auto in = touching_.find(route.to);
+  for (const auto& [end, touching] : {std::pair(route.from, out), std::pair(route.to, in)})
+    if (touching == touching_.end() && !landmarks_.contains(end))
       throw std::invalid_argument(named("route", route.id) + ": there is no " + named("landmark", end));
   check_cost(route.id, route.cost_m);
   if (route.speed_limit_mps && !(*route.speed_limit_mps > 0.0 && std::isfinite(*route.speed_limit_mps)))
@@ -85,9 +93,9 @@ RouteId LandmarkGraph::add_route(Route route) {
     if (!is_finite(pose)) throw std::invalid_argument(named("route", route.id) + ": its trajectory is not finite");
   route.id = claim_id("route", route.id, next_route_);
   const RouteId id = route.id;
-  insert_sorted(touching_[route.from].out, id);
-  insert_sorted(touching_[route.to].in, id);
-  routes_.emplace(id, std::move(route));
+  insert_sorted((out == touching_.end() ? touching_[route.from] : out->second).out, id);
+  insert_sorted((in == touching_.end() ? touching_[route.to] : in->second).in, id);
+  routes_.emplace_hint(routes_.end(), id, std::move(route));
   return id;
 }
 

@@ -16,17 +16,23 @@ void compare_cells(const OccupancyGrid& a, const OccupancyGrid& b, MapDifference
   // A grid without cells has no lattice worth keeping.
   const OccupancyGrid& lattice = a.bounds().empty() ? b : a;
   if (!a.bounds().empty() && !b.bounds().empty()) check_same_cell_size(a, b);
-  const CellBox box = united(lattice.bounds(), box_over(lattice, b, {}));
   const OccupancyThresholds thresholds;
-  for (int y = box.min.y; y < box.max.y; ++y)
-    for (int x = box.min.x; x < box.max.x; ++x) {
-      const LogOdds in_a = a.bounds().empty() ? LogOdds{0} : a.log_odds({x, y});
-      const LogOdds in_b = b.log_odds(cell_under(lattice, {x, y}, b, {}));
-      const CellState state_a = thresholds.state(in_a);
-      const CellState state_b = thresholds.state(in_b);
-      ++difference.cells[static_cast<std::size_t>(state_a)][static_cast<std::size_t>(state_b)];
-      difference.other_probability += state_a == state_b && in_a != in_b;
-    }
+  const auto compare = [&](Cell cell) {
+    const LogOdds in_a = a.bounds().empty() ? LogOdds{0} : a.log_odds(cell);
+    const LogOdds in_b = b.log_odds(cell_under(lattice, cell, b, {}));
+    const CellState state_a = thresholds.state(in_a);
+    const CellState state_b = thresholds.state(in_b);
+    ++difference.cells[static_cast<std::size_t>(state_a)][static_cast<std::size_t>(state_b)];
+    difference.other_probability += state_a == state_b && in_a != in_b;
+  };
+  // One grid after the other: between two that are far apart lie any number of cells that neither has.
+  const auto compare_all_in = [&](const CellBox& box, const CellBox& but) {
+    for (int y = box.min.y; y < box.max.y; ++y)
+      for (int x = box.min.x; x < box.max.x; ++x)
+        if (!but.contains({x, y})) compare({x, y});
+  };
+  compare_all_in(a.bounds(), {});
+  compare_all_in(box_over(lattice, b, {}), a.bounds());
 }
 
 class LandmarkComparison {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -25,6 +26,10 @@ Landmark laid_over(Landmark landmark, const Pose2& T_a_b) {
   return landmark;
 }
 
+int counted_together(int a, int b) {
+  return a > std::numeric_limits<int>::max() - b ? std::numeric_limits<int>::max() : a + b;
+}
+
 void add_evidence(std::vector<CategoryEvidence>& all, const CategoryEvidence& more) {
   const auto found = std::ranges::find(all, more.category, &CategoryEvidence::category);
   if (found == all.end()) {
@@ -32,10 +37,10 @@ void add_evidence(std::vector<CategoryEvidence>& all, const CategoryEvidence& mo
     std::ranges::sort(all, {}, &CategoryEvidence::category);
     return;
   }
-  const int matchings = found->matchings + more.matchings;
+  const int matchings = counted_together(found->matchings, more.matchings);
   if (matchings > 0)
-    found->mean_degree =
-        (found->matchings * found->mean_degree + more.matchings * more.mean_degree) / static_cast<double>(matchings);
+    found->mean_degree = (found->matchings * found->mean_degree + more.matchings * more.mean_degree) /
+                         (static_cast<double>(found->matchings) + more.matchings);
   found->matchings = matchings;
   found->best_degree = std::max(found->best_degree, more.best_degree);
 }
@@ -60,7 +65,8 @@ class Merger {
   LandmarkGraph& graph() { return merged_.map.graph; }
 
   void take_landmarks() {
-    for (const auto& [id, landmark] : a_.graph.landmarks()) names_.insert(landmark.name);
+    for (const auto& [id, landmark] : a_.graph.landmarks()) names_of_a_.insert(landmark.name);
+    names_ = names_of_a_;
     for (const auto& [id, landmark] : b_.graph.landmarks()) names_.insert(landmark.name);
     for (const LandmarkPair& pair : near_pairs(a_.graph, b_.graph, options_.T_a_b, options_.near_m))
       of_b_[pair.b] = pair.a;
@@ -83,7 +89,8 @@ class Merger {
       mine.templates = more.templates;
     }
     for (const CategoryEvidence& evidence : more.evidence) add_evidence(mine.evidence, evidence);
-    mine.sightings += more.sightings;
+    if (!mine.access) mine.access = more.access;
+    mine.sightings = counted_together(mine.sightings, more.sightings);
     if (mine.name.empty())
       mine.name = free_name(more.name);
     else
@@ -96,10 +103,7 @@ class Merger {
 
   // The name of a landmark of b, or with a suffix when a landmark of a has it.
   std::string free_name(const std::string& name) {
-    const bool is_taken = !name.empty() && std::ranges::any_of(a_.graph.landmarks(), [&](const auto& entry) {
-      return entry.second.name == name;
-    });
-    if (!is_taken) return name;
+    if (name.empty() || !names_of_a_.contains(name)) return name;
     for (int number = 2;; ++number)
       if (std::string other = name + "_" + std::to_string(number); names_.insert(other).second) {
         ++renamed_;
@@ -191,7 +195,8 @@ class Merger {
   const MergeOptions& options_;
   MergedMap merged_;
   std::map<LandmarkId, LandmarkId> of_b_;  // b's landmarks as they are called in the merged map
-  std::set<std::string> names_;
+  std::set<std::string> names_of_a_;
+  std::set<std::string> names_;  // of both, and those given here
   std::size_t renamed_ = 0;
   std::size_t names_lost_ = 0;
   std::size_t annotations_lost_ = 0;

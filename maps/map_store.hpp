@@ -54,14 +54,15 @@ struct SavedMap {
 };
 
 // Throws StoreError with the file and the reason when it cannot be written, or is there already and is
-// no SQLite file; std::invalid_argument when the map would not load again (a value that is not finite).
+// no saved map; std::invalid_argument when the map would not load again (a value that is not finite).
 // In both cases what the file held stays.
 void save_map(const std::filesystem::path& file, const SavedMap& map);
 // Throws StoreError with the file, the table and what is wrong.
 [[nodiscard]] SavedMap load_map(const std::filesystem::path& file);
 
 // A saved map of which only a part of the grid is read, for who needs no more of a large one. What is read is checked
-// as load_map does; what is not read may be damaged. Keeps to the content that the file had when it was opened.
+// row by row as load_map does; the rest may be damaged. Keeps to the content that the file had when opened. Not
+// thread-safe.
 class MapFile {
  public:
   // Throws StoreError, like all below.

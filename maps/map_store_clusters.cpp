@@ -1,17 +1,13 @@
 #include <algorithm>
 #include <set>
 
+#include "maps/map_store_reading.hpp"
 #include "maps/map_store_tables.hpp"
 
 namespace cairn::store {
 namespace {
 
 constexpr std::int64_t kMaxClusterLevel = 64;
-constexpr std::int64_t kMaxId = (std::int64_t{1} << 53) - 1;
-
-std::string numbered(const char* kind, std::int64_t id) {
-  return std::string(kind) + " " + std::to_string(id);
-}
 
 // A parent is one level higher, so no cluster is its own ancestor.
 void check_parent(const Cluster& cluster, const ClusterTree& tree, int highest) {

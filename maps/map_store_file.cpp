@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "maps/map_store.hpp"
 #include "maps/map_store_schema.hpp"
@@ -33,6 +34,7 @@ class Descriptor {
     if (fd_ >= 0) ::close(fd_);
   }
   [[nodiscard]] int get() const { return fd_; }
+  [[nodiscard]] int release() { return std::exchange(fd_, -1); }
 
  private:
   int fd_;
@@ -51,10 +53,10 @@ int open_locked(const std::filesystem::path& name) {
   for (;;) {
     const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd < 0) fail("cannot be written", errno);
-    while (::flock(fd, LOCK_EX) != 0 && errno == EINTR) {
-    }
-    if (is_still_named(fd, name)) return fd;
-    ::close(fd);
+    Descriptor opened(fd);
+    while (::flock(fd, LOCK_EX) != 0)
+      if (errno != EINTR) fail("cannot be locked against other savers", errno);
+    if (is_still_named(fd, name)) return opened.release();
   }
 }
 
@@ -75,13 +77,28 @@ std::uint32_t big_endian_at(const std::string& bytes, std::size_t offset) {
   return value;
 }
 
-std::string header_of(const std::filesystem::path& file) {
+struct Beginning {
+  std::string header;
+  std::uintmax_t file_bytes = 0;  // of the same file, also when another takes its name meanwhile
+};
+
+Beginning beginning_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail("cannot be read", errno);
-  std::string header(kHeaderBytes, '\0');
-  stream.read(header.data(), static_cast<std::streamsize>(kHeaderBytes));
-  header.resize(static_cast<std::size_t>(stream.gcount()));
-  return header;
+  Beginning found{std::string(kHeaderBytes, '\0')};
+  stream.read(found.header.data(), static_cast<std::streamsize>(kHeaderBytes));
+  found.header.resize(static_cast<std::size_t>(stream.gcount()));
+  stream.clear();
+  stream.seekg(0, std::ios::end);
+  found.file_bytes = static_cast<std::uintmax_t>(std::max<std::streamoff>(stream.tellg(), 0));
+  return found;
+}
+
+// A new file is nobody else's than the one that it replaces.
+void take_over_mode(int fd, const std::filesystem::path& replaced) {
+  struct stat found {};
+  if (::stat(replaced.c_str(), &found) == 0 && ::fchmod(fd, found.st_mode & 0777) != 0)
+    fail("cannot be written", errno);
 }
 
 // Offsets as SQLite's file format lays them down.
@@ -107,12 +124,18 @@ void check_version(std::int64_t version) {
 
 }  // namespace
 
+bool names_its_program(const std::string& bytes) {
+  return bytes.size() >= kHeaderBytes && std::string_view(bytes).starts_with(kSqliteMagic) &&
+         big_endian_at(bytes, 68) == kMapApplicationId;
+}
+
 void replace_file(const std::filesystem::path& file, std::string_view bytes) {
   const std::filesystem::path target = std::filesystem::is_symlink(file) ? std::filesystem::canonical(file) : file;
   const std::filesystem::path beside = target.parent_path() / ("." + target.filename().string() + ".saving");
   const Descriptor written(open_locked(beside));
   try {
     write_all(written.get(), bytes);
+    take_over_mode(written.get(), target);
     if (::rename(beside.c_str(), target.c_str()) != 0) fail("cannot be replaced", errno);
   } catch (const StoreError&) {
     ::unlink(beside.c_str());
@@ -124,17 +147,21 @@ void replace_file(const std::filesystem::path& file, std::string_view bytes) {
   if (opened.get() >= 0) ::fsync(opened.get());
 }
 
-int check_kind(const std::filesystem::path& file) {
+namespace {
+
+void check_is_file(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw StoreError("no such file");
   if (!std::filesystem::is_regular_file(status)) throw StoreError("is not a file");
-  const std::string header = header_of(file);
+}
+
+int check_kind_of(const std::string& header) {
   if (header.empty()) throw StoreError("is empty");
   if (!std::string_view(header).starts_with(kSqliteMagic)) throw StoreError("is not a saved map (no SQLite 3 file)");
   if (header.size() < kHeaderBytes)
     throw StoreError("is truncated: only " + std::to_string(header.size()) + " bytes are there");
-  if (big_endian_at(header, 68) != kMapApplicationId)
+  if (!names_its_program(header))
     throw StoreError("is not a saved map (an SQLite file of another program: application_id " +
                      std::to_string(big_endian_at(header, 68)) + ", a map has " + std::to_string(kMapApplicationId) +
                      ")");
@@ -143,9 +170,18 @@ int check_kind(const std::filesystem::path& file) {
   return version;
 }
 
+}  // namespace
+
+int check_kind(const std::filesystem::path& file) {
+  check_is_file(file);
+  return check_kind_of(beginning_of(file).header);
+}
+
 void check_header(const std::filesystem::path& file) {
-  static_cast<void>(check_kind(file));
-  check_size(header_of(file), std::filesystem::file_size(file));
+  check_is_file(file);
+  const Beginning found = beginning_of(file);
+  static_cast<void>(check_kind_of(found.header));
+  check_size(found.header, found.file_bytes);
 }
 
 std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions) {
@@ -168,8 +204,8 @@ std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions
 bool may_be_replaced(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return true;
   if (!std::filesystem::is_regular_file(file)) return false;
-  const std::string header = header_of(file);
-  return header.empty() || std::string_view(header).starts_with(kSqliteMagic);
+  const std::string header = beginning_of(file).header;
+  return header.empty() || names_its_program(header);
 }
 
 }  // namespace cairn::store

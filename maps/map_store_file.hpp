@@ -25,12 +25,14 @@ void check_header(const std::filesystem::path& file);
 
 // The same for what may be damaged behind its first 100 bytes; its schema version.
 [[nodiscard]] int check_kind(const std::filesystem::path& file);
+// Whether it names the program that wrote it, as every map does.
+[[nodiscard]] bool names_its_program(const std::string& bytes);
 // A file's bytes as SQLite takes them when some are missing at the end. The pages that define the tables are the same
 // in every map of a version: with definitions, not null, they take the place of those that are there.
 [[nodiscard]] std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions);
 
-// Whether the file is absent, empty or some SQLite file, so that saving a map over it destroys no
-// mission or picture that was named by mistake.
+// Whether the file is absent, empty or begins as a saved map of any version, so that saving a map over it destroys
+// nothing else that was named by mistake.
 [[nodiscard]] bool may_be_replaced(const std::filesystem::path& file);
 
 }  // namespace cairn::store

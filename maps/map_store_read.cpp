@@ -132,7 +132,7 @@ void read_next_ids(Reading& reading, SavedMap& map) {
   Statement row(reading.database, "SELECT kind, id FROM next_ids ORDER BY kind");
   const auto next = [&row](const std::string& kind) {
     if (!row.step() || row.text(0) != kind) throw StoreError("has no row for " + kind);
-    return row.integer_within(1, 1, kMaxId);
+    return row.integer_within(1, 1, kMaxId + 1);
   };
   if (reading.version >= 4)
     if (const LandmarkId candidate = next("candidate"); map.progress)
@@ -196,8 +196,10 @@ SavedMap read_content(Reading& reading) {
 
 OccupancyGrid read_lattice(Reading& reading) {
   OccupancyGrid grid(1.0);
-  reading.in_table("grid", [&] { grid = read_grid(reading); });
-  reading.tile_m = {grid.origin_m(), kSide * grid.cell_m()};
+  reading.in_table("grid", [&] {
+    grid = read_grid(reading);
+    reading.tile_m = {grid.origin_m(), kSide * grid.cell_m()};
+  });
   return grid;
 }
 

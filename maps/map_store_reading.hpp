@@ -13,7 +13,7 @@ namespace cairn::store {
 
 inline constexpr std::int64_t kMaxLevel = 1'000'000;
 inline constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
-inline constexpr std::int64_t kMaxId = std::numeric_limits<std::int64_t>::max();
+inline constexpr std::int64_t kMaxId = (std::int64_t{1} << 53) - 1;  // what JSON and doubles hold exactly
 
 inline std::string numbered(const char* kind, std::int64_t id) {
   return std::string(kind) + " " + std::to_string(id);
@@ -64,11 +64,13 @@ class Reading {
   }
 
   // Which tile the row that is being read is about.
-  void at_tile(Cell tile) { lost_box_ = tile_m.box_of(tile); }
+  void at_tile(Cell tile) {
+    if (tile_m.side_m > 0.0) lost_box_ = tile_m.box_of(tile);
+  }
 
   Database& database;
   const int version;
-  TileMetres tile_m;
+  TileMetres tile_m;  // side 0: the grid's row is lost
 
  private:
   void object(const std::string& table, const std::string& what) const {

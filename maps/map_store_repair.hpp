@@ -23,10 +23,17 @@ struct StoreLoss {
   std::optional<MetreBox> box{};  // of the map frame, when it is a part of the grid
 };
 
+// Of a file that begins as a saved map. Throws StoreError.
+[[nodiscard]] int schema_version_of(const std::filesystem::path& file);
+
+// The property in which a repaired map says which of its tables hold a value that is possible, but not the one that was
+// saved.
+inline constexpr const char* kUnprovenTables = "unproven_tables";
+
 struct SalvagedMap {
   SavedMap map;
   int version = 0;                // schema version of the file
-  std::vector<StoreLoss> losses;  // none: the file is sound
+  std::vector<StoreLoss> losses;  // none: nothing is lost, though the file may not load as it is
 };
 
 // Reads past damaged rows, damaged pages and the end of a truncated file. Routes whose landmarks are lost are left

@@ -45,6 +45,9 @@ class Copying {
     compare_with_checksum();
   }
 
+  // Names of tables with a value that is possible, but not the one that was saved.
+  [[nodiscard]] const std::string& unproven() const { return unproven_; }
+
  private:
   [[nodiscard]] std::string select(const std::string& behind) const {
     return std::string("SELECT * FROM ") + table_->name + behind;
@@ -125,11 +128,19 @@ class Copying {
     std::int64_t most = 0;
     Statement copied(to_, "SELECT ifnull(max(" + key() + "), 0) FROM " + table_->name);
     if (copied.step()) most = copied.integer(0);
-    Statement rows(from_, "SELECT row_count FROM checksums WHERE table_name = ?");
-    rows.bind_text(table_->name);
     // The last ones may be lost, and then their numbers are not known: about as many as there were.
-    if (rows.step()) most = std::max(most, 2 * std::max<std::int64_t>(rows.integer(0), 0));
-    return std::min(most, kMostProbes);
+    return std::min(std::max(most, 2 * rows_saved()), kMostProbes);
+  }
+
+  // As its checksum tells; 0 when that is lost, too.
+  std::int64_t rows_saved() {
+    try {
+      Statement rows(from_, "SELECT row_count FROM checksums WHERE table_name = ?");
+      rows.bind_text(table_->name);
+      return rows.step() ? std::clamp<std::int64_t>(rows.integer(0), 0, kMostProbes) : 0;
+    } catch (const StoreError&) {
+      return 0;
+    }
   }
 
   void probe_tiles() {
@@ -164,8 +175,10 @@ class Copying {
       if (found.row_count != stored.integer(0))
         return lose(std::to_string(found.row_count) + " of its " + std::to_string(stored.integer(0)) +
                     " rows can be read");
-      if (found.crc != stored.integer(1) && !unreadable_)
-        lose("its content does not match its checksum: some value in it was damaged or edited");
+      if (found.crc != stored.integer(1) && !unreadable_) {
+        lose("its content does not match its checksum: some value in it was damaged or edited; kept, but not proven");
+        unproven_ += (unproven_.empty() ? "" : ", ") + std::string(table_->name);
+      }
     } catch (const StoreError& error) {
       lose(std::string("its checksum cannot be read: ") + error.what());
     }
@@ -177,6 +190,7 @@ class Copying {
   std::vector<StoreLoss>& losses_;
   const Table* table_ = nullptr;
   bool unreadable_ = false;
+  std::string unproven_;
 };
 
 // Where the definitions of the tables are damaged, SQLite cannot read anything: then those of any other map take
@@ -208,29 +222,66 @@ SalvagedMap salvaged_from(Database& damaged, int version) {
   Reading reading(sound, version, &wrong);
   salvaged.map = read_content(reading);
   salvaged.losses.insert(salvaged.losses.end(), wrong.begin(), wrong.end());
+  if (!copying.unproven().empty()) salvaged.map.properties[kUnprovenTables] = copying.unproven();
   // What fits the landmarks as it is was not touched.
   if (std::ranges::any_of(wrong, concerns_clusters) ||
       (missed_clusters && salvaged.map.clusters.cluster_of.empty() && !salvaged.map.graph.landmarks().empty())) {
     const ClusterId next_id = salvaged.map.clusters.next_id;
     salvaged.map.clusters = cluster_landmarks(salvaged.map.graph);
     salvaged.map.clusters.next_id = std::max(next_id, salvaged.map.clusters.next_id);
-    salvaged.losses.push_back({"clusters", "were made anew: their names and ids are lost"});
+    if (!salvaged.map.clusters.clusters.empty())
+      salvaged.losses.push_back({"clusters", "were made anew: their names and ids are lost"});
   }
   return salvaged;
+}
+
+bool holds_nothing(const SavedMap& map) {
+  return map.properties.empty() && map.grid.bounds().empty() && map.graph.landmarks().empty() &&
+         map.driven_path.empty();
+}
+
+// All headers of a version are alike but for the number of pages: the one of another map takes its place. Which version
+// it was, the content tells.
+std::optional<SalvagedMap> salvaged_past_header(const std::string& bytes) {
+  constexpr std::size_t kHeaderBytes = 100;
+  std::optional<SalvagedMap> best;
+  for (int version = kMapSchemaVersion; version >= 1 && bytes.size() > kHeaderBytes; --version) {
+    std::string mended = bytes;
+    mended.replace(0, kHeaderBytes, empty_map_file(version).bytes, 0, kHeaderBytes);
+    try {
+      Database damaged = opened(mended, version);
+      SalvagedMap salvaged = salvaged_from(damaged, version);
+      if (!holds_nothing(salvaged.map) && (!best || salvaged.losses.size() < best->losses.size()))
+        best = std::move(salvaged);
+    } catch (const StoreError&) {
+      // Not this version.
+    }
+  }
+  if (best) best->losses.insert(best->losses.begin(), {"header of the file", "was damaged, and is made anew"});
+  return best;
 }
 
 }  // namespace
 }  // namespace store
 
+int schema_version_of(const std::filesystem::path& file) {
+  try {
+    return store::check_kind(file);
+  } catch (const StoreError& error) {
+    throw StoreError(file.string() + ": " + error.what());
+  }
+}
+
 SalvagedMap salvage_map(const std::filesystem::path& file) {
   using namespace store;
   try {
+    const std::string bytes = std::filesystem::is_regular_file(file) ? bytes_of(file) : std::string();
+    if (!names_its_program(bytes))
+      if (auto salvaged = salvaged_past_header(bytes)) return *std::move(salvaged);
     const int version = check_kind(file);
-    Database damaged = opened(bytes_of(file), version);
+    Database damaged = opened(bytes, version);
     SalvagedMap salvaged = salvaged_from(damaged, version);
-    const SavedMap& map = salvaged.map;
-    if (!salvaged.losses.empty() && map.properties.empty() && map.grid.bounds().empty() &&
-        map.graph.landmarks().empty() && map.driven_path.empty())
+    if (!salvaged.losses.empty() && holds_nothing(salvaged.map))
       throw StoreError("nothing of it can be read: " + salvaged.losses.front().what);
     return salvaged;
   } catch (const StoreError& error) {

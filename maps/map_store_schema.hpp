@@ -32,7 +32,7 @@ struct Table {
 [[nodiscard]] Database empty_map(int version);
 // The tables are made before all content, so every map of a version has their definitions and roots in these pages.
 [[nodiscard]] EmptyMapFile empty_map_file(int version);
-// Every table of that version exists exactly as create_tables makes it; throws StoreError with the first that
+// Every table of that version exists exactly as empty_map makes it; throws StoreError with the first that
 // does not.
 void check_schema(Database& database, int version);
 

@@ -73,7 +73,7 @@ std::string Database::serialized() const {
   sqlite3_int64 size = 0;
   const std::unique_ptr<unsigned char, void (*)(void*)> bytes(sqlite3_serialize(handle_.get(), "main", &size, 0),
                                                               sqlite3_free);
-  if (bytes == nullptr) throw StoreError("SQLite is out of memory");
+  if (bytes == nullptr) throw StoreError("SQLite has no memory for it; a map's file can have 2 GB at most");
   return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
 }
 

@@ -62,7 +62,8 @@ void warn_of_rounding(double resolution_m, const ConfigValue& value, std::vector
 // As the path is written; a link that lies in the folder is nothing that the file could have made.
 void check_inside(const MapServerFile& file, const std::filesystem::path& yaml) {
   const std::filesystem::path folder = std::filesystem::absolute(yaml).parent_path().lexically_normal();
-  const std::filesystem::path within = std::filesystem::absolute(file.picture).lexically_relative(folder);
+  const std::filesystem::path within =
+      std::filesystem::absolute(file.picture).lexically_normal().lexically_relative(folder);
   if (!within.empty() && std::ranges::find(within, std::filesystem::path("..")) == within.end()) return;
   throw ConfigError(file.picture_place, "image: " + shown(file.picture.string()) +
                                             " is outside the folder of the map; --allow-outside reads it all the same");

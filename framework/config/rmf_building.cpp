@@ -71,8 +71,9 @@ class Drawing {  // one level, in its own units, y upwards
       const ConfigValue* distance = properties.find("distance");
       if (distance == nullptr) throw ConfigError(measurement.place, "a measurement lacks its \"distance\"");
       const double metres = config_detail::to_number(*distance, "distance", {1e-9, 1e6}, "m");
-      if (a == b) throw ConfigError(measurement.place, "a measurement between two vertices of one place");
-      sum += metres / (a - b).norm();
+      const double units = (a - b).norm();
+      if (units == 0.0) throw ConfigError(measurement.place, "a measurement between two vertices of one place");
+      sum += metres / units;
     }
     return measurements.empty() ? 0.0 : sum / static_cast<double>(measurements.size());
   }
@@ -132,7 +133,7 @@ class Drawing {  // one level, in its own units, y upwards
       if (!is_used[i] && vertices_[i].name.empty()) continue;
       place[i] = level.vertices.size();
       level.vertices.push_back(vertices_[i]);
-      level.vertices.back().at_m = transform(vertices_[i].at_m);
+      level.vertices.back().at_m = placed(i, transform);
     }
     for (Lane& lane : lanes) take_lane(lane, place, level);
     if (const std::size_t unused = vertices_.size() - place.size(); unused > 0)
@@ -146,6 +147,14 @@ class Drawing {  // one level, in its own units, y upwards
   }
 
  private:
+  // Two vertices that are almost one give measurements by which all others lie anywhere.
+  [[nodiscard]] Point placed(std::size_t i, const Transform& transform) const {
+    const Point at_m = transform(vertices_[i].at_m);
+    if (!(std::abs(at_m.x()) <= kMostCoordinate && std::abs(at_m.y()) <= kMostCoordinate))
+      throw ConfigError(list_in(level_, "vertices")[i].place,
+                        "by the level's measurements and fiducials the vertex is more than 1000 km away");
+    return at_m;
+  }
   static Point point(const ConfigValue& value, double y_sign) {
     return {number(value.items[0], "x"), y_sign * number(value.items[1], "y")};
   }

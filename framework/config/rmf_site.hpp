@@ -10,6 +10,8 @@
 
 namespace cairn::rmf {
 
+inline constexpr double kMostCoordinate = 1e6;  // pixels in the file, metres in the map
+
 struct Properties {
   std::vector<std::pair<std::string, ConfigValue>> entries;
 

@@ -34,11 +34,14 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
 }
 
 // A plain name: an autosave never leaves the output folder.
-void check_autosave(const ConfigValue& root, const std::string& file) {
-  if (file != "." && file != ".." && file.find_first_of("/\\") == std::string::npos) return;
-  throw ConfigError(
-      root.find("autosave")->find("file")->place,
-      "autosave.file: " + shown(file) + " is not a plain file name; maps are saved into the output folder");
+void check_autosave(const ConfigValue& root, const std::string& mission, const std::string& file) {
+  const auto refuse = [&](const std::string& why) {
+    throw ConfigError(root.find("autosave")->find("file")->place, "autosave.file: " + shown(file) + why);
+  };
+  if (file == "." || file == ".." || file.find_first_of("/\\") != std::string::npos)
+    refuse(" is not a plain file name; maps are saved into the output folder");
+  if (!file.empty() && !file.ends_with(".cairn")) refuse(" does not end in .cairn, as a saved map's name does");
+  if (file == mission + ".cairn") refuse(" is the name of the map that the mission saves at its end");
 }
 
 }  // namespace
@@ -96,7 +99,7 @@ ReadMission read_mission(const std::filesystem::path& file, const std::vector<st
   ReadMission read;
   Mission& mission = read.mission;
   mission.config = load_config<MissionConfig>(root, "mission");
-  check_autosave(root, mission.config.autosave.file);
+  check_autosave(root, mission.config.mission, mission.config.autosave.file);
   if (seed) mission.config.seed = *seed;
   const auto attempt = [&](auto work) {
     try {

@@ -1,5 +1,7 @@
 #include "framework/host/mission_autosave.hpp"
 
+#include <algorithm>
+
 #include "maps/hierarchy/hierarchy.hpp"
 
 namespace cairn {
@@ -26,10 +28,16 @@ Autosaver::~Autosaver() {
   finish();
 }
 
-bool Autosaver::is_due() const {
-  if (every_.count() <= 0.0 || (last_ && Clock::now() - *last_ < every_)) return false;
+bool Autosaver::is_due() {
+  if (every_.count() <= 0.0) return false;
+  const Clock::time_point now = Clock::now();
+  if (asked_) longest_tick_ = std::max<std::chrono::duration<double>>(longest_tick_, now - *asked_);
+  asked_ = now;
   const std::scoped_lock lock(mutex_);
-  return !writing_ && !copy_;
+  if (writing_ || copy_) return false;
+  // Twice, since the next copy may be larger and the disk slower.
+  const auto ahead = std::min(every_ / 2, longest_tick_ + 2 * longest_write_);
+  return !last_ || now - *last_ >= every_ - ahead;
 }
 
 void Autosaver::save(SavedMap copy, Clock::time_point taken) {
@@ -37,8 +45,13 @@ void Autosaver::save(SavedMap copy, Clock::time_point taken) {
   const std::scoped_lock lock(mutex_);
   copy_ = std::move(copy);
   taken_ = taken;
-  if (!thread_.joinable()) thread_ = std::thread([this] { write_copies(); });
-  changed_.notify_all();
+  try {
+    if (!thread_.joinable()) thread_ = std::thread([this] { write_copies(); });
+    changed_.notify_all();
+  } catch (const std::system_error& error) {
+    copy_.reset();
+    note({.reason = std::string("no thread can be started: ") + error.what()});
+  }
   figures_.in_loop_s += seconds_since(taken);
 }
 
@@ -78,8 +91,15 @@ void Autosaver::write(SavedMap& copy) {
     news.reason = error.what();
   }
   const std::scoped_lock lock(mutex_);
-  news.took_ms = 1e3 * seconds_since(taken_);
+  const double took_s = seconds_since(taken_);
+  news.took_ms = 1e3 * took_s;
+  longest_write_ = std::max(longest_write_, std::chrono::duration<double>(took_s));
   figures_.writing_s += seconds_since(begin);
+  note(std::move(news));
+}
+
+// With the mutex held.
+void Autosaver::note(News news) {
   ++(news.saved ? figures_.saved : figures_.failed);
   if (news.saved) figures_.last_time_s = news.time_s;
   if (figures_.failure.empty()) figures_.failure = news.reason;

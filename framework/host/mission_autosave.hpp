@@ -43,8 +43,10 @@ class Autosaver {
   Autosaver& operator=(const Autosaver&) = delete;
   ~Autosaver();  // waits as finish() does
 
-  // The interval has passed, and the last copy is written.
-  [[nodiscard]] bool is_due() const;
+  // To be asked after every tick. Due so early that the copy should be on the disk when the interval since the last one
+  // is over, as long as ticks and writing have taken so far; at the earliest after half of it, and when the last copy
+  // is written.
+  [[nodiscard]] bool is_due();
   // taken: when the copy was begun. Its clusters may be those of an earlier state: they are brought in line here.
   void save(SavedMap copy, Clock::time_point taken);
   // Waits until nothing is being written. Nothing may be saved afterwards.
@@ -64,10 +66,14 @@ class Autosaver {
  private:
   void write_copies();
   void write(SavedMap& copy);
+  void note(News news);
 
   const std::filesystem::path file_;
   const std::chrono::duration<double> every_;
-  std::optional<Clock::time_point> last_;  // when the last copy was taken; of the mission's thread only
+  // Of the mission's thread only.
+  std::optional<Clock::time_point> last_;   // when the last copy was taken
+  std::optional<Clock::time_point> asked_;  // when it was last asked whether one is due
+  std::chrono::duration<double> longest_tick_{0.0};
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -75,6 +81,7 @@ class Autosaver {
   Clock::time_point taken_;
   bool writing_ = false;
   bool ending_ = false;
+  std::chrono::duration<double> longest_write_{0.0};  // from taking a copy to the file on the disk
   std::optional<News> news_;
   AutosaveFigures figures_;
   std::thread thread_;

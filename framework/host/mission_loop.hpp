@@ -70,6 +70,7 @@ class MissionLoop : private Orders, private TreeHost {
   void tell_of_autosave();
   void finish();
   void write_last_map();
+  void keep_finished_map(const std::string& name);
   void stop();
   void halt_step();
   Status write_map(const std::string& file_name);

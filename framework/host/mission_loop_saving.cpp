@@ -13,6 +13,17 @@ void add_sentence(std::string& reason, const std::string& sentence) {
   reason += (reason.empty() ? "" : "; ") + sentence;
 }
 
+bool is_of_a_finished_mission(const std::filesystem::path& map) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(map, error)) return false;
+  try {
+    const auto progress = MapFile(map).without_cells().progress;
+    return progress && progress->step_name.empty();
+  } catch (const StoreError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void MissionLoop::go_on_from(const SavedMap& map) {
@@ -90,12 +101,21 @@ void MissionLoop::finish() {
   write_last_map();
 }
 
+// What an earlier run has finished is not given up for one that was cut short.
+void MissionLoop::keep_finished_map(const std::string& name) {
+  const bool is_earlier = result_.map_file != name && !(options_.resume != nullptr && result_.resumed_s);
+  if (result_.outcome == MissionOutcome::done || !is_earlier || !is_of_a_finished_mission(options_.out / name)) return;
+  if (const auto kept = keep_earlier_autosave(options_.out / name))
+    tell(Said{"this mission did not end: the map of an earlier one that did is kept as " + kept->filename().string()});
+}
+
 // The autosave has done its work when a whole map has taken its place.
 void MissionLoop::write_last_map() {
   autosaver_.finish();
   tell_of_autosave();
   result_.autosave = autosaver_.figures();
   const std::string name = mission_.config.mission + ".cairn";
+  keep_finished_map(name);
   const Status saved = write_map(name);
   if (saved.progress != Progress::success) {
     not_saved_ = saved.reason;
@@ -114,6 +134,9 @@ void MissionLoop::write_last_map() {
 // A step that could not save does not end the mission: where it drives matters too.
 Status MissionLoop::save(const std::string& file_name) {
   const StageClock::Visit visit(clock_, StageClock::kHost);
+  // Autosaves would write over it, and take it away at the end.
+  if (mission_.config.autosave.every_s > 0.0 && file_name == autosaver_.file().filename())
+    return {Progress::failure, file_name + " is the name of the mission's autosaves"};
   const Status saved = write_map(file_name);
   if (saved.progress != Progress::success) {
     save_failed_ = true;

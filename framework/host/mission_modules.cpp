@@ -33,16 +33,7 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
 }
 
 // What is no behaviour may be meant for a node.
-std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const PluginChoice& choice,
-                                           const ModuleContext& context) {
-  if (library.find_any(choice.name) != nullptr) try {
-      return build<Behaviour>(library, choice, context);
-    } catch (const ConfigError& error) {
-      // A module knows no place for a setting that is not there.
-      const std::string text = error.what();
-      if (text.starts_with(": ")) throw ConfigError(choice.config.place, text.substr(2));
-      throw;
-    }
+[[noreturn]] void fail_unknown(const ModuleLibrary& library, const PluginChoice& choice) {
   std::string known;
   std::vector<std::string> names;
   for (const ModuleEntry& entry : library.entries()) {
@@ -59,6 +50,19 @@ std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const P
                          "; known are: " + (known.empty() ? "none" : known) + "; and these nodes: " + nodes;
   for (const std::string& fault : library.faults()) sentence += "\n  not loaded: " + fault;
   throw ConfigError(choice.config.place, sentence);
+}
+
+std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const PluginChoice& choice,
+                                           const ModuleContext& context) {
+  if (library.find_any(choice.name) == nullptr) fail_unknown(library, choice);
+  try {
+    return build<Behaviour>(library, choice, context);
+  } catch (const ConfigError& error) {
+    // A module knows no place for a setting that is not there.
+    const std::string text = error.what();
+    if (text.starts_with(": ")) throw ConfigError(choice.config.place, text.substr(2));
+    throw;
+  }
 }
 
 Pose2 start_of(const MissionConfig& config) {

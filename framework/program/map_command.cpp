@@ -7,7 +7,7 @@
 #include "framework/program/commands.hpp"
 #include "framework/program/run_pictures.hpp"
 #include "maps/cluster_levels.hpp"
-#include "maps/map_store.hpp"
+#include "maps/map_store_repair.hpp"
 
 namespace cairn {
 namespace {
@@ -39,11 +39,11 @@ ordered_json json_of(const std::optional<MissionProgress>& progress) {
   return {{"time_s", progress->time_s}, {"step", progress->step + 1}, {"step_name", progress->step_name}};
 }
 
-ordered_json json_of(const SavedMap& map) {
+ordered_json json_of(const SavedMap& map, int schema) {
   const CellBox bounds = map.grid.bounds();
   const double cell_m = map.grid.cell_m();
   const Point corner = map.grid.origin_m() + cell_m * Point(bounds.min.x, bounds.min.y);
-  return {{"schema", kMapSchemaVersion},
+  return {{"schema", schema},
           {"cell_m", cell_m},
           {"size_cells", {bounds.width(), bounds.height()}},
           {"origin_m", {corner.x(), corner.y()}},
@@ -57,19 +57,21 @@ ordered_json json_of(const SavedMap& map) {
 std::string text_of_grid(const OccupancyGrid& grid) {
   const CellBox bounds = grid.bounds();
   if (bounds.empty()) return "no grid";
-  return fmt::format("{:.2f} x {:.2f} m in cells of {:g} m, {:.1f} % known", bounds.width() * grid.cell_m(),
-                     bounds.height() * grid.cell_m(), grid.cell_m(), 100.0 * known_ratio(grid));
+  return fmt::format("{:.2f} x {:.2f} m in cells of {:g} m, {:.1f} % known within its outermost walls",
+                     bounds.width() * grid.cell_m(), bounds.height() * grid.cell_m(), grid.cell_m(),
+                     100.0 * known_ratio(grid));
 }
 
 }  // namespace
 
 int map_info(const MapCommand& command, const CommonOptions& common) {
   const SavedMap map = load_map(command.map);
+  const int schema = schema_version_of(command.map);
   if (common.json) {
-    std::cout << json_of(map).dump() << "\n";
+    std::cout << json_of(map, schema).dump() << "\n";
     return kExitDone;
   }
-  std::cout << fmt::format("{}: schema {}, {}\n", command.map.string(), kMapSchemaVersion, text_of_grid(map.grid));
+  std::cout << fmt::format("{}: schema {}, {}\n", command.map.string(), schema, text_of_grid(map.grid));
   for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
   if (map.progress)
     std::cout << fmt::format("  saved {:.1f} s after the mission began, {}\n", map.progress->time_s,

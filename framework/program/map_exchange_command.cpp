@@ -55,7 +55,8 @@ int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
   map.properties["imported_from"] = command.from.filename().string();
   save_map(command.to, map);
   const CellBox box = map.grid.bounds();
-  tell_people(fmt::format("wrote {}: {} x {} cells of {:g} m, {:.1f} % of them known; no robot came with them: `cairn "
+  tell_people(fmt::format("wrote {}: {} x {} cells of {:g} m, {:.1f} % known within its outermost walls; no robot came "
+                          "with them: `cairn "
                           "plan` takes one of {:g} m radius unless it is told --radius-m",
                           command.to.string(), box.width(), box.height(), map.grid.cell_m(),
                           100.0 * known_ratio(map.grid), RobotModel{}.radius_m),

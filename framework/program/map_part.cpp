@@ -1,7 +1,9 @@
 #include "framework/program/map_part.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace cairn {
 namespace {
@@ -29,13 +31,28 @@ std::optional<MapEnds> ends_of(const PlanRequest& request, const LandmarkGraph& 
 
 bool costs_are_lengths(const LandmarkGraph& graph) {
   constexpr double kRounding = 1.0 - 1e-9;
-  const auto stand = [&](LandmarkId id) {
-    const Landmark& landmark = *graph.find(id);
-    return landmark.access.value_or(landmark.T_map_landmark).position();
+  // In one piece of memory: a large graph is looked through for a single answer.
+  std::vector<std::pair<LandmarkId, Point>> stands;
+  stands.reserve(graph.landmarks().size());
+  for (const auto& [id, landmark] : graph.landmarks())
+    stands.emplace_back(id, landmark.access.value_or(landmark.T_map_landmark).position());
+  const auto stand = [&](LandmarkId id) -> const Point& {
+    return std::lower_bound(stands.begin(), stands.end(), id,
+                            [](const auto& at, LandmarkId of) { return at.first < of; })
+        ->second;
   };
-  for (const auto& [id, route] : graph.routes())
-    if (route.cost_m < kRounding * (stand(route.to) - stand(route.from)).norm()) return false;
-  return true;
+  return std::all_of(graph.routes().begin(), graph.routes().end(), [&](const auto& entry) {
+    const Route& route = entry.second;
+    const Point& from = stand(route.from);
+    const Point& to = stand(route.to);
+    const auto by_way_of = [&](const Pose2& pose) {
+      return (pose.position() - from).norm() + (to - pose.position()).norm();
+    };
+    return route.cost_m >= kRounding * (to - from).norm() &&
+           std::all_of(route.trajectory.begin(), route.trajectory.end(), [&](const Pose2& pose) {
+             return route.cost_m >= kRounding * by_way_of(pose) - kMostRounding_m;
+           });
+  });
 }
 
 CellBox part_for(const MapEnds& ends, double length_m, double around_m, const OccupancyGrid& lattice,

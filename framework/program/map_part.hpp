@@ -18,7 +18,8 @@ struct MapEnds {
 // Where a request begins and ends; none when it leaves the choice of several places.
 [[nodiscard]] std::optional<MapEnds> ends_of(const PlanRequest& request, const LandmarkGraph& graph);
 
-// Whether no stored route of the graph counts less than the straight way along it, so that lengths bound its costs.
+// Whether no stored route of the graph counts less than the straight way between its ends, nor than by way of any place
+// on its trajectory, so that lengths bound its costs.
 [[nodiscard]] bool costs_are_lengths(const LandmarkGraph& graph);
 
 // The cells that ways of that length can pass, and `around_m` more on each side; within `whole`, the bounds of the

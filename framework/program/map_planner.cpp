@@ -98,15 +98,15 @@ PlanResult MapPlanner::plan_on(const OccupancyGrid& grid, std::uint64_t version,
   return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
 }
 
-// What is made of the map before does not count.
-Budget MapPlanner::budget_from_now() const {
+// What is made of the map meanwhile does not count, what was tried before does.
+Budget MapPlanner::budget_after(Budget::Clock::duration spent) const {
   Budget budget;
   if (command_.budget_ms)
-    budget.deadline = Budget::Clock::now() + std::chrono::microseconds(std::llround(*command_.budget_ms * 1e3));
+    budget.deadline = Budget::Clock::now() + std::chrono::microseconds(std::llround(*command_.budget_ms * 1e3)) - spent;
   return budget;
 }
 
-std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request) const {
+std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request, Budget::Clock::duration& spent) const {
   const CellBox whole = map_.grid.bounds();
   const auto ends = ends_of(request, map_.graph);
   const bool counts_lengths = command_.settings.empty() && request.cost == CostKind::length;
@@ -120,8 +120,12 @@ std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request) c
     if (box == whole) return std::nullopt;
     const OccupancyGrid part = file_->grid_within(box);
     if (request.from.pose || request.to.pose) prepare(part, version);  // over landmarks, most of it is not needed
-    PlanResult result = plan_on(part, version, request, budget_from_now());
-    if (result.outcome != PlanOutcome::solved) return std::nullopt;
+    const Budget::Clock::time_point begin = Budget::Clock::now();
+    PlanResult result = plan_on(part, version, request, budget_after(spent));
+    spent += Budget::Clock::now() - begin;
+    // Nor is it known on the part what stands further from the way than its rim.
+    const bool is_clear_of_all = result.clearance_m + robot_.radius_m >= kAround_m / 2;
+    if (result.outcome != PlanOutcome::solved || is_clear_of_all) return std::nullopt;
     length_m = std::max(result.cost_m, result.length_m);
     if (length_m <= least_outside_m({result.path.front().position(), result.path.back().position()}, box, kAround_m / 2,
                                     map_.grid, whole))
@@ -142,11 +146,12 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
   }
   task.request.radius_m = robot_.radius_m;
   task.request.seed = static_cast<std::uint64_t>(command_.seed);
+  Budget::Clock::duration spent{0};
   if (!many_ && task.via.empty())
-    if (auto result = plan_on_part(task.request)) return *std::move(result);
+    if (auto result = plan_on_part(task.request, spent)) return *std::move(result);
   const OccupancyGrid& grid = whole_grid();
   if (!many_) prepare(grid, kLoadedGrid);
-  const Budget budget = budget_from_now();
+  const Budget budget = budget_after(spent);
   return plan_tour([&](const PlanRequest& request) { return plan_on(grid, kLoadedGrid, request, budget); },
                    task.request, task.via);
 }

@@ -26,7 +26,8 @@ class MapPlanner {
   MapPlanner(const PlanCommand& command, const CommonOptions& common);
 
   // A text that names nothing on any map ends a single question with a MalformedPlace; among many it is answered, like
-  // a name that this map does not know, with `unknown_place`. Thread-safe, like all below.
+  // a name that this map does not know, with `unknown_place`. Thread-safe among many
+  // questions; a single one is asked from one thread.
   [[nodiscard]] PlanResult answer(const PlanQuery& query) const;
   // As the hierarchy has them.
   [[nodiscard]] const ClusterTree& clusters() const;
@@ -41,8 +42,9 @@ class MapPlanner {
   [[nodiscard]] PlanResult plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
                                    const Budget& budget) const;
   // None: no answer that is surely as good as one on the whole map.
-  [[nodiscard]] std::optional<PlanResult> plan_on_part(const PlanRequest& request) const;
-  [[nodiscard]] Budget budget_from_now() const;
+  [[nodiscard]] std::optional<PlanResult> plan_on_part(const PlanRequest& request,
+                                                       Budget::Clock::duration& spent) const;
+  [[nodiscard]] Budget budget_after(Budget::Clock::duration spent) const;
 
   const PlanCommand& command_;
   bool many_ = false;

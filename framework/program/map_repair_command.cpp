@@ -39,10 +39,12 @@ ordered_json json_of_kept(const SavedMap& map) {
           {"explored_ratio", known_ratio(map.grid)}};
 }
 
-// What load_map says against it; empty when it is sound.
-std::string fault_of(const std::filesystem::path& file) {
+// What load_map says against it; empty when it is sound. unproven: what an earlier repair has kept unproven.
+std::string fault_of(const std::filesystem::path& file, std::string* unproven = nullptr) {
   try {
-    static_cast<void>(load_map(file));
+    const SavedMap map = load_map(file);
+    const auto kept = map.properties.find(kUnprovenTables);
+    if (unproven != nullptr && kept != map.properties.end()) *unproven = kept->second;
   } catch (const StoreError& error) {
     return error.what();
   }
@@ -52,24 +54,28 @@ std::string fault_of(const std::filesystem::path& file) {
 }  // namespace
 
 int map_check(const MapCommand& command, const CommonOptions& common) {
-  const std::string fault = fault_of(command.map);
+  std::string unproven;
+  const std::string fault = fault_of(command.map, &unproven);
   std::vector<StoreLoss> losses;
   if (!fault.empty()) losses = salvage_map(command.map).losses;  // throws on what is no saved map at all
   if (common.json) {
     ordered_json report = {{"file", command.map.string()}, {"outcome", fault.empty() ? "sound" : "damaged"}};
+    if (!unproven.empty()) report["unproven_tables"] = unproven;
     if (!fault.empty()) {
       report["reason"] = fault;
       report["lost"] = json_of(losses);
     }
     std::cout << report.dump(-1, ' ', false, kBadText) << "\n";
   } else if (fault.empty()) {
-    std::cout << command.map.string() << ": sound\n";
+    std::cout << command.map.string() << ": sound"
+              << (unproven.empty() ? "" : ", but a repair has kept values that are not proven, in: " + unproven)
+              << "\n";
   }
   if (fault.empty()) return kExitDone;
   std::cerr << "cairn: " << fault << "\n";
   for (const StoreLoss& loss : losses) std::cerr << "  " << text_of(loss) << "\n";
-  if (losses.empty()) std::cerr << "  but nothing in it is lost\n";
-  std::cerr << "  cairn map repair " << command.map.string() << " -o OUT saves the rest\n";
+  std::cerr << "  " << (losses.empty() ? "nothing in it is lost: " : "") << "cairn map repair " << command.map.string()
+            << " -o OUT saves " << (losses.empty() ? "it" : "the rest") << "\n";
   return kExitBadInput;
 }
 
@@ -78,17 +84,18 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
   if (std::filesystem::equivalent(command.map, command.repaired, error))
     throw StoreError(command.repaired.string() + ": is the damaged map itself, which is never written to");
   const SalvagedMap salvaged = salvage_map(command.map);
+  const bool is_sound = fault_of(command.map).empty();  // damage may have hit what holds nothing
   save_map(command.repaired, salvaged.map);
   std::ostream& people = common.json ? std::cerr : std::cout;
   for (const StoreLoss& loss : salvaged.losses) people << "  " << text_of(loss) << "\n";
-  people << fmt::format("{}: {}; {} landmarks, {} routes, {:.1f} % of the grid known\n", command.repaired.string(),
-                        salvaged.losses.empty() ? "nothing was lost" : "saved without the above",
-                        salvaged.map.graph.landmarks().size(), salvaged.map.graph.routes().size(),
-                        100.0 * known_ratio(salvaged.map.grid));
+  people << fmt::format(
+      "{}: {}; {} landmarks, {} routes, {:.1f} % known within its outermost walls\n", command.repaired.string(),
+      salvaged.losses.empty() ? "nothing was lost" : "saved without the above", salvaged.map.graph.landmarks().size(),
+      salvaged.map.graph.routes().size(), 100.0 * known_ratio(salvaged.map.grid));
   if (common.json)
     std::cout << ordered_json{{"file", command.map.string()},
                               {"map", command.repaired.string()},
-                              {"outcome", salvaged.losses.empty() ? "sound" : "repaired"},
+                              {"outcome", is_sound ? "sound" : "repaired"},
                               {"lost", json_of(salvaged.losses)},
                               {"kept", json_of_kept(salvaged.map)}}
                      .dump(-1, ' ', false, kBadText)

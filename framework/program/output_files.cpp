@@ -1,5 +1,9 @@
 #include "framework/program/output_files.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -10,6 +14,13 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": the output folder cannot be made: " + error.message());
+}
+
+void hold_folder(const std::filesystem::path& folder) {
+  // Never closed: the lock goes with the process. Where a folder cannot be locked, runs are not told apart.
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened >= 0 && ::flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw std::runtime_error(folder.string() + ": another run is writing into this folder; name another with --out");
 }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {

@@ -7,6 +7,9 @@
 namespace cairn {
 
 // Throw std::runtime_error.
+// Holds a folder for one run at a time, as long as the process lives. Throws std::runtime_error when another holds it.
+void hold_folder(const std::filesystem::path& folder);
+
 void make_folder(const std::filesystem::path& folder);
 void write_file(const std::filesystem::path& file, const std::string& text);
 

@@ -122,6 +122,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   make_folder(command.out);
+  hold_folder(command.out);
   std::ostream& people = common.json ? std::cerr : std::cout;
   const bool live = isatty(common.json ? STDERR_FILENO : STDOUT_FILENO) != 0;
   people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "maps/exchange/json_text.hpp"
@@ -46,8 +47,11 @@ class Writer {
     std::string& text = exported_.text;
     const auto name = site_.find("building_name");
     text = "building_name: " + (name != site_.end() ? yaml_of(*name) : std::string("building")) + "\nlevels:\n";
+    std::set<std::string> names;
     for (const auto& [number, level] : levels_) {
-      text += "  " + exchange::yaml_text(name_of(number, level)) + ":\n";
+      std::string level_name = name_of(number, level);
+      while (!names.insert(level_name).second) level_name += "_" + std::to_string(number);
+      text += "  " + exchange::yaml_text(level_name) + ":\n";
       text += level.lanes.empty() ? "    lanes: []\n" : "    lanes:\n" + level.lanes;
       text += "    vertices:\n" + level.vertices;
     }

@@ -28,7 +28,8 @@ inline constexpr std::array<RmfCategory, 3> kRmfCategories{
     {{"is_charger", "charger"}, {"is_parking_spot", "parking_spot"}, {"is_holding_point", "holding_point"}}};
 
 // site: the property "rmf" of the map, or empty. Closed routes and routes between floors are left out, as the warnings
-// say. Throws std::invalid_argument when annotations or site are no JSON object.
+// say. Floors of one name get their number behind it. Throws std::invalid_argument when annotations or site are no JSON
+// object.
 [[nodiscard]] ExportedGraph rmf_nav_graph_of(const LandmarkGraph& graph, const std::string& site);
 
 }  // namespace cairn

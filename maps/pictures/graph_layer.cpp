@@ -130,8 +130,9 @@ void GraphLayer::draw_landmarks(Canvas& canvas, const MapFrame& frame) const {
     const Colour colour = colour_of(landmark);
     const Pixel centre = frame.pixel_of(landmark.T_map_landmark.position());
     if (const Contour* contour = contour_of(landmark.category)) {
-      draw_contour(canvas, *contour, colour, 2.5,
-                   [&](const Point& p) { return frame.pixel_of(landmark.T_map_landmark * p); });
+      draw_contour(canvas, *contour, colour, 2.5, [&frame, &T_map_landmark = landmark.T_map_landmark](const Point& p) {
+        return frame.pixel_of(T_map_landmark * p);
+      });
       canvas.fill_disc(centre, 2.5, {colour});
     } else {
       canvas.fill_disc(centre, 1.3 * dot_px(), {kWhite});

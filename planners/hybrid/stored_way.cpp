@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planners/hybrid/avoided.hpp"
+#include "planners/hybrid/least_way.hpp"
 
 namespace cairn {
 namespace {
@@ -30,7 +31,7 @@ class StoredWay {
     const Budget::Clock::time_point begin = Budget::Clock::now();
     const SymbolicAnswer symbolic = SymbolicSearch(query, tools_.graph, budget_).find({});
     const auto graph_time = Budget::Clock::now() - begin;
-    if (!symbolic.path || symbolic.path->cost_m > legs_.detour_ratio * straight_m_) return std::nullopt;
+    if (!symbolic.path || !is_preferred(symbolic.path->cost_m)) return std::nullopt;
     auto result = walked(*symbolic.path, goals_[symbolic.path->goal]);
     if (!result) return std::nullopt;
     result->settled = symbolic.settled;
@@ -62,6 +63,15 @@ class StoredWay {
       straight_m_ = std::min(straight_m_, (stand->position() - start_.leave_from).norm());
     }
     return !goals_.empty();
+  }
+
+  // To any direct way, however short that may be.
+  bool is_preferred(double cost_m) const {
+    if (cost_m <= legs_.detour_ratio * straight_m_) return true;
+    if (goals_.size() != 1) return false;
+    const Point to = goals_.front().pose.position();
+    return cost_m <=
+           legs_.detour_ratio * least_way_m(world_.grid, answers_.ground, legs_.disc_m, start_.leave_from, to, budget_);
   }
 
   CellBox box_along(const SymbolicPath& path, const GoalPlace& goal) const {

@@ -1,6 +1,7 @@
 #include "tests/bench/moving_ai_set.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -8,6 +9,22 @@
 #include "tests/bench/unpacked.hpp"
 
 namespace cairn {
+namespace {
+
+// Of a line of a scenario file; y down.
+std::optional<MovingAiInstance> instance_of(const std::string& line) {
+  std::istringstream words(line);
+  std::string map;
+  int bucket = 0;
+  int width = 0;
+  int height = 0;
+  MovingAiInstance instance;
+  words >> bucket >> map >> width >> height >> instance.from.x >> instance.from.y >> instance.to.x >> instance.to.y >>
+      instance.optimum;
+  return words ? std::optional(instance) : std::nullopt;
+}
+
+}  // namespace
 
 PlainCells moving_ai_cells(const std::filesystem::path& map_file) {
   std::istringstream in(unpacked(map_file));
@@ -41,18 +58,14 @@ std::vector<MovingAiInstance> moving_ai_instances(const std::filesystem::path& s
   std::string line;
   std::getline(in, line);  // version
   while (std::getline(in, line)) {
-    std::istringstream words(line);
-    std::string map;
-    int bucket = 0;
-    int width = 0;
-    int same_height = 0;
-    MovingAiInstance instance;
-    words >> bucket >> map >> width >> same_height >> instance.from.x >> instance.from.y >> instance.to.x >>
-        instance.to.y >> instance.optimum;
-    if (!words) continue;
-    instance.from.y = height - 1 - instance.from.y;
-    instance.to.y = height - 1 - instance.to.y;
-    all.push_back(instance);
+    std::optional<MovingAiInstance> instance = instance_of(line);
+    if (!instance) continue;
+    for (Cell* const cell : {&instance->from, &instance->to}) {
+      if (cell->x < 0 || cell->y < 0 || cell->y >= height)
+        throw std::runtime_error(scenario_file.string() + ": an instance is not on the map: " + line);
+      cell->y = height - 1 - cell->y;
+    }
+    all.push_back(*instance);
   }
   if (all.size() <= count) return all;
   std::mt19937_64 random(seed);

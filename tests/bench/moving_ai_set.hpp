@@ -20,6 +20,7 @@ struct MovingAiInstance {
 };
 
 // So many, each drawn from another equal part of the file, which is in order of length; all when there are fewer.
+// Throws std::runtime_error when one is not on a map of that height.
 [[nodiscard]] std::vector<MovingAiInstance> moving_ai_instances(const std::filesystem::path& scenario_file, int height,
                                                                 std::size_t count, std::uint64_t seed);
 

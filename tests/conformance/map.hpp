@@ -143,6 +143,21 @@ TEST_P(MapperConformance, TwoObjectsShareNothing) {
   EXPECT_TRUE(mapper->grid() == alone->grid()) << "another object of the module changed this one's map";
 }
 
+TEST_P(MapperConformance, GoesOnFromTheGridOfAnEarlierRun) {
+  const std::vector<DriveStep> steps = drive();
+  const auto half = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  const auto earlier = make(7);
+  follow(*earlier, {steps.begin(), half});
+  const OccupancyGrid so_far = earlier->grid();
+  const auto mapper = GetParam().going_on_from(so_far).make(7);
+  if (mapper->grid() != so_far)
+    GTEST_SKIP() << "ModuleContext::grid_so_far is not heeded: missions with this map cannot be gone on with";
+  follow(*mapper, {half, steps.end()});
+  const OccupancyGrid& grid = mapper->grid();
+  EXPECT_FALSE(grid == so_far) << "nothing more is mapped";
+  EXPECT_EQ(united(grid.bounds(), so_far.bounds()), grid.bounds()) << "a part of the earlier grid was given up";
+}
+
 TEST_P(MapperConformance, AnObservationWithoutRangesChangesNothing) {
   const auto mapper = make();
   follow(*mapper, drive());

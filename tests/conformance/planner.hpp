@@ -254,7 +254,8 @@ TEST_P(PlannerConformance, AUsedUpBudgetEndsACallPromptlyWithItsOutcome) {
   for (const PlanRequest& request : requests_for(*planner)) {
     for (const auto& [budget, outcome] : cases) {
       PlanResult result;
-      EXPECT_LT(seconds_of([&] { result = planner->plan(request, world_.view(), budget); }), kPromptly_s);
+      EXPECT_LT(seconds_of([&, &budget = budget] { result = planner->plan(request, world_.view(), budget); }),
+                kPromptly_s);
       EXPECT_EQ(name_of(result.outcome), name_of(outcome)) << "look at the budget before the work begins";
       EXPECT_EQ(fault_of(result), "");
     }

@@ -29,6 +29,7 @@ struct Setup {
   std::shared_ptr<const World> world;
   std::shared_ptr<const TemplateSet> templates;
   Pose2 T_map_start;
+  std::shared_ptr<const OccupancyGrid> grid_so_far;  // for maps; null: none
 };
 
 // The robot, world and start of fixtures.hpp; templates for detectors only.
@@ -82,6 +83,9 @@ class Subject {
   [[nodiscard]] Subject with_templates(const TemplateSet& templates) const {
     return changed([&](Setup& setup) { setup.templates = std::make_shared<TemplateSet>(templates); });
   }
+  [[nodiscard]] Subject going_on_from(const OccupancyGrid& grid) const {
+    return changed([&](Setup& setup) { setup.grid_so_far = std::make_shared<OccupancyGrid>(grid); });
+  }
   [[nodiscard]] Subject starting_at(const Pose2& T_map_start) const {
     return changed([&](Setup& setup) { setup.T_map_start = T_map_start; });
   }
@@ -118,6 +122,7 @@ class Subject {
     made.seed = seed;
     made.templates = setup_.templates;
     made.modules = modules;
+    made.grid_so_far = setup_.grid_so_far.get();
     return made;
   }
   [[nodiscard]] std::shared_ptr<Interface> checked(std::shared_ptr<Interface> object) const {

@@ -46,10 +46,15 @@ void read_experiment(Input input);
 
 // Grids and graphs of other tools.
 void read_map_server(Input input);  // the text, then the picture behind a byte 0
+void read_picture(Input input);
 void read_moving_ai_map(Input input);
+void read_moving_ai_scen(Input input);  // by the measurements' reader: the program has none
 void read_graph_list(Input input);
 void read_graphml(Input input);
 void read_nav2_routes(Input input);
+void read_rmf(Input input);
+// What a map keeps for other tools, when it is written for them again; parts, each behind a byte 0.
+void read_annotations(Input input);
 
 // Recorded logs.
 void read_carmen_log(Input input);

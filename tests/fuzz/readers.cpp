@@ -7,6 +7,7 @@ namespace cairn::fuzz {
 namespace {
 
 constexpr std::array kReaders{
+    Reader{"annotations", read_annotations},
     Reader{"carmen_log", read_carmen_log},
     Reader{"damaged_map", read_damaged_map},
     Reader{"experiment", read_experiment},
@@ -17,10 +18,13 @@ constexpr std::array kReaders{
     Reader{"map_server", read_map_server},
     Reader{"mission", read_mission},
     Reader{"moving_ai_map", read_moving_ai_map},
+    Reader{"moving_ai_scen", read_moving_ai_scen},
     Reader{"nav2_routes", read_nav2_routes},
+    Reader{"picture", read_picture},
     Reader{"place", read_place},
     Reader{"plan_queries", read_plan_queries},
     Reader{"player_log", read_player_log},
+    Reader{"rmf", read_rmf},
     Reader{"robot", read_robot},
     Reader{"saved_map", read_saved_map},
     Reader{"table_log", read_table_log},

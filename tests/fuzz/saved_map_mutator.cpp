@@ -80,10 +80,13 @@ std::string where_of_any_row(MapFile& map, const std::string& table, Random& ran
 // A blob's content, packed again if it was, with its checksum in the column behind it.
 void change_blob(MapFile& map, const Field& field) {
   const std::string stored = map.blob("SELECT " + field.column + " FROM \"" + field.table + "\"" + field.where);
-  const bool plain = stored.starts_with('\1');  // a trajectory of steps
-  const std::string raw = mutated(plain ? stored : unpacked(stored), 24);
-  map.execute_with_blob("UPDATE \"" + field.table + "\" SET " + field.column + " = ?" + field.where,
-                        plain ? raw : packed(raw));
+  // A trajectory says with its first byte how it is stored (before schema version 5 it begins as zlib does).
+  const bool is_steps = stored.starts_with('\1');
+  const bool is_doubles = stored.starts_with('\0');
+  std::string raw = mutated(is_steps ? stored : unpacked(is_doubles ? stored.substr(1) : stored), 24);
+  const std::string blob = is_steps ? raw : is_doubles ? '\0' + packed(raw) : packed(raw);
+  if (is_doubles) raw = blob;  // which its checksum is over
+  map.execute_with_blob("UPDATE \"" + field.table + "\" SET " + field.column + " = ?" + field.where, blob);
   const auto sum = crc32(0, reinterpret_cast<const Bytef*>(raw.data()), static_cast<uInt>(raw.size()));
   map.execute("UPDATE \"" + field.table + "\" SET crc32 = " + std::to_string(sum) + field.where);
 }

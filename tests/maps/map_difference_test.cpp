@@ -147,5 +147,21 @@ TEST(MapDifference, RoutesAreThoseBetweenTheSameThings) {
   EXPECT_THAT(difference.moved, IsEmpty());
 }
 
+// Between them lie 4e12 cells that neither has.
+TEST(MapDifference, OfGridsThatAreFarApartLooksAtTheirCellsOnly) {
+  SavedMap a;
+  a.grid = OccupancyGrid(0.05, 4.0, {-5e4, -5e4});
+  a.grid.set_log_odds({0, 0}, LogOdds{600});
+  SavedMap b;
+  b.grid = OccupancyGrid(0.05, 4.0, {5e4, 5e4});
+  b.grid.set_log_odds({0, 0}, LogOdds{-600});
+  const MapDifference difference = difference_of(a, b);
+  std::int64_t cells = 0;
+  for (const auto& of_state : difference.cells)
+    for (const std::int64_t count : of_state) cells += count;
+  EXPECT_LE(cells, 20);
+  EXPECT_EQ(difference.cells_of_other_state(), 2);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -298,5 +298,15 @@ TEST_F(MapPictures, OfTemplatesShowATileForEach) {
   write_template_sheet(file("none.png"), {}, "no templates");
 }
 
+TEST(MapPictureFile, IsNotDrawnOverWhatIsNoPicture) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "map_picture_test_notes.txt";
+  std::ofstream(file) << "notes";
+  EXPECT_THROW(write_map_picture(file, {}), std::runtime_error);
+  std::string text;
+  std::ifstream(file) >> text;
+  EXPECT_EQ(text, "notes");
+  std::filesystem::remove(file);
+}
+
 }  // namespace
 }  // namespace cairn

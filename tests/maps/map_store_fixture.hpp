@@ -65,9 +65,13 @@ inline OccupancyGrid small_grid() {
   OccupancyGrid grid(0.05, 4.0, {-1.25, 0.1});
   grid.include({{-70, -3}, {90, 70}});
   std::mt19937_64 random(7);
-  for (int i = 0; i < 900; ++i)
-    grid.set_log_odds({static_cast<int>(random() % 150) - 68, static_cast<int>(random() % 60) - 2},
-                      static_cast<LogOdds>(static_cast<int>(random() % 2049) - 1024));
+  for (int i = 0; i < 900; ++i) {
+    // One draw a line: compilers differ in the order of arguments, the stored files do not.
+    const auto value = static_cast<LogOdds>(static_cast<int>(random() % 2049) - 1024);
+    const int x = static_cast<int>(random() % 150) - 68;
+    const int y = static_cast<int>(random() % 60) - 2;
+    grid.set_log_odds({x, y}, value);
+  }
   return grid;
 }
 

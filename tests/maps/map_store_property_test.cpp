@@ -124,7 +124,7 @@ class RandomMap {
   }
   MissionProgress progress() {
     MissionProgress progress{number(), static_cast<int>(below(5)), text(),   pose(),   std::nullopt,
-                             number(), below(1LL << 62),           below(9), below(9), {}};
+                             number(), below(1LL << 53),           below(9), below(9), {}};
     if (below(2) == 0) progress.true_T_map_robot = pose();
     for (std::int64_t i = below(5); i > 0; --i) progress.candidates.add(landmark());
     return progress;

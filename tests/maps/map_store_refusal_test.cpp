@@ -216,7 +216,7 @@ TEST_F(ForgedMap, RefusesDanglingAndImpossibleRoutes) {
 
 TEST_F(ForgedMap, RefusesImpossibleLandmarks) {
   EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET id = -4 WHERE id = 1"),
-            "table landmarks: column id holds -4, allowed is 1 to 9223372036854775807");
+            "table landmarks: column id holds -4, allowed is 1 to 9007199254740991");
   EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET access_y_m = NULL WHERE id = 1"),
             "table landmarks: column access_y_m holds nothing where a number belongs");
   EXPECT_EQ(refusal_after_forging("UPDATE landmarks SET category = x'00' WHERE id = 1"),
@@ -228,8 +228,7 @@ TEST_F(ForgedMap, RefusesImpossibleLandmarks) {
   EXPECT_EQ(refusal_after_forging("UPDATE landmark_templates SET landmark = 77"),
             "table landmark_templates: there is no landmark 77");
   EXPECT_EQ(refusal_after_forging("UPDATE next_ids SET id = 9223372036854775807"),
-            "table next_ids: reserve_ids: ids end at 9007199254740991, asked for 9223372036854775807 and "
-            "9223372036854775807");
+            "table next_ids: column id holds 9223372036854775807, allowed is 1 to 9007199254740992");
   EXPECT_EQ(refusal_after_forging("DELETE FROM next_ids WHERE kind = 'route'"), "table next_ids: has no row for route");
 }
 

@@ -151,6 +151,26 @@ TEST_F(MapSalvage, ReadsEveryTilePastADamagedIndex) {
   expect_equal(salvaged.map, large_map());
 }
 
+TEST_F(MapSalvage, ReadsAllPastADamagedHeader) {
+  for (const std::size_t at : {3U, 68U}) {
+    std::string bytes = bytes_of(file("sound.cairn"));
+    bytes[at] ^= '\x40';
+    write_bytes(file(), bytes);
+    const SalvagedMap salvaged = salvage_map(file());
+    EXPECT_EQ(salvaged.version, kMapSchemaVersion);
+    EXPECT_THAT(salvaged.losses, testing::ElementsAre(loss_in("header of the file", "made anew")));
+    expect_equal(salvaged.map, large_map());
+  }
+  write_bytes(file(), std::string(3 * 4096, 'x'));
+  EXPECT_THROW((void)salvage_map(file()), StoreError);
+}
+
+TEST_F(MapSalvage, SaysInTheMapWhatItHasKeptUnproven) {
+  const SalvagedMap salvaged = after("UPDATE landmarks SET x_m = 7 WHERE id = 3");
+  EXPECT_EQ(salvaged.map.properties.at(kUnprovenTables), "landmarks");
+  EXPECT_FALSE(salvage_map(file("sound.cairn")).map.properties.contains(kUnprovenTables));
+}
+
 TEST_F(MapSalvage, OfATruncatedFile) {
   const std::string sound = bytes_of(file("sound.cairn"));
   std::size_t most_kept = 0;

@@ -252,6 +252,20 @@ TEST_F(MapStore, AFullDiskLeavesTheOldMapAndNothingElse) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
+TEST_F(MapStore, SavingOverAFileKeepsWhoMayReadIt) {
+  save_map(file(), small_map());
+  fs::permissions(file(), fs::perms::owner_read | fs::perms::owner_write);
+  save_map(file(), small_map());
+  EXPECT_EQ(fs::status(file()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(MapStore, IsNotSavedOverAnotherProgramsDatabase) {
+  run_sql(file(), "CREATE TABLE other (x); INSERT INTO other VALUES (1)");
+  const std::string before = bytes_of(file());
+  EXPECT_THROW(save_map(file(), small_map()), StoreError);
+  EXPECT_EQ(bytes_of(file()), before);
+}
+
 TEST_F(MapStore, SaversOfOneFileTakeTurns) {
   std::vector<pid_t> savers;
   for (int i = 0; i < 4; ++i)
@@ -264,6 +278,47 @@ TEST_F(MapStore, SaversOfOneFileTakeTurns) {
     EXPECT_EQ(status, 0);
   }
   expect_equal(load_map(file()), small_map());
+}
+
+// Until it has seen the file change that often; 0 when every map was one of the two, whole.
+int read_while_it_changes(const fs::path& file, const std::vector<SavedMap>& maps) {
+  constexpr int kMostLoads = 100'000;  // a writer that has stopped
+  int changes = 0;
+  std::string last;
+  for (int loads = 0; changes < 6; ++loads) {
+    if (loads == kMostLoads) return 2;
+    const SavedMap whole = load_map(file);
+    const SavedMap& saved = maps[whole.properties.at("seed") == "8"];
+    expect_equal(whole, saved);
+    const MapFile opened(file);  // asked twice, with saves in between
+    const SavedMap rest = opened.without_cells();
+    EXPECT_EQ(opened.grid_within(opened.lattice().bounds()), maps[rest.properties.at("seed") == "8"].grid);
+    if (testing::Test::HasFailure()) return 1;
+    changes += !last.empty() && last != whole.properties.at("seed");
+    last = whole.properties.at("seed");
+  }
+  return 0;
+}
+
+TEST_F(MapStore, ManyReadersSeeAWholeMapWhileItIsSavedAgainAndAgain) {
+  std::vector<SavedMap> maps(2, small_map());
+  maps[1].properties["seed"] = "8";
+  maps[1].grid.set_log_odds({3, 3}, LogOdds{77});
+  maps[1].graph.find(1)->sightings += 1;
+  save_map(file(), maps[0]);
+  const pid_t writer = start([&] {
+    for (std::size_t i = 1;; ++i) save_map(file(), maps[i % 2]);
+  });
+  std::vector<pid_t> readers;
+  for (int i = 0; i < 3; ++i) readers.push_back(start([&] { _exit(read_while_it_changes(file(), maps)); }));
+  for (const pid_t reader : readers) {
+    int status = -1;
+    waitpid(reader, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(waitpid(writer, nullptr, WNOHANG), 0) << "the writer has ended";
+  kill(writer, SIGKILL);
+  waitpid(writer, nullptr, 0);
 }
 
 }  // namespace

@@ -41,7 +41,9 @@ TEST(MapStoreTrajectory, ComesBackToTheBit) {
   for (const std::vector<Pose2>& trajectory : trajectories) {
     const std::vector<Pose2> back = unpacked_trajectory(packed_trajectory(trajectory), trajectory.size());
     ASSERT_EQ(back.size(), trajectory.size());
-    EXPECT_EQ(std::memcmp(back.data(), trajectory.data(), back.size() * sizeof(Pose2)), 0);
+    if (!back.empty()) {
+      EXPECT_EQ(std::memcmp(back.data(), trajectory.data(), back.size() * sizeof(Pose2)), 0);
+    }
   }
 }
 

@@ -66,6 +66,19 @@ TEST(RmfNavGraph, VerticesAreLandmarksAndLanesAreRoutes) {
   EXPECT_EQ(graph.find_route(4)->from, 3);
 }
 
+TEST(RmfNavGraph, FloorsOfOneNameAreToldApart) {
+  LandmarkGraph graph;
+  for (const int level : {0, 1, 2}) {
+    Landmark landmark;
+    landmark.level = level;
+    if (level != 1) landmark.annotations = R"({"rmf": {"level": "L2"}})";  // as the second floor is called unasked
+    graph.add(landmark);
+  }
+  const std::string text = rmf_nav_graph_of(graph, "").text;
+  for (const char* const name : {"\n  L2:\n", "\n  L2_1:\n", "\n  L2_2:\n"}) EXPECT_THAT(text, HasSubstr(name));
+  EXPECT_EQ(read(text).graph.landmarks().size(), 3U);
+}
+
 TEST(RmfNavGraph, GoesOutAsItCameIn) {
   const ImportedGraph once = read(kNav);
   const ExportedGraph written = rmf_nav_graph_of(once.graph, once.properties.at("rmf"));
@@ -192,6 +205,18 @@ TEST(RmfBuilding, WhatCannotBePlacedIsRefusedOrTold) {
   EXPECT_THAT(refusal(changed(kBuilding, "vertices", "vertises")), HasSubstr("did you mean \"vertices\""));
   EXPECT_THAT(read(changed(kBuilding, "[500, 0, c], [600, 0, a], [600, 200, b]", "[1, 1, z]")).warnings[1],
               HasSubstr("has no two fiducials in common"));
+}
+
+TEST(RmfBuilding, MeasurementsThatPutAVertexAnywhereAreRefused) {
+  const auto refusal_at = [](const std::string& near) {
+    return refusal("name: b\nlevels:\n  L1:\n    measurements: [[0, 1, {distance: [3, 9]}]]\n    vertices:\n" +
+                   ("      - [0, 0, 0, a]\n      - [" + near + ", 0, 0, b]\n      - [1, 0, 0, c]\n"));
+  };
+  EXPECT_EQ(refusal_at("0.00001"), "no ConfigError");
+  for (const char* const near : {"0.000008", "1e-150"})
+    EXPECT_EQ(refusal_at(near),
+              "nav.yaml:8:9: by the level's measurements and fiducials the vertex is more than 1000 km away");
+  EXPECT_EQ(refusal_at("1e-200"), "nav.yaml:4:20: a measurement between two vertices of one place");
 }
 
 TEST(RmfBuilding, RecordedBuildingsAreRead) {

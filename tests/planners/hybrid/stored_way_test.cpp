@@ -76,6 +76,26 @@ TEST_F(StoredWays, AreWhatAFullLookFinds) {
   EXPECT_GT(left, 60);
 }
 
+TEST_F(StoredWays, GoRoundWhatIsInEveryDirectWay) {
+  const LandmarkId u = landmark('U');
+  const LandmarkId v = landmark('V');
+  const Point beyond_the_wall(0.61, 0.0);
+  world.places['u'] = world.places['U'] + beyond_the_wall;
+  world.places['v'] = world.places['V'] + beyond_the_wall;
+  const RouteId round = route(u, v, "UuvV");
+  const PlanResult whole = plan(between(u, v));
+  ASSERT_EQ(whole.routes, std::vector{round}) << whole.reason;
+  ASSERT_THAT(whole.reason, testing::HasSubstr("1 stored and 0 newly planned"));
+  const double straight_m = (world.places['U'] - world.places['V']).norm();
+  ASSERT_GT(whole.cost_m, config.detour_ratio * straight_m);
+  const auto way = beside(between(u, v));
+  ASSERT_TRUE(way);
+  expect_same(*way, whole);
+  world.graph.set_cost(round, 4.0);
+  EXPECT_FALSE(beside(between(u, v)));
+  EXPECT_THAT(plan(between(u, v)).routes, testing::IsEmpty());
+}
+
 TEST_F(StoredWays, WhatIsNotCertainIsLeftToTheFullLook) {
   const LandmarkId m = landmark('M');
   const LandmarkId n = landmark('N');
