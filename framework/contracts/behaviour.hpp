@@ -30,8 +30,8 @@ class Behaviour {
  public:
   virtual ~Behaviour() = default;
   virtual Status tick(const WorldView& world, Orders& orders) = 0;
-  // Called when the step is left before it ended; it must not ask for anything. A tick
-  // after it begins the step afresh.
+  // Called when the step is left before it ended, and when it is to be done once more after its end; it must
+  // not ask for anything. A tick after it begins the step afresh.
   virtual void halt() = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "framework/contracts/behaviour.hpp"
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/world_view.hpp"
+#include "framework/host/mission_nodes.hpp"
 
 namespace cairn {
 
@@ -36,6 +37,19 @@ struct StepEnded {
   std::string name;
   Status status;
 };
+// Of nodes below a step. One that begins and ends in one tick, as it did the last time, is not told again.
+struct NodeStarted {
+  std::string path;  // "3/1/2"
+  std::string name;
+  NodeKind kind = NodeKind::behaviour;
+};
+struct NodeEnded {
+  std::string path;
+  std::string name;
+  NodeKind kind = NodeKind::behaviour;
+  Status status;
+  bool is_halted = false;  // a failure
+};
 struct MapSaved {
   std::string file_name;
 };
@@ -55,7 +69,7 @@ struct Said {
 struct Bumped {};
 
 using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
-                           MapSaved, Autosaved, AutosaveFailed, Said, Bumped>;
+                           NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Said, Bumped>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

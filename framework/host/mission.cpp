@@ -7,36 +7,6 @@
 namespace cairn {
 namespace {
 
-// A step is a map with one key, the behaviour's name: `{goto: {...}}`, or the bare name.
-MissionStep step_of(const ConfigValue& item) {
-  if (item.kind == ConfigValue::Kind::scalar) {
-    ConfigValue nothing;
-    nothing.kind = ConfigValue::Kind::map;
-    nothing.place = item.place;
-    return {item.scalar, {item.scalar, nothing}};
-  }
-  if (item.kind != ConfigValue::Kind::map || item.entries.size() != 1)
-    throw ConfigError(
-        item.place,
-        "a step is one behaviour with its settings, such as `goto: {landmark: nearest square}`, not " +
-            item.kind_name() +
-            (item.kind == ConfigValue::Kind::map ? " with " + std::to_string(item.entries.size()) + " keys" : ""));
-  const ConfigValue::Entry& entry = item.entries.front();
-  PluginChoice choice{entry.key, entry.value};
-  if (choice.config.kind == ConfigValue::Kind::null) choice.config.kind = ConfigValue::Kind::map;
-  choice.config.place = entry.key_place;
-  return {entry.key, choice};
-}
-
-std::vector<MissionStep> steps_of(const ConfigValue& steps) {
-  if (steps.kind == ConfigValue::Kind::null) return {};
-  if (steps.kind != ConfigValue::Kind::list)
-    throw ConfigError(steps.place, "steps: expected a list of steps, found " + steps.kind_name());
-  std::vector<MissionStep> out;
-  for (const ConfigValue& item : steps.items) out.push_back(step_of(item));
-  return out;
-}
-
 // The detector's settings hold keys of its own too: take those that the host knows.
 TemplateSettings template_settings_of(const PluginChoice& detector) {
   ConfigValue mine;
@@ -106,7 +76,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
                  "every n-th range reading is withheld from the map, so that an experiment can ask how well the "
                  "map foretells it; 0: none");
   fields.group("autosave", &C::autosave, "the map is saved while the mission runs, for `cairn run --resume`");
-  fields.raw("steps", &C::steps, "list of steps", "behaviours one after the other, each `{name: settings}`");
+  fields.raw("steps", &C::steps, "list of steps",
+             "behaviours and other nodes one after the other, each `{name: settings}`: docs/missions.md");
 }
 
 std::string autosave_file_of(const MissionConfig& config) {
@@ -121,22 +92,41 @@ void use_detector(Mission& mission, const PluginChoice& detector) {
     mission.shapes = load_landmark_shapes(mission.template_settings.templates);
 }
 
-Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                     std::optional<std::int64_t> seed) {
+ReadMission read_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                         std::optional<std::int64_t> seed) {
   ConfigValue root = read_config_file(file);
   for (const std::string& assignment : overrides) apply_override(root, assignment);
-  Mission mission;
+  ReadMission read;
+  Mission& mission = read.mission;
   mission.config = load_config<MissionConfig>(root, "mission");
   check_autosave(root, mission.config.mission, mission.config.autosave.file);
   if (seed) mission.config.seed = *seed;
-  mission.robot = load_robot(mission.config.robot);
-  if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);
-  if (!mission.config.world.empty()) {
+  const auto attempt = [&](auto work) {
+    try {
+      work();
+    } catch (const ConfigError& error) {
+      read.errors.push_back(error);
+    }
+  };
+  attempt([&] { mission.robot = load_robot(mission.config.robot); });
+  attempt([&] {
+    if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);
+    if (mission.config.world.empty()) return;
     mission.world = load_world(mission.config.world, mission.shapes);
     check_sizes(mission.shapes, *mission.world, mission.template_settings.templates);
-  }
-  mission.steps = steps_of(mission.config.steps);
-  return mission;
+  });
+  MissionTree tree = read_mission_tree(mission.config.steps, file);
+  mission.steps = std::move(tree.steps);
+  read.step_errors = std::move(tree.errors);
+  return read;
+}
+
+Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                     std::optional<std::int64_t> seed) {
+  ReadMission read = read_mission(file, overrides, seed);
+  if (!read.errors.empty()) throw read.errors.front();
+  if (!read.step_errors.empty()) throw read.step_errors.front();
+  return std::move(read.mission);
 }
 
 }  // namespace cairn

@@ -13,6 +13,7 @@
 #include "framework/contracts/world.hpp"
 #include "framework/host/landmark_keeper.hpp"
 #include "framework/host/mission_autosave.hpp"
+#include "framework/host/mission_tree.hpp"
 #include "framework/host/stop_layer.hpp"
 #include "maps/landmark_template.hpp"
 
@@ -46,18 +47,13 @@ struct MissionConfig {
   static void describe(Fields<MissionConfig>& fields);
 };
 
-struct MissionStep {
-  std::string name;  // of the behaviour
-  PluginChoice choice;
-};
-
 struct Mission {
   MissionConfig config;
   TemplateSettings template_settings;  // as the detector's own say
   RobotModel robot;
   std::optional<World> world;
   std::vector<LandmarkShape> shapes;
-  std::vector<MissionStep> steps;
+  std::vector<TreeNode> steps;
 };
 
 // Name of the autosaved map in the output folder.
@@ -69,5 +65,15 @@ void use_detector(Mission& mission, const PluginChoice& detector);
 // Throws ConfigError. overrides: "key=value" texts of --set; seed wins over the file's.
 [[nodiscard]] Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                                    std::optional<std::int64_t> seed = std::nullopt);
+
+struct ReadMission {
+  Mission mission;                       // without what could not be read
+  std::vector<ConfigError> errors;       // of the files that it names; load_mission throws the first there is
+  std::vector<ConfigError> step_errors;  // then the first of these
+};
+// All that is wrong, not only the first. Throws ConfigError when the mission's own settings are wrong.
+[[nodiscard]] ReadMission read_mission(const std::filesystem::path& file,
+                                       const std::vector<std::string>& overrides = {},
+                                       std::optional<std::int64_t> seed = std::nullopt);
 
 }  // namespace cairn

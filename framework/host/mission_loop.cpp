@@ -3,7 +3,6 @@
 #include <cmath>
 #include <thread>
 
-#include "framework/host/fence.hpp"
 #include "framework/host/landmark_evidence.hpp"
 
 namespace cairn {
@@ -39,20 +38,9 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
     planner_ = clock_.add("planner", config.planner.name);
     routes_ = clock_.add("routes", config.planner.name);
   }
-  for (const MissionStep& step : mission_.steps) behaviours_.push_back(clock_.add("behaviour", step.name));
+  plant_trees();
   drive_stage_ = clock_.add("drive", config.sensor.name);
   if (options.resume != nullptr) go_on_from(*options.resume);
-}
-
-template <class Call>
-auto MissionLoop::in_stage(StageClock::Id stage, Call&& call) -> decltype(call()) {
-  try {
-    const StageClock::Visit visit(clock_, stage);
-    return fenced(clock_.stage_of(stage), clock_.module_of(stage), std::forward<Call>(call));
-  } catch (const ModuleFault&) {
-    clock_.check();
-    throw;
-  }
 }
 
 void MissionLoop::run() {
@@ -85,7 +73,9 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   if (step_begun_) {
     result_.steps.back().status = {Progress::failure, "given up: " + result_.reason};
     result_.steps.back().end_s = result_.time_s;
+    trees_[step_].abandon(result_.time_s, result_.steps.back().status.reason);
   }
+  note_nodes();
   if (drive_ != nullptr && stage != sensor_ && stage != drive_stage_) stop();
   grid_is_lost_ = stage == mapper_ || grid_ == nullptr;
   if (grid_is_lost_)
@@ -201,34 +191,6 @@ void MissionLoop::tell_changes(const std::vector<LandmarkKeeper::Change>& change
   }
 }
 
-void MissionLoop::behave() {
-  wanted_ = Twist{};
-  if (step_ >= modules_.behaviours.size()) return;
-  const std::string& name = mission_.steps[step_].name;
-  if (!step_begun_) begin_step(name);
-  save_failed_ = false;
-  const Status status = in_stage(behaviours_[step_], [&] { return modules_.behaviours[step_]->tick(view(), *this); });
-  if (status.progress != Progress::running) end_step(name, status);
-}
-
-void MissionLoop::begin_step(const std::string& name) {
-  step_begun_ = true;
-  result_.steps.push_back({name, {}, result_.time_s, result_.time_s});
-  tell(StepStarted{static_cast<int>(step_), name});
-}
-
-void MissionLoop::end_step(const std::string& name, const Status& status) {
-  result_.steps.back().status = status;
-  result_.steps.back().end_s = result_.time_s;
-  tell(StepEnded{static_cast<int>(step_), name, status});
-  wanted_ = Twist{};
-  step_begun_ = false;
-  ++step_;
-  failed_step_ = status.progress == Progress::failure && !save_failed_;
-  failure_ = "step " + std::to_string(step_) + " (" + name + "): " + status.reason;
-  connect_landmarks();
-}
-
 void MissionLoop::drive_on() {
   if (drive_ == nullptr) return;
   const Twist allowed = stop_layer_.limit(wanted_);
@@ -258,16 +220,6 @@ void MissionLoop::stop() {
     drive_->command(Twist{});
   } catch (...) {
     // The module has failed already and is being left; there is no one else to tell.
-  }
-}
-
-void MissionLoop::halt_step() {
-  result_.steps.back().status = {Progress::failure, "halted: " + result_.reason};
-  result_.steps.back().end_s = result_.time_s;
-  try {
-    in_stage(behaviours_[step_], [&] { modules_.behaviours[step_]->halt(); });
-  } catch (const ModuleFault& fault) {
-    result_.reason += std::string("; ") + fault.what();
   }
 }
 
@@ -301,7 +253,7 @@ void MissionLoop::drive(const Twist& wanted) {
     throw std::runtime_error("wants to drive, but the sensor " + mission_.config.sensor.name + " cannot be driven");
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps))
     throw std::runtime_error("asked for a velocity that is not finite");
-  wanted_ = wanted;
+  ordered_ = wanted;
 }
 
 PlanResult MissionLoop::plan(const PlanRequest& request) {

@@ -2,20 +2,26 @@
 #pragma once
 
 #include <chrono>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "framework/host/fence.hpp"
 #include "framework/host/landmark_keeper.hpp"
+#include "framework/host/mission_condition.hpp"
 #include "framework/host/mission_modules.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/stage_clock.hpp"
 #include "framework/host/stop_layer.hpp"
+#include "framework/host/tree_runner.hpp"
 #include "framework/host/withheld.hpp"
 #include "maps/hierarchy/hierarchies.hpp"
 
 namespace cairn {
 
-class MissionLoop : private Orders {
+class MissionLoop : private Orders, private TreeHost {
  public:
   // Throws ConfigError, ModuleFault or StoreError.
   MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
@@ -48,8 +54,10 @@ class MissionLoop : private Orders {
   void detect(const CellChanges& changes);
   void tell_changes(const std::vector<LandmarkKeeper::Change>& changes);
   void behave();
+  void plant_trees();
   void begin_step(const std::string& name);
-  void end_step(const std::string& name, const Status& status);
+  void end_step(const TreeNode& step, const Status& status);
+  void note_nodes();
   void drive_on();
   void connect_landmarks();
   MissionOutcome at_end_of_data(const std::string& reason);
@@ -74,6 +82,11 @@ class MissionLoop : private Orders {
   Status save(const std::string& file_name) override;
   void say(const std::string& sentence) override;
 
+  LeafTick tick_leaf(const TreeNode& leaf) override;
+  void halt_leaf(const TreeNode& leaf) override;
+  void started(const TreeNode& node) override;
+  void ended(const TreeNode& node, const NodeReport& how) override;
+
   const Mission mission_;
   const RunOptions options_;
   MissionModules modules_;
@@ -85,7 +98,14 @@ class MissionLoop : private Orders {
   std::vector<std::string> listener_faults_;
   StageClock clock_;
   StageClock::Id sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0, drive_stage_ = 0;
-  std::vector<StageClock::Id> behaviours_;  // one a step
+  struct Leaf {
+    Behaviour* behaviour = nullptr;
+    StageClock::Id stage = 0;
+    bool has_ended = false;
+  };
+  std::map<const TreeNode*, Leaf> behaviours_;
+  std::vector<TreeRunner> trees_;  // one a step
+  ConditionCheck check_;
   MissionResult result_;
   Budget budget_;
   Drive* drive_ = nullptr;               // of the sensor; null for a log
@@ -98,6 +118,7 @@ class MissionLoop : private Orders {
   PoseEstimate pose_;
   Pose2 T_odom_last_;
   Twist wanted_;
+  std::optional<Twist> ordered_;  // by the leaf that is ticked
   double begin_s_ = 0.0;
   double held_back_ratio_ = 0.0;
   std::size_t step_ = 0;
@@ -114,5 +135,16 @@ class MissionLoop : private Orders {
   std::optional<Pose2> resumed_true_pose_;
   const std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
 };
+
+template <class Call>
+auto MissionLoop::in_stage(StageClock::Id stage, Call&& call) -> decltype(call()) {
+  try {
+    const StageClock::Visit visit(clock_, stage);
+    return fenced(clock_.stage_of(stage), clock_.module_of(stage), std::forward<Call>(call));
+  } catch (const ModuleFault&) {
+    clock_.check();
+    throw;
+  }
+}
 
 }  // namespace cairn

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "framework/host/fence.hpp"
 #include "framework/host/mission_loop.hpp"
 #include "framework/host/mission_map.hpp"
 #include "maps/map_store.hpp"
@@ -92,6 +91,7 @@ void MissionLoop::tell_of_autosave() {
 void MissionLoop::finish() {
   if (drive_ != nullptr) stop();
   if (step_begun_) halt_step();
+  note_nodes();
   try {
     if (result_.outcome != MissionOutcome::cancelled) connect_landmarks();
   } catch (const ModuleFault& fault) {

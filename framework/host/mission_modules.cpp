@@ -32,6 +32,43 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
   built.detector = build<Detector>(library, detector, context_for(mission, library, built, PluginKind::detector));
 }
 
+// What is no behaviour may be meant for a node.
+[[noreturn]] void fail_unknown(const ModuleLibrary& library, const PluginChoice& choice) {
+  std::string known;
+  std::vector<std::string> names;
+  for (const ModuleEntry& entry : library.entries()) {
+    if (entry.module->kind != PluginKind::behaviour) continue;
+    names.push_back(entry.module->name);
+    known += (known.empty() ? "" : ", ") + names.back();
+  }
+  std::string nodes;
+  for (const std::string& node : node_names()) {
+    names.push_back(node);
+    nodes += (nodes.empty() ? "" : ", ") + node;
+  }
+  std::string sentence = "unknown behaviour plugin " + shown(choice.name) + did_you_mean(choice.name, names) +
+                         "; known are: " + (known.empty() ? "none" : known) + "; and these nodes: " + nodes;
+  for (const std::string& fault : library.faults()) sentence += "\n  not loaded: " + fault;
+  throw ConfigError(choice.config.place, sentence);
+}
+
+std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const PluginChoice& choice,
+                                           const ModuleContext& context) {
+  if (library.find_any(choice.name) == nullptr) fail_unknown(library, choice);
+  try {
+    return build<Behaviour>(library, choice, context);
+  } catch (const ConfigError& error) {
+    // A module knows no place for a setting that is not there.
+    const std::string text = error.what();
+    if (text.starts_with(": ")) throw ConfigError(choice.config.place, text.substr(2));
+    throw;
+  }
+}
+
+Pose2 start_of(const MissionConfig& config) {
+  return {config.start.at_m.x(), config.start.at_m.y(), config.start.angle_rad};
+}
+
 std::shared_ptr<Mapper> mapper_that_goes_on(const ModuleLibrary& library, const PluginChoice& map,
                                             ModuleContext context, const Mapper& empty, const OccupancyGrid& saved) {
   check_same_cells(saved, fenced("map", map.name, [&]() -> const OccupancyGrid& { return empty.grid(); }));
@@ -71,7 +108,7 @@ TemplateSet render_templates(const Mission& mission, double cell_m, const Module
 
 std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library, double cell_m) {
   MissionModules built;
-  built.T_map_start = {mission.config.start.at_m.x(), mission.config.start.at_m.y(), mission.config.start.angle_rad};
+  built.T_map_start = start_of(mission.config);
   add_detector(mission, library, cell_m, built);
   return built.detector;
 }
@@ -79,7 +116,7 @@ std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLib
 MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume) {
   const MissionConfig& config = mission.config;
   MissionModules built;
-  built.T_map_start = {config.start.at_m.x(), config.start.at_m.y(), config.start.angle_rad};
+  built.T_map_start = start_of(config);
   if (resume != nullptr) {
     check_resumable(*resume, mission);
     // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
@@ -99,9 +136,44 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   if (!config.detector.name.empty()) add_detector(mission, library, built.mapper->grid().cell_m(), built);
   if (!config.planner.name.empty())
     built.planner = build<Planner>(library, config.planner, context(PluginKind::planner));
-  for (std::size_t i = 0; i < mission.steps.size(); ++i)
-    built.behaviours.push_back(build<Behaviour>(library, mission.steps[i].choice, context(PluginKind::behaviour, i)));
+  for (const TreeNode* node : behaviours_of(mission.steps))
+    built.behaviours.push_back(
+        build_behaviour(library, node->choice, context(PluginKind::behaviour, built.behaviours.size())));
   return built;
+}
+
+std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library) {
+  std::vector<std::string> errors;
+  const auto attempt = [&](auto make) {
+    try {
+      make();
+    } catch (const ConfigError& error) {
+      errors.emplace_back(error.what());
+    } catch (const ModuleFault& fault) {
+      errors.emplace_back(fault.what());
+    }
+  };
+  const MissionConfig& config = mission.config;
+  MissionModules built;
+  built.T_map_start = start_of(config);
+  const auto context = [&](PluginKind kind, std::size_t index = 0) {
+    return context_for(mission, library, built, kind, index);
+  };
+  attempt([&] { (void)build<Sensor>(library, config.sensor, context(PluginKind::sensor)); });
+  attempt([&] { (void)build<Localizer>(library, config.localizer, context(PluginKind::localizer)); });
+  attempt([&] { built.mapper = build<Mapper>(library, config.map, context(PluginKind::map)); });
+  attempt([&] {
+    if (config.detector.name.empty() || !built.mapper) return;
+    Mission ideal = mission;
+    ideal.template_settings.rendering = Rendering::ideal;
+    add_detector(ideal, library, built.mapper->grid().cell_m(), built);
+  });
+  attempt([&] {
+    if (!config.planner.name.empty()) (void)build<Planner>(library, config.planner, context(PluginKind::planner));
+  });
+  for (const TreeNode* node : behaviours_of(mission.steps))
+    attempt([&] { (void)build_behaviour(library, node->choice, context(PluginKind::behaviour)); });
+  return errors;
 }
 
 }  // namespace cairn

@@ -17,13 +17,17 @@ struct MissionModules {
   std::shared_ptr<const TemplateSet> templates;        // null without a detector
   std::shared_ptr<Detector> detector;                  // may be null
   std::shared_ptr<Planner> planner;                    // may be null
-  std::vector<std::shared_ptr<Behaviour>> behaviours;  // one a step
+  std::vector<std::shared_ptr<Behaviour>> behaviours;  // in the order of behaviours_of()
   Pose2 T_map_start;
 };
 
 // resume: the map to go on from, or null. Throws ConfigError or ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
                                            const SavedMap* resume = nullptr);
+
+// What is wrong with the mission's modules and their settings, each as `cairn run` would tell the first: every module
+// is made once. Costs no rendering of templates.
+[[nodiscard]] std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library);
 
 // Templates as the mission's detector gets them: rendered for the mission's cell size, or taken from the
 // user's cache.

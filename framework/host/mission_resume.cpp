@@ -20,7 +20,7 @@ void require_same(const SavedMap& map, const std::string& key, const std::string
                                  what, found, wanted));
 }
 
-void require_same_steps(const MissionProgress& progress, const std::vector<MissionStep>& steps) {
+void require_same_steps(const MissionProgress& progress, const std::vector<TreeNode>& steps) {
   const auto step = static_cast<std::size_t>(progress.step);
   const std::string here = step < steps.size() ? steps[step].name : "";
   if (step <= steps.size() && progress.step_name == here) return;

@@ -11,6 +11,7 @@
 #include "framework/host/mission.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/stage_clock.hpp"
+#include "framework/host/tree_runner.hpp"
 #include "maps/map_store.hpp"
 
 namespace cairn {
@@ -37,6 +38,7 @@ struct MissionResult {
   MissionOutcome outcome = MissionOutcome::done;
   std::string reason;  // a sentence for people; empty when all went well
   std::vector<StepReport> steps;
+  std::vector<NodeReport> nodes;  // of all nodes that were ticked, the steps among them, in the order of the file
   std::int64_t readings = 0;
   std::int64_t matchings = 0;
   std::int64_t collisions = 0;

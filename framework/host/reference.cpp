@@ -1,5 +1,6 @@
 #include "framework/host/reference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "framework/config/robot_file.hpp"
@@ -120,10 +121,36 @@ std::string modules_section(const ModuleLibrary& library) {
   return text;
 }
 
+std::string about_shape(const NodeType& type) {
+  if (type.shape == NodeShape::nodes) return "It has a list of nodes.\n";
+  return type.shape == NodeShape::one_node ? "It has one node; a list is a sequence of its items.\n"
+                                           : table_of(type.schema);
+}
+
+std::string nodes_section() {
+  std::string text =
+      "\n## Nodes\n\nWhat the steps of missions and sub-missions are made of beside behaviours, each `- node: "
+      "settings`; "
+      "`name` beside it is what to call it. What they do: [missions.md](missions.md).\n";
+  for (const NodeType& type : node_types()) {
+    text += "\n#### " + std::string(name_of(type.kind)) + "\n\n" + type.about + "\n\n";
+    if (!type.schema.shorthand.empty()) text += "A bare value stands for " + code(type.schema.shorthand) + ".\n\n";
+    text += about_shape(type);
+  }
+  return text;
+}
+
+// In headings and links.
+std::string called(const DescribedFile& file) {
+  std::string name = file.name;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
 std::string contents(const ModuleLibrary& library) {
   std::string text = "\nFiles:";
-  for (const DescribedFile& file : described_files()) text += " [" + file.name + "](#" + file.name + "-files)";
-  text += "  \nModules:";
+  for (const DescribedFile& file : described_files()) text += " [" + called(file) + "](#" + called(file) + "-files)";
+  text += " [nodes](#nodes)  \nModules:";
   for (const ModuleEntry& entry : library.entries())
     text += " [" + entry.module->name + "](#" + entry.module->name + ")";
   return text + "\n";
@@ -134,6 +161,8 @@ std::string contents(const ModuleLibrary& library) {
 std::vector<DescribedFile> described_files() {
   return {
       {"mission", "config/missions", "What a robot does, with which modules, and where.", schema_of<MissionConfig>()},
+      {"sub_mission", "config/sub_missions", "Steps that missions run by the node `mission`, with parameters.",
+       schema_of<SubMissionFile>()},
       {"robot", "config/robots", "A robot's body, limits and sonars, and how well it measures.", robot_file_schema()},
       {"world", "config/worlds", "The walls and things of a simulation.", world_file_schema()},
       {"template", "config/templates", "The shape of one category of landmarks.", template_file_schema()},
@@ -145,11 +174,11 @@ std::vector<DescribedFile> described_files() {
 std::string reference_markdown(const ModuleLibrary& library) {
   std::string text = kIntroduction + contents(library);
   for (const DescribedFile& file : described_files()) {
-    std::string name = file.name;
+    std::string name = called(file);
     name.front() = static_cast<char>(name.front() - 'a' + 'A');
     text += "\n## " + name + " files\n\n" + file.about + " Shipped ones: [" + file.folder + "](../" + file.folder +
             ").\n\n" + table_of(file.schema);
-    if (file.name == "mission") text += modules_section(library);
+    if (file.name == "mission") text += modules_section(library) + nodes_section();
   }
   return text;
 }

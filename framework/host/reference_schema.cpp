@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "framework/host/mission_nodes.hpp"
 #include "framework/host/reference.hpp"
 
 namespace cairn {
@@ -33,6 +34,10 @@ ordered_json list_of(const ordered_json& items) {
   return {{"type", "array"}, {"items", items}};
 }
 
+ordered_json number_or(const std::vector<std::string>& words) {
+  return {{"anyOf", {{{"type", "integer"}, {"minimum", 1}}, {{"enum", words}}}}};
+}
+
 ordered_json object_of(const std::vector<FieldSpec>& fields, const std::vector<std::string>& one_of, bool is_module);
 
 ordered_json with_shorthand(const ordered_json& object, const std::vector<FieldSpec>& fields,
@@ -59,6 +64,10 @@ ordered_json shape_of(const FieldSpec& field) {
   if (field.type == "list of maps") return list_of(map_of(field));
   if (field.type == "plugin") return reference_to(field.plugin_kind);
   if (field.type == "list of steps") return reference_to("steps");
+  if (field.type == "node") return reference_to("child");
+  if (field.type == "nodes") return reference_to("nodes");
+  if (field.type == "count") return number_or({"all", "any"});
+  if (field.type == "rounds") return number_or({"forever"});
   if (field.type == "list of detectors") return list_of(reference_to(kNamed + "detector"));
   return ordered_json::object();  // anything: whoever reads it checks it
 }
@@ -128,8 +137,15 @@ bool has_required(const Schema& schema) {
   return false;
 }
 
-// `- name: settings`, or the bare name of a behaviour that needs none.
-ordered_json steps_of(const ModuleLibrary& library) {
+ordered_json behind_node(const NodeType& type) {
+  if (type.shape == NodeShape::nodes) return reference_to("nodes");
+  if (type.shape == NodeShape::one_node) return reference_to("child");
+  const Schema& schema = type.schema;
+  return with_shorthand(object_of(schema.fields, schema.one_of, false), schema.fields, schema.shorthand);
+}
+
+// `- name: settings`, or the bare name of a behaviour that needs none; `name` beside it is for people.
+ordered_json node_of(const ModuleLibrary& library) {
   ordered_json bare = ordered_json::array();
   ordered_json properties = ordered_json::object();
   for (const ModuleEntry& entry : library.entries()) {
@@ -139,12 +155,52 @@ ordered_json steps_of(const ModuleLibrary& library) {
     properties[module.name] = {{"description", module.summary}};
     properties[module.name].update(reference_to(definition_of(module)));
   }
-  const ordered_json map = {{"type", "object"},
-                            {"properties", properties},
-                            {"additionalProperties", false},
-                            {"minProperties", 1},
-                            {"maxProperties", 1}};
-  return list_of({{"anyOf", {map, {{"enum", bare}}}}});
+  for (const NodeType& type : node_types()) {
+    const std::string name(name_of(type.kind));
+    properties[name] = {{"description", type.about}};
+    properties[name].update(behind_node(type));
+  }
+  properties["name"] = {{"description", "what to call the node"}, {"type", "string"}, {"minLength", 1}};
+  const auto keys = [](int number) { return ordered_json{{"minProperties", number}, {"maxProperties", number}}; };
+  const ordered_json map = {
+      {"type", "object"}, {"properties", properties}, {"additionalProperties", false}, {"if", {{"required", {"name"}}}},
+      {"then", keys(2)},  {"else", keys(1)}};
+  return {{"anyOf", {map, {{"enum", bare}}}}};
+}
+
+void add_nodes(ordered_json& definitions, const ModuleLibrary& library) {
+  definitions["steps"] = list_of(reference_to("node"));
+  definitions["node"] = node_of(library);
+  definitions["nodes"] = list_of(reference_to("node"));
+  definitions["nodes"]["minItems"] = 1;
+  definitions["child"] = {{"anyOf", {reference_to("node"), reference_to("nodes")}}};
+}
+
+void add_behaviours(ordered_json& definitions, const ModuleLibrary& library) {
+  for (const ModuleEntry& entry : library.entries()) {
+    const RegisteredModule& module = *entry.module;
+    if (module.kind != PluginKind::behaviour) continue;
+    definitions[definition_of(module)] = with_shorthand(object_of(module.schema.fields, module.schema.one_of, false),
+                                                        module.schema.fields, module.schema.shorthand);
+  }
+}
+
+// In a sub-mission a parameter may stand for any value.
+void allow_parameters(ordered_json& schema) {
+  if (!schema.is_structured()) return;
+  for (ordered_json& inner : schema) allow_parameters(inner);
+  const auto allow = [](ordered_json& value) { value = {{"anyOf", {value, reference_to("parameter")}}}; };
+  if (!schema.is_object()) return;
+  if (schema.contains("properties"))
+    for (ordered_json& property : schema["properties"])
+      if (property.is_object()) allow(property);
+  if (schema.contains("items")) allow(schema["items"]);
+}
+
+ordered_json parameter() {
+  return {{"description", "a parameter of the sub-mission"},
+          {"type", "string"},
+          {"pattern", "^\\$[A-Za-z_][A-Za-z0-9_]*$"}};
 }
 
 ordered_json definitions_of(const ModuleLibrary& library) {
@@ -152,14 +208,13 @@ ordered_json definitions_of(const ModuleLibrary& library) {
   for (const PluginKind kind :
        {PluginKind::sensor, PluginKind::localizer, PluginKind::map, PluginKind::detector, PluginKind::planner})
     definitions[std::string(name_of(kind))] = choice_of(kind, library);
-  definitions["steps"] = steps_of(library);
+  add_nodes(definitions, library);
   for (const ModuleEntry& entry : library.entries()) {
     const RegisteredModule& module = *entry.module;
-    const bool is_step = module.kind == PluginKind::behaviour;
-    const ordered_json object = object_of(module.schema.fields, module.schema.one_of, !is_step);
-    definitions[definition_of(module)] =
-        is_step ? with_shorthand(object, module.schema.fields, module.schema.shorthand) : object;
+    if (module.kind != PluginKind::behaviour)
+      definitions[definition_of(module)] = object_of(module.schema.fields, module.schema.one_of, true);
   }
+  add_behaviours(definitions, library);
   return definitions;
 }
 
@@ -194,6 +249,13 @@ std::vector<SchemaFile> reference_schemas(const ModuleLibrary& library) {
     schema.update(object_of(file.schema.fields, file.schema.one_of, false));
     if (has_field_of(file.schema, "plugin") || has_field_of(file.schema, "list of steps"))
       schema["definitions"] = definitions_of(library);
+    if (file.name == "sub_mission") {
+      schema["definitions"] = ordered_json::object();
+      add_nodes(schema["definitions"], library);
+      add_behaviours(schema["definitions"], library);
+      allow_parameters(schema["definitions"]);
+      schema["definitions"]["parameter"] = parameter();
+    }
     if (has_field_of(file.schema, "list of detectors")) schema["definitions"] = named_definitions_of(library);
     files.push_back({file.name + ".schema.json", schema.dump(2) + "\n"});
   }

@@ -58,6 +58,25 @@ ordered_json json_of(const std::vector<StepReport>& steps) {
   return list;
 }
 
+ordered_json json_of(const std::vector<NodeReport>& nodes) {
+  const auto outcome_of = [](const NodeReport& node) {
+    if (node.is_halted) return "halted";
+    return node.status.progress == Progress::success ? "success" : "failure";
+  };
+  ordered_json list = ordered_json::array();
+  for (const NodeReport& node : nodes)
+    list.push_back({{"path", node.path},
+                    {"kind", node.kind},
+                    {"name", node.name},
+                    {"outcome", outcome_of(node)},
+                    {"reason", node.status.reason},
+                    {"begin_s", rounded(node.begin_s)},
+                    {"end_s", rounded(node.end_s)},
+                    {"ticks", node.ticks},
+                    {"runs", node.runs}});
+  return list;
+}
+
 ordered_json json_of(const std::vector<StageTime>& times) {
   ordered_json list = ordered_json::array();
   for (const StageTime& t : times)
@@ -140,13 +159,19 @@ struct Sentence {
   std::string operator()(const PlanDone& e) const {
     return "plan: " + std::string(name_of(e.result.outcome)) + (e.result.reason.empty() ? "" : ", " + e.result.reason);
   }
+  static std::string ended(const Status& status) {
+    return std::string(" ends: ") + (status.progress == Progress::success ? "success" : "failure") +
+           (status.reason.empty() ? "" : ", " + status.reason);
+  }
   std::string operator()(const StepStarted& e) const {
     return "step " + std::to_string(e.index + 1) + " (" + e.name + ") begins";
   }
   std::string operator()(const StepEnded& e) const {
-    return "step " + std::to_string(e.index + 1) + " (" + e.name +
-           ") ends: " + (e.status.progress == Progress::success ? "success" : "failure") +
-           (e.status.reason.empty() ? "" : ", " + e.status.reason);
+    return "step " + std::to_string(e.index + 1) + " (" + e.name + ")" + ended(e.status);
+  }
+  std::string operator()(const NodeStarted& e) const { return "node " + e.path + " (" + e.name + ") begins"; }
+  std::string operator()(const NodeEnded& e) const {
+    return "node " + e.path + " (" + e.name + ")" + (e.is_halted ? " is halted: " + e.status.reason : ended(e.status));
   }
   std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
   std::string operator()(const Autosaved&) const { return {}; }
@@ -196,6 +221,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   report["explored_ratio"] = rounded(explored_ratio_);
   if (result.resumed_s) report["resumed_s"] = rounded(*result.resumed_s);
   report["steps"] = json_of(result.steps);
+  report["nodes"] = json_of(result.nodes);
   report["map"] = result.map_file;
   report["pictures"] = pictures;
   if (!pose_errors_m_.empty()) report["pose_error_m"] = quantiles(pose_errors_m_);

@@ -33,6 +33,20 @@ struct RunCommand {
 };
 int run(const RunCommand& command, const CommonOptions& common);
 
+struct MissionCheckCommand {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> overrides;
+};
+// 2 when there is an error in any of the files; all that are found are told.
+int mission_check(const MissionCheckCommand& command, const CommonOptions& common);
+
+struct MissionShowCommand {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  std::filesystem::path picture;  // empty: none
+};
+int mission_show(const MissionShowCommand& command, const CommonOptions& common);
+
 // Names as people write them.
 struct PlanQuestion {
   std::string from;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/config/config_value.hpp"
@@ -34,6 +35,26 @@ void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& 
   sub->add_option("--resume", c.resume, "saved or autosaved map of this mission (*.cairn) to go on from");
   sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
   sub->callback([&] { action = [&] { return run(c, common); }; });
+}
+
+struct MissionOptions {
+  MissionCheckCommand check;
+  MissionShowCommand show;
+};
+
+void add_mission(CLI::App& app, MissionOptions& c, const CommonOptions& common, Action& action) {
+  CLI::App* mission = app.add_subcommand("mission", "Check missions without running them, or show their steps");
+  mission->require_subcommand(1);
+  CLI::App* check = mission->add_subcommand("check", "All that is wrong with mission files; exit status 2 if anything");
+  check->add_option("FILE", c.check.files, "mission file (may be repeated)")->required();
+  CLI::App* show = mission->add_subcommand("show", "The steps as a tree, with all sub-missions");
+  show->add_option("FILE", c.show.file, "mission file")->required();
+  show->add_option("--picture", c.show.picture, "draw the tree into this PNG file");
+  for (const auto& [sub, overrides] : {std::pair(check, &c.check.overrides), std::pair(show, &c.show.overrides)})
+    sub->add_option("--set", *overrides, "override a setting, as for `cairn run` (may be repeated)")
+        ->allow_extra_args(false);
+  check->callback([&] { action = [&] { return mission_check(c.check, common); }; });
+  show->callback([&] { action = [&] { return mission_show(c.show, common); }; });
 }
 
 void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action& action) {
@@ -244,6 +265,7 @@ int main_of(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_flag("--json", common.json, "JSON on standard output; text for people on standard error");
   RunCommand run_options;
+  MissionOptions mission_options;
   PlanCommand plan_options;
   MapCommand map_options;
   MapFileOptions map_file_options;
@@ -257,6 +279,7 @@ int main_of(int argc, char** argv) {
   ReferenceCommand reference_options;
   Action action;
   add_run(app, run_options, common, action);
+  add_mission(app, mission_options, common, action);
   add_plan(app, plan_options, common, action);
   add_map(app, map_options, common, action);
   add_map_files(app, map_file_options, common, action);

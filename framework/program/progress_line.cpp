@@ -21,10 +21,16 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     tell(fmt::format("found {}: {} at ({:.2f}, {:.2f}), degree {:.2f}", label_of(e->landmark), e->landmark.category,
                      e->landmark.T_map_landmark.x_m, e->landmark.T_map_landmark.y_m, e->landmark.degree));
   if (const auto* e = std::get_if<StepStarted>(&event)) tell(fmt::format("step {}: {}", e->index + 1, e->name));
-  if (const auto* e = std::get_if<StepEnded>(&event))
-    tell(fmt::format("step {}: {} {}{}", e->index + 1, e->name,
-                     e->status.progress == Progress::success ? "done" : "failed",
-                     e->status.reason.empty() ? "" : " (" + e->status.reason + ")"));
+  const auto ended = [&](const std::string& which, const std::string& name, const Status& status, bool is_halted) {
+    const char* const how = is_halted ? "halted" : status.progress == Progress::success ? "done" : "failed";
+    tell(fmt::format("step {}: {} {}{}", which, name, how, status.reason.empty() ? "" : " (" + status.reason + ")"));
+  };
+  if (const auto* e = std::get_if<StepEnded>(&event)) ended(std::to_string(e->index + 1), e->name, e->status, false);
+  // What control nodes and conditions make of it stands in the report.
+  if (const auto* e = std::get_if<NodeStarted>(&event); e != nullptr && e->kind == NodeKind::behaviour)
+    tell(fmt::format("step {}: {}", e->path, e->name));
+  if (const auto* e = std::get_if<NodeEnded>(&event); e != nullptr && e->kind == NodeKind::behaviour)
+    ended(e->path, e->name, e->status, e->is_halted);
   if (const auto* e = std::get_if<Autosaved>(&event)) {
     tell(fmt::format("autosaved {}: all up to {:.3f} s, in {:.0f} ms", e->file_name, e->time_s, e->took_ms));
     out_ << std::flush;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kRobot = "{name: fuzzed, radius_m: 0.2, sonars: [{x_m: 0, y_m: 0, angle_deg: 0}]}";
 constexpr std::string_view kWorld = "{bounds_m: [[0, 0], [6, 5]], objects: [{template: square, at_m: [2, 2]}]}";
+constexpr std::string_view kSubMission = "{parameters: {where: , wait_s: 2}, steps: [goto: $where, wait: $wait_s]}";
 constexpr std::string_view kSquare =
     "{category: square, polygon_m: [[-0.2, -0.2], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2]]}";
 
@@ -56,13 +57,23 @@ const std::vector<LandmarkShape>& shapes() {
   return kept;
 }
 
-// Next to the mission: robot.yaml, world.yaml and the folder templates.
+void check(const TreeNode& node, std::size_t depth) {
+  promise(depth <= kMostTreeDepth, "a tree is not too deep");
+  promise(is_leaf(node.kind) == node.children.empty(), "leafs and nothing else have no children");
+  promise(node.kind != NodeKind::parallel || (node.succeed_at >= 1 && node.succeed_at <= node.children.size()),
+          "a parallel can succeed");
+  promise(node.kind != NodeKind::timeout || node.after_s > 0.0, "a timeout takes time");
+  for (const TreeNode& child : node.children) check(child, depth + 1);
+}
+
+// Next to the mission: robot.yaml, world.yaml, the sub-mission sub.yaml and the folder templates.
 void furnish() {
   if (std::filesystem::exists(scratch() / "templates")) return;
   std::filesystem::create_directory(scratch() / "templates");
   scratch_file("templates/square.yaml", kSquare);
   scratch_file("robot.yaml", kRobot);
   scratch_file("world.yaml", kWorld);
+  scratch_file("sub.yaml", kSubMission);
 }
 
 }  // namespace
@@ -85,6 +96,8 @@ void read_mission(Input input) {
     const Mission mission = load_mission(file, overrides);
     check(mission.robot);
     if (mission.world) check(*mission.world);
+    promise(count_nodes(mission.steps) <= kMostTreeNodes, "a tree is not too large");
+    for (const TreeNode& step : mission.steps) check(step, 1);
     promise(mission.config.mission.find_first_of(std::string_view("/\0", 2)) == std::string::npos,
             "a mission's name stays in the output folder");
   });

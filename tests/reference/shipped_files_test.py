@@ -11,9 +11,9 @@ import jsonschema
 import yaml
 
 CONFIG = pathlib.Path(sys.argv.pop(1)) / "config"
-KINDS = ("mission", "robot", "world", "template", "experiment")
-# Maps whose keys the schema cannot know: they are OMPL's.
-OPEN_MAPS = ("parameters",)
+KINDS = ("mission", "sub_mission", "robot", "world", "template", "experiment")
+# Maps whose keys the schema cannot know: they are OMPL's, or a sub-mission's.
+OPEN_MAPS = ("parameters", "with")
 
 
 def files_of(kind):
@@ -90,6 +90,45 @@ class Mission(unittest.TestCase):
     def test_short_forms_of_steps_pass(self):
         steps = ["explore", {"explore": None}, {"wait": 2}, {"goto": "nearest square"}, {"drive": [[1, 2], [3, 4]]}]
         self.assertTrue(self.passes(steps=steps))
+
+    def test_nodes_pass_with_what_they_need(self):
+        for node in (
+            {"sequence": ["explore", {"wait": 2}]},
+            {"name": "either", "fallback": [{"goto": "L1"}, {"reactive_fallback": ["wait"]}]},
+            {"parallel": ["wait"]},
+            {"parallel": {"succeed_when": 1, "fail_when": "all", "do": ["wait", "explore"]}},
+            {"repeat": {"times": "forever", "do": ["wait", "explore"]}},
+            {"retry": {"times": 3, "do": {"not": {"always": ["wait"]}}}},
+            {"timeout": {"after_s": 2.5, "do": "wait"}},
+            {"mission": "a.yaml"},
+            {"mission": {"file": "a.yaml", "with": {"anything": [1, 2]}}},
+            {"at_place": {"at_m": [1, 2]}},
+            {"landmark_known": "square"},
+        ):
+            self.assertTrue(self.passes(steps=[node]), node)
+
+    def test_nodes_that_the_program_refuses_fail(self):
+        for node in (
+            {"sequence": []},
+            {"sequence": "wait"},
+            {"fallback": ["save"]},
+            {"name": "alone"},
+            {"name": "two", "wait": 1, "explore": None},
+            {"parallel": {"succeed_when": "most", "do": ["wait"]}},
+            {"repeat": {"do": "wait"}},
+            {"retry": {"times": 0, "do": "wait"}},
+            {"timeout": {"after_s": 0, "do": "wait"}},
+            {"not": None},
+            {"at_place": {"within_m": 1}},
+            {"explored": 95},
+            {"timeout": {"after_s": "$patience_s", "do": "wait"}},
+        ):
+            self.assertFalse(self.passes(steps=[node]), node)
+
+    def test_parameters_pass_in_sub_missions(self):
+        steps = [{"timeout": {"after_s": "$patience_s", "do": "$what"}}, {"drive": ["$from", [1, 2]]}]
+        self.assertTrue(validator_of("sub_mission").is_valid({"steps": steps}))
+        self.assertFalse(validator_of("sub_mission").is_valid({"steps": [{"wait": "patience_s"}]}))
 
     def test_a_step_that_needs_settings_cannot_be_bare(self):
         self.assertFalse(self.passes(steps=["save"]))

@@ -104,7 +104,7 @@ inline Mission mission(int ticks) {
   mission.config.localizer = choice("still_localizer");
   mission.config.map = choice("still_map");
   mission.config.detector = choice("still_detector");
-  mission.steps.push_back({"still_step", choice("still_step")});
+  mission.steps.push_back({NodeKind::behaviour, "still_step", choice("still_step"), "1"});
   mission.config.at_most_s = 1e9;
   return mission;
 }

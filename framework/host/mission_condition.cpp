@@ -1,0 +1,69 @@
+#include "framework/host/mission_condition.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace cairn {
+namespace {
+
+constexpr double kCountEvery_s = 1.0;
+constexpr std::string_view kNearest = "nearest ";
+
+// As `goto` takes them, and a bare category.
+std::vector<LandmarkId> landmarks_of(const std::string& text, const LandmarkGraph& graph) {
+  if (text.starts_with(kNearest)) return graph.of_category(text.substr(kNearest.size()));
+  if (const Landmark* landmark = graph.find_by_name(text)) return {landmark->id};
+  return graph.of_category(text);
+}
+
+Status answer(bool holds, std::string reason) {
+  return {holds ? Progress::success : Progress::failure, std::move(reason)};
+}
+
+Status known(const std::string& landmark, const LandmarkGraph& graph) {
+  const std::vector<LandmarkId> found = landmarks_of(landmark, graph);
+  if (found.empty()) return answer(false, "no landmark \"" + landmark + "\" is known");
+  return answer(true, label_of(*graph.find(found.front())) + " is known");
+}
+
+Status at_place(const Condition& condition, const WorldView& world) {
+  std::vector<Point> places;
+  if (condition.at_m) places.push_back(*condition.at_m);
+  if (!condition.at_m)
+    for (const LandmarkId id : landmarks_of(condition.landmark, world.graph))
+      places.push_back(world.graph.find(id)->T_map_landmark.position());
+  if (places.empty()) return known(condition.landmark, world.graph);
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Point& place : places) nearest_m = std::min(nearest_m, (place - world.pose.T_map_robot.position()).norm());
+  return answer(nearest_m <= condition.number, fmt::format("{:.2f} m away", nearest_m));
+}
+
+}  // namespace
+
+Status ConditionCheck::operator()(const TreeNode& node, const WorldView& world) {
+  const Condition& condition = node.condition;
+  switch (node.kind) {
+    case NodeKind::landmark_known:
+      return known(condition.landmark, world.graph);
+    case NodeKind::explored: {
+      const double ratio = explored_ratio(world);
+      return answer(ratio >= condition.number, fmt::format("{:.1f} % explored", 100.0 * ratio));
+    }
+    case NodeKind::time_before:
+      return answer(world.time_s < condition.number, fmt::format("{:.1f} s have passed", world.time_s));
+    case NodeKind::time_after:
+      return answer(world.time_s >= condition.number, fmt::format("{:.1f} s have passed", world.time_s));
+    default:
+      return at_place(condition, world);
+  }
+}
+
+double ConditionCheck::explored_ratio(const WorldView& world) {
+  if (world.time_s < counted_s_ + kCountEvery_s) return ratio_;
+  counted_s_ = world.time_s;
+  ratio_ = known_ratio(world.grid);
+  return ratio_;
+}
+
+}  // namespace cairn
