@@ -5,13 +5,12 @@
 #include <stdexcept>
 
 #include "framework/config/fields.hpp"
+#include "framework/config/world_moving.hpp"
 
 namespace cairn {
 namespace {
 
-std::vector<std::pair<std::string, Surface>> surfaces() {
-  return {{"smooth", Surface::smooth}, {"rough", Surface::rough}};
-}
+using namespace world_config;
 
 struct WallConfig {
   std::vector<Point> points_m;
@@ -47,25 +46,17 @@ struct WorldConfig {
   std::vector<Point> bounds_m;
   std::vector<WallConfig> walls;
   std::vector<ObjectConfig> objects;
+  std::vector<DoorConfig> doors;
+  std::vector<MoverConfig> movers;
   static void describe(Fields<WorldConfig>& fields) {
     fields.points("bounds_m", &WorldConfig::bounds_m, "m", "lower left and upper right corner of the world").required =
         true;
     fields.list("walls", &WorldConfig::walls, "thin walls");
     fields.list("objects", &WorldConfig::objects, "landmarks and obstacles");
+    fields.list("doors", &WorldConfig::doors, "sliding leaves; one never closes on the robot");
+    fields.list("movers", &WorldConfig::movers, "people and carts; they mind nothing but the robot");
   }
 };
-
-std::string point_text(const Point& p) {
-  return "[" + config_detail::number_text(p.x()) + ", " + config_detail::number_text(p.y()) + "]";
-}
-
-void check_inside(const World& world, const Point& p, const SourcePlace& place, const std::string& what) {
-  if (p.x() >= world.min_m.x() && p.y() >= world.min_m.y() && p.x() <= world.max_m.x() && p.y() <= world.max_m.y()) {
-    return;
-  }
-  throw ConfigError(place, what + " " + point_text(p) + " lies outside bounds_m " + point_text(world.min_m) + " to " +
-                               point_text(world.max_m));
-}
 
 void set_bounds(World& world, const WorldConfig& config, const ConfigValue& root) {
   const SourcePlace& place = root.find("bounds_m")->place;
@@ -160,6 +151,11 @@ World load_world(const std::filesystem::path& file, const std::vector<LandmarkSh
   for (std::size_t i = 0; i < config.objects.size(); ++i) {
     world.objects.push_back(object_of(world, config.objects[i], root.find("objects")->items[i], shapes));
   }
+  for (std::size_t i = 0; i < config.doors.size(); ++i)
+    world.doors.push_back(door_of(world, config.doors[i], root.find("doors")->items[i]));
+  for (std::size_t i = 0; i < config.movers.size(); ++i)
+    world.movers.push_back(mover_of(world, config.movers[i], root.find("movers")->items[i]));
+  check_names(root);
   return world;
 }
 

@@ -98,7 +98,17 @@ ordered_json json_of(const AutosaveFigures& autosave) {
           {"writing_s", rounded(autosave.writing_s)}};
 }
 
-ordered_json main_figures(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph) {
+ordered_json json_of(const std::vector<TimedContact>& contacts) {
+  ordered_json list = ordered_json::array();
+  for (const TimedContact& touch : contacts)
+    list.push_back({{"time_s", rounded(touch.time_s)},
+                    {"speed_mps", rounded(touch.contact.speed_mps)},
+                    {"could_be_seen", touch.contact.could_be_seen}});
+  return list;
+}
+
+ordered_json main_figures(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+                          const std::vector<TimedContact>& contacts) {
   return {{"mission", mission.config.mission},
           {"seed", mission.config.seed},
           {"outcome", std::string(name_of(result.outcome))},
@@ -108,6 +118,7 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
           {"matchings", result.matchings},
           {"readings", result.readings},
           {"collisions", result.collisions},
+          {"contacts", json_of(contacts)},
           {"distance_m", rounded(result.distance_m)},
           {"time_s", rounded(result.time_s)}};
 }
@@ -180,6 +191,7 @@ void RunReport::on(const Event& event, const MissionView& view) {
                         true_pose(view.world).position()});
   }
   if (std::holds_alternative<TickDone>(event)) note_pose_error(view);
+  if (std::holds_alternative<Bumped>(event)) note_contact(view);
   if (std::holds_alternative<MapSaved>(event)) explored_ratio_ = known_ratio(view.world.grid);
   const std::string sentence = std::visit(Sentence{}, event);
   if (!sentence.empty()) events_.push_back(at_time(view.world.time_s, sentence));
@@ -192,9 +204,14 @@ void RunReport::note_pose_error(const MissionView& view) {
   pose_errors_m_.push_back((observation->true_T_map_robot->position() - view.world.pose.T_map_robot.position()).norm());
 }
 
+void RunReport::note_contact(const MissionView& view) {
+  if (view.world.observation != nullptr && view.world.observation->contact)
+    contacts_.push_back({view.world.time_s, *view.world.observation->contact});
+}
+
 std::string RunReport::report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
                                    const std::vector<std::string>& pictures) const {
-  ordered_json report = main_figures(mission, result, graph);
+  ordered_json report = main_figures(mission, result, graph, contacts_);
   report["retired"] = ordered_json::array();
   for (const auto& [id, retired] : graph.retired()) {
     ordered_json landmark = json_of(retired.landmark);
@@ -226,7 +243,7 @@ std::string timing_json(const std::vector<StageTime>& times) {
 std::string RunReport::summary_json(const Mission& mission, const MissionResult& result, const MissionRunner& runner,
                                     const std::filesystem::path& out, const std::vector<std::string>& pictures,
                                     double wall_s) const {
-  ordered_json summary = main_figures(mission, result, runner.graph());
+  ordered_json summary = main_figures(mission, result, runner.graph(), contacts_);
   summary["explored_ratio"] = rounded(explored_ratio_);
   summary["wall_s"] = rounded(wall_s);
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);

@@ -20,6 +20,12 @@ struct DegreeSample {
   Point robot_m{0.0, 0.0};                  // in truth where that is known, otherwise as estimated
 };
 
+// A touch that the simulation judged.
+struct TimedContact {
+  double time_s = 0.0;
+  Contact contact;
+};
+
 class RunReport : public Listener {
  public:
   void on(const Event& event, const MissionView& view) override;
@@ -34,11 +40,14 @@ class RunReport : public Listener {
                                          const std::vector<std::string>& pictures, double wall_s) const;
 
   [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
+  [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
 
  private:
   void note_pose_error(const MissionView& view);
+  void note_contact(const MissionView& view);
 
   std::vector<DegreeSample> degrees_;
+  std::vector<TimedContact> contacts_;
   std::vector<double> pose_errors_m_;  // once a second, where the truth is known
   std::vector<std::string> events_;    // sentences with their time
   double last_error_s_ = -1.0;

@@ -103,11 +103,20 @@ std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double 
   return tasks;
 }
 
+// The robot that draws templates is in order, whatever the mission's is to suffer.
+PluginChoice without_faults(PluginChoice sensor) {
+  std::erase_if(sensor.config.entries, [](const ConfigValue::Entry& entry) {
+    return entry.key == "faults" || entry.key == "random_faults" || entry.key == "battery";
+  });
+  return sensor;
+}
+
 }  // namespace
 
 TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
-                              const SensedOptions& options, const RobotModel& robot, const PluginChoice& sensor,
+                              const SensedOptions& options, const RobotModel& robot, const PluginChoice& missions_own,
                               const PluginChoice& map, const ModuleLibrary& modules, const TemplateCache& cache) {
+  const PluginChoice sensor = without_faults(missions_own);
   const Studio studio{cell_m, options, {robot, sensor, map, modules}};
   const std::string common_key = rendering_key(step_rad, cell_m, options, robot, sensor, map, modules);
   std::vector<std::optional<std::vector<LandmarkTemplate>>> kept;

@@ -9,6 +9,14 @@
 namespace cairn {
 namespace {
 
+void add_traffic(const World& world, MapPicture& picture) {
+  for (const WorldDoor& door : world.doors) picture.doors.push_back({door.from_m, door.to_m});
+  for (const WorldMover& mover : world.movers) {
+    picture.mover_paths.push_back(mover.path_m);
+    if (mover.course == Course::round) picture.mover_paths.back().push_back(mover.path_m.front());
+  }
+}
+
 void draw_map(const std::filesystem::path& file, const Mission& mission, const MissionRunner& runner) {
   MapPicture picture;
   picture.grid = runner.grid();
@@ -20,6 +28,7 @@ void draw_map(const std::filesystem::path& file, const Mission& mission, const M
     picture.robot = runner.driven_path().back();
     picture.robot_radius_m = mission.robot.radius_m;
   }
+  if (mission.world) add_traffic(*mission.world, picture);
   picture.title = mission.config.mission + ", seed " + std::to_string(mission.config.seed);
   write_map_picture(file, picture);
 }

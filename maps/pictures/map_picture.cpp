@@ -18,6 +18,8 @@ constexpr double kSurelyFreeNat = 2.0;  // P < 0.12
 constexpr double kLandmarkMarginM = 0.1;
 constexpr Stroke kDrivenStroke{kDriven, 1.5, 0.9};
 constexpr Stroke kPlannedStroke{kPlanned, 3.5, 0.95};
+constexpr Stroke kDoorStroke{kClosed, 3.0, 0.9};
+constexpr Stroke kMoverStroke{kGoal, 1.5, 0.6, 6.0};
 
 // The box of cells that are worth showing: occupied or surely free. Single stray readings leave faint
 // traces far behind the walls, which would only make the map small. Of a map without such cells, all.
@@ -47,6 +49,9 @@ Extent extent_of(const MapPicture& picture, const GraphLayer& graph) {
   }
   for (const auto* path : {&picture.driven, &picture.planned})
     for (const Point& p : *path) extent.include(p, kLandmarkMarginM);
+  for (const auto* paths : {&picture.doors, &picture.mover_paths})
+    for (const std::vector<Point>& path : *paths)
+      for (const Point& p : path) extent.include(p, kLandmarkMarginM);
   for (const Pose2& pose : picture.robot_path) extent.include(pose.position(), shape_of(picture).reach_m());
   for (const auto& place : {picture.start, picture.goal})
     if (place) extent.include(*place, 2.0 * kLandmarkMarginM);
@@ -155,6 +160,8 @@ std::vector<LegendEntry> legend_of(const MapPicture& picture, const GraphLayer& 
   for (LegendEntry& entry : graph.legend()) entries.push_back(std::move(entry));
   if (!picture.driven.empty()) entries.push_back(line_entry("driven", kDrivenStroke));
   if (!picture.planned.empty()) entries.push_back(line_entry("planned", kPlannedStroke));
+  if (!picture.doors.empty()) entries.push_back(line_entry("door", kDoorStroke));
+  if (!picture.mover_paths.empty()) entries.push_back(line_entry("where others go", kMoverStroke));
   if (picture.start) entries.push_back({"start", draw_start});
   if (picture.goal) entries.push_back({"goal", draw_goal});
   if (!picture.robot_path.empty() && shape_of(picture).reach_m() > 0.0)
@@ -199,6 +206,8 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   Canvas canvas(width_px, static_cast<int>(std::ceil(legend_top_px + legend_px + 12.0)), kPaper);
 
   draw_grid(canvas, frame, picture.grid);
+  for (const std::vector<Point>& path : picture.mover_paths) canvas.line(frame.pixels_of(path), kMoverStroke);
+  for (const std::vector<Point>& leaf : picture.doors) canvas.line(frame.pixels_of(leaf), kDoorStroke);
   canvas.line(frame.pixels_of(picture.driven), kDrivenStroke);
   graph.draw_routes(canvas, frame);
   graph.draw_landmarks(canvas, frame);

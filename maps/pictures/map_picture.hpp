@@ -23,6 +23,9 @@ struct MapPicture {
   std::vector<LandmarkShape> shapes;      // outlines of the graph's categories; a dot where there is none
   std::vector<Point> driven;              // in the map frame, as all below
   std::vector<Point> planned;
+  // Of a world that changes: the leaves of its doors, and where its people and carts go.
+  std::vector<std::vector<Point>> doors;
+  std::vector<std::vector<Point>> mover_paths;
   std::vector<Pose2> robot_path;  // the robot's outline is drawn at both ends and some way apart between
   std::optional<Point> start;
   std::optional<Point> goal;

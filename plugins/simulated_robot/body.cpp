@@ -61,18 +61,13 @@ double Body::footprint_clearance_m(const Pose2& T_map_robot) const {
   return nearest_m;
 }
 
-double Body::free_share(Pose2& T_map_robot, double distance_m, double turn_rad) const {
-  // No point of the footprint moves farther than this; a disc that turns sweeps nothing new.
-  const double sweep_m = std::abs(distance_m) + (polygon_m_.empty() ? 0.0 : radius_m_ * std::abs(turn_rad));
-  if (sweep_m == 0.0) {
-    T_map_robot = T_map_robot * along_arc(distance_m, turn_rad);
-    return 1.0;
-  }
-  const Pose2 T_map_from = T_map_robot;
-  double clear_m = clearance_m(T_map_robot);
+// No point of the footprint moves farther than sweep_m on the whole way.
+template <class PoseAt>
+double Body::furthest(Pose2& T_map_robot, double sweep_m, double gap_m, PoseAt pose_at) const {
+  double clear_m = clearance_m(T_map_robot) - gap_m;
   const auto go_to = [&](double share) {
-    const Pose2 T_map_next = T_map_from * along_arc(share * distance_m, share * turn_rad);
-    const double next_clear_m = clearance_m(T_map_next);
+    const Pose2 T_map_next = pose_at(share);
+    const double next_clear_m = clearance_m(T_map_next) - gap_m;
     if (next_clear_m < 0.0 && next_clear_m < clear_m) return false;
     T_map_robot = T_map_next;
     clear_m = next_clear_m;
@@ -97,9 +92,54 @@ double Body::free_share(Pose2& T_map_robot, double distance_m, double turn_rad) 
   return 1.0;
 }
 
+double Body::free_share(Pose2& T_map_robot, double distance_m, double turn_rad) const {
+  // A disc that turns sweeps nothing new.
+  const double sweep_m = std::abs(distance_m) + (polygon_m_.empty() ? 0.0 : radius_m_ * std::abs(turn_rad));
+  if (sweep_m == 0.0) {
+    T_map_robot = T_map_robot * along_arc(distance_m, turn_rad);
+    return 1.0;
+  }
+  const Pose2 T_map_from = T_map_robot;
+  return furthest(T_map_robot, sweep_m, 0.0,
+                  [&](double share) { return T_map_from * along_arc(share * distance_m, share * turn_rad); });
+}
+
+double Body::slide(const Pose2& T_map_robot, const Point& way_m, double gap_m) const {
+  Pose2 T_map_slid = T_map_robot;
+  return furthest(T_map_slid, way_m.norm(), gap_m, [&](double share) {
+    return Pose2{T_map_robot.x_m + share * way_m.x(), T_map_robot.y_m + share * way_m.y(), T_map_robot.theta_rad};
+  });
+}
+
+Nearest Body::nearest(const Pose2& T_map_robot) const {
+  std::vector<Point> corners_m;
+  for (const Point& corner : polygon_m_) corners_m.push_back(T_map_robot * corner);
+  // A disc is measured from its centre.
+  if (corners_m.empty()) corners_m.push_back(T_map_robot.position());
+  const double radius_m = polygon_m_.empty() ? radius_m_ : 0.0;
+  Nearest best;
+  const auto consider = [&](const Point& from_m, const Point& at_m, const Face* face, const RoundFace* round_face) {
+    const double distance_m = (at_m - from_m).norm() - radius_m;
+    if (distance_m < best.distance_m) best = {at_m, distance_m, face, round_face};
+  };
+  for (std::size_t i = 0; i < corners_m.size(); ++i) {
+    const Point& a = corners_m[i];
+    const Point& b = corners_m[(i + 1) % corners_m.size()];
+    for (const Face& face : scene_.faces()) {
+      consider(a, nearest_on_segment(a, face.a_m, face.b_m), &face, nullptr);
+      for (const Point& end : {face.a_m, face.b_m}) consider(nearest_on_segment(end, a, b), end, &face, nullptr);
+    }
+    for (const RoundFace& face : scene_.round_faces()) {
+      const Point from_m = nearest_on_segment(face.centre_m, a, b);
+      consider(from_m, face.centre_m + face.radius_m * (from_m - face.centre_m).normalized(), nullptr, &face);
+    }
+  }
+  return best;
+}
+
 Move Body::drive(Pose2& T_map_robot, double distance_m, double turn_rad) const {
   const double share = free_share(T_map_robot, distance_m, turn_rad);
-  Move move{share * distance_m, share * turn_rad, share < 1.0};
+  Move move{share * distance_m, share * turn_rad, share < 1.0, T_map_robot};
   if (move.touched && distance_m != 0.0) {
     const double left_rad = (1.0 - share) * turn_rad;
     move.turn_rad += free_share(T_map_robot, 0.0, left_rad) * left_rad;

@@ -1,6 +1,7 @@
 // The robot's body among the world's walls and objects: it moves along an arc until it touches.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,15 @@ struct Move {
   double distance_m = 0.0;  // driven, with its sign
   double turn_rad = 0.0;
   bool touched = false;  // something cut the move short
+  Pose2 T_map_touch{};   // where, when it did
+};
+
+// The nearest place of a footprint's surroundings.
+struct Nearest {
+  Point at_m{0.0, 0.0};
+  double distance_m = std::numeric_limits<double>::infinity();
+  const Face* face = nullptr;             // the straight face that it lies on,
+  const RoundFace* round_face = nullptr;  // or the round one
 };
 
 class Body {
@@ -33,9 +43,18 @@ class Body {
   // the turn is then made on the spot, as far as that is free. A move that leads away is always possible.
   [[nodiscard]] Move drive(Pose2& T_map_robot, double distance_m, double turn_rad) const;
 
+  // The share of a straight way (map frame, no turning) that the footprint can go and keep gap_m from
+  // everything, found in the same manner.
+  [[nodiscard]] double slide(const Pose2& T_map_robot, const Point& way_m, double gap_m) const;
+
+  // The place of the scene that is nearest to the footprint. Valid while the scene stays as it is.
+  [[nodiscard]] Nearest nearest(const Pose2& T_map_robot) const;
+
  private:
   // Moves the pose as far along the arc as it is free; the share of the arc that is done.
   [[nodiscard]] double free_share(Pose2& T_map_robot, double distance_m, double turn_rad) const;
+  template <class PoseAt>
+  [[nodiscard]] double furthest(Pose2& T_map_robot, double sweep_m, double gap_m, PoseAt pose_at) const;
   [[nodiscard]] double footprint_clearance_m(const Pose2& T_map_robot) const;
 
   double radius_m_;
@@ -43,7 +62,8 @@ class Body {
   const Scene& scene_;
 };
 
-// What the robot would overlap at this pose, as people call it ("wall 2", "object 3 (square)"), or nothing.
+// What the robot would overlap at this pose, as people call it ("wall 2", "object 3 (square)"), or nothing. Doors and
+// movers are not looked at.
 [[nodiscard]] std::optional<std::string> blocker_at(const Pose2& T_map_robot, const RobotModel& robot,
                                                     const World& world);
 

@@ -1,7 +1,11 @@
 // Settings of the simulated robot; what belongs to a robot (limits, sonars, errors) is in its own file.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "framework/config/fields.hpp"
+#include "plugins/simulated_robot/fault_config.hpp"
 
 namespace cairn {
 
@@ -37,12 +41,29 @@ struct EchoConfig {
   }
 };
 
+// What is left falls evenly: by standing, and by the more the faster it goes.
+struct BatteryConfig {
+  double standing_s = 7200.0;
+  double driving_s = 3600.0;
+  double start_ratio = 1.0;
+
+  static void describe(Fields<BatteryConfig>& fields) {
+    fields.number("standing_s", &BatteryConfig::standing_s, {1.0, 1e9}, "s", "a full one lasts so long standing");
+    fields.number("driving_s", &BatteryConfig::driving_s, {1.0, 1e9}, "s",
+                  "and so long at full speed; an empty one moves nothing");
+    fields.number("start_ratio", &BatteryConfig::start_ratio, {0.0, 1.0}, "", "what is in it at the start");
+  }
+};
+
 struct SimulatedRobotConfig {
   bool fire_all = false;
   double tick_s = 0.04;
   bool compass = true;
   double turn_as_distance_m_per_rad = 0.1;
   EchoConfig echo;
+  std::vector<FaultConfig> faults;
+  std::optional<RandomFaultsConfig> random_faults;
+  std::optional<BatteryConfig> battery;
 
   static void describe(Fields<SimulatedRobotConfig>& fields) {
     fields.flag("fire_all", &SimulatedRobotConfig::fire_all, "every transducer each tick instead of one");
@@ -52,6 +73,14 @@ struct SimulatedRobotConfig {
     fields.number("turn_as_distance_m_per_rad", &SimulatedRobotConfig::turn_as_distance_m_per_rad, {0, 10}, "m/rad",
                   "driven distance that a turn in place counts as for the heading error of the odometry");
     fields.group("echo", &SimulatedRobotConfig::echo, "the sonar model");
+    FieldSpec& faults = fields.list("faults", &SimulatedRobotConfig::faults, "what goes wrong, and when");
+    faults.load = [load = faults.load](void* config, const ConfigValue& value) {
+      load(config, value);
+      check_faults(static_cast<SimulatedRobotConfig*>(config)->faults, value);
+    };
+    fields.group("random_faults", &SimulatedRobotConfig::random_faults,
+                 "what goes wrong by chance; the mission's seed draws it");
+    fields.group("battery", &SimulatedRobotConfig::battery, "the robot's battery; without it, nothing is told of one");
   }
 };
 

@@ -46,11 +46,15 @@ double along_ray_to_round(const Point& from, const Point& direction, const Round
 
 }  // namespace
 
-double distance_to_segment(const Point& p_m, const Point& a_m, const Point& b_m) {
+Point nearest_on_segment(const Point& p_m, const Point& a_m, const Point& b_m) {
   const Point edge = b_m - a_m;
   const double length_squared = edge.squaredNorm();
   const double share = length_squared > 0.0 ? std::clamp((p_m - a_m).dot(edge) / length_squared, 0.0, 1.0) : 0.0;
-  return (a_m + share * edge - p_m).norm();
+  return a_m + share * edge;
+}
+
+double distance_to_segment(const Point& p_m, const Point& a_m, const Point& b_m) {
+  return (nearest_on_segment(p_m, a_m, b_m) - p_m).norm();
 }
 
 VertexLook Vertex::look_from(const Point& eye_m) const {
@@ -86,6 +90,33 @@ Scene::Scene(const World& world) {
     }
   }
   collect_vertices();
+  fixed_faces_ = faces_.size();
+  fixed_round_faces_ = round_faces_.size();
+  fixed_vertices_ = vertices_.size();
+}
+
+void Scene::show(const Scene& outline, const Point& shift_m, int mover) {
+  for (Face face : outline.faces_) {
+    face.a_m += shift_m;
+    face.b_m += shift_m;
+    face.mover = mover;
+    faces_.push_back(face);
+  }
+  for (RoundFace face : outline.round_faces_) {
+    face.centre_m += shift_m;
+    face.mover = mover;
+    round_faces_.push_back(face);
+  }
+  for (Vertex vertex : outline.vertices_) {
+    vertex.at_m += shift_m;
+    vertices_.push_back(std::move(vertex));
+  }
+}
+
+void Scene::clear_moving() {
+  faces_.erase(faces_.begin() + static_cast<std::ptrdiff_t>(fixed_faces_), faces_.end());
+  round_faces_.erase(round_faces_.begin() + static_cast<std::ptrdiff_t>(fixed_round_faces_), round_faces_.end());
+  vertices_.erase(vertices_.begin() + static_cast<std::ptrdiff_t>(fixed_vertices_), vertices_.end());
 }
 
 void Scene::add_face(const Point& a_m, const Point& b_m, bool rough) {

@@ -1,6 +1,7 @@
 // The world as sound and a bumper meet it: straight faces, round faces and the vertices between.
 //
-// Built once from a World; everything after is read-only and in the map frame.
+// Walls and objects are built once from a World. What moves is a few faces behind them, changed from tick to
+// tick; nothing of the rest is built anew for it. All in the map frame.
 #pragma once
 
 #include <limits>
@@ -11,17 +12,21 @@
 
 namespace cairn {
 
+inline constexpr int kFixed = -1;
+
 struct Face {
   Point a_m;
   Point b_m;
   Point normal;  // unit; the side does not matter
   bool rough = false;
+  int mover = kFixed;  // which moving thing it belongs to
 };
 
 struct RoundFace {
   Point centre_m;
   double radius_m = 0.0;
   bool rough = false;
+  int mover = kFixed;
 };
 
 // How a vertex looks from some side: only a square inner corner of smooth faces sends a beam back.
@@ -48,7 +53,13 @@ struct RayHit {
 
 class Scene {
  public:
+  // Of the world's walls and objects; its doors and movers are for show().
   explicit Scene(const World& world);
+
+  // Shows the outline of a moving thing (its number from 0) shifted by so much. Linear in the outline.
+  void show(const Scene& outline, const Point& shift_m, int mover);
+  // Takes away all that show() has added.
+  void clear_moving();
 
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<RoundFace>& round_faces() const { return round_faces_; }
@@ -66,8 +77,12 @@ class Scene {
   std::vector<Face> faces_;
   std::vector<RoundFace> round_faces_;
   std::vector<Vertex> vertices_;
+  std::size_t fixed_faces_ = 0;
+  std::size_t fixed_round_faces_ = 0;
+  std::size_t fixed_vertices_ = 0;
 };
 
+[[nodiscard]] Point nearest_on_segment(const Point& p_m, const Point& a_m, const Point& b_m);
 [[nodiscard]] double distance_to_segment(const Point& p_m, const Point& a_m, const Point& b_m);
 
 }  // namespace cairn

@@ -35,17 +35,14 @@ std::vector<int> checked_order(const RobotModel& robot) {
   return order;
 }
 
-std::string start_fault(const Pose2& T_map_start, const RobotModel& robot, const World& world) {
-  char place[80];
-  std::snprintf(place, sizeof place, "(%.2f, %.2f) m", T_map_start.x_m, T_map_start.y_m);
-  // A world without an extent is an open field.
-  const bool bounded = (world.max_m.array() > world.min_m.array()).all();
-  const Point at_m = T_map_start.position();
-  if (bounded && ((at_m.array() < world.min_m.array()).any() || (at_m.array() > world.max_m.array()).any()))
-    return std::string("the robot cannot start at ") + place + ": it lies outside the world's bounds_m";
-  const std::optional<std::string> blocker = blocker_at(T_map_start, robot, world);
-  if (!blocker) return {};
-  return std::string("the robot cannot start at ") + place + ": it would overlap " + *blocker;
+std::string start_fault(const Pose2& T_map_start, const RobotModel& robot, const World& world, const Traffic& traffic) {
+  std::optional<std::string> why = not_free(T_map_start, robot, world);
+  if (const auto mover = traffic.blocker_at(T_map_start); !why && mover) {
+    char place[80];
+    std::snprintf(place, sizeof place, "(%.2f, %.2f) m: ", T_map_start.x_m, T_map_start.y_m);
+    why = std::string(place) + "it would overlap " + *mover;
+  }
+  return why ? "the robot cannot start at " + *why : std::string();
 }
 
 double approached(double now, double wanted, double largest_change) {
@@ -59,15 +56,21 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
     : config_(config),
       robot_(robot),
       scene_(checked(world)),
+      traffic_(*world, robot, T_map_start),
       body_(robot, scene_),
       firing_order_(checked_order(robot)),
       period_s_(robot.firing_period_s > 0.0 ? robot.firing_period_s : config.tick_s),
       fire_all_(config.fire_all || robot.firing_period_s <= 0.0),
-      fault_(start_fault(T_map_start, robot, *world)),
+      fault_(start_fault(T_map_start, robot, *world, traffic_)),
       T_map_robot_(T_map_start),
       odometer_(robot.odometry_error, config.turn_as_distance_m_per_rad, seed),
       compass_(robot.compass_error, seed),
-      range_noise_(seed, kRangePurpose) {
+      range_noise_(seed, kRangePurpose),
+      faults_(config.faults, config.random_faults, robot, *world, seed),
+      witness_(robot),
+      battery_ratio_(config.battery ? config.battery->start_ratio : 1.0) {
+  traffic_.show(traffic_.places(), scene_);
+  witness_.note(0.0, T_map_start, traffic_.places());
   for (const SonarModel& sonar : robot.sonars) echoes_.emplace_back(config.echo, scene_, sonar.half_beam_rad);
 }
 
@@ -91,23 +94,26 @@ SensorStep SimulatedRobot::next(const Budget&) {
   Observation& seen = step.observation;
   seen.stamp_s = static_cast<double>(ticks_) * period_s_;
   seen.T_odom_robot = odometer_.T_odom_robot();
-  if (config_.compass) seen.compass_rad = compass_.read(T_map_robot_);
+  if (config_.compass) seen.compass_rad = wrap_angle(compass_.read(T_map_robot_) + faults_.compass_jump_rad());
   seen.bumped = bumped_;
+  seen.contact = contact_;
+  if (config_.battery) seen.battery_ratio = battery_ratio_;
   seen.true_T_map_robot = T_map_robot_;
   if (fire_all_) {
-    for (const int sonar : firing_order_) seen.ranges.push_back(fire(sonar));
+    for (const int sonar : firing_order_) fire_into(seen.ranges, sonar);
   } else if (!firing_order_.empty()) {
     const auto turn = static_cast<std::size_t>(ticks_ - 1) % firing_order_.size();
-    seen.ranges.push_back(fire(firing_order_[turn]));
+    fire_into(seen.ranges, firing_order_[turn]);
   }
   return step;
 }
 
 Twist SimulatedRobot::towards_wanted() const {
+  const Twist wanted = battery_ratio_ > 0.0 ? wanted_ : Twist{};
   Twist next;
-  next.v_mps = approached(twist_.v_mps, std::clamp(wanted_.v_mps, -robot_.max_v_mps, robot_.max_v_mps),
+  next.v_mps = approached(twist_.v_mps, std::clamp(wanted.v_mps, -robot_.max_v_mps, robot_.max_v_mps),
                           robot_.max_acceleration_mps2 * period_s_);
-  next.w_radps = approached(twist_.w_radps, std::clamp(wanted_.w_radps, -robot_.max_w_radps, robot_.max_w_radps),
+  next.w_radps = approached(twist_.w_radps, std::clamp(wanted.w_radps, -robot_.max_w_radps, robot_.max_w_radps),
                             robot_.max_turn_acceleration_radps2 * period_s_);
   if (robot_.kinematics == Kinematics::car && robot_.min_turning_radius_m > 0.0) {
     const double tightest_radps = std::abs(next.v_mps) / robot_.min_turning_radius_m;
@@ -118,15 +124,63 @@ Twist SimulatedRobot::towards_wanted() const {
 
 void SimulatedRobot::move() {
   ++ticks_;
+  const double time_s = static_cast<double>(ticks_) * period_s_;
+  faults_.advance(time_s);
+  carry_off();
+  if (!traffic_.is_empty()) {
+    traffic_.advance(time_s, period_s_, T_map_robot_);
+    traffic_.show(traffic_.places(), scene_);
+  }
   const Twist next = towards_wanted();
   // The mean of both ends is the exact way under constant acceleration.
-  const Move move = body_.drive(T_map_robot_, 0.5 * (twist_.v_mps + next.v_mps) * period_s_,
-                                0.5 * (twist_.w_radps + next.w_radps) * period_s_);
+  const Twist turned{0.5 * (twist_.v_mps + next.v_mps), 0.5 * (twist_.w_radps + next.w_radps)};
+  const std::optional<Twist> slipping = faults_.slipping(turned);
+  const Twist going = slipping.value_or(turned);
+  const Pose2 T_map_before = T_map_robot_;
+  const Move move = body_.drive(T_map_robot_, going.v_mps * period_s_, going.w_radps * period_s_);
   twist_ = next;
   if (move.touched) twist_.v_mps = 0.0;
-  if (move.touched && !bumped_) ++collisions_;
-  bumped_ = move.touched;
-  odometer_.add(move);
+  note_touch(move, T_map_before, going);
+  // Wheels that slip turn on whatever they stand against.
+  odometer_.add(slipping ? Move{turned.v_mps * period_s_, turned.w_radps * period_s_} : move);
+  witness_.note(time_s, T_map_robot_, traffic_.places());
+  use_battery();
+}
+
+// Where a mover or a closed door is in the way, it is put down later.
+void SimulatedRobot::carry_off() {
+  const std::optional<KidnapConfig> kidnap = faults_.kidnap();
+  if (!kidnap) return;
+  const Pose2 T_map_put{kidnap->to_m.x(), kidnap->to_m.y(),
+                        wrap_angle(kidnap->angle_rad.value_or(T_map_robot_.theta_rad))};
+  if (traffic_.blocker_at(T_map_put)) return;
+  T_map_robot_ = T_map_put;
+  faults_.kidnapped();
+  witness_.forget();
+}
+
+void SimulatedRobot::note_touch(const Move& move, const Pose2& T_map_before, const Twist& going) {
+  contact_.reset();
+  const bool touches = move.touched || traffic_.touches_robot();
+  if (touches && !bumped_) {
+    ++collisions_;
+    contact_ = witness_.judge(body_, scene_, traffic_, move.touched ? move.T_map_touch : T_map_before, going);
+  }
+  bumped_ = touches;
+}
+
+void SimulatedRobot::use_battery() {
+  if (!config_.battery) return;
+  const BatteryConfig& battery = *config_.battery;
+  const double speed_ratio = std::min(1.0, std::abs(twist_.v_mps) / robot_.max_v_mps);
+  const double used_per_s =
+      1.0 / battery.standing_s + speed_ratio * std::max(0.0, 1.0 / battery.driving_s - 1.0 / battery.standing_s);
+  battery_ratio_ = std::max(0.0, battery_ratio_ - used_per_s * period_s_);
+}
+
+// A reading that is not told is taken all the same, so that those that follow are what they would have been.
+void SimulatedRobot::fire_into(std::vector<RangeReading>& ranges, int sonar) {
+  if (const std::optional<RangeReading> reading = faults_.told(fire(sonar))) ranges.push_back(*reading);
 }
 
 RangeReading SimulatedRobot::fire(int sonar) {

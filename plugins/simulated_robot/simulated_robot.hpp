@@ -1,8 +1,8 @@
 // A robot in a simulated world: drives, bumps, measures. Plugin `simulated_robot`, kind sensor.
 //
-// Each next() advances the clock by one firing period, moves the robot by what was commanded within its
-// limits, and fires one transducer. The same robot, world, start, config, seed and commands give the
-// same observations; odometry, compass and ranges draw from streams of their own.
+// Each next() advances the clock by one firing period, moves doors and movers, then the robot by what was commanded
+// within its limits, and fires one transducer. The same robot, world, start, config, seed and commands give the
+// same observations; odometry, compass, ranges and faults draw from streams of their own.
 #pragma once
 
 #include <memory>
@@ -15,15 +15,19 @@
 #include "framework/contracts/world.hpp"
 #include "plugins/simulated_robot/body.hpp"
 #include "plugins/simulated_robot/config.hpp"
+#include "plugins/simulated_robot/faults.hpp"
 #include "plugins/simulated_robot/instruments.hpp"
 #include "plugins/simulated_robot/scene.hpp"
 #include "plugins/simulated_robot/sonar_echo.hpp"
+#include "plugins/simulated_robot/traffic.hpp"
+#include "plugins/simulated_robot/witness.hpp"
 
 namespace cairn {
 
 class SimulatedRobot final : public Sensor, public Drive {
  public:
-  // Throws std::invalid_argument without a world, or when the firing order names no sonar of the robot.
+  // Throws std::invalid_argument without a world, or when the firing order names no sonar of the robot; ConfigError
+  // when a fault cannot be.
   SimulatedRobot(const SimulatedRobotConfig& config, const RobotModel& robot, const World* world,
                  const Pose2& T_map_start, std::uint64_t seed);
   SimulatedRobot(const SimulatedRobot&) = delete;  // its parts refer to its scene
@@ -42,11 +46,16 @@ class SimulatedRobot final : public Sensor, public Drive {
  private:
   [[nodiscard]] Twist towards_wanted() const;
   void move();
+  void carry_off();
+  void note_touch(const Move& move, const Pose2& T_map_before, const Twist& going);
+  void use_battery();
+  void fire_into(std::vector<RangeReading>& ranges, int sonar);
   [[nodiscard]] RangeReading fire(int sonar);
 
   SimulatedRobotConfig config_;
   RobotModel robot_;
   Scene scene_;
+  Traffic traffic_;
   Body body_;
   std::vector<SonarEcho> echoes_;  // one a transducer
   std::vector<int> firing_order_;
@@ -58,11 +67,15 @@ class SimulatedRobot final : public Sensor, public Drive {
   Twist wanted_;
   Twist twist_;
   bool bumped_ = false;
+  std::optional<Contact> contact_;  // that this tick began
   int collisions_ = 0;
   std::int64_t ticks_ = 0;
   Odometer odometer_;
   Compass compass_;
   NoiseStream range_noise_;
+  Faults faults_;
+  Witness witness_;
+  double battery_ratio_;
 };
 
 }  // namespace cairn

@@ -25,6 +25,7 @@ std::string text_of(const SensorStep& step) {
   std::string text = "at " + text_of(seen.stamp_s) + " s odometry " + text_of(seen.T_odom_robot);
   if (seen.compass_rad) text += " compass " + text_of(*seen.compass_rad);
   if (seen.bumped) text += " bumped";
+  if (seen.battery_ratio) text += " battery " + text_of(*seen.battery_ratio);
   for (const RangeReading& r : seen.ranges)
     text += "\n  sensor " + std::to_string(r.sensor) + " at " + text_of(r.T_robot_sensor) + " half beam " +
             text_of(r.half_beam_rad) + " from " + text_of(r.min_m) + " to " + text_of(r.max_m) + ": " +

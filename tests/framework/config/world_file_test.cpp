@@ -142,8 +142,10 @@ TEST(WorldFile, SaysWhatIsWrongWithTheBounds) {
   EXPECT_EQ(error_in("bounds_m: [[0, 0]]\n"), "w.yaml:1:11: bounds_m must be two points [[x, y], [x, y]], found 1");
   EXPECT_EQ(error_in("bounds_m: [[0, 0], [6, -5]]\n"),
             "w.yaml:1:11: bounds_m must go from the lower left to the upper right corner, found [0, 0] to [6, -5]");
-  EXPECT_EQ(error_in(kBounds + "wals: []\n"),
-            "w.yaml:2:1: unknown key \"wals\" in world (did you mean \"walls\"?); known: bounds_m, walls, objects");
+  EXPECT_EQ(
+      error_in(kBounds + "wals: []\n"),
+      "w.yaml:2:1: unknown key \"wals\" in world (did you mean \"walls\"?); known: bounds_m, walls, objects, doors, "
+      "movers");
 }
 
 TEST(WorldFile, SaysWhatIsWrongWithAWall) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <regex>
@@ -16,7 +17,8 @@ std::vector<LandmarkShape> shapes() {
 }
 
 World loaded(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "random_world.yaml";
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("random_world_" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(file) << text;
   return load_world(file, shapes());
 }
@@ -56,6 +58,54 @@ TEST(RandomWorld, TheSpecularRatioChangesSurfacesOnly) {
   EXPECT_THAT(rough, testing::Not(testing::HasSubstr("smooth")));
   EXPECT_EQ(std::regex_replace(smooth, std::regex("smooth"), "rough"), rough);
   EXPECT_NE(random_world_yaml({}, shapes(), 0.0, 8), rough);
+}
+
+double distance_to_way(const Point& p, const WorldMover& mover) {
+  double nearest_m = 1e9;
+  for (int i = 0; i <= 100; ++i)
+    nearest_m = std::min(nearest_m, (mover.path_m[0] + 0.01 * i * (mover.path_m[1] - mover.path_m[0]) - p).norm());
+  return nearest_m;
+}
+
+TEST(RandomWorld, MoversComeToTheSameWorldAndGoClearOfItsThings) {
+  RandomWorldConfig config;
+  config.most_movers = 3;
+  std::size_t movers = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const std::string text = random_world_yaml(config, shapes(), 0.3, seed);
+    EXPECT_EQ(text.find(random_world_yaml({}, shapes(), 0.3, seed)), 0U) << "seed " << seed;
+    const World world = loaded(text);
+    EXPECT_LE(world.movers.size(), 3U);
+    movers += world.movers.size();
+    for (const WorldMover& mover : world.movers) {
+      EXPECT_GT((mover.path_m[0] - config.start_m).norm(), config.start_gap_m + 1.0);
+      for (const WorldObject& object : world.objects)
+        EXPECT_GT(distance_to_way(object.T_map_object.position(), mover), 0.5 * object.contour.outer_diameter_m() + 0.2)
+            << "seed " << seed;
+    }
+  }
+  EXPECT_GT(movers, 30U);
+}
+
+TEST(RandomWorld, DoorsLeadToMoreRoomsInTheEast) {
+  RandomWorldConfig config;
+  config.most_doors = 2;
+  std::size_t doors = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const World plain = loaded(random_world_yaml({}, shapes(), 0.3, seed));
+    const World world = loaded(random_world_yaml(config, shapes(), 0.3, seed));
+    doors += world.doors.size();
+    EXPECT_EQ(world.objects.size(), plain.objects.size());
+    EXPECT_EQ(world.walls.size(), plain.walls.size() + 2 * world.doors.size());
+    for (const WorldDoor& door : world.doors) {
+      EXPECT_GE(door.from_m.x(), plain.max_m.x());
+      EXPECT_GT(world.max_m.x(), door.from_m.x() + 1.9);
+      EXPECT_NEAR((door.to_m - door.from_m).norm(), 1.0, 1e-9);
+      EXPECT_GT(door.closed_for_s, 0.0);
+      EXPECT_FALSE(door.closes_at(0.0));
+    }
+  }
+  EXPECT_GT(doors, 20U);
 }
 
 }  // namespace

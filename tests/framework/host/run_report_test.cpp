@@ -54,5 +54,27 @@ TEST(TruthScore, ObstaclesWithoutCategoryAreNotMissed) {
   EXPECT_EQ(score_against(world, graph_with("square", 1.0, 2.0), 0.10).missed_objects, 0);
 }
 
+TEST(RunReport, ListsTheContactsThatTheSimulationJudged) {
+  const OccupancyGrid grid(0.05);
+  const LandmarkGraph graph;
+  const RobotModel robot;
+  Observation observation;
+  observation.bumped = true;
+  WorldView world{grid, graph, robot, {}, 12.5, &observation};
+  RunReport report;
+  report.on(Bumped{}, {world});  // of a log
+  observation.contact = Contact{0.25, true};
+  report.on(Bumped{}, {world});
+  ASSERT_EQ(report.contacts().size(), 1U);
+  MissionResult result;
+  result.collisions = 2;
+  const std::string text = report.report_json({}, result, graph, {});
+  const std::size_t at = text.find("\"contacts\"");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(text.substr(at, text.find(']', at) - at + 1),
+            "\"contacts\": [\n    {\n      \"time_s\": 12.5,\n      \"speed_mps\": 0.25,\n      "
+            "\"could_be_seen\": true\n    }\n  ]");
+}
+
 }  // namespace
 }  // namespace cairn

@@ -1,0 +1,67 @@
+// Faults of the simulated robot, as its settings list them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+
+namespace cairn {
+
+enum class DeadReading { no_echo, nothing };
+enum class Wheel { left, right, both };
+
+struct StuckConfig {
+  int sonar = 0;
+  std::optional<double> range_m;  // none: its last reading
+  static void describe(Fields<StuckConfig>& fields);
+};
+
+struct SlipConfig {
+  Wheel wheel = Wheel::both;
+  double ratio = 0.5;
+  static void describe(Fields<SlipConfig>& fields);
+};
+
+struct KidnapConfig {
+  Point to_m{0.0, 0.0};
+  std::optional<double> angle_rad;  // none: as it was turned
+  static void describe(Fields<KidnapConfig>& fields);
+};
+
+// One fault: exactly one of dead, stuck, slip, compass_jump, silent and kidnap.
+struct FaultConfig {
+  double at_s = 0.0;
+  std::optional<double> for_s;  // none: for ever
+  std::vector<double> dead;     // whole numbers
+  DeadReading reads = DeadReading::no_echo;
+  std::optional<StuckConfig> stuck;
+  std::optional<SlipConfig> slip;
+  std::optional<double> compass_jump_rad;
+  bool silent = false;
+  std::optional<KidnapConfig> kidnap;
+  SourcePlace place;  // in the file; none of a random fault
+  static void describe(Fields<FaultConfig>& fields);
+};
+
+// How often each kind strikes by chance.
+struct FaultRates {
+  double dead = 0.0;
+  double stuck = 0.0;
+  double slip = 0.0;
+  double compass_jump = 0.0;
+  double silent = 0.0;
+  double kidnap = 0.0;
+  static void describe(Fields<FaultRates>& fields);
+};
+
+struct RandomFaultsConfig {
+  FaultRates per_hour;
+  double for_s = 10.0;
+  static void describe(Fields<RandomFaultsConfig>& fields);
+};
+
+// Throws ConfigError where an item of the list holds what its fields alone do not rule out, and notes the places.
+void check_faults(std::vector<FaultConfig>& faults, const ConfigValue& list);
+
+}  // namespace cairn
