@@ -12,13 +12,17 @@ namespace cairn {
 struct PoseEstimate {
   Pose2 T_map_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // x_m, y_m, theta_rad
+  int sightings_used = 0;                                // of those given with this observation
+  int sightings_refused = 0;
 };
 
-// A known landmark seen again in fresh readings.
+// A known landmark seen again in fresh readings; or the walls about the robot, which are landmark 0 with the place
+// where it believed to be.
 struct LandmarkSighting {
   LandmarkId landmark = 0;
-  Pose2 T_map_landmark;    // as the graph knows it
+  Pose2 T_map_landmark;    // as it was when it became known
   Pose2 T_robot_landmark;  // as just measured
+  // Of T_robot_landmark: x_m, y_m, theta_rad. Long in the directions that the readings say nothing of.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 

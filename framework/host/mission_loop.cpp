@@ -21,6 +21,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       options_(options),
       modules_(build_modules(mission_, library, options.resume)),
       keeper_(mission_.config.landmarks, mission_.robot, mission_.shapes),
+      sightings_(mission_.config.correct_pose, mission_.shapes),
       hierarchies_(keeper_.graph(), options.resume != nullptr ? options.resume->clusters : ClusterTree{},
                    {mission_.robot.max_v_mps, mission_.robot.max_w_radps, mission_.robot.radius_m}),
       stop_layer_(mission_.config.stop_layer, mission_.robot),
@@ -131,8 +132,17 @@ void MissionLoop::account_for(const Observation& observation) {
   if (options_.realtime) std::this_thread::sleep_until(wall_begin_ + std::chrono::duration<double>(result_.time_s));
 }
 
+// With the first observation there is no telling where the odometry begins.
+std::span<const LandmarkSighting> MissionLoop::see_again() {
+  if (!localized_) return {};
+  return sightings_.look(observation_, pose_, T_odom_localized_, keeper_.graph(), *grid_, result_.time_s);
+}
+
 PoseEstimate MissionLoop::localize() {
-  PoseEstimate pose = in_stage(localizer_, [&] { return modules_.localizer->update(observation_, {}); });
+  const std::span<const LandmarkSighting> seen = see_again();
+  PoseEstimate pose = in_stage(localizer_, [&] { return modules_.localizer->update(observation_, seen); });
+  T_odom_localized_ = observation_.T_odom_robot;
+  localized_ = true;
   if (!is_finite(pose.T_map_robot) || !pose.covariance.allFinite())
     throw ModuleFault("localizer", clock_.module_of(localizer_), "returned a pose that is not finite");
   return pose;

@@ -10,6 +10,7 @@
 
 #include "framework/host/fence.hpp"
 #include "framework/host/landmark_keeper.hpp"
+#include "framework/host/landmark_sightings.hpp"
 #include "framework/host/mission_condition.hpp"
 #include "framework/host/mission_modules.hpp"
 #include "framework/host/mission_runner.hpp"
@@ -50,6 +51,7 @@ class MissionLoop : private Orders, private TreeHost {
   void tick();
   void account_for(const Observation& observation);
   PoseEstimate localize();
+  std::span<const LandmarkSighting> see_again();
   const CellChanges& build_map();
   void detect(const CellChanges& changes);
   void tell_changes(const std::vector<LandmarkKeeper::Change>& changes);
@@ -91,6 +93,7 @@ class MissionLoop : private Orders, private TreeHost {
   const RunOptions options_;
   MissionModules modules_;
   LandmarkKeeper keeper_;
+  LandmarkSightings sightings_;
   Hierarchies hierarchies_;  // of the keeper's graph, brought in line before it is used
   double last_freed_check_s_ = 0.0;
   StopLayer stop_layer_;
@@ -117,12 +120,14 @@ class MissionLoop : private Orders, private TreeHost {
   Observation for_map_;  // without what is withheld
   PoseEstimate pose_;
   Pose2 T_odom_last_;
+  Pose2 T_odom_localized_;  // where pose_ is from
   Twist wanted_;
   std::optional<Twist> ordered_;  // by the leaf that is ticked
   double begin_s_ = 0.0;
   double held_back_ratio_ = 0.0;
   std::size_t step_ = 0;
   bool begun_ = false;
+  bool localized_ = false;
   bool skipped_ = false;  // observations that the map gone on from holds already
   bool bumped_ = false;
   bool step_begun_ = false;

@@ -123,13 +123,12 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
           {"time_s", rounded(result.time_s)}};
 }
 
-ordered_json quantiles(std::vector<double> values) {
-  const double last = values.back();
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return rounded(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
-  };
-  return {{"median", at(0.5)}, {"worst", at(1.0)}, {"last", rounded(last)}};
+ordered_json json_of(const PoseErrorFigures& error) {
+  return {{"median_m", rounded(error.median_m)},       {"p95_m", rounded(error.p95_m)},
+          {"worst_m", rounded(error.worst_m)},         {"last_m", rounded(error.last_m)},
+          {"median_deg", rounded(error.median_deg)},   {"worst_deg", rounded(error.worst_deg)},
+          {"sigmas_median", rounded(error.sigmas_median)}, {"corrections", error.corrections},
+          {"refused", error.refused}};
 }
 
 std::string at_time(double time_s, const std::string& sentence) {
@@ -190,18 +189,11 @@ void RunReport::on(const Event& event, const MissionView& view) {
     degrees_.push_back({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
                         true_pose(view.world).position()});
   }
-  if (std::holds_alternative<TickDone>(event)) note_pose_error(view);
+  if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world);
   if (std::holds_alternative<Bumped>(event)) note_contact(view);
   if (std::holds_alternative<MapSaved>(event)) explored_ratio_ = known_ratio(view.world.grid);
   const std::string sentence = std::visit(Sentence{}, event);
   if (!sentence.empty()) events_.push_back(at_time(view.world.time_s, sentence));
-}
-
-void RunReport::note_pose_error(const MissionView& view) {
-  const Observation* observation = view.world.observation;
-  if (observation == nullptr || !observation->true_T_map_robot || view.world.time_s < last_error_s_ + 1.0) return;
-  last_error_s_ = view.world.time_s;
-  pose_errors_m_.push_back((observation->true_T_map_robot->position() - view.world.pose.T_map_robot.position()).norm());
 }
 
 void RunReport::note_contact(const MissionView& view) {
@@ -224,7 +216,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   report["nodes"] = json_of(result.nodes);
   report["map"] = result.map_file;
   report["pictures"] = pictures;
-  if (!pose_errors_m_.empty()) report["pose_error_m"] = quantiles(pose_errors_m_);
+  if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
   ordered_json degrees = ordered_json::array();
   for (const DegreeSample& sample : degrees_) {
     ordered_json row = {{"time_s", rounded(sample.time_s)}};
@@ -245,6 +237,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
                                     double wall_s) const {
   ordered_json summary = main_figures(mission, result, runner.graph(), contacts_);
   summary["explored_ratio"] = rounded(explored_ratio_);
+  if (const auto error = pose_errors_.figures()) summary["pose_error"] = json_of(*error);
   summary["wall_s"] = rounded(wall_s);
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
   summary["autosave"] = json_of(result.autosave);

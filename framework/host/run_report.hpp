@@ -8,6 +8,7 @@
 
 #include "framework/host/events.hpp"
 #include "framework/host/mission_runner.hpp"
+#include "framework/host/pose_errors.hpp"
 
 namespace cairn {
 
@@ -41,16 +42,15 @@ class RunReport : public Listener {
 
   [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
   [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
+  [[nodiscard]] const PoseErrors& pose_errors() const { return pose_errors_; }
 
  private:
-  void note_pose_error(const MissionView& view);
   void note_contact(const MissionView& view);
 
   std::vector<DegreeSample> degrees_;
   std::vector<TimedContact> contacts_;
-  std::vector<double> pose_errors_m_;  // once a second, where the truth is known
-  std::vector<std::string> events_;    // sentences with their time
-  double last_error_s_ = -1.0;
+  PoseErrors pose_errors_;
+  std::vector<std::string> events_;  // sentences with their time
   double explored_ratio_ = 0.0;
 };
 

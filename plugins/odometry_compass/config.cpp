@@ -27,7 +27,11 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("landmark_gate_sigmas", &Config::landmark_gate_sigmas, {1.0, 100.0}, "",
                 "landmark sightings further off than this (Mahalanobis distance) are refused");
   fields.flag("use_landmark_heading", &Config::use_landmark_heading,
-              "correct the heading by the landmark's orientation too (wrong for symmetric landmarks)");
+              "correct the heading by the landmark's orientation too, as far as the sighting knows it");
+  fields.integer("landmark_refusals", &Config::landmark_refusals, {1, 1000000},
+                 "after so many refusals in a row that agree, sightings are believed and the position is the suspect");
+  fields.number("refusals_agree_m", &Config::refusals_agree_m, {0.0, 10.0}, "m",
+                "refused sightings agree when they would move the robot to within this of each other");
 }
 
 }  // namespace cairn::odometry_compass

@@ -22,7 +22,9 @@ struct Config {
   // Landmarks.
   double landmark_noise_m = 0.02;
   double landmark_gate_sigmas = 3.5;
-  bool use_landmark_heading = false;
+  bool use_landmark_heading = true;
+  int landmark_refusals = 8;
+  double refusals_agree_m = 0.15;
 
   static void describe(Fields<Config>& fields);
 };

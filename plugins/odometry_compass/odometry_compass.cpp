@@ -1,5 +1,6 @@
 #include "plugins/odometry_compass/odometry_compass.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,11 @@ bool is_usable(const Pose2& pose) {
 bool is_usable(const Eigen::Matrix2d& c) {
   return c.allFinite() && std::abs(c(0, 1) - c(1, 0)) <= 1e-9 * c.cwiseAbs().maxCoeff() && c(0, 0) > 0.0 &&
          c.determinant() > 0.0;
+}
+
+// Of a position and a heading.
+bool is_usable(const Eigen::Matrix3d& c) {
+  return (c - c.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * c.cwiseAbs().maxCoeff() && c.llt().info() == Eigen::Success;
 }
 
 MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
@@ -43,8 +49,12 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
 PoseEstimate OdometryCompass::update(const Observation& observation, std::span<const LandmarkSighting> sightings) {
   follow_odometry(observation.T_odom_robot);
   if (config_.use_compass && observation.compass_rad) follow_compass(*observation.compass_rad);
-  for (const LandmarkSighting& sighting : sightings) follow_landmark(sighting);
-  return filter_.estimate();
+  int used = 0;
+  for (const LandmarkSighting& sighting : sightings) used += follow_landmark(sighting) ? 1 : 0;
+  PoseEstimate estimate = filter_.estimate();
+  estimate.sightings_used = used;
+  estimate.sightings_refused = static_cast<int>(sightings.size()) - used;
+  return estimate;
 }
 
 void OdometryCompass::follow_odometry(const Pose2& T_odom_robot) {
@@ -65,18 +75,36 @@ void OdometryCompass::follow_compass(double compass_rad) {
   refused_in_a_row_ = 0;
 }
 
-void OdometryCompass::follow_landmark(const LandmarkSighting& sighting) {
+bool OdometryCompass::follow_landmark(const LandmarkSighting& sighting) {
   const Eigen::Matrix3d& seen = sighting.covariance;
   const bool usable = is_usable(sighting.T_map_landmark) && is_usable(sighting.T_robot_landmark) && seen.allFinite() &&
                       is_usable(Eigen::Matrix2d(seen.topLeftCorner<2, 2>()));
-  if (!usable) return;
+  if (!usable) return false;
+  if (correct_by(sighting)) {
+    refused_places_ = 0;
+    return true;
+  }
+  const Point off = sighting.T_map_landmark.position() -
+                    filter_.estimate().T_map_robot * sighting.T_robot_landmark.position();
+  const bool agrees = refused_places_ > 0 && (off - refused_off_m_).norm() <= config_.refusals_agree_m;
+  refused_places_ = agrees ? refused_places_ + 1 : 1;
+  refused_off_m_ = off;
+  if (refused_places_ < config_.landmark_refusals) return false;
+  filter_.doubt_position(sighting.T_map_landmark.position(), sighting.T_robot_landmark.position());
+  refused_places_ = 0;
+  return correct_by(sighting);
+}
+
+bool OdometryCompass::correct_by(const LandmarkSighting& sighting) {
   const double map_variance = config_.landmark_noise_m * config_.landmark_noise_m;
-  const Eigen::Matrix2d noise = seen.topLeftCorner<2, 2>() + map_variance * Eigen::Matrix2d::Identity();
-  const bool same_place = filter_.correct_position(
-      sighting.T_map_landmark.position(), sighting.T_robot_landmark.position(), noise, config_.landmark_gate_sigmas);
-  if (!same_place || !config_.use_landmark_heading || !(seen(2, 2) > 0.0)) return;
-  (void)filter_.correct_orientation(sighting.T_map_landmark.theta_rad, sighting.T_robot_landmark.theta_rad,
-                                    std::sqrt(seen(2, 2)), config_.landmark_gate_sigmas);
+  Eigen::Matrix3d noise = sighting.covariance;
+  noise(0, 0) += map_variance;
+  noise(1, 1) += map_variance;
+  if (config_.use_landmark_heading && is_usable(noise))
+    return filter_.correct_pose(sighting.T_map_landmark, sighting.T_robot_landmark, noise,
+                                config_.landmark_gate_sigmas);
+  return filter_.correct_position(sighting.T_map_landmark.position(), sighting.T_robot_landmark.position(),
+                                  noise.topLeftCorner<2, 2>(), config_.landmark_gate_sigmas);
 }
 
 }  // namespace cairn::odometry_compass

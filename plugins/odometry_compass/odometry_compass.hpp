@@ -33,14 +33,17 @@ class OdometryCompass final : public Localizer {
  private:
   void follow_odometry(const Pose2& T_odom_robot);
   void follow_compass(double compass_rad);
-  void follow_landmark(const LandmarkSighting& sighting);
+  bool follow_landmark(const LandmarkSighting& sighting);
+  [[nodiscard]] bool correct_by(const LandmarkSighting& sighting);
 
   Config config_;
   MotionNoise motion_noise_;
   double compass_noise_rad_;
   PoseFilter filter_;
   std::optional<Pose2> T_odom_robot_;  // the last good one
-  int refused_in_a_row_ = 0;
+  int refused_in_a_row_ = 0;   // of the compass
+  int refused_places_ = 0;     // sightings in a row that would all move the robot by about the same
+  Point refused_off_m_{0.0, 0.0};
 };
 
 }  // namespace cairn::odometry_compass

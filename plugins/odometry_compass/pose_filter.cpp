@@ -78,12 +78,24 @@ bool PoseFilter::correct_position(const Point& p_map, const Point& p_robot, cons
   return correct<2>(p_robot - expected, h, noise, gate_sigmas);
 }
 
-bool PoseFilter::correct_orientation(double theta_map_rad, double theta_robot_rad, double noise_rad,
-                                     double gate_sigmas) {
-  Eigen::Matrix<double, 1, kStates> h = Eigen::Matrix<double, 1, kStates>::Zero();
-  h[kTheta] = 1.0;
-  const Eigen::Matrix<double, 1, 1> innovation(wrap_angle(theta_map_rad - theta_robot_rad - state_[kTheta]));
-  return correct<1>(innovation, h, Eigen::Matrix<double, 1, 1>(squared(noise_rad)), gate_sigmas);
+bool PoseFilter::correct_pose(const Pose2& T_map_landmark, const Pose2& T_robot_landmark, const Eigen::Matrix3d& noise,
+                              double gate_sigmas) {
+  const Eigen::Matrix2d to_robot = rotation(-state_[kTheta]);
+  const Point expected = to_robot * (T_map_landmark.position() - state_.head<2>());
+  Eigen::Matrix<double, 3, kStates> h = Eigen::Matrix<double, 3, kStates>::Zero();
+  h.topLeftCorner<2, 2>() = -to_robot;
+  h(0, kTheta) = expected.y();
+  h(1, kTheta) = -expected.x();
+  h(2, kTheta) = -1.0;
+  Eigen::Vector3d innovation;
+  innovation.head<2>() = T_robot_landmark.position() - expected;
+  innovation[2] = wrap_angle(T_robot_landmark.theta_rad - T_map_landmark.theta_rad + state_[kTheta]);
+  return correct<3>(innovation, h, noise, gate_sigmas);
+}
+
+void PoseFilter::doubt_position(const Point& p_map, const Point& p_robot) {
+  const Point off = p_map - rotation(state_[kTheta]) * p_robot - state_.head<2>();
+  covariance_.topLeftCorner<2, 2>() += off * off.transpose();
 }
 
 template <int kRows>
@@ -104,7 +116,10 @@ bool PoseFilter::correct(const Eigen::Matrix<double, kRows, 1>& innovation,
 }
 
 PoseEstimate PoseFilter::estimate() const {
-  return {{state_[0], state_[1], state_[kTheta]}, covariance_.topLeftCorner<3, 3>()};
+  PoseEstimate estimate;
+  estimate.T_map_robot = {state_[0], state_[1], state_[kTheta]};
+  estimate.covariance = covariance_.topLeftCorner<3, 3>();
+  return estimate;
 }
 
 }  // namespace cairn::odometry_compass

@@ -39,8 +39,11 @@ class PoseFilter {
   void doubt_heading(double compass_rad);
   // Landmark position in robot coordinates; the same gate rule on the Mahalanobis distance.
   bool correct_position(const Point& p_map, const Point& p_robot, const Eigen::Matrix2d& noise, double gate_sigmas);
-  // Landmark orientation in robot coordinates.
-  bool correct_orientation(double theta_map_rad, double theta_robot_rad, double noise_rad, double gate_sigmas);
+  // Landmark position and orientation in robot coordinates, whose errors may go together.
+  bool correct_pose(const Pose2& T_map_landmark, const Pose2& T_robot_landmark, const Eigen::Matrix3d& noise,
+                    double gate_sigmas);
+  // Widens the position so that this landmark position in robot coordinates passes any gate.
+  void doubt_position(const Point& p_map, const Point& p_robot);
 
   [[nodiscard]] PoseEstimate estimate() const;
 
