@@ -12,12 +12,12 @@ namespace cairn {
 struct PoseEstimate {
   Pose2 T_map_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // x_m, y_m, theta_rad
-  int sightings_used = 0;                                // of those given with this observation
+  // With this observation: known things seen again that have corrected the pose, and that were too far off for it.
+  int sightings_used = 0;
   int sightings_refused = 0;
 };
 
-// A known landmark seen again in fresh readings; or the walls about the robot, which are landmark 0 with the place
-// where it believed to be.
+// A known landmark seen again in fresh readings.
 struct LandmarkSighting {
   LandmarkId landmark = 0;
   Pose2 T_map_landmark;    // as it was when it became known

@@ -19,6 +19,7 @@ struct LandmarkKeeperConfig {
   double freed_ratio = 0.8;          // of the cells inside its outline: seen free, a landmark is retired
   int routes_per_landmark = 3;       // joined to this many nearest others
   double driven_detour_ratio = 1.3;  // a driven way is kept when it is at most this much longer than the planned one
+  bool correct_pose = true;          // landmarks seen again are told to the localizer
   double access_margin_m = 0.05;     // free space kept round the robot that stands beside a landmark
   static void describe(Fields<LandmarkKeeperConfig>& fields);
 };

@@ -1,38 +1,36 @@
-// Fresh readings against what is known: landmarks seen again, and walls of the map.
+// Known landmarks seen again in fresh readings, for the localizer.
+//
+// Readings are kept with the odometry they were taken at. One belongs to the landmark whose outline it should have met
+// first, if it is about as long as that says, nothing that the map holds stands in front and no other landmark is
+// about as near. Once enough belong to a landmark, the pose that they fit best is solved for (align()), and with it
+// where the landmark is from the robot. Each reading counts once, so that sightings are independent of each other.
+//
+// Landmarks count from where they were when they became known: their place is refined by later matchings in a map that
+// has gone on with the robot's drift. It is followed only while the robot knows better where it is than it did then;
+// what it did not know then is part of each sighting's covariance. Without an outline there are no sightings.
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "framework/config/fields.hpp"
 #include "framework/contracts/localizer.hpp"
-#include "framework/host/anchor_map.hpp"
 #include "framework/host/range_alignment.hpp"
 #include "maps/contour.hpp"
+#include "maps/occupancy_grid.hpp"
 
 namespace cairn {
 
-// A mission's `correct_pose`.
-struct CorrectPoseConfig {
-  bool by_landmarks = true;
-  bool by_map = true;
-  static void describe(Fields<CorrectPoseConfig>& fields);
-};
-
 class LandmarkSightings {
  public:
-  LandmarkSightings(const CorrectPoseConfig& config, std::vector<LandmarkShape> shapes);
+  explicit LandmarkSightings(std::vector<LandmarkShape> shapes) : shapes_(std::move(shapes)) {}
 
-  // What earlier runs have left counts from the beginning.
-  void go_on_from(const OccupancyGrid& grid);
-  // Takes in the readings of one observation and says what they have shown, if there are enough of them by now. pose
-  // is that of the observation before, whose odometry is T_odom_last. Each reading counts once. Valid until the next
-  // call.
+  // Takes in the readings of one observation and says what they and those before have shown. `pose` is that of the
+  // observation before, whose odometry was T_odom_before. Valid until the next call.
   [[nodiscard]] std::span<const LandmarkSighting> look(const Observation& observation, const PoseEstimate& pose,
-                                                       const Pose2& T_odom_last, const LandmarkGraph& graph,
-                                                       const OccupancyGrid& grid, double time_s);
+                                                       const Pose2& T_odom_before, const LandmarkGraph& graph,
+                                                       const OccupancyGrid& grid);
 
  private:
   struct FreshReading {
@@ -42,7 +40,7 @@ class LandmarkSightings {
     double stamp_s = 0.0;
     double driven_m = 0.0;
   };
-  // A landmark where it was when it was confirmed, which is where its readings are compared with.
+  // A landmark where it was when it became known.
   struct Anchor {
     Pose2 T_map_landmark;
     std::string category;
@@ -54,25 +52,18 @@ class LandmarkSightings {
 
   void take(const Observation& observation);
   void anchor_landmarks(const LandmarkGraph& graph, const PoseEstimate& pose);
-  void assign(const FreshReading& reading, const Scene& scene, std::vector<FreshReading>& walls);
-  void find_by_landmark(LandmarkId id, Anchor& anchor, const Scene& scene);
-  void find_by_walls(const std::vector<FreshReading>& walls, const Scene& scene);
+  void assign(const FreshReading& reading, const Scene& scene, const OccupancyGrid& grid);
+  void find(LandmarkId id, Anchor& anchor, const Scene& scene);
   [[nodiscard]] double deviation_of(const FreshReading& reading) const;
-  void tell(LandmarkId id, const Pose2& T_map_landmark, double variance_m2, const Scene& scene,
-            const Alignment& found);
+  void tell(LandmarkId id, const Anchor& anchor, const Scene& scene, const Alignment& found);
 
-  CorrectPoseConfig config_;
   std::vector<LandmarkShape> shapes_;
-  AnchorMap anchor_map_;
   std::map<LandmarkId, Anchor> anchors_;
   std::vector<FreshReading> window_;
   std::vector<LandmarkSighting> told_;
-  Pose2 T_odom_before_;
+  Pose2 T_odom_last_;
   bool begun_ = false;
   double driven_m_ = 0.0;
-  double window_begin_m_ = 0.0;
-  double window_begin_s_ = 0.0;
-  double last_follow_s_ = -1e9;
 };
 
 }  // namespace cairn

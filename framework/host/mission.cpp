@@ -64,7 +64,6 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
   fields.plugin("planner", &C::planner, "planner", "finds ways");
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
-  fields.group("correct_pose", &C::correct_pose, "what the localizer is told of known things that are seen again");
   fields.group("stop_layer", &C::stop_layer, "what keeps the robot from driving into what it sees");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
   fields.number(

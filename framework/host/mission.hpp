@@ -12,7 +12,6 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
 #include "framework/host/landmark_keeper.hpp"
-#include "framework/host/landmark_sightings.hpp"
 #include "framework/host/mission_autosave.hpp"
 #include "framework/host/mission_tree.hpp"
 #include "framework/host/stop_layer.hpp"
@@ -38,7 +37,6 @@ struct MissionConfig {
   PluginChoice detector;
   PluginChoice planner;
   LandmarkKeeperConfig landmarks;
-  CorrectPoseConfig correct_pose;
   StopLayerConfig stop_layer;
   double at_most_s = 36000.0;
   double watchdog_s = 30.0;

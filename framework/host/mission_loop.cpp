@@ -21,7 +21,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       options_(options),
       modules_(build_modules(mission_, library, options.resume)),
       keeper_(mission_.config.landmarks, mission_.robot, mission_.shapes),
-      sightings_(mission_.config.correct_pose, mission_.shapes),
+      sightings_(mission_.shapes),
       hierarchies_(keeper_.graph(), options.resume != nullptr ? options.resume->clusters : ClusterTree{},
                    {mission_.robot.max_v_mps, mission_.robot.max_w_radps, mission_.robot.radius_m}),
       stop_layer_(mission_.config.stop_layer, mission_.robot),
@@ -134,8 +134,8 @@ void MissionLoop::account_for(const Observation& observation) {
 
 // With the first observation there is no telling where the odometry begins.
 std::span<const LandmarkSighting> MissionLoop::see_again() {
-  if (!localized_) return {};
-  return sightings_.look(observation_, pose_, T_odom_localized_, keeper_.graph(), *grid_, result_.time_s);
+  if (!localized_ || !mission_.config.landmarks.correct_pose) return {};
+  return sightings_.look(observation_, pose_, T_odom_localized_, keeper_.graph(), *grid_);
 }
 
 PoseEstimate MissionLoop::localize() {

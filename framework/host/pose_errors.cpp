@@ -37,8 +37,9 @@ std::optional<PoseErrorFigures> PoseErrors::figures() const {
     angles.push_back(degrees(sample.error_rad));
     sigmas.push_back(sample.sigmas);
   }
-  return PoseErrorFigures{quantile(metres, 0.5), quantile(metres, 0.95), quantile(metres, 1.0), metres.back(),
-                          quantile(angles, 0.5), quantile(angles, 1.0),  quantile(sigmas, 0.5), corrections_, refused_};
+  return PoseErrorFigures{quantile(metres, 0.5), quantile(metres, 0.95), quantile(metres, 1.0),
+                          metres.back(),         quantile(angles, 0.5),  quantile(angles, 1.0),
+                          quantile(sigmas, 0.5), corrections_,           refused_};
 }
 
 }  // namespace cairn

@@ -9,7 +9,7 @@ namespace cairn {
 namespace {
 
 constexpr double kOutlier_sigmas = 3.0;
-constexpr double kSettled = 1e-4;  // m, rad
+constexpr double kSettled = 1e-4;            // m, rad
 const Eigen::Vector3d kHold(1.0, 1.0, 4.0);  // information: 1 m, 0.5 rad
 
 struct Sum {

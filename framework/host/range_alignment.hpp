@@ -11,9 +11,9 @@ namespace cairn {
 
 // One reading compared with what it should have been.
 struct RangeResidual {
-  double off_m = 0.0;                                      // measured less expected
-  Eigen::Vector3d per_shift = Eigen::Vector3d::Zero();     // d expected / d shift
-  double deviation_m = 1.0;                                // standard deviation of off_m at the right place
+  double off_m = 0.0;                                   // measured less expected
+  Eigen::Vector3d per_shift = Eigen::Vector3d::Zero();  // d expected / d shift
+  double deviation_m = 1.0;                             // standard deviation of off_m at the right place
 };
 
 struct Alignment {

@@ -124,10 +124,14 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
 }
 
 ordered_json json_of(const PoseErrorFigures& error) {
-  return {{"median_m", rounded(error.median_m)},       {"p95_m", rounded(error.p95_m)},
-          {"worst_m", rounded(error.worst_m)},         {"last_m", rounded(error.last_m)},
-          {"median_deg", rounded(error.median_deg)},   {"worst_deg", rounded(error.worst_deg)},
-          {"sigmas_median", rounded(error.sigmas_median)}, {"corrections", error.corrections},
+  return {{"median_m", rounded(error.median_m)},
+          {"p95_m", rounded(error.p95_m)},
+          {"worst_m", rounded(error.worst_m)},
+          {"last_m", rounded(error.last_m)},
+          {"median_deg", rounded(error.median_deg)},
+          {"worst_deg", rounded(error.worst_deg)},
+          {"sigmas_median", rounded(error.sigmas_median)},
+          {"corrections", error.corrections},
           {"refused", error.refused}};
 }
 

@@ -19,6 +19,9 @@ struct Config {
   double local_bias_ratio = 0.63;
   double compass_gate_sigmas = 4.0;
   int compass_refusals = 75;
+  // Walls.
+  bool use_walls = true;
+  double wall_gate_sigmas = 3.5;
   // Landmarks.
   double landmark_noise_m = 0.02;
   double landmark_gate_sigmas = 3.5;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cairn::odometry_compass {
@@ -10,6 +11,7 @@ namespace {
 
 // Further out than any robot gets; squares of what is beyond would drown every covariance.
 constexpr double kFarthest_m = 1e6;
+constexpr double kSmoothness = 6.0;
 
 bool is_usable(const Pose2& pose) {
   return std::abs(pose.x_m) <= kFarthest_m && std::abs(pose.y_m) <= kFarthest_m && std::isfinite(pose.theta_rad);
@@ -23,7 +25,8 @@ bool is_usable(const Eigen::Matrix2d& c) {
 
 // Of a position and a heading.
 bool is_usable(const Eigen::Matrix3d& c) {
-  return (c - c.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * c.cwiseAbs().maxCoeff() && c.llt().info() == Eigen::Success;
+  return (c - c.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * c.cwiseAbs().maxCoeff() &&
+         c.llt().info() == Eigen::Success;
 }
 
 MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
@@ -33,8 +36,17 @@ MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
   noise.heading_rad_per_m = std::max(config.least_heading_rad_per_m, robot.odometry_error.heading_rad_per_m);
   noise.turn_as_distance_m_per_rad = config.turn_as_distance_m_per_rad;
   noise.bias_rad = config.local_bias_ratio * robot.compass_error.local_bias_rad;
-  noise.bias_scale_m = std::max(0.01, robot.compass_error.local_bias_scale_m);
+  // The bias is a smooth function of the place, not of the way: over short ways it changes less than a Gauss-Markov
+  // process of the same scale does, and it comes back where the robot comes back.
+  noise.bias_scale_m = kSmoothness * std::max(0.01, robot.compass_error.local_bias_scale_m);
   return noise;
+}
+
+WallFinderRules wall_rules_of(const MotionNoise& noise, double compass_noise_rad) {
+  WallFinderRules rules;
+  rules.heading_noise_rad_per_m = noise.heading_rad_per_m;
+  rules.compass_noise_rad = compass_noise_rad;
+  return rules;
 }
 
 }  // namespace
@@ -44,16 +56,18 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
       motion_noise_(motion_noise_of(config, robot)),
       compass_noise_rad_(std::max(config.least_compass_noise_rad, robot.compass_error.noise_rad)),
       filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
-                            motion_noise_.bias_rad}) {}
+                            motion_noise_.bias_rad}),
+      wall_finder_(wall_rules_of(motion_noise_, config.use_compass ? compass_noise_rad_ : 0.0)) {}
 
 PoseEstimate OdometryCompass::update(const Observation& observation, std::span<const LandmarkSighting> sightings) {
   follow_odometry(observation.T_odom_robot);
   if (config_.use_compass && observation.compass_rad) follow_compass(*observation.compass_rad);
-  int used = 0;
-  for (const LandmarkSighting& sighting : sightings) used += follow_landmark(sighting) ? 1 : 0;
+  int used = config_.use_walls ? follow_walls(observation) : 0;
+  int refused = 0;
+  for (const LandmarkSighting& sighting : sightings) ++(follow_landmark(sighting) ? used : refused);
   PoseEstimate estimate = filter_.estimate();
   estimate.sightings_used = used;
-  estimate.sightings_refused = static_cast<int>(sightings.size()) - used;
+  estimate.sightings_refused = refused;
   return estimate;
 }
 
@@ -75,6 +89,23 @@ void OdometryCompass::follow_compass(double compass_rad) {
   refused_in_a_row_ = 0;
 }
 
+int OdometryCompass::follow_walls(const Observation& observation) {
+  if (!is_usable(observation.T_odom_robot)) return 0;
+  wall_finder_.take(observation);
+  if (!wall_finder_.is_due()) return 0;
+  int used = 0;
+  std::array<ExpectedWall, PoseFilter::kMostWalls> expected;
+  const std::span<ExpectedWall> all(expected.data(), static_cast<std::size_t>(filter_.walls()));
+  for (int wall = 0; wall < filter_.walls(); ++wall) expected[static_cast<std::size_t>(wall)] = filter_.expected(wall);
+  for (const ExpectedWall& wall : all) {
+    const std::optional<SeenWall> again = wall_finder_.look_for(wall, all);
+    if (again && filter_.meet_again(wall.wall, *again, config_.wall_gate_sigmas)) ++used;
+  }
+  const std::optional<SeenWall> seen = wall_finder_.find();
+  if (seen && filter_.meet(*seen, config_.wall_gate_sigmas) == PoseFilter::WallUse::known) ++used;
+  return used;
+}
+
 bool OdometryCompass::follow_landmark(const LandmarkSighting& sighting) {
   const Eigen::Matrix3d& seen = sighting.covariance;
   const bool usable = is_usable(sighting.T_map_landmark) && is_usable(sighting.T_robot_landmark) && seen.allFinite() &&
@@ -84,8 +115,8 @@ bool OdometryCompass::follow_landmark(const LandmarkSighting& sighting) {
     refused_places_ = 0;
     return true;
   }
-  const Point off = sighting.T_map_landmark.position() -
-                    filter_.estimate().T_map_robot * sighting.T_robot_landmark.position();
+  const Point off =
+      sighting.T_map_landmark.position() - filter_.estimate().T_map_robot * sighting.T_robot_landmark.position();
   const bool agrees = refused_places_ > 0 && (off - refused_off_m_).norm() <= config_.refusals_agree_m;
   refused_places_ = agrees ? refused_places_ + 1 : 1;
   refused_off_m_ = off;

@@ -21,6 +21,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "plugins/odometry_compass/config.hpp"
 #include "plugins/odometry_compass/pose_filter.hpp"
+#include "plugins/odometry_compass/wall_finder.hpp"
 
 namespace cairn::odometry_compass {
 
@@ -33,6 +34,7 @@ class OdometryCompass final : public Localizer {
  private:
   void follow_odometry(const Pose2& T_odom_robot);
   void follow_compass(double compass_rad);
+  int follow_walls(const Observation& observation);
   bool follow_landmark(const LandmarkSighting& sighting);
   [[nodiscard]] bool correct_by(const LandmarkSighting& sighting);
 
@@ -40,9 +42,10 @@ class OdometryCompass final : public Localizer {
   MotionNoise motion_noise_;
   double compass_noise_rad_;
   PoseFilter filter_;
+  WallFinder wall_finder_;
   std::optional<Pose2> T_odom_robot_;  // the last good one
-  int refused_in_a_row_ = 0;   // of the compass
-  int refused_places_ = 0;     // sightings in a row that would all move the robot by about the same
+  int refused_in_a_row_ = 0;           // of the compass
+  int refused_places_ = 0;             // sightings in a row that would all move the robot by about the same
   Point refused_off_m_{0.0, 0.0};
 };
 

@@ -1,13 +1,17 @@
-// Extended Kalman filter over a planar pose and the two slow errors that would make it dishonest.
+// Extended Kalman filter over a planar pose, the two slow errors that would make it dishonest, and the walls that the
+// robot has met (EKF-SLAM: Smith, Self and Cheeseman 1990; with walls from sonar: Tardos et al. 2002).
 //
-// State: x_m, y_m, theta_rad of T_map_robot; the odometry's scale error (constant over a run); the
-// compass's local bias (first-order Gauss-Markov over the distance driven). With both deviations 0 it
-// is the plain three-state filter. Angles are kept in (-pi, pi], innovations are wrapped.
+// State: x_m, y_m, theta_rad of T_map_robot; the odometry's scale error (constant over a run); the compass's local
+// bias (first-order Gauss-Markov over the distance driven); then, for each wall, the direction of its normal and its
+// distance along it from a fixed place. With both deviations 0 and no walls it is the plain three-state filter. Angles
+// are kept in (-pi, pi], innovations are wrapped. Never allocates.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "framework/contracts/localizer.hpp"
+#include "plugins/odometry_compass/wall.hpp"
 
 namespace cairn::odometry_compass {
 
@@ -23,6 +27,8 @@ struct MotionNoise {
 
 class PoseFilter {
  public:
+  static constexpr int kMostWalls = 48;
+
   struct Start {
     double position_m = 0.0;
     double heading_rad = 0.0;
@@ -45,22 +51,55 @@ class PoseFilter {
   // Widens the position so that this landmark position in robot coordinates passes any gate.
   void doubt_position(const Point& p_map, const Point& p_robot);
 
+  enum class WallUse { known, added, refused };
+  // A wall: corrects by the known one that it is, or joins as a new one when it is like none. Between two that it may
+  // be, or like one but beyond the gate, it is refused; so is a new one when there is no more room.
+  WallUse meet(const SeenWall& seen, double gate_sigmas);
+  [[nodiscard]] int walls() const { return walls_; }
+  [[nodiscard]] ExpectedWall expected(int wall) const;
+  // Corrects by a wall that is known to be this one. Returns false, and does nothing, beyond the gate.
+  bool meet_again(int wall, const SeenWall& seen, double gate_sigmas);
+
   [[nodiscard]] PoseEstimate estimate() const;
 
  private:
-  static constexpr int kStates = 5;
+  static constexpr int kPoseStates = 5;
   static constexpr int kTheta = 2;
   static constexpr int kScale = 3;
   static constexpr int kBias = 4;
-  using State = Eigen::Matrix<double, kStates, 1>;
-  using Covariance = Eigen::Matrix<double, kStates, kStates>;
+  static constexpr int kMostStates = kPoseStates + 2 * kMostWalls;
+  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostStates, 1>;
+  using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStates, kMostStates>;
+  // What a measurement of kRows numbers depends on: the pose states and, where there is one, a wall.
+  template <int kRows>
+  struct Slope {
+    Eigen::Matrix<double, kRows, kPoseStates> pose = Eigen::Matrix<double, kRows, kPoseStates>::Zero();
+    Eigen::Matrix<double, kRows, 2> wall = Eigen::Matrix<double, kRows, 2>::Zero();
+    int wall_state = -1;  // its first
+  };
+  struct Wall {
+    Point from_m{0.0, 0.0};  // what its distance counts from
+    double begin_m = 0.0;    // what of it has been met, along it
+    double end_m = 0.0;
+    int meetings = 0;
+  };
+  struct Match;
 
   template <int kRows>
-  bool correct(const Eigen::Matrix<double, kRows, 1>& innovation, const Eigen::Matrix<double, kRows, kStates>& h,
+  [[nodiscard]] Eigen::Matrix<double, kRows, kRows> spread(const Slope<kRows>& h,
+                                                           const Eigen::Matrix<double, kRows, kRows>& noise) const;
+  template <int kRows>
+  bool correct(const Eigen::Matrix<double, kRows, 1>& innovation, const Slope<kRows>& h,
                const Eigen::Matrix<double, kRows, kRows>& noise, double gate_sigmas);
+  [[nodiscard]] Match compare(int wall, const SeenWall& seen) const;
+  void add(const SeenWall& seen);
+  void stretch(int wall, const SeenWall& seen);
+  [[nodiscard]] bool forget_one();
 
   State state_;
   Covariance covariance_;
+  std::array<Wall, kMostWalls> wall_;
+  int walls_ = 0;
 };
 
 }  // namespace cairn::odometry_compass

@@ -165,9 +165,33 @@ TEST(OdometryCompass, HeedsALandmarksOrientationOnlyWhenToldTo) {
   EXPECT_NEAR(localizer({}, without).update(observed({}), {&turned, 1}).T_map_robot.theta_rad, 0.0, 0.001);
 }
 
+TEST(OdometryCompass, BelievesSightingsThatAgreeInTheEnd) {
+  OdometryCompass at = localizer();
+  (void)at.update(observed({}), {});
+  const Pose2 carried_to{1.5, 0.4, 0.0};
+  const LandmarkSighting seen = sighting({4.0, 1.0, 0.0}, carried_to);
+  for (int i = 1; i < Config{}.landmark_refusals; ++i) {
+    const PoseEstimate estimate = at.update(observed({}), {&seen, 1});
+    ASSERT_EQ(estimate.sightings_refused, 1);
+    ASSERT_EQ(estimate.T_map_robot.x_m, 0.0) << i;
+  }
+  const PoseEstimate estimate = at.update(observed({}), {&seen, 1});
+  EXPECT_EQ(estimate.sightings_used, 1);
+  EXPECT_NEAR((estimate.T_map_robot.position() - carried_to.position()).norm(), 0.0, 0.05);
+}
+
+TEST(OdometryCompass, NeverBelievesSightingsThatDisagree) {
+  OdometryCompass at = localizer();
+  (void)at.update(observed({}), {});
+  for (int i = 0; i < 100; ++i) {
+    const LandmarkSighting seen = sighting({4.0, 1.0, 0.0}, {1.5 + 0.5 * (i % 3), 0.4, 0.0});
+    EXPECT_EQ(at.update(observed({}), {&seen, 1}).T_map_robot.x_m, 0.0);
+  }
+}
+
 TEST(OdometryCompass, DescribesAllItsSettings) {
   const Schema schema = schema_of<Config>();
-  EXPECT_EQ(schema.fields.size(), 13U);
+  EXPECT_EQ(schema.fields.size(), 17U);
   for (const FieldSpec& field : schema.fields) EXPECT_FALSE(field.meaning.empty()) << field.key;
 }
 

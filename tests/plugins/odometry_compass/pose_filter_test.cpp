@@ -117,7 +117,9 @@ TEST(PoseFilter, TurnsByALandmarksBearingAndByItsOrientation) {
   EXPECT_NEAR(by_bearing.estimate().T_map_robot.theta_rad, 0.1, 0.003);
 
   PoseFilter by_orientation({}, {1e-4, 0.2, 0.0, 0.0});
-  EXPECT_TRUE(by_orientation.correct_orientation(-kPi + 0.05, wrap_angle(-kPi - 0.05), 0.001, 3.5));
+  const Pose2 T_map_landmark{3.0, 0.5, -kPi + 0.05};
+  const Eigen::Matrix3d noise = Eigen::Vector3d(1.0, 1.0, 1e-6).asDiagonal();
+  EXPECT_TRUE(by_orientation.correct_pose(T_map_landmark, inverse(truth) * T_map_landmark, noise, 3.5));
   EXPECT_NEAR(by_orientation.estimate().T_map_robot.theta_rad, 0.1, 0.001);
 }
 
