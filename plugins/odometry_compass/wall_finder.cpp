@@ -17,14 +17,13 @@ constexpr double kGate_m = 0.07;
 constexpr double kWidestGate_m = 0.3;
 constexpr int kLeastAgain = 4;  // echoes of a known wall
 constexpr double kHeld_rad = radians(10.0);
-constexpr double kAlike = 2.0;  // errors of echoes of one wall go together
 constexpr double kSteadied_rad = radians(1.0);
-constexpr double kCommon_rad = radians(0.7);
-constexpr double kCommon_m = 0.015;
+constexpr double kCommon_rad = radians(0.5);
+constexpr double kCommon_m = 0.010;
 constexpr int kPeaks = 4;
 constexpr int kBatch = 8;             // new echoes before the next search
 constexpr double kPointRatio = 0.75;  // a line must fit so much better than a point
-constexpr double kCurved_m = 0.018;   // how far a round thing must leave the line to be told from it
+constexpr double kCurved_m = 0.010;   // how far a round thing must leave the line to be told from it
 
 Point direction(double angle_rad) {
   return {std::cos(angle_rad), std::sin(angle_rad)};
@@ -284,7 +283,7 @@ SeenWall WallFinder::seen(const Fit& fit) const {
   wall.bearing_rad = wrap_angle(fit.line.normal_rad - T_odom_robot_.theta_rad);
   wall.distance_m = fit.line.distance_m;
   const double noise_m = std::max(rules_.range_noise_m, fit.rms_m);
-  wall.covariance = kAlike * noise_m * noise_m * fit.covariance;
+  wall.covariance = noise_m * noise_m * fit.covariance;
   // Odometry between the echoes, and what is the same in all of them.
   wall.covariance(0, 0) += std::min(rules_.heading_noise_rad_per_m * rules_.heading_noise_rad_per_m * fit.way_m / 3.0,
                                     kSteadied_rad * kSteadied_rad) +
