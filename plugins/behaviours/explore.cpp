@@ -1,8 +1,15 @@
 #include "plugins/behaviours/explore.hpp"
 
+#include <algorithm>
+
 #include "plugins/behaviours/exploration.hpp"
 
 namespace cairn::behaviours {
+namespace {
+
+constexpr double kLookEvery_s = 5.0;
+
+}  // namespace
 
 void ExploreConfig::describe(Fields<ExploreConfig>& fields) {
   using C = ExploreConfig;
@@ -29,8 +36,29 @@ Explore::Explore(const ExploreConfig& config) : config_(config) {}
 Explore::~Explore() = default;
 
 Status Explore::tick(const WorldView& world, Orders& orders) {
-  if (!run_) run_ = std::make_unique<Exploration>(config_, world);
-  return run_->tick(world, orders);
+  if (!run_) {
+    run_ = std::make_unique<Exploration>(config_, world);
+    begun_s_ = looked_s_ = world.time_s;
+    left_at_look_s_.reset();
+  }
+  Status status = run_->tick(world, orders);
+  if (status.progress == Progress::running) status.left_s = left_s(world);
+  return status;
+}
+
+// As if what is left became known as fast as what is known has; nothing can be told of the laps after that.
+std::optional<double> Explore::left_s(const WorldView& world) {
+  const double done_s = world.time_s - begun_s_;
+  if (world.time_s >= looked_s_ + kLookEvery_s) {
+    looked_s_ = world.time_s;
+    const double known = known_ratio(world.grid);
+    left_at_look_s_.reset();
+    if (known > 0.0 && known < config_.until_known_ratio)
+      left_at_look_s_ = done_s * (config_.until_known_ratio - known) / known;
+  }
+  if (!left_at_look_s_) return std::nullopt;
+  const double left_s = *left_at_look_s_ - (world.time_s - looked_s_);
+  return std::min(std::max(0.0, left_s), config_.at_most_s - done_s);
 }
 
 void Explore::halt() {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
@@ -39,8 +40,13 @@ class Explore : public Behaviour {
   void halt() override;
 
  private:
+  [[nodiscard]] std::optional<double> left_s(const WorldView& world);
+
   ExploreConfig config_;
   std::unique_ptr<Exploration> run_;  // from the first tick on
+  double begun_s_ = 0.0;
+  double looked_s_ = 0.0;
+  std::optional<double> left_at_look_s_;
 };
 
 }  // namespace cairn::behaviours
