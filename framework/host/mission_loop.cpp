@@ -87,6 +87,7 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
 
 MissionOutcome MissionLoop::loop() {
   if (!not_restored_.empty()) tell(Said{not_restored_});
+  if (options_.control != nullptr) options_.control->tell(status());
   if (step_ == mission_.steps.size() && drive_ != nullptr) return MissionOutcome::done;
   while (true) {
     stand_by();

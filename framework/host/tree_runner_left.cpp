@@ -120,7 +120,10 @@ TimeLeft TreeRunner::rounds_left(const State& state, const Reckoning& reckoning)
     return left;
   }
   TimeLeft whole = whole_of(child, reckoning);
-  if (round.done == 0 && round.is_running) whole.about_s = reckoning.time_s - round.begun_s + now.about_s;
+  if (round.done == 0 && round.is_running) {
+    whole.about_s = reckoning.time_s - round.begun_s + now.about_s;
+    whole.without = now.without;
+  }
   const auto more = static_cast<double>(std::max<std::int64_t>(0, state.node->times - state.rounds - 1));
   return more > 0.0 ? in_order(std::move(left), again(std::move(whole), more)) : left;
 }

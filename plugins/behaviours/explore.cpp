@@ -7,7 +7,7 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kLookEvery_s = 5.0;
+constexpr double kPassed_m = 1.0;  // where edges are not passed at a distance of their own
 
 }  // namespace
 
@@ -38,27 +38,14 @@ Explore::~Explore() = default;
 Status Explore::tick(const WorldView& world, Orders& orders) {
   if (!run_) {
     run_ = std::make_unique<Exploration>(config_, world);
-    begun_s_ = looked_s_ = world.time_s;
-    left_at_look_s_.reset();
+    progress_.emplace(world, config_.look_closer_m > 0.0 ? config_.look_closer_m : kPassed_m);
+    begun_s_ = world.time_s;
   }
   Status status = run_->tick(world, orders);
-  if (status.progress == Progress::running) status.left_s = left_s(world);
+  if (status.progress != Progress::running) return status;
+  status.left_s = progress_->left_s(world);
+  if (status.left_s) status.left_s = std::min(*status.left_s, begun_s_ + config_.at_most_s - world.time_s);
   return status;
-}
-
-// As if what is left became known as fast as what is known has; nothing can be told of the laps after that.
-std::optional<double> Explore::left_s(const WorldView& world) {
-  const double done_s = world.time_s - begun_s_;
-  if (world.time_s >= looked_s_ + kLookEvery_s) {
-    looked_s_ = world.time_s;
-    const double known = known_ratio(world.grid);
-    left_at_look_s_.reset();
-    if (known > 0.0 && known < config_.until_known_ratio)
-      left_at_look_s_ = done_s * (config_.until_known_ratio - known) / known;
-  }
-  if (!left_at_look_s_) return std::nullopt;
-  const double left_s = *left_at_look_s_ - (world.time_s - looked_s_);
-  return std::min(std::max(0.0, left_s), config_.at_most_s - done_s);
 }
 
 void Explore::halt() {

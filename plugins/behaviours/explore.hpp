@@ -11,6 +11,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
+#include "plugins/behaviours/explore_progress.hpp"
 
 namespace cairn::behaviours {
 
@@ -40,13 +41,10 @@ class Explore : public Behaviour {
   void halt() override;
 
  private:
-  [[nodiscard]] std::optional<double> left_s(const WorldView& world);
-
   ExploreConfig config_;
   std::unique_ptr<Exploration> run_;  // from the first tick on
   double begun_s_ = 0.0;
-  double looked_s_ = 0.0;
-  std::optional<double> left_at_look_s_;
+  std::optional<ExploreProgress> progress_;
 };
 
 }  // namespace cairn::behaviours

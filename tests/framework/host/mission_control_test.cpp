@@ -40,15 +40,15 @@ class MissionControl : public testing::Test {
 };
 
 TEST_F(MissionControl, APauseStopsTheRobotInTheSameTickAndItsClockStands) {
-  const MissionResult result = run(40, [&](int tick) {
-    if (tick == 10) flags_.pause = true;
-    if (tick == 20) flags_.pause = false;
+  const MissionResult result = run(20, [&](int tick) {
+    if (tick == 5) flags_.pause = true;
+    if (tick == 10) flags_.pause = false;
   });
-  ASSERT_GE(commands_.size(), 40U);
-  for (int tick = 0; tick < 40; ++tick)
-    EXPECT_EQ(commands_[static_cast<std::size_t>(tick)], tick >= 10 && tick < 20 ? 0.0 : 0.1) << "tick " << tick;
-  EXPECT_NEAR(result.paused_s, 10 * 0.04, 1e-9);
-  EXPECT_NEAR(result.time_s, (39 - 10) * 0.04, 1e-9);
+  ASSERT_GE(commands_.size(), 20U);
+  for (int tick = 0; tick < 20; ++tick)  // after a second without readings the stop layer stops it anyway
+    EXPECT_EQ(commands_[static_cast<std::size_t>(tick)], tick >= 5 && tick < 10 ? 0.0 : 0.1) << "tick " << tick;
+  EXPECT_NEAR(result.paused_s, 5 * 0.04, 1e-9);
+  EXPECT_NEAR(result.time_s, (19 - 5) * 0.04, 1e-9);
 }
 
 TEST_F(MissionControl, APausedMissionIsCancelledAndSaysHowItStood) {

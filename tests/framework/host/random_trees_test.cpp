@@ -227,6 +227,11 @@ TEST(RandomTrees, TickAndHaltTheirLeafsAsTheOracleDoes) {
   EXPECT_GT(ended, 10000) << "most trees must end now and then";
 }
 
+void number(TreeNode& node, const std::string& path) {
+  node.path = path;
+  for (std::size_t i = 0; i < node.children.size(); ++i) number(node.children[i], path + "/" + std::to_string(i + 1));
+}
+
 // Without halts of leafs that have not been ticked: what is gone on with has fresh leafs.
 std::string without_halts_of_fresh_leafs(const std::string& log) {
   std::istringstream words(log);
@@ -245,7 +250,8 @@ TEST(RandomTrees, GoOnFromTheirSavedStateAsTheUninterruptedTreeDoes) {
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     Chance chance(seed);
     std::map<std::string, std::string> scripts;
-    const TreeNode root = random_tree(chance, 4, scripts);
+    TreeNode root = random_tree(chance, 4, scripts);
+    number(root, "1");
     ScriptedLeafs leafs(scripts);
     TreeRunner runner(root, leafs);
     const int killed_at = 1 + pick(chance, 20);
