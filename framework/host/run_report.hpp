@@ -9,6 +9,7 @@
 #include "framework/host/events.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/pose_errors.hpp"
+#include "framework/host/run_timeline.hpp"
 
 namespace cairn {
 
@@ -43,6 +44,7 @@ class RunReport : public Listener {
   [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
   [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
   [[nodiscard]] const PoseErrors& pose_errors() const { return pose_errors_; }
+  [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
 
  private:
   void note_contact(const MissionView& view);
@@ -50,6 +52,7 @@ class RunReport : public Listener {
   std::vector<DegreeSample> degrees_;
   std::vector<TimedContact> contacts_;
   PoseErrors pose_errors_;
+  RunTimeline timeline_;
   std::vector<std::string> events_;  // sentences with their time
   double explored_ratio_ = 0.0;
 };

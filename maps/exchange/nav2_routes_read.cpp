@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "maps/exchange/crs.hpp"
@@ -188,6 +187,8 @@ class Reader {
     node.offset = exchange::offset_of(source_, feature.offset(), {"properties", "id"});
     const Json point = feature.geometry().value("coordinates", Json());
     check_point(feature, point, {"geometry", "coordinates"});
+    const std::size_t at = exchange::offset_of(source_, feature.offset(), {"geometry", "coordinates"});
+    for (int i : {0, 1}) source_.check_coordinate(at, point[i].get<double>());
     node.landmark.T_map_landmark = {point[0].get<double>(), point[1].get<double>(), 0.0};
     node.landmark.name = exchange::name_in(feature.properties());
     node.landmark.category = exchange::category_in(feature.properties());
@@ -289,7 +290,6 @@ class Reader {
     if (route.cost_m == 0.0)
       route.cost_m =
           (graph.find(route.from)->T_map_landmark.position() - graph.find(route.to)->T_map_landmark.position()).norm();
-    if (!std::isfinite(route.cost_m)) source_.fail(edge.offset, "the straight length of this edge is not finite");
     graph.add_route(std::move(route));
   }
 

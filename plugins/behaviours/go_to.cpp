@@ -185,7 +185,8 @@ Status GoTo::travel(const WorldView& world, Orders& orders) {
     mode_ = Mode::face;
     mode_since_s_ = world.time_s;
   }
-  return {Progress::running, "going to " + destination(world)};
+  if (on_way_out_) return {Progress::running, "going to " + destination(world)};
+  return {Progress::running, "going to " + destination(world), step.left_m / limits.speed_mps};
 }
 
 Status GoTo::back_off(const WorldView& world, Orders& orders) {
