@@ -64,8 +64,6 @@ class RouteDriver {
 
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
-  Status running(const std::string& doing) const;
-
   Status plan(const WorldView& world, Orders& orders);
   [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
   void take_route(const PlanResult& result);
