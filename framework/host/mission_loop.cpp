@@ -195,6 +195,7 @@ void MissionLoop::drive_on() {
   if (drive_ == nullptr) return;
   const Twist allowed = stop_layer_.limit(wanted_);
   held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, allowed);
+  result_.stop_layer = stop_layer_.figures();
   in_stage(drive_stage_, [&] { drive_->command(allowed); });
 }
 

@@ -11,6 +11,7 @@
 #include "framework/host/mission.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/stage_clock.hpp"
+#include "framework/host/stop_layer.hpp"
 #include "framework/host/tree_runner.hpp"
 #include "maps/map_store.hpp"
 
@@ -45,6 +46,7 @@ struct MissionResult {
   double distance_m = 0.0;
   double time_s = 0.0;                             // simulated or recorded
   std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
+  StopLayerFigures stop_layer{};
   AutosaveFigures autosave{};
   std::string map_file;  // name in the output folder; empty: could not be saved
 };

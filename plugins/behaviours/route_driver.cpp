@@ -1,0 +1,370 @@
+#include "plugins/behaviours/route_driver.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "plugins/behaviours/way_to_look.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+// Room asked of the planner beside the robot, the most first: more than the local planner keeps, then what a narrow door
+// leaves, then nothing.
+constexpr double kRooms_m[] = {0.12, 0.06, 0.0};
+constexpr double kPlansApart_s = 1.0;
+constexpr double kBlockedAhead_m = 1.0;
+constexpr double kGettingOn_m = 0.8;  // from where it was held back
+constexpr int kMostHoldUps = 40;
+constexpr int kMostPlans = 200;
+constexpr int kMostWaysOut = 4;
+constexpr double kWayOutClearance_m = 0.1;
+constexpr double kWayOutTolerance_m = 0.02;
+constexpr double kTrace_m = 0.1;
+constexpr std::size_t kMostTrace = 400;
+constexpr double kTroubleFor_s = 60.0;
+constexpr double kClosedFor_s = 60.0;
+constexpr double kBackUp_mps = 0.1;
+constexpr double kBackUp_m = 0.2;
+constexpr double kBackUpAtMost_s = 6.0;
+constexpr double kTurn_rad = radians(100.0);
+constexpr double kTurn_radps = radians(45.0);
+constexpr double kTurnAtMost_s = 12.0;
+constexpr double kSpaceAround_m = 12.0;
+constexpr double kSpaceClearance_m = 0.08;
+constexpr double kLookAtLeast_s = 3.0;
+constexpr double kLookAtMost_s = 40.0;  // for a door to open
+constexpr int kMostLooks = 5;
+constexpr double kFaceGoal_rad = radians(3.0);
+constexpr double kFaceAtMost_s = 15.0;
+
+std::string text_of(const Point& p) {
+  char text[48];
+  std::snprintf(text, sizeof text, "(%.2f, %.2f)", p.x(), p.y());
+  return text;
+}
+
+std::vector<Point> points_of(const std::vector<Pose2>& path) {
+  std::vector<Point> points;
+  for (const Pose2& pose : path) points.push_back(pose.position());
+  return points;
+}
+
+}  // namespace
+
+RouteDriver::RouteDriver(const RouteSettings& settings, std::uint64_t seed)
+    : settings_(settings), seed_(seed), watch_(settings.patience_s) {}
+
+void RouteDriver::restart() {
+  *this = RouteDriver(settings_, seed_);
+}
+
+Status RouteDriver::tick(const Place& goal, const WorldView& world, Orders& orders) {
+  goal_ = goal;
+  remember(world);
+  switch (mode_) {
+    case Mode::plan:
+      return plan(world, orders);
+    case Mode::travel:
+      return travel(world, orders);
+    case Mode::back_up:
+      return back_up(world, orders);
+    case Mode::turn:
+      return turn(world, orders);
+    case Mode::look:
+      return look(world, orders);
+    case Mode::face:
+      break;
+  }
+  return face(world, orders);
+}
+
+void RouteDriver::remember(const WorldView& world) {
+  const Pose2& pose = world.pose.T_map_robot;
+  if (!near_echoes_) {
+    near_echoes_.emplace(world.grid);
+    last_theta_rad_ = pose.theta_rad;
+  }
+  if (world.observation != nullptr) near_echoes_->see(*world.observation, pose);
+  near_echoes_->stand_at(pose.position(), world.robot.radius_m);
+  if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTrace_m) trace_.push_back(pose);
+  if (trace_.size() > kMostTrace) trace_.erase(trace_.begin());
+  std::erase_if(troubles_, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
+  std::erase_if(closed_until_s_, [&](const auto& closed) { return closed.second < world.time_s; });
+  if (round_ > 0 && mode_ == Mode::travel && leg_ == Leg::route &&
+      (pose.position() - held_at_).norm() > kGettingOn_m)
+    round_ = 0;
+  local_.see(world, *near_echoes_);
+}
+
+void RouteDriver::set_mode(Mode mode, double time_s) {
+  mode_ = mode;
+  mode_since_s_ = time_s;
+  preferred_ = {};
+  watch_.restart();
+}
+
+FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m) const {
+  const Point position = world.pose.T_map_robot.position();
+  const Cell here = world.grid.cell_at(position);
+  const int reach = static_cast<int>(kSpaceAround_m / world.grid.cell_m());
+  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
+  return FreeSpace(near_echoes_->applied_to(world.grid, part), {position, world.robot.radius_m, clearance_m}, trace_,
+                   troubles_);
+}
+
+bool RouteDriver::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
+                             double radius_m) const {
+  const auto is_occupied = [&](Cell c) { return near_echoes_->is_occupied(world.grid, c); };
+  return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, radius_m);
+}
+
+// With as much room as there is a way for; stored routes that were found blocked are left closed while there is another.
+PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
+  PlanRequest request;
+  request.from.pose = world.pose.T_map_robot;
+  request.to = goal_;
+  request.seed = seed_ + static_cast<std::uint64_t>(plans_);
+  ++plans_;
+  planned_s_ = world.time_s;
+  for (const auto& [route, until_s] : closed_until_s_) request.closed.push_back(route);
+  PlanResult result;
+  for (const bool with_closed : {true, false}) {
+    if (!with_closed && request.closed.empty()) break;
+    if (!with_closed) request.closed.clear();
+    for (const double room_m : kRooms_m) {
+      request.radius_m = world.robot.radius_m + room_m;
+      result = orders.plan(request);
+      if (result.outcome == PlanOutcome::solved) return result;
+      if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return result;
+    }
+  }
+  return result;
+}
+
+void RouteDriver::take_route(const PlanResult& result) {
+  path_ = points_of(result.path);
+  pieces_ = result.pieces;
+  follow_state_ = {0.0, follow_state_.turning};
+  leg_ = Leg::route;
+  if (!path_.empty()) route_end_ = path_.back();
+  const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
+    return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
+  });
+  goal_landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
+}
+
+Status RouteDriver::plan(const WorldView& world, Orders& orders) {
+  if (world.time_s - planned_s_ < kPlansApart_s) return {Progress::running, "waiting to plan again"};
+  if (plans_ >= kMostPlans) return give_up(world);
+  // The planner knows nothing of what has held the robot back there: from the second time on, a way round that.
+  if (round_ >= 2 && round_ % 2 == 0 && plan_round_trouble(world)) {
+    planned_s_ = world.time_s;
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "going round what held it back"};
+  }
+  const PlanResult result = ask_planner(world, orders);
+  for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
+  if (result.outcome != PlanOutcome::solved) return no_plan(result, world, orders);
+  take_route(result);
+  set_mode(Mode::travel, world.time_s);
+  return {Progress::running, "under way"};
+}
+
+bool RouteDriver::plan_round_trouble(const WorldView& world) {
+  if (!route_end_) return false;
+  const FreeSpace space = space_now(world, kSpaceClearance_m);
+  const std::vector<Point> way = space.path_to(space.cell_at(*route_end_));
+  if (way.size() < 2) return false;
+  path_ = way;
+  path_.push_back(*route_end_);
+  pieces_.clear();
+  follow_state_ = {0.0, follow_state_.turning};
+  leg_ = Leg::route;
+  return true;
+}
+
+Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Orders& orders) {
+  const std::string why = std::string(name_of(result.outcome)) + ": " + result.reason;
+  const bool is_final = result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled;
+  if (!is_final && result.outcome == PlanOutcome::start_blocked && begin_way_out(world)) {
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "making room"};
+  }
+  if (!is_final && begin_look(world)) {
+    orders.say("no way now (" + why + "): looks again at " + text_of(look_at_));
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "going to look at " + text_of(look_at_)};
+  }
+  return {Progress::failure, why + (tried_.empty() ? "" : "; " + tried_)};
+}
+
+// Too near to something to plan: a little further from it first.
+bool RouteDriver::begin_way_out(const WorldView& world) {
+  if (ways_out_ >= kMostWaysOut) return false;
+  ++ways_out_;
+  path_ = space_now(world, kWayOutClearance_m).way_out();
+  if (path_.size() < 2) path_ = space_now(world, 0.02).way_out();
+  if (path_.size() < 2) return false;
+  follow_state_ = {};
+  leg_ = Leg::way_out;
+  tried_ = "made room " + std::to_string(ways_out_) + " times";
+  return true;
+}
+
+bool RouteDriver::begin_look(const WorldView& world) {
+  if (looks_ >= kMostLooks) return false;
+  const Point goal = goal_.pose ? goal_.pose->position() : route_end_.value_or(Point(1e9, 1e9));
+  std::optional<Point> to = goal.x() < 1e8 ? std::optional(goal) : std::nullopt;
+  for (const LandmarkId id : goal_.landmarks)
+    if (const Landmark* landmark = world.graph.find(id); landmark != nullptr && !to)
+      to = landmark->access.value_or(landmark->T_map_landmark).position();
+  if (!to) return false;
+  const std::optional<WayToLook> way = 
+      way_to_look(space_now(world, kSpaceClearance_m), world.grid, world.pose.T_map_robot.position(), *to, looked_at_);
+  if (!way) return false;
+  ++looks_;
+  look_at_ = way->at;
+  looked_at_.push_back(look_at_);
+  path_ = way->path;
+  follow_state_ = {};
+  leg_ = Leg::to_look;
+  tried_ = "looked " + std::to_string(looks_) + " times whether the way is free again, last at " + text_of(look_at_);
+  return true;
+}
+
+Status RouteDriver::travel(const WorldView& world, Orders& orders) {
+  const Pose2& pose = world.pose.T_map_robot;
+  if (watch_.is_stuck(world, preferred_)) return held_back(world, orders);
+  // One cell less than the planner's disc, so that the two never disagree about the same map.
+  const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
+  const bool blocked = leg_ != Leg::way_out && is_blocked(world, path_, follow_state_.along_m, kBlockedAhead_m, margin_m);
+  if (blocked && world.time_s - planned_s_ >= kPlansApart_s) {
+    if (leg_ == Leg::to_look) {
+      set_mode(Mode::look, world.time_s);
+      return look(world, orders);
+    }
+    const PlanResult result = ask_planner(world, orders);
+    for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
+    if (result.outcome == PlanOutcome::solved) take_route(result);
+  }
+  FollowLimits limits = follow_limits(world.robot, settings_.speed_mps);
+  limits.arrive_m = leg_ == Leg::way_out ? kWayOutTolerance_m : settings_.tolerance_m;
+  const FollowStep step = follow(pose, path_, follow_state_, limits);
+  follow_state_ = step.state;
+  if (step.arrived) return arrive(world, orders);
+  preferred_ = step.wanted;
+  const Point aim = point_along(path_, step.state.along_m + limits.lookahead_m);
+  orders.drive(leg_ == Leg::way_out ? local_.approach(preferred_, world)
+                                    : local_.steer(preferred_, aim, limits.speed_mps, world));
+  if (local_.is_blocked()) {
+    if (!said_wait_) orders.say("waits: something is in the way at " + text_of(pose.position()));
+    said_wait_ = true;
+    return {Progress::running, "waiting for the way to be free"};
+  }
+  return {Progress::running, "under way"};
+}
+
+Status RouteDriver::arrive(const WorldView& world, Orders& orders) {
+  if (leg_ == Leg::way_out) {
+    set_mode(Mode::plan, world.time_s);
+    return {Progress::running, "has made room"};
+  }
+  if (leg_ == Leg::to_look) {
+    set_mode(Mode::look, world.time_s);
+    return look(world, orders);
+  }
+  set_mode(Mode::face, world.time_s);
+  return face(world, orders);
+}
+
+// The ladder; waiting for patience_s was its first rung.
+Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
+  const Pose2& pose = world.pose.T_map_robot;
+  held_at_ = pose.position();
+  said_wait_ = false;
+  ++round_;
+  ++hold_ups_;
+  if (round_ > settings_.rounds || hold_ups_ > kMostHoldUps) return give_up(world);
+  orders.say("held back at " + text_of(held_at_) + ": backs up, turns and plans again (" + std::to_string(round_) +
+             " of " + std::to_string(settings_.rounds) + ")");
+  troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kTroubleFor_s});
+  if (round_ >= 2) close_route_here(world, orders);
+  set_mode(Mode::back_up, world.time_s);
+  return back_up(world, orders);
+}
+
+void RouteDriver::close_route_here(const WorldView& world, Orders& orders) {
+  double end_m = 0.0;
+  for (const PlanPiece& piece : pieces_) {
+    end_m += piece.length_m;
+    if (end_m < follow_state_.along_m || piece.route == 0) continue;
+    closed_until_s_[piece.route] = world.time_s + kClosedFor_s;
+    orders.say("closes route R" + std::to_string(piece.route) + " for a while");
+    return;
+  }
+}
+
+Status RouteDriver::back_up(const WorldView& world, Orders& orders) {
+  const Pose2& pose = world.pose.T_map_robot;
+  const std::vector<Point> behind{pose.position(), pose * Point{-kBackUp_m, 0.0}};
+  const bool is_over = (pose.position() - held_at_).norm() >= kBackUp_m ||
+                       world.time_s - mode_since_s_ > kBackUpAtMost_s ||
+                       is_blocked(world, behind, 0.5 * kBackUp_m, kBackUp_m, world.robot.radius_m);
+  if (!is_over) {
+    orders.drive(local_.approach({-kBackUp_mps, 0.0}, world));
+    return {Progress::running, "backing up"};
+  }
+  set_mode(Mode::turn, world.time_s);
+  // Once to each side, then all round: what the sonars have not looked at is not known any more.
+  turn_left_rad_ = round_ % 3 == 0 ? 2.0 * std::numbers::pi : kTurn_rad;
+  last_theta_rad_ = pose.theta_rad;
+  return turn(world, orders);
+}
+
+Status RouteDriver::turn(const WorldView& world, Orders& orders) {
+  const double theta_rad = world.pose.T_map_robot.theta_rad;
+  turn_left_rad_ -= std::abs(wrap_angle(theta_rad - last_theta_rad_));
+  last_theta_rad_ = theta_rad;
+  const bool can_turn = world.robot.kinematics == Kinematics::differential;
+  if (!can_turn || turn_left_rad_ <= 0.0 || world.time_s - mode_since_s_ > kTurnAtMost_s) {
+    set_mode(Mode::plan, world.time_s);
+    return plan(world, orders);
+  }
+  const double w_radps = std::min(kTurn_radps, world.robot.max_w_radps) * (round_ % 2 == 0 ? -1.0 : 1.0);
+  orders.drive(local_.approach({0.0, w_radps}, world));
+  return {Progress::running, "turning to look round"};
+}
+
+// Faces what was in the way until it is gone, or for long enough.
+Status RouteDriver::look(const WorldView& world, Orders& orders) {
+  const double waited_s = world.time_s - mode_since_s_;
+  const double error_rad = heading_error(world.pose.T_map_robot, look_at_);
+  const bool can_turn = world.robot.kinematics == Kinematics::differential;
+  if (can_turn && std::abs(error_rad) > radians(5.0))
+    orders.drive(local_.approach(turn_by(error_rad, kTurn_radps), world));
+  const bool is_open = !near_echoes_->is_occupied(world.grid, world.grid.cell_at(look_at_));
+  if (waited_s < kLookAtLeast_s || (!is_open && waited_s < kLookAtMost_s))
+    return {Progress::running, "looking whether the way is free again"};
+  set_mode(Mode::plan, world.time_s);
+  return plan(world, orders);
+}
+
+Status RouteDriver::face(const WorldView& world, Orders& orders) {
+  const bool can_turn = world.robot.kinematics == Kinematics::differential;
+  const double error_rad = goal_.pose && goal_.heading_matters
+                               ? wrap_angle(goal_.pose->theta_rad - world.pose.T_map_robot.theta_rad)
+                               : 0.0;
+  if (!can_turn || std::abs(error_rad) <= kFaceGoal_rad || world.time_s - mode_since_s_ > kFaceAtMost_s)
+    return {Progress::success, "there"};
+  orders.drive(local_.approach(turn_by(error_rad, follow_limits(world.robot, settings_.speed_mps).max_w_radps), world));
+  return {Progress::running, "turning to its heading"};
+}
+
+Status RouteDriver::give_up(const WorldView& world) const {
+  const Point at = world.pose.T_map_robot.position();
+  return {Progress::failure, "held back at " + text_of(at) + ": waited, backed up, turned and planned again " +
+                                 std::to_string(round_ - 1) + " times in this place, " + std::to_string(plans_) +
+                                 " plans in all" + (tried_.empty() ? "" : "; " + tried_)};
+}
+
+}  // namespace cairn::behaviours

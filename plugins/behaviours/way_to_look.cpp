@@ -1,0 +1,59 @@
+#include "plugins/behaviours/way_to_look.hpp"
+
+#include <algorithm>
+
+#include "maps/travel_field.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+// What a metre costs, against one that is free.
+constexpr double kNarrow = 4.0;  // too near to something
+constexpr double kUnknown = 5.0;
+constexpr double kOccupied = 20.0;
+constexpr double kSurelyOccupied = 60.0;  // besides, at the map's bound of certainty
+constexpr double kLookedAt = 100.0;
+constexpr double kLookedAround_m = 0.4;
+constexpr double kStandOff_m = 0.6;  // from what is looked at
+
+double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const std::vector<Point>& looked_at) {
+  double price = 1.0;
+  if (space.state(cell) == CellState::occupied) {
+    const double certainty = static_cast<double>(grid.log_odds(cell)) / std::max(1, grid.clamp_quanta());
+    price = kOccupied + kSurelyOccupied * std::clamp(certainty, 0.0, 1.0);
+  } else if (space.state(cell) == CellState::unknown) {
+    price = kUnknown;
+  } else if (space.distance_m(cell) < space.least_distance_m()) {
+    price = kNarrow;
+  }
+  const Point at = space.centre_of(cell);
+  for (const Point& seen : looked_at)
+    if ((seen - at).norm() < kLookedAround_m) price += kLookedAt;
+  return price;
+}
+
+}  // namespace
+
+std::optional<WayToLook> way_to_look(const FreeSpace& space, const OccupancyGrid& grid, const Point& from,
+                                     const Point& to, const std::vector<Point>& looked_at) {
+  const CellBox box = space.box();
+  if (!box.contains(space.cell_at(to)) || !box.contains(space.cell_at(from))) return std::nullopt;
+  const std::size_t cells = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
+  const DistanceField everywhere(box, space.cell_m(), grid.origin_m(), std::vector<std::uint8_t>(cells, 1));
+  const TravelField travel(everywhere, from, 0.0, [&](Cell c) { return price(c, space, grid, looked_at); });
+  const std::vector<Cell> way = travel.path_to(space.cell_at(to));
+  const auto occupied =
+      std::find_if(way.begin(), way.end(), [&](Cell c) { return space.state(c) == CellState::occupied; });
+  const auto closed = std::find_if(way.begin(), way.end(), [&](Cell c) { return !space.reaches(c) && c != way.front(); });
+  const auto in_the_way = occupied != way.end() ? occupied : closed;
+  if (in_the_way == way.end()) return std::nullopt;
+  WayToLook look{space.centre_of(*in_the_way), {from}};
+  for (auto c = in_the_way; c != way.begin(); --c) {
+    if (!space.reaches(*c) || (space.centre_of(*c) - look.at).norm() < kStandOff_m) continue;
+    look.path = space.path_to(*c);
+    break;
+  }
+  return look;
+}
+
+}  // namespace cairn::behaviours
