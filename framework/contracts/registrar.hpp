@@ -64,6 +64,7 @@ struct ModuleContext {
   // For maps: what an earlier run of the mission has mapped, with the cells, origin and clamp that the settings give.
   // The new map begins with it. Null: with nothing.
   const OccupancyGrid* grid_so_far = nullptr;
+  std::vector<std::string> categories{};  // of landmarks that the mission can find; empty: not known
 };
 
 struct RegisteredModule {

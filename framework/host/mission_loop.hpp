@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,6 +81,8 @@ class MissionLoop : private Orders, private TreeHost {
   void drive(const Twist& wanted) override;
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override;
+  Status answer(const PlanQuestion& question, const std::string& file_name) override;
+  Status write(const OutputText& output) override;
   void say(const std::string& sentence) override;
 
   LeafTick tick_leaf(const TreeNode& leaf) override;
@@ -133,6 +136,8 @@ class MissionLoop : private Orders, private TreeHost {
   Autosaver autosaver_;
   bool autosave_has_failed_ = false;
   std::optional<Pose2> resumed_true_pose_;
+  Pose2 T_map_first_start_;         // resumed or not
+  std::set<std::string> written_;  // names of the texts of this run
   const std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
 };
 

@@ -21,6 +21,7 @@ constexpr double kLookAround_radps = radians(45.0);
 constexpr double kBlockedAhead_m = 0.8;
 constexpr double kOnLap_m = 0.5;   // from its first lookout
 constexpr double kThere_m = 0.12;  // a lookout this near needs no drive
+constexpr double kTrustedRange_m = 3.0;  // beyond it a sonar's beam is wider than a door
 constexpr double kFace_rad = radians(8.0);
 constexpr double kFaceDwell_s = 0.6;  // one round of the sonars, about
 constexpr double kOpeningDwell_s = 2.0;
@@ -46,6 +47,10 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
       near_echoes_(world.grid) {
   settings_.lap = {config.lap_distance_m, config.look_closer_m, config.largest_object_m};
   settings_.smallest_frontier_m = config.smallest_frontier_m;
+  settings_.gain_m = config.gain_m;
+  double farthest_m = 0.0;
+  for (const SonarModel& sonar : world.robot.sonars) farthest_m = std::max(farthest_m, sonar.max_m);
+  settings_.gain_range_m = std::min(farthest_m, kTrustedRange_m);
   memory_.trace.push_back(last_pose_);
 }
 
