@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/contracts/world_view.hpp"
+#include "plugins/behaviours/cell_layer.hpp"
 #include "plugins/behaviours/near_echoes.hpp"
 
 namespace cairn::behaviours {
@@ -50,8 +51,9 @@ struct LocalStep {
 // Keeps what is near the robot, and the velocity it goes at: the state of a behaviour that avoids obstacles.
 class LocalPlanner {
  public:
-  // Every tick. What the grid (as corrected by near echoes) holds occupied, and the last echo of each transducer.
-  void see(const WorldView& world, const NearEchoes& near_echoes);
+  // Every tick. What the grid (as corrected by near echoes) holds occupied, but for doubted cells, and the last echo of
+  // each transducer.
+  void see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted = {});
   // The velocity for this tick; after see(). aim_map: the point of the path that the preferred velocity goes for.
   [[nodiscard]] Twist steer(const Twist& preferred, const Point& aim_map, double speed_mps, const WorldView& world);
   // Ordered without avoidance (turns in place, backing up): the next window begins there.
@@ -66,7 +68,8 @@ class LocalPlanner {
     double stamp_s = -1e9;
     std::vector<Point> points_map;
   };
-  void gather_cells(const WorldView& world, const NearEchoes& near_echoes);
+  void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted);
+  void hear(const RangeReading& reading, const WorldView& world);
   [[nodiscard]] Twist now(const WorldView& world) const;
 
   std::vector<Point> cells_map_;

@@ -61,13 +61,16 @@ class RouteDriver {
 
  private:
   enum class Mode { plan, travel, back_up, turn, look, face };
+  // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free.
+  enum class Trust { all, no_specks, only_solid };
 
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   Status plan(const WorldView& world, Orders& orders);
   [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
   void take_route(const PlanResult& result);
-  [[nodiscard]] bool plan_round_trouble(const WorldView& world);
+  [[nodiscard]] std::optional<Point> goal_point(const WorldView& world) const;
+  [[nodiscard]] bool plan_by_own_eyes(const WorldView& world, Trust trust);
   Status no_plan(const PlanResult& result, const WorldView& world, Orders& orders);
   [[nodiscard]] bool begin_way_out(const WorldView& world);
   [[nodiscard]] bool begin_look(const WorldView& world);
@@ -81,7 +84,7 @@ class RouteDriver {
   Status face(const WorldView& world, Orders& orders);
   void close_route_here(const WorldView& world, Orders& orders);
   [[nodiscard]] Status give_up(const WorldView& world) const;
-  [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m) const;
+  [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m, Trust trust) const;
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m,
                                 double ahead_m, double radius_m) const;
 
@@ -102,6 +105,7 @@ class RouteDriver {
   std::optional<NearEchoes> near_echoes_;  // from the first tick on
   std::vector<Pose2> trace_;               // where the robot has been
   std::vector<TroubleSpot> troubles_;      // where it was held back
+  CellSet doubted_;                        // left out of account on the way by its own eyes
   LocalPlanner local_;
   HeldBackWatch watch_;
   Twist preferred_;  // of the last tick
@@ -109,6 +113,7 @@ class RouteDriver {
   int plans_ = 0;
   int ways_out_ = 0;
   int looks_ = 0;
+  int unknown_ways_ = 0;
   Point look_at_{0.0, 0.0};
   std::vector<Point> looked_at_;
   int round_ = 0;     // of the ladder, at this place
