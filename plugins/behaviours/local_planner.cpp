@@ -56,8 +56,7 @@ struct Window {
 Window window_about(const Twist& now, const LocalLimits& limits) {
   const double dv = limits.acceleration_mps2 * kWindow_s;
   const double dw = limits.turn_acceleration_radps2 * kWindow_s;
-  return {std::max(kSlowest_mps, now.v_mps - dv),
-          std::max(kSlowest_mps, std::min(limits.max_v_mps, now.v_mps + dv)),
+  return {std::max(kSlowest_mps, now.v_mps - dv), std::max(kSlowest_mps, std::min(limits.max_v_mps, now.v_mps + dv)),
           std::max(-limits.max_w_radps, now.w_radps - dw), std::min(limits.max_w_radps, now.w_radps + dw)};
 }
 
@@ -70,8 +69,7 @@ double score(const Twist& twist, double way_m, const LocalWish& wish, const Loca
   const Point end = arc_end(twist, kAhead_s);
   const Point to_aim = wish.aim - end;
   const double facing_rad = twist.w_radps * kAhead_s;
-  const double error_rad =
-      to_aim.norm() < 0.05 ? 0.0 : wrap_angle(std::atan2(to_aim.y(), to_aim.x()) - facing_rad);
+  const double error_rad = to_aim.norm() < 0.05 ? 0.0 : wrap_angle(std::atan2(to_aim.y(), to_aim.x()) - facing_rad);
   const double heading = 1.0 - std::abs(error_rad) / std::numbers::pi;
   const double clearance = std::min(way_m, kFarthest_m) / kFarthest_m;
   const double difference = std::abs(twist.w_radps - wish.preferred.w_radps) / std::max(0.1, limits.max_w_radps);
@@ -98,8 +96,7 @@ LocalStep best_with(double clearance_m, double most_v_mps, const Twist& now, con
     const double slowest = std::min(window.least_v_mps, fastest);
     const double v_mps = slowest + (fastest - slowest) * i / (kSpeeds - 1);
     for (int k = 0; k < kTurnRates; ++k) {
-      const double w_radps =
-          window.least_w_radps + (window.most_w_radps - window.least_w_radps) * k / (kTurnRates - 1);
+      const double w_radps = window.least_w_radps + (window.most_w_radps - window.least_w_radps) * k / (kTurnRates - 1);
       const Twist twist{v_mps, w_radps};
       if (!can_steer(twist, limits)) continue;
       const double way_m = free_way_m(twist, obstacles, reach_m);

@@ -3,8 +3,8 @@
 // Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4(1),
 // 1997. Candidate velocities are those that the robot can reach within its accelerations; one is admissible when the
 // robot can stop on its arc before the first obstacle (eq. 14); the best one weighs heading, clearance and speed
-// (eq. 13). The velocity that the path follower prefers is taken as it is where its own arc is free, so that in the open
-// the robot follows its path exactly.
+// (eq. 13). The velocity that the path follower prefers is taken as it is where its own arc is free, so that in the
+// open the robot follows its path exactly.
 #pragma once
 
 #include <vector>

@@ -9,8 +9,9 @@ namespace cairn::behaviours {
 namespace {
 
 // What a metre costs, against one that is free.
-constexpr double kNarrow = 4.0;  // too near to something
-constexpr double kUnknown = 5.0;
+constexpr double kNarrow = 4.0;    // too near to something
+constexpr double kSeenOnce = 3.0;  // unknown, but an echo has come through
+constexpr double kUnknown = 15.0;
 constexpr double kOccupied = 20.0;
 constexpr double kSurelyOccupied = 60.0;  // besides, at the map's bound of certainty
 constexpr double kLookedAt = 100.0;
@@ -22,7 +23,7 @@ double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const
     const double certainty = static_cast<double>(grid.log_odds(cell)) / std::max(1, grid.clamp_quanta());
     price = kOccupied + kSurelyOccupied * std::clamp(certainty, 0.0, 1.0);
   } else if (space.state(cell) == CellState::unknown) {
-    price = kUnknown;
+    price = grid.log_odds(cell) < 0 ? kSeenOnce : kUnknown;
   } else if (space.distance_m(cell) < space.least_distance_m()) {
     price = kNarrow;
   }
@@ -60,7 +61,8 @@ std::optional<WayToLook> way_to_look(const FreeSpace& space, const OccupancyGrid
   const std::vector<Cell> way = travel.path_to(space.cell_at(to));
   const auto occupied =
       std::find_if(way.begin(), way.end(), [&](Cell c) { return space.state(c) == CellState::occupied; });
-  const auto closed = std::find_if(way.begin(), way.end(), [&](Cell c) { return !space.reaches(c) && c != way.front(); });
+  const auto closed =
+      std::find_if(way.begin(), way.end(), [&](Cell c) { return !space.reaches(c) && c != way.front(); });
   const auto in_the_way = occupied != way.end() ? occupied : closed;
   if (in_the_way == way.end()) return std::nullopt;
   WayToLook look{space.centre_of(what_blocks(*in_the_way, space)), {from}};
