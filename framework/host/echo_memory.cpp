@@ -10,8 +10,9 @@ constexpr int kArcPoints = 7;  // a 30 degree arc at 0.5 m: a point each 4.4 cm
 constexpr int kMostSensors = 4096;
 constexpr std::size_t kMostEchoes = 4;  // of one transducer
 constexpr double kTouchKept_s = 5.0;
-constexpr double kSurelyInBeam = 0.6;  // of half a beam: there the axis is loud
-constexpr double kBehind_m = 0.1;      // farther away than that is behind
+// Of half a beam, in which another transducer would surely have heard it; the same one would have in all of it.
+constexpr double kSurelyInBeam = 0.6;
+constexpr double kBehind_m = 0.1;  // farther away than that is behind
 constexpr double kBesideBeam_rad = radians(10.0);
 constexpr double kThin_rad = radians(1.0);  // half a beam of no width
 // Differences of two ranges that noise explains, and speeds that nothing in a building has.
@@ -92,14 +93,16 @@ double EchoMemory::closing_mps(const Transducer& transducer, const RangeReading&
 
 void EchoMemory::clear_before(const RangeReading& reading) {
   const Pose2 T_sensor_odom = inverse(T_odom_robot_ * reading.T_robot_sensor);
-  const double half_rad = std::max(kSurelyInBeam * reading.half_beam_rad, kThin_rad);
   const double nearer_m = reading.range_m - kBehind_m;
-  for (Transducer& transducer : transducers_)
+  for (Transducer& transducer : transducers_) {
+    const bool is_own = &transducer == &transducers_[static_cast<std::size_t>(reading.sensor)];
+    const double half_rad = (is_own ? 1.0 : kSurelyInBeam) * reading.half_beam_rad + kThin_rad;
     for (Echo& echo : transducer.echoes)
       std::erase_if(echo.points_odom, [&](const Point& p_odom) {
         const Point p = T_sensor_odom * p_odom;
         return p.norm() < nearer_m && std::abs(std::atan2(p.y(), p.x())) <= half_rad;
       });
+  }
 }
 
 void EchoMemory::feel(const Point& at_robot) {
@@ -123,8 +126,8 @@ void EchoMemory::show() {
 
 bool EchoMemory::covers(double direction_rad) const {
   return std::any_of(transducers_.begin(), transducers_.end(), [&](const Transducer& transducer) {
-    return stamp_s_ - transducer.stamp_s <= kept_s_ && std::abs(wrap_angle(transducer.axis_rad - direction_rad)) <=
-                                                           transducer.half_beam_rad + kBesideBeam_rad;
+    return stamp_s_ - transducer.stamp_s <= kept_s_ &&
+           std::abs(wrap_angle(transducer.axis_rad - direction_rad)) <= transducer.half_beam_rad + kBesideBeam_rad;
   });
 }
 

@@ -1,7 +1,8 @@
 // What the ranges of the last moments say about the robot's surroundings: for the stop layer, in the odometry's frame.
 //
-// An echo is kept as points on its arc, because it may have come from anywhere on it. A later echo from farther away that
-// passed through such a point takes it away again; silence does not, for a mirror or a dead transducer is silent too.
+// An echo is kept as points on its arc, because it may have come from anywhere on it. A later echo from farther away
+// that passed through such a point takes it away again; silence does not, for a mirror or a dead transducer is silent
+// too.
 #pragma once
 
 #include <optional>
@@ -15,7 +16,7 @@ namespace cairn {
 // Something that has echoed, robot frame.
 struct SeenPoint {
   Point at{0.0, 0.0};
-  double closing_mps = 0.0;   // how fast it comes nearer beyond what the robot's own motion explains
+  double closing_mps = 0.0;    // how fast it comes nearer beyond what the robot's own motion explains
   double until_fired_s = 0.0;  // before its transducer fires again
 };
 

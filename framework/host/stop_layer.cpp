@@ -56,9 +56,9 @@ void StopLayer::see(const Observation& observation) {
   begun_ = true;
   stamp_s_ = observation.stamp_s;
   memory_.see(observation);
-  const bool has_reading = std::any_of(
-      observation.ranges.begin(), observation.ranges.end(),
-      [](const RangeReading& reading) { return reading.sensor >= 0 && !std::isnan(reading.range_m); });
+  const bool has_reading =
+      std::any_of(observation.ranges.begin(), observation.ranges.end(),
+                  [](const RangeReading& reading) { return reading.sensor >= 0 && !std::isnan(reading.range_m); });
   if (has_reading) last_reading_s_ = stamp_s_;
   feel_bump(observation.bumped);
 }
@@ -98,8 +98,8 @@ Twist StopLayer::cut(const Twist& clamped) const {
   const double v_mps = std::abs(clamped.v_mps);
   double most_mps = v_mps;
   if (v_mps > 0.0 && !memory_.covers(clamped.v_mps > 0.0 ? 0.0 : std::numbers::pi)) most_mps = kCreep_mps;
-  const double slow_mps = std::max(kSlowRatio * robot_.max_v_mps,
-                                   v_mps * allowed_share(clamped, config_.margin_m + config_.slow_m));
+  const double slow_mps =
+      std::max(kSlowRatio * robot_.max_v_mps, v_mps * allowed_share(clamped, config_.margin_m + config_.slow_m));
   most_mps = std::min({most_mps, v_mps, slow_mps});
   const double share = std::min(v_mps > 0.0 ? most_mps / v_mps : 1.0, allowed_share(clamped, config_.margin_m));
   if (share >= 1.0) return clamped;

@@ -1,10 +1,10 @@
 // The stop layer: below every behaviour, it never lets the robot drive into what its sensors see. It knows nothing of
 // maps, poses or missions, and nothing in a mission takes it away: only live ranges, the odometry and the footprint.
 //
-// Stop zone: the footprint, grown by the margin, swept along the arc that the velocity describes for as long as the robot
-// needs to stand: its reaction (a tick, and until the transducer fires again) and its braking way. The speed is cut, on the
-// same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. Slow zone: the same with
-// a wider margin, in which the robot only goes slowly. Where no transducer looks it creeps.
+// Stop zone: the footprint, grown by the margin, swept along the arc that the velocity describes for as long as the
+// robot needs to stand: its reaction (a tick, and until the transducer fires again) and its braking way. The speed is
+// cut, on the same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. Slow
+// zone: the same with a wider margin, in which the robot only goes slowly. Where no transducer looks it creeps.
 #pragma once
 
 #include <optional>

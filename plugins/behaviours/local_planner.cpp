@@ -56,8 +56,7 @@ struct Window {
 Window window_about(const Twist& now, const LocalLimits& limits) {
   const double dv = limits.acceleration_mps2 * kWindow_s;
   const double dw = limits.turn_acceleration_radps2 * kWindow_s;
-  return {std::max(kSlowest_mps, now.v_mps - dv),
-          std::max(kSlowest_mps, std::min(limits.max_v_mps, now.v_mps + dv)),
+  return {std::max(kSlowest_mps, now.v_mps - dv), std::max(kSlowest_mps, std::min(limits.max_v_mps, now.v_mps + dv)),
           std::max(-limits.max_w_radps, now.w_radps - dw), std::min(limits.max_w_radps, now.w_radps + dw)};
 }
 
@@ -70,8 +69,7 @@ double score(const Twist& twist, double way_m, const LocalWish& wish, const Loca
   const Point end = arc_end(twist, kAhead_s);
   const Point to_aim = wish.aim - end;
   const double facing_rad = twist.w_radps * kAhead_s;
-  const double error_rad =
-      to_aim.norm() < 0.05 ? 0.0 : wrap_angle(std::atan2(to_aim.y(), to_aim.x()) - facing_rad);
+  const double error_rad = to_aim.norm() < 0.05 ? 0.0 : wrap_angle(std::atan2(to_aim.y(), to_aim.x()) - facing_rad);
   const double heading = 1.0 - std::abs(error_rad) / std::numbers::pi;
   const double clearance = std::min(way_m, kFarthest_m) / kFarthest_m;
   const double difference = std::abs(twist.w_radps - wish.preferred.w_radps) / std::max(0.1, limits.max_w_radps);
@@ -98,8 +96,7 @@ LocalStep best_with(double clearance_m, double most_v_mps, const Twist& now, con
     const double slowest = std::min(window.least_v_mps, fastest);
     const double v_mps = slowest + (fastest - slowest) * i / (kSpeeds - 1);
     for (int k = 0; k < kTurnRates; ++k) {
-      const double w_radps =
-          window.least_w_radps + (window.most_w_radps - window.least_w_radps) * k / (kTurnRates - 1);
+      const double w_radps = window.least_w_radps + (window.most_w_radps - window.least_w_radps) * k / (kTurnRates - 1);
       const Twist twist{v_mps, w_radps};
       if (!can_steer(twist, limits)) continue;
       const double way_m = free_way_m(twist, obstacles, reach_m);
@@ -177,7 +174,7 @@ Twist approached(const Twist& now, const Twist& target, double passed_s, const L
   return next;
 }
 
-void LocalPlanner::gather_cells(const WorldView& world, const NearEchoes& near_echoes) {
+void LocalPlanner::gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted) {
   gathered_s_ = world.time_s;
   cells_map_.clear();
   const OccupancyGrid& grid = world.grid;
@@ -187,35 +184,35 @@ void LocalPlanner::gather_cells(const WorldView& world, const NearEchoes& near_e
     for (int dx = -reach; dx <= reach; ++dx) {
       if (dx * dx + dy * dy > reach * reach) continue;
       const Cell c = centre + Cell{dx, dy};
-      if (near_echoes.is_occupied(grid, c)) cells_map_.push_back(grid.centre_of(c));
+      if (near_echoes.is_occupied(grid, c) && !doubted.contains(c)) cells_map_.push_back(grid.centre_of(c));
     }
   }
 }
 
-void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes) {
+void LocalPlanner::hear(const RangeReading& reading, const WorldView& world) {
+  if (reading.sensor < 0 || reading.sensor >= kMostSensors || std::isnan(reading.range_m)) return;
+  const auto index = static_cast<std::size_t>(reading.sensor);
+  if (index >= echoes_.size()) echoes_.resize(index + 1);
+  Echo& echo = echoes_[index];
+  const double range_m = std::max(reading.range_m, reading.min_m);
+  echo = {world.time_s, {}};
+  if (range_m > kNear_m) return;
+  const Pose2 T_map_sensor = world.pose.T_map_robot * reading.T_robot_sensor;
+  const int count = reading.half_beam_rad > 0.0 ? kArcPoints : 1;
+  for (int i = 0; i < count; ++i) {
+    const double bearing_rad = count == 1 ? 0.0 : reading.half_beam_rad * (2.0 * i / (count - 1) - 1.0);
+    echo.points_map.push_back(T_map_sensor * Point(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)));
+  }
+}
+
+void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted) {
   passed_s_ = std::clamp(world.time_s - last_s_, 0.0, kLongestTick_s);
   last_s_ = world.time_s;
-  const Pose2& T_map_robot = world.pose.T_map_robot;
-  if (world.time_s - gathered_s_ >= kGatherEvery_s) gather_cells(world, near_echoes);
-  if (world.observation != nullptr) {
-    for (const RangeReading& reading : world.observation->ranges) {
-      if (reading.sensor < 0 || reading.sensor >= kMostSensors || std::isnan(reading.range_m)) continue;
-      const auto index = static_cast<std::size_t>(reading.sensor);
-      if (index >= echoes_.size()) echoes_.resize(index + 1);
-      Echo& echo = echoes_[index];
-      const double range_m = std::max(reading.range_m, reading.min_m);
-      echo = {world.time_s, {}};
-      if (range_m > kNear_m) continue;
-      const int count = reading.half_beam_rad > 0.0 ? kArcPoints : 1;
-      for (int i = 0; i < count; ++i) {
-        const double bearing_rad = count == 1 ? 0.0 : reading.half_beam_rad * (2.0 * i / (count - 1) - 1.0);
-        echo.points_map.push_back(T_map_robot * reading.T_robot_sensor *
-                                  Point(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)));
-      }
-    }
-  }
+  if (world.time_s - gathered_s_ >= kGatherEvery_s) gather_cells(world, near_echoes, doubted);
+  if (world.observation != nullptr)
+    for (const RangeReading& reading : world.observation->ranges) hear(reading, world);
   obstacles_.clear();
-  const Pose2 T_robot_map = inverse(T_map_robot);
+  const Pose2 T_robot_map = inverse(world.pose.T_map_robot);
   for (const Point& p : cells_map_) obstacles_.push_back(T_robot_map * p);
   for (const Echo& echo : echoes_) {
     if (world.time_s - echo.stamp_s > kEchoCounts_s) continue;

@@ -3,13 +3,14 @@
 // Fox, Burgard, Thrun: The dynamic window approach to collision avoidance, IEEE Robotics & Automation Magazine 4(1),
 // 1997. Candidate velocities are those that the robot can reach within its accelerations; one is admissible when the
 // robot can stop on its arc before the first obstacle (eq. 14); the best one weighs heading, clearance and speed
-// (eq. 13). The velocity that the path follower prefers is taken as it is where its own arc is free, so that in the open
-// the robot follows its path exactly.
+// (eq. 13). The velocity that the path follower prefers is taken as it is where its own arc is free, so that in the
+// open the robot follows its path exactly.
 #pragma once
 
 #include <vector>
 
 #include "framework/contracts/world_view.hpp"
+#include "plugins/behaviours/cell_layer.hpp"
 #include "plugins/behaviours/near_echoes.hpp"
 
 namespace cairn::behaviours {
@@ -50,8 +51,9 @@ struct LocalStep {
 // Keeps what is near the robot, and the velocity it goes at: the state of a behaviour that avoids obstacles.
 class LocalPlanner {
  public:
-  // Every tick. What the grid (as corrected by near echoes) holds occupied, and the last echo of each transducer.
-  void see(const WorldView& world, const NearEchoes& near_echoes);
+  // Every tick. What the grid (as corrected by near echoes) holds occupied, but for doubted cells, and the last echo of
+  // each transducer.
+  void see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted = {});
   // The velocity for this tick; after see(). aim_map: the point of the path that the preferred velocity goes for.
   [[nodiscard]] Twist steer(const Twist& preferred, const Point& aim_map, double speed_mps, const WorldView& world);
   // Ordered without avoidance (turns in place, backing up): the next window begins there.
@@ -66,7 +68,8 @@ class LocalPlanner {
     double stamp_s = -1e9;
     std::vector<Point> points_map;
   };
-  void gather_cells(const WorldView& world, const NearEchoes& near_echoes);
+  void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted);
+  void hear(const RangeReading& reading, const WorldView& world);
   [[nodiscard]] Twist now(const WorldView& world) const;
 
   std::vector<Point> cells_map_;

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numbers>
 
+#include "plugins/behaviours/specks.hpp"
 #include "plugins/behaviours/way_to_look.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
-// Room asked of the planner beside the robot, the most first: more than the local planner keeps, then what a narrow door
-// leaves, then nothing.
+// Room asked of the planner beside the robot, the most first: more than the local planner keeps, then what a narrow
+// door leaves, then nothing.
 constexpr double kRooms_m[] = {0.12, 0.06, 0.0};
 constexpr double kPlansApart_s = 1.0;
 constexpr double kBlockedAhead_m = 1.0;
@@ -31,9 +33,24 @@ constexpr double kTurn_radps = radians(45.0);
 constexpr double kTurnAtMost_s = 12.0;
 constexpr double kSpaceAround_m = 12.0;
 constexpr double kSpaceClearance_m = 0.08;
+constexpr double kTightClearance_m = 0.03;
+constexpr double kAroundGoal_m = 1.0;
+constexpr int kMostAcross_cells = 1000;
+constexpr double kFree = 0.1;  // probability of what is taken to be free
 constexpr double kLookAtLeast_s = 3.0;
-constexpr double kLookAtMost_s = 40.0;  // for a door to open
-constexpr int kMostLooks = 5;
+constexpr double kLookAtMost_s = 25.0;  // for a door to open
+constexpr int kMostLooks = 6;
+constexpr int kLooksBeforeAgain = 3;  // then at the same places once more
+constexpr double kAroundLook_m = 0.7;
+// What is doubted is gone near at a speed at which touching it would do no harm.
+constexpr double kDoubtNear_m = 0.25;
+constexpr double kDoubtful_mps = 0.05;
+constexpr int kMostUnknownWays = 20;
+constexpr double kStandOff_m = 0.6;  // from what is looked at
+constexpr double kStandOffNearer_m = 0.4;
+constexpr double kSweep_rad = radians(25.0);  // looked at from a little aside, too
+constexpr double kSweep_s = 4.0;
+constexpr int kForgetsInRound = 3;  // of the ladder: what the near echoes have said
 constexpr double kFaceGoal_rad = radians(3.0);
 constexpr double kFaceAtMost_s = 15.0;
 
@@ -47,6 +64,20 @@ std::vector<Point> points_of(const std::vector<Pose2>& path) {
   std::vector<Point> points;
   for (const Pose2& pose : path) points.push_back(pose.position());
   return points;
+}
+
+// Within what is known and about the goal.
+void take_unknown_for_free(OccupancyGrid& map, const Point& goal) {
+  const Cell to = map.cell_at(goal);
+  const int around = static_cast<int>(kAroundGoal_m / map.cell_m());
+  const CellBox known = map.bounds();
+  CellBox box = CellBox{to, to + Cell{1, 1}}.grown(around);
+  box = known.empty() ? box : united(known, box);
+  if (box.width() > kMostAcross_cells || box.height() > kMostAcross_cells) return;
+  const LogOdds free = log_odds_of(kFree);
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      if (map.state({x, y}) == CellState::unknown) map.set_log_odds({x, y}, free);
 }
 
 }  // namespace
@@ -90,10 +121,9 @@ void RouteDriver::remember(const WorldView& world) {
   if (trace_.size() > kMostTrace) trace_.erase(trace_.begin());
   std::erase_if(troubles_, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   std::erase_if(closed_until_s_, [&](const auto& closed) { return closed.second < world.time_s; });
-  if (round_ > 0 && mode_ == Mode::travel && leg_ == Leg::route &&
-      (pose.position() - held_at_).norm() > kGettingOn_m)
+  if (round_ > 0 && mode_ == Mode::travel && leg_ == Leg::route && (pose.position() - held_at_).norm() > kGettingOn_m)
     round_ = 0;
-  local_.see(world, *near_echoes_);
+  local_.see(world, *near_echoes_, doubted_);
 }
 
 void RouteDriver::set_mode(Mode mode, double time_s) {
@@ -103,22 +133,51 @@ void RouteDriver::set_mode(Mode mode, double time_s) {
   watch_.restart();
 }
 
-FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m) const {
+// Specks; and whatever stands alone where the robot has looked again: it is there if it echoes.
+std::vector<Cell> RouteDriver::doubtful_cells(const OccupancyGrid& map) const {
+  std::vector<Cell> cells = specks_of(map, map.bounds());
+  const int around = static_cast<int>(kAroundLook_m / map.cell_m());
+  for (const Point& seen : looked_at_) {
+    const Cell at = map.cell_at(seen);
+    const CellBox box = CellBox{at, at + Cell{1, 1}}.grown(around);
+    const std::vector<Cell> islands = specks_of(map, box, box.width() * box.height(), box.width() * box.height());
+    cells.insert(cells.end(), islands.begin(), islands.end());
+  }
+  return cells;
+}
+
+void RouteDriver::doubt(const std::vector<Cell>& cells, const WorldView& world) {
+  for (const Cell c : cells) {
+    doubted_.insert(c);
+    if (near_echoes_->is_occupied(world.grid, c)) doubted_places_.push_back(world.grid.centre_of(c));
+  }
+}
+
+FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m, Trust trust) const {
   const Point position = world.pose.T_map_robot.position();
   const Cell here = world.grid.cell_at(position);
   const int reach = static_cast<int>(kSpaceAround_m / world.grid.cell_m());
   const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
-  return FreeSpace(near_echoes_->applied_to(world.grid, part), {position, world.robot.radius_m, clearance_m}, trace_,
-                   troubles_);
+  OccupancyGrid map = near_echoes_->applied_to(world.grid, part);
+  if (trust != Trust::all)
+    for (const Cell c : doubtful_cells(map)) map.set_log_odds(c, log_odds_of(kFree));
+  if (trust == Trust::only_solid) take_unknown_for_free(map, goal_point(world).value_or(position));
+  return FreeSpace(map, {position, world.robot.radius_m, clearance_m}, trace_, troubles_);
+}
+
+void RouteDriver::stop_doubting() {
+  doubted_ = {};
+  doubted_places_.clear();
 }
 
 bool RouteDriver::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
                              double radius_m) const {
-  const auto is_occupied = [&](Cell c) { return near_echoes_->is_occupied(world.grid, c); };
+  const auto is_occupied = [&](Cell c) { return near_echoes_->is_occupied(world.grid, c) && !doubted_.contains(c); };
   return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, radius_m);
 }
 
-// With as much room as there is a way for; stored routes that were found blocked are left closed while there is another.
+// With as much room as there is a way for; stored routes that were found blocked are left closed while there is
+// another.
 PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
   PlanRequest request;
   request.from.pose = world.pose.T_map_robot;
@@ -150,6 +209,7 @@ void RouteDriver::take_route(const PlanResult& result) {
   const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
     return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
   });
+  stop_doubting();
   goal_landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
 }
 
@@ -157,11 +217,8 @@ Status RouteDriver::plan(const WorldView& world, Orders& orders) {
   if (world.time_s - planned_s_ < kPlansApart_s) return {Progress::running, "waiting to plan again"};
   if (plans_ >= kMostPlans) return give_up(world);
   // The planner knows nothing of what has held the robot back there: from the second time on, a way round that.
-  if (round_ >= 2 && round_ % 2 == 0 && plan_round_trouble(world)) {
-    planned_s_ = world.time_s;
-    set_mode(Mode::travel, world.time_s);
+  if (round_ >= 2 && round_ % 2 == 0 && plan_by_own_eyes(world, Trust::all))
     return {Progress::running, "going round what held it back"};
-  }
   const PlanResult result = ask_planner(world, orders);
   for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
   if (result.outcome != PlanOutcome::solved) return no_plan(result, world, orders);
@@ -170,17 +227,36 @@ Status RouteDriver::plan(const WorldView& world, Orders& orders) {
   return {Progress::running, "under way"};
 }
 
-bool RouteDriver::plan_round_trouble(const WorldView& world) {
-  if (!route_end_) return false;
-  const FreeSpace space = space_now(world, kSpaceClearance_m);
-  const std::vector<Point> way = space.path_to(space.cell_at(*route_end_));
-  if (way.size() < 2) return false;
-  path_ = way;
-  path_.push_back(*route_end_);
-  pieces_.clear();
-  follow_state_ = {0.0, follow_state_.turning};
-  leg_ = Leg::route;
-  return true;
+std::optional<Point> RouteDriver::goal_point(const WorldView& world) const {
+  if (goal_.pose) return goal_.pose->position();
+  if (route_end_) return route_end_;
+  for (const LandmarkId id : goal_.landmarks)
+    if (const Landmark* landmark = world.graph.find(id))
+      return landmark->access.value_or(landmark->T_map_landmark).position();
+  return std::nullopt;
+}
+
+// A way on the map as the near echoes correct it, that avoids where the robot was held back and may pass close to what
+// is not known. What of the map is not trusted the live echoes tell, if it is real.
+bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
+  const std::optional<Point> goal = goal_point(world);
+  if (!goal) return false;
+  for (const double clearance_m : {kSpaceClearance_m, kTightClearance_m}) {
+    const FreeSpace space = space_now(world, clearance_m, trust);
+    const std::vector<Point> path = space.path_to(space.cell_at(*goal));
+    if (path.size() < 2) continue;
+    path_ = path;
+    path_.push_back(*goal);
+    pieces_.clear();
+    follow_state_ = {0.0, follow_state_.turning};
+    leg_ = Leg::route;
+    planned_s_ = world.time_s;
+    stop_doubting();
+    if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
+    set_mode(Mode::travel, world.time_s);
+    return true;
+  }
+  return false;
 }
 
 Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Orders& orders) {
@@ -189,6 +265,12 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
   if (!is_final && result.outcome == PlanOutcome::start_blocked && begin_way_out(world)) {
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "making room"};
+  }
+  const bool may_explore = unknown_ways_ < kMostUnknownWays;
+  if (!is_final && (plan_by_own_eyes(world, Trust::all) || plan_by_own_eyes(world, Trust::no_specks) ||
+                    (may_explore && plan_by_own_eyes(world, Trust::only_solid)))) {
+    ++unknown_ways_;
+    return {Progress::running, "under way by what it sees itself"};
   }
   if (!is_final && begin_look(world)) {
     orders.say("no way now (" + why + "): looks again at " + text_of(look_at_));
@@ -202,8 +284,8 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
 bool RouteDriver::begin_way_out(const WorldView& world) {
   if (ways_out_ >= kMostWaysOut) return false;
   ++ways_out_;
-  path_ = space_now(world, kWayOutClearance_m).way_out();
-  if (path_.size() < 2) path_ = space_now(world, 0.02).way_out();
+  path_ = space_now(world, kWayOutClearance_m, Trust::all).way_out();
+  if (path_.size() < 2) path_ = space_now(world, kTightClearance_m, Trust::all).way_out();
   if (path_.size() < 2) return false;
   follow_state_ = {};
   leg_ = Leg::way_out;
@@ -213,14 +295,12 @@ bool RouteDriver::begin_way_out(const WorldView& world) {
 
 bool RouteDriver::begin_look(const WorldView& world) {
   if (looks_ >= kMostLooks) return false;
-  const Point goal = goal_.pose ? goal_.pose->position() : route_end_.value_or(Point(1e9, 1e9));
-  std::optional<Point> to = goal.x() < 1e8 ? std::optional(goal) : std::nullopt;
-  for (const LandmarkId id : goal_.landmarks)
-    if (const Landmark* landmark = world.graph.find(id); landmark != nullptr && !to)
-      to = landmark->access.value_or(landmark->T_map_landmark).position();
-  if (!to) return false;
-  const std::optional<WayToLook> way = 
-      way_to_look(space_now(world, kSpaceClearance_m), world.grid, world.pose.T_map_robot.position(), *to, looked_at_);
+  const std::optional<Point> goal = goal_point(world);
+  if (!goal) return false;
+  if (looks_ == kLooksBeforeAgain) looked_at_.clear();
+  const double stand_off_m = looks_ < 2 ? kStandOff_m : kStandOffNearer_m;
+  const std::optional<WayToLook> way = way_to_look(space_now(world, kTightClearance_m, Trust::all), world.grid,
+                                                   world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
   if (!way) return false;
   ++looks_;
   look_at_ = way->at;
@@ -237,7 +317,8 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
   if (watch_.is_stuck(world, preferred_)) return held_back(world, orders);
   // One cell less than the planner's disc, so that the two never disagree about the same map.
   const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
-  const bool blocked = leg_ != Leg::way_out && is_blocked(world, path_, follow_state_.along_m, kBlockedAhead_m, margin_m);
+  const bool blocked =
+      leg_ != Leg::way_out && is_blocked(world, path_, follow_state_.along_m, kBlockedAhead_m, margin_m);
   if (blocked && world.time_s - planned_s_ >= kPlansApart_s) {
     if (leg_ == Leg::to_look) {
       set_mode(Mode::look, world.time_s);
@@ -248,6 +329,10 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
     if (result.outcome == PlanOutcome::solved) take_route(result);
   }
   FollowLimits limits = follow_limits(world.robot, settings_.speed_mps);
+  const bool doubts_here = std::ranges::any_of(doubted_places_, [&](const Point& p) {
+    return (p - pose.position()).norm() < kDoubtNear_m + world.robot.radius_m;
+  });
+  if (doubts_here) limits.speed_mps = std::min(limits.speed_mps, kDoubtful_mps);
   limits.arrive_m = leg_ == Leg::way_out ? kWayOutTolerance_m : settings_.tolerance_m;
   const FollowStep step = follow(pose, path_, follow_state_, limits);
   follow_state_ = step.state;
@@ -282,6 +367,7 @@ Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   held_at_ = pose.position();
   said_wait_ = false;
+  stop_doubting();
   ++round_;
   ++hold_ups_;
   if (round_ > settings_.rounds || hold_ups_ > kMostHoldUps) return give_up(world);
@@ -289,6 +375,8 @@ Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
              " of " + std::to_string(settings_.rounds) + ")");
   troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kTroubleFor_s});
   if (round_ >= 2) close_route_here(world, orders);
+  // Votes of before a slip may stand in the way that the map has long cleared.
+  if (round_ == kForgetsInRound) near_echoes_.emplace(world.grid);
   set_mode(Mode::back_up, world.time_s);
   return back_up(world, orders);
 }
@@ -338,10 +426,11 @@ Status RouteDriver::turn(const WorldView& world, Orders& orders) {
 // Faces what was in the way until it is gone, or for long enough.
 Status RouteDriver::look(const WorldView& world, Orders& orders) {
   const double waited_s = world.time_s - mode_since_s_;
-  const double error_rad = heading_error(world.pose.T_map_robot, look_at_);
+  // Readings from one pose say the same again and again: it sweeps.
+  const double aside_rad = kSweep_rad * std::sin(2.0 * std::numbers::pi * waited_s / kSweep_s);
+  const double error_rad = wrap_angle(heading_error(world.pose.T_map_robot, look_at_) + aside_rad);
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
-  if (can_turn && std::abs(error_rad) > radians(5.0))
-    orders.drive(local_.approach(turn_by(error_rad, kTurn_radps), world));
+  if (can_turn) orders.drive(local_.approach(turn_by(error_rad, kTurn_radps), world));
   const bool is_open = !near_echoes_->is_occupied(world.grid, world.grid.cell_at(look_at_));
   if (waited_s < kLookAtLeast_s || (!is_open && waited_s < kLookAtMost_s))
     return {Progress::running, "looking whether the way is free again"};
@@ -351,9 +440,8 @@ Status RouteDriver::look(const WorldView& world, Orders& orders) {
 
 Status RouteDriver::face(const WorldView& world, Orders& orders) {
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
-  const double error_rad = goal_.pose && goal_.heading_matters
-                               ? wrap_angle(goal_.pose->theta_rad - world.pose.T_map_robot.theta_rad)
-                               : 0.0;
+  const double error_rad =
+      goal_.pose && goal_.heading_matters ? wrap_angle(goal_.pose->theta_rad - world.pose.T_map_robot.theta_rad) : 0.0;
   if (!can_turn || std::abs(error_rad) <= kFaceGoal_rad || world.time_s - mode_since_s_ > kFaceAtMost_s)
     return {Progress::success, "there"};
   orders.drive(local_.approach(turn_by(error_rad, follow_limits(world.robot, settings_.speed_mps).max_w_radps), world));

@@ -4,9 +4,9 @@
 //   const Status status = driver.tick(goal, world, orders);  // every tick until it is no longer running
 //
 // Plans, follows the route with the local planner, and when it does not get on climbs a ladder: wait, back up, turn in
-// place, plan again (round what it was held back by), close the stored route that is blocked for a while, and in the end
-// give up with a reason that names the place and what was tried. Getting on takes it down the ladder again. Where the map
-// has no way it goes to look whether what blocks the likeliest one is still there: a door may have opened.
+// place, plan again (round what it was held back by), close the stored route that is blocked for a while, and in the
+// end give up with a reason that names the place and what was tried. Getting on takes it down the ladder again. Where
+// the map has no way it goes to look whether what blocks the likeliest one is still there: a door may have opened.
 #pragma once
 
 #include <cstdint>
@@ -61,13 +61,16 @@ class RouteDriver {
 
  private:
   enum class Mode { plan, travel, back_up, turn, look, face };
+  // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free.
+  enum class Trust { all, no_specks, only_solid };
 
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   Status plan(const WorldView& world, Orders& orders);
   [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
   void take_route(const PlanResult& result);
-  [[nodiscard]] bool plan_round_trouble(const WorldView& world);
+  [[nodiscard]] std::optional<Point> goal_point(const WorldView& world) const;
+  [[nodiscard]] bool plan_by_own_eyes(const WorldView& world, Trust trust);
   Status no_plan(const PlanResult& result, const WorldView& world, Orders& orders);
   [[nodiscard]] bool begin_way_out(const WorldView& world);
   [[nodiscard]] bool begin_look(const WorldView& world);
@@ -81,9 +84,12 @@ class RouteDriver {
   Status face(const WorldView& world, Orders& orders);
   void close_route_here(const WorldView& world, Orders& orders);
   [[nodiscard]] Status give_up(const WorldView& world) const;
-  [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m) const;
-  [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m,
-                                double ahead_m, double radius_m) const;
+  [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m, Trust trust) const;
+  [[nodiscard]] std::vector<Cell> doubtful_cells(const OccupancyGrid& map) const;
+  void doubt(const std::vector<Cell>& cells, const WorldView& world);
+  void stop_doubting();
+  [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
+                                double radius_m) const;
 
   RouteSettings settings_;
   std::uint64_t seed_;
@@ -95,13 +101,15 @@ class RouteDriver {
   std::vector<Point> path_;
   FollowState follow_state_;
   LandmarkId goal_landmark_ = 0;
-  std::optional<Point> route_end_;             // of the last plan that was solved
-  std::vector<PlanPiece> pieces_;              // of the path, when it is the planner's
+  std::optional<Point> route_end_;  // of the last plan that was solved
+  std::vector<PlanPiece> pieces_;   // of the path, when it is the planner's
   std::map<RouteId, double> closed_until_s_;
 
   std::optional<NearEchoes> near_echoes_;  // from the first tick on
   std::vector<Pose2> trace_;               // where the robot has been
   std::vector<TroubleSpot> troubles_;      // where it was held back
+  CellSet doubted_;                        // left out of account on the way by its own eyes
+  std::vector<Point> doubted_places_;      // the occupied ones
   LocalPlanner local_;
   HeldBackWatch watch_;
   Twist preferred_;  // of the last tick
@@ -109,6 +117,7 @@ class RouteDriver {
   int plans_ = 0;
   int ways_out_ = 0;
   int looks_ = 0;
+  int unknown_ways_ = 0;
   Point look_at_{0.0, 0.0};
   std::vector<Point> looked_at_;
   int round_ = 0;     // of the ladder, at this place

@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADII_M = {"circle": 0.35, "square": 0.45, "triangle": 0.5}  # of the templates, generously
-FAULTS = "{per_hour: {dead: 12, stuck: 12, slip: 12, compass_jump: 0, silent: 12, kidnap: 0}, for_s: 8}"
+FAULTS = "{per_hour: {dead: 20, stuck: 20, slip: 0, compass_jump: 0, silent: 20, kidnap: 0}, for_s: 8}"
 
 MISSION = """mission: random_drive
 robot: {robot}
@@ -23,7 +23,7 @@ map: {{plugin: muriel, cell_m: 0.05}}
 planner: {{plugin: hybrid, route: {{plugin: ompl}}}}
 autosave: {{every_s: 0}}
 steps:
-  - always: {{explore: {{until_known_ratio: 0.9, at_most_s: {explore_s}, look_closer_m: 0}}}}
+  - always: {{explore: {{until_known_ratio: 0.97, at_most_s: {explore_s}, look_closer_m: 0}}}}
 {goals}"""
 GOAL = "  - always: {{goto: {{at_m: [{x:.2f}, {y:.2f}], at_most_s: 300}}}}\n"
 
@@ -35,12 +35,24 @@ def worlds(args, seeds):
     mission.write_text(f"mission: worlds\nrobot: {config}/robots/pioneer1.yaml\nworld: {config}/worlds/office.yaml\n"
                        "start: {at_m: [0.6, 0.6], angle_deg: 0}\nsensor: {plugin: simulated_robot}\n"
                        "localizer: {plugin: odometry_compass}\nmap: {plugin: muriel, cell_m: 0.2}\n"
-                       f"detector: {{plugin: template_matcher, templates: {config}/templates, coarse_cells: 5, rendering: ideal}}\n"
+                       f"detector: {{plugin: template_matcher, templates: {config}/templates, coarse_cells: 2, rendering: ideal}}\n"
                        "steps:\n  - wait: 0.1\n")
     experiment.write_text(f"experiment: recognition\nmissions: [{mission.name}]\nseeds: {{from: {seeds[0]}, count: {len(seeds)}}}\n"
                           f"worlds: {{most_movers: {args.movers}, most_doors: {args.doors}}}\n"
                           f"variants:\n  - {{name: one, specular_ratio: {args.specular}}}\n")
     subprocess.run([args.cairn, "experiment", experiment, "--out", args.out / "worlds"], check=False, capture_output=True)
+
+
+def without_templates(world):
+    """The same outlines as plain obstacles: no detector is needed to drive past them."""
+    def outline(match):
+        scale = float(match[2])
+        if match[1] == "circle":
+            return f"circle_diameter_m: {0.5 * scale:.3f}"
+        corners = {"square": [(-0.25, -0.25), (0.25, -0.25), (0.25, 0.25), (-0.25, 0.25)],
+                   "triangle": [(-0.3, -0.1732), (0.3, -0.1732), (0, 0.3464)]}[match[1]]
+        return "polygon_m: [" + ", ".join(f"[{scale * x:.3f}, {scale * y:.3f}]" for x, y in corners) + "]"
+    return re.sub(r"template: (\w+), scale: ([\d.]+)", outline, world)
 
 
 def numbers(text):
@@ -86,7 +98,7 @@ def run(args, seed):
     folder = args.out / f"seed_{seed}"
     folder.mkdir(parents=True, exist_ok=True)
     world = found[0].read_text()
-    (folder / "world.yaml").write_text(world)
+    (folder / "world.yaml").write_text(without_templates(world))
     places = free_places(world, args.goals, random.Random(seed))
     (folder / "mission.yaml").write_text(MISSION.format(
         robot=args.robot, faults=args.faults, explore_s=args.explore_s,
@@ -95,7 +107,7 @@ def run(args, seed):
         subprocess.run([args.cairn, "run", folder / "mission.yaml", "--seed", str(seed), "--out", folder, "--json"],
                        stdout=out, stderr=subprocess.DEVNULL)
     report = json.loads((folder / "report.json").read_text())
-    goals = [n for n in report["nodes"] if n["kind"] == "behaviour" and n["name"] == "goto"]
+    goals = [n for n in report["nodes"] if n["kind"] == "goto"]
     bad = [c for c in report["contacts"] if c["speed_mps"] > 0.05 and c["could_be_seen"]]
     failed = [g["reason"] for g in goals if g["outcome"] != "success"]
     summary = json.loads((folder / "stdout.json").read_text())
@@ -113,7 +125,7 @@ def main():
     parser.add_argument("--movers", type=int, default=3)
     parser.add_argument("--doors", type=int, default=1)
     parser.add_argument("--specular", type=float, default=0.0)
-    parser.add_argument("--explore-s", type=float, default=150)
+    parser.add_argument("--explore-s", type=float, default=400)
     parser.add_argument("--faults", default=FAULTS)
     parser.add_argument("--robot", default=str(ROOT / "config/robots/pioneer1.yaml"))
     parser.add_argument("--build", default=str(ROOT / "build/release"))

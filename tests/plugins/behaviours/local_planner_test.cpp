@@ -69,14 +69,14 @@ TEST(LocalPlanner, TakesWhatTheFollowerPrefersInTheOpen) {
 
 TEST(LocalPlanner, SteersRoundAPost) {
   const LocalWish wish{{0.25, 0.0}, {0.8, 0.0}};
-  const LocalStep step = best_in_window({0.25, 0.0}, wish, {{0.55, 0.05}}, {});
+  const LocalStep step = best_in_window({0.25, 0.0}, wish, {{0.45, 0.05}}, {});
   EXPECT_FALSE(step.blocked);
   EXPECT_LT(step.target.w_radps, -0.1) << "to the side with more room";
 }
 
 TEST(LocalPlanner, StopsBeforeAWall) {
   const LocalWish wish{{0.25, 0.0}, {0.8, 0.0}};
-  const LocalStep step = best_in_window({0.1, 0.0}, wish, wall({0.32, -1.5}, {0.32, 1.5}), {});
+  const LocalStep step = best_in_window({0.1, 0.0}, wish, wall({0.26, -1.5}, {0.26, 1.5}), {});
   EXPECT_TRUE(step.blocked);
   EXPECT_EQ(step.target, Twist{});
 }

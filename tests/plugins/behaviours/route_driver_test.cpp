@@ -113,7 +113,9 @@ TEST(RouteDriver, WaitsFirstAndThenClimbsTheLadder) {
   settings.rounds = 2;
   Driving driving(settings, kOtherRoom);
   host.run(driving, 3.0);
-  host.stop_layer = [](const Pose2&, const Twist& wanted) { return Twist{std::min(0.0, wanted.v_mps), wanted.w_radps}; };
+  host.stop_layer = [](const Pose2&, const Twist& wanted) {
+    return Twist{std::min(0.0, wanted.v_mps), wanted.w_radps};
+  };
   const double held_s = host.time_s;
   const double x_m = host.T_map_robot.x_m;
   host.run(driving, 2.5);
@@ -152,7 +154,9 @@ TEST(RouteDriver, ClosesAStoredRouteThatIsBlockedForAWhile) {
     return result;
   };
   Driving driving({}, kOtherRoom);
-  host.stop_layer = [](const Pose2&, const Twist& wanted) { return Twist{std::min(0.0, wanted.v_mps), wanted.w_radps}; };
+  host.stop_layer = [](const Pose2&, const Twist& wanted) {
+    return Twist{std::min(0.0, wanted.v_mps), wanted.w_radps};
+  };
   host.run(driving, 60.0);
   const auto closed = [](const PlanRequest& request) { return request.closed == std::vector<RouteId>{7}; };
   EXPECT_TRUE(std::ranges::any_of(host.planned, closed));
@@ -222,9 +226,10 @@ TEST(RouteDriver, BeginsAfreshAfterARestart) {
   FakeHost host(kTwoDoors, kKnown);
   Driving driving({}, kOtherRoom);
   host.run(driving, 2.0);
+  const std::size_t plans = host.planned.size();
   driving.halt();
   EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
-  EXPECT_EQ(host.planned.size(), 2U);
+  EXPECT_GT(host.planned.size(), plans);
 }
 
 }  // namespace
