@@ -225,7 +225,8 @@ void MissionLoop::stop() {
 }
 
 WorldView MissionLoop::view() const {
-  WorldView world{*grid_, keeper_.graph(), mission_.robot, pose_, result_.time_s, begun_ ? &observation_ : nullptr,
+  WorldView world{*grid_,          keeper_.graph(), mission_.robot,
+                  pose_,           result_.time_s,  begun_ ? &observation_ : nullptr,
                   held_back_ratio_};
   world.T_map_start = T_map_first_start_;
   return world;

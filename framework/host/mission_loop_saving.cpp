@@ -156,7 +156,8 @@ Status MissionLoop::save(const std::string& file_name) {
 Status MissionLoop::write(const OutputText& output) {
   const StageClock::Visit visit(clock_, StageClock::kHost);
   const std::string& name = output.file_name;
-  const bool is_plain = !name.empty() && name != "." && name != ".." && name.find_first_of("/\\\n") == std::string::npos;
+  const bool is_plain =
+      !name.empty() && name != "." && name != ".." && name.find_first_of("/\\\n") == std::string::npos;
   if (!is_plain) return {Progress::failure, "\"" + name + "\" is no plain file name"};
   const bool is_ours = options_.resume != nullptr || written_.contains(name);
   const auto mode = output.append && is_ours ? std::ios::app : std::ios::trunc;
@@ -180,7 +181,8 @@ Status MissionLoop::answer(const PlanQuestion& question, const std::string& file
   }
   task.request.radius_m = mission_.robot.radius_m;
   task.request.seed = module_seed(mission_.config.seed, PluginKind::planner, 2);
-  const PlanResult result = plan_tour([&](const PlanRequest& request) { return plan(request); }, task.request, task.via);
+  const PlanResult result =
+      plan_tour([&](const PlanRequest& request) { return plan(request); }, task.request, task.via);
   const Status written = write({file_name,
                                 json_text_of({.question = question,
                                               .result = result,

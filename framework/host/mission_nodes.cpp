@@ -8,7 +8,8 @@ namespace {
 // In the order of NodeKind.
 constexpr auto kNames = std::to_array<std::string_view>(
     {"sequence", "reactive_sequence", "fallback", "reactive_fallback", "parallel", "repeat", "retry", "timeout", "not",
-     "always", "mission", "landmark_known", "explored", "time_before", "time_after", "at_place", "battery_above", "behaviour"});
+     "always", "mission", "landmark_known", "explored", "time_before", "time_after", "at_place", "battery_above",
+     "behaviour"});
 static_assert(kNames.size() == static_cast<std::size_t>(NodeKind::behaviour) + 1);
 
 template <class Settings>

@@ -12,7 +12,8 @@ namespace {
 constexpr std::array kCosts{CostKind::length, CostKind::time, CostKind::clearance};
 
 // The landmarks that a landmark's or a cluster's name stands for.
-std::vector<LandmarkId> landmarks_called(const std::string& name, const LandmarkGraph& graph, const ClusterTree& clusters) {
+std::vector<LandmarkId> landmarks_called(const std::string& name, const LandmarkGraph& graph,
+                                         const ClusterTree& clusters) {
   if (graph.find_by_name(name) == nullptr)
     if (const Cluster* const cluster = find_cluster(clusters, graph, name)) {
       std::vector<LandmarkId> members;

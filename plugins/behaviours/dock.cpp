@@ -12,10 +12,10 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kFarthestOutline_m = 1.2;
-constexpr double kBehind_m = 0.2;                         // free for so long: the outline is behind
-constexpr double kUsualOutline_m = 0.2;                   // of a landmark that the map does not show on that side
-constexpr double kRunUps_m[] = {0.5, 0.35, 0.25, 0.15};   // from the standing place to the dock
-constexpr double kStraight_rad = radians(20.0);           // a transducer that looks further aside does not look ahead
+constexpr double kBehind_m = 0.2;                        // free for so long: the outline is behind
+constexpr double kUsualOutline_m = 0.2;                  // of a landmark that the map does not show on that side
+constexpr double kRunUps_m[] = {0.5, 0.35, 0.25, 0.15};  // from the standing place to the dock
+constexpr double kStraight_rad = radians(20.0);          // a transducer that looks further aside does not look ahead
 constexpr double kSame_rad = radians(1.0);
 constexpr std::size_t kEchoes = 7;
 constexpr std::size_t kLeastEchoes = 3;
@@ -37,6 +37,15 @@ double extent_m(const RobotModel& robot, bool ahead) {
   double most_m = 0.0;
   for (const Point& p : robot.polygon_m) most_m = std::max(most_m, ahead ? p.x() : -p.x());
   return most_m;
+}
+
+bool is_free_about(const OccupancyGrid& grid, const Point& p, double radius_m) {
+  const Cell middle = grid.cell_at(p);
+  const int reach = static_cast<int>(radius_m / grid.cell_m());
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (dx * dx + dy * dy <= reach * reach && grid.state(middle + Cell{dx, dy}) != CellState::free) return false;
+  return true;
 }
 
 std::string metres(double value_m) {
@@ -87,9 +96,9 @@ Dock::Dock(const DockConfig& config, std::uint64_t seed)
   if (names_side == config.side_rad.has_value())
     throw ConfigError(place, names_side ? "dock: side and side_deg exclude each other"
                                         : "dock: needs a side (`side: left` or `side_deg: 90`)");
-  side_rad_ = names_side ? std::numbers::pi / 2.0 *
-                               static_cast<double>(config_detail::to_choice(config.side, "side", kSides))
-                         : *config.side_rad;
+  side_rad_ = names_side
+                  ? std::numbers::pi / 2.0 * static_cast<double>(config_detail::to_choice(config.side, "side", kSides))
+                  : *config.side_rad;
 }
 
 void Dock::halt() {
@@ -124,7 +133,8 @@ double Dock::wanted_m(const RobotModel& robot) const {
 
 Status Dock::tick(const WorldView& world, Orders& orders) {
   if (!begun_s_) begun_s_ = world.time_s;
-  if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up on the way to " + where(world)};
+  if (world.time_s - *begun_s_ >= config_.at_most_s)
+    return {Progress::failure, "time is up on the way to " + where(world)};
   if (landmark_ == 0) return begin(world, orders);
   const Landmark* const landmark = world.graph.find(landmark_);
   if (landmark == nullptr) return {Progress::failure, lost(landmark_, world.graph)};
@@ -150,22 +160,25 @@ Status Dock::begin(const WorldView& world, Orders& orders) {
   return {Progress::running, "going to " + where(world)};
 }
 
-// The longest run-up that nothing stands in.
+// The longest run-up that nothing stands in; one from where the map knows of no room only when there is no other.
 bool Dock::choose_stand(const WorldView& world, const Landmark& landmark) {
   const Axis line = axis(landmark);
   const double outline = outline_distance_m(world.grid, line.centre, line.outward_rad).value_or(kUsualOutline_m);
   const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
   const double dock_m = outline + wanted_m(world.robot);
   const Point dock = line.centre + dock_m * line.outward();
-  for (const double run_up_m : kRunUps_m) {
-    const Point stand = line.centre + (dock_m + run_up_m) * line.outward();
-    // The outline is as wide as a cell, and the robot may come near to it: only what stands aside or behind blocks.
-    if (path_is_blocked(world.grid, {stand, dock}, 0.0, run_up_m, std::min(margin_m, wanted_m(world.robot) - 0.02)))
-      continue;
-    stand_ = {};
-    stand_.pose = Pose2{stand.x(), stand.y(), wrap_angle(line.outward_rad + std::numbers::pi)};
-    stand_.heading_matters = true;
-    return true;
+  // The robot may come nearer to the outline than to anything else: only what stands aside or behind blocks.
+  const double reach_m = std::min(margin_m, wanted_m(world.robot) - 0.02);
+  for (const bool on_known_ground : {true, false}) {
+    for (const double run_up_m : kRunUps_m) {
+      const Point stand = line.centre + (dock_m + run_up_m) * line.outward();
+      if (path_is_blocked(world.grid, {stand, dock}, 0.0, run_up_m, reach_m)) continue;
+      if (on_known_ground && !is_free_about(world.grid, stand, world.robot.radius_m)) continue;
+      stand_ = {};
+      stand_.pose = Pose2{stand.x(), stand.y(), wrap_angle(line.outward_rad + std::numbers::pi)};
+      stand_.heading_matters = true;
+      return true;
+    }
   }
   return false;
 }
@@ -180,8 +193,8 @@ Status Dock::drive(const WorldView& world, Orders& orders) {
   return {Progress::running, "before " + where(world)};
 }
 
-// Each echo of the transducers that look ahead, as a place on the axis. A range is to the nearest thing in the beam, and
-// the distance that is wanted is to the nearest point of the landmark, too: no bearing is needed.
+// Each echo of the transducers that look ahead, as a place on the axis. A range is to the nearest thing in the beam,
+// and the distance that is wanted is to the nearest point of the landmark, too: no bearing is needed.
 void Dock::see(const WorldView& world, const Axis& line, double mapped_m) {
   if (world.observation == nullptr) return;
   double straightest_rad = kStraight_rad;
@@ -190,15 +203,16 @@ void Dock::see(const WorldView& world, const Axis& line, double mapped_m) {
   const double robot_m = line.along_m(world.pose.T_map_robot.position());
   for (const RangeReading& reading : world.observation->ranges) {
     if (std::abs(reading.T_robot_sensor.theta_rad) > straightest_rad + kSame_rad) continue;
-    if (!std::isfinite(reading.range_m)) continue;
+    if (std::isnan(reading.range_m)) continue;
     const double echo_m = robot_m - (reading.T_robot_sensor.x_m + reading.range_m);
-    if (std::abs(echo_m - mapped_m) <= kOfOutline_m) {
-      echoes_m_.push_back(echo_m);
-      if (echoes_m_.size() > kEchoes) echoes_m_.pop_front();
-      between_since_s_ = -1.0;
-    } else if (echo_m > mapped_m && between_since_s_ < 0.0) {
-      between_since_s_ = world.time_s;
+    if (echo_m > mapped_m + kOfOutline_m) {
+      if (between_since_s_ < 0.0) between_since_s_ = world.time_s;
+      continue;
     }
+    between_since_s_ = -1.0;
+    if (echo_m < mapped_m - kOfOutline_m) continue;  // past it, or no echo
+    echoes_m_.push_back(echo_m);
+    if (echoes_m_.size() > kEchoes) echoes_m_.pop_front();
   }
 }
 
@@ -220,8 +234,8 @@ Status Dock::approach(const WorldView& world, Orders& orders, const Landmark& la
     return {Progress::running, "waiting: something is before " + where(world)};
   }
   if (watch_.is_stuck(world, wanted_))
-    return {Progress::failure, "held back " + metres(gap_m_) + " before " + where(world) + ", not at " +
-                                   metres(config_.distance_m)};
+    return {Progress::failure,
+            "held back " + metres(gap_m_) + " before " + where(world) + ", not at " + metres(config_.distance_m)};
   const double left_m = line.along_m(pose.position()) - outline_m(mapped_m) - wanted_m(world.robot);
   gap_m_ = left_m + config_.distance_m;
   const double correction_rad =

@@ -1,8 +1,8 @@
 // Docks beside a landmark: plans to a standing place on the wanted side, then approaches straight and slowly by the
 // latest echoes, and stops at a distance between the robot's footprint and the landmark's outline.
 //
-// Where no echo of the landmark comes back, its outline is taken from the map. Honest failures: the side is blocked, the
-// standing place cannot be reached, something stands between, the robot is held back.
+// Where no echo of the landmark comes back, its outline is taken from the map. Honest failures: the side is blocked,
+// the standing place cannot be reached, something stands between, the robot is held back.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,8 @@ struct DockConfig : RouteSettings {
 
 // How far a landmark's outline is from its centre in a direction of the map, as the grid has it; none: nothing occupied
 // within 1.2 m there.
-[[nodiscard]] std::optional<double> outline_distance_m(const OccupancyGrid& grid, const Point& centre, double angle_rad);
+[[nodiscard]] std::optional<double> outline_distance_m(const OccupancyGrid& grid, const Point& centre,
+                                                       double angle_rad);
 
 class Dock : public Behaviour {
  public:

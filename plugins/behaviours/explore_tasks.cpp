@@ -84,10 +84,9 @@ void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& wort
     task.lookout = space.centre_of(*stands[i]);
     task.cost_m = space.cost_m(*stands[i]);
     if (size_m < worth.small_m && task.cost_m > worth.most_m_per_m * size_m) continue;
-    const double bonus_m =
-        worth.gain_m > 0.0
-            ? worth_of_area_m(new_area_m2(space, task.lookout, worth.gain_range_m), worth.gain_m)
-            : std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m);
+    const double bonus_m = worth.gain_m > 0.0
+                               ? worth_of_area_m(new_area_m2(space, task.lookout, worth.gain_range_m), worth.gain_m)
+                               : std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m);
     offer(best, std::move(task), bonus_m, previous);
   }
 }

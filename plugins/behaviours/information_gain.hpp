@@ -6,8 +6,8 @@
 namespace cairn::behaviours {
 
 // Square metres of unknown cells in line of sight of a viewpoint within the range, counted over rays; what is unknown
-// hides nothing. The potential visibility gain of Gonzalez-Banos and Latombe, Navigation strategies for exploring indoor
-// environments, IJRR 21 (10-11), 2002, section 4.3.
+// hides nothing. The potential visibility gain of Gonzalez-Banos and Latombe, Navigation strategies for exploring
+// indoor environments, IJRR 21 (10-11), 2002, section 4.3.
 [[nodiscard]] double new_area_m2(const FreeSpace& space, const Point& viewpoint, double range_m);
 
 // Metres of way that a viewpoint may be further off for what it shows. Their rule takes the viewpoint with the largest

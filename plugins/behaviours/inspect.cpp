@@ -104,17 +104,15 @@ Status Inspect::begin(const WorldView& world, Orders& orders) {
 }
 
 Status Inspect::drive(const WorldView& world, Orders& orders, const Landmark& landmark) {
-  const bool is_near =
-      (landmark.T_map_landmark.position() - world.pose.T_map_robot.position()).norm() <= kNear_m &&
-      choose_way(world, landmark);
+  const bool is_near = (landmark.T_map_landmark.position() - world.pose.T_map_robot.position()).norm() <= kNear_m &&
+                       choose_way(world, landmark);
   Status status{Progress::success, ""};
   if (!is_near) {
     Place goal;
     goal.landmarks = {landmark_};
     status = driver_.tick(goal, world, orders);
   }
-  if (status.progress == Progress::running)
-    return {Progress::running, status.reason + ", to " + described(landmark)};
+  if (status.progress == Progress::running) return {Progress::running, status.reason + ", to " + described(landmark)};
   if (status.progress == Progress::failure)
     return {Progress::failure, "cannot get to " + described(landmark) + ": " + status.reason};
   mode_ = Mode::lap;
@@ -131,7 +129,8 @@ bool Inspect::choose_way(const WorldView& world, const Landmark& landmark) {
   const Cell there = world.grid.cell_at(centre);
   const int reach = static_cast<int>(kSpace_m / world.grid.cell_m());
   const CellBox part = united(CellBox{here, here + Cell{1, 1}}, CellBox{there, there + Cell{1, 1}}).grown(reach);
-  const FreeSpace space(near_echoes_->applied_to(world.grid, part), {pose.position(), world.robot.radius_m, kClearance_m}, trace_);
+  const FreeSpace space(near_echoes_->applied_to(world.grid, part),
+                        {pose.position(), world.robot.radius_m, kClearance_m}, trace_);
   const LapSettings settings{config_.distance_m, config_.distance_m + kLookCloser_m, kLargestObject_m};
   const auto of_lap = std::span(trace_).subspan(std::min(lap_begins_, trace_.size()));
   const Lap round = lap_round(space, object_at(space, centre), of_lap, avoid_, settings);
@@ -168,10 +167,10 @@ Status Inspect::lap(const WorldView& world, Orders& orders, const Landmark& land
 }
 
 Status Inspect::back_off(const WorldView& world, Orders& orders) {
-  const bool is_over = world.time_s - backing_since_s_ > kBackOff_s ||
-                       path_is_blocked(world.grid,
-                                       {world.pose.T_map_robot.position(), world.pose.T_map_robot * Point(-0.2, 0.0)},
-                                       0.1, 0.2, world.robot.radius_m);
+  const bool is_over =
+      world.time_s - backing_since_s_ > kBackOff_s ||
+      path_is_blocked(world.grid, {world.pose.T_map_robot.position(), world.pose.T_map_robot * Point(-0.2, 0.0)}, 0.1,
+                      0.2, world.robot.radius_m);
   if (!is_over) {
     orders.drive({-kBackOff_mps, 0.0});
     return {Progress::running, "backing off"};

@@ -1,7 +1,7 @@
 // Inspects a landmark: goes there and circles it until its degree does not rise any more.
 //
-// The laps are those of exploring (look_closer.hpp): what cannot be stood in is left out. Success says the degree before
-// and after; failure when it cannot be circled at all.
+// The laps are those of exploring (look_closer.hpp): what cannot be stood in is left out. Success says the degree
+// before and after; failure when it cannot be circled at all.
 #pragma once
 
 #include <cstdint>
@@ -55,11 +55,11 @@ class Inspect : public Behaviour {
   std::optional<double> begun_s_;
   LandmarkId landmark_ = 0;
   double degree_before_ = 0.0;
-  double degree_at_lap_ = 0.0;  // when the lap began
-  int laps_ = 0;                // done
-  int covered_ = 0;             // sectors of this lap
-  std::vector<Pose2> trace_;    // of this lap
-  std::size_t lap_begins_ = 0;  // in the trace
+  double degree_at_lap_ = 0.0;             // when the lap began
+  int laps_ = 0;                           // done
+  int covered_ = 0;                        // sectors of this lap
+  std::vector<Pose2> trace_;               // of this lap
+  std::size_t lap_begins_ = 0;             // in the trace
   std::optional<NearEchoes> near_echoes_;  // from the first tick on
   std::vector<Point> avoid_;
   std::vector<Point> path_;

@@ -25,19 +25,17 @@ void add_driving(Registrar& registrar, const char* name, const char* summary) {
 
 template <class Step, class Config>
 void add(Registrar& registrar, const char* name, const char* summary) {
-  registrar.add<Behaviour, Config>(name, summary, [](const Config& config, const ModuleContext&) {
-    return std::make_unique<Step>(config);
-  });
+  registrar.add<Behaviour, Config>(
+      name, summary, [](const Config& config, const ModuleContext&) { return std::make_unique<Step>(config); });
 }
 
 void register_module(Registrar& registrar) {
   add<Explore, ExploreConfig>(registrar, "explore",
                               "explores the reachable space at a safe distance and looks closer at what it finds");
-  registrar.add<Behaviour, SearchConfig>(
-      "search", "explores until so many landmarks of a category are known",
-      [](const SearchConfig& config, const ModuleContext& context) {
-        return std::make_unique<Search>(config, context.categories);
-      });
+  registrar.add<Behaviour, SearchConfig>("search", "explores until so many landmarks of a category are known",
+                                         [](const SearchConfig& config, const ModuleContext& context) {
+                                           return std::make_unique<Search>(config, context.categories);
+                                         });
   add_driving<Inspect, InspectConfig>(registrar, "inspect",
                                       "goes to a landmark and circles it until its degree does not rise any more");
   add_driving<GoTo, GoToConfig>(registrar, "goto", "goes to a landmark or a place by the mission's planner");

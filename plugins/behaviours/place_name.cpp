@@ -55,8 +55,7 @@ LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& worl
   if (result.outcome == PlanOutcome::solved && is_one) return result.landmarks.back();
   const auto distance_m = [&](LandmarkId id) {
     const Landmark* const landmark = world.graph.find(id);
-    return landmark == nullptr ? 1e9
-                               : (landmark->T_map_landmark.position() - world.pose.T_map_robot.position()).norm();
+    return landmark == nullptr ? 1e9 : (landmark->T_map_landmark.position() - world.pose.T_map_robot.position()).norm();
   };
   return *std::ranges::min_element(ids, {}, distance_m);
 }

@@ -24,7 +24,17 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-const std::vector<std::string> kNames{"battery", "distance", "explored", "landmarks", "nearest", "place", "time"};
+const std::vector<std::string> kNames{"area",      "battery", "distance", "explored",
+                                      "landmarks", "nearest", "place",    "time"};
+
+double known_area_m2(const OccupancyGrid& grid) {
+  const CellBox all = grid.bounds();
+  std::int64_t known = 0;
+  for (int y = all.min.y; y < all.max.y; ++y)
+    for (int x = all.min.x; x < all.max.x; ++x)
+      if (grid.state({x, y}) != CellState::unknown) ++known;
+  return static_cast<double>(known) * grid.cell_m() * grid.cell_m();
+}
 
 std::string value_of(const std::string& name, const WorldView& world) {
   const Point here = world.pose.T_map_robot.position();
@@ -32,6 +42,7 @@ std::string value_of(const std::string& name, const WorldView& world) {
   if (name == "time") return number("%.0f s", world.time_s);
   if (name == "place") return described(here);
   if (name == "explored") return number("%.1f %%", 100.0 * known_ratio(world.grid));
+  if (name == "area") return number("%.1f m2", known_area_m2(world.grid));
   if (name == "landmarks") return std::to_string(world.graph.landmarks().size());
   if (name == "nearest") return nearest == nullptr ? "no landmark" : described(*nearest);
   if (name == "distance")
@@ -72,8 +83,8 @@ Status CaptureTemplate::tick(const WorldView& world, Orders& orders) {
     (void)parse_landmark_shape(text, file_name_);
     const Status written = orders.write({file_name_, text});
     if (written.progress != Progress::success) return written;
-    return {Progress::success, written.reason + ": " + category_ + ", " +
-                                   number("%.2f m across", captured.contour.outer_diameter_m())};
+    return {Progress::success,
+            written.reason + ": " + category_ + ", " + number("%.2f m across", captured.contour.outer_diameter_m())};
   } catch (const std::exception& nothing_there) {  // or nothing that a template file can hold
     return {Progress::failure, std::string("no template of ") + category_ + ": " + nothing_there.what()};
   }
@@ -91,13 +102,12 @@ void PlanQueryConfig::describe(Fields<PlanQueryConfig>& fields) {
                 {{"length", C::Cost::length}, {"time", C::Cost::time}, {"clearance", C::Cost::clearance}},
                 "what a good way has little (length, time) or much of");
   fields.flag("explain", &C::explain, "how the answer came about");
-  fields.raw("file", &C::file, "text", "its name in the output folder, NAME.jsonl").default_text =
-      "answers.jsonl";
+  fields.raw("file", &C::file, "text", "its name in the output folder, NAME.jsonl").default_text = "answers.jsonl";
   fields.shorthand("to");
 }
 
 PlanQuery::PlanQuery(const PlanQueryConfig& config)
-    : question_{config.from, config_detail::to_text(config.to, "to"), config.via, config.avoid, config.closed,
+    : question_{config.from,        config_detail::to_text(config.to, "to"), config.via, config.avoid, config.closed,
                 config.alternatives},
       file_name_(with_ending(config.file, "answers.jsonl", ".jsonl")) {
   question_.cost = config.cost == PlanQueryConfig::Cost::time        ? "time"
@@ -116,9 +126,11 @@ Status PlanQuery::tick(const WorldView&, Orders& orders) {
 }
 
 void LogConfig::describe(Fields<LogConfig>& fields) {
-  fields.raw("text", &LogConfig::text, "text",
-             "what to say; {place}, {time}, {explored}, {battery}, {landmarks}, {nearest} (landmark) and {distance} (to "
-             "it) stand for what they are then; {{ and }} are braces")
+  fields
+      .raw("text", &LogConfig::text, "text",
+           "what to say; {place}, {time}, {explored}, {area} (known), {battery}, {landmarks}, {nearest} (landmark) and "
+           "{distance} (to "
+           "it) stand for what they are then; {{ and }} are braces")
       .required = true;
   fields.shorthand("text");
 }
@@ -140,9 +152,10 @@ Log::Log(const LogConfig& config) {
       throw ConfigError(place, std::string("text: a ") + c + " without its other brace; write " + c + c + " for one");
     const std::string name = text.substr(i + 1, end - i - 1);
     if (std::ranges::find(kNames, name) == kNames.end())
-      throw ConfigError(place, "text: there is no {" + name + "}" + did_you_mean(name, kNames) +
-                                   "; there are {battery}, {distance}, {explored}, {landmarks}, {nearest}, {place} and "
-                                   "{time}");
+      throw ConfigError(
+          place, "text: there is no {" + name + "}" + did_you_mean(name, kNames) +
+                     "; there are {area}, {battery}, {distance}, {explored}, {landmarks}, {nearest}, {place} and "
+                     "{time}");
     pieces_.push_back({plain, false});
     pieces_.push_back({name, true});
     plain.clear();

@@ -32,10 +32,11 @@ struct VisitSettings : RouteSettings {
 
   template <class Config>
   static void describe_visits(Fields<Config>& fields) {
-    fields.choice("order", static_cast<VisitOrder Config::*>(&Config::order),
-                  {{"given", VisitOrder::given}, {"shortest", VisitOrder::shortest}},
-                  "`shortest`: so that the whole way is short, by the planner's lengths: the best order up to 11 places, "
-                  "cheapest insertion and 2-opt for more");
+    fields.choice(
+        "order", static_cast<VisitOrder Config::*>(&Config::order),
+        {{"given", VisitOrder::given}, {"shortest", VisitOrder::shortest}},
+        "`shortest`: so that the whole way is short, by the planner's lengths: the best order up to 11 places, "
+        "cheapest insertion and 2-opt for more");
     fields.flag("skip", &Config::skip, "a place that cannot be reached is left out; without it, the step fails there");
     fields.number("wait_s", &Config::wait_s, {0.0, 1e6}, "s", "stands still at each place");
     describe_driving(fields);

@@ -57,6 +57,9 @@ class FakeHost : public Orders {
   LandmarkGraph graph;
   OccupancyGrid grid;
   Pose2 T_map_robot;
+  Pose2 T_map_start;  // as the drawing has it
+  // What the sensors see in a tick; nothing by default.
+  std::function<Observation(const FakeHost&)> observe;
   double time_s = 0.0;
   double held_back_ratio = 0.0;
   // What the stop layer lets through; all of it by default.
