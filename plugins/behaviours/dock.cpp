@@ -19,8 +19,12 @@ constexpr double kStraight_rad = radians(20.0);          // a transducer that lo
 constexpr double kSame_rad = radians(1.0);
 constexpr std::size_t kEchoes = 7;
 constexpr std::size_t kLeastEchoes = 3;
-constexpr double kOfOutline_m = 0.25;  // an echo this near to where the map has the outline is the landmark's
-constexpr double kSettle_s = 1.0;      // stands for a full round of echoes before it believes that it is there
+// Along the axis from the landmark's centre: what echoes nearer than this, or behind, is not the landmark.
+constexpr double kPast_m = 0.05;
+constexpr double kBefore_m = 0.25;  // an echo from so far before the mapped outline is of something else
+constexpr double kBeside_m = 0.3;   // so far beside the axis is not before the side
+constexpr int kMostAgain = 3;
+constexpr double kSettle_s = 1.0;  // stands for a full round of echoes before it believes that it is there
 constexpr double kSlowest_mps = 0.02;
 constexpr double kGain_per_s = 0.8;
 constexpr double kTurnFirst_rad = radians(12.0);
@@ -114,7 +118,7 @@ double Dock::Axis::aside_m(const Point& p) const {
 }
 
 Dock::Axis Dock::axis(const Landmark& landmark) const {
-  return {landmark.T_map_landmark.position(), landmark.T_map_landmark.theta_rad + side_rad_};
+  return {landmark.T_map_landmark.position(), outward_rad_};
 }
 
 std::string Dock::where(const WorldView& world) const {
@@ -155,7 +159,9 @@ Status Dock::begin(const WorldView& world, Orders& orders) {
   landmark_ = chosen.id;
   if (config_.facing == DockConfig::Facing::away && wanted_m(world.robot) < world.robot.radius_m + kRoomToTurn_m)
     return {Progress::failure, "at " + metres(config_.distance_m) + " there is no room for the robot to turn away"};
-  if (!choose_stand(world, *world.graph.find(landmark_)))
+  const Landmark& landmark = *world.graph.find(landmark_);
+  outward_rad_ = landmark.T_map_landmark.theta_rad + side_rad_;
+  if (!choose_stand(world, landmark))
     return {Progress::failure, where(world) + " is blocked: there is no free way to it on the map"};
   return {Progress::running, "going to " + where(world)};
 }
@@ -193,6 +199,16 @@ Status Dock::drive(const WorldView& world, Orders& orders) {
   return {Progress::running, "before " + where(world)};
 }
 
+// What has been seen meanwhile has moved the landmark on the map.
+Status Dock::go_again(const WorldView& world, const Landmark& landmark) {
+  if (++again_ > kMostAgain || !choose_stand(world, landmark))
+    return {Progress::failure, "cannot get before " + where(world) + ": the landmark moves on the map"};
+  driver_.restart();
+  echoes_m_.clear();
+  mode_ = Mode::drive;
+  return {Progress::running, "going to " + where(world) + " again"};
+}
+
 // Each echo of the transducers that look ahead, as a place on the axis. A range is to the nearest thing in the beam,
 // and the distance that is wanted is to the nearest point of the landmark, too: no bearing is needed.
 void Dock::see(const WorldView& world, const Axis& line, double mapped_m) {
@@ -202,15 +218,15 @@ void Dock::see(const WorldView& world, const Axis& line, double mapped_m) {
     straightest_rad = std::min(straightest_rad, std::abs(sonar.T_robot_sonar.theta_rad));
   const double robot_m = line.along_m(world.pose.T_map_robot.position());
   for (const RangeReading& reading : world.observation->ranges) {
-    if (std::abs(reading.T_robot_sensor.theta_rad) > straightest_rad + kSame_rad) continue;
-    if (std::isnan(reading.range_m)) continue;
+    if (!(std::abs(reading.T_robot_sensor.theta_rad) <= straightest_rad + kSame_rad)) continue;
     const double echo_m = robot_m - (reading.T_robot_sensor.x_m + reading.range_m);
-    if (echo_m > mapped_m + kOfOutline_m) {
+    if (std::isnan(echo_m)) continue;
+    if (echo_m > mapped_m + kBefore_m) {
       if (between_since_s_ < 0.0) between_since_s_ = world.time_s;
       continue;
     }
     between_since_s_ = -1.0;
-    if (echo_m < mapped_m - kOfOutline_m) continue;  // past it, or no echo
+    if (echo_m < kPast_m) continue;  // or no echo
     echoes_m_.push_back(echo_m);
     if (echoes_m_.size() > kEchoes) echoes_m_.pop_front();
   }
@@ -227,6 +243,7 @@ Status Dock::approach(const WorldView& world, Orders& orders, const Landmark& la
   const Axis line = axis(landmark);
   const Pose2& pose = world.pose.T_map_robot;
   const double mapped_m = outline_distance_m(world.grid, line.centre, line.outward_rad).value_or(kUsualOutline_m);
+  if (std::abs(line.aside_m(pose.position())) > kBeside_m) return go_again(world, landmark);
   see(world, line, mapped_m);
   if (between_since_s_ >= 0.0) {
     if (world.time_s - between_since_s_ > config_.patience_s)

@@ -59,6 +59,7 @@ class Dock : public Behaviour {
   [[nodiscard]] bool choose_stand(const WorldView& world, const Landmark& landmark);
   Status drive(const WorldView& world, Orders& orders);
   Status approach(const WorldView& world, Orders& orders, const Landmark& landmark);
+  Status go_again(const WorldView& world, const Landmark& landmark);
   Status turn(const WorldView& world, Orders& orders, const Landmark& landmark);
   void see(const WorldView& world, const Axis& axis, double mapped_m);
   [[nodiscard]] double outline_m(double mapped_m) const;
@@ -74,6 +75,9 @@ class Dock : public Behaviour {
   Mode mode_ = Mode::drive;
   std::optional<double> begun_s_;
   LandmarkId landmark_ = 0;
+  // Of the side that was meant at first: a square's orientation may turn by a right angle when more of it is seen.
+  double outward_rad_ = 0.0;
+  int again_ = 0;
   Place stand_;
   std::deque<double> echoes_m_;  // of the outline, along the axis
   double between_since_s_ = -1.0;

@@ -30,7 +30,7 @@ std::filesystem::path mission_in(const std::filesystem::path& folder, const std:
                  "}\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel, cell_m: 0.05}\n"
                  "detector: {plugin: template_matcher, templates: " +
                  config("templates") +
-                 ", rendering: ideal, coarse_cells: 5}\n"
+                 ", coarse_cells: 5}\n"
                  "planner: {plugin: hybrid, route: {plugin: ompl}}\nat_most_s: 1200\nsteps:\n" +
                  steps);
   return folder / "mission.yaml";
@@ -154,13 +154,14 @@ TEST(Behaviours, WrongSettingsAreToldWithTheirPlaceAndTheNearestName) {
   const Finished finished = run_cairn({"mission", "check", file});
   EXPECT_EQ(finished.exit_status, 2);
   for (const char* told :
-       {":11:13: search: the mission has no template of category \"sqare\" (did you mean \"square\"?)",
-        ":12:34: gain must be a number", "unknown key \"ordr\" in plugin tour (did you mean \"order\"?)",
-        ":14:22: rounds must be forever or a number",
-        "unknown key \"too\" in plugin return_home (did you mean \"to\"?)", ":16:31: side", "(did you mean \"left\"?)",
-        ":17:51: file", ":18:32: cost", "(did you mean \"length\"?)",
-        "there is no {batery} (did you mean \"battery\"?)", ":20:20: ratio must be a number",
-        "unknown behaviour plugin \"ptrol\" (did you mean \"patrol\"?)"})
+       {":12:5: search: the mission has no template of category \"sqare\" (did you mean \"square\"?)",
+        ":13:35: gain must be a number", ":14:26: unknown key \"ordr\" in plugin tour (did you mean \"order\"?)",
+        ":15:22: rounds must be forever or a number",
+        ":16:19: unknown key \"too\" in plugin return_home (did you mean \"to\"?)",
+        ":17:32: side must be one of front, left, back, right, found \"letf\" (did you mean \"left\"?)",
+        ":18:51: file must be a plain file name", ":19:32: cost must be one of", "(did you mean \"length\"?)",
+        ":20:5: text: there is no {batery} (did you mean \"battery\"?)", ":21:20: ratio must be a number",
+        ":22:5: unknown behaviour plugin \"ptrol\" (did you mean \"patrol\"?)"})
     EXPECT_THAT(finished.err + finished.out, HasSubstr(told));
 }
 

@@ -147,6 +147,17 @@ TEST(Dock, WaitsForWhatStandsBetweenAndFailsWhenItStays) {
             (Status{Progress::failure, "something stands between the robot and the right side of L1 (square)"}));
 }
 
+TEST(Dock, StaysOnItsSideWhenTheLandmarkIsTurnedOnTheMap) {
+  FakeHost host = room();
+  Dock step = dock("{landmark: L1, side: right}");
+  EXPECT_EQ(host.run(step, 4.0).progress, Progress::running);
+  host.graph.find(1)->T_map_landmark.theta_rad = std::numbers::pi / 2;  // a square looks the same
+  const Status status = host.run(step, 200.0);
+  EXPECT_EQ(status.progress, Progress::success) << status.reason;
+  EXPECT_LT(host.T_map_robot.y_m, kCentre.y() - 0.5) << host.picture();
+  EXPECT_NEAR(gap_m(host), 0.4, 0.06);
+}
+
 TEST(Dock, FailsWhereTheSideIsBlocked) {
   FakeHost host = room();
   Dock step = dock("{landmark: L1, side: back}");
