@@ -19,8 +19,7 @@ std::vector<RouteId> routes_of(const CloseCommand& command, const LandmarkGraph&
       if (route.from == there.to && route.to == there.from) ids.push_back(id);
   }
   std::ranges::sort(ids);
-  const auto repeated = std::ranges::unique(ids);
-  ids.erase(repeated.begin(), repeated.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 
