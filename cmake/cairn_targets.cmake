@@ -30,15 +30,21 @@ endfunction()
 
 include(${CMAKE_CURRENT_LIST_DIR}/cairn_add_module.cmake)
 
-# cairn_add_test(NAME SOURCES ... [LINK ...] [TOGETHER SUITE]): one GoogleTest program, every case known
-# to ctest; the cases of SUITE as one, since they share something dear.
+# cairn_add_test(NAME SOURCES ... [LINK ...] [TOGETHER SUITE] [SLOW_ORACLE]): one GoogleTest program, every case
+# known to ctest; the cases of SUITE as one, since they share something dear. SLOW_ORACLE: what the test itself computes
+# takes too long without optimization, where tests are built so.
 function(cairn_add_test name)
-  cmake_parse_arguments(arg "" "TOGETHER" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "SLOW_ORACLE" "TOGETHER" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest_main cairn_private_options ${arg_LINK})
   target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                              CAIRN_BINARY_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  if(CAIRN_SANITIZERS AND arg_SLOW_ORACLE)
+    target_compile_options(${name} PRIVATE -O1)
+  elseif(TARGET cairn_test_headers)
+    target_precompile_headers(${name} REUSE_FROM cairn_test_headers)
+  endif()
   set(filter)
   if(arg_TOGETHER)
     set(filter TEST_FILTER "-${arg_TOGETHER}.*")

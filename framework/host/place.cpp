@@ -111,4 +111,14 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
                    std::string(kWhatAPlaceIs));
 }
 
+RouteId parse_route(const std::string& text, const LandmarkGraph& graph) {
+  RouteId id = 0;
+  const std::string digits = text.starts_with('R') ? text.substr(1) : text;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
+  if (error != std::errc{} || end != digits.data() + digits.size())
+    throw MalformedPlace("route \"" + text + "\": a route is named by its number, as 12 or R12");
+  if (graph.find_route(id) == nullptr) throw PlaceError("the map has no route " + std::to_string(id));
+  return id;
+}
+
 }  // namespace cairn

@@ -26,5 +26,7 @@ class MalformedPlace : public PlaceError {
 
 // Throws MalformedPlace, and PlaceError when the map does not hold what is named.
 [[nodiscard]] Place parse_place(const std::string& text, const LandmarkGraph& graph);
+// A route by its number, "12" or "R12". Throws the same.
+[[nodiscard]] RouteId parse_route(const std::string& text, const LandmarkGraph& graph);
 
 }  // namespace cairn

@@ -133,6 +133,15 @@ struct NameCommand {
 };
 int map_name(const NameCommand& command, const CommonOptions& common);
 
+struct CloseCommand {
+  std::filesystem::path map;
+  std::vector<std::string> routes;  // 12 or R12
+  bool both_ways = false;           // and the routes that lead back between the same landmarks
+};
+// Changes the map in place: closed routes are not taken by any plan until they are opened.
+int map_close(const CloseCommand& command, const CommonOptions& common);
+int map_open(const CloseCommand& command, const CommonOptions& common);
+
 struct LintCommand {
   std::filesystem::path map;
   std::optional<double> radius_m;  // of the robot; none: the one saved in the map

@@ -69,8 +69,14 @@ Written write_map_server(const ExchangeCommand& command, const SavedMap& map) {
         "--picture png keeps them unknown");
   }
   warn_of_graph(map.graph, exported.warnings);
+  const bool is_new = !std::filesystem::exists(picture, error);
   write_file(picture, picture_text_of(exported.picture, picture_format_of(format)));
-  write_file(command.to, map_server_yaml_of(exported.settings, picture.filename().string()));
+  try {
+    write_file(command.to, map_server_yaml_of(exported.settings, picture.filename().string()));
+  } catch (...) {
+    if (is_new) std::filesystem::remove(picture, error);  // half of a pair is of no use
+    throw;
+  }
   return {{command.to, picture}, exported.warnings};
 }
 

@@ -62,6 +62,18 @@ void add_diff(CLI::App& map, DiffCommand& c, const CommonOptions& common, Action
   diff->callback([&] { action = [&] { return map_diff(c, common); }; });
 }
 
+void add_close(CLI::App& map, CloseCommand& c, const CommonOptions& common, Action& action) {
+  const auto add = [&](const char* name, const char* text, auto command) {
+    CLI::App* sub = map.add_subcommand(name, text);
+    sub->add_option("MAP", c.map, "saved map (*.cairn), changed in place")->required();
+    sub->add_option("ROUTE", c.routes, "numbers of routes, 12 or R12")->required();
+    sub->add_flag("--both-ways", c.both_ways, "the routes that lead back, too");
+    sub->callback([&c, &common, &action, command] { action = [&c, &common, command] { return command(c, common); }; });
+  };
+  add("close", "Close routes of a map: no plan takes them", map_close);
+  add("open", "Open closed routes of a map again", map_open);
+}
+
 }  // namespace
 
 void add_map_files(CLI::App& app, MapFileOptions& options, const CommonOptions& common, Action& action) {
@@ -70,6 +82,7 @@ void add_map_files(CLI::App& app, MapFileOptions& options, const CommonOptions& 
   add_merge(map, options.merge, common, action);
   add_crop(map, options.crop, common, action);
   add_diff(map, options.diff, common, action);
+  add_close(map, options.close, common, action);
 }
 
 }  // namespace cairn

@@ -1,4 +1,4 @@
-// The options of the commands that make files of maps: import, export, merge, crop, diff.
+// The options of the commands that make or change files of maps: import, export, merge, crop, diff, close, open.
 #pragma once
 
 #include "framework/program/commands.hpp"
@@ -11,6 +11,7 @@ struct MapFileOptions {
   MergeCommand merge;
   CropCommand crop;
   DiffCommand diff;
+  CloseCommand close;
 };
 
 // Below `cairn map`. The options and the action must outlive the parsing.

@@ -4,15 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/commands.hpp"
+#include "framework/program/exchange_told.hpp"
 #include "maps/map_store_repair.hpp"
 
 namespace cairn {
 namespace {
 
 using nlohmann::ordered_json;
-
-// What is damaged may be no text.
-constexpr auto kBadText = ordered_json::error_handler_t::replace;
 
 std::string text_of(const StoreLoss& loss) {
   std::string text = "table " + loss.table + ": " + loss.what;
@@ -57,7 +55,12 @@ int map_check(const MapCommand& command, const CommonOptions& common) {
   std::string unproven;
   const std::string fault = fault_of(command.map, &unproven);
   std::vector<StoreLoss> losses;
-  if (!fault.empty()) losses = salvage_map(command.map).losses;  // throws on what is no saved map at all
+  try {
+    if (!fault.empty()) losses = salvage_map(command.map).losses;
+  } catch (const StoreError& error) {  // no saved map at all, or nothing left of one
+    if (common.json) tell_json({{"file", command.map.string()}, {"outcome", "not_readable"}, {"reason", error.what()}});
+    throw;
+  }
   if (common.json) {
     ordered_json report = {{"file", command.map.string()}, {"outcome", fault.empty() ? "sound" : "damaged"}};
     if (!unproven.empty()) report["unproven_tables"] = unproven;
@@ -65,7 +68,7 @@ int map_check(const MapCommand& command, const CommonOptions& common) {
       report["reason"] = fault;
       report["lost"] = json_of(losses);
     }
-    std::cout << report.dump(-1, ' ', false, kBadText) << "\n";
+    tell_json(report);
   } else if (fault.empty()) {
     std::cout << command.map.string() << ": sound"
               << (unproven.empty() ? "" : ", but a repair has kept values that are not proven, in: " + unproven)
@@ -93,13 +96,11 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
       salvaged.losses.empty() ? "nothing was lost" : "saved without the above", salvaged.map.graph.landmarks().size(),
       salvaged.map.graph.routes().size(), 100.0 * known_ratio(salvaged.map.grid));
   if (common.json)
-    std::cout << ordered_json{{"file", command.map.string()},
-                              {"map", command.repaired.string()},
-                              {"outcome", is_sound ? "sound" : "repaired"},
-                              {"lost", json_of(salvaged.losses)},
-                              {"kept", json_of_kept(salvaged.map)}}
-                     .dump(-1, ' ', false, kBadText)
-              << "\n";
+    tell_json({{"file", command.map.string()},
+               {"map", command.repaired.string()},
+               {"outcome", is_sound ? "sound" : "repaired"},
+               {"lost", json_of(salvaged.losses)},
+               {"kept", json_of_kept(salvaged.map)}});
   return kExitDone;
 }
 

@@ -24,13 +24,15 @@ void hold_folder(const std::filesystem::path& folder) {
 }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
+  errno = 0;
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
   if (out) return;
+  const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : std::string();
   std::error_code error;
   if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);  // half of it is of no use
-  throw std::runtime_error(file.string() + ": cannot be written");
+  throw std::runtime_error(file.string() + ": cannot be written" + why);
 }
 
 }  // namespace cairn

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <ostream>
 #include <stdexcept>
 
@@ -24,16 +23,6 @@ CostKind cost_kind_of(const std::string& name) {
     if (name_of(kind) == name) return kind;
   throw std::invalid_argument("cost \"" + name + "\" is not length, time or clearance" +
                               did_you_mean(name, {"length", "time", "clearance"}));
-}
-
-RouteId route_of(const std::string& text, const LandmarkGraph& graph) {
-  RouteId id = 0;
-  const std::string digits = text.starts_with('R') ? text.substr(1) : text;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
-  if (error != std::errc{} || end != digits.data() + digits.size())
-    throw MalformedPlace("route \"" + text + "\": a route is named by its number, as 12 or R12");
-  if (graph.find_route(id) == nullptr) throw PlaceError("the map has no route " + std::to_string(id));
-  return id;
 }
 
 // The landmarks that a landmark's or a cluster's name stands for.
@@ -146,7 +135,7 @@ PlanTask task_of(const PlanQuestion& question, const SavedMap& map, const Cluste
     const auto landmarks = landmarks_called(name, map, clusters);
     task.request.avoid.insert(task.request.avoid.end(), landmarks.begin(), landmarks.end());
   }
-  for (const std::string& route : question.closed) task.request.closed.push_back(route_of(route, map.graph));
+  for (const std::string& route : question.closed) task.request.closed.push_back(parse_route(route, map.graph));
   task.request.cost = cost_kind_of(question.cost);
   task.request.alternatives = question.alternatives;
   task.request.explain = question.explain;

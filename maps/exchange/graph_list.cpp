@@ -87,6 +87,12 @@ class Cursor {
     return static_cast<std::int64_t>(id);
   }
 
+  double coordinate_m(const char* what, const char* line) {
+    const double value_m = number(what, line);
+    source_.check_coordinate(token_, value_m);
+    return value_m;
+  }
+
   double number(const char* what, const char* line) {
     const std::string_view text = required(what, line);
     double value = 0.0;
@@ -127,8 +133,8 @@ Node node_of(Cursor& line) {
   Node node;
   node.id = line.id("the node's id", kNodeLine);
   node.offset = line.offset();
-  node.x_m = line.number("x_m", kNodeLine);
-  node.y_m = line.number("y_m", kNodeLine);
+  node.x_m = line.coordinate_m("x_m", kNodeLine);
+  node.y_m = line.coordinate_m("y_m", kNodeLine);
   node.name = name_of(line);
   return node;
 }

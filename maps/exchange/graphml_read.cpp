@@ -120,7 +120,8 @@ class Reader {
       const pugi::xml_node geometry = shape.child("y:Geometry");
       const Point middle(geometry.attribute("x").as_double() + 0.5 * geometry.attribute("width").as_double(),
                          -geometry.attribute("y").as_double() - 0.5 * geometry.attribute("height").as_double());
-      const bool is_placed = geometry.attribute("x") && geometry.attribute("y") && middle.allFinite();
+      const bool is_placed = geometry.attribute("x") && geometry.attribute("y") &&
+                             middle.cwiseAbs().maxCoeff() <= exchange::kMostCoordinate_m;
       const std::string_view label = shape.child("y:NodeLabel").child_value();
       exchange::check_text(source_, label, offset_of(shape));
       return {is_placed ? std::optional(middle) : std::nullopt, exchange::trimmed(label)};
@@ -197,8 +198,8 @@ class Reader {
   }
 
   void take_node(GraphmlValues& values, Landmark& landmark, const pugi::xml_node& node) {
-    const std::optional<double> x_m = values.take_number({"x", "x_m"});
-    const std::optional<double> y_m = values.take_number({"y", "y_m"});
+    const std::optional<double> x_m = values.take_coordinate({"x", "x_m"});
+    const std::optional<double> y_m = values.take_coordinate({"y", "y_m"});
     const Drawn drawn = drawn_of(node);
     if (x_m && y_m) {
       landmark.T_map_landmark = {*x_m, *y_m, 0.0};

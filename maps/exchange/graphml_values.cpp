@@ -60,6 +60,14 @@ std::optional<double> GraphmlValues::take_number(const Names& names) {
   return value ? std::optional(number(*value)) : std::nullopt;
 }
 
+std::optional<double> GraphmlValues::take_coordinate(const Names& names) {
+  const std::optional<GraphmlValue> value = take(names);
+  if (!value) return std::nullopt;
+  const double coordinate_m = number(*value);
+  source_.check_coordinate(value->offset, coordinate_m);
+  return coordinate_m;
+}
+
 bool GraphmlValues::flag(const GraphmlValue& value) const {
   std::string text = trimmed(value.text);
   for (char& c : text)

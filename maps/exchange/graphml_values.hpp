@@ -31,6 +31,7 @@ class GraphmlValues {
   // The value of the first of these names that is there; it is there no longer.
   std::optional<GraphmlValue> take(const Names& names);
   std::optional<double> take_number(const Names& names);  // finite
+  std::optional<double> take_coordinate(const Names& names);
   bool take_flag(std::string_view name);
   int take_level();
   std::string take_text(const Names& names);

@@ -188,6 +188,8 @@ class Reader {
     node.offset = exchange::offset_of(source_, feature.offset(), {"properties", "id"});
     const Json point = feature.geometry().value("coordinates", Json());
     check_point(feature, point, {"geometry", "coordinates"});
+    const std::size_t at = exchange::offset_of(source_, feature.offset(), {"geometry", "coordinates"});
+    for (int i : {0, 1}) source_.check_coordinate(at, point[i].get<double>());
     node.landmark.T_map_landmark = {point[0].get<double>(), point[1].get<double>(), 0.0};
     node.landmark.name = exchange::name_in(feature.properties());
     node.landmark.category = exchange::category_in(feature.properties());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 
 namespace cairn::exchange {
@@ -59,6 +60,12 @@ void SourceText::fail(const std::string& sentence) const {
 
 void SourceText::fail_cut(std::size_t offset, const std::string& sentence) const {
   fail(offset, sentence + "; the file ends here, it may have been cut");
+}
+
+void SourceText::check_coordinate(std::size_t offset, double coordinate_m) const {
+  if (!(std::abs(coordinate_m) <= kMostCoordinate_m))
+    fail(offset, "the coordinate " + number_text(coordinate_m) + " is not allowed: it must be within " +
+                     number_text(kMostCoordinate_m) + " m");
 }
 
 std::string text_of_file(const std::filesystem::path& file) {

@@ -19,6 +19,9 @@ class ExchangeError : public std::runtime_error {
 
 namespace exchange {
 
+// Room for every grid reference on Earth; squares and sums of what is far beyond would be no numbers any more.
+inline constexpr double kMostCoordinate_m = 1e9;
+
 // Refers to the text, which outlives it.
 class SourceText {
  public:
@@ -31,6 +34,8 @@ class SourceText {
   [[noreturn]] void fail(const std::string& sentence) const;
   // As fail(), for what is wrong where the file ends.
   [[noreturn]] void fail_cut(std::size_t offset, const std::string& sentence) const;
+  // Fails when a coordinate that stands there is beyond kMostCoordinate_m.
+  void check_coordinate(std::size_t offset, double coordinate_m) const;
 
  private:
   std::string_view text_;

@@ -50,6 +50,29 @@ TEST_F(MapEdit, NoInputIsOverwrittenUnlessOutNamesIt) {
   EXPECT_EQ(map("a.cairn").grid.bounds(), (CellBox{{0, 0}, {2, 2}}));
 }
 
+TEST_F(MapEdit, RoutesAreClosedAndOpened) {
+  SavedMap two = map("a.cairn");
+  Landmark other = two.graph.landmarks().begin()->second;
+  other.id = 2;
+  other.T_map_landmark.x_m += 0.1;
+  two.graph.add(other);
+  two.graph.add_route({3, 1, 2, 5.0, {}, false, false, 0});
+  two.graph.add_route({4, 2, 1, 5.0, {}, false, false, 0});
+  save("two.cairn", two);
+  const auto closed = [&] {
+    const SavedMap now = map("two.cairn");
+    return std::pair(now.graph.find_route(3)->closed, now.graph.find_route(4)->closed);
+  };
+  EXPECT_EQ(done({"close", file("two.cairn"), "R4"})["changed"], (json{4}));
+  EXPECT_EQ(closed(), std::pair(false, true));
+  EXPECT_EQ(done({"close", file("two.cairn"), "4", "R3", "3"})["changed"], (json{3}));
+  EXPECT_EQ(done({"open", file("two.cairn"), "R3", "--both-ways"})["changed"], (json{3, 4}));
+  EXPECT_EQ(closed(), std::pair(false, false));
+  EXPECT_EQ(refused({"close", file("two.cairn"), "R9"}), "cairn: the map has no route 9\n");
+  EXPECT_EQ(refused({"close", file("two.cairn"), "L1"}),
+            "cairn: route \"L1\": a route is named by its number, as 12 or R12\n");
+}
+
 TEST_F(MapEdit, CropTellsWhatItDrops) {
   const json told = done({"crop", file("a.cairn"), "--box", "0.05,0,0.0,0.05", "-o", file("c.cairn")});
   EXPECT_EQ(told["size_cells"], (json{1, 1}));

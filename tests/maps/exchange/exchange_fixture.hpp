@@ -45,6 +45,10 @@ inline double random_number(std::mt19937_64& random) {
   }
 }
 
+inline double random_coordinate(std::mt19937_64& random) {
+  return std::remainder(random_number(random), 2.0 * exchange::kMostCoordinate_m);
+}
+
 inline std::string random_name(std::mt19937_64& random) {
   static const std::vector<std::string> kParts{"dock", "<&>", "\"q\"", "\xC3\xA4", " ", "#", "'", "]]>", "L7", "a\\b"};
   std::string name = "n";  // begins with a letter, so that a line of the plain list holds it
@@ -62,7 +66,8 @@ inline LandmarkGraph random_graph(std::mt19937_64& random) {
     Landmark landmark;
     landmark.id = id;
     if (random() % 2 == 0) landmark.name = random_name(random);
-    landmark.T_map_landmark = {random_number(random), random_number(random), 0.0};
+    const double x_m = random_coordinate(random);
+    landmark.T_map_landmark = {x_m, random_coordinate(random), 0.0};
     ids.push_back(graph.add(landmark));
   }
   for (std::uint64_t i = random() % 20; i > 0; --i) {

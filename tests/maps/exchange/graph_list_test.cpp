@@ -83,6 +83,7 @@ TEST(GraphList, RefusesBadIds) {
 TEST(GraphList, RefusesBadNumbers) {
   EXPECT_EQ(refused("node 1 nan 0\n"), "1:8: x_m \"nan\" is not allowed: it must be a finite number");
   EXPECT_EQ(refused("node 1 0 inf\n"), "1:10: y_m \"inf\" is not allowed: it must be a finite number");
+  EXPECT_EQ(refused("node 1 0 -1e300\n"), "1:10: the coordinate -1e+300 is not allowed: it must be within 1e+09 m");
   EXPECT_EQ(refused("node 1 0 1e999\n"), "1:10: y_m \"1e999\" is not allowed: it must be a finite number");
   EXPECT_EQ(refused("node 1 3,5 0\n"), "1:8: x_m \"3,5\" is no number");
   EXPECT_EQ(refused("edge 1 2 -0.5\nnode 1 0 0\n"), "1:10: the cost -0.5 is not allowed: it must not be negative");

@@ -114,6 +114,8 @@ TEST(GraphMl, RefusesBadNodes) {
   EXPECT_EQ(refused("<node id=\"a\"/>"), "2:2: node \"a\" has no place: the keys x and y, in metres");
   EXPECT_EQ(refused(node("a") + node("b") + node("a")), "4:2: node \"a\" is there already, in line 2");
   EXPECT_EQ(refused(R"(<node id="1"><data key="d0">nan</data></node>)"), "2:15: x \"nan\" is no finite number");
+  EXPECT_EQ(refused(R"(<node id="1"><data key="d0">2e9</data></node>)"),
+            "2:15: the coordinate 2e+09 is not allowed: it must be within 1e+09 m");
   EXPECT_EQ(refused(R"(<node id="1"><data key="d0"/></node>)"), "2:15: x \"\" is no finite number");
   EXPECT_EQ(refused(R"(<node id="1"><data key="x">1</data></node>)"), "2:15: the key \"x\" is not declared");
   EXPECT_EQ(refused(node("1", "<data key=\"d7\">1.5</data>")),

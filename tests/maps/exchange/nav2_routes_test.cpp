@@ -221,6 +221,8 @@ TEST(Nav2Routes, RefusesBadGeometry) {
   EXPECT_EQ(refused(node(R"("id": 3)", "[1]")), "4:91: " + numbers + "\"[1]\"");
   EXPECT_EQ(refused(node(R"("id": 3)", "[1, 2, 3, 4]")), "4:91: " + numbers + "\"[1,2,3,4]\"");
   EXPECT_EQ(refused(node(R"("id": 3)", "[1, null]")), "4:91: " + numbers + "\"[1,null]\"");
+  EXPECT_EQ(refused(node(R"("id": 3)", "[1, -1e300]")),
+            "4:91: the coordinate -1e+300 is not allowed: it must be within 1e+09 m");
   EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1, "endid": 2)", "[[[1, 2], [3]]]")), "4:137: " + numbers + "\"[3]\"");
   EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1, "endid": 2)", "[[[1, 2], [3, 4]], 7]")),
             "4:146: a line must be an array of points");

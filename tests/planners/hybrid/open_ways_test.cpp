@@ -12,6 +12,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+// Later than the calls before the ending one take on a slow machine, and then waited for.
+constexpr std::chrono::milliseconds kLater{1500};
+
 // Has its budget end during a call: sets the cancel flag, or waits for the deadline.
 class EndingPlanner : public Planner {
  public:
@@ -90,7 +93,7 @@ TEST_F(OpenWays, ABudgetThatEndsWithinTheLoopEndsIt) {
       std::atomic<bool> cancel{false};
       Budget budget;
       budget.cancel = &cancel;
-      if (by_deadline) budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(200);
+      if (by_deadline) budget.deadline = Budget::Clock::now() + kLater;
       const auto ending =
           std::make_shared<EndingPlanner>(std::make_shared<LandmarkSearch>(), call, by_deadline ? nullptr : &cancel);
       const PlanResult result = plan_with(router, ending, budget);
@@ -100,7 +103,7 @@ TEST_F(OpenWays, ABudgetThatEndsWithinTheLoopEndsIt) {
     std::atomic<bool> cancel{false};
     Budget budget;
     budget.cancel = &cancel;
-    if (by_deadline) budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(200);
+    if (by_deadline) budget.deadline = Budget::Clock::now() + kLater;
     const auto ending = std::make_shared<EndingPlanner>(std::make_shared<OmplPlanner>(OmplConfig{}), 1,
                                                         by_deadline ? nullptr : &cancel);
     searcher->calls = 0;
