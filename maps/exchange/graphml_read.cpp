@@ -255,7 +255,6 @@ class Reader {
                    "the cost " + exchange::number_text(*cost_m) + " is not allowed: it must not be negative");
     const Point from = imported_.graph.find(route.from)->T_map_landmark.position();
     route.cost_m = cost_m.value_or((imported_.graph.find(route.to)->T_map_landmark.position() - from).norm());
-    if (!std::isfinite(route.cost_m)) source_.fail(offset_of(edge), "the straight length of this edge is not finite");
     unset_costs_ += !cost_m;
     route.closed = values.take_flag("closed");
     route.driven = values.take_flag("driven");
