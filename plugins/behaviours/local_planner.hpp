@@ -51,8 +51,8 @@ struct LocalStep {
 // Keeps what is near the robot, and the velocity it goes at: the state of a behaviour that avoids obstacles.
 class LocalPlanner {
  public:
-  // Every tick. What the grid (as corrected by near echoes) holds occupied, but for doubted cells, and the last echo of
-  // each transducer.
+  // Every tick. What the grid (as corrected by near echoes) holds occupied, but for doubted cells and those that a live
+  // echo has passed through, and the last echo of each transducer.
   void see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted = {});
   // The velocity for this tick; after see(). aim_map: the point of the path that the preferred velocity goes for.
   [[nodiscard]] Twist steer(const Twist& preferred, const Point& aim_map, double speed_mps, const WorldView& world);
@@ -66,10 +66,14 @@ class LocalPlanner {
  private:
   struct Echo {
     double stamp_s = -1e9;
+    double range_m = 0.0;  // +inf: none
+    double half_beam_rad = 0.0;
+    Pose2 T_map_sensor;
     std::vector<Point> points_map;
   };
   void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted);
   void hear(const RangeReading& reading, const WorldView& world);
+  [[nodiscard]] bool is_seen_through(const Point& p_map, double time_s) const;
   [[nodiscard]] Twist now(const WorldView& world) const;
 
   std::vector<Point> cells_map_;

@@ -8,6 +8,7 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kPlansApart_s = 1.0;
+constexpr double kOwnPlansApart_s = 3.0;  // they cost more
 constexpr double kBlockedAhead_m = 1.0;
 constexpr double kGettingOn_m = 0.8;  // from where it was held back
 constexpr int kMostHoldUps = 40;
@@ -15,6 +16,7 @@ constexpr double kWayOutTolerance_m = 0.02;
 constexpr double kTrace_m = 0.1;
 constexpr std::size_t kMostTrace = 400;
 constexpr double kTroubleFor_s = 60.0;
+constexpr double kEchoesKept_s = 15.0;
 constexpr double kClosedFor_s = 60.0;
 constexpr double kBackUp_mps = 0.1;
 constexpr double kBackUp_m = 0.2;
@@ -27,6 +29,8 @@ constexpr double kLookAtMost_s = 25.0;  // for a door to open
 // What is doubted is gone near at a speed at which touching it would do no harm.
 constexpr double kDoubtNear_m = 0.25;
 constexpr double kDoubtful_mps = 0.05;
+constexpr double kAboutLook_m = 0.8;
+constexpr double kOpened_m = 0.7;             // of the cells of a wall in a row
 constexpr double kSweep_rad = radians(25.0);  // looked at from a little aside, too
 constexpr double kSweep_s = 4.0;
 constexpr int kForgetsInRound = 3;  // of the ladder: what the near echoes have said
@@ -70,12 +74,7 @@ Status RouteDriver::tick(const Place& goal, const WorldView& world, Orders& orde
 
 void RouteDriver::remember(const WorldView& world) {
   const Pose2& pose = world.pose.T_map_robot;
-  if (!near_echoes_) {
-    near_echoes_.emplace(world.grid);
-    last_theta_rad_ = pose.theta_rad;
-  }
-  if (world.observation != nullptr) near_echoes_->see(*world.observation, pose);
-  near_echoes_->stand_at(pose.position(), world.robot.radius_m);
+  hear(world);
   if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTrace_m) trace_.push_back(pose);
   if (trace_.size() > kMostTrace) trace_.erase(trace_.begin());
   std::erase_if(troubles_, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
@@ -85,11 +84,48 @@ void RouteDriver::remember(const WorldView& world) {
   local_.see(world, *near_echoes_, doubted_);
 }
 
+void RouteDriver::forget_echoes(const WorldView& world) {
+  near_echoes_.emplace(world.grid);
+  later_echoes_.emplace(world.grid);
+  echoes_since_s_ = world.time_s;
+}
+
+// Somebody who has gone on leaves near echoes that no later one takes away: they count for a while only.
+void RouteDriver::hear(const WorldView& world) {
+  const Pose2& pose = world.pose.T_map_robot;
+  if (!near_echoes_) {
+    forget_echoes(world);
+    last_theta_rad_ = pose.theta_rad;
+  }
+  if (world.time_s - echoes_since_s_ > kEchoesKept_s) {
+    near_echoes_ = std::move(later_echoes_);
+    later_echoes_.emplace(world.grid);
+    echoes_since_s_ = world.time_s;
+  }
+  for (NearEchoes* echoes : {&*near_echoes_, &*later_echoes_}) {
+    if (world.observation != nullptr) echoes->see(*world.observation, pose);
+    echoes->stand_at(pose.position(), world.robot.radius_m);
+  }
+}
+
 void RouteDriver::set_mode(Mode mode, double time_s) {
   mode_ = mode;
   mode_since_s_ = time_s;
   preferred_ = {};
   watch_.restart();
+}
+
+// Something has turned up on the path: another one, if there is.
+void RouteDriver::plan_past(const WorldView& world, Orders& orders) {
+  if (own_trust_) {
+    if (world.time_s - planned_s_ < kOwnPlansApart_s) return;
+    planned_s_ = world.time_s;
+    (void)plan_by_own_eyes(world, *own_trust_);  // without one it goes on: what is there the live echoes tell
+    return;
+  }
+  const PlanResult result = ask_planner(world, orders);
+  for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
+  if (result.outcome == PlanOutcome::solved) take_route(result);
 }
 
 Status RouteDriver::travel(const WorldView& world, Orders& orders) {
@@ -104,9 +140,7 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
       set_mode(Mode::look, world.time_s);
       return look(world, orders);
     }
-    const PlanResult result = ask_planner(world, orders);
-    for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
-    if (result.outcome == PlanOutcome::solved) take_route(result);
+    plan_past(world, orders);
   }
   FollowLimits limits = follow_limits(world.robot, settings_.speed_mps);
   const bool doubts_here = std::ranges::any_of(doubted_places_, [&](const Point& p) {
@@ -156,7 +190,7 @@ Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
   troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kTroubleFor_s});
   if (round_ >= 2) close_route_here(world, orders);
   // Votes of before a slip may stand in the way that the map has long cleared.
-  if (round_ == kForgetsInRound) near_echoes_.emplace(world.grid);
+  if (round_ == kForgetsInRound) forget_echoes(world);
   set_mode(Mode::back_up, world.time_s);
   return back_up(world, orders);
 }
@@ -211,11 +245,23 @@ Status RouteDriver::look(const WorldView& world, Orders& orders) {
   const double error_rad = wrap_angle(heading_error(world.pose.T_map_robot, look_at_) + aside_rad);
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
   if (can_turn) orders.drive(local_.approach(turn_by(error_rad, kTurn_radps), world));
-  const bool is_open = !near_echoes_->is_occupied(world.grid, world.grid.cell_at(look_at_));
-  if (waited_s < kLookAtLeast_s || (!is_open && waited_s < kLookAtMost_s))
-    return {Progress::running, "looking whether the way is free again"};
+  const bool goes_on = waited_s < kLookAtLeast_s || (!has_opened(world) && waited_s < kLookAtMost_s);
+  if (goes_on) return {Progress::running, "looking whether the way is free again"};
   set_mode(Mode::plan, world.time_s);
   return plan(world, orders);
+}
+
+// Nothing stands at the place, or clearly less stands about it than did at most while it was looked at.
+bool RouteDriver::has_opened(const WorldView& world) {
+  const Cell at = world.grid.cell_at(look_at_);
+  if (!near_echoes_->is_occupied(world.grid, at)) return true;
+  const int reach = static_cast<int>(kAboutLook_m / world.grid.cell_m());
+  int occupied = 0;
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (near_echoes_->is_occupied(world.grid, at + Cell{dx, dy})) ++occupied;
+  look_most_ = std::max(look_most_, occupied);
+  return occupied * world.grid.cell_m() < look_most_ * world.grid.cell_m() - kOpened_m;
 }
 
 Status RouteDriver::face(const WorldView& world, Orders& orders) {

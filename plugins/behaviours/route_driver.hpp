@@ -65,6 +65,8 @@ class RouteDriver {
   enum class Trust { all, no_specks, only_solid };
 
   void remember(const WorldView& world);
+  void hear(const WorldView& world);
+  void forget_echoes(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   Status plan(const WorldView& world, Orders& orders);
   [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
@@ -80,6 +82,8 @@ class RouteDriver {
   Status held_back(const WorldView& world, Orders& orders);
   Status back_up(const WorldView& world, Orders& orders);
   Status turn(const WorldView& world, Orders& orders);
+  void plan_past(const WorldView& world, Orders& orders);
+  [[nodiscard]] bool has_opened(const WorldView& world);
   Status look(const WorldView& world, Orders& orders);
   Status face(const WorldView& world, Orders& orders);
   void close_route_here(const WorldView& world, Orders& orders);
@@ -105,11 +109,13 @@ class RouteDriver {
   std::vector<PlanPiece> pieces_;   // of the path, when it is the planner's
   std::map<RouteId, double> closed_until_s_;
 
-  std::optional<NearEchoes> near_echoes_;  // from the first tick on
-  std::vector<Pose2> trace_;               // where the robot has been
-  std::vector<TroubleSpot> troubles_;      // where it was held back
-  CellSet doubted_;                        // left out of account on the way by its own eyes
-  std::vector<Point> doubted_places_;      // the occupied ones
+  std::optional<NearEchoes> near_echoes_;   // from the first tick on; of the last 15 to 30 s
+  std::optional<NearEchoes> later_echoes_;  // that will be the next near_echoes_
+  double echoes_since_s_ = 0.0;
+  std::vector<Pose2> trace_;           // where the robot has been
+  std::vector<TroubleSpot> troubles_;  // where it was held back
+  CellSet doubted_;                    // left out of account on the way by its own eyes
+  std::vector<Point> doubted_places_;  // the occupied ones
   LocalPlanner local_;
   HeldBackWatch watch_;
   Twist preferred_;  // of the last tick
@@ -118,7 +124,9 @@ class RouteDriver {
   int ways_out_ = 0;
   int looks_ = 0;
   int unknown_ways_ = 0;
+  std::optional<Trust> own_trust_;  // the path is one by its own eyes
   Point look_at_{0.0, 0.0};
+  int look_most_ = 0;  // occupied cells about it
   std::vector<Point> looked_at_;
   int round_ = 0;     // of the ladder, at this place
   int hold_ups_ = 0;  // in all

@@ -24,12 +24,12 @@ constexpr double kTightClearance_m = 0.03;
 constexpr double kAroundGoal_m = 1.0;
 constexpr int kMostAcross_cells = 1000;
 constexpr double kFree = 0.1;  // probability of what is taken to be free
-constexpr int kMostLooks = 6;
-constexpr int kLooksBeforeAgain = 3;  // then at the same places once more
+constexpr int kMostLooks = 12;
+constexpr int kLooksBeforeAgain = 6;  // then at the same places once more
 constexpr double kAroundLook_m = 0.7;
 constexpr int kMostUnknownWays = 20;
-constexpr double kStandOff_m = 0.6;  // from what is looked at
-constexpr double kStandOffNearer_m = 0.4;
+constexpr double kStandOff_m = 0.8;  // from what is looked at
+constexpr double kStandOffNearer_m = 0.5;
 
 std::string text_of(const Point& p) {
   char text[48];
@@ -131,6 +131,7 @@ void RouteDriver::take_route(const PlanResult& result) {
   pieces_ = result.pieces;
   follow_state_ = {0.0, follow_state_.turning};
   leg_ = Leg::route;
+  own_trust_.reset();
   if (!path_.empty()) route_end_ = path_.back();
   const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
     return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
@@ -143,8 +144,10 @@ Status RouteDriver::plan(const WorldView& world, Orders& orders) {
   if (world.time_s - planned_s_ < kPlansApart_s) return {Progress::running, "waiting to plan again"};
   if (plans_ >= kMostPlans) return give_up(world);
   // The planner knows nothing of what has held the robot back there: from the second time on, a way round that.
-  if (round_ >= 2 && round_ % 2 == 0 && plan_by_own_eyes(world, Trust::all))
+  if (round_ >= 2 && round_ % 2 == 0 && plan_by_own_eyes(world, Trust::all)) {
+    set_mode(Mode::travel, world.time_s);
     return {Progress::running, "going round what held it back"};
+  }
   const PlanResult result = ask_planner(world, orders);
   for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
   if (result.outcome != PlanOutcome::solved) return no_plan(result, world, orders);
@@ -176,10 +179,10 @@ bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
     pieces_.clear();
     follow_state_ = {0.0, follow_state_.turning};
     leg_ = Leg::route;
+    own_trust_ = trust;
     planned_s_ = world.time_s;
     stop_doubting();
     if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
-    set_mode(Mode::travel, world.time_s);
     return true;
   }
   return false;
@@ -196,6 +199,7 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
   if (!is_final && (plan_by_own_eyes(world, Trust::all) || plan_by_own_eyes(world, Trust::no_specks) ||
                     (may_explore && plan_by_own_eyes(world, Trust::only_solid)))) {
     ++unknown_ways_;
+    set_mode(Mode::travel, world.time_s);
     return {Progress::running, "under way by what it sees itself"};
   }
   if (!is_final && begin_look(world)) {
@@ -224,11 +228,12 @@ bool RouteDriver::begin_look(const WorldView& world) {
   const std::optional<Point> goal = goal_point(world);
   if (!goal) return false;
   if (looks_ == kLooksBeforeAgain) looked_at_.clear();
-  const double stand_off_m = looks_ < 2 ? kStandOff_m : kStandOffNearer_m;
+  const double stand_off_m = looks_ < kLooksBeforeAgain ? kStandOff_m : kStandOffNearer_m;
   const std::optional<WayToLook> way = way_to_look(space_now(world, kTightClearance_m, Trust::all), world.grid,
                                                    world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
   if (!way) return false;
   ++looks_;
+  look_most_ = 0;
   look_at_ = way->at;
   looked_at_.push_back(look_at_);
   path_ = way->path;

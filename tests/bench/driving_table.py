@@ -25,7 +25,7 @@ autosave: {{every_s: 0}}
 steps:
   - always: {{explore: {{until_known_ratio: 0.97, at_most_s: {explore_s}, look_closer_m: 0}}}}
 {goals}"""
-GOAL = "  - always: {{goto: {{at_m: [{x:.2f}, {y:.2f}], at_most_s: 300}}}}\n"
+GOAL = "  - always: {{goto: {{at_m: [{x:.2f}, {y:.2f}]}}}}\n"
 
 
 def worlds(args, seeds):
