@@ -208,15 +208,18 @@ void LocalPlanner::hear(const RangeReading& reading, const WorldView& world) {
 }
 
 // An echo from behind a place says that nothing is there now; silence does not, for a mirror is silent too.
-bool LocalPlanner::is_seen_through(const Point& p_map, double time_s) const {
-  return std::ranges::any_of(echoes_, [&](const Echo& echo) {
-    if (time_s - echo.stamp_s > kEchoCounts_s || !std::isfinite(echo.range_m)) return false;
+LocalPlanner::Live LocalPlanner::live_echo_at(const Point& p_map, double time_s) const {
+  Live live = Live::silent;
+  for (const Echo& echo : echoes_) {
+    if (time_s - echo.stamp_s > kEchoCounts_s || !std::isfinite(echo.range_m)) continue;
     const Point to = p_map - echo.T_map_sensor.position();
-    const double distance_m = to.norm();
-    if (distance_m > echo.range_m - kBehind_m) return false;
+    const double behind_m = echo.range_m - to.norm();
     const double off_rad = wrap_angle(std::atan2(to.y(), to.x()) - echo.T_map_sensor.theta_rad);
-    return std::abs(off_rad) <= kSurelyInBeam * echo.half_beam_rad;
-  });
+    if (std::abs(off_rad) > kSurelyInBeam * echo.half_beam_rad || behind_m < -kBehind_m) continue;
+    if (behind_m >= kBehind_m) return Live::seen_through;
+    live = Live::there;
+  }
+  return live;
 }
 
 void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted) {
@@ -228,7 +231,7 @@ void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, co
   obstacles_.clear();
   const Pose2 T_robot_map = inverse(world.pose.T_map_robot);
   for (const Point& p : cells_map_)
-    if (!is_seen_through(p, world.time_s)) obstacles_.push_back(T_robot_map * p);
+    if (live_echo_at(p, world.time_s) != Live::seen_through) obstacles_.push_back(T_robot_map * p);
   for (const Echo& echo : echoes_) {
     if (world.time_s - echo.stamp_s > kEchoCounts_s) continue;
     for (const Point& p : echo.points_map) obstacles_.push_back(T_robot_map * p);

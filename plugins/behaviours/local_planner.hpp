@@ -60,6 +60,9 @@ class LocalPlanner {
   [[nodiscard]] Twist approach(const Twist& target, const WorldView& world);
 
   [[nodiscard]] bool is_blocked() const { return blocked_; }
+  // What the live echoes (not silence) say of a place: something is there, nothing is, or neither.
+  enum class Live { silent, there, seen_through };
+  [[nodiscard]] Live live_echo_at(const Point& p_map, double time_s) const;
   // In the robot frame, as of the last see().
   [[nodiscard]] const std::vector<Point>& obstacles() const { return obstacles_; }
 
@@ -73,7 +76,6 @@ class LocalPlanner {
   };
   void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted);
   void hear(const RangeReading& reading, const WorldView& world);
-  [[nodiscard]] bool is_seen_through(const Point& p_map, double time_s) const;
   [[nodiscard]] Twist now(const WorldView& world) const;
 
   std::vector<Point> cells_map_;

@@ -29,8 +29,10 @@ constexpr double kLookAtMost_s = 25.0;  // for a door to open
 // What is doubted is gone near at a speed at which touching it would do no harm.
 constexpr double kDoubtNear_m = 0.25;
 constexpr double kDoubtful_mps = 0.05;
-constexpr double kAboutLook_m = 0.8;
-constexpr double kOpened_m = 0.7;             // of the cells of a wall in a row
+constexpr double kAboutLook_m = 1.0;
+constexpr double kOpened_m = 0.7;  // of cells in a row
+constexpr int kSeenThrough_ticks = 10;
+constexpr int kSurely_ticks = 50;
 constexpr double kSweep_rad = radians(25.0);  // looked at from a little aside, too
 constexpr double kSweep_s = 4.0;
 constexpr int kForgetsInRound = 3;  // of the ladder: what the near echoes have said
@@ -245,23 +247,37 @@ Status RouteDriver::look(const WorldView& world, Orders& orders) {
   const double error_rad = wrap_angle(heading_error(world.pose.T_map_robot, look_at_) + aside_rad);
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
   if (can_turn) orders.drive(local_.approach(turn_by(error_rad, kTurn_radps), world));
-  const bool goes_on = waited_s < kLookAtLeast_s || (!has_opened(world) && waited_s < kLookAtMost_s);
+  const bool is_open = has_opened(world);
+  const bool goes_on = waited_s < kLookAtLeast_s || (!is_open && waited_s < kLookAtMost_s);
   if (goes_on) return {Progress::running, "looking whether the way is free again"};
   set_mode(Mode::plan, world.time_s);
   return plan(world, orders);
 }
 
-// Nothing stands at the place, or clearly less stands about it than did at most while it was looked at.
+// Nothing stands at the place, or the echoes go through enough of what the map holds occupied about it: a door's worth.
 bool RouteDriver::has_opened(const WorldView& world) {
-  const Cell at = world.grid.cell_at(look_at_);
-  if (!near_echoes_->is_occupied(world.grid, at)) return true;
-  const int reach = static_cast<int>(kAboutLook_m / world.grid.cell_m());
-  int occupied = 0;
-  for (int dy = -reach; dy <= reach; ++dy)
-    for (int dx = -reach; dx <= reach; ++dx)
-      if (near_echoes_->is_occupied(world.grid, at + Cell{dx, dy})) ++occupied;
-  look_most_ = std::max(look_most_, occupied);
-  return occupied * world.grid.cell_m() < look_most_ * world.grid.cell_m() - kOpened_m;
+  const OccupancyGrid& grid = world.grid;
+  const Cell at = grid.cell_at(look_at_);
+  const int reach = static_cast<int>(kAboutLook_m / grid.cell_m());
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const Cell c = at + Cell{dx, dy};
+      if (!near_echoes_->is_occupied(grid, c)) continue;
+      const LocalPlanner::Live live = local_.live_echo_at(grid.centre_of(c), world.time_s);
+      if (live == LocalPlanner::Live::silent) continue;
+      int& ticks = through_[c];
+      ticks = std::clamp(ticks + (live == LocalPlanner::Live::there ? -1 : 1), -kSurely_ticks, kSurely_ticks);
+    }
+  }
+  if (!near_echoes_->is_occupied(grid, at)) return true;
+  return static_cast<double>(seen_through().size()) * grid.cell_m() > kOpened_m;
+}
+
+std::vector<Cell> RouteDriver::seen_through() const {
+  std::vector<Cell> cells;
+  for (const auto& [cell, ticks] : through_)
+    if (ticks >= kSeenThrough_ticks) cells.push_back(cell);
+  return cells;
 }
 
 Status RouteDriver::face(const WorldView& world, Orders& orders) {

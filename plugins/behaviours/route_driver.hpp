@@ -84,6 +84,7 @@ class RouteDriver {
   Status turn(const WorldView& world, Orders& orders);
   void plan_past(const WorldView& world, Orders& orders);
   [[nodiscard]] bool has_opened(const WorldView& world);
+  [[nodiscard]] std::vector<Cell> seen_through() const;
   Status look(const WorldView& world, Orders& orders);
   Status face(const WorldView& world, Orders& orders);
   void close_route_here(const WorldView& world, Orders& orders);
@@ -126,7 +127,7 @@ class RouteDriver {
   int unknown_ways_ = 0;
   std::optional<Trust> own_trust_;  // the path is one by its own eyes
   Point look_at_{0.0, 0.0};
-  int look_most_ = 0;  // occupied cells about it
+  std::map<Cell, int> through_;  // occupied cells about it: for how many ticks more they were seen through than not
   std::vector<Point> looked_at_;
   int round_ = 0;     // of the ladder, at this place
   int hold_ups_ = 0;  // in all

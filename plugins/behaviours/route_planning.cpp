@@ -59,9 +59,12 @@ void take_unknown_for_free(OccupancyGrid& map, const Point& goal) {
 
 }  // namespace
 
-// Specks; and whatever stands alone where the robot has looked again: it is there if it echoes.
+// What it has looked through; specks; and whatever stands alone where the robot has looked again: it is there if it
+// echoes.
 std::vector<Cell> RouteDriver::doubtful_cells(const OccupancyGrid& map) const {
-  std::vector<Cell> cells = specks_of(map, map.bounds());
+  std::vector<Cell> cells = seen_through();
+  const std::vector<Cell> specks = specks_of(map, map.bounds());
+  cells.insert(cells.end(), specks.begin(), specks.end());
   const int around = static_cast<int>(kAroundLook_m / map.cell_m());
   for (const Point& seen : looked_at_) {
     const Cell at = map.cell_at(seen);
@@ -75,7 +78,10 @@ std::vector<Cell> RouteDriver::doubtful_cells(const OccupancyGrid& map) const {
 void RouteDriver::doubt(const std::vector<Cell>& cells, const WorldView& world) {
   for (const Cell c : cells) {
     doubted_.insert(c);
-    if (near_echoes_->is_occupied(world.grid, c)) doubted_places_.push_back(world.grid.centre_of(c));
+    const auto looked = through_.find(c);
+    const bool is_seen_through = looked != through_.end() && looked->second >= 0;
+    if (!is_seen_through && near_echoes_->is_occupied(world.grid, c))
+      doubted_places_.push_back(world.grid.centre_of(c));
   }
 }
 
@@ -233,7 +239,7 @@ bool RouteDriver::begin_look(const WorldView& world) {
                                                    world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
   if (!way) return false;
   ++looks_;
-  look_most_ = 0;
+  through_.clear();
   look_at_ = way->at;
   looked_at_.push_back(look_at_);
   path_ = way->path;
