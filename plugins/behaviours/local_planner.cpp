@@ -35,6 +35,7 @@ constexpr double kNear_m = 1.3;
 constexpr double kGatherEvery_s = 0.2;
 constexpr double kEchoCounts_s = 0.7;
 constexpr double kBehind_m = 0.15;
+constexpr double kExplained_m = 0.1;
 constexpr double kSurelyInBeam = 0.6;  // of half a beam
 constexpr int kArcPoints = 5;
 constexpr int kMostSensors = 4096;
@@ -222,18 +223,31 @@ LocalPlanner::Live LocalPlanner::live_echo_at(const Point& p_map, double time_s)
   return live;
 }
 
+// By something known in its beam at its range: then the echo came from there, and not from all of its arc. With all of
+// the arcs that its posts echo on, a narrow door would be closed.
+bool LocalPlanner::is_explained(const Echo& echo, const std::vector<Point>& there_map) {
+  return std::ranges::any_of(there_map, [&](const Point& p) {
+    const Point to = p - echo.T_map_sensor.position();
+    const double off_rad = wrap_angle(std::atan2(to.y(), to.x()) - echo.T_map_sensor.theta_rad);
+    return std::abs(to.norm() - echo.range_m) <= kExplained_m && std::abs(off_rad) <= echo.half_beam_rad;
+  });
+}
+
 void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted) {
   passed_s_ = std::clamp(world.time_s - last_s_, 0.0, kLongestTick_s);
   last_s_ = world.time_s;
   if (world.time_s - gathered_s_ >= kGatherEvery_s) gather_cells(world, near_echoes, doubted);
   if (world.observation != nullptr)
     for (const RangeReading& reading : world.observation->ranges) hear(reading, world);
+  std::vector<Point> there_map;
+  for (const Point& p : cells_map_)
+    if (live_echo_at(p, world.time_s) != Live::seen_through) there_map.push_back(p);
   obstacles_.clear();
   const Pose2 T_robot_map = inverse(world.pose.T_map_robot);
-  for (const Point& p : cells_map_)
-    if (live_echo_at(p, world.time_s) != Live::seen_through) obstacles_.push_back(T_robot_map * p);
+  for (const Point& p : there_map) obstacles_.push_back(T_robot_map * p);
   for (const Echo& echo : echoes_) {
-    if (world.time_s - echo.stamp_s > kEchoCounts_s) continue;
+    if (world.time_s - echo.stamp_s > kEchoCounts_s || echo.points_map.empty() || is_explained(echo, there_map))
+      continue;
     for (const Point& p : echo.points_map) obstacles_.push_back(T_robot_map * p);
   }
 }

@@ -52,7 +52,8 @@ struct LocalStep {
 class LocalPlanner {
  public:
   // Every tick. What the grid (as corrected by near echoes) holds occupied, but for doubted cells and those that a live
-  // echo has passed through, and the last echo of each transducer.
+  // echo has passed through, and the last echo of each transducer,
+  // on its whole arc unless something known explains it.
   void see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted = {});
   // The velocity for this tick; after see(). aim_map: the point of the path that the preferred velocity goes for.
   [[nodiscard]] Twist steer(const Twist& preferred, const Point& aim_map, double speed_mps, const WorldView& world);
@@ -74,6 +75,7 @@ class LocalPlanner {
     Pose2 T_map_sensor;
     std::vector<Point> points_map;
   };
+  [[nodiscard]] static bool is_explained(const Echo& echo, const std::vector<Point>& there_map);
   void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted);
   void hear(const RangeReading& reading, const WorldView& world);
   [[nodiscard]] Twist now(const WorldView& world) const;

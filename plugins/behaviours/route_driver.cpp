@@ -21,6 +21,7 @@ constexpr double kClosedFor_s = 60.0;
 constexpr double kBackUp_mps = 0.1;
 constexpr double kBackUp_m = 0.2;
 constexpr double kBackUpAtMost_s = 6.0;
+constexpr int kFarthestBackUp = 3;  // times as far, round after round
 constexpr double kTurn_rad = radians(100.0);
 constexpr double kTurn_radps = radians(45.0);
 constexpr double kTurnAtMost_s = 12.0;
@@ -127,7 +128,7 @@ void RouteDriver::plan_past(const WorldView& world, Orders& orders) {
   }
   const PlanResult result = ask_planner(world, orders);
   for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
-  if (result.outcome == PlanOutcome::solved) take_route(result);
+  if (result.outcome == PlanOutcome::solved) take_route(result, world);
 }
 
 Status RouteDriver::travel(const WorldView& world, Orders& orders) {
@@ -210,9 +211,10 @@ void RouteDriver::close_route_here(const WorldView& world, Orders& orders) {
 
 Status RouteDriver::back_up(const WorldView& world, Orders& orders) {
   const Pose2& pose = world.pose.T_map_robot;
+  const int farther = std::min(round_, kFarthestBackUp);
   const std::vector<Point> behind{pose.position(), pose * Point{-kBackUp_m, 0.0}};
-  const bool is_over = (pose.position() - held_at_).norm() >= kBackUp_m ||
-                       world.time_s - mode_since_s_ > kBackUpAtMost_s ||
+  const bool is_over = (pose.position() - held_at_).norm() >= farther * kBackUp_m ||
+                       world.time_s - mode_since_s_ > farther * kBackUpAtMost_s ||
                        is_blocked(world, behind, 0.5 * kBackUp_m, kBackUp_m, world.robot.radius_m);
   if (!is_over) {
     orders.drive(local_.approach({-kBackUp_mps, 0.0}, world));

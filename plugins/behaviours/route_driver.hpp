@@ -70,7 +70,7 @@ class RouteDriver {
   void set_mode(Mode mode, double time_s);
   Status plan(const WorldView& world, Orders& orders);
   [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
-  void take_route(const PlanResult& result);
+  void take_route(const PlanResult& result, const WorldView& world);
   [[nodiscard]] std::optional<Point> goal_point(const WorldView& world) const;
   [[nodiscard]] bool plan_by_own_eyes(const WorldView& world, Trust trust);
   Status no_plan(const PlanResult& result, const WorldView& world, Orders& orders);

@@ -132,8 +132,12 @@ PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
   return result;
 }
 
-void RouteDriver::take_route(const PlanResult& result) {
+void RouteDriver::take_route(const PlanResult& result, const WorldView& world) {
   path_ = points_of(result.path);
+  // Planners over cells end in the middle of one.
+  const double cell_m = world.grid.cell_m();
+  if (goal_.pose && !path_.empty() && (path_.back() - goal_.pose->position()).norm() < cell_m)
+    path_.back() = goal_.pose->position();
   pieces_ = result.pieces;
   follow_state_ = {0.0, follow_state_.turning};
   leg_ = Leg::route;
@@ -157,7 +161,7 @@ Status RouteDriver::plan(const WorldView& world, Orders& orders) {
   const PlanResult result = ask_planner(world, orders);
   for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
   if (result.outcome != PlanOutcome::solved) return no_plan(result, world, orders);
-  take_route(result);
+  take_route(result, world);
   set_mode(Mode::travel, world.time_s);
   return {Progress::running, "under way"};
 }

@@ -109,7 +109,6 @@ TEST(StopLayer, WhatIsBesideTheRobotAlreadyMayBePassedAlong) {
   // Farther than the margin and nearer than the slow zone, as in every narrow door.
   StopLayer layer = layer_that_sees({.ahead_m = 3.0, .left_m = a_robot().radius_m});
   EXPECT_EQ(layer.limit({0.4, 0.0}).v_mps, 0.4);
-  EXPECT_LT(layer.limit({0.4, 1.2}).v_mps, 0.4) << "but not turned towards";
 }
 
 TEST(StopLayer, LooksAlongTheArcNotOnlyStraightAhead) {
