@@ -61,8 +61,9 @@ class RouteDriver {
 
  private:
   enum class Mode { plan, travel, back_up, turn, look, face };
-  // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free.
-  enum class Trust { all, no_specks, only_solid };
+  // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free; besides, what
+  // leaves less room than the robot needs may be the width of the sonars' beams.
+  enum class Trust { all, no_specks, only_solid, squeezed };
 
   void remember(const WorldView& world);
   void hear(const WorldView& world);
@@ -92,6 +93,7 @@ class RouteDriver {
   [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m, Trust trust) const;
   [[nodiscard]] std::vector<Cell> doubtful_cells(const OccupancyGrid& map) const;
   void doubt(const std::vector<Cell>& cells, const WorldView& world);
+  void doubt_along_path(const WorldView& world);
   void stop_doubting();
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
                                 double radius_m) const;
@@ -125,6 +127,7 @@ class RouteDriver {
   int ways_out_ = 0;
   int looks_ = 0;
   int unknown_ways_ = 0;
+  int squeezes_ = 0;
   std::optional<Trust> own_trust_;  // the path is one by its own eyes
   Point look_at_{0.0, 0.0};
   std::map<Cell, int> through_;  // occupied cells about it: for how many ticks more they were seen through than not

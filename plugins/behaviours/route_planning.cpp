@@ -28,6 +28,10 @@ constexpr int kMostLooks = 12;
 constexpr int kLooksBeforeAgain = 6;  // then at the same places once more
 constexpr double kAroundLook_m = 0.7;
 constexpr int kMostUnknownWays = 20;
+// An opening of twice this is tried, slowly: sonars draw openings narrower than they are.
+constexpr double kSqueezedRadius_m = 0.16;
+constexpr int kLooksBeforeSqueezing = 2;
+constexpr int kMostSqueezes = 3;
 constexpr double kStandOff_m = 0.8;  // from what is looked at
 constexpr double kStandOffNearer_m = 0.5;
 
@@ -85,6 +89,20 @@ void RouteDriver::doubt(const std::vector<Cell>& cells, const WorldView& world) 
   }
 }
 
+void RouteDriver::doubt_along_path(const WorldView& world) {
+  const int reach = static_cast<int>((world.robot.radius_m + kTightClearance_m) / world.grid.cell_m()) + 1;
+  std::vector<Cell> cells;
+  for (double along_m = 0.0; along_m < length_of(path_); along_m += world.grid.cell_m()) {
+    const Cell centre = world.grid.cell_at(point_along(path_, along_m));
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx)
+        if (dx * dx + dy * dy <= reach * reach) cells.push_back(centre + Cell{dx, dy});
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  doubt(cells, world);
+}
+
 FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m, Trust trust) const {
   const Point position = world.pose.T_map_robot.position();
   const Cell here = world.grid.cell_at(position);
@@ -93,7 +111,7 @@ FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m, Tru
   OccupancyGrid map = near_echoes_->applied_to(world.grid, part);
   if (trust != Trust::all)
     for (const Cell c : doubtful_cells(map)) map.set_log_odds(c, log_odds_of(kFree));
-  if (trust == Trust::only_solid) take_unknown_for_free(map, goal_point(world).value_or(position));
+  if (trust >= Trust::only_solid) take_unknown_for_free(map, goal_point(world).value_or(position));
   return FreeSpace(map, {position, world.robot.radius_m, clearance_m}, trace_, troubles_);
 }
 
@@ -180,7 +198,8 @@ std::optional<Point> RouteDriver::goal_point(const WorldView& world) const {
 bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
   const std::optional<Point> goal = goal_point(world);
   if (!goal) return false;
-  for (const double clearance_m : {kSpaceClearance_m, kTightClearance_m}) {
+  for (const double room_m : {kSpaceClearance_m, kTightClearance_m}) {
+    const double clearance_m = trust == Trust::squeezed ? kSqueezedRadius_m - world.robot.radius_m : room_m;
     const FreeSpace space = space_now(world, clearance_m, trust);
     const std::vector<Point> path = space.path_to(space.cell_at(*goal));
     if (path.size() < 2) continue;
@@ -193,6 +212,7 @@ bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
     planned_s_ = world.time_s;
     stop_doubting();
     if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
+    if (trust == Trust::squeezed) doubt_along_path(world);
     return true;
   }
   return false;
@@ -211,6 +231,12 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
     ++unknown_ways_;
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "under way by what it sees itself"};
+  }
+  if (!is_final && looks_ >= kLooksBeforeSqueezing && squeezes_ < kMostSqueezes &&
+      plan_by_own_eyes(world, Trust::squeezed)) {
+    ++squeezes_;
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "trying an opening that looks too narrow"};
   }
   if (!is_final && begin_look(world)) {
     orders.say("no way now (" + why + "): looks again at " + text_of(look_at_));
