@@ -63,9 +63,10 @@ void StopLayer::see(const Observation& observation) {
   feel_bump(observation.bumped);
 }
 
-// A bump says that, not where: at the side that the robot was going to.
+// A bump says that, not where: when it begins, at the side that the robot was going to. As long as it lasts (somebody
+// leans on the robot from behind) the robot only creeps.
 void StopLayer::feel_bump(bool bumped) {
-  if (bumped && allowed_.v_mps != 0.0) {
+  if (bumped && !bumped_ && allowed_.v_mps != 0.0) {
     const double side_rad = allowed_.v_mps > 0.0 ? 0.0 : std::numbers::pi;
     for (const double off_rad : {-kBumpSide_rad, 0.0, kBumpSide_rad})
       memory_.feel(robot_.radius_m * Point(std::cos(side_rad + off_rad), std::sin(side_rad + off_rad)));
@@ -97,6 +98,7 @@ double StopLayer::allowed_share(const Twist& twist, double margin_m) const {
 Twist StopLayer::cut(const Twist& clamped) const {
   const double v_mps = std::abs(clamped.v_mps);
   double most_mps = v_mps;
+  if (bumped_) most_mps = kCreep_mps;
   if (v_mps > 0.0 && !memory_.covers(clamped.v_mps > 0.0 ? 0.0 : std::numbers::pi)) most_mps = kCreep_mps;
   const double slow_mps =
       std::max(kSlowRatio * robot_.max_v_mps, v_mps * allowed_share(clamped, config_.margin_m + config_.slow_m));

@@ -6,7 +6,9 @@
 namespace cairn {
 namespace {
 
-constexpr double kNearer_m = 1e-6;
+// What is within the margin already may be passed along: nearer by less than this on the first metres of the arc.
+constexpr double kSoon_m = 0.05;
+constexpr double kNearer_m = 0.01;
 
 double distance_to_segment_m(const Point& p, const Point& a, const Point& b) {
   const Point along = b - a;
@@ -65,7 +67,7 @@ double free_sweep_m(const RobotModel& robot, const Twist& twist, const Point& p,
     return distance_to_footprint_m(robot, inverse(after(twist, way_m / speed_mps)) * p) - margin_m;
   };
   const double gap_now_m = gap_m(0.0);
-  if (gap_now_m < 0.0) return gap_m(0.1 * step_m) < gap_now_m - kNearer_m ? 0.0 : kNever;
+  if (gap_now_m < 0.0) return gap_m(kSoon_m) < gap_now_m - kNearer_m ? 0.0 : kNever;
   // No step goes farther than the gap, so that none jumps over the point's neighbourhood.
   for (double way_m = 0.0; way_m <= at_most_m;) {
     const double gap = gap_m(way_m);

@@ -16,7 +16,7 @@ namespace cairn {
 
 // Metres that the fastest point of the footprint can go on the twist's arc before the footprint is nearer to the point
 // than margin_m; +inf when it never is within at_most_m. A point that is nearer already is 0 when the arc leads nearer
-// still, and no hindrance otherwise. Steps of step_m.
+// still by more than a fifth of its first metres, and no hindrance otherwise. Steps of step_m.
 [[nodiscard]] double free_sweep_m(const RobotModel& robot, const Twist& twist, const Point& p, double margin_m,
                                   double at_most_m, double step_m = 0.01);
 

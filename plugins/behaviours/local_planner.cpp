@@ -34,6 +34,9 @@ constexpr double kNearer = 0.3;
 constexpr double kNear_m = 1.3;
 constexpr double kGatherEvery_s = 0.2;
 constexpr double kEchoCounts_s = 0.7;
+constexpr double kBehind_m = 0.15;
+constexpr double kExplained_m = 0.1;
+constexpr double kSurelyInBeam = 0.6;  // of half a beam
 constexpr int kArcPoints = 5;
 constexpr int kMostSensors = 4096;
 constexpr double kLongestTick_s = 0.5;
@@ -195,14 +198,39 @@ void LocalPlanner::hear(const RangeReading& reading, const WorldView& world) {
   if (index >= echoes_.size()) echoes_.resize(index + 1);
   Echo& echo = echoes_[index];
   const double range_m = std::max(reading.range_m, reading.min_m);
-  echo = {world.time_s, {}};
-  if (range_m > kNear_m) return;
   const Pose2 T_map_sensor = world.pose.T_map_robot * reading.T_robot_sensor;
+  echo = {world.time_s, range_m, reading.half_beam_rad, T_map_sensor, {}};
+  if (range_m > kNear_m) return;
   const int count = reading.half_beam_rad > 0.0 ? kArcPoints : 1;
   for (int i = 0; i < count; ++i) {
     const double bearing_rad = count == 1 ? 0.0 : reading.half_beam_rad * (2.0 * i / (count - 1) - 1.0);
     echo.points_map.push_back(T_map_sensor * Point(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)));
   }
+}
+
+// An echo from behind a place says that nothing is there now; silence does not, for a mirror is silent too.
+LocalPlanner::Live LocalPlanner::live_echo_at(const Point& p_map, double time_s) const {
+  Live live = Live::silent;
+  for (const Echo& echo : echoes_) {
+    if (time_s - echo.stamp_s > kEchoCounts_s || !std::isfinite(echo.range_m)) continue;
+    const Point to = p_map - echo.T_map_sensor.position();
+    const double behind_m = echo.range_m - to.norm();
+    const double off_rad = wrap_angle(std::atan2(to.y(), to.x()) - echo.T_map_sensor.theta_rad);
+    if (std::abs(off_rad) > kSurelyInBeam * echo.half_beam_rad || behind_m < -kBehind_m) continue;
+    if (behind_m >= kBehind_m) return Live::seen_through;
+    live = Live::there;
+  }
+  return live;
+}
+
+// By something known in its beam at its range: then the echo came from there, and not from all of its arc. With all of
+// the arcs that its posts echo on, a narrow door would be closed.
+bool LocalPlanner::is_explained(const Echo& echo, const std::vector<Point>& there_map) {
+  return std::ranges::any_of(there_map, [&](const Point& p) {
+    const Point to = p - echo.T_map_sensor.position();
+    const double off_rad = wrap_angle(std::atan2(to.y(), to.x()) - echo.T_map_sensor.theta_rad);
+    return std::abs(to.norm() - echo.range_m) <= kExplained_m && std::abs(off_rad) <= echo.half_beam_rad;
+  });
 }
 
 void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted) {
@@ -211,11 +239,15 @@ void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, co
   if (world.time_s - gathered_s_ >= kGatherEvery_s) gather_cells(world, near_echoes, doubted);
   if (world.observation != nullptr)
     for (const RangeReading& reading : world.observation->ranges) hear(reading, world);
+  std::vector<Point> there_map;
+  for (const Point& p : cells_map_)
+    if (live_echo_at(p, world.time_s) != Live::seen_through) there_map.push_back(p);
   obstacles_.clear();
   const Pose2 T_robot_map = inverse(world.pose.T_map_robot);
-  for (const Point& p : cells_map_) obstacles_.push_back(T_robot_map * p);
+  for (const Point& p : there_map) obstacles_.push_back(T_robot_map * p);
   for (const Echo& echo : echoes_) {
-    if (world.time_s - echo.stamp_s > kEchoCounts_s) continue;
+    if (world.time_s - echo.stamp_s > kEchoCounts_s || echo.points_map.empty() || is_explained(echo, there_map))
+      continue;
     for (const Point& p : echo.points_map) obstacles_.push_back(T_robot_map * p);
   }
 }

@@ -51,8 +51,9 @@ struct LocalStep {
 // Keeps what is near the robot, and the velocity it goes at: the state of a behaviour that avoids obstacles.
 class LocalPlanner {
  public:
-  // Every tick. What the grid (as corrected by near echoes) holds occupied, but for doubted cells, and the last echo of
-  // each transducer.
+  // Every tick. What the grid (as corrected by near echoes) holds occupied, but for doubted cells and those that a live
+  // echo has passed through, and the last echo of each transducer,
+  // on its whole arc unless something known explains it.
   void see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted = {});
   // The velocity for this tick; after see(). aim_map: the point of the path that the preferred velocity goes for.
   [[nodiscard]] Twist steer(const Twist& preferred, const Point& aim_map, double speed_mps, const WorldView& world);
@@ -60,14 +61,21 @@ class LocalPlanner {
   [[nodiscard]] Twist approach(const Twist& target, const WorldView& world);
 
   [[nodiscard]] bool is_blocked() const { return blocked_; }
+  // What the live echoes (not silence) say of a place: something is there, nothing is, or neither.
+  enum class Live { silent, there, seen_through };
+  [[nodiscard]] Live live_echo_at(const Point& p_map, double time_s) const;
   // In the robot frame, as of the last see().
   [[nodiscard]] const std::vector<Point>& obstacles() const { return obstacles_; }
 
  private:
   struct Echo {
     double stamp_s = -1e9;
+    double range_m = 0.0;  // +inf: none
+    double half_beam_rad = 0.0;
+    Pose2 T_map_sensor;
     std::vector<Point> points_map;
   };
+  [[nodiscard]] static bool is_explained(const Echo& echo, const std::vector<Point>& there_map);
   void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted);
   void hear(const RangeReading& reading, const WorldView& world);
   [[nodiscard]] Twist now(const WorldView& world) const;

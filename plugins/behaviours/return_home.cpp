@@ -45,7 +45,7 @@ Status ReturnHome::tick(const WorldView& world, Orders& orders) {
     goal_ = goal;
   }
   const Status status = driver_.tick(*goal_, world, orders);
-  if (status.progress == Progress::running) return {Progress::running, status.reason + ", " + home};
+  if (status.progress == Progress::running) return {Progress::running, status.reason + ", " + home, status.left_s};
   if (status.progress == Progress::failure) return {Progress::failure, status.reason + "; on the way " + home};
   return {Progress::success, home};
 }

@@ -4,50 +4,36 @@
 #include <cstdio>
 #include <numbers>
 
-#include "plugins/behaviours/specks.hpp"
-#include "plugins/behaviours/way_to_look.hpp"
-
 namespace cairn::behaviours {
 namespace {
 
-// Room asked of the planner beside the robot, the most first: more than the local planner keeps, then what a narrow
-// door leaves, then nothing.
-constexpr double kRooms_m[] = {0.12, 0.06, 0.0};
 constexpr double kPlansApart_s = 1.0;
+constexpr double kOwnPlansApart_s = 3.0;  // they cost more
 constexpr double kBlockedAhead_m = 1.0;
 constexpr double kGettingOn_m = 0.8;  // from where it was held back
 constexpr int kMostHoldUps = 40;
-constexpr int kMostPlans = 200;
-constexpr int kMostWaysOut = 4;
-constexpr double kWayOutClearance_m = 0.1;
 constexpr double kWayOutTolerance_m = 0.02;
 constexpr double kTrace_m = 0.1;
 constexpr std::size_t kMostTrace = 400;
 constexpr double kTroubleFor_s = 60.0;
+constexpr double kEchoesKept_s = 15.0;
 constexpr double kClosedFor_s = 60.0;
 constexpr double kBackUp_mps = 0.1;
 constexpr double kBackUp_m = 0.2;
 constexpr double kBackUpAtMost_s = 6.0;
+constexpr int kFarthestBackUp = 3;  // times as far, round after round
 constexpr double kTurn_rad = radians(100.0);
 constexpr double kTurn_radps = radians(45.0);
 constexpr double kTurnAtMost_s = 12.0;
-constexpr double kSpaceAround_m = 12.0;
-constexpr double kSpaceClearance_m = 0.08;
-constexpr double kTightClearance_m = 0.03;
-constexpr double kAroundGoal_m = 1.0;
-constexpr int kMostAcross_cells = 1000;
-constexpr double kFree = 0.1;  // probability of what is taken to be free
 constexpr double kLookAtLeast_s = 3.0;
 constexpr double kLookAtMost_s = 25.0;  // for a door to open
-constexpr int kMostLooks = 6;
-constexpr int kLooksBeforeAgain = 3;  // then at the same places once more
-constexpr double kAroundLook_m = 0.7;
 // What is doubted is gone near at a speed at which touching it would do no harm.
 constexpr double kDoubtNear_m = 0.25;
 constexpr double kDoubtful_mps = 0.05;
-constexpr int kMostUnknownWays = 20;
-constexpr double kStandOff_m = 0.6;  // from what is looked at
-constexpr double kStandOffNearer_m = 0.4;
+constexpr double kAboutLook_m = 1.0;
+constexpr double kOpened_m = 0.7;  // of cells in a row
+constexpr int kSeenThrough_ticks = 10;
+constexpr int kSurely_ticks = 50;
 constexpr double kSweep_rad = radians(25.0);  // looked at from a little aside, too
 constexpr double kSweep_s = 4.0;
 constexpr int kForgetsInRound = 3;  // of the ladder: what the near echoes have said
@@ -58,26 +44,6 @@ std::string text_of(const Point& p) {
   char text[48];
   std::snprintf(text, sizeof text, "(%.2f, %.2f)", p.x(), p.y());
   return text;
-}
-
-std::vector<Point> points_of(const std::vector<Pose2>& path) {
-  std::vector<Point> points;
-  for (const Pose2& pose : path) points.push_back(pose.position());
-  return points;
-}
-
-// Within what is known and about the goal.
-void take_unknown_for_free(OccupancyGrid& map, const Point& goal) {
-  const Cell to = map.cell_at(goal);
-  const int around = static_cast<int>(kAroundGoal_m / map.cell_m());
-  const CellBox known = map.bounds();
-  CellBox box = CellBox{to, to + Cell{1, 1}}.grown(around);
-  box = known.empty() ? box : united(known, box);
-  if (box.width() > kMostAcross_cells || box.height() > kMostAcross_cells) return;
-  const LogOdds free = log_odds_of(kFree);
-  for (int y = box.min.y; y < box.max.y; ++y)
-    for (int x = box.min.x; x < box.max.x; ++x)
-      if (map.state({x, y}) == CellState::unknown) map.set_log_odds({x, y}, free);
 }
 
 }  // namespace
@@ -111,12 +77,7 @@ Status RouteDriver::tick(const Place& goal, const WorldView& world, Orders& orde
 
 void RouteDriver::remember(const WorldView& world) {
   const Pose2& pose = world.pose.T_map_robot;
-  if (!near_echoes_) {
-    near_echoes_.emplace(world.grid);
-    last_theta_rad_ = pose.theta_rad;
-  }
-  if (world.observation != nullptr) near_echoes_->see(*world.observation, pose);
-  near_echoes_->stand_at(pose.position(), world.robot.radius_m);
+  hear(world);
   if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTrace_m) trace_.push_back(pose);
   if (trace_.size() > kMostTrace) trace_.erase(trace_.begin());
   std::erase_if(troubles_, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
@@ -126,6 +87,30 @@ void RouteDriver::remember(const WorldView& world) {
   local_.see(world, *near_echoes_, doubted_);
 }
 
+void RouteDriver::forget_echoes(const WorldView& world) {
+  near_echoes_.emplace(world.grid);
+  later_echoes_.emplace(world.grid);
+  echoes_since_s_ = world.time_s;
+}
+
+// Somebody who has gone on leaves near echoes that no later one takes away: they count for a while only.
+void RouteDriver::hear(const WorldView& world) {
+  const Pose2& pose = world.pose.T_map_robot;
+  if (!near_echoes_) {
+    forget_echoes(world);
+    last_theta_rad_ = pose.theta_rad;
+  }
+  if (world.time_s - echoes_since_s_ > kEchoesKept_s) {
+    near_echoes_ = std::move(later_echoes_);
+    later_echoes_.emplace(world.grid);
+    echoes_since_s_ = world.time_s;
+  }
+  for (NearEchoes* echoes : {&*near_echoes_, &*later_echoes_}) {
+    if (world.observation != nullptr) echoes->see(*world.observation, pose);
+    echoes->stand_at(pose.position(), world.robot.radius_m);
+  }
+}
+
 void RouteDriver::set_mode(Mode mode, double time_s) {
   mode_ = mode;
   mode_since_s_ = time_s;
@@ -133,183 +118,17 @@ void RouteDriver::set_mode(Mode mode, double time_s) {
   watch_.restart();
 }
 
-// Specks; and whatever stands alone where the robot has looked again: it is there if it echoes.
-std::vector<Cell> RouteDriver::doubtful_cells(const OccupancyGrid& map) const {
-  std::vector<Cell> cells = specks_of(map, map.bounds());
-  const int around = static_cast<int>(kAroundLook_m / map.cell_m());
-  for (const Point& seen : looked_at_) {
-    const Cell at = map.cell_at(seen);
-    const CellBox box = CellBox{at, at + Cell{1, 1}}.grown(around);
-    const std::vector<Cell> islands = specks_of(map, box, box.width() * box.height(), box.width() * box.height());
-    cells.insert(cells.end(), islands.begin(), islands.end());
+// Something has turned up on the path: another one, if there is.
+void RouteDriver::plan_past(const WorldView& world, Orders& orders) {
+  if (own_trust_) {
+    if (world.time_s - planned_s_ < kOwnPlansApart_s) return;
+    planned_s_ = world.time_s;
+    (void)plan_by_own_eyes(world, *own_trust_);  // without one it goes on: what is there the live echoes tell
+    return;
   }
-  return cells;
-}
-
-void RouteDriver::doubt(const std::vector<Cell>& cells, const WorldView& world) {
-  for (const Cell c : cells) {
-    doubted_.insert(c);
-    if (near_echoes_->is_occupied(world.grid, c)) doubted_places_.push_back(world.grid.centre_of(c));
-  }
-}
-
-FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m, Trust trust) const {
-  const Point position = world.pose.T_map_robot.position();
-  const Cell here = world.grid.cell_at(position);
-  const int reach = static_cast<int>(kSpaceAround_m / world.grid.cell_m());
-  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
-  OccupancyGrid map = near_echoes_->applied_to(world.grid, part);
-  if (trust != Trust::all)
-    for (const Cell c : doubtful_cells(map)) map.set_log_odds(c, log_odds_of(kFree));
-  if (trust == Trust::only_solid) take_unknown_for_free(map, goal_point(world).value_or(position));
-  return FreeSpace(map, {position, world.robot.radius_m, clearance_m}, trace_, troubles_);
-}
-
-void RouteDriver::stop_doubting() {
-  doubted_ = {};
-  doubted_places_.clear();
-}
-
-bool RouteDriver::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
-                             double radius_m) const {
-  const auto is_occupied = [&](Cell c) { return near_echoes_->is_occupied(world.grid, c) && !doubted_.contains(c); };
-  return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, radius_m);
-}
-
-// With as much room as there is a way for; stored routes that were found blocked are left closed while there is
-// another.
-PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
-  PlanRequest request;
-  request.from.pose = world.pose.T_map_robot;
-  request.to = goal_;
-  request.seed = seed_ + static_cast<std::uint64_t>(plans_);
-  ++plans_;
-  planned_s_ = world.time_s;
-  for (const auto& [route, until_s] : closed_until_s_) request.closed.push_back(route);
-  PlanResult result;
-  for (const bool with_closed : {true, false}) {
-    if (!with_closed && request.closed.empty()) break;
-    if (!with_closed) request.closed.clear();
-    for (const double room_m : kRooms_m) {
-      request.radius_m = world.robot.radius_m + room_m;
-      result = orders.plan(request);
-      if (result.outcome == PlanOutcome::solved) return result;
-      if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return result;
-    }
-  }
-  return result;
-}
-
-void RouteDriver::take_route(const PlanResult& result) {
-  path_ = points_of(result.path);
-  pieces_ = result.pieces;
-  follow_state_ = {0.0, follow_state_.turning};
-  leg_ = Leg::route;
-  if (!path_.empty()) route_end_ = path_.back();
-  const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
-    return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
-  });
-  stop_doubting();
-  goal_landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
-}
-
-Status RouteDriver::plan(const WorldView& world, Orders& orders) {
-  if (world.time_s - planned_s_ < kPlansApart_s) return {Progress::running, "waiting to plan again"};
-  if (plans_ >= kMostPlans) return give_up(world);
-  // The planner knows nothing of what has held the robot back there: from the second time on, a way round that.
-  if (round_ >= 2 && round_ % 2 == 0 && plan_by_own_eyes(world, Trust::all))
-    return {Progress::running, "going round what held it back"};
   const PlanResult result = ask_planner(world, orders);
   for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
-  if (result.outcome != PlanOutcome::solved) return no_plan(result, world, orders);
-  take_route(result);
-  set_mode(Mode::travel, world.time_s);
-  return {Progress::running, "under way"};
-}
-
-std::optional<Point> RouteDriver::goal_point(const WorldView& world) const {
-  if (goal_.pose) return goal_.pose->position();
-  if (route_end_) return route_end_;
-  for (const LandmarkId id : goal_.landmarks)
-    if (const Landmark* landmark = world.graph.find(id))
-      return landmark->access.value_or(landmark->T_map_landmark).position();
-  return std::nullopt;
-}
-
-// A way on the map as the near echoes correct it, that avoids where the robot was held back and may pass close to what
-// is not known. What of the map is not trusted the live echoes tell, if it is real.
-bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
-  const std::optional<Point> goal = goal_point(world);
-  if (!goal) return false;
-  for (const double clearance_m : {kSpaceClearance_m, kTightClearance_m}) {
-    const FreeSpace space = space_now(world, clearance_m, trust);
-    const std::vector<Point> path = space.path_to(space.cell_at(*goal));
-    if (path.size() < 2) continue;
-    path_ = path;
-    path_.push_back(*goal);
-    pieces_.clear();
-    follow_state_ = {0.0, follow_state_.turning};
-    leg_ = Leg::route;
-    planned_s_ = world.time_s;
-    stop_doubting();
-    if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
-    set_mode(Mode::travel, world.time_s);
-    return true;
-  }
-  return false;
-}
-
-Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Orders& orders) {
-  const std::string why = std::string(name_of(result.outcome)) + ": " + result.reason;
-  const bool is_final = result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled;
-  if (!is_final && result.outcome == PlanOutcome::start_blocked && begin_way_out(world)) {
-    set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "making room"};
-  }
-  const bool may_explore = unknown_ways_ < kMostUnknownWays;
-  if (!is_final && (plan_by_own_eyes(world, Trust::all) || plan_by_own_eyes(world, Trust::no_specks) ||
-                    (may_explore && plan_by_own_eyes(world, Trust::only_solid)))) {
-    ++unknown_ways_;
-    return {Progress::running, "under way by what it sees itself"};
-  }
-  if (!is_final && begin_look(world)) {
-    orders.say("no way now (" + why + "): looks again at " + text_of(look_at_));
-    set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "going to look at " + text_of(look_at_)};
-  }
-  return {Progress::failure, why + (tried_.empty() ? "" : "; " + tried_)};
-}
-
-// Too near to something to plan: a little further from it first.
-bool RouteDriver::begin_way_out(const WorldView& world) {
-  if (ways_out_ >= kMostWaysOut) return false;
-  ++ways_out_;
-  path_ = space_now(world, kWayOutClearance_m, Trust::all).way_out();
-  if (path_.size() < 2) path_ = space_now(world, kTightClearance_m, Trust::all).way_out();
-  if (path_.size() < 2) return false;
-  follow_state_ = {};
-  leg_ = Leg::way_out;
-  tried_ = "made room " + std::to_string(ways_out_) + " times";
-  return true;
-}
-
-bool RouteDriver::begin_look(const WorldView& world) {
-  if (looks_ >= kMostLooks) return false;
-  const std::optional<Point> goal = goal_point(world);
-  if (!goal) return false;
-  if (looks_ == kLooksBeforeAgain) looked_at_.clear();
-  const double stand_off_m = looks_ < 2 ? kStandOff_m : kStandOffNearer_m;
-  const std::optional<WayToLook> way = way_to_look(space_now(world, kTightClearance_m, Trust::all), world.grid,
-                                                   world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
-  if (!way) return false;
-  ++looks_;
-  look_at_ = way->at;
-  looked_at_.push_back(look_at_);
-  path_ = way->path;
-  follow_state_ = {};
-  leg_ = Leg::to_look;
-  tried_ = "looked " + std::to_string(looks_) + " times whether the way is free again, last at " + text_of(look_at_);
-  return true;
+  if (result.outcome == PlanOutcome::solved) take_route(result, world);
 }
 
 Status RouteDriver::travel(const WorldView& world, Orders& orders) {
@@ -324,9 +143,7 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
       set_mode(Mode::look, world.time_s);
       return look(world, orders);
     }
-    const PlanResult result = ask_planner(world, orders);
-    for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
-    if (result.outcome == PlanOutcome::solved) take_route(result);
+    plan_past(world, orders);
   }
   FollowLimits limits = follow_limits(world.robot, settings_.speed_mps);
   const bool doubts_here = std::ranges::any_of(doubted_places_, [&](const Point& p) {
@@ -346,7 +163,8 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
     said_wait_ = true;
     return {Progress::running, "waiting for the way to be free"};
   }
-  return {Progress::running, "under way"};
+  if (leg_ != Leg::route) return {Progress::running, "under way"};
+  return {Progress::running, "under way", step.left_m / limits.speed_mps};
 }
 
 Status RouteDriver::arrive(const WorldView& world, Orders& orders) {
@@ -376,7 +194,7 @@ Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
   troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kTroubleFor_s});
   if (round_ >= 2) close_route_here(world, orders);
   // Votes of before a slip may stand in the way that the map has long cleared.
-  if (round_ == kForgetsInRound) near_echoes_.emplace(world.grid);
+  if (round_ == kForgetsInRound) forget_echoes(world);
   set_mode(Mode::back_up, world.time_s);
   return back_up(world, orders);
 }
@@ -394,9 +212,10 @@ void RouteDriver::close_route_here(const WorldView& world, Orders& orders) {
 
 Status RouteDriver::back_up(const WorldView& world, Orders& orders) {
   const Pose2& pose = world.pose.T_map_robot;
+  const int farther = std::min(round_, kFarthestBackUp);
   const std::vector<Point> behind{pose.position(), pose * Point{-kBackUp_m, 0.0}};
-  const bool is_over = (pose.position() - held_at_).norm() >= kBackUp_m ||
-                       world.time_s - mode_since_s_ > kBackUpAtMost_s ||
+  const bool is_over = (pose.position() - held_at_).norm() >= farther * kBackUp_m ||
+                       world.time_s - mode_since_s_ > farther * kBackUpAtMost_s ||
                        is_blocked(world, behind, 0.5 * kBackUp_m, kBackUp_m, world.robot.radius_m);
   if (!is_over) {
     orders.drive(local_.approach({-kBackUp_mps, 0.0}, world));
@@ -431,11 +250,37 @@ Status RouteDriver::look(const WorldView& world, Orders& orders) {
   const double error_rad = wrap_angle(heading_error(world.pose.T_map_robot, look_at_) + aside_rad);
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
   if (can_turn) orders.drive(local_.approach(turn_by(error_rad, kTurn_radps), world));
-  const bool is_open = !near_echoes_->is_occupied(world.grid, world.grid.cell_at(look_at_));
-  if (waited_s < kLookAtLeast_s || (!is_open && waited_s < kLookAtMost_s))
-    return {Progress::running, "looking whether the way is free again"};
+  const bool is_open = has_opened(world);
+  const bool goes_on = waited_s < kLookAtLeast_s || (!is_open && waited_s < kLookAtMost_s);
+  if (goes_on) return {Progress::running, "looking whether the way is free again"};
   set_mode(Mode::plan, world.time_s);
   return plan(world, orders);
+}
+
+// Nothing stands at the place, or the echoes go through enough of what the map holds occupied about it: a door's worth.
+bool RouteDriver::has_opened(const WorldView& world) {
+  const OccupancyGrid& grid = world.grid;
+  const Cell at = grid.cell_at(look_at_);
+  const int reach = static_cast<int>(kAboutLook_m / grid.cell_m());
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const Cell c = at + Cell{dx, dy};
+      if (!near_echoes_->is_occupied(grid, c)) continue;
+      const LocalPlanner::Live live = local_.live_echo_at(grid.centre_of(c), world.time_s);
+      if (live == LocalPlanner::Live::silent) continue;
+      int& ticks = through_[c];
+      ticks = std::clamp(ticks + (live == LocalPlanner::Live::there ? -1 : 1), -kSurely_ticks, kSurely_ticks);
+    }
+  }
+  if (!near_echoes_->is_occupied(grid, at)) return true;
+  return static_cast<double>(seen_through().size()) * grid.cell_m() > kOpened_m;
+}
+
+std::vector<Cell> RouteDriver::seen_through() const {
+  std::vector<Cell> cells;
+  for (const auto& [cell, ticks] : through_)
+    if (ticks >= kSeenThrough_ticks) cells.push_back(cell);
+  return cells;
 }
 
 Status RouteDriver::face(const WorldView& world, Orders& orders) {

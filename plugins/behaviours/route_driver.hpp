@@ -61,14 +61,17 @@ class RouteDriver {
 
  private:
   enum class Mode { plan, travel, back_up, turn, look, face };
-  // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free.
-  enum class Trust { all, no_specks, only_solid };
+  // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free; besides, what
+  // leaves less room than the robot needs may be the width of the sonars' beams.
+  enum class Trust { all, no_specks, only_solid, squeezed };
 
   void remember(const WorldView& world);
+  void hear(const WorldView& world);
+  void forget_echoes(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   Status plan(const WorldView& world, Orders& orders);
   [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
-  void take_route(const PlanResult& result);
+  void take_route(const PlanResult& result, const WorldView& world);
   [[nodiscard]] std::optional<Point> goal_point(const WorldView& world) const;
   [[nodiscard]] bool plan_by_own_eyes(const WorldView& world, Trust trust);
   Status no_plan(const PlanResult& result, const WorldView& world, Orders& orders);
@@ -80,6 +83,9 @@ class RouteDriver {
   Status held_back(const WorldView& world, Orders& orders);
   Status back_up(const WorldView& world, Orders& orders);
   Status turn(const WorldView& world, Orders& orders);
+  void plan_past(const WorldView& world, Orders& orders);
+  [[nodiscard]] bool has_opened(const WorldView& world);
+  [[nodiscard]] std::vector<Cell> seen_through() const;
   Status look(const WorldView& world, Orders& orders);
   Status face(const WorldView& world, Orders& orders);
   void close_route_here(const WorldView& world, Orders& orders);
@@ -87,6 +93,7 @@ class RouteDriver {
   [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m, Trust trust) const;
   [[nodiscard]] std::vector<Cell> doubtful_cells(const OccupancyGrid& map) const;
   void doubt(const std::vector<Cell>& cells, const WorldView& world);
+  void doubt_along_path(const WorldView& world);
   void stop_doubting();
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
                                 double radius_m) const;
@@ -105,11 +112,13 @@ class RouteDriver {
   std::vector<PlanPiece> pieces_;   // of the path, when it is the planner's
   std::map<RouteId, double> closed_until_s_;
 
-  std::optional<NearEchoes> near_echoes_;  // from the first tick on
-  std::vector<Pose2> trace_;               // where the robot has been
-  std::vector<TroubleSpot> troubles_;      // where it was held back
-  CellSet doubted_;                        // left out of account on the way by its own eyes
-  std::vector<Point> doubted_places_;      // the occupied ones
+  std::optional<NearEchoes> near_echoes_;   // from the first tick on; of the last 15 to 30 s
+  std::optional<NearEchoes> later_echoes_;  // that will be the next near_echoes_
+  double echoes_since_s_ = 0.0;
+  std::vector<Pose2> trace_;           // where the robot has been
+  std::vector<TroubleSpot> troubles_;  // where it was held back
+  CellSet doubted_;                    // left out of account on the way by its own eyes
+  std::vector<Point> doubted_places_;  // the occupied ones
   LocalPlanner local_;
   HeldBackWatch watch_;
   Twist preferred_;  // of the last tick
@@ -118,7 +127,10 @@ class RouteDriver {
   int ways_out_ = 0;
   int looks_ = 0;
   int unknown_ways_ = 0;
+  int squeezes_ = 0;
+  std::optional<Trust> own_trust_;  // the path is one by its own eyes
   Point look_at_{0.0, 0.0};
+  std::map<Cell, int> through_;  // occupied cells about it: for how many ticks more they were seen through than not
   std::vector<Point> looked_at_;
   int round_ = 0;     // of the ladder, at this place
   int hold_ups_ = 0;  // in all

@@ -15,7 +15,7 @@ constexpr double kUnknown = 15.0;
 constexpr double kOccupied = 20.0;
 constexpr double kSurelyOccupied = 60.0;  // besides, at the map's bound of certainty
 constexpr double kLookedAt = 100.0;
-constexpr double kLookedAround_m = 0.4;
+constexpr double kLookedAround_m = 0.8;
 
 double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const std::vector<Point>& looked_at) {
   double price = 1.0;

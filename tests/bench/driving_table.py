@@ -25,7 +25,7 @@ autosave: {{every_s: 0}}
 steps:
   - always: {{explore: {{until_known_ratio: 0.97, at_most_s: {explore_s}, look_closer_m: 0}}}}
 {goals}"""
-GOAL = "  - always: {{goto: {{at_m: [{x:.2f}, {y:.2f}], at_most_s: 300}}}}\n"
+GOAL = "  - always: {{goto: {{at_m: [{x:.2f}, {y:.2f}]}}}}\n"
 
 
 def worlds(args, seeds):
@@ -98,6 +98,8 @@ def run(args, seed):
     folder = args.out / f"seed_{seed}"
     folder.mkdir(parents=True, exist_ok=True)
     world = found[0].read_text()
+    if args.carts:
+        world = re.sub(r"(pause_s: [\d.]+)}", r"\1, waits: false}", world)
     (folder / "world.yaml").write_text(without_templates(world))
     places = free_places(world, args.goals, random.Random(seed))
     (folder / "mission.yaml").write_text(MISSION.format(
@@ -123,6 +125,7 @@ def main():
     parser.add_argument("--count", type=int, default=10)
     parser.add_argument("--goals", type=int, default=3)
     parser.add_argument("--movers", type=int, default=3)
+    parser.add_argument("--carts", action="store_true", help="movers do not wait for the robot")
     parser.add_argument("--doors", type=int, default=1)
     parser.add_argument("--specular", type=float, default=0.0)
     parser.add_argument("--explore-s", type=float, default=400)

@@ -60,6 +60,19 @@ TEST(Driving, PassesAPersonWhoWalksTowardsIt) {
   }
 }
 
+TEST(Driving, MeetsSomebodyInACorridor) {
+  // 1.4 m wide; who comes keeps to one side, and waits for what is in the way.
+  const std::string corridor =
+      "  - {points_m: [[1.6, 0], [1.6, 0.3], [4.4, 0.3], [4.4, 0]], surface: rough}\n"
+      "  - {points_m: [[1.6, 2], [1.6, 1.7], [4.4, 1.7], [4.4, 2]], surface: rough}\n"
+      "movers:\n  - {circle_diameter_m: 0.4, path_m: [[4.8, 1.35], [1.3, 1.35]], speed_mps: 0.5, pause_s: 2}\n";
+  for (const std::string seed : {"1", "2"}) {
+    const json report = run("corridor", kRoom + corridor, "", seed);
+    EXPECT_EQ(report["outcome"], "done") << report["reason"];
+    expect_no_hard_touch(report);
+  }
+}
+
 TEST(Driving, ACartThatDoesNotWaitFindsItStanding) {
   for (const std::string speed : {"0.3", "0.6"}) {
     const json report = run("cart", kRoom +

@@ -69,7 +69,7 @@ TEST(GoTo, ReachesAPlaceWithinTheTolerance) {
   GoTo go(config_at({2.4, 1.4}), 1);
   const Status status = host.run(go, 120.0);
   EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
-  EXPECT_LT((host.T_map_robot.position() - Point{2.4, 1.4}).norm(), 0.14);
+  EXPECT_LT((host.T_map_robot.position() - Point{2.4, 1.4}).norm(), 0.1 + 1e-9);
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m);
 }
 
@@ -151,7 +151,7 @@ TEST(GoTo, DoesNotTakeAnApproximatePlanForAPlan) {
     result.path = {host.T_map_robot, {0.9, 1.1, 0}};
     return result;
   };
-  GoTo go(config_at({1.5, 1.6}), 1);  // in the bar
+  GoTo go(config_at({1.5, 1.6}), 1);  // in the bar: elsewhere it would find a way by its own eyes
   EXPECT_EQ(host.run(go, 600.0).progress, Progress::failure);
 }
 
