@@ -1,5 +1,7 @@
 #include "framework/config/template_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -68,16 +70,6 @@ struct TemplateConfig {
 };
 
 // Categories stand in commands ("nearest square"), in tables and in file names.
-void check_category(const std::string& category, const SourcePlace& place) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const auto is_allowed = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
-  const bool is_good = !category.empty() && category.size() <= kLongestCategory && is_letter(category.front()) &&
-                       std::ranges::all_of(category, is_allowed);
-  if (is_good) return;
-  throw ConfigError(place, "category must be a letter and up to " + std::to_string(kLongestCategory - 1) +
-                               " letters, digits, _ or -, found " + shown(category));
-}
-
 // What make() gives; its objections get the place of the key that they are about.
 template <class Make>
 auto at_key(const ConfigValue& map, const std::string& key, Make make) {
@@ -166,10 +158,41 @@ std::vector<std::filesystem::path> template_files(const std::filesystem::path& f
   return files;
 }
 
+std::string corners_text(const std::vector<Point>& corners) {
+  std::string text;
+  for (const Point& p : corners) text += fmt::format("{}[{:.3f}, {:.3f}]", text.empty() ? "" : ", ", p.x(), p.y());
+  return "[" + text + "]";
+}
+
 }  // namespace
 
 Schema template_file_schema() {
   return schema_of<TemplateConfig>();
+}
+
+void check_category(const std::string& category, const SourcePlace& place) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto is_allowed = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+  const bool is_good = !category.empty() && category.size() <= kLongestCategory && is_letter(category.front()) &&
+                       std::ranges::all_of(category, is_allowed);
+  if (is_good) return;
+  throw ConfigError(place, "category must be a letter and up to " + std::to_string(kLongestCategory - 1) +
+                               " letters, digits, _ or -, found " + shown(category));
+}
+
+std::string template_text(const std::string& category, const CapturedOutline& captured, const std::string& of) {
+  std::string text = fmt::format("# Captured at ({:.2f}, {:.2f}) m of {}; at 0 deg it stands as it stands there.\n",
+                                 captured.at_m.x(), captured.at_m.y(), of);
+  text += "category: " + category + "\n";
+  const std::vector<std::vector<Point>>& polygons = captured.contour.polygons_m;
+  if (polygons.size() == 1) return text + "polygon_m: " + corners_text(polygons.front()) + "\n";
+  text += "parts:\n";
+  for (const std::vector<Point>& corners : polygons) text += "  - {polygon_m: " + corners_text(corners) + "}\n";
+  return text;
+}
+
+LandmarkShape parse_landmark_shape(const std::string& text, const std::string& file_name) {
+  return shape_of(parse_config_text(text, file_name));
 }
 
 LandmarkShape load_landmark_shape(const std::filesystem::path& file) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "framework/contracts/plan_question.hpp"
 #include "framework/contracts/planner.hpp"
 
 namespace cairn {
@@ -18,14 +19,26 @@ struct Status {
   bool operator==(const Status&) const = default;
 };
 
+// A text for a file of the output folder.
+struct OutputText {
+  std::string file_name;  // plain, without folders
+  std::string text;
+  bool append = false;  // to what this mission has written there before; otherwise it takes the place of that
+};
+
 // What a behaviour may ask for. Each is carried out by the host, inside its own limits.
 class Orders {
  public:
   virtual ~Orders() = default;
   virtual void drive(const Twist& wanted) = 0;              // for this tick; no call means stop
   virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once
+  // Asks the mission's planner and adds its answer to a file of the output folder, one JSON object a line. Success when
+  // it is solved; failure with the reason, which is in the file too, unless the question makes no sense on this map.
+  virtual Status answer(const PlanQuestion& question, const std::string& file_name) = 0;
   // The map so far, into the output folder; success, or failure with its reason.
   virtual Status save(const std::string& file_name) = 0;
+  // Success, or failure with its reason. Files of earlier missions are replaced, whatever is asked for.
+  virtual Status write(const OutputText& output) = 0;
   virtual void say(const std::string& sentence) = 0;  // an event for people
 };
 

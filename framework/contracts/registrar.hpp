@@ -66,6 +66,7 @@ struct ModuleContext {
   const OccupancyGrid* grid_so_far = nullptr;
   // The mission's clock as this run begins: not 0 when it goes on from a saved map. For simulations.
   double begin_s = 0.0;
+  std::vector<std::string> categories{};  // of landmarks that the mission can find; empty: not known
 };
 
 struct RegisteredModule {

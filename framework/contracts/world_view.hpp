@@ -25,6 +25,7 @@ struct WorldView {
   const Hierarchies* hierarchies = nullptr;  // of the graph; null: searches take the graph as it is
   // Where this is the same number and not 0, so is what the grid holds. Never the same for two grids that one planner sees.
   std::uint64_t grid_version = 0;
+  Pose2 T_map_start{};  // where the mission began; a mission that was resumed, where it began at first
 };
 
 }  // namespace cairn

@@ -39,6 +39,13 @@ Status at_place(const Condition& condition, const WorldView& world) {
   return answer(nearest_m <= condition.number, fmt::format("{:.2f} m away", nearest_m));
 }
 
+Status battery_above(double ratio, const WorldView& world) {
+  if (world.observation == nullptr || !world.observation->battery_ratio)
+    return answer(false, "the sensor tells nothing of a battery");
+  const double left = *world.observation->battery_ratio;
+  return answer(left > ratio, fmt::format("{:.1f} % of the battery is left", 100.0 * left));
+}
+
 }  // namespace
 
 Status ConditionCheck::operator()(const TreeNode& node, const WorldView& world) {
@@ -54,6 +61,8 @@ Status ConditionCheck::operator()(const TreeNode& node, const WorldView& world) 
       return answer(world.time_s < condition.number, fmt::format("{:.1f} s have passed", world.time_s));
     case NodeKind::time_after:
       return answer(world.time_s >= condition.number, fmt::format("{:.1f} s have passed", world.time_s));
+    case NodeKind::battery_above:
+      return battery_above(condition.number, world);
     default:
       return at_place(condition, world);
   }

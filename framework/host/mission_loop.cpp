@@ -28,7 +28,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       autosaver_(options_.out / autosave_file_of(mission_.config),
                  options_.autosave ? mission_.config.autosave.every_s : 0.0) {
   budget_.cancel = options_.cancel;
-  pose_.T_map_robot = modules_.T_map_start;
+  pose_.T_map_robot = T_map_first_start_ = modules_.T_map_start;
   const MissionConfig& config = mission_.config;
   sensor_ = clock_.add("sensor", config.sensor.name);
   localizer_ = clock_.add("localizer", config.localizer.name);
@@ -216,6 +216,7 @@ void MissionLoop::drive_on() {
   if (drive_ == nullptr) return;
   const Twist allowed = stop_layer_.limit(wanted_);
   held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, allowed);
+  result_.stop_layer = stop_layer_.figures();
   in_stage(drive_stage_, [&] { drive_->command(allowed); });
 }
 
@@ -245,8 +246,11 @@ void MissionLoop::stop() {
 }
 
 WorldView MissionLoop::view() const {
-  return {*grid_,          keeper_.graph(), mission_.robot, pose_, result_.time_s, begun_ ? &observation_ : nullptr,
-          held_back_ratio_};
+  WorldView world{*grid_,          keeper_.graph(), mission_.robot,
+                  pose_,           result_.time_s,  begun_ ? &observation_ : nullptr,
+                  held_back_ratio_};
+  world.T_map_start = T_map_first_start_;
+  return world;
 }
 
 void MissionLoop::tell(const Event& event) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +93,8 @@ class MissionLoop : private Orders, private TreeHost {
   void drive(const Twist& wanted) override;
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override;
+  Status answer(const PlanQuestion& question, const std::string& file_name) override;
+  Status write(const OutputText& output) override;
   void say(const std::string& sentence) override;
 
   LeafTick tick_leaf(const TreeNode& leaf) override;
@@ -151,7 +154,9 @@ class MissionLoop : private Orders, private TreeHost {
   Autosaver autosaver_;
   bool autosave_has_failed_ = false;
   std::optional<Pose2> resumed_true_pose_;
-  std::string not_restored_;  // a sentence on where a resumed mission goes on
+  Pose2 T_map_first_start_;        // resumed or not
+  std::set<std::string> written_;  // names of the texts of this run
+  std::string not_restored_;       // a sentence on where a resumed mission goes on
   bool paused_ = false;
   double paused_before_s_ = 0.0;  // when this pause began
   double last_stamp_s_ = 0.0;

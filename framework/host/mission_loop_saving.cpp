@@ -1,10 +1,16 @@
-// The mission's map on the disk: at its end, when a step asks for it, and meanwhile; and how it goes on from there.
+// What the mission writes. Its map: at its end, when a step asks for it, and meanwhile; and how it goes on from there.
+
+#include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "framework/host/mission_loop.hpp"
 #include "framework/host/mission_map.hpp"
 #include "framework/host/mission_resume.hpp"
+#include "framework/host/plan_answer.hpp"
+#include "framework/host/plan_task.hpp"
+#include "framework/host/tour.hpp"
 #include "maps/map_store.hpp"
 
 namespace cairn {
@@ -37,6 +43,7 @@ void MissionLoop::go_on_from(const SavedMap& map) {
   result_.collisions = progress.collisions;
   step_ = static_cast<std::size_t>(progress.step);
   resumed_true_pose_ = progress.true_T_map_robot;
+  if (!map.driven_path.empty()) T_map_first_start_ = map.driven_path.front();
   restore_tree(map);
 }
 
@@ -170,6 +177,50 @@ Status MissionLoop::save(const std::string& file_name) {
     if (not_saved_.empty()) not_saved_ = saved.reason;
   }
   return saved;
+}
+
+// Of an earlier mission into the same folder nothing may be left in a file, nor may it be in the way.
+Status MissionLoop::write(const OutputText& output) {
+  const StageClock::Visit visit(clock_, StageClock::kHost);
+  const std::string& name = output.file_name;
+  const bool is_plain =
+      !name.empty() && name != "." && name != ".." && name.find_first_of("/\\\n") == std::string::npos;
+  if (!is_plain) return {Progress::failure, "\"" + name + "\" is no plain file name"};
+  const bool is_ours = options_.resume != nullptr || written_.contains(name);
+  const auto mode = output.append && is_ours ? std::ios::app : std::ios::trunc;
+  std::ofstream out(options_.out / name, std::ios::binary | mode);
+  out << output.text;
+  out.close();
+  if (!out) return {Progress::failure, name + " could not be written"};
+  written_.insert(name);
+  return {Progress::success, "wrote " + name};
+}
+
+// The answer goes without the times that it took: the same mission writes the same bytes.
+Status MissionLoop::answer(const PlanQuestion& question, const std::string& file_name) {
+  hierarchies_.update();
+  const ClusterTree clusters = question.avoid.empty() && !question.explain ? ClusterTree{} : hierarchies_.tree();
+  PlanTask task;
+  try {
+    task = task_of(question, keeper_.graph(), clusters, pose_.T_map_robot);
+  } catch (const std::exception& error) {
+    return {Progress::failure, error.what()};
+  }
+  task.request.radius_m = mission_.robot.radius_m;
+  task.request.seed = module_seed(mission_.config.seed, PluginKind::planner, 2);
+  const PlanResult result =
+      plan_tour([&](const PlanRequest& request) { return plan(request); }, task.request, task.via);
+  const Status written = write({file_name,
+                                json_text_of({.question = question,
+                                              .result = result,
+                                              .graph = keeper_.graph(),
+                                              .clusters = clusters,
+                                              .with_times = false}) +
+                                    "\n",
+                                true});
+  if (written.progress != Progress::success) return written;
+  if (result.outcome == PlanOutcome::solved) return {Progress::success, fmt::format("{:.2f} m", result.length_m)};
+  return {Progress::failure, std::string(name_of(result.outcome)) + ": " + result.reason};
 }
 
 Status MissionLoop::write_map(const std::string& file_name) {

@@ -21,6 +21,7 @@ ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, 
   context.seed = module_seed(mission.config.seed, kind, index);
   context.templates = built.templates;
   context.modules = &library;
+  for (const LandmarkShape& shape : mission.shapes) context.categories.push_back(shape.category);
   context.begin_s = built.begin_s;
   return context;
 }

@@ -8,7 +8,8 @@ namespace {
 // In the order of NodeKind.
 constexpr auto kNames = std::to_array<std::string_view>(
     {"sequence", "reactive_sequence", "fallback", "reactive_fallback", "parallel", "repeat", "retry", "timeout", "not",
-     "always", "mission", "landmark_known", "explored", "time_before", "time_after", "at_place", "behaviour"});
+     "always", "mission", "landmark_known", "explored", "time_before", "time_after", "at_place", "battery_above",
+     "behaviour"});
 static_assert(kNames.size() == static_cast<std::size_t>(NodeKind::behaviour) + 1);
 
 template <class Settings>
@@ -37,6 +38,8 @@ std::vector<NodeType> all_types() {
       {K::time_before, S::settings, "whether the mission's clock has not come to a time", schema_of<TimeSettings>()},
       {K::time_after, S::settings, "whether the mission's clock has come to a time", schema_of<TimeSettings>()},
       {K::at_place, S::settings, "whether the robot is near a landmark or place", schema_of<AtPlaceSettings>()},
+      {K::battery_above, S::settings, "whether so much of the battery is left; never where that is not known",
+       schema_of<BatterySettings>()},
   };
 }
 
@@ -47,7 +50,7 @@ std::string_view name_of(NodeKind kind) {
 }
 
 bool is_condition(NodeKind kind) {
-  return kind >= NodeKind::landmark_known && kind <= NodeKind::at_place;
+  return kind >= NodeKind::landmark_known && kind <= NodeKind::battery_above;
 }
 
 bool is_leaf(NodeKind kind) {
@@ -128,6 +131,12 @@ void AtPlaceSettings::describe(Fields<AtPlaceSettings>& fields) {
                 "from the robot's centre to the place, or to the middle of the landmark");
   fields.one_of({"landmark", "at_m"});
   fields.shorthand("landmark");
+}
+
+void BatterySettings::describe(Fields<BatterySettings>& fields) {
+  fields.number("ratio", &BatterySettings::ratio, {0.0, 1.0}, "", "share of a full battery, more than which is left")
+      .required = true;
+  fields.shorthand("ratio");
 }
 
 void SubMissionFile::describe(Fields<SubMissionFile>& fields) {

@@ -31,6 +31,7 @@ enum class NodeKind : std::uint8_t {
   time_before,
   time_after,
   at_place,
+  battery_above,
   behaviour
 };
 // As files write it: "not" for inverse.
@@ -105,6 +106,11 @@ struct AtPlaceSettings {
   std::optional<Point> at_m;
   double within_m = 1.0;
   static void describe(Fields<AtPlaceSettings>& fields);
+};
+
+struct BatterySettings {
+  double ratio = 0.0;
+  static void describe(Fields<BatterySettings>& fields);
 };
 
 // A file that the node `mission` names.

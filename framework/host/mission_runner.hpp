@@ -13,6 +13,7 @@
 #include "framework/host/node_runs.hpp"
 #include "framework/host/run_control.hpp"
 #include "framework/host/stage_clock.hpp"
+#include "framework/host/stop_layer.hpp"
 #include "framework/host/tree_runner.hpp"
 #include "maps/map_store.hpp"
 
@@ -50,6 +51,7 @@ struct MissionResult {
   double time_s = 0.0;                             // simulated or recorded
   double paused_s = 0.0;                           // not in time_s
   std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
+  StopLayerFigures stop_layer{};
   AutosaveFigures autosave{};
   std::string map_file;  // name in the output folder; empty: could not be saved
 };

@@ -226,6 +226,8 @@ class TreeReader {
       if (value.kind != ConfigValue::Kind::scalar)
         (void)config_detail::exactly_one_of(node.choice.config, {"landmark", "at_m"}, what);
       condition = {settings.landmark, settings.at_m, settings.within_m};
+    } else if (node.kind == NodeKind::battery_above) {
+      condition.number = load_config<BatterySettings>(value, what).ratio;
     } else {
       condition.number = load_config<TimeSettings>(value, what).time_s;
     }

@@ -16,7 +16,7 @@ namespace cairn {
 struct Condition {
   std::string landmark{};       // of landmark_known and at_place
   std::optional<Point> at_m{};  // of at_place, instead of the landmark
-  double number = 0.0;          // ratio of explored, time in s, distance in m
+  double number = 0.0;          // ratio of explored or of the battery, time in s, distance in m
 };
 
 struct TreeNode {

@@ -117,6 +117,12 @@ ordered_json json_of(const AutosaveFigures& autosave) {
           {"writing_s", rounded(autosave.writing_s)}};
 }
 
+ordered_json json_of(const StopLayerFigures& figures) {
+  return {{"slowed_s", rounded(figures.slowed_s)},
+          {"stopped_s", rounded(figures.stopped_s)},
+          {"stale_s", rounded(figures.stale_s)}};
+}
+
 ordered_json json_of(const std::vector<TimedContact>& contacts) {
   ordered_json list = ordered_json::array();
   for (const TimedContact& touch : contacts)
@@ -138,6 +144,7 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
           {"readings", result.readings},
           {"collisions", result.collisions},
           {"contacts", json_of(contacts)},
+          {"stop_layer", json_of(result.stop_layer)},
           {"distance_m", rounded(result.distance_m)},
           {"time_s", rounded(result.time_s)}};
 }

@@ -2,85 +2,128 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
+
+#include "framework/host/swept_footprint.hpp"
 
 namespace cairn {
 namespace {
 
-constexpr int kArcPoints = 5;  // a 30 degree arc at 0.5 m: a point each 6.5 cm
+constexpr double kCreep_mps = 0.04;    // where nobody looks: a touch at this speed does no harm
+constexpr double kSlowRatio = 0.4;     // of the top speed, in the slow zone
+constexpr double kBlindPeriods = 1.5;  // of firing: the second reading in a row that is missing
+constexpr double kBumpSide_rad = radians(40.0);
 
-std::vector<Point> arc_of(const RangeReading& reading, const Pose2& T_odom_robot) {
-  const Pose2 T_odom_sensor = T_odom_robot * reading.T_robot_sensor;
-  std::vector<Point> points;
-  const int count = reading.half_beam_rad > 0.0 ? kArcPoints : 1;
-  for (int i = 0; i < count; ++i) {
-    const double bearing = count == 1 ? 0.0 : reading.half_beam_rad * (2.0 * i / (count - 1) - 1.0);
-    points.push_back(T_odom_sensor * Point(reading.range_m * std::cos(bearing), reading.range_m * std::sin(bearing)));
-  }
-  return points;
+// The largest share k of a speed with which the robot stands before way_m is used up, when what it might meet comes
+// towards it at closing_mps as long as it moves:  k V t + (k V)^2 / 2a + u (t + k V / a) <= way.
+double share_for(double way_m, double speed_mps, double deceleration_mps2, const SeenPoint& seen, double tick_s) {
+  const double reaction_s = tick_s + seen.until_fired_s;
+  const double a = speed_mps * speed_mps / (2.0 * deceleration_mps2);
+  const double b = speed_mps * reaction_s + seen.closing_mps * speed_mps / deceleration_mps2;
+  const double c = seen.closing_mps * reaction_s - way_m;
+  if (c >= 0.0) return 0.0;
+  return std::min(1.0, (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a));
 }
 
 }  // namespace
 
 void StopLayerConfig::describe(Fields<StopLayerConfig>& fields) {
-  fields.number("margin_m", &StopLayerConfig::margin_m, {0.0, 1.0}, "m",
-                "kept between the footprint and anything seen");
-  fields.number("stale_s", &StopLayerConfig::stale_s, {0.05, 10.0}, "s", "an echo older than this no longer counts");
-  fields.number("blind_s", &StopLayerConfig::blind_s, {0.05, 10.0}, "s", "no driving after so long without a reading");
+  fields.number("margin_m", &StopLayerConfig::margin_m, {0.01, 1.0}, "m",
+                "stop zone: kept between the footprint and anything seen");
+  fields.number("slow_m", &StopLayerConfig::slow_m, {0.02, 2.0}, "m",
+                "slow zone: so far beyond the margin the robot goes at 0.4 of its top speed at most");
+  fields.number("stale_s", &StopLayerConfig::stale_s, {0.2, 10.0}, "s",
+                "how long an echo counts; where no transducer has answered for so long, the robot creeps");
+  fields.number("blind_s", &StopLayerConfig::blind_s, {0.02, 1.0}, "s",
+                "no driving after so long without any reading; without it, one and a half firing periods");
 }
 
-StopLayer::StopLayer(const StopLayerConfig& config, const RobotModel& robot) : config_(config), robot_(robot) {}
+StopLayer::StopLayer(const StopLayerConfig& config, const RobotModel& robot)
+    : config_(config), robot_(robot), memory_(robot, config.stale_s), period_s_(robot.firing_period_s) {}
 
 void StopLayer::see(const Observation& observation) {
-  T_odom_robot_ = observation.T_odom_robot;
+  const double passed_s = observation.stamp_s - stamp_s_;
+  stands_still_ = !std::isfinite(observation.stamp_s) || (begun_ && passed_s <= 0.0);
+  if (stands_still_) {
+    // A clock that has jumped back goes on from there; what was seen before is of no known time.
+    memory_.forget();
+    if (std::isfinite(observation.stamp_s)) stamp_s_ = last_reading_s_ = observation.stamp_s;
+    return;
+  }
+  if (begun_) tick_s_ = passed_s;
+  if (begun_ && robot_.firing_period_s <= 0.0) period_s_ = period_s_ > 0.0 ? std::min(period_s_, passed_s) : passed_s;
+  if (!begun_) last_reading_s_ = observation.stamp_s;
+  begun_ = true;
   stamp_s_ = observation.stamp_s;
-  for (const RangeReading& reading : observation.ranges) {
-    if (reading.sensor < 0 || std::isnan(reading.range_m)) continue;
-    last_reading_s_ = stamp_s_;
-    if (static_cast<std::size_t>(reading.sensor) >= echoes_.size())
-      echoes_.resize(static_cast<std::size_t>(reading.sensor) + 1);
-    Echo& echo = echoes_[static_cast<std::size_t>(reading.sensor)];
-    echo.stamp_s = stamp_s_;
-    RangeReading seen = reading;
-    // Nearer than the sensor can measure: take it to be at that nearest range.
-    if (seen.range_m < seen.min_m) seen.range_m = seen.min_m;
-    echo.points_odom = std::isfinite(seen.range_m) ? arc_of(seen, T_odom_robot_) : std::vector<Point>{};
-  }
+  memory_.see(observation);
+  const bool has_reading =
+      std::any_of(observation.ranges.begin(), observation.ranges.end(),
+                  [](const RangeReading& reading) { return reading.sensor >= 0 && !std::isnan(reading.range_m); });
+  if (has_reading) last_reading_s_ = stamp_s_;
+  feel_bump(observation.bumped);
 }
 
-// Straight way ahead (or behind) before the footprint, grown by the margin, meets an echo.
-double StopLayer::free_way_m(const Twist& wanted) const {
-  const double reach = robot_.radius_m + config_.margin_m;
-  const Pose2 T_robot_odom = inverse(T_odom_robot_);
-  const double sign = wanted.v_mps < 0.0 ? -1.0 : 1.0;
-  double way = std::numeric_limits<double>::infinity();
-  for (const Echo& echo : echoes_) {
-    if (echo.stamp_s < 0.0 || stamp_s_ - echo.stamp_s > config_.stale_s) continue;
-    for (const Point& p_odom : echo.points_odom) {
-      const Point p = T_robot_odom * p_odom;
-      const double ahead = sign * p.x();
-      if (ahead <= 0.0 || std::abs(p.y()) >= reach) continue;
-      way = std::min(way, ahead - std::sqrt(reach * reach - p.y() * p.y()));
-    }
+// A bump says that, not where: when it begins, at the side that the robot was going to. As long as it lasts (somebody
+// leans on the robot from behind) the robot only creeps.
+void StopLayer::feel_bump(bool bumped) {
+  if (bumped && !bumped_ && allowed_.v_mps != 0.0) {
+    const double side_rad = allowed_.v_mps > 0.0 ? 0.0 : std::numbers::pi;
+    for (const double off_rad : {-kBumpSide_rad, 0.0, kBumpSide_rad})
+      memory_.feel(robot_.radius_m * Point(std::cos(side_rad + off_rad), std::sin(side_rad + off_rad)));
   }
-  return way;
+  bumped_ = bumped;
 }
 
-Twist StopLayer::limit(const Twist& wanted) const {
-  Twist allowed;
-  if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) return allowed;
-  allowed.v_mps = std::clamp(wanted.v_mps, -robot_.max_v_mps, robot_.max_v_mps);
-  allowed.w_radps = std::clamp(wanted.w_radps, -robot_.max_w_radps, robot_.max_w_radps);
-  if (stamp_s_ - last_reading_s_ > config_.blind_s) return Twist{};
-  if (allowed.v_mps == 0.0) return allowed;
-  const double way = std::max(0.0, free_way_m(allowed));
-  const double fastest = std::sqrt(2.0 * robot_.max_acceleration_mps2 * way);
-  // Slowing down keeps the curve: turn rate falls with the speed, except when only turning is left.
-  if (fastest < std::abs(allowed.v_mps)) {
-    if (fastest > 0.0) allowed.w_radps *= fastest / std::abs(allowed.v_mps);
-    allowed.v_mps = std::copysign(fastest, allowed.v_mps);
+bool StopLayer::is_stale() const {
+  const double blind_s = config_.blind_s.value_or(kBlindPeriods * period_s_);
+  return !begun_ || stands_still_ || stamp_s_ - last_reading_s_ > blind_s;
+}
+
+// Of the twist: 1 all of it, 0 nothing.
+double StopLayer::allowed_share(const Twist& twist, double margin_m) const {
+  const double speed_mps = sweep_speed_mps(robot_, twist);
+  if (speed_mps <= 0.0) return 1.0;
+  const double braking_mps2 = robot_.max_acceleration_mps2;
+  double share = 1.0;
+  for (const SeenPoint& seen : memory_.points()) {
+    const double stopping_s = tick_s_ + seen.until_fired_s + speed_mps / braking_mps2;
+    const double horizon_m = (speed_mps + seen.closing_mps) * stopping_s;
+    const double way_m = free_sweep_m(robot_, twist, seen.at, margin_m, horizon_m);
+    if (std::isfinite(way_m)) share = std::min(share, share_for(way_m, speed_mps, braking_mps2, seen, tick_s_));
   }
-  return allowed;
+  return share;
+}
+
+// Slowing down keeps the curve: turn rate falls with the speed, except when a disc has only turning left.
+Twist StopLayer::cut(const Twist& clamped) const {
+  const double v_mps = std::abs(clamped.v_mps);
+  double most_mps = v_mps;
+  if (bumped_) most_mps = kCreep_mps;
+  if (v_mps > 0.0 && !memory_.covers(clamped.v_mps > 0.0 ? 0.0 : std::numbers::pi)) most_mps = kCreep_mps;
+  const double slow_mps =
+      std::max(kSlowRatio * robot_.max_v_mps, v_mps * allowed_share(clamped, config_.margin_m + config_.slow_m));
+  most_mps = std::min({most_mps, v_mps, slow_mps});
+  const double share = std::min(v_mps > 0.0 ? most_mps / v_mps : 1.0, allowed_share(clamped, config_.margin_m));
+  if (share >= 1.0) return clamped;
+  if (share <= 0.0) return {0.0, robot_.polygon_m.empty() ? clamped.w_radps : 0.0};
+  return {share * clamped.v_mps, share * clamped.w_radps};
+}
+
+Twist StopLayer::limit(const Twist& wanted) {
+  allowed_ = {};
+  if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) return allowed_;
+  if (wanted == Twist{}) return allowed_;
+  if (is_stale()) {
+    figures_.stale_s += tick_s_;
+    return allowed_;
+  }
+  const Twist clamped{std::clamp(wanted.v_mps, -robot_.max_v_mps, robot_.max_v_mps),
+                      std::clamp(wanted.w_radps, -robot_.max_w_radps, robot_.max_w_radps)};
+  allowed_ = cut(clamped);
+  const bool moves = allowed_.v_mps != 0.0 || (clamped.v_mps == 0.0 && allowed_.w_radps != 0.0);
+  if (!moves) figures_.stopped_s += tick_s_;
+  if (moves && allowed_ != clamped) figures_.slowed_s += tick_s_;
+  return allowed_;
 }
 
 double StopLayer::held_back_ratio(const Twist& wanted, const Twist& allowed) const {

@@ -1,47 +1,68 @@
-// The stop layer: below every behaviour, it never lets the robot drive into what its sensors see.
+// The stop layer: below every behaviour, it never lets the robot drive into what its sensors see. It knows nothing of
+// maps, poses or missions, and nothing in a mission takes it away: only live ranges, the odometry and the footprint.
 //
-// Keeps the last echo of each transducer as points on its arc, moved along with the odometry, and
-// cuts the wanted speed so that the robot can always brake before the nearest point in its way.
+// Stop zone: the footprint, grown by the margin, swept along the arc that the velocity describes for as long as the
+// robot needs to stand: its reaction (a tick, and until the transducer fires again) and its braking way. The speed is
+// cut, on the same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. Slow
+// zone: the same with a wider margin, in which the robot only goes slowly. Where no transducer looks it creeps.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/host/echo_memory.hpp"
 
 namespace cairn {
 
 struct StopLayerConfig {
-  double margin_m = 0.05;  // kept between the footprint and anything seen
-  double stale_s = 1.0;    // an echo older than this no longer counts
-  double blind_s = 1.0;    // without any reading for so long, no driving
+  double margin_m = 0.05;         // kept between the footprint and anything seen
+  double slow_m = 0.1;            // beyond the margin: only slowly
+  double stale_s = 1.0;           // how long an echo counts, and how long a transducer may be silent
+  std::optional<double> blind_s;  // without any reading for so long, no driving; none: one and a half firing periods
   static void describe(Fields<StopLayerConfig>& fields);
+};
+
+// How long it has interfered.
+struct StopLayerFigures {
+  double slowed_s = 0.0;   // cut the speed, for what was seen or because nobody looked
+  double stopped_s = 0.0;  // let nothing of it through, for what was seen
+  double stale_s = 0.0;    // wanted to drive without fresh readings
 };
 
 class StopLayer {
  public:
   StopLayer(const StopLayerConfig& config, const RobotModel& robot);
 
+  // Every observation, in order. One whose stamp is not later than the last one's is stale as a whole.
   void see(const Observation& observation);
-  // The wanted velocity, within the robot's limits and what the sensors allow.
-  [[nodiscard]] Twist limit(const Twist& wanted) const;
+  // The wanted velocity, within the robot's limits and what the sensors allow. Once after each see().
+  [[nodiscard]] Twist limit(const Twist& wanted);
   // Share of a wanted speed that an allowed one leaves out: 0 none, 1 all.
   [[nodiscard]] double held_back_ratio(const Twist& wanted, const Twist& allowed) const;
+  [[nodiscard]] const StopLayerFigures& figures() const { return figures_; }
 
  private:
-  struct Echo {
-    double stamp_s = -1.0;
-    std::vector<Point> points_odom;
-  };
-  [[nodiscard]] double free_way_m(const Twist& wanted) const;
+  [[nodiscard]] bool is_stale() const;
+  void feel_bump(bool bumped);
+  [[nodiscard]] Twist cut(const Twist& clamped) const;
+  [[nodiscard]] double allowed_share(const Twist& twist, double margin_m) const;
 
   StopLayerConfig config_;
   RobotModel robot_;
-  Pose2 T_odom_robot_;
+  EchoMemory memory_;
+  double tick_s_ = 0.0;  // between the last two observations
   double stamp_s_ = 0.0;
+  double period_s_ = 0.0;  // of readings
   double last_reading_s_ = 0.0;
-  std::vector<Echo> echoes_;  // by transducer
+  bool begun_ = false;
+  bool stands_still_ = false;  // the clock
+  bool bumped_ = false;
+  Twist allowed_;  // of the last tick
+  StopLayerFigures figures_;
 };
 
 }  // namespace cairn

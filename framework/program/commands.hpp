@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/plan_question.hpp"
+
 namespace cairn {
 
 inline constexpr double kMostRadius_m = 10.0;  // of a robot that a plan is for
@@ -55,19 +57,6 @@ struct MissionControlCommand {
 // 1 when it has not come about; throws when no mission runs there.
 int mission_control(const MissionControlCommand& command, const CommonOptions& common);
 int mission_status(const MissionControlCommand& command, const CommonOptions& common);
-
-// Names as people write them.
-struct PlanQuestion {
-  std::string from;
-  std::string to;
-  std::vector<std::string> via;     // places, passed in this order
-  std::vector<std::string> avoid;   // landmarks and clusters
-  std::vector<std::string> closed;  // routes
-  int alternatives = 0;
-  std::string cost = "length";
-  bool explain = false;
-  bool trajectory = false;
-};
 
 struct PlanCommand {
   std::filesystem::path map;

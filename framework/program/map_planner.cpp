@@ -137,7 +137,7 @@ std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request, B
 PlanResult MapPlanner::answer(const PlanQuery& query) const {
   PlanTask task;
   try {
-    task = task_of(query.question, map_, query.question.avoid.empty() ? ClusterTree{} : clusters());
+    task = task_of(query.question, map_.graph, query.question.avoid.empty() ? ClusterTree{} : clusters());
   } catch (const MalformedPlace& error) {
     if (!many_) throw;
     return unknown_place(error);

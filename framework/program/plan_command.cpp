@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "framework/config/config_value.hpp"
+#include "framework/host/plan_answer.hpp"
 #include "framework/host/trajectory.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/in_order.hpp"
@@ -17,11 +18,6 @@
 
 namespace cairn {
 namespace {
-
-// On one line. Names from the command line may be no UTF-8.
-std::string text_of(const nlohmann::ordered_json& json) {
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
 
 const ClusterTree& clusters_for(const MapPlanner& planner, const PlanResult& result) {
   return result.explanation ? planner.clusters() : planner.map().clusters;
@@ -34,13 +30,9 @@ std::vector<TrajectoryPoint> trajectory_for(const MapPlanner& planner, const Pla
 }
 
 std::string json_line_of(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {
-  nlohmann::ordered_json json = json_of(query, result, planner.map(), clusters_for(planner, result));
-  if (query.question.trajectory) {
-    nlohmann::ordered_json& points = json["trajectory"] = nlohmann::ordered_json::array();
-    for (const auto& [time_s, pose, v_mps, w_radps] : trajectory_for(planner, query, result))
-      points.push_back({time_s, pose.x_m, pose.y_m, pose.theta_rad, v_mps, w_radps});
-  }
-  return text_of(json) + "\n";
+  return json_text_of({query.id.dump(), query.question, result, planner.map().graph, clusters_for(planner, result),
+                       trajectory_for(planner, query, result)}) +
+         "\n";
 }
 
 std::string text_for_people(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {

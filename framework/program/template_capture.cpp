@@ -22,23 +22,6 @@ Point place_in(const SavedMap& map, const std::string& text) {
   return map.graph.find(place.landmarks.front())->T_map_landmark.position();
 }
 
-std::string corners_text(const std::vector<Point>& corners) {
-  std::string text;
-  for (const Point& p : corners) text += fmt::format("{}[{:.3f}, {:.3f}]", text.empty() ? "" : ", ", p.x(), p.y());
-  return "[" + text + "]";
-}
-
-std::string template_text(const CaptureCommand& command, const CapturedOutline& captured) {
-  std::string text = fmt::format("# Captured at ({:.2f}, {:.2f}) m of {}; at 0 deg it stands as it stands there.\n",
-                                 captured.at_m.x(), captured.at_m.y(), command.map.filename().string());
-  text += "category: " + command.category + "\n";
-  const std::vector<std::vector<Point>>& polygons = captured.contour.polygons_m;
-  if (polygons.size() == 1) return text + "polygon_m: " + corners_text(polygons.front()) + "\n";
-  text += "parts:\n";
-  for (const std::vector<Point>& corners : polygons) text += "  - {polygon_m: " + corners_text(corners) + "}\n";
-  return text;
-}
-
 // Leaves no file behind that would not load.
 LandmarkShape write_template(const std::filesystem::path& file, const std::string& text) {
   if (std::filesystem::exists(file)) throw std::runtime_error(file.string() + ": there is such a file already");
@@ -64,7 +47,7 @@ int template_capture(const CaptureCommand& command, const CommonOptions& common)
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(command.map.string() + ": " + error.what());
   }
-  const LandmarkShape shape = write_template(command.out, template_text(command, captured));
+  const LandmarkShape shape = write_template(command.out, template_text(command.category, captured, command.map.filename().string()));
   const double diameter_m = shape.contour.outer_diameter_m();
   if (common.json)
     std::cout << nlohmann::ordered_json{{"file", command.out.string()}, {"category", shape.category},

@@ -21,6 +21,7 @@ constexpr double kLookAround_radps = radians(45.0);
 constexpr double kBlockedAhead_m = 0.8;
 constexpr double kOnLap_m = 0.5;   // from its first lookout
 constexpr double kThere_m = 0.12;  // a lookout this near needs no drive
+constexpr double kTrustedRange_m = 3.0;  // beyond it a sonar's beam is wider than a door
 constexpr double kFace_rad = radians(8.0);
 constexpr double kFaceDwell_s = 0.6;  // one round of the sonars, about
 constexpr double kOpeningDwell_s = 2.0;
@@ -46,6 +47,10 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
       near_echoes_(world.grid) {
   settings_.lap = {config.lap_distance_m, config.look_closer_m, config.largest_object_m};
   settings_.smallest_frontier_m = config.smallest_frontier_m;
+  settings_.gain_m = config.gain_m;
+  double farthest_m = 0.0;
+  for (const SonarModel& sonar : world.robot.sonars) farthest_m = std::max(farthest_m, sonar.max_m);
+  settings_.gain_range_m = std::min(farthest_m, kTrustedRange_m);
   memory_.trace.push_back(last_pose_);
 }
 
@@ -72,6 +77,7 @@ void Exploration::remember(const WorldView& world) {
   last_pose_ = pose;
   if (world.observation != nullptr) near_echoes_.see(*world.observation, pose);
   near_echoes_.stand_at(pose.position(), world.robot.radius_m);
+  local_.see(world, near_echoes_);
   const Pose2& last = memory_.trace.back();
   if ((pose.position() - last.position()).norm() >= kTrace_m ||
       std::abs(wrap_angle(pose.theta_rad - last.theta_rad)) >= kTraceTurn_rad)
@@ -85,9 +91,9 @@ void Exploration::set_mode(Mode mode, double time_s) {
   watch_.restart();
 }
 
-void Exploration::drive(const Twist& wanted, Orders& orders) {
+void Exploration::drive(const Twist& wanted, const WorldView& world, Orders& orders) {
   wanted_ = wanted;
-  orders.drive(wanted);
+  orders.drive(local_.approach(wanted, world));
 }
 
 FreeSpace Exploration::space_now(const WorldView& world, const Search& search) const {
@@ -109,7 +115,7 @@ Status Exploration::look_around(const WorldView& world, Orders& orders) {
     set_mode(Mode::travel, world.time_s);
     return travel(world, orders);
   }
-  drive({0.0, std::min(kLookAround_radps, world.robot.max_w_radps)}, orders);
+  drive({0.0, std::min(kLookAround_radps, world.robot.max_w_radps)}, world, orders);
   return {Progress::running, "looking around"};
 }
 
@@ -203,7 +209,7 @@ Status Exploration::travel(const WorldView& world, Orders& orders) {
   if (needs_choice(world) || (blocked && world.time_s - chosen_s_ >= kChoiceAtLeastApart_s)) {
     if (!choose(world, orders)) return nothing_left(world, orders);
   } else if (blocked) {
-    drive({}, orders);
+    drive({}, world, orders);
     return {Progress::running, "something has turned up on the path"};
   }
   FollowLimits limits = limits_;
@@ -211,8 +217,10 @@ Status Exploration::travel(const WorldView& world, Orders& orders) {
     limits.speed_mps = std::min(limits.speed_mps, config_.lap_speed_mps);
   const FollowStep step = follow(world.pose.T_map_robot, task_->path, follow_state_, limits);
   follow_state_ = step.state;
+  const Point aim = point_along(task_->path, step.state.along_m + limits.lookahead_m);
   if (step.arrived) arrive(world);
-  drive(step.wanted, orders);
+  wanted_ = step.wanted;
+  orders.drive(local_.steer(wanted_, aim, limits.speed_mps, world));
   return {Progress::running, task_ ? sentence_of(*task_) : "choosing what to do next"};
 }
 
@@ -237,7 +245,7 @@ Status Exploration::face(const WorldView& world, Orders& orders) {
   const double dwell_s = task_->kind == TaskKind::opening ? kOpeningDwell_s : kFaceDwell_s;
   if (std::abs(error_rad) > kFace_rad && has_time) {
     faced_s_ = world.time_s;
-    drive(turn_by(error_rad, limits_.max_w_radps), orders);
+    drive(turn_by(error_rad, limits_.max_w_radps), world, orders);
   } else if (world.time_s - faced_s_ >= dwell_s || !has_time || !still_worthwhile(*task_, world.grid)) {
     give_up(*task_, space_now(world, search_), settings_, memory_);
     task_.reset();
@@ -274,7 +282,7 @@ Status Exploration::back_off(const WorldView& world, Orders& orders) {
     set_mode(Mode::travel, world.time_s);
     return travel(world, orders);
   }
-  drive({-kBackOff_mps, 0.0}, orders);
+  drive({-kBackOff_mps, 0.0}, world, orders);
   return {Progress::running, "backing off"};
 }
 

@@ -8,6 +8,7 @@
 #include "plugins/behaviours/explore.hpp"
 #include "plugins/behaviours/explore_tasks.hpp"
 #include "plugins/behaviours/held_back.hpp"
+#include "plugins/behaviours/local_planner.hpp"
 #include "plugins/behaviours/near_echoes.hpp"
 #include "plugins/behaviours/path_follower.hpp"
 
@@ -29,7 +30,7 @@ class Exploration {
 
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
-  void drive(const Twist& wanted, Orders& orders);
+  void drive(const Twist& wanted, const WorldView& world, Orders& orders);
   // Which part of the map is searched, and how much room is kept.
   struct Search {
     double within_m = 8.0;
@@ -75,6 +76,7 @@ class Exploration {
   HeldBackWatch watch_;
   std::vector<Point> failed_lookouts_;
   NearEchoes near_echoes_;
+  LocalPlanner local_;
   ExploreMemory memory_;
 };
 

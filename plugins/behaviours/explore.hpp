@@ -24,10 +24,32 @@ struct ExploreConfig {
   double largest_object_m = 1.5;
   bool second_look = true;
   double smallest_frontier_m = 0.3;
+  double gain_m = 0.0;
   double speed_mps = 0.2;
   double lap_speed_mps = 0.1;
 
   static void describe(Fields<ExploreConfig>& fields);
+  // All but when it ends: of a config that derives from it.
+  template <class Config>
+  static void describe_ways(Fields<Config>& fields) {
+    using C = Config;
+    fields.number("clearance_m", &C::clearance_m, {0.0, 2.0}, "m",
+                  "kept between the robot's edge and everything occupied");
+    fields.number("look_closer_m", &C::look_closer_m, {0.0, 5.0}, "m",
+                  "every edge is passed within this distance and every free-standing object circled; 0: neither");
+    fields.number("lap_distance_m", &C::lap_distance_m, {0.1, 5.0}, "m",
+                  "from the edge of an object to the robot's centre on a lap");
+    fields.number("largest_object_m", &C::largest_object_m, {0.1, 20.0}, "m", "what is longer is a wall: no laps");
+    fields.flag("second_look", &C::second_look,
+                "when all is seen, free-standing objects that are no known landmark are circled once more");
+    fields.number("smallest_frontier_m", &C::smallest_frontier_m, {0.0, 10.0}, "m", "shorter frontiers are left alone");
+    fields.number("gain_m", &C::gain_m, {0.0, 100.0}, "m",
+                  "a frontier may be so much further off for each time that the unknown area in sight from there is e "
+                  "times as large (1 / lambda of Gonzalez-Banos and Latombe 2002); 0: the nearest frontier first");
+    fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
+    fields.number("lap_speed_mps", &C::lap_speed_mps, {0.01, 5.0}, "m/s",
+                  "the same on a lap: slower means more readings, and no more error of the odometry");
+  }
 };
 
 class Exploration;

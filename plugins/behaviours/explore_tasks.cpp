@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "plugins/behaviours/frontiers.hpp"
+#include "plugins/behaviours/information_gain.hpp"
 #include "plugins/behaviours/openings.hpp"
 
 namespace cairn::behaviours {
@@ -66,6 +67,8 @@ struct Worth {
   double bonus_m_per_m = 0.0;  // of the group's length
   double small_m = 0.0;        // shorter groups are worth ...
   double most_m_per_m = 0.0;   // ... no longer way for each of their metres
+  double gain_m = 0.0;         // > 0: the area that would be seen counts instead of the length
+  double gain_range_m = 0.0;
 };
 
 void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& worth, const FreeSpace& space,
@@ -81,7 +84,10 @@ void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& wort
     task.lookout = space.centre_of(*stands[i]);
     task.cost_m = space.cost_m(*stands[i]);
     if (size_m < worth.small_m && task.cost_m > worth.most_m_per_m * size_m) continue;
-    offer(best, std::move(task), std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m), previous);
+    const double bonus_m = worth.gain_m > 0.0
+                               ? worth_of_area_m(new_area_m2(space, task.lookout, worth.gain_range_m), worth.gain_m)
+                               : std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m);
+    offer(best, std::move(task), bonus_m, previous);
   }
 }
 
@@ -140,7 +146,9 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
     const std::vector<Cell> left = unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers);
     std::vector<CellGroup> groups = groups_of(left, settings.smallest_frontier_m / space.cell_m());
     std::erase_if(groups, [&](const CellGroup& group) { return is_crack(space, group); });
-    const Worth worth{TaskKind::frontier, kViewRatio * sight.within_m, kFrontierBonus_m_per_m};
+    Worth worth{TaskKind::frontier, kViewRatio * sight.within_m, kFrontierBonus_m_per_m};
+    worth.gain_m = settings.gain_m;
+    worth.gain_range_m = settings.gain_range_m;
     offer_groups(best, std::move(groups), worth, space, previous);
   }
   if (look_closer_m > 0.0) offer_laps(best, space, T_map_robot, previous, settings.lap, memory);

@@ -15,6 +15,8 @@ struct TaskSettings {
   LapSettings lap;  // lap.look_closer_m 0: no laps and no edges
   double smallest_frontier_m = 0.3;
   Sight frontier_sight{1.0, radians(60.0)};  // a frontier is looked at from within it
+  double gain_m = 0.0;                       // what e times the new area is worth; 0: the nearest frontier first
+  double gain_range_m = 3.0;                 // of the sensors, for the new area
 };
 
 // An object that is circled again: only the trace from here on counts as having looked at it.

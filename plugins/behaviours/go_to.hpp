@@ -1,7 +1,6 @@
 // Goes to a landmark or a place by the mission's planner, and faces it.
 //
-// Plans again when it is held back or when something turns up on the path; gives up with the planner's
-// outcome and sentence.
+// The route driver does the driving, and says why when it gives up.
 #pragma once
 
 #include <optional>
@@ -10,17 +9,14 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
-#include "plugins/behaviours/held_back.hpp"
-#include "plugins/behaviours/path_follower.hpp"
+#include "plugins/behaviours/route_driver.hpp"
 
 namespace cairn::behaviours {
 
-struct GoToConfig {
+struct GoToConfig : RouteSettings {
   ConfigValue landmark;  // text: `L3`, a name, or `nearest CATEGORY`
   std::optional<Point> at_m;
   std::optional<double> angle_rad;
-  double tolerance_m = 0.1;
-  double speed_mps = 0.25;
   double at_most_s = 900.0;
 
   static void describe(Fields<GoToConfig>& fields);
@@ -42,34 +38,18 @@ class GoTo : public Behaviour {
   void halt() override;
 
  private:
-  enum class Mode { plan, travel, back_off, face };
-
-  Status plan(const WorldView& world, Orders& orders);
-  Status travel(const WorldView& world, Orders& orders);
-  Status back_off(const WorldView& world, Orders& orders);
+  Status drive_there(const WorldView& world, Orders& orders);
   Status face(const WorldView& world, Orders& orders);
-
   [[nodiscard]] Place goal_of(const NamedLandmarks& named) const;
-  Status begin_path(const WorldView& world, const PlanResult& result);
-  Status plan_again(const WorldView& world, Orders& orders, const std::string& why);
   [[nodiscard]] std::string destination(const WorldView& world) const;
 
   GoToConfig config_;
   std::string landmark_name_;
   std::uint64_t seed_;
-  Mode mode_ = Mode::plan;
+  RouteDriver driver_;
   std::optional<double> begun_s_;
-  double mode_since_s_ = 0.0;
-  double planned_s_ = 0.0;
-  int plans_ = 0;
-  int ways_out_ = 0;
-  bool on_way_out_ = false;
-  LandmarkId reached_ = 0;  // the landmark that the plan ends at; 0: a place
-  std::vector<Point> path_;
-  FollowState follow_state_;
-  Point backed_from_{0.0, 0.0};
-  Twist wanted_;
-  HeldBackWatch watch_;
+  std::optional<Place> goal_;             // from the first tick on
+  std::optional<double> facing_since_s_;  // there, turning to the landmark
 };
 
 }  // namespace cairn::behaviours

@@ -1,32 +1,56 @@
 #include "framework/contracts/module.hpp"
 
+#include "plugins/behaviours/dock.hpp"
 #include "plugins/behaviours/explore.hpp"
 #include "plugins/behaviours/go_to.hpp"
+#include "plugins/behaviours/inspect.hpp"
+#include "plugins/behaviours/records.hpp"
+#include "plugins/behaviours/return_home.hpp"
+#include "plugins/behaviours/search.hpp"
 #include "plugins/behaviours/simple_steps.hpp"
+#include "plugins/behaviours/tour.hpp"
 
 namespace {
 
 using namespace cairn;
 using namespace cairn::behaviours;
 
+// A behaviour that drives: made with its settings and a seed.
+template <class Step, class Config>
+void add_driving(Registrar& registrar, const char* name, const char* summary) {
+  registrar.add<Behaviour, Config>(name, summary, [](const Config& config, const ModuleContext& context) {
+    return std::make_unique<Step>(config, context.seed);
+  });
+}
+
+template <class Step, class Config>
+void add(Registrar& registrar, const char* name, const char* summary) {
+  registrar.add<Behaviour, Config>(
+      name, summary, [](const Config& config, const ModuleContext&) { return std::make_unique<Step>(config); });
+}
+
 void register_module(Registrar& registrar) {
-  registrar.add<Behaviour, ExploreConfig>(
-      "explore", "explores the reachable space at a safe distance and looks closer at what it finds",
-      [](const ExploreConfig& config, const ModuleContext&) { return std::make_unique<Explore>(config); });
-  registrar.add<Behaviour, GoToConfig>("goto", "goes to a landmark or a place by the mission's planner",
-                                       [](const GoToConfig& config, const ModuleContext& context) {
-                                         return std::make_unique<GoTo>(config, context.seed);
-                                       });
-  registrar.add<Behaviour, DriveConfig>("drive", "drives straight from point to point",
-                                        [](const DriveConfig& config, const ModuleContext& context) {
-                                          return std::make_unique<DriveTo>(config, context.seed);
-                                        });
-  registrar.add<Behaviour, WaitConfig>(
-      "wait", "stands still for a time",
-      [](const WaitConfig& config, const ModuleContext&) { return std::make_unique<Wait>(config); });
-  registrar.add<Behaviour, SaveConfig>(
-      "save", "saves the map so far into the output folder",
-      [](const SaveConfig& config, const ModuleContext&) { return std::make_unique<Save>(config); });
+  add<Explore, ExploreConfig>(registrar, "explore",
+                              "explores the reachable space at a safe distance and looks closer at what it finds");
+  registrar.add<Behaviour, SearchConfig>("search", "explores until so many landmarks of a category are known",
+                                         [](const SearchConfig& config, const ModuleContext& context) {
+                                           return std::make_unique<Search>(config, context.categories);
+                                         });
+  add_driving<Inspect, InspectConfig>(registrar, "inspect",
+                                      "goes to a landmark and circles it until its degree does not rise any more");
+  add_driving<GoTo, GoToConfig>(registrar, "goto", "goes to a landmark or a place by the mission's planner");
+  add_driving<Tour, TourConfig>(registrar, "tour", "visits places, in the given or the shortest order");
+  add_driving<Patrol, PatrolConfig>(registrar, "patrol", "visits places again and again, or all known landmarks");
+  add_driving<ReturnHome, ReturnHomeConfig>(registrar, "return_home", "goes back to where the mission began");
+  add_driving<Dock, DockConfig>(registrar, "dock", "stops at a distance beside a landmark, on a given side of it");
+  add_driving<DriveTo, DriveConfig>(registrar, "drive", "drives straight from point to point");
+  add<Wait, WaitConfig>(registrar, "wait", "stands still for a time");
+  add<Save, SaveConfig>(registrar, "save", "saves the map so far into the output folder");
+  add<CaptureTemplate, CaptureTemplateConfig>(registrar, "capture_template",
+                                              "writes a template of what is mapped at a place into the output folder");
+  add<PlanQuery, PlanQueryConfig>(registrar, "plan_query",
+                                  "asks the mission's planner and writes its answer into the output folder");
+  add<Log, LogConfig>(registrar, "log", "says a line for people");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace cairn {
 namespace {
 
 constexpr double kMemory_s = 1.0;
+constexpr double kInTime_s = 0.3;          // about a round of the sonars; what comes up later nobody can stop for
 constexpr double kPart_m = 0.1;            // so far from the place of the touch belongs to what was touched
 constexpr double kRay_rad = radians(1.0);  // half a beam that has no width
 constexpr double kBack_m = 1e-4;
@@ -55,6 +56,7 @@ bool Witness::could_see(const Nearest& touched, const Scene& scene, const Traffi
   const std::array<Point, 3> parts_m = parts_of(touched);
   Scene then = scene;
   return std::any_of(moments_.begin(), moments_.end(), [&](const Moment& moment) {
+    if (moment.time_s > moments_.back().time_s - kInTime_s) return false;
     Point shift_m(0.0, 0.0);
     if (mover != kFixed) {
       const auto index = static_cast<std::size_t>(mover);

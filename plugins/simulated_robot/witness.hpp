@@ -1,4 +1,5 @@
-// Judges a touch: how fast the robot came, and whether its transducers could have seen what it met.
+// Judges a touch: how fast the robot came, and whether its transducers could have seen what it met in time, which is a
+// round of the sonars before: a door that closes just ahead of the robot could not be seen.
 //
 // Seen is geometry, from where everything truly was: no fault of a transducer counts, nor whether it was its turn to
 // fire, nor how loud the echo would have been.

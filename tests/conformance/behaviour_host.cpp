@@ -51,6 +51,17 @@ Status BehaviourHost::save(const std::string& file_name) {
   return {Progress::success, "saved " + file_name};
 }
 
+Status BehaviourHost::answer(const PlanQuestion& question, const std::string& file_name) {
+  record_ += "answer " + question.from + " to " + question.to + " into " + file_name + "\n";
+  if (finds_no_way) return {Progress::failure, "no way leads there"};
+  return {Progress::success, "answered into " + file_name};
+}
+
+Status BehaviourHost::write(const OutputText& output) {
+  record_ += (output.append ? "append to " : "write ") + output.file_name + "\n" + output.text;
+  return {Progress::success, "wrote " + output.file_name};
+}
+
 void BehaviourHost::say(const std::string& sentence) {
   record_ += "say " + sentence + "\n";
 }

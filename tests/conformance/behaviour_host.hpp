@@ -15,6 +15,8 @@ class BehaviourHost : public Orders {
   void drive(const Twist& wanted) override;
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override;
+  Status answer(const PlanQuestion& question, const std::string& file_name) override;
+  Status write(const OutputText& output) override;
   void say(const std::string& sentence) override;
 
   // One tick: the behaviour, then the motion it asked for, then the clock.

@@ -22,6 +22,7 @@ class Conditions : public testing::Test {
     const std::vector<TreeNode> steps = testing_tree::steps_of("[" + yaml + "]");
     WorldView world{grid_, graph_, robot_, {}, time_s};
     world.pose.T_map_robot = {1.0, 2.0, 0.0};
+    world.observation = seen_ ? &*seen_ : nullptr;
     return check_(steps.front(), world);
   }
   [[nodiscard]] bool holds(const std::string& yaml, double time_s = 0.0) {
@@ -31,6 +32,7 @@ class Conditions : public testing::Test {
   OccupancyGrid grid_{0.1};
   LandmarkGraph graph_;
   const RobotModel robot_;
+  std::optional<Observation> seen_;
   ConditionCheck check_;
 };
 
@@ -51,6 +53,15 @@ TEST_F(Conditions, APlaceIsNearOrNot) {
   EXPECT_FALSE(holds("at_place: {landmark: circle, within_m: 1000}"));
   EXPECT_EQ(ask("at_place: square").reason, "1.00 m away");
   EXPECT_EQ(ask("at_place: circle").reason, "no landmark \"circle\" is known");
+}
+
+TEST_F(Conditions, ABatteryIsAboveItsShareOrNotKnown) {
+  EXPECT_EQ(ask("battery_above: 0.3"), (Status{Progress::failure, "the sensor tells nothing of a battery"}));
+  seen_.emplace();
+  EXPECT_EQ(ask("battery_above: 0"), (Status{Progress::failure, "the sensor tells nothing of a battery"}));
+  seen_->battery_ratio = 0.31;
+  EXPECT_EQ(ask("battery_above: 0.3"), (Status{Progress::success, "31.0 % of the battery is left"}));
+  EXPECT_FALSE(holds("battery_above: {ratio: 0.31}"));
 }
 
 TEST_F(Conditions, TimeIsTheMissions) {

@@ -139,6 +139,7 @@ TEST_F(MissionTreeFiles, WhatIsWrongIsToldWithItsPlace) {
       {"- explored: 95", "main.yaml:1:13: at_least_ratio must be a number from 0 to 1, found \"95\""},
       {"- at_place: {within_m: 1}", "main.yaml:1:3: at_place needs one of landmark, at_m"},
       {"- at_place: {landmark: L1, at_m: [0, 0]}", "at_place takes only one of"},
+      {"- battery_above: 30", "main.yaml:1:18: ratio must be a number from 0 to 1, found \"30\""},
       {"- time_before: {s: 3}", "main.yaml:1:17: unknown key \"s\" in time_before"},
       {"- wait: $time", "main.yaml:1:9: unknown parameter \"time\" of the mission itself; it has none"},
   };

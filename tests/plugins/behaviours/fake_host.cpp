@@ -29,6 +29,7 @@ FakeHost::FakeHost(const std::string& drawing, const FakeHostSettings& settings)
     for (int y = 0; y < static_cast<int>(rows_.size()) * per_side; ++y)
       for (int x = 0; x < static_cast<int>(rows_[0].size()) * per_side; ++x) mark({x, y});
   }
+  T_map_start = T_map_robot;
   reveal();
 }
 
@@ -101,20 +102,32 @@ PlanResult FakeHost::plan(const PlanRequest& request) {
     to.pose = landmark.access.value_or(landmark.T_map_landmark);
     result.landmarks = {landmark.id};
   }
-  const TravelField travel(space, request.from.pose->position(), request.radius_m + settings_.cell_m);
+  Point from{0.0, 0.0};
+  if (request.from.pose) {
+    from = request.from.pose->position();
+  } else {
+    const Landmark& landmark = graph.landmarks().at(request.from.landmarks.front());
+    from = landmark.access.value_or(landmark.T_map_landmark).position();
+  }
+  const TravelField travel(space, from, request.radius_m + settings_.cell_m);
   const std::vector<Cell> cells = travel.path_to(space.cell_at(to.pose->position()));
   if (cells.empty()) {
     result.reason = "no way leads there";
     return result;
   }
   result.outcome = PlanOutcome::solved;
+  result.cost_m = travel.cost_m(space.cell_at(to.pose->position()));
   for (const Cell c : cells) result.path.push_back({space.centre_of(c).x(), space.centre_of(c).y(), 0.0});
   return result;
 }
 
 Status FakeHost::tick(Behaviour& behaviour) {
   wanted_ = {};
-  const WorldView world{grid, graph, robot, {T_map_robot, Eigen::Matrix3d::Zero()}, time_s, nullptr, held_back_ratio};
+  Observation seen;
+  if (observe) seen = observe(*this);
+  WorldView world{
+      grid, graph, robot, {T_map_robot, Eigen::Matrix3d::Zero()}, time_s, observe ? &seen : nullptr, held_back_ratio};
+  world.T_map_start = T_map_start;
   Status status = behaviour.tick(world, *this);
   const Twist allowed = stop_layer ? stop_layer(T_map_robot, wanted_) : wanted_;
   held_back_ratio = wanted_.v_mps == 0.0 ? 0.0 : 1.0 - allowed.v_mps / wanted_.v_mps;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,15 @@ class FakeHost : public Orders {
     saved.push_back(file_name);
     return {Progress::success, "saved " + file_name};
   }
+  Status answer(const PlanQuestion& question, const std::string& file_name) override {
+    asked.push_back(question);
+    return {Progress::success, "answered into " + file_name};
+  }
+  Status write(const OutputText& output) override {
+    if (!output.append) written[output.file_name].clear();
+    written[output.file_name] += output.text;
+    return {Progress::success, "wrote " + output.file_name};
+  }
   void say(const std::string& sentence) override { said.push_back(sentence); }
 
   // Ticks until the behaviour ends or the time is up (then its status is still running).
@@ -47,6 +57,9 @@ class FakeHost : public Orders {
   LandmarkGraph graph;
   OccupancyGrid grid;
   Pose2 T_map_robot;
+  Pose2 T_map_start;  // as the drawing has it
+  // What the sensors see in a tick; nothing by default.
+  std::function<Observation(const FakeHost&)> observe;
   double time_s = 0.0;
   double held_back_ratio = 0.0;
   // What the stop layer lets through; all of it by default.
@@ -58,6 +71,8 @@ class FakeHost : public Orders {
   std::vector<PlanRequest> planned;
   std::vector<std::string> saved;
   std::vector<std::string> said;
+  std::vector<PlanQuestion> asked;
+  std::map<std::string, std::string> written;  // text by file name
   double driven_m = 0.0;
   double nearest_solid_m = 1e9;  // over the whole run
 

@@ -69,7 +69,7 @@ TEST(GoTo, ReachesAPlaceWithinTheTolerance) {
   GoTo go(config_at({2.4, 1.4}), 1);
   const Status status = host.run(go, 120.0);
   EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
-  EXPECT_LT((host.T_map_robot.position() - Point{2.4, 1.4}).norm(), 0.13);
+  EXPECT_LT((host.T_map_robot.position() - Point{2.4, 1.4}).norm(), 0.1 + 1e-9);
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m);
 }
 
@@ -99,7 +99,7 @@ TEST(GoTo, AsksForAllLandmarksOfTheNearestCategory) {
   ASSERT_EQ(host.planned.size(), 1U);
   EXPECT_EQ(host.planned[0].to.landmarks, (std::vector<LandmarkId>{2, 3}));
   EXPECT_EQ(host.planned[0].seed, 5U);
-  EXPECT_DOUBLE_EQ(host.planned[0].radius_m, host.robot.radius_m);
+  EXPECT_GE(host.planned[0].radius_m, host.robot.radius_m);
 }
 
 TEST(GoTo, NamesTheLandmarksThereAreWhenItDoesNotKnowOne) {
@@ -136,7 +136,10 @@ TEST(GoTo, GivesUpWithThePlannersOutcomeAndSentence) {
     return result;
   };
   GoTo go(config_at({1.5, 1.5}), 1);
-  EXPECT_EQ(host.tick(go), (Status{Progress::failure, "goal_blocked: the goal lies in a wall"}));
+  const Status status = host.run(go, 600.0);
+  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_THAT(status.reason, StartsWith("goal_blocked: the goal lies in a wall"));
+  EXPECT_THAT(status.reason, HasSubstr("on the way to (1.50, 1.50)"));
 }
 
 TEST(GoTo, DoesNotTakeAnApproximatePlanForAPlan) {
@@ -148,8 +151,8 @@ TEST(GoTo, DoesNotTakeAnApproximatePlanForAPlan) {
     result.path = {host.T_map_robot, {0.9, 1.1, 0}};
     return result;
   };
-  GoTo go(config_at({1.0, 1.1}), 1);
-  EXPECT_EQ(host.tick(go).progress, Progress::failure);
+  GoTo go(config_at({1.5, 1.6}), 1);  // in the bar: elsewhere it would find a way by its own eyes
+  EXPECT_EQ(host.run(go, 600.0).progress, Progress::failure);
 }
 
 TEST(GoTo, PlansAgainWhenSomethingTurnsUpOnThePath) {
@@ -168,7 +171,7 @@ TEST(GoTo, FailsWhenTheWayHasBeenClosed) {
   GoTo go(config_at({2.4, 1.4}), 1);
   host.run(go, 1.0);
   for (double y = 0.05; y < 0.95; y += 0.1) host.solidify({1.45, y});
-  const Status status = host.run(go, 120.0);
+  const Status status = host.run(go, 600.0);
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_THAT(status.reason, StartsWith("no_route: "));
 }
@@ -179,7 +182,8 @@ TEST(GoTo, GivesUpAfterBeingHeldBackAgainAndAgain) {
   GoTo go(config_at({2.4, 1.4}), 1);
   const Status status = host.run(go, 600.0);
   EXPECT_EQ(status.progress, Progress::failure);
-  EXPECT_THAT(status.reason, StartsWith("held back on the way to (2.40, 1.40)"));
+  EXPECT_THAT(status.reason, StartsWith("held back at ("));
+  EXPECT_THAT(status.reason, HasSubstr("on the way to (2.40, 1.40)"));
 }
 
 TEST(GoTo, FailsWhenItsTimeIsUp) {
@@ -216,7 +220,7 @@ TEST(GoTo, BeginsAfreshAfterAHalt) {
   host.run(go, 2.0);
   go.halt();
   EXPECT_EQ(host.run(go, 120.0).progress, Progress::success);
-  EXPECT_EQ(host.planned.size(), 2U);
+  EXPECT_GE(host.planned.size(), 2U);
 }
 
 }  // namespace

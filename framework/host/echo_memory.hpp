@@ -1,0 +1,68 @@
+// What the ranges of the last moments say about the robot's surroundings: for the stop layer, in the odometry's frame.
+//
+// An echo is kept as points on its arc, because it may have come from anywhere on it. A later echo from farther away
+// that passed through such a point takes it away again; silence does not, for a mirror or a dead transducer is silent
+// too.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "framework/contracts/observation.hpp"
+#include "framework/contracts/robot_model.hpp"
+
+namespace cairn {
+
+// Something that has echoed, robot frame.
+struct SeenPoint {
+  Point at{0.0, 0.0};
+  double closing_mps = 0.0;    // how fast it comes nearer beyond what the robot's own motion explains
+  double until_fired_s = 0.0;  // before its transducer fires again
+};
+
+class EchoMemory {
+ public:
+  // kept_s: how long an echo counts.
+  EchoMemory(const RobotModel& robot, double kept_s);
+
+  void see(const Observation& observation);
+  // A place of the robot's frame that was felt: counts for a while like an echo, whatever is heard from behind it.
+  void feel(const Point& at_robot);
+  void forget();
+
+  [[nodiscard]] const std::vector<SeenPoint>& points() const { return points_; }
+  // Whether a transducer that has answered lately (be it with "no echo") looks into that direction of the robot.
+  [[nodiscard]] bool covers(double direction_rad) const;
+
+ private:
+  struct Echo {
+    double stamp_s = 0.0;
+    double closing_mps = 0.0;
+    std::vector<Point> points_odom;
+  };
+  struct Transducer {
+    double stamp_s = -1e9;
+    double axis_rad = 0.0;
+    double half_beam_rad = 0.0;
+    std::vector<Echo> echoes;  // the latest last
+  };
+  struct Touch {
+    double stamp_s = 0.0;
+    Point at_odom{0.0, 0.0};
+  };
+
+  void take(const RangeReading& reading);
+  [[nodiscard]] double closing_mps(const Transducer& transducer, const RangeReading& reading) const;
+  void clear_before(const RangeReading& reading);
+  void show();
+
+  double kept_s_;
+  double round_s_;
+  Pose2 T_odom_robot_;
+  double stamp_s_ = 0.0;
+  std::vector<Transducer> transducers_;
+  std::vector<Touch> touches_;
+  std::vector<SeenPoint> points_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,282 @@
+// How the route driver finds a way: by the planner, by its own eyes, by looking again.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "plugins/behaviours/route_driver.hpp"
+#include "plugins/behaviours/specks.hpp"
+#include "plugins/behaviours/way_to_look.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+// Room asked of the planner beside the robot, the most first: more than the local planner keeps, then what a narrow
+// door leaves, then nothing.
+constexpr double kRooms_m[] = {0.12, 0.06, 0.0};
+constexpr double kPlansApart_s = 1.0;
+constexpr int kMostPlans = 200;
+constexpr int kMostWaysOut = 4;
+constexpr double kWayOutClearance_m = 0.1;
+constexpr double kClosedFor_s = 60.0;
+constexpr double kSpaceAround_m = 12.0;
+constexpr double kSpaceClearance_m = 0.08;
+constexpr double kTightClearance_m = 0.03;
+constexpr double kAroundGoal_m = 1.0;
+constexpr int kMostAcross_cells = 1000;
+constexpr double kFree = 0.1;  // probability of what is taken to be free
+constexpr int kMostLooks = 12;
+constexpr int kLooksBeforeAgain = 6;  // then at the same places once more
+constexpr double kAroundLook_m = 0.7;
+constexpr int kMostUnknownWays = 20;
+// An opening of twice this is tried, slowly: sonars draw openings narrower than they are.
+constexpr double kSqueezedRadius_m = 0.16;
+constexpr int kLooksBeforeSqueezing = 2;
+constexpr int kMostSqueezes = 3;
+constexpr double kStandOff_m = 0.8;  // from what is looked at
+constexpr double kStandOffNearer_m = 0.5;
+
+std::string text_of(const Point& p) {
+  char text[48];
+  std::snprintf(text, sizeof text, "(%.2f, %.2f)", p.x(), p.y());
+  return text;
+}
+
+std::vector<Point> points_of(const std::vector<Pose2>& path) {
+  std::vector<Point> points;
+  for (const Pose2& pose : path) points.push_back(pose.position());
+  return points;
+}
+
+// Within what is known and about the goal.
+void take_unknown_for_free(OccupancyGrid& map, const Point& goal) {
+  const Cell to = map.cell_at(goal);
+  const int around = static_cast<int>(kAroundGoal_m / map.cell_m());
+  const CellBox known = map.bounds();
+  CellBox box = CellBox{to, to + Cell{1, 1}}.grown(around);
+  box = known.empty() ? box : united(known, box);
+  if (box.width() > kMostAcross_cells || box.height() > kMostAcross_cells) return;
+  const LogOdds free = log_odds_of(kFree);
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      if (map.state({x, y}) == CellState::unknown) map.set_log_odds({x, y}, free);
+}
+
+}  // namespace
+
+// What it has looked through; specks; and whatever stands alone where the robot has looked again: it is there if it
+// echoes.
+std::vector<Cell> RouteDriver::doubtful_cells(const OccupancyGrid& map) const {
+  std::vector<Cell> cells = seen_through();
+  const std::vector<Cell> specks = specks_of(map, map.bounds());
+  cells.insert(cells.end(), specks.begin(), specks.end());
+  const int around = static_cast<int>(kAroundLook_m / map.cell_m());
+  for (const Point& seen : looked_at_) {
+    const Cell at = map.cell_at(seen);
+    const CellBox box = CellBox{at, at + Cell{1, 1}}.grown(around);
+    const std::vector<Cell> islands = specks_of(map, box, box.width() * box.height(), box.width() * box.height());
+    cells.insert(cells.end(), islands.begin(), islands.end());
+  }
+  return cells;
+}
+
+void RouteDriver::doubt(const std::vector<Cell>& cells, const WorldView& world) {
+  for (const Cell c : cells) {
+    doubted_.insert(c);
+    const auto looked = through_.find(c);
+    const bool is_seen_through = looked != through_.end() && looked->second >= 0;
+    if (!is_seen_through && near_echoes_->is_occupied(world.grid, c))
+      doubted_places_.push_back(world.grid.centre_of(c));
+  }
+}
+
+void RouteDriver::doubt_along_path(const WorldView& world) {
+  const int reach = static_cast<int>((world.robot.radius_m + kTightClearance_m) / world.grid.cell_m()) + 1;
+  std::vector<Cell> cells;
+  for (double along_m = 0.0; along_m < length_of(path_); along_m += world.grid.cell_m()) {
+    const Cell centre = world.grid.cell_at(point_along(path_, along_m));
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx)
+        if (dx * dx + dy * dy <= reach * reach) cells.push_back(centre + Cell{dx, dy});
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  doubt(cells, world);
+}
+
+FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m, Trust trust) const {
+  const Point position = world.pose.T_map_robot.position();
+  const Cell here = world.grid.cell_at(position);
+  const int reach = static_cast<int>(kSpaceAround_m / world.grid.cell_m());
+  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
+  OccupancyGrid map = near_echoes_->applied_to(world.grid, part);
+  if (trust != Trust::all)
+    for (const Cell c : doubtful_cells(map)) map.set_log_odds(c, log_odds_of(kFree));
+  if (trust >= Trust::only_solid) take_unknown_for_free(map, goal_point(world).value_or(position));
+  return FreeSpace(map, {position, world.robot.radius_m, clearance_m}, trace_, troubles_);
+}
+
+void RouteDriver::stop_doubting() {
+  doubted_ = {};
+  doubted_places_.clear();
+}
+
+bool RouteDriver::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
+                             double radius_m) const {
+  const auto is_occupied = [&](Cell c) { return near_echoes_->is_occupied(world.grid, c) && !doubted_.contains(c); };
+  return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, radius_m);
+}
+
+// With as much room as there is a way for; stored routes that were found blocked are left closed while there is
+// another.
+PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
+  PlanRequest request;
+  request.from.pose = world.pose.T_map_robot;
+  request.to = goal_;
+  request.seed = seed_ + static_cast<std::uint64_t>(plans_);
+  ++plans_;
+  planned_s_ = world.time_s;
+  for (const auto& [route, until_s] : closed_until_s_) request.closed.push_back(route);
+  PlanResult result;
+  for (const bool with_closed : {true, false}) {
+    if (!with_closed && request.closed.empty()) break;
+    if (!with_closed) request.closed.clear();
+    for (const double room_m : kRooms_m) {
+      request.radius_m = world.robot.radius_m + room_m;
+      result = orders.plan(request);
+      if (result.outcome == PlanOutcome::solved) return result;
+      if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return result;
+    }
+  }
+  return result;
+}
+
+void RouteDriver::take_route(const PlanResult& result, const WorldView& world) {
+  path_ = points_of(result.path);
+  // Planners over cells end in the middle of one.
+  const double cell_m = world.grid.cell_m();
+  if (goal_.pose && !path_.empty() && (path_.back() - goal_.pose->position()).norm() < cell_m)
+    path_.back() = goal_.pose->position();
+  pieces_ = result.pieces;
+  follow_state_ = {0.0, follow_state_.turning};
+  leg_ = Leg::route;
+  own_trust_.reset();
+  if (!path_.empty()) route_end_ = path_.back();
+  const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
+    return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
+  });
+  stop_doubting();
+  goal_landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
+}
+
+Status RouteDriver::plan(const WorldView& world, Orders& orders) {
+  if (world.time_s - planned_s_ < kPlansApart_s) return {Progress::running, "waiting to plan again"};
+  if (plans_ >= kMostPlans) return give_up(world);
+  // The planner knows nothing of what has held the robot back there: from the second time on, a way round that.
+  if (round_ >= 2 && round_ % 2 == 0 && plan_by_own_eyes(world, Trust::all)) {
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "going round what held it back"};
+  }
+  const PlanResult result = ask_planner(world, orders);
+  for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
+  if (result.outcome != PlanOutcome::solved) return no_plan(result, world, orders);
+  take_route(result, world);
+  set_mode(Mode::travel, world.time_s);
+  return {Progress::running, "under way"};
+}
+
+std::optional<Point> RouteDriver::goal_point(const WorldView& world) const {
+  if (goal_.pose) return goal_.pose->position();
+  if (route_end_) return route_end_;
+  for (const LandmarkId id : goal_.landmarks)
+    if (const Landmark* landmark = world.graph.find(id))
+      return landmark->access.value_or(landmark->T_map_landmark).position();
+  return std::nullopt;
+}
+
+// A way on the map as the near echoes correct it, that avoids where the robot was held back and may pass close to what
+// is not known. What of the map is not trusted the live echoes tell, if it is real.
+bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
+  const std::optional<Point> goal = goal_point(world);
+  if (!goal) return false;
+  for (const double room_m : {kSpaceClearance_m, kTightClearance_m}) {
+    const double clearance_m = trust == Trust::squeezed ? kSqueezedRadius_m - world.robot.radius_m : room_m;
+    const FreeSpace space = space_now(world, clearance_m, trust);
+    const std::vector<Point> path = space.path_to(space.cell_at(*goal));
+    if (path.size() < 2) continue;
+    path_ = path;
+    path_.push_back(*goal);
+    pieces_.clear();
+    follow_state_ = {0.0, follow_state_.turning};
+    leg_ = Leg::route;
+    own_trust_ = trust;
+    planned_s_ = world.time_s;
+    stop_doubting();
+    if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
+    if (trust == Trust::squeezed) doubt_along_path(world);
+    return true;
+  }
+  return false;
+}
+
+Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Orders& orders) {
+  const std::string why = std::string(name_of(result.outcome)) + ": " + result.reason;
+  const bool is_final = result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled;
+  if (!is_final && result.outcome == PlanOutcome::start_blocked && begin_way_out(world)) {
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "making room"};
+  }
+  const bool may_explore = unknown_ways_ < kMostUnknownWays;
+  if (!is_final && (plan_by_own_eyes(world, Trust::all) || plan_by_own_eyes(world, Trust::no_specks) ||
+                    (may_explore && plan_by_own_eyes(world, Trust::only_solid)))) {
+    ++unknown_ways_;
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "under way by what it sees itself"};
+  }
+  if (!is_final && looks_ >= kLooksBeforeSqueezing && squeezes_ < kMostSqueezes &&
+      plan_by_own_eyes(world, Trust::squeezed)) {
+    ++squeezes_;
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "trying an opening that looks too narrow"};
+  }
+  if (!is_final && begin_look(world)) {
+    orders.say("no way now (" + why + "): looks again at " + text_of(look_at_));
+    set_mode(Mode::travel, world.time_s);
+    return {Progress::running, "going to look at " + text_of(look_at_)};
+  }
+  return {Progress::failure, why + (tried_.empty() ? "" : "; " + tried_)};
+}
+
+// Too near to something to plan: a little further from it first.
+bool RouteDriver::begin_way_out(const WorldView& world) {
+  if (ways_out_ >= kMostWaysOut) return false;
+  ++ways_out_;
+  path_ = space_now(world, kWayOutClearance_m, Trust::all).way_out();
+  if (path_.size() < 2) path_ = space_now(world, kTightClearance_m, Trust::all).way_out();
+  if (path_.size() < 2) return false;
+  follow_state_ = {};
+  leg_ = Leg::way_out;
+  tried_ = "made room " + std::to_string(ways_out_) + " times";
+  return true;
+}
+
+bool RouteDriver::begin_look(const WorldView& world) {
+  if (looks_ >= kMostLooks) return false;
+  const std::optional<Point> goal = goal_point(world);
+  if (!goal) return false;
+  if (looks_ == kLooksBeforeAgain) looked_at_.clear();
+  const double stand_off_m = looks_ < kLooksBeforeAgain ? kStandOff_m : kStandOffNearer_m;
+  const std::optional<WayToLook> way = way_to_look(space_now(world, kTightClearance_m, Trust::all), world.grid,
+                                                   world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
+  if (!way) return false;
+  ++looks_;
+  through_.clear();
+  look_at_ = way->at;
+  looked_at_.push_back(look_at_);
+  path_ = way->path;
+  follow_state_ = {};
+  leg_ = Leg::to_look;
+  tried_ = "looked " + std::to_string(looks_) + " times whether the way is free again, last at " + text_of(look_at_);
+  return true;
+}
+
+}  // namespace cairn::behaviours

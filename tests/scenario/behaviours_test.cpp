@@ -1,0 +1,169 @@
+// Behaviours in the simulator, from outside: what they have come to, by the simulation's own truth.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/config/template_file.hpp"
+#include "maps/map_store.hpp"
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string config(const std::string& path) {
+  return source_folder() + "/config/" + path;
+}
+
+// In a room of 4 x 4 m with a square of 0.5 m in its middle.
+std::filesystem::path mission_in(const std::filesystem::path& folder, const std::string& steps,
+                                 const std::string& sensor = "") {
+  write_text(folder / "mission.yaml",
+             "mission: behaviours\nrobot: " + config("robots/pioneer1.yaml") +
+                 "\nworld: " + config("worlds/lone_square.yaml") +
+                 "\nstart: {at_m: [1, 2], angle_deg: 90}\nsensor: {plugin: simulated_robot" + sensor +
+                 "}\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel, cell_m: 0.05}\n"
+                 "detector: {plugin: template_matcher, templates: " +
+                 config("templates") +
+                 ", coarse_cells: 5}\n"
+                 "planner: {plugin: hybrid, route: {plugin: ompl}}\nat_most_s: 1200\nsteps:\n" +
+                 steps);
+  return folder / "mission.yaml";
+}
+
+struct Ran {
+  json report;
+  SavedMap map;
+};
+
+Ran run(const std::filesystem::path& folder, const std::string& steps, const std::string& seed,
+        const std::string& sensor = "") {
+  const std::filesystem::path mission = mission_in(folder, steps, sensor);
+  const Finished finished = run_cairn({"run", mission.string(), "--seed", seed, "--out", folder.string(), "--json"});
+  EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  return {json::parse(text_of_file(folder / "report.json")), load_map(folder / "behaviours.cairn")};
+}
+
+// Between the robot's footprint and the square, in truth.
+double true_gap_m(const Ran& ran) {
+  const Pose2 robot = ran.map.progress->true_T_map_robot.value();
+  const LandmarkShape square = load_landmark_shape(config("templates/square.yaml"));
+  return square.contour.signed_distance(robot.position() - Point(2.0, 2.0)) - 0.22;
+}
+
+std::string reason_of(const json& report, const std::string& name) {
+  for (const json& step : report["nodes"])
+    if (step["name"] == name) return step["reason"];
+  return "no node " + name;
+}
+
+TEST(Behaviours, DockStopsAtItsDistanceInTruth) {
+  for (const std::string seed : {"1", "2"}) {
+    const Ran ran =
+        run(fresh_folder("dock_" + seed),
+            "  - search: square\n  - dock: {landmark: nearest square, side: left, distance_m: 0.4}\n", seed);
+    EXPECT_EQ(ran.report["outcome"], "done") << ran.report["reason"];
+    EXPECT_THAT(reason_of(ran.report, "search"), HasSubstr("found square: L"));
+    EXPECT_THAT(reason_of(ran.report, "dock"), AllOf(HasSubstr("docked at the left side"), HasSubstr("by its echoes")));
+    EXPECT_NEAR(true_gap_m(ran), 0.4, 0.04) << "seed " << seed;
+    EXPECT_EQ(ran.report["collisions"], 0);
+  }
+}
+
+TEST(Behaviours, DockFacesAwayWhenToldTo) {
+  const Ran ran = run(fresh_folder("dock_away"),
+                      "  - search: square\n"
+                      "  - dock: {landmark: nearest square, side_deg: 0, distance_m: 0.25, facing: away}\n",
+                      "3");
+  EXPECT_EQ(ran.report["outcome"], "done") << ran.report["reason"];
+  EXPECT_NEAR(true_gap_m(ran), 0.25, 0.04);
+  const Pose2 robot = ran.map.progress->true_T_map_robot.value();
+  const Point outward = robot.position() - Point(2.0, 2.0);
+  EXPECT_LT(std::abs(wrap_angle(robot.theta_rad - std::atan2(outward.y(), outward.x()))), radians(15.0));
+}
+
+TEST(Behaviours, InspectRaisesTheDegreeAndWhatItMappedMakesATemplate) {
+  const auto folder = fresh_folder("inspect");
+  const std::string steps =
+      "  - search: square\n  - inspect: {landmark: nearest square, rounds_at_most: 2}\n"
+      "  - capture_template: {at: nearest square, name: crate}\n"
+      "  - plan_query: {to: \"3.5,3.5\", alternatives: 1, explain: true}\n  - plan_query: \"1,2\"\n"
+      "  - log: \"{landmarks} landmark, {nearest}\"\n";
+  const Ran ran = run(folder, steps, "5");
+  EXPECT_EQ(ran.report["outcome"], "done") << ran.report["reason"];
+  EXPECT_THAT(reason_of(ran.report, "inspect"), AllOf(HasSubstr("(square): degree 0."), HasSubstr(" -> 0.")));
+  EXPECT_EQ(reason_of(ran.report, "log"), "1 landmark, L1 (square)");
+  const LandmarkShape crate = load_landmark_shape(folder / "crate.yaml");
+  EXPECT_NEAR(crate.contour.outer_diameter_m(), 0.5 * std::sqrt(2.0), 0.15);
+
+  const std::string answers = text_of_file(folder / "answers.jsonl");
+  ASSERT_EQ(std::ranges::count(answers, '\n'), 2);
+  const json first = json::parse(answers.substr(0, answers.find('\n')));
+  EXPECT_EQ(first["outcome"], "solved");
+  EXPECT_TRUE(first.contains("alternatives") && first.contains("pieces")) << first.dump();
+  EXPECT_FALSE(first.contains("time_ms")) << "times differ from run to run";
+
+  // The same once more, into the same folder: the same bytes, and nothing is left of the first run.
+  const Ran again = run(folder, steps, "5");
+  EXPECT_EQ(again.report, ran.report);
+  EXPECT_EQ(text_of_file(folder / "answers.jsonl"), answers);
+}
+
+TEST(Behaviours, AMissionThatGoesOnReturnsToWhereItFirstBegan) {
+  const auto folder = fresh_folder("home");
+  const std::string steps = "  - drive: [[1, 3], [1.6, 3.2]]\n  - save: half.cairn\n  - return_home:\n";
+  const Ran ran = run(folder, steps, "1");
+  EXPECT_EQ(reason_of(ran.report, "return_home"), "home at (1.00, 2.00)");
+  const auto second = fresh_folder("home_again");
+  const Finished finished = run_cairn({"run", (folder / "mission.yaml").string(), "--resume",
+                                       (folder / "half.cairn").string(), "--out", second.string(), "--seed", "1"});
+  EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  const json report = json::parse(text_of_file(second / "report.json"));
+  EXPECT_EQ(reason_of(report, "return_home"), "home at (1.00, 2.00)");
+  const SavedMap map = load_map(second / "behaviours.cairn");
+  EXPECT_LT((map.progress->true_T_map_robot->position() - Point(1.0, 2.0)).norm(), 0.25);
+}
+
+TEST(Behaviours, ABatteryThatIsLowSendsTheRobotHome) {
+  const Ran ran =
+      run(fresh_folder("battery"),
+          "  - fallback:\n      - reactive_sequence: [battery_above: 0.3, {tour: {places: [[1, 3], [3, 3]]}}]\n"
+          "      - log: \"low: {battery}\"\n  - return_home:\n",
+          "1", ", battery: {standing_s: 200, driving_s: 60, start_ratio: 0.4}");
+  EXPECT_EQ(ran.report["outcome"], "done") << ran.report["reason"];
+  EXPECT_THAT(reason_of(ran.report, "battery_above"), HasSubstr("of the battery is left"));
+  EXPECT_EQ(reason_of(ran.report, "log"), "low: 30 %");
+  EXPECT_EQ(reason_of(ran.report, "return_home"), "home at (1.00, 2.00)");
+}
+
+TEST(Behaviours, WrongSettingsAreToldWithTheirPlaceAndTheNearestName) {
+  const auto folder = fresh_folder("wrong_behaviours");
+  const std::string file = mission_in(folder,
+                                      "  - search: sqare\n  - inspect: {landmark: L1, gain: much}\n"
+                                      "  - tour: {places: [L1], ordr: given}\n  - patrol: {rounds: never}\n"
+                                      "  - return_home: {too: L1}\n  - dock: {landmark: L1, side: letf}\n"
+                                      "  - capture_template: {at: L1, name: crate, file: ../x.yaml}\n"
+                                      "  - plan_query: {to: L1, cost: lenght}\n  - log: \"{batery}\"\n"
+                                      "  - battery_above: half\n  - ptrol: 3\n")
+                               .string();
+  const Finished finished = run_cairn({"mission", "check", file});
+  EXPECT_EQ(finished.exit_status, 2);
+  for (const char* told :
+       {":12:5: search: the mission has no template of category \"sqare\" (did you mean \"square\"?)",
+        ":13:35: gain must be a number", ":14:26: unknown key \"ordr\" in plugin tour (did you mean \"order\"?)",
+        ":15:22: rounds must be forever or a number",
+        ":16:19: unknown key \"too\" in plugin return_home (did you mean \"to\"?)",
+        ":17:32: side must be one of front, left, back, right, found \"letf\" (did you mean \"left\"?)",
+        ":18:51: file must be a plain file name", ":19:32: cost must be one of", "(did you mean \"length\"?)",
+        ":20:5: text: there is no {batery} (did you mean \"battery\"?)", ":21:20: ratio must be a number",
+        ":22:5: unknown behaviour plugin \"ptrol\" (did you mean \"patrol\"?)"})
+    EXPECT_THAT(finished.err + finished.out, HasSubstr(told));
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
