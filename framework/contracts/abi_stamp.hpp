@@ -19,7 +19,7 @@ struct AbiStamp {
   char compiler[48];
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
-  std::uint32_t sizes[13];  // of the exchanged types, as this_abi_stamp() lists them
+  std::uint32_t sizes[14];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
@@ -50,7 +50,7 @@ constexpr void copy(char (&out)[N], std::string_view text) {
   const std::uint32_t sizes[] = {
       sizeof(Observation),      sizeof(OccupancyGrid), sizeof(LandmarkGraph), sizeof(PlanResult), sizeof(PlanRequest),
       sizeof(DetectionReport),  sizeof(Matching),      sizeof(WorldView),     sizeof(RobotModel), sizeof(World),
-      sizeof(RegisteredModule), sizeof(FieldSpec),     sizeof(ModuleContext),
+      sizeof(RegisteredModule), sizeof(FieldSpec),     sizeof(ModuleContext), sizeof(Status),
   };
   static_assert(sizeof sizes == sizeof stamp.sizes);
   for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];

@@ -1,6 +1,7 @@
 // Behaviour: one step of a mission, ticked until it is done.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "framework/contracts/planner.hpp"
@@ -12,6 +13,8 @@ enum class Progress { running, success, failure };
 struct Status {
   Progress progress = Progress::running;
   std::string reason;  // for people: what it is doing, or why it ended
+  // While it runs: about how long it still takes, where it can tell. For people; decides nothing.
+  std::optional<double> left_s{};
   bool operator==(const Status&) const = default;
 };
 

@@ -64,6 +64,8 @@ struct ModuleContext {
   // For maps: what an earlier run of the mission has mapped, with the cells, origin and clamp that the settings give.
   // The new map begins with it. Null: with nothing.
   const OccupancyGrid* grid_so_far = nullptr;
+  // The mission's clock as this run begins: not 0 when it goes on from a saved map. For simulations.
+  double begin_s = 0.0;
 };
 
 struct RegisteredModule {

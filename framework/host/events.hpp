@@ -67,9 +67,14 @@ struct Said {
   std::string sentence;
 };
 struct Bumped {};
+// The mission's clock stands from here on: the robot is stopped, readings still come.
+struct Paused {};
+struct WentOn {
+  double paused_s = 0.0;  // by the robot's clock
+};
 
 using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
-                           NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Said, Bumped>;
+                           NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Said, Bumped, Paused, WentOn>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

@@ -1,11 +1,20 @@
 #include "framework/host/mission.hpp"
 
+#include <fstream>
+#include <iterator>
+
 #include "framework/config/robot_file.hpp"
 #include "framework/config/template_file.hpp"
 #include "framework/config/world_file.hpp"
+#include "framework/host/fingerprint.hpp"
 
 namespace cairn {
 namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 // The detector's settings hold keys of its own too: take those that the host knows.
 TemplateSettings template_settings_of(const PluginChoice& detector) {
@@ -113,6 +122,7 @@ ReadMission read_mission(const std::filesystem::path& file, const std::vector<st
     if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);
     if (mission.config.world.empty()) return;
     mission.world = load_world(mission.config.world, mission.shapes);
+    mission.world_fingerprint = fingerprint_of(bytes_of(mission.config.world));
     check_sizes(mission.shapes, *mission.world, mission.template_settings.templates);
   });
   MissionTree tree = read_mission_tree(mission.config.steps, file);

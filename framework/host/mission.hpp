@@ -52,6 +52,7 @@ struct Mission {
   TemplateSettings template_settings;  // as the detector's own say
   RobotModel robot;
   std::optional<World> world;
+  std::string world_fingerprint;  // of its file; empty without one
   std::vector<LandmarkShape> shapes;
   std::vector<TreeNode> steps;
 };

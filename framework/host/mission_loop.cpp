@@ -1,7 +1,6 @@
 #include "framework/host/mission_loop.hpp"
 
 #include <cmath>
-#include <thread>
 
 #include "framework/host/landmark_evidence.hpp"
 
@@ -73,6 +72,7 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   if (step_begun_) {
     result_.steps.back().status = {Progress::failure, "given up: " + result_.reason};
     result_.steps.back().end_s = result_.time_s;
+    tree_left_ = trees_[step_].state();
     trees_[step_].abandon(result_.time_s, result_.steps.back().status.reason);
   }
   note_nodes();
@@ -86,8 +86,11 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
 }
 
 MissionOutcome MissionLoop::loop() {
+  if (!not_restored_.empty()) tell(Said{not_restored_});
+  if (options_.control != nullptr) options_.control->tell(status());
   if (step_ == mission_.steps.size() && drive_ != nullptr) return MissionOutcome::done;
   while (true) {
+    stand_by();
     if (budget_.cancelled()) return ended(MissionOutcome::cancelled, "cancelled by the user");
     SensorStep step = in_stage(sensor_, [&] { return modules_.sensor->next(budget_); });
     if (step.state == SensorState::fault) return ended(MissionOutcome::sensor_fault, step.reason);
@@ -110,15 +113,23 @@ void MissionLoop::tick() {
   const CellChanges& changes = build_map();
   detect(changes);
   stop_layer_.see(observation_);
+  heed_control();
   behave();
   drive_on();
   tell(TickDone{});
+  if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   autosave();
 }
 
 void MissionLoop::account_for(const Observation& observation) {
   if (!begun_ && !skipped_) begin_s_ = observation.stamp_s - result_.resumed_s.value_or(0.0);
   if (begun_) result_.distance_m += (observation.T_odom_robot.position() - T_odom_last_.position()).norm();
+  // The clock stands while the mission is paused.
+  if (paused_) {
+    begin_s_ += observation.stamp_s - last_stamp_s_;
+    result_.paused_s += observation.stamp_s - last_stamp_s_;
+  }
+  last_stamp_s_ = observation.stamp_s;
   begun_ = true;
   T_odom_last_ = observation.T_odom_robot;
   result_.time_s = observation.stamp_s - begin_s_;
@@ -128,7 +139,7 @@ void MissionLoop::account_for(const Observation& observation) {
     tell(Bumped{});
   }
   bumped_ = observation.bumped;
-  if (options_.realtime) std::this_thread::sleep_until(wall_begin_ + std::chrono::duration<double>(result_.time_s));
+  pace(observation.stamp_s);
 }
 
 PoseEstimate MissionLoop::localize() {

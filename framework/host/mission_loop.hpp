@@ -34,8 +34,11 @@ class MissionLoop : private Orders, private TreeHost {
   // soon as the lost call does, if ever, and touches nothing more.
   bool give_up_after(std::chrono::nanoseconds longest);
 
+  // While run() runs, in its thread.
+  [[nodiscard]] RunStatus status() const;
   // After run(), or after give_up_after() returned true.
   [[nodiscard]] const MissionResult& result() const { return result_; }
+  [[nodiscard]] RunStatus last_status() const;
   [[nodiscard]] const OccupancyGrid* grid() const { return grid_is_lost_ ? nullptr : grid_; }
   [[nodiscard]] const CoarseGrid* coarse_grid() const { return grid_is_lost_ ? nullptr : coarse_; }
   [[nodiscard]] const LandmarkKeeper& keeper() const { return keeper_; }
@@ -53,6 +56,11 @@ class MissionLoop : private Orders, private TreeHost {
   const CellChanges& build_map();
   void detect(const CellChanges& changes);
   void tell_changes(const std::vector<LandmarkKeeper::Change>& changes);
+  void pace(double stamp_s);
+  void stand_by();
+  void heed_control();
+  [[nodiscard]] bool is_pause_wanted() const;
+  [[nodiscard]] std::optional<TimeLeft> time_left() const;
   void behave();
   void plant_trees();
   void begin_step(const std::string& name);
@@ -63,9 +71,11 @@ class MissionLoop : private Orders, private TreeHost {
   MissionOutcome at_end_of_data(const std::string& reason);
   MissionOutcome ended(MissionOutcome outcome, std::string reason);
   void go_on_from(const SavedMap& map);
+  void restore_tree(const SavedMap& map);
   void show_grid_to_detector();
   [[nodiscard]] bool is_known_already(const Observation& observation);
   [[nodiscard]] MissionProgress progress() const;
+  [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
   void autosave();
   void tell_of_autosave();
   void finish();
@@ -86,6 +96,7 @@ class MissionLoop : private Orders, private TreeHost {
   void halt_leaf(const TreeNode& leaf) override;
   void started(const TreeNode& node) override;
   void ended(const TreeNode& node, const NodeReport& how) override;
+  void ran(const TreeNode& node, const NodeReport& how, double begun_s) override;
 
   const Mission mission_;
   const RunOptions options_;
@@ -105,6 +116,8 @@ class MissionLoop : private Orders, private TreeHost {
   };
   std::map<const TreeNode*, Leaf> behaviours_;
   std::vector<TreeRunner> trees_;  // one a step
+  NodeTimes node_times_;
+  std::optional<TreeState> tree_left_;  // of the step under way, before it was halted
   ConditionCheck check_;
   MissionResult result_;
   Budget budget_;
@@ -133,7 +146,15 @@ class MissionLoop : private Orders, private TreeHost {
   Autosaver autosaver_;
   bool autosave_has_failed_ = false;
   std::optional<Pose2> resumed_true_pose_;
-  const std::chrono::steady_clock::time_point wall_begin_ = std::chrono::steady_clock::now();
+  std::string not_restored_;  // a sentence on where a resumed mission goes on
+  bool paused_ = false;
+  double paused_before_s_ = 0.0;  // when this pause began
+  double last_stamp_s_ = 0.0;
+  struct Pace {
+    std::chrono::steady_clock::time_point wall;
+    double stamp_s;
+  };
+  std::optional<Pace> pace_;  // wall clock and observations go together from here on
 };
 
 template <class Call>

@@ -4,6 +4,7 @@
 
 #include "framework/host/mission_loop.hpp"
 #include "framework/host/mission_map.hpp"
+#include "framework/host/mission_resume.hpp"
 #include "maps/map_store.hpp"
 
 namespace cairn {
@@ -36,6 +37,24 @@ void MissionLoop::go_on_from(const SavedMap& map) {
   result_.collisions = progress.collisions;
   step_ = static_cast<std::size_t>(progress.step);
   resumed_true_pose_ = progress.true_T_map_robot;
+  restore_tree(map);
+}
+
+// Only into the tree that it is of: with another one the step begins afresh.
+void MissionLoop::restore_tree(const SavedMap& map) {
+  if (step_ >= trees_.size()) return;
+  const std::optional<SavedTree> saved = saved_tree(map);
+  if (!saved) return;
+  if (saved->fingerprint != tree_fingerprint(mission_.steps[step_])) {
+    not_restored_ = "step " + std::to_string(step_ + 1) + " (" + mission_.steps[step_].name +
+                    ") is not written as when the map was saved: it begins afresh";
+    return;
+  }
+  try {
+    trees_[step_].restore(saved->state, result_.time_s);
+  } catch (const std::invalid_argument& error) {
+    throw StoreError(std::string("cannot be gone on from: its property ") + kTreeStateProperty + ": " + error.what());
+  }
 }
 
 // A log begins at its beginning again. The last observation that the map holds tells the localizer where the odometry
@@ -74,7 +93,14 @@ void MissionLoop::autosave() {
   tell_of_autosave();
   if (!autosaver_.is_due()) return;
   const Autosaver::Clock::time_point begin = Autosaver::Clock::now();
-  autosaver_.save(map_of_mission(mission_, *grid_, keeper_, hierarchies_.last_tree(), progress()), begin);
+  autosaver_.save(map_so_far(hierarchies_.last_tree()), begin);
+}
+
+SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
+  SavedMap map = map_of_mission(mission_, *grid_, keeper_, std::move(clusters), progress());
+  if (step_ < trees_.size() && step_begun_)
+    add_tree(map, {tree_fingerprint(mission_.steps[step_]), tree_left_.value_or(trees_[step_].state())});
+  return map;
 }
 
 void MissionLoop::tell_of_autosave() {
@@ -90,6 +116,7 @@ void MissionLoop::tell_of_autosave() {
 // Whatever happened: the robot stops, and the map so far is saved.
 void MissionLoop::finish() {
   if (drive_ != nullptr) stop();
+  if (paused_) tell(WentOn{result_.paused_s - paused_before_s_});
   if (step_begun_) halt_step();
   note_nodes();
   try {
@@ -149,7 +176,7 @@ Status MissionLoop::write_map(const std::string& file_name) {
   if (grid_ == nullptr) return {Progress::failure, "there is no map to save"};
   hierarchies_.update();
   try {
-    save_map(options_.out / file_name, map_of_mission(mission_, *grid_, keeper_, hierarchies_.tree(), progress()));
+    save_map(options_.out / file_name, map_so_far(hierarchies_.tree()));
   } catch (const std::exception& error) {
     return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
   }

@@ -13,7 +13,7 @@ void MissionLoop::plant_trees() {
 
 void MissionLoop::behave() {
   wanted_ = Twist{};
-  if (step_ >= trees_.size()) return;
+  if (step_ >= trees_.size() || paused_) return;
   const TreeNode& step = mission_.steps[step_];
   if (!step_begun_) begin_step(step.name);
   const Status status = trees_[step_].tick(result_.time_s);
@@ -41,6 +41,7 @@ void MissionLoop::end_step(const TreeNode& step, const Status& status) {
 
 void MissionLoop::halt_step() {
   const std::string reason = result_.reason;
+  tree_left_ = trees_[step_].state();
   result_.steps.back().status = {Progress::failure, "halted: " + reason};
   result_.steps.back().end_s = result_.time_s;
   while (trees_[step_].is_running()) {
@@ -82,6 +83,11 @@ void MissionLoop::started(const TreeNode& node) {
 
 void MissionLoop::ended(const TreeNode& node, const NodeReport& how) {
   tell(NodeEnded{node.path, node.name, node.kind, how.status, how.is_halted});
+}
+
+void MissionLoop::ran(const TreeNode& node, const NodeReport& how, double begun_s) {
+  result_.node_runs.add(node, how, begun_s);
+  if (node.kind == NodeKind::behaviour && !how.is_halted) node_times_.add(how.kind, how.end_s - begun_s);
 }
 
 }  // namespace cairn

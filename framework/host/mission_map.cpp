@@ -5,10 +5,12 @@
 namespace cairn {
 
 std::map<std::string, std::string> properties_of(const Mission& mission) {
-  return {{"mission", mission.config.mission},
-          {"seed", std::to_string(mission.config.seed)},
-          {"robot", mission.robot.name},
-          {"robot_radius_m", std::to_string(mission.robot.radius_m)}};
+  std::map<std::string, std::string> properties{{"mission", mission.config.mission},
+                                                {"seed", std::to_string(mission.config.seed)},
+                                                {"robot", mission.robot.name},
+                                                {"robot_radius_m", std::to_string(mission.robot.radius_m)}};
+  if (!mission.world_fingerprint.empty()) properties["world"] = mission.world_fingerprint;
+  return properties;
 }
 
 SavedMap map_of_mission(const Mission& mission, const OccupancyGrid& grid, const LandmarkKeeper& keeper,

@@ -21,6 +21,7 @@ ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, 
   context.seed = module_seed(mission.config.seed, kind, index);
   context.templates = built.templates;
   context.modules = &library;
+  context.begin_s = built.begin_s;
   return context;
 }
 
@@ -119,6 +120,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   built.T_map_start = start_of(config);
   if (resume != nullptr) {
     check_resumable(*resume, mission);
+    built.begin_s = resume->progress->time_s;
     // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
     built.T_map_start = resume->progress->true_T_map_robot.value_or(resume->progress->T_map_robot);
   }

@@ -19,6 +19,7 @@ struct MissionModules {
   std::shared_ptr<Planner> planner;                    // may be null
   std::vector<std::shared_ptr<Behaviour>> behaviours;  // in the order of behaviours_of()
   Pose2 T_map_start;
+  double begin_s = 0.0;  // the mission's clock
 };
 
 // resume: the map to go on from, or null. Throws ConfigError or ModuleFault; StoreError when the map does not fit.

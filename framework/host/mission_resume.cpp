@@ -4,10 +4,14 @@
 
 #include <charconv>
 
+#include "framework/host/fingerprint.hpp"
 #include "framework/host/mission_map.hpp"
+#include "framework/host/mission_tree_text.hpp"
 
 namespace cairn {
 namespace {
+
+constexpr const char* kTreeProperty = "tree";
 
 std::string property(const SavedMap& map, const std::string& key) {
   const auto found = map.properties.find(key);
@@ -53,6 +57,34 @@ void check_resumable(const SavedMap& map, const Mission& mission) {
   require_same(map, "robot_radius_m", wanted.at("robot_radius_m"), "with a robot radius, in metres, of");
   require_same(map, "seed", wanted.at("seed"), "with seed");
   require_same_steps(*map.progress, mission.steps);
+}
+
+void check_same_world(const SavedMap& map, const Mission& mission) {
+  const std::string made_in = property(map, "world");
+  if (made_in.empty() || made_in == mission.world_fingerprint) return;
+  throw StoreError(
+      fmt::format("cannot go on with this mission: the map was made in another world than {} is now "
+                  "(--other-world goes on all the same)",
+                  mission.config.world.empty() ? "none" : mission.config.world.string()));
+}
+
+std::string tree_fingerprint(const TreeNode& step) {
+  return fingerprint_of(tree_text({step}));
+}
+
+void add_tree(SavedMap& map, const SavedTree& tree) {
+  map.properties[kTreeProperty] = tree.fingerprint;
+  map.properties[kTreeStateProperty] = text_of(tree.state);
+}
+
+std::optional<SavedTree> saved_tree(const SavedMap& map) {
+  const std::string text = property(map, kTreeStateProperty);
+  if (text.empty()) return std::nullopt;
+  try {
+    return SavedTree{property(map, kTreeProperty), tree_state_of(text)};
+  } catch (const std::invalid_argument& error) {
+    throw StoreError(fmt::format("cannot be gone on from: its property {}: {}", kTreeStateProperty, error.what()));
+  }
 }
 
 void check_same_cells(const OccupancyGrid& saved, const OccupancyGrid& of_mission) {

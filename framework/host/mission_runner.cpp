@@ -34,7 +34,9 @@ std::string_view name_of(MissionOutcome outcome) {
 }
 
 MissionRunner::MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
-    : loop_(std::make_shared<MissionLoop>(mission, library, options)), longest_call_s_(mission.config.watchdog_s) {}
+    : loop_(std::make_shared<MissionLoop>(mission, library, options)),
+      control_(options.control),
+      longest_call_s_(mission.config.watchdog_s) {}
 
 MissionRunner::~MissionRunner() = default;
 
@@ -51,10 +53,15 @@ const Pose2& MissionRunner::T_map_start() const {
 }
 
 MissionResult MissionRunner::run() {
-  if (longest_call_s_ <= 0.0) {
+  if (longest_call_s_ <= 0.0)
     loop_->run();
-    return loop_->result();
-  }
+  else
+    watch();
+  if (control_ != nullptr) control_->tell(loop_->last_status());
+  return loop_->result();
+}
+
+void MissionRunner::watch() {
   std::promise<void> promise;
   std::future<void> done = promise.get_future();
   // The thread shares the loop, so that a call that comes back late finds everything where it was.
@@ -68,7 +75,10 @@ MissionResult MissionRunner::run() {
     thread.detach();
   else
     thread.join();
-  return loop_->result();
+}
+
+RunStatus MissionRunner::status() const {
+  return loop_->status();
 }
 
 const OccupancyGrid* MissionRunner::grid() const {

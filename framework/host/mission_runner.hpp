@@ -10,6 +10,8 @@
 #include "framework/host/events.hpp"
 #include "framework/host/mission.hpp"
 #include "framework/host/module_library.hpp"
+#include "framework/host/node_runs.hpp"
+#include "framework/host/run_control.hpp"
 #include "framework/host/stage_clock.hpp"
 #include "framework/host/stop_layer.hpp"
 #include "framework/host/tree_runner.hpp"
@@ -21,11 +23,12 @@ enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fa
 [[nodiscard]] std::string_view name_of(MissionOutcome outcome);
 
 struct RunOptions {
-  std::filesystem::path out;  // folder of everything written; must exist
-  bool realtime = false;      // pace simulated time to the wall clock
+  std::filesystem::path out;         // folder of everything written; must exist
+  bool realtime = false;             // pace simulated time to the wall clock
   const std::atomic<bool>* cancel = nullptr;
   bool autosave = false;             // as the mission's settings say
   const SavedMap* resume = nullptr;  // go on from this map; must outlive the constructor's call only
+  RunControl* control = nullptr;     // must outlive the runner
 };
 
 struct StepReport {
@@ -39,12 +42,14 @@ struct MissionResult {
   MissionOutcome outcome = MissionOutcome::done;
   std::string reason;  // a sentence for people; empty when all went well
   std::vector<StepReport> steps;
+  NodeRuns node_runs;             // each time that a node ran
   std::vector<NodeReport> nodes;  // of all nodes that were ticked, the steps among them, in the order of the file
   std::int64_t readings = 0;
   std::int64_t matchings = 0;
   std::int64_t collisions = 0;
   double distance_m = 0.0;
   double time_s = 0.0;                             // simulated or recorded
+  double paused_s = 0.0;                           // not in time_s
   std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
   StopLayerFigures stop_layer{};
   AutosaveFigures autosave{};
@@ -73,6 +78,9 @@ class MissionRunner {
   // tearing anything down (std::_Exit).
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
+  // How it stands: for listeners, while they are told something.
+  [[nodiscard]] RunStatus status() const;
+
   // After run(). The grids are null when the module that was left behind was working on them.
   [[nodiscard]] const OccupancyGrid* grid() const;
   [[nodiscard]] const CoarseGrid* coarse_grid() const;
@@ -81,7 +89,10 @@ class MissionRunner {
   [[nodiscard]] std::vector<StageTime> times() const;  // wall clock: differs from run to run
 
  private:
+  void watch();
+
   std::shared_ptr<MissionLoop> loop_;
+  RunControl* control_ = nullptr;
   double longest_call_s_ = 0.0;
   bool gave_up_ = false;
 };

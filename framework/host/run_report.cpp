@@ -77,6 +77,25 @@ ordered_json json_of(const std::vector<NodeReport>& nodes) {
   return list;
 }
 
+ordered_json json_of(const std::vector<NodeRun>& runs) {
+  ordered_json list = ordered_json::array();
+  for (const NodeRun& run : runs)
+    list.push_back({{"path", run.path},
+                    {"begin_s", rounded(run.begin_s)},
+                    {"end_s", rounded(run.end_s)},
+                    {"outcome", std::string(name_of(run.end))},
+                    {"runs", run.runs}});
+  return list;
+}
+
+void add_timeline(ordered_json& report, const RunTimeline& timeline) {
+  report["pauses"] = report["stops"] = ordered_json::array();
+  for (const PauseSpan& pause : timeline.pauses())
+    report["pauses"].push_back({{"time_s", rounded(pause.time_s)}, {"for_s", rounded(pause.for_s)}});
+  for (const RunSpan& stop : timeline.stops())
+    report["stops"].push_back({{"begin_s", rounded(stop.begin_s)}, {"end_s", rounded(stop.end_s)}});
+}
+
 ordered_json json_of(const std::vector<StageTime>& times) {
   ordered_json list = ordered_json::array();
   for (const StageTime& t : times)
@@ -187,11 +206,14 @@ struct Sentence {
   }
   std::string operator()(const Said& e) const { return e.sentence; }
   std::string operator()(const Bumped&) const { return "bumped into something"; }
+  std::string operator()(const Paused&) const { return "paused"; }
+  std::string operator()(const WentOn&) const { return "goes on"; }
 };
 
 }  // namespace
 
 void RunReport::on(const Event& event, const MissionView& view) {
+  timeline_.on(event, view);
   if (const auto* done = std::get_if<MatchingDone>(&event)) {
     const Matching& matching = done->matching;
     degrees_.push_back({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
@@ -229,6 +251,9 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   if (result.resumed_s) report["resumed_s"] = rounded(*result.resumed_s);
   report["steps"] = json_of(result.steps);
   report["nodes"] = json_of(result.nodes);
+  report["node_runs"] = json_of(result.node_runs.runs());
+  report["node_runs_left_out"] = result.node_runs.left_out();
+  add_timeline(report, timeline_);
   report["map"] = result.map_file;
   report["pictures"] = pictures;
   if (!pose_errors_m_.empty()) report["pose_error_m"] = quantiles(pose_errors_m_);

@@ -8,6 +8,7 @@
 
 #include "framework/host/events.hpp"
 #include "framework/host/mission_runner.hpp"
+#include "framework/host/run_timeline.hpp"
 
 namespace cairn {
 
@@ -41,6 +42,7 @@ class RunReport : public Listener {
 
   [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
   [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
+  [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
 
  private:
   void note_pose_error(const MissionView& view);
@@ -48,6 +50,7 @@ class RunReport : public Listener {
 
   std::vector<DegreeSample> degrees_;
   std::vector<TimedContact> contacts_;
+  RunTimeline timeline_;
   std::vector<double> pose_errors_m_;  // once a second, where the truth is known
   std::vector<std::string> events_;    // sentences with their time
   double last_error_s_ = -1.0;

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "framework/host/fingerprint.hpp"
 #include "framework/host/module_library.hpp"
 #include "framework/host/sensed_templates.hpp"
 
@@ -20,12 +21,6 @@ namespace {
 constexpr std::string_view kMagic = "cairn templates 1\n";
 
 // FNV-1a.
-std::uint64_t hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

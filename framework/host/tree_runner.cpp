@@ -91,7 +91,9 @@ Status TreeRunner::tick_kind(std::size_t at) {
     default:
       break;
   }
+  if (state.node->kind == NodeKind::behaviour) doing_ = at;
   LeafTick leaf = host_.tick_leaf(*state.node);
+  state.told = leaf.status;
   state.is_forgiven = leaf.is_forgiven;
   if (leaf.wanted && leaf.status.progress == Progress::running) {
     driver_ = at;
@@ -234,6 +236,7 @@ void TreeRunner::begin(std::size_t at) {
   state.begun_s = now_s_;
   state.outcomes.clear();
   state.failures.clear();
+  state.told = {};
   if (state.report.runs++ == 0) state.report.begin_s = now_s_;
   if (state.node->kind == NodeKind::behaviour) tell_start(at);
 }
@@ -255,6 +258,9 @@ void TreeRunner::end(std::size_t at, const Status& status) {
   report.status = status;
   report.is_halted = false;
   report.end_s = now_s_;
+  state.done_s += now_s_ - state.begun_s;
+  ++state.done;
+  host_.ran(*state.node, report, state.begun_s);
   if (at == 0 || !is_news) return;
   tell_start(at);
   host_.ended(*state.node, report);
@@ -282,6 +288,7 @@ void TreeRunner::halt_node(std::size_t at, const std::string& reason) {
     driver_.reset();
     wanted_.reset();
   }
+  host_.ran(*state.node, state.report, state.begun_s);
   if (state.node->kind == NodeKind::behaviour) host_.halt_leaf(*state.node);
   if (state.is_told) host_.ended(*state.node, state.report);
 }
@@ -293,6 +300,7 @@ void TreeRunner::abandon(double time_s, const std::string& reason) {
     state.report.status = {Progress::failure, reason};
     state.report.is_halted = true;
     state.report.end_s = time_s;
+    host_.ran(*state.node, state.report, state.begun_s);
   }
 }
 

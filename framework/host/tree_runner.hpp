@@ -5,12 +5,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/contracts/behaviour.hpp"
 #include "framework/host/mission_tree.hpp"
+#include "framework/host/time_left.hpp"
+#include "framework/host/tree_state.hpp"
 
 namespace cairn {
 
@@ -33,6 +36,20 @@ struct NodeReport {
   std::int64_t runs = 0;  // how often it was begun
 };
 
+// How long behaviours have taken in this run, by their kind.
+class NodeTimes {
+ public:
+  void add(const std::string& kind, double took_s);
+  [[nodiscard]] std::optional<double> mean_s(const std::string& kind) const;
+
+ private:
+  struct Sum {
+    double took_s = 0.0;
+    int count = 0;
+  };
+  std::map<std::string, Sum> sums_;
+};
+
 class TreeHost {
  public:
   virtual ~TreeHost() = default;
@@ -43,6 +60,8 @@ class TreeHost {
   // again: conditions below reactive nodes would be told in every tick.
   virtual void started(const TreeNode& node) = 0;
   virtual void ended(const TreeNode& node, const NodeReport& how) = 0;
+  // Of every node, the root too, each time that it has ended or was halted.
+  virtual void ran(const TreeNode& /*node*/, const NodeReport& /*how*/, double /*begun_s*/) {}
 };
 
 class TreeRunner {
@@ -63,6 +82,21 @@ class TreeRunner {
   [[nodiscard]] bool is_running() const { return states_.front().is_running; }
   // Of the nodes that were ticked, in the order of the file.
   [[nodiscard]] std::vector<NodeReport> reports() const;
+  struct Doing {
+    std::string path{};
+    std::string name{};
+    std::string reason{};  // what it says that it is doing
+  };
+  // The behaviour that was ticked last, unless it has ended.
+  [[nodiscard]] std::optional<Doing> doing() const;
+
+  // Between two ticks, or while a leaf is ticked. Leafs have no state here: gone on with, they begin afresh.
+  [[nodiscard]] TreeState state() const;
+  // Of a tree that has not begun: goes on from there with its next tick. Throws std::invalid_argument when the state
+  // cannot be of this tree at that time.
+  void restore(const TreeState& state, double time_s);
+
+  [[nodiscard]] TimeLeft time_left(double time_s, const NodeTimes& times) const;
 
  private:
   struct State {
@@ -78,6 +112,13 @@ class TreeRunner {
     std::vector<Status> outcomes{};  // of parallel: of each child
     std::string failures{};          // of fallback: of the children so far
     NodeReport report{};
+    Status told{};        // of a leaf: in its last tick
+    double done_s = 0.0;  // of all times that it has ended, not halted
+    std::int64_t done = 0;
+  };
+  struct Reckoning {
+    double time_s;
+    const NodeTimes& times;
   };
 
   std::size_t add(const TreeNode& node, std::size_t parent);
@@ -91,6 +132,12 @@ class TreeRunner {
   Status tick_repeat(State& state);
   Status tick_retry(State& state);
   Status tick_timeout(State& state);
+  [[nodiscard]] TimeLeft left_of(std::size_t at, const Reckoning& reckoning) const;
+  [[nodiscard]] TimeLeft whole_of(std::size_t at, const Reckoning& reckoning) const;
+  [[nodiscard]] TimeLeft leaf_left(const State& state, const Reckoning& reckoning) const;
+  [[nodiscard]] TimeLeft in_order_from_running(const State& state, const Reckoning& reckoning) const;
+  [[nodiscard]] TimeLeft rounds_left(const State& state, const Reckoning& reckoning) const;
+  void restore(State& state, const NodeState& saved, double time_s);
   void begin(std::size_t at);
   void end(std::size_t at, const Status& status);
   void tell_start(std::size_t at);
@@ -102,6 +149,7 @@ class TreeRunner {
   TreeHost& host_;
   double now_s_ = 0.0;
   std::optional<std::size_t> driver_;  // the leaf that wanted_ is from
+  std::optional<std::size_t> doing_;   // the behaviour that was ticked last
   std::optional<Twist> wanted_;
 };
 

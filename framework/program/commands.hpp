@@ -30,6 +30,7 @@ struct RunCommand {
   std::optional<std::int64_t> seed;
   std::vector<std::string> overrides;
   bool realtime = false;
+  bool other_world = false;  // go on although the map was made in another one
 };
 int run(const RunCommand& command, const CommonOptions& common);
 
@@ -46,6 +47,14 @@ struct MissionShowCommand {
   std::filesystem::path picture;  // empty: none
 };
 int mission_show(const MissionShowCommand& command, const CommonOptions& common);
+
+struct MissionControlCommand {
+  std::filesystem::path out;  // of the run
+  std::string command;        // pause, resume or cancel
+};
+// 1 when it has not come about; throws when no mission runs there.
+int mission_control(const MissionControlCommand& command, const CommonOptions& common);
+int mission_status(const MissionControlCommand& command, const CommonOptions& common);
 
 // Names as people write them.
 struct PlanQuestion {

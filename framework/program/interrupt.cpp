@@ -5,20 +5,31 @@
 namespace cairn {
 namespace {
 
-std::atomic<bool> interrupted{false};  // a signal handler can reach nothing else
+ControlFlags flags;  // a signal handler can reach nothing else
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void on_signal(int signal) {
-  interrupted.store(true, std::memory_order_relaxed);
+void on_interrupt(int signal) {
+  flags.cancel.store(true, std::memory_order_relaxed);
   std::signal(signal, SIG_DFL);
+}
+
+void on_pause(int signal) {
+  flags.pause.store(signal == SIGUSR1, std::memory_order_relaxed);
 }
 
 }  // namespace
 
 const std::atomic<bool>& cancel_on_interrupt() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  return interrupted;
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  return flags.cancel;
+}
+
+ControlFlags& flags_of_signals() {
+  (void)cancel_on_interrupt();
+  std::signal(SIGUSR1, on_pause);
+  std::signal(SIGUSR2, on_pause);
+  return flags;
 }
 
 }  // namespace cairn

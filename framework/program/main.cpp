@@ -16,6 +16,7 @@
 #include "framework/contracts/abi_stamp.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/map_file_options.hpp"
+#include "framework/program/mission_options.hpp"
 #include "framework/program/option_checks.hpp"
 
 namespace cairn {
@@ -33,28 +34,9 @@ void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& 
   sub->add_option("--set", c.overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
       ->allow_extra_args(false);
   sub->add_option("--resume", c.resume, "saved or autosaved map of this mission (*.cairn) to go on from");
+  sub->add_flag("--other-world", c.other_world, "go on although the map was made in another world");
   sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
   sub->callback([&] { action = [&] { return run(c, common); }; });
-}
-
-struct MissionOptions {
-  MissionCheckCommand check;
-  MissionShowCommand show;
-};
-
-void add_mission(CLI::App& app, MissionOptions& c, const CommonOptions& common, Action& action) {
-  CLI::App* mission = app.add_subcommand("mission", "Check missions without running them, or show their steps");
-  mission->require_subcommand(1);
-  CLI::App* check = mission->add_subcommand("check", "All that is wrong with mission files; exit status 2 if anything");
-  check->add_option("FILE", c.check.files, "mission file (may be repeated)")->required();
-  CLI::App* show = mission->add_subcommand("show", "The steps as a tree, with all sub-missions");
-  show->add_option("FILE", c.show.file, "mission file")->required();
-  show->add_option("--picture", c.show.picture, "draw the tree into this PNG file");
-  for (const auto& [sub, overrides] : {std::pair(check, &c.check.overrides), std::pair(show, &c.show.overrides)})
-    sub->add_option("--set", *overrides, "override a setting, as for `cairn run` (may be repeated)")
-        ->allow_extra_args(false);
-  check->callback([&] { action = [&] { return mission_check(c.check, common); }; });
-  show->callback([&] { action = [&] { return mission_show(c.show, common); }; });
 }
 
 void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action& action) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include "framework/host/fence.hpp"
@@ -13,6 +14,7 @@
 #include "framework/host/run_recording.hpp"
 #include "framework/host/run_report.hpp"
 #include "framework/program/commands.hpp"
+#include "framework/program/control_server.hpp"
 #include "framework/program/interrupt.hpp"
 #include "framework/program/output_files.hpp"
 #include "framework/program/progress_line.hpp"
@@ -84,6 +86,7 @@ std::optional<SavedMap> map_to_resume(const RunCommand& command, std::optional<s
 MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
                         const RunCommand& command) {
   try {
+    if (options.resume != nullptr && !command.other_world) check_same_world(*options.resume, mission);
     return MissionRunner(mission, library, options);
   } catch (const StoreError& error) {
     throw StoreError(command.resume.string() + ": " + error.what());
@@ -98,6 +101,16 @@ void keep_earlier_run(const RunCommand& command, const MissionConfig& config, st
   if (const auto kept = keep_earlier_autosave(file))
     people << "an earlier run here did not end: its map is kept as " << kept->string()
            << " (--resume goes on from it)\n";
+}
+
+// Without it the mission runs all the same, and signals still reach it.
+std::unique_ptr<ControlServer> control_server(const std::filesystem::path& folder, RunControl& control) {
+  try {
+    return std::make_unique<ControlServer>(folder, control);
+  } catch (const std::exception& error) {
+    std::cerr << "`cairn mission` cannot reach this run: " << error.what() << "\n";
+    return nullptr;
+  }
 }
 
 // What cannot be written is told, and the rest of the run's outcome is not lost for it.
@@ -115,7 +128,7 @@ bool try_to_write(const std::filesystem::path& file, const std::string& text) {
 
 int run(const RunCommand& command, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::atomic<bool>& interrupted = cancel_on_interrupt();
+  ControlFlags& flags = flags_of_signals();
   std::optional<std::int64_t> seed = command.seed;
   const std::optional<SavedMap> resume = map_to_resume(command, seed);
   const Mission mission = load_mission(command.mission, command.overrides, seed);
@@ -126,7 +139,9 @@ int run(const RunCommand& command, const CommonOptions& common) {
   std::ostream& people = common.json ? std::cerr : std::cout;
   const bool live = isatty(common.json ? STDERR_FILENO : STDOUT_FILENO) != 0;
   people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
-  RunOptions options{command.out, command.realtime, &interrupted, true, resume ? &*resume : nullptr};
+  RunControl control(flags, mission.config.mission);
+  std::unique_ptr<ControlServer> server = control_server(command.out, control);
+  RunOptions options{command.out, command.realtime, &flags.cancel, true, resume ? &*resume : nullptr, &control};
   MissionRunner runner = runner_of(mission, library, options, command);
   keep_earlier_run(command, mission.config, people);
   RunReport report;
@@ -134,7 +149,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   std::optional<RunRecording> recording;
   if (!mission.config.record.empty()) recording.emplace(command.out / mission.config.record, runner.T_map_start());
   {
-    ProgressLine progress(people, live);
+    ProgressLine progress(people, live, [&] { return runner.status(); });
     runner.subscribe(report);
     if (recording) runner.subscribe(*recording);
     runner.subscribe(progress);
@@ -142,7 +157,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   }
   for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
   if (recording) finish(*recording);
-  const RunPictures pictures = draw_run(command.out, mission, runner, report);
+  const RunPictures pictures = draw_run(command.out, mission, runner, result, report);
   try_to_write(command.out / "timing.json", timing_json(runner.times()) + "\n");
   const bool reported =
       try_to_write(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
@@ -153,6 +168,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
     std::cout << report.summary_json(mission, result, runner, command.out, pictures.files, wall_s) << "\n";
   if (runner.gave_up()) {
     // The lost call still runs: nothing that it may use can be torn down.
+    server.reset();
     std::cout.flush();
     std::cerr.flush();
     std::_Exit(kExitNotSolved);

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "framework/program/run_timeline_picture.hpp"
 #include "maps/pictures/chart.hpp"
 #include "maps/pictures/coarse_picture.hpp"
 #include "maps/pictures/map_picture.hpp"
@@ -64,7 +65,7 @@ void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, cons
 }
 
 RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, const MissionRunner& runner,
-                     const RunReport& report) {
+                     const MissionResult& result, const RunReport& report) {
   RunPictures pictures;
   // A picture that cannot be drawn must not cost the report.
   const auto attempt = [&](const std::string& name, auto draw) {
@@ -92,6 +93,10 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
     attempt("degrees.png", [&](const std::filesystem::path& file) {
       const ChartOutcome chart = write_chart(file, chart_of(report.degrees()));
       if (!chart.drawn) throw std::runtime_error(chart.reason);
+    });
+  if (!result.node_runs.runs().empty())
+    attempt("timeline.png", [&](const std::filesystem::path& file) {
+      write_timeline_picture(file, timeline_of(mission, result, report.timeline()));
     });
   return pictures;
 }

@@ -1,5 +1,5 @@
-// The pictures of a run: map.png (OG1, landmarks, graph, driven path), coarse.png (OG2) and
-// degrees.png (matching degrees over time).
+// The pictures of a run: map.png (OG1, landmarks, graph, driven path), coarse.png (OG2), degrees.png (matching degrees
+// over time) and timeline.png (when each node of the tree ran).
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct RunPictures {
 };
 
 [[nodiscard]] RunPictures draw_run(const std::filesystem::path& out, const Mission& mission,
-                                   const MissionRunner& runner, const RunReport& report);
+                                   const MissionRunner& runner, const MissionResult& result, const RunReport& report);
 
 // A saved map with its landmarks, routes and driven path. Throws as write_map_picture() does.
 void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, const std::string& title);

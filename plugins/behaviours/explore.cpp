@@ -1,8 +1,15 @@
 #include "plugins/behaviours/explore.hpp"
 
+#include <algorithm>
+
 #include "plugins/behaviours/exploration.hpp"
 
 namespace cairn::behaviours {
+namespace {
+
+constexpr double kPassed_m = 1.0;  // where edges are not passed at a distance of their own
+
+}  // namespace
 
 void ExploreConfig::describe(Fields<ExploreConfig>& fields) {
   using C = ExploreConfig;
@@ -29,8 +36,16 @@ Explore::Explore(const ExploreConfig& config) : config_(config) {}
 Explore::~Explore() = default;
 
 Status Explore::tick(const WorldView& world, Orders& orders) {
-  if (!run_) run_ = std::make_unique<Exploration>(config_, world);
-  return run_->tick(world, orders);
+  if (!run_) {
+    run_ = std::make_unique<Exploration>(config_, world);
+    progress_.emplace(world, config_.look_closer_m > 0.0 ? config_.look_closer_m : kPassed_m);
+    begun_s_ = world.time_s;
+  }
+  Status status = run_->tick(world, orders);
+  if (status.progress != Progress::running) return status;
+  status.left_s = progress_->left_s(world);
+  if (status.left_s) status.left_s = std::min(*status.left_s, begun_s_ + config_.at_most_s - world.time_s);
+  return status;
 }
 
 void Explore::halt() {

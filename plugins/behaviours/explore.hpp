@@ -7,9 +7,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
+#include "plugins/behaviours/explore_progress.hpp"
 
 namespace cairn::behaviours {
 
@@ -41,6 +43,8 @@ class Explore : public Behaviour {
  private:
   ExploreConfig config_;
   std::unique_ptr<Exploration> run_;  // from the first tick on
+  double begun_s_ = 0.0;
+  std::optional<ExploreProgress> progress_;
 };
 
 }  // namespace cairn::behaviours

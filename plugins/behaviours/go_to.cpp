@@ -98,7 +98,8 @@ Status GoTo::drive_there(const WorldView& world, Orders& orders) {
     goal_ = goal_of(named);
   }
   const Status status = driver_.tick(*goal_, world, orders);
-  if (status.progress == Progress::running) return {Progress::running, status.reason + ", to " + destination(world)};
+  if (status.progress == Progress::running)
+    return {Progress::running, status.reason + ", to " + destination(world), status.left_s};
   if (status.progress == Progress::failure)
     return {Progress::failure, status.reason + "; on the way to " + destination(world)};
   facing_since_s_ = world.time_s;

@@ -163,7 +163,8 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
     said_wait_ = true;
     return {Progress::running, "waiting for the way to be free"};
   }
-  return {Progress::running, "under way"};
+  if (leg_ != Leg::route) return {Progress::running, "under way"};
+  return {Progress::running, "under way", step.left_m / limits.speed_mps};
 }
 
 Status RouteDriver::arrive(const WorldView& world, Orders& orders) {

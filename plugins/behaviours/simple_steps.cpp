@@ -81,7 +81,15 @@ Status DriveTo::tick(const WorldView& world, Orders& orders) {
   wanted_ = step.wanted;
   orders.drive(wanted_);
   std::snprintf(text, sizeof text, "driving to (%.2f, %.2f)", stretch_.back().x(), stretch_.back().y());
-  return {Progress::running, text};
+  return {Progress::running, text, left_s(step, limits)};
+}
+
+// To the last point, as if never held back.
+double DriveTo::left_s(const FollowStep& step, const FollowLimits& limits) const {
+  double left_m = step.left_m;
+  for (std::size_t i = next_; i < points_m_.size(); ++i)
+    left_m += (points_m_[i] - (i == next_ ? stretch_.back() : points_m_[i - 1])).norm();
+  return left_m / limits.speed_mps;
 }
 
 void WaitConfig::describe(Fields<WaitConfig>& fields) {
@@ -91,7 +99,8 @@ void WaitConfig::describe(Fields<WaitConfig>& fields) {
 
 Status Wait::tick(const WorldView& world, Orders&) {
   if (!begun_s_) begun_s_ = world.time_s;
-  if (world.time_s - *begun_s_ < config_.for_s) return {Progress::running, "waiting"};
+  if (world.time_s - *begun_s_ < config_.for_s)
+    return {Progress::running, "waiting", config_.for_s - (world.time_s - *begun_s_)};
   return {Progress::success, "waited"};
 }
 

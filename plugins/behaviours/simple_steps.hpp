@@ -32,6 +32,7 @@ class DriveTo : public Behaviour {
 
  private:
   void begin_stretch(const Point& from);
+  [[nodiscard]] double left_s(const FollowStep& step, const FollowLimits& limits) const;
 
   DriveConfig config_;
   std::uint64_t seed_;

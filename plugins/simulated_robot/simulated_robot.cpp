@@ -52,7 +52,7 @@ double approached(double now, double wanted, double largest_change) {
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotModel& robot, const World* world,
-                               const Pose2& T_map_start, std::uint64_t seed)
+                               const Pose2& T_map_start, std::uint64_t seed, double begin_s)
     : config_(config),
       robot_(robot),
       scene_(checked(world)),
@@ -61,7 +61,6 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
       firing_order_(checked_order(robot)),
       period_s_(robot.firing_period_s > 0.0 ? robot.firing_period_s : config.tick_s),
       fire_all_(config.fire_all || robot.firing_period_s <= 0.0),
-      fault_(start_fault(T_map_start, robot, *world, traffic_)),
       T_map_robot_(T_map_start),
       odometer_(robot.odometry_error, config.turn_as_distance_m_per_rad, seed),
       compass_(robot.compass_error, seed),
@@ -69,9 +68,20 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
       faults_(config.faults, config.random_faults, robot, *world, seed),
       witness_(robot),
       battery_ratio_(config.battery ? config.battery->start_ratio : 1.0) {
+  catch_up(begin_s);
+  fault_ = start_fault(T_map_start, robot, *world, traffic_);
   traffic_.show(traffic_.places(), scene_);
-  witness_.note(0.0, T_map_start, traffic_.places());
+  witness_.note(static_cast<double>(ticks_) * period_s_, T_map_start, traffic_.places());
   for (const SonarModel& sonar : robot.sonars) echoes_.emplace_back(config.echo, scene_, sonar.half_beam_rad);
+}
+
+void SimulatedRobot::catch_up(double begin_s) {
+  const auto ticks = static_cast<std::int64_t>(std::llround(begin_s / period_s_));
+  if (ticks <= 0) return;
+  for (ticks_ = traffic_.is_empty() ? ticks - 1 : 0; ticks_ < ticks;)
+    traffic_.advance(static_cast<double>(++ticks_) * period_s_, period_s_, T_map_robot_);
+  faults_.advance(static_cast<double>(ticks_) * period_s_);
+  while (faults_.kidnap()) faults_.kidnapped();
 }
 
 void SimulatedRobot::command(const Twist& twist) {

@@ -26,10 +26,12 @@ namespace cairn {
 
 class SimulatedRobot final : public Sensor, public Drive {
  public:
+  // begin_s: the clock to begin with. Doors, movers and faults are then as if the robot had stood at its start so long;
+  // the battery is full, and what put the robot elsewhere has done so.
   // Throws std::invalid_argument without a world, or when the firing order names no sonar of the robot; ConfigError
   // when a fault cannot be.
   SimulatedRobot(const SimulatedRobotConfig& config, const RobotModel& robot, const World* world,
-                 const Pose2& T_map_start, std::uint64_t seed);
+                 const Pose2& T_map_start, std::uint64_t seed, double begin_s = 0.0);
   SimulatedRobot(const SimulatedRobot&) = delete;  // its parts refer to its scene
   SimulatedRobot& operator=(const SimulatedRobot&) = delete;
 
@@ -44,6 +46,7 @@ class SimulatedRobot final : public Sensor, public Drive {
   [[nodiscard]] const Twist& twist() const { return twist_; }
 
  private:
+  void catch_up(double begin_s);
   [[nodiscard]] Twist towards_wanted() const;
   void move();
   void carry_off();

@@ -24,9 +24,13 @@ void* counted(std::size_t bytes, std::align_val_t alignment) {
 
 }  // namespace
 
-// The array and nothrow forms of the standard library come here too.
+// The array forms of the standard library come here too; its nothrow forms do, unless a sanitizer has its own.
 void* operator new(std::size_t bytes) {
   return counted(bytes);
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  ++allocations_of_this_thread;
+  return std::malloc(std::max<std::size_t>(bytes, 1));
 }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return counted(bytes, alignment);

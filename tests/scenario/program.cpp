@@ -183,6 +183,10 @@ std::string Conversation::hear() const {
   return line;
 }
 
+void Conversation::send(int signal) const {
+  kill(child_, signal);
+}
+
 int Conversation::exit_status() {
   int status = 0;
   waitpid(child_, &status, 0);

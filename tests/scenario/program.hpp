@@ -52,6 +52,7 @@ class Conversation {
   void say(const std::string& line) const;
   // Its next line on standard output, however long that takes; empty when it has ended.
   [[nodiscard]] std::string hear() const;
+  void send(int signal) const;
   // Its exit status, once it has ended by itself; its standard input stays open as long.
   [[nodiscard]] int exit_status();
 

@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <random>
+#include <set>
+#include <sstream>
 
 #include "tests/framework/host/scripted_leafs.hpp"
 
@@ -223,6 +225,53 @@ TEST(RandomTrees, TickAndHaltTheirLeafsAsTheOracleDoes) {
     }
   }
   EXPECT_GT(ended, 10000) << "most trees must end now and then";
+}
+
+void number(TreeNode& node, const std::string& path) {
+  node.path = path;
+  for (std::size_t i = 0; i < node.children.size(); ++i) number(node.children[i], path + "/" + std::to_string(i + 1));
+}
+
+// Without halts of leafs that have not been ticked: what is gone on with has fresh leafs.
+std::string without_halts_of_fresh_leafs(const std::string& log) {
+  std::istringstream words(log);
+  std::set<std::string> ticked;
+  std::string left;
+  for (std::string word; words >> word;) {
+    if (word.front() == '!' && !ticked.contains(word.substr(1))) continue;
+    ticked.insert(word);
+    left += word + " ";
+  }
+  return left;
+}
+
+TEST(RandomTrees, GoOnFromTheirSavedStateAsTheUninterruptedTreeDoes) {
+  int under_way = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    Chance chance(seed);
+    std::map<std::string, std::string> scripts;
+    TreeNode root = random_tree(chance, 4, scripts);
+    number(root, "1");
+    ScriptedLeafs leafs(scripts);
+    TreeRunner runner(root, leafs);
+    const int killed_at = 1 + pick(chance, 20);
+    for (int tick = 0; tick < killed_at; ++tick) (void)runner.tick(tick);
+    const TreeState saved = runner.state();
+    ASSERT_EQ(tree_state_of(text_of(saved)), saved) << "seed " << seed;
+    under_way += saved.running.size() > 1 ? 1 : 0;
+    ScriptedLeafs fresh = leafs;
+    leafs.log = fresh.log = "";
+    TreeRunner restored(root, fresh);
+    restored.restore(saved, killed_at - 1);
+    for (int tick = killed_at; tick < killed_at + 20; ++tick) {
+      ASSERT_EQ(letter_of(runner.tick(tick).progress), letter_of(restored.tick(tick).progress))
+          << "seed " << seed << ", killed at " << killed_at << ", tick " << tick;
+      ASSERT_EQ(without_halts_of_fresh_leafs(leafs.log), without_halts_of_fresh_leafs(fresh.log))
+          << "seed " << seed << ", killed at " << killed_at << ", tick " << tick;
+      ASSERT_EQ(runner.state(), restored.state()) << "seed " << seed << ", tick " << tick;
+    }
+  }
+  EXPECT_GT(under_way, 500) << "many trees must be killed inside";
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ struct SensorConfig {
 // on_tick is called at the begin of each tick.
 inline std::function<void(int)> on_tick;  // NOLINT: shared by the modules of one test program
 
+inline std::function<void(const Twist&)> on_command;  // NOLINT: the same
+
 class Sensor : public cairn::Sensor, public Drive {
  public:
   explicit Sensor(int ticks) : ticks_(ticks) {}
@@ -32,7 +34,9 @@ class Sensor : public cairn::Sensor, public Drive {
     return step;
   }
   Drive* drive() override { return this; }
-  void command(const Twist&) override {}
+  void command(const Twist& twist) override {
+    if (on_command) on_command(twist);
+  }
 
  private:
   int ticks_;

@@ -75,6 +75,7 @@ TEST(OmplDeterminism, HoweverTheRobotMovesThreadsChangeNothing) {
       for (std::thread& thread : threads) thread.join();
       for (std::size_t query = 0; query < 8; ++query) {
         ASSERT_EQ(alone[query].size(), together[query].size());
+        if (alone[query].empty()) continue;  // memcmp wants an address
         EXPECT_EQ(0, std::memcmp(alone[query].data(), together[query].data(), alone[query].size() * sizeof(Pose2)));
       }
     }

@@ -1,0 +1,26 @@
+// About how long something still takes.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cairn {
+
+struct TimeLeft {
+  double about_s = 0.0;                                     // of all that can be told
+  double most_s = std::numeric_limits<double>::infinity();  // it has ended by then; infinite: nothing says so
+  std::vector<std::string> without{};  // kinds of nodes of which nothing is known: what they take comes on top
+};
+
+// Once, however often it is told.
+void add_unknown(TimeLeft& left, const std::string& what);
+// Both, one after the other.
+[[nodiscard]] TimeLeft in_order(TimeLeft first, const TimeLeft& then);
+// At most so long.
+[[nodiscard]] TimeLeft cut(TimeLeft left, double most_s);
+
+// "about 80 s left", "about 80 s left without goto, save", "time left unknown, at most 900 s".
+[[nodiscard]] std::string text_of(const TimeLeft& left);
+
+}  // namespace cairn

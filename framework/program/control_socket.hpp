@@ -1,0 +1,49 @@
+// The socket in an output folder by which the mission that runs there is controlled.
+//
+// A Unix-domain socket: no network, and the kernel tells who is at the other end and whether anyone still is. One line
+// goes in (pause, resume, cancel, status), one line of JSON comes out, and the connection ends.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace cairn {
+
+inline constexpr const char* kControlSocket = "control.sock";
+inline constexpr std::size_t kMostCommandBytes = 256;
+
+// Closed with its owner.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept;
+  Descriptor& operator=(Descriptor&& other) noexcept;
+  ~Descriptor();
+  [[nodiscard]] int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+// Listens there; only the user may connect. Takes a socket away that an earlier run has left: hold the folder first.
+// Throws std::runtime_error with the reason.
+[[nodiscard]] Descriptor listen_in(const std::filesystem::path& folder);
+void remove_socket(const std::filesystem::path& folder);
+
+// Up to the first line end, or the end of what comes; nothing when it is longer than that, or slower.
+[[nodiscard]] std::optional<std::string> read_line(int socket, std::size_t most_bytes,
+                                                   std::chrono::milliseconds at_most);
+// False when the other end has gone.
+bool write_line(int socket, std::string line);
+
+enum class Reached { answered, nobody, left_behind };
+struct ControlAnswer {
+  Reached reached = Reached::nobody;  // left_behind: a run that was killed has left its socket
+  std::string line{};
+};
+// Asks the mission that runs there. Throws std::runtime_error when it may not be asked or does not answer.
+[[nodiscard]] ControlAnswer ask_mission(const std::filesystem::path& folder, const std::string& command);
+
+}  // namespace cairn
