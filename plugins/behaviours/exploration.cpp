@@ -290,6 +290,8 @@ Status Exploration::back_off(const WorldView& world, Orders& orders) {
 Status Exploration::nothing_left(const WorldView& world, Orders& orders) {
   const bool can_turn = limits_.min_turning_radius_m <= 0.0;
   if (!can_turn || driven_m_ - looked_around_at_m_ < kMoved_m) return finished(world);
+  // And what it remembers of near echoes may be of somebody who has gone on.
+  if (is_shut_in(world)) near_echoes_ = NearEchoes(world.grid);
   turned_rad_ = 0.0;
   set_mode(Mode::look_around, world.time_s);
   return look_around(world, orders);

@@ -54,11 +54,13 @@ Cell what_blocks(Cell cell, const FreeSpace& space) {
 std::optional<WayToLook> way_to_look(const FreeSpace& space, const OccupancyGrid& grid, const Point& from,
                                      const Point& to, const std::vector<Point>& looked_at, double stand_off_m) {
   const CellBox box = space.box();
-  if (!box.contains(space.cell_at(to)) || !box.contains(space.cell_at(from))) return std::nullopt;
+  if (box.empty() || !box.contains(space.cell_at(from))) return std::nullopt;
+  const Cell beyond = space.cell_at(to);  // perhaps off the map: then the way there leads over its rim
+  const Cell goal{std::clamp(beyond.x, box.min.x, box.max.x - 1), std::clamp(beyond.y, box.min.y, box.max.y - 1)};
   const std::size_t cells = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
   const DistanceField everywhere(box, space.cell_m(), grid.origin_m(), std::vector<std::uint8_t>(cells, 1));
   const TravelField travel(everywhere, from, 0.0, [&](Cell c) { return price(c, space, grid, looked_at); });
-  const std::vector<Cell> way = travel.path_to(space.cell_at(to));
+  const std::vector<Cell> way = travel.path_to(goal);
   const auto occupied =
       std::find_if(way.begin(), way.end(), [&](Cell c) { return space.state(c) == CellState::occupied; });
   const auto closed =

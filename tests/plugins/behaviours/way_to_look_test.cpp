@@ -57,6 +57,15 @@ TEST(WayToLook, WhatHasBeenLookedAtComesLast) {
   EXPECT_GT((next->at - first).norm(), 0.4);
 }
 
+TEST(WayToLook, AGoalOffTheMapIsLookedForToo) {
+  const Rooms rooms;
+  const Pose2 robot{rooms.at('R').x(), rooms.at('R').y(), 0.0};
+  const FreeSpace space(rooms.grid, {robot.position(), 0.2, 0.03}, {robot});
+  const std::optional<WayToLook> way = way_to_look(space, rooms.grid, robot.position(), {9.0, 0.4}, {}, kStandOff_m);
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->at.x(), 1.65, 0.11);
+}
+
 TEST(WayToLook, IsNoneWhereNothingStandsInTheWay) {
   Rooms rooms;
   for (int y = 1; y <= 14; ++y) rooms.grid.set_log_odds({16, y}, -600);
