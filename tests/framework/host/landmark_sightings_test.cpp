@@ -41,7 +41,7 @@ class LandmarkSightingsTest : public testing::Test {
       reading.half_beam_rad = half_beam_rad;
       reading.min_m = 0.1;
       reading.max_m = 5.0;
-      reading.range_m = 4.9;
+      reading.range_m = 3.9;
       for (const auto& [id, landmark] : graph_.landmarks()) {
         const auto echo =
             expected_echo(landmark.category == "circle" ? circle_ : square_,

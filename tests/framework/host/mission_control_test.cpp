@@ -45,7 +45,7 @@ TEST_F(MissionControl, APauseStopsTheRobotInTheSameTickAndItsClockStands) {
     if (tick == 10) flags_.pause = false;
   });
   ASSERT_GE(commands_.size(), 20U);
-  for (int tick = 0; tick < 20; ++tick)  // after a second without readings the stop layer stops it anyway
+  for (int tick = 0; tick < 20; ++tick)
     EXPECT_EQ(commands_[static_cast<std::size_t>(tick)], tick >= 5 && tick < 10 ? 0.0 : 0.1) << "tick " << tick;
   EXPECT_NEAR(result.paused_s, 5 * 0.04, 1e-9);
   EXPECT_NEAR(result.time_s, (19 - 5) * 0.04, 1e-9);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -31,6 +32,11 @@ class Sensor : public cairn::Sensor, public Drive {
     if (tick_++ >= ticks_) return step;
     step.state = SensorState::observation;
     step.observation.stamp_s = 0.04 * tick_;
+    RangeReading ahead;  // without one the stop layer would let nothing move
+    ahead.half_beam_rad = radians(15.0);
+    ahead.max_m = 5.0;
+    ahead.range_m = std::numeric_limits<double>::infinity();
+    step.observation.ranges.push_back(ahead);
     return step;
   }
   Drive* drive() override { return this; }
@@ -75,7 +81,7 @@ class Behaviour : public cairn::Behaviour {
 inline ModuleLibrary library() {
   Registrar registrar;
   registrar.add<cairn::Sensor, SensorConfig>(
-      "still_sensor", "gives empty observations",
+      "still_sensor", "sees nothing ahead",
       [](const SensorConfig& config, const ModuleContext&) { return std::make_unique<Sensor>(config.ticks); });
   const auto plain = [&registrar]<class Interface, class Type>(const char* name, std::type_identity<Interface>,
                                                                std::type_identity<Type>) {
