@@ -53,12 +53,16 @@ void print_times(std::ostream& out, const std::vector<StageTime>& times) {
 }
 
 void print_summary(std::ostream& out, const Mission& mission, const MissionResult& result, const MissionRunner& runner,
-                   const RunPictures& pictures, const std::filesystem::path& folder, double wall_s) {
+                   const RunReport& report, const RunPictures& pictures, const std::filesystem::path& folder,
+                   double wall_s) {
   print_landmarks(out, mission, runner.graph());
   out << fmt::format("\n  outcome     {}{}\n", name_of(result.outcome),
                      result.reason.empty() ? "" : ": " + result.reason);
   out << fmt::format("  driven      {:.1f} m in {:.0f} s, {} collisions\n", result.distance_m, result.time_s,
                      result.collisions);
+  if (const auto error = report.pose_errors().figures())
+    out << fmt::format("  pose error  median {:.3f} m, 95 % {:.3f} m, worst {:.3f} m; {} corrections, {} refused\n",
+                       error->median_m, error->p95_m, error->worst_m, error->corrections, error->refused);
   out << fmt::format("  readings    {}, matchings {}, landmarks {}, routes {}\n", result.readings, result.matchings,
                      runner.graph().landmarks().size(), runner.graph().routes().size());
   out << fmt::format("  took        {:.1f} s, {:.0f} times faster than real time\n", wall_s,
@@ -163,7 +167,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
       try_to_write(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   print_times(people, runner.times());
-  print_summary(people, mission, result, runner, pictures, command.out, wall_s);
+  print_summary(people, mission, result, runner, report, pictures, command.out, wall_s);
   if (common.json)
     std::cout << report.summary_json(mission, result, runner, command.out, pictures.files, wall_s) << "\n";
   if (runner.gave_up()) {
