@@ -51,12 +51,15 @@ ordered_json map_of(const FieldSpec& field) {
 ordered_json shape_of(const FieldSpec& field) {
   const ordered_json point = {
       {"type", "array"}, {"items", bounded("number", field.range)}, {"minItems", 2}, {"maxItems", 2}};
+  const ordered_json place = {{"anyOf", {kText, point}}};
   if (field.type == "number" || field.type == "integer") return bounded(field.type.c_str(), field.range);
   if (field.type == "flag") return {{"type", "boolean"}};
   if (field.type == "choice") return {{"enum", field.choices}};
   if (field.type == "text" || field.type == "file") return kText;
   if (field.type == "point") return point;
   if (field.type == "list of points") return list_of(point);
+  if (field.type == "place") return place;
+  if (field.type == "list of places") return list_of(place);
   if (field.type == "list of numbers") return list_of(bounded("number", field.range));
   if (field.type == "list of integers") return list_of(bounded("integer", field.range));
   if (field.type == "list of texts" || field.type == "list of files") return list_of(kText);

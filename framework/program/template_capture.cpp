@@ -47,7 +47,8 @@ int template_capture(const CaptureCommand& command, const CommonOptions& common)
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(command.map.string() + ": " + error.what());
   }
-  const LandmarkShape shape = write_template(command.out, template_text(command.category, captured, command.map.filename().string()));
+  const LandmarkShape shape =
+      write_template(command.out, template_text(command.category, captured, command.map.filename().string()));
   const double diameter_m = shape.contour.outer_diameter_m();
   if (common.json)
     std::cout << nlohmann::ordered_json{{"file", command.out.string()}, {"category", shape.category},

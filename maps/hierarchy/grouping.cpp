@@ -196,8 +196,7 @@ std::vector<std::int32_t> propose_by_metis(const GroupingGraph& graph, std::int3
   Groups part(graph.size.size(), 0);
   if (parts <= 1) return part;
   if (nodes < 2 * parts) {  // METIS may find no way to fill each part, and says so on standard output
-    for (std::size_t i = 0; i < part.size(); ++i)
-      part[i] = static_cast<std::int32_t>(std::int64_t(i) * parts / nodes);
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = static_cast<std::int32_t>(std::int64_t(i) * parts / nodes);
     return part;
   }
   idx_t options[METIS_NOPTIONS];

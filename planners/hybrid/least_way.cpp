@@ -8,8 +8,9 @@
 
 // Why it is a bound. Let the disc's centre p be somewhere in a cell with centre c, and b the centre of a blocked cell.
 // p + (b - c) lies in the blocked square, so that square is no further from p than |b - c|, and the radius is no more
-// than that. So the way stays on cells whose centres are as far as the radius from those of all blocked cells. It stays on the blocks that hold such a cell all the more, and where it goes from cell to cell over a side, it
-// goes over a side from block to block or stays in one. The shortest path of a point over these blocks is no longer.
+// than that. So the way stays on cells whose centres are as far as the radius from those of all blocked cells. It stays
+// on the blocks that hold such a cell all the more, and where it goes from cell to cell over a side, it goes over a
+// side from block to block or stays in one. The shortest path of a point over these blocks is no longer.
 
 namespace cairn {
 namespace {

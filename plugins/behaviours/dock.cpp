@@ -63,8 +63,8 @@ std::string metres(double value_m) {
 void DockConfig::describe(Fields<DockConfig>& fields) {
   using C = DockConfig;
   fields.raw("landmark", &C::landmark, "text", "a landmark's id (L3) or name, or `nearest CATEGORY`").required = true;
-  fields.raw("side", &C::side, "side",
-             "of the landmark, in its own frame: front (its x axis), left, back or right; this or side_deg");
+  fields.raw("side", &C::side, "choice", "of the landmark, in its own frame: front is its x axis; this or side_deg")
+      .choices = kSides;
   fields.angle("side_deg", &C::side_rad, {-360.0, 360.0}, "the same as an angle, anticlockwise from its x axis");
   fields.number("distance_m", &C::distance_m, {0.02, 5.0}, "m", "between the robot's footprint and the landmark");
   fields.choice("facing", &C::facing, {{"landmark", C::Facing::landmark}, {"away", C::Facing::away}},

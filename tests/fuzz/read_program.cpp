@@ -109,7 +109,7 @@ void read_plan_queries(Input input) {
     LineReader lines(file.string());
     for (std::string line; lines.next(line);) {
       const PlanQuery query = query_of_line(line, "fuzzed", lines.number(), {});
-      static_cast<void>(task_of(query.question, small_map(), small_map().clusters));
+      static_cast<void>(task_of(query.question, small_map().graph, small_map().clusters));
     }
   } catch (const ConfigError&) {
   } catch (const PlaceError&) {

@@ -125,9 +125,10 @@ TEST(Log, SaysALineWithTheValuesOfTheMoment) {
 
 TEST(Log, TellsNamesThatItDoesNotKnow) {
   const auto log = [](const char* yaml) { return Log(config_of<LogConfig>(yaml)); };
-  EXPECT_EQ(error_of([&] { log("{text: 'at {plce}'}"); }),
-            "mission.yaml:1:8: text: there is no {plce} (did you mean \"place\"?); there are {area}, {battery}, {distance}, "
-            "{explored}, {landmarks}, {nearest}, {place} and {time}");
+  EXPECT_EQ(
+      error_of([&] { log("{text: 'at {plce}'}"); }),
+      "mission.yaml:1:8: text: there is no {plce} (did you mean \"place\"?); there are {area}, {battery}, {distance}, "
+      "{explored}, {landmarks}, {nearest}, {place} and {time}");
   EXPECT_THAT(error_of([&] { log("'at {place'"); }), HasSubstr("a { without its other brace; write {{ for one"));
   EXPECT_THAT(error_of([&] { log("'at place}'"); }), HasSubstr("a } without its other brace; write }} for one"));
   EXPECT_THAT(error_of([&] { log("[1]"); }), HasSubstr("mission.yaml:1:1"));

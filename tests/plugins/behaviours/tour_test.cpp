@@ -95,7 +95,8 @@ TEST(Tour, OfNothingThatCanBeReachedFails) {
   Tour step = tour("{places: [L7, L8], skip: true, order: shortest}");
   const Status status = host.run(step, 60.0);
   EXPECT_EQ(status.progress, Progress::failure);
-  EXPECT_THAT(status.reason, AllOf(HasSubstr("visited 0 of 2 places; left out: "), HasSubstr("L7 (no landmark \"L7\"")));
+  EXPECT_THAT(status.reason,
+              AllOf(HasSubstr("visited 0 of 2 places; left out: "), HasSubstr("L7 (no landmark \"L7\"")));
 }
 
 TEST(Tour, WaitsAtEachPlaceAndRunsOutOfTime) {
