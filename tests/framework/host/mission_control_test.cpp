@@ -19,11 +19,13 @@ class MissionControl : public testing::Test {
     still::on_command = [this](const Twist& twist) { commands_.push_back(twist.v_mps); };
   }
   ~MissionControl() override {
+    still::sees_ahead = false;
     still::on_tick = nullptr;
     still::on_command = nullptr;
     std::filesystem::remove_all(folder_);
   }
   MissionResult run(int ticks, std::function<void(int)> on_tick) {
+    still::sees_ahead = true;
     still::on_tick = std::move(on_tick);
     RunOptions options{folder_};
     options.cancel = &flags_.cancel;

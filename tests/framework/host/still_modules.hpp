@@ -23,6 +23,17 @@ inline std::function<void(int)> on_tick;  // NOLINT: shared by the modules of on
 
 inline std::function<void(const Twist&)> on_command;  // NOLINT: the same
 
+// Whether there is a reading in each tick, that nothing is ahead: without one the stop layer lets nothing move.
+inline bool sees_ahead = false;  // NOLINT: the same
+
+inline RangeReading nothing_ahead() {
+  RangeReading reading;
+  reading.half_beam_rad = radians(15.0);
+  reading.max_m = 5.0;
+  reading.range_m = std::numeric_limits<double>::infinity();
+  return reading;
+}
+
 class Sensor : public cairn::Sensor, public Drive {
  public:
   explicit Sensor(int ticks) : ticks_(ticks) {}
@@ -32,11 +43,7 @@ class Sensor : public cairn::Sensor, public Drive {
     if (tick_++ >= ticks_) return step;
     step.state = SensorState::observation;
     step.observation.stamp_s = 0.04 * tick_;
-    RangeReading ahead;  // without one the stop layer would let nothing move
-    ahead.half_beam_rad = radians(15.0);
-    ahead.max_m = 5.0;
-    ahead.range_m = std::numeric_limits<double>::infinity();
-    step.observation.ranges.push_back(ahead);
+    if (sees_ahead) step.observation.ranges.push_back(nothing_ahead());
     return step;
   }
   Drive* drive() override { return this; }
@@ -81,7 +88,7 @@ class Behaviour : public cairn::Behaviour {
 inline ModuleLibrary library() {
   Registrar registrar;
   registrar.add<cairn::Sensor, SensorConfig>(
-      "still_sensor", "sees nothing ahead",
+      "still_sensor", "gives observations of nothing",
       [](const SensorConfig& config, const ModuleContext&) { return std::make_unique<Sensor>(config.ticks); });
   const auto plain = [&registrar]<class Interface, class Type>(const char* name, std::type_identity<Interface>,
                                                                std::type_identity<Type>) {
