@@ -23,7 +23,8 @@ struct RangeReading {
 // The first tick of a touch, as the simulation knows it.
 struct Contact {
   double speed_mps = 0.0;      // of the robot, towards what it touches; 0 when it stood, whatever came upon it
-  bool could_be_seen = false;  // that stood in the free beam of a transducer at some time in the last second
+  // That stood in the free beam of a transducer at some time in the last second, 0.3 s before the touch at the latest.
+  bool could_be_seen = false;
 };
 
 struct Observation {

@@ -23,7 +23,8 @@ struct WorldView {
   // The stop layer has cut this share of the last wanted speed: 0 none, 1 all.
   double held_back_ratio = 0.0;
   const Hierarchies* hierarchies = nullptr;  // of the graph; null: searches take the graph as it is
-  // Where this is the same number and not 0, so is what the grid holds. Never the same for two grids that one planner sees.
+  // Where this is the same number and not 0, so is what the grid holds. Never the same for two grids that one planner
+  // sees.
   std::uint64_t grid_version = 0;
   Pose2 T_map_start{};  // where the mission began; a mission that was resumed, where it began at first
 };

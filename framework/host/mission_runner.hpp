@@ -23,8 +23,8 @@ enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fa
 [[nodiscard]] std::string_view name_of(MissionOutcome outcome);
 
 struct RunOptions {
-  std::filesystem::path out;         // folder of everything written; must exist
-  bool realtime = false;             // pace simulated time to the wall clock
+  std::filesystem::path out;  // folder of everything written; must exist
+  bool realtime = false;      // pace simulated time to the wall clock
   const std::atomic<bool>* cancel = nullptr;
   bool autosave = false;             // as the mission's settings say
   const SavedMap* resume = nullptr;  // go on from this map; must outlive the constructor's call only

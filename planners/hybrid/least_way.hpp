@@ -10,8 +10,8 @@ namespace cairn {
 // there is no way; 0 when the budget ends first. The look is at blocks of cells, about as large as the disc's radius:
 // it cuts turns shorter, and goes through gaps that only just are too narrow.
 //
-// Takes O(cells) bit operations and a mesh of the blocks, which are single cells where the radius is below 1.5 of them; no
-// distance field.
+// Takes O(cells) bit operations and a mesh of the blocks, which are single cells where the radius is below 1.5 of them;
+// no distance field.
 [[nodiscard]] double least_way_m(const OccupancyGrid& grid, const GroundRules& rules, double radius_m,
                                  const Point& from, const Point& to, const Budget& budget);
 
