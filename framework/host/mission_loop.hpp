@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,7 @@ class MissionLoop : private Orders, private TreeHost {
   void end_step(const TreeNode& step, const Status& status);
   void note_nodes();
   void drive_on();
+  void stand_meanwhile();
   void connect_landmarks();
   MissionOutcome at_end_of_data(const std::string& reason);
   MissionOutcome ended(MissionOutcome outcome, std::string reason);
@@ -167,11 +169,22 @@ class MissionLoop : private Orders, private TreeHost {
   std::optional<Pace> pace_;  // wall clock and observations go together from here on
 };
 
+// However the call comes back, a mission that was given up meanwhile is touched no more.
 template <class Call>
 auto MissionLoop::in_stage(StageClock::Id stage, Call&& call) -> decltype(call()) {
-  try {
+  const auto visit_and_call = [&]() -> decltype(call()) {
     const StageClock::Visit visit(clock_, stage);
     return fenced(clock_.stage_of(stage), clock_.module_of(stage), std::forward<Call>(call));
+  };
+  try {
+    if constexpr (std::is_void_v<decltype(call())>) {
+      visit_and_call();
+      clock_.check();
+    } else {
+      decltype(auto) result = visit_and_call();
+      clock_.check();
+      return result;
+    }
   } catch (const ModuleFault&) {
     clock_.check();
     throw;
