@@ -163,12 +163,12 @@ std::string Drawing::goal() {
   const double kind = chance_.share();
   if (kind < 0.65) return go_to_place();
   if (kind < 0.85) return go_to_landmark();
-  return "tour: {" + places() + fmt::format(", at_most_s: {:g}}}", 3.0 * config_.goal_at_most_s);
+  return "tour: {" + places() + fmt::format(", at_most_s: {:g}}}", 2.0 * config_.goal_at_most_s);
 }
 
 // One or more goals under a node.
 std::string Drawing::step() {
-  const double after_s = 3.0 * config_.goal_at_most_s;
+  const double after_s = 1.5 * config_.goal_at_most_s;
   switch (chance_.whole(0, 8)) {
     case 0:
       return "sequence: [{" + goal() + "}, {wait: 2}]";
@@ -191,7 +191,7 @@ std::string Drawing::step() {
     }
     case 7:
       return fmt::format("always: {{timeout: {{after_s: {:g}, do: {{patrol: {{rounds: 2, {}}}}}}}}}",
-                         6.0 * config_.goal_at_most_s, places());
+                         3.0 * config_.goal_at_most_s, places());
     default:
       return "always: {" + goal() + "}";
   }

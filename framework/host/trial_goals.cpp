@@ -102,8 +102,9 @@ class Judge {
  private:
   using Moments = std::span<const TrialMoment>;
   [[nodiscard]] Moments during(double begin_s, double end_s) const;
-  [[nodiscard]] double way_to_m(const Target& target, const Point& p_m) const;
-  [[nodiscard]] double missed_m(const Goal& goal, Moments moments) const;
+  [[nodiscard]] bool is_true(const std::string& category, const Point& at_m) const;
+  [[nodiscard]] std::vector<Point> places_of(const Target& target, const std::string& leaf) const;
+  [[nodiscard]] double missed_m(const Goal& goal, const std::string& leaf, Moments moments) const;
   [[nodiscard]] bool is_reachable(const Target& target, Moments moments);
   [[nodiscard]] bool is_mapped(const Target& target) const;
 
@@ -121,26 +122,31 @@ Judge::Moments Judge::during(double begin_s, double end_s) const {
   return {begin, end};
 }
 
-// From a robot's true place to where it should be; of a landmark from its disc to the outline.
-double Judge::way_to_m(const Target& target, const Point& p_m) const {
-  if (target.category.empty()) return (target.at_m - p_m).norm();
-  double way_m = std::numeric_limits<double>::infinity();
-  for (const WorldObject& object : world_.objects)
-    if (object.category == target.category)
-      way_m = std::min(
-          way_m, object.contour.signed_distance(inverse(object.T_map_object) * p_m) - evidence_.mission.robot.radius_m);
-  return way_m;
+bool Judge::is_true(const std::string& category, const Point& at_m) const {
+  return std::ranges::any_of(world_.objects, [&](const WorldObject& object) {
+    return object.category == category && (object.T_map_object.position() - at_m).norm() <= config_.off_m;
+  });
+}
+
+// Where the robot should be: any of these.
+std::vector<Point> Judge::places_of(const Target& target, const std::string& leaf) const {
+  if (target.category.empty()) return {target.at_m};
+  std::vector<Point> places_m;
+  for (const KnownLandmark& known : evidence_.record.landmarks_at_end(leaf))
+    if (known.category == target.category && is_true(known.category, known.at_m)) places_m.push_back(known.access_m);
+  return places_m;
 }
 
 // How much farther off than it may be: of one place at the end, of several at the best time for each. Negative: there.
-double Judge::missed_m(const Goal& goal, Moments moments) const {
+double Judge::missed_m(const Goal& goal, const std::string& leaf, Moments moments) const {
   if (moments.empty()) return std::numeric_limits<double>::infinity();
   const Moments counting = goal.targets.size() == 1 ? moments.last(1) : moments;
   double worst_m = -std::numeric_limits<double>::infinity();
   for (const Target& target : goal.targets) {
     double nearest_m = std::numeric_limits<double>::infinity();
-    for (const TrialMoment& moment : counting)
-      nearest_m = std::min(nearest_m, way_to_m(target, moment.T_map_robot.position()));
+    for (const Point& place_m : places_of(target, leaf))
+      for (const TrialMoment& moment : counting)
+        nearest_m = std::min(nearest_m, (moment.T_map_robot.position() - place_m).norm());
     worst_m = std::max(worst_m, nearest_m);
   }
   return worst_m - config_.off_m - goal.tolerance_m;
@@ -173,11 +179,7 @@ bool Judge::is_mapped(const Target& target) const {
   if (!target.category.empty())
     return std::ranges::any_of(evidence_.graph.landmarks(), [&](const auto& entry) {
       const Landmark& landmark = entry.second;
-      return landmark.category == target.category &&
-             std::ranges::any_of(world_.objects, [&](const WorldObject& object) {
-               const Point apart_m = object.T_map_object.position() - landmark.T_map_landmark.position();
-               return object.category == target.category && apart_m.norm() <= config_.off_m;
-             });
+      return landmark.category == target.category && is_true(target.category, landmark.T_map_landmark.position());
     });
   if (evidence_.grid == nullptr) return false;
   const OccupancyGrid& grid = *evidence_.grid;
@@ -203,7 +205,7 @@ GoalVerdict Judge::judge(const TreeNode& leaf, const Goal& goal, const std::vect
   if (report != evidence_.result.nodes.end()) verdict.reason = report->status.reason;
   const RunEnd end = runs.back()->end;
   if (end == RunEnd::success) {
-    verdict.missed_m = std::max(0.0, missed_m(goal, moments));
+    verdict.missed_m = std::max(0.0, missed_m(goal, leaf.path, moments));
     verdict.end = verdict.missed_m > 0.0 ? GoalEnd::false_success : GoalEnd::reached;
   } else {
     verdict.end = end == RunEnd::failure ? GoalEnd::failed : GoalEnd::halted;

@@ -47,8 +47,9 @@ struct TrialEvidence {
 // Goals are the leafs goto, tour, patrol and return_home that were begun, in the order of the tree. One that ran
 // several times (retry, repeat) is under way from its first begin to its last end, and ended as the last time. A
 // success counts as reached when the robot's true place is within off_m and the leaf's tolerance_m of the goal at its
-// end; of several places it must have been that near to each. A landmark is reached beside the outline of any of its
-// category. Throws ConfigError on settings that are none of these modules'.
+// end; of several places it must have been that near to each. Of a landmark: to where the map says that one stands
+// beside it, if it is where in truth there is one of its category. Throws ConfigError on settings that are none of
+// these modules'.
 [[nodiscard]] std::vector<GoalVerdict> judge_goals(const TrialsConfig& config, const TrialEvidence& evidence);
 
 }  // namespace cairn

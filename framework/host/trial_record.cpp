@@ -17,7 +17,27 @@ bool has_reading(const Observation& observation) {
 }  // namespace
 
 void TrialRecord::on(const Event& event, const MissionView& view) {
-  if (!std::holds_alternative<TickDone>(event) || view.world.observation == nullptr) return;
+  if (std::holds_alternative<TickDone>(event) && view.world.observation != nullptr) note_tick(view);
+  if (const auto* node = std::get_if<NodeEnded>(&event)) note_landmarks(node->path, view.world.graph);
+  if (const auto* step = std::get_if<StepEnded>(&event))
+    note_landmarks(std::to_string(step->index + 1), view.world.graph);
+}
+
+void TrialRecord::note_landmarks(const std::string& path, const LandmarkGraph& graph) {
+  std::vector<KnownLandmark>& known = landmarks_[path];
+  known.clear();
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    const Point at_m = landmark.T_map_landmark.position();
+    known.push_back({landmark.category, at_m, landmark.access ? landmark.access->position() : at_m});
+  }
+}
+
+std::vector<KnownLandmark> TrialRecord::landmarks_at_end(const std::string& path) const {
+  const auto found = landmarks_.find(path);
+  return found == landmarks_.end() ? std::vector<KnownLandmark>{} : found->second;
+}
+
+void TrialRecord::note_tick(const MissionView& view) {
   const Observation& observation = *view.world.observation;
   note_silence(observation, view.commanded);
   if (!observation.true_T_map_robot) return;

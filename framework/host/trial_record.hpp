@@ -1,6 +1,8 @@
 // What a trial is judged by, noted from tick to tick.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "framework/host/events.hpp"
@@ -22,6 +24,13 @@ struct SilenceFigures {
   int worst_stop_ticks = 0;
 };
 
+// A landmark as the map held it.
+struct KnownLandmark {
+  std::string category;
+  Point at_m;
+  Point access_m;  // where the robot stands beside it
+};
+
 class TrialRecord : public Listener {
  public:
   // Notes ticks in which the truth is known.
@@ -29,11 +38,16 @@ class TrialRecord : public Listener {
 
   [[nodiscard]] const std::vector<TrialMoment>& moments() const { return moments_; }
   [[nodiscard]] const SilenceFigures& silences() const { return silences_; }
+  // When the node ended the last time that it was told of; nothing when it was not.
+  [[nodiscard]] std::vector<KnownLandmark> landmarks_at_end(const std::string& path) const;
 
  private:
+  void note_tick(const MissionView& view);
+  void note_landmarks(const std::string& path, const LandmarkGraph& graph);
   void note_silence(const Observation& observation, const Twist& commanded);
 
   std::vector<TrialMoment> moments_;
+  std::map<std::string, std::vector<KnownLandmark>> landmarks_;  // by the node's path
   SilenceFigures silences_;
   int silent_ticks_ = 0;
   bool moved_before_ = false;  // ordered to, in the last tick

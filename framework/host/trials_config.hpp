@@ -27,7 +27,7 @@ struct TrialsConfig {
   double explore_at_most_s = 400.0;
   int least_goals = 3;
   int most_goals = 6;
-  double goal_at_most_s = 300.0;
+  double goal_at_most_s = 900.0;
   double anywhere_ratio = 0.1;
   TrialFaultRates faults_per_hour;
   double fault_for_s = 8.0;
@@ -40,7 +40,7 @@ struct TrialsConfig {
   // Limits.
   int most_fast_contacts = 0;
   int most_stop_ticks = 2;
-  double most_wall_s = 60.0;
+  double most_wall_s = 300.0;
   static void describe(Fields<TrialsConfig>& fields);
 };
 

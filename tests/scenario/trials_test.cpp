@@ -23,6 +23,7 @@ std::vector<std::string> short_look(const std::filesystem::path& out, const std:
           "--set",      "trials.explore_at_most_s=120",
           "--set",      "trials.least_goals=2",
           "--set",      "trials.most_goals=2",
+          "--set",      "trials.goal_at_most_s=120",
           "--set",      "trials.faults_per_hour.silent=60",
           "--out",      out.string(),
           "--json"};

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "framework/config/robot_file.hpp"
+#include "framework/config/template_file.hpp"
 #include "framework/config/world_file.hpp"
 #include "framework/host/mission.hpp"
 #include "framework/host/random_world.hpp"
@@ -35,7 +36,7 @@ Drawn draw(const TrialsConfig& config, std::uint64_t seed, const std::filesystem
   RandomWorldConfig worlds;
   worlds.most_movers = 3;
   worlds.most_doors = 2;
-  const std::vector<LandmarkShape> shapes{{"circle", Contour::circle(0.5)}, {"square", Contour::circle(0.6)}};
+  const std::vector<LandmarkShape> shapes = load_landmark_shapes(kConfig + "/templates");
   std::ofstream(folder / "world.yaml") << random_world_yaml(worlds, shapes, 0.1, seed);
   const RobotModel robot = load_robot(kConfig + "/robots/pioneer1.yaml");
   const MissionFiles files{kConfig + "/robots/pioneer1.yaml", "world.yaml", kConfig + "/templates"};
@@ -59,7 +60,7 @@ TEST(RandomMission, IsWholeOnEverySeedAndAsRandomAsItSays) {
   std::set<std::string> nodes;
   std::size_t silent = 0;
   std::size_t batteries = 0;
-  constexpr int kSeeds = 100;
+  constexpr int kSeeds = 60;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Drawn drawn = draw(config, seed, folder_of("whole"));
     for (const TreeNode* leaf : behaviours_of(drawn.mission.steps)) nodes.insert(leaf->choice.name);
@@ -71,7 +72,7 @@ TEST(RandomMission, IsWholeOnEverySeedAndAsRandomAsItSays) {
   }
   EXPECT_THAT(nodes, testing::IsSupersetOf({"explore", "goto", "tour", "patrol", "wait", "return_home"}));
   EXPECT_NEAR(static_cast<double>(silent), 6.0 * kSeeds, 4.0 * std::sqrt(6.0 * kSeeds)) << "a Poisson process";
-  EXPECT_NEAR(static_cast<double>(batteries), 0.2 * kSeeds, 16.0);
+  EXPECT_NEAR(static_cast<double>(batteries), 0.2 * kSeeds, 13.0);
 }
 
 TEST(RandomMission, TheSameSeedGivesTheSameText) {

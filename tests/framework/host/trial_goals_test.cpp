@@ -53,6 +53,11 @@ struct Trial {
       time_s += 1.0;
     }
   }
+  // Told of the first ones, with the landmarks that there are now.
+  void end_steps(int count) {
+    const WorldView world{grid, graph, mission.robot, {}, time_s, nullptr};
+    for (int i = 0; i < count; ++i) record.on(StepEnded{i, "", {}}, {world});
+  }
   [[nodiscard]] std::vector<GoalVerdict> judge() const {
     return judge_goals(TrialsConfig{}, {mission, result, record, &grid, graph});
   }
@@ -159,25 +164,30 @@ TEST(TrialGoals, ATourMustHaveBeenEverywhere) {
   EXPECT_EQ(goals[2].end, GoalEnd::reached) << "home is where it began";
 }
 
-TEST(TrialGoals, ALandmarkIsReachedBesideItsOutline) {
+TEST(TrialGoals, ALandmarkIsReachedWhereTheMapSaysToStandIfItIsTrue) {
   Trial trial;
   trial.steps("[{goto: nearest square}, {goto: {landmark: nearest square}}, {goto: nearest circle}]");
   trial.drive({{1, 1}, {3.3, 2.0}, {2.5, 2.0}});
   trial.ran("1", 0.0, 1.0, Progress::success);
   trial.ran("2", 1.0, 2.0, Progress::success);
   trial.ran("3", 1.0, 2.0, Progress::failure);
-  auto goals = trial.judge();
-  EXPECT_EQ(goals[0].end, GoalEnd::reached);
-  EXPECT_EQ(goals[1].end, GoalEnd::false_success) << "1.25 m from the outline";
-  EXPECT_TRUE(goals[0].is_reachable);
-  EXPECT_FALSE(goals[2].is_reachable) << "there is no circle";
-  EXPECT_FALSE(goals[0].is_mapped);
+  EXPECT_FALSE(trial.judge()[0].is_mapped);
+  EXPECT_EQ(trial.judge()[0].end, GoalEnd::false_success) << "the map held none";
   Landmark landmark;
   landmark.category = "square";
   landmark.T_map_landmark = {4.1, 2.0, 0.0};
-  trial.graph.add(landmark);
-  goals = trial.judge();
+  landmark.access = Pose2{3.1, 2.0, 0.0};
+  const LandmarkId id = trial.graph.add(landmark);
+  trial.end_steps(2);
+  const auto goals = trial.judge();
   EXPECT_TRUE(goals[0].is_mapped);
+  EXPECT_EQ(goals[0].end, GoalEnd::reached);
+  EXPECT_EQ(goals[1].end, GoalEnd::false_success) << "0.6 m from where one stands";
+  EXPECT_TRUE(goals[0].is_reachable);
+  EXPECT_FALSE(goals[2].is_reachable) << "there is no circle";
+  trial.graph.find(id)->T_map_landmark = {1.0, 2.0, 0.0};
+  trial.end_steps(2);
+  EXPECT_EQ(trial.judge()[0].end, GoalEnd::false_success) << "no square is there";
 }
 
 TEST(TrialGoals, APlaceThatTheMapDoesNotKnowWasNeverExplored) {
