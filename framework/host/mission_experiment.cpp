@@ -111,8 +111,8 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
   if (in_random_worlds(config.experiment))
     row.verdicts = judge_recognition(mission, runner.graph(), listeners.known, config.tolerance_m);
   if (config.experiment == ExperimentKind::trials)
-    row.trial = judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid(), runner.graph()},
-                            listeners.report.contacts());
+    row.trial =
+        judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
   row.step_rad = mission.template_settings.step_rad;
   if (config.experiment == ExperimentKind::lap)
     row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), listeners.report.degrees());

@@ -106,7 +106,7 @@ class Judge {
   [[nodiscard]] std::vector<Point> places_of(const Target& target, const std::string& leaf) const;
   [[nodiscard]] double missed_m(const Goal& goal, const std::string& leaf, Moments moments) const;
   [[nodiscard]] bool is_reachable(const Target& target, Moments moments);
-  [[nodiscard]] bool is_mapped(const Target& target) const;
+  [[nodiscard]] bool is_mapped(const Target& target, const std::string& leaf) const;
 
   const TrialsConfig& config_;
   const TrialEvidence& evidence_;
@@ -175,12 +175,8 @@ bool Judge::is_reachable(const Target& target, Moments moments) {
   return false;
 }
 
-bool Judge::is_mapped(const Target& target) const {
-  if (!target.category.empty())
-    return std::ranges::any_of(evidence_.graph.landmarks(), [&](const auto& entry) {
-      const Landmark& landmark = entry.second;
-      return landmark.category == target.category && is_true(target.category, landmark.T_map_landmark.position());
-    });
+bool Judge::is_mapped(const Target& target, const std::string& leaf) const {
+  if (!target.category.empty()) return !places_of(target, leaf).empty();
   if (evidence_.grid == nullptr) return false;
   const OccupancyGrid& grid = *evidence_.grid;
   const int reach = static_cast<int>(evidence_.mission.robot.radius_m / grid.cell_m());
@@ -212,7 +208,8 @@ GoalVerdict Judge::judge(const TreeNode& leaf, const Goal& goal, const std::vect
   }
   verdict.is_reachable =
       std::ranges::all_of(goal.targets, [&](const Target& target) { return is_reachable(target, moments); });
-  verdict.is_mapped = std::ranges::all_of(goal.targets, [&](const Target& target) { return is_mapped(target); });
+  verdict.is_mapped =
+      std::ranges::all_of(goal.targets, [&](const Target& target) { return is_mapped(target, leaf.path); });
   verdict.is_struck = std::ranges::any_of(moments, &TrialMoment::is_empty);
   bool moved_pose = false;
   for (const ActiveFault& fault : faults_) {

@@ -30,7 +30,8 @@ struct GoalVerdict {
   double missed_m = 0.0;  // beyond its tolerance; of a success that was none
   // All its places have room and were joined to the robot's place at some time while it was under way.
   bool is_reachable = false;
-  // Its places were known in the map with which the mission ended; of a landmark: such a one was found where one is.
+  // Its places were known in the map with which the mission ended; of a landmark: when it ended, the map held one of
+  // its category where there is one.
   bool is_mapped = false;
   bool is_struck = false;     // a fault was active while it was under way, or the battery was empty
   bool is_displaced = false;  // the estimate was still off by what a kidnapping, a slip or a compass jump had done
@@ -41,7 +42,6 @@ struct TrialEvidence {
   const MissionResult& result;
   const TrialRecord& record;
   const OccupancyGrid* grid = nullptr;  // at the end; null: lost
-  const LandmarkGraph& graph;           // at the end
 };
 
 // Goals are the leafs goto, tour, patrol and return_home that were begun, in the order of the tree. One that ran

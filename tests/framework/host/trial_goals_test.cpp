@@ -59,7 +59,7 @@ struct Trial {
     for (int i = 0; i < count; ++i) record.on(StepEnded{i, "", {}}, {world});
   }
   [[nodiscard]] std::vector<GoalVerdict> judge() const {
-    return judge_goals(TrialsConfig{}, {mission, result, record, &grid, graph});
+    return judge_goals(TrialsConfig{}, {mission, result, record, &grid});
   }
 
   Mission mission;
