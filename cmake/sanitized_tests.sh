@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The whole test suite under AddressSanitizer and UndefinedBehaviorSanitizer, with standard containers that check their
-# indices (preset `asan`). What `make check` runs beside the tests themselves.
+# indices (preset `asan`). Continuous integration and `make check` run it after the tests themselves.
 set -eu
 cd "$(dirname "$0")/.."
 cmake --preset asan >/dev/null

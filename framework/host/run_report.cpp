@@ -161,6 +161,15 @@ ordered_json json_of(const PoseErrorFigures& error) {
           {"refused", error.refused}};
 }
 
+ordered_json json_of(const std::vector<PoseErrorSample>& samples) {
+  ordered_json rows = ordered_json::array();
+  for (const PoseErrorSample& sample : samples)
+    rows.push_back({{"time_s", rounded(sample.time_s)},
+                    {"error_m", rounded(sample.error_m)},
+                    {"error_deg", rounded(degrees(sample.error_rad))}});
+  return rows;
+}
+
 std::string at_time(double time_s, const std::string& sentence) {
   std::ostringstream out;
   out << std::fixed << std::setprecision(2) << time_s << " s: " << sentence;
@@ -260,6 +269,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
     degrees.push_back(std::move(row));
   }
   report["degrees"] = degrees;
+  report["pose_errors"] = json_of(pose_errors_.samples());
   report["events"] = events_;
   return report.dump(2, ' ', false, kBadText) + "\n";
 }

@@ -51,6 +51,22 @@ Chart chart_of(const std::vector<DegreeSample>& samples) {
   return chart;
 }
 
+Chart chart_of(const std::vector<PoseErrorSample>& samples) {
+  Series error{"estimate against truth", {}, SeriesStyle::lines, {}};
+  for (const PoseErrorSample& sample : samples) error.points.emplace_back(sample.time_s, sample.error_m);
+  Chart chart;
+  chart.title = "Error of the position";
+  chart.x_label = "time, s";
+  chart.y_label = "m";
+  chart.series.push_back(std::move(error));
+  return chart;
+}
+
+void draw_chart(const std::filesystem::path& file, const Chart& chart) {
+  const ChartOutcome outcome = write_chart(file, chart);
+  if (!outcome.drawn) throw std::runtime_error(outcome.reason);
+}
+
 }  // namespace
 
 void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, const std::string& title) {
@@ -90,10 +106,9 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
       write_coarse_picture(file, coarse);
     });
   if (!report.degrees().empty())
-    attempt("degrees.png", [&](const std::filesystem::path& file) {
-      const ChartOutcome chart = write_chart(file, chart_of(report.degrees()));
-      if (!chart.drawn) throw std::runtime_error(chart.reason);
-    });
+    attempt("degrees.png", [&](const std::filesystem::path& file) { draw_chart(file, chart_of(report.degrees())); });
+  if (const auto& errors = report.pose_errors().samples(); !errors.empty())
+    attempt("pose_error.png", [&](const std::filesystem::path& file) { draw_chart(file, chart_of(errors)); });
   if (!result.node_runs.runs().empty())
     attempt("timeline.png", [&](const std::filesystem::path& file) {
       write_timeline_picture(file, timeline_of(mission, result, report.timeline()));

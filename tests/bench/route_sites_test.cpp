@@ -82,8 +82,10 @@ TEST(PathCheck, AgreesWithWholeNumbersOnRandomSegments) {
     const test::OpenCells cells = test::random_cells(random, 9, 7, 0.25);
     for (int i = 0; i < 60; ++i) {
       const auto any = [&](int halves) { return 0.5 * static_cast<double>(random() % (halves + 1U)); };
-      const Point a(any(18), any(14));
-      const Point b(any(18), any(14));
+      // Braces: drawn from left to right, whatever the compiler.
+      const Point a{any(18), any(14)};
+      const Point b{any(18), any(14)};
+      if (a == b) continue;  // no segment: the one judges the point, the other what is between
       const bool sees = test::sees(cells, a, b);
       EXPECT_EQ(fault(plain(cells), {a, b}).empty(), sees)
           << test::drawing_of(cells, {a, b}) << fault(plain(cells), {a, b});

@@ -162,7 +162,7 @@ TEST_P(BehaviourConformance, OddRobotsAreOutcomesNotExceptions) {
   });
   expect_unharmed("a robot without sonars", [](BehaviourHost& host) { host.robot.sonars.clear(); });
   expect_unharmed("a robot without size", [](BehaviourHost& host) { host.robot.radius_m = 0.0; });
-  expect_unharmed("a robot larger than the room", [](BehaviourHost& host) { host.robot.radius_m = 20.0; });
+  expect_unharmed("a robot larger than the room", [](BehaviourHost& host) { host.robot.radius_m = 4.0; });
   expect_unharmed("a car", [](BehaviourHost& host) {
     host.robot.kinematics = Kinematics::car;
     host.robot.min_turning_radius_m = 0.5;

@@ -30,6 +30,10 @@ Errors run_patrols(const std::string& name, const std::vector<std::string>& sett
     const auto error = nlohmann::json::parse(finished.out)["pose_error"];
     errors.mean_median_m += error["median_m"].get<double>() / kSeeds;
     errors.worst_m = std::max(errors.worst_m, error["worst_m"].get<double>());
+    const auto report = nlohmann::json::parse(text_of_file(folder / "report.json"));
+    double worst_m = 0.0;
+    for (const auto& sample : report["pose_errors"]) worst_m = std::max(worst_m, sample["error_m"].get<double>());
+    EXPECT_EQ(worst_m, error["worst_m"].get<double>()) << "of the samples beside it";
   }
   return errors;
 }

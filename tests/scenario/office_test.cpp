@@ -46,7 +46,8 @@ TEST(Office, TheMissionFindsTheThreeLandmarksAndNothingElse) {
 }
 
 TEST(Office, ThePicturesAndTheReportAreThere) {
-  for (const char* file : {"map.png", "coarse.png", "degrees.png", "report.json", "office.cairn"})
+  for (const char* file :
+       {"map.png", "coarse.png", "degrees.png", "pose_error.png", "timeline.png", "report.json", "office.cairn"})
     EXPECT_GT(std::filesystem::file_size(office_run() / file), 500U) << file;
 }
 

@@ -103,9 +103,12 @@ TEST_P(InTime, ACancelHolds) {
         Clock::now() + std::chrono::milliseconds(5), [&] { return plan(planner, budget, 10 + run); },
         [&] { cancel = true; });
     least = std::min(least, run_of.over);
-    // What was found by then may be answered.
+    // What was found by then may be answered; and a flag that comes late, on a busy machine, finds a search that has
+    // used up its iterations: such a call had ended before it.
     const PlanResult& result = run_of.result;
-    EXPECT_TRUE(result.outcome == PlanOutcome::cancelled || result.outcome == PlanOutcome::solved) << result.reason;
+    const bool ended_before = result.outcome == PlanOutcome::out_of_budget && run_of.over == Clock::duration::zero();
+    EXPECT_TRUE(ended_before || result.outcome == PlanOutcome::cancelled || result.outcome == PlanOutcome::solved)
+        << name_of(result.outcome) << ": " << result.reason;
   }
   EXPECT_LE(least, kPromised);
 }

@@ -201,5 +201,28 @@ TEST(Traffic, IsTheSameToTheLastBitInEveryRun) {
   EXPECT_EQ(run(), run());
 }
 
+// What a resumed mission asks for: the world has gone on while the robot stood at its start.
+TEST(Traffic, OfALaterBeginningIsWhereStandingSoLongLeavesIt) {
+  const World world =
+      with({door_at_x(4.0, {{1.0, 30.0}})}, {person({{1, 2.5}, {5, 2.5}}), person({{5, 2}, {1, 3}}, false)});
+  const Pose2 start{3.0, 3.5, -1.5};
+  constexpr int kStood = 512;
+  SimulatedRobot stood({}, exact_robot(), &world, start, 1);
+  for (int i = 0; i < kStood; ++i) (void)stood.next(kNoLimit);
+  SimulatedRobot later({}, exact_robot(), &world, start, 1, kStood * kTick_s);
+  SimulatedRobot afresh({}, exact_robot(), &world, start, 1);
+  bool differs_from_afresh = false;
+  for (int i = 0; i < 300; ++i) {
+    const Observation a = stood.next(kNoLimit).observation;
+    const Observation b = later.next(kNoLimit).observation;
+    ASSERT_EQ(a.ranges[0].sensor, b.ranges[0].sensor);
+    ASSERT_EQ(a.ranges[0].range_m, b.ranges[0].range_m) << "tick " << i;
+    EXPECT_EQ(a.stamp_s, b.stamp_s);
+    const Observation c = afresh.next(kNoLimit).observation;
+    differs_from_afresh = differs_from_afresh || c.ranges[0].range_m != b.ranges[0].range_m;
+  }
+  EXPECT_TRUE(differs_from_afresh) << "the world moves before the robot's eyes";
+}
+
 }  // namespace
 }  // namespace cairn
