@@ -110,7 +110,8 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
     row.places = degrees_at_places(config, *mission.world, listeners.report.degrees(), row.result.steps);
   if (in_random_worlds(config.experiment))
     row.verdicts = judge_recognition(mission, runner.graph(), listeners.known, config.tolerance_m);
-  if (config.experiment == ExperimentKind::trials)
+  const bool was_cancelled = row.result.outcome == MissionOutcome::cancelled;  // by the user: no mission's end
+  if (config.experiment == ExperimentKind::trials && !was_cancelled)
     row.trial =
         judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
   row.step_rad = mission.template_settings.step_rad;
