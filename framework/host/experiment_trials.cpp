@@ -38,7 +38,8 @@ std::filesystem::path write_trial(const TrialsConfig& config, const RandomWorldC
                                   const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const auto number = static_cast<std::uint64_t>(seed);
-  Chance chance(number ^ 0x747269616c000000ULL);
+  constexpr std::uint64_t kTrial = 100;  // beside the mission's own streams
+  Chance chance(number, kTrial);
   const std::vector<LandmarkShape> shapes = load_landmark_shapes(config.templates);
   const double specular_ratio = chance.between(0.0, config.most_specular_ratio);
   const int robot = chance.whole(0, static_cast<int>(config.robots.size()) - 1);

@@ -13,6 +13,7 @@
 namespace cairn {
 namespace {
 
+enum Purpose : std::uint64_t { kSteps = 1, kBattery, kFirstFault = 10 };  // of streams of chance
 constexpr int kTries = 10000;
 constexpr double kFaultsFor_s = 3600.0;
 constexpr double kFromMover_m = 1.0;
@@ -32,7 +33,7 @@ class Drawing {
         world_(world),
         space_(world, robot.radius_m + config.room_m),
         seed_(seed),
-        chance_(seed ^ 0x6d697373696f6e00ULL) {}
+        chance_(seed, kSteps) {}
 
   std::string start();
   std::string sensor();
@@ -117,7 +118,7 @@ std::string Drawing::fault_lines() {
     const auto& [kind, per_hour] = kinds[i];
     const bool needs_sonars = i < 2;
     if (per_hour <= 0.0 || (needs_sonars && robot_.sonars.empty())) continue;
-    Chance chance(seed_ ^ (0x6661756c74730000ULL + i));
+    Chance chance(seed_, kFirstFault + i);
     for (double at_s = chance.wait(per_hour / 3600.0); at_s < kFaultsFor_s; at_s += chance.wait(per_hour / 3600.0))
       text += fmt::format("    - {{at_s: {:.2f}, {}}}\n", at_s, fault(kind, chance));
   }
@@ -126,7 +127,7 @@ std::string Drawing::fault_lines() {
 
 std::string Drawing::sensor() {
   std::string text = "  plugin: simulated_robot\n";
-  Chance chance(seed_ ^ 0x6261747465727900ULL);
+  Chance chance(seed_, kBattery);
   const bool empties = chance.share() < config_.battery_ratio;
   const double lasts_s = chance.between(300.0, 1200.0);
   if (empties) text += fmt::format("  battery: {{standing_s: {:.0f}, driving_s: {:.0f}}}\n", 2.0 * lasts_s, lasts_s);

@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <regex>
+#include <set>
 
 #include "framework/config/robot_file.hpp"
 #include "framework/config/template_file.hpp"
@@ -81,6 +82,21 @@ TEST(RandomMission, TheSameSeedGivesTheSameText) {
   const std::string text = draw(config, 7, folder_of("same")).text;
   EXPECT_EQ(draw(config, 7, folder_of("same")).text, text);
   EXPECT_NE(draw(config, 8, folder_of("same")).text, text);
+}
+
+TEST(RandomMission, NeighbouringSeedsShareNoTimeOfAFault) {
+  TrialsConfig config;
+  config.faults_per_hour = {6, 6, 6, 6, 6, 6};
+  std::multiset<std::string> times;
+  const std::regex time("at_s: ([0-9.]+)");
+  for (std::uint64_t seed = 8; seed < 16; ++seed) {
+    const std::string text = draw(config, seed, folder_of("times")).text;
+    for (std::sregex_iterator found(text.begin(), text.end(), time), end; found != end; ++found)
+      times.insert((*found)[1]);
+  }
+  const std::set<std::string> distinct(times.begin(), times.end());
+  EXPECT_GT(times.size(), 200U);
+  EXPECT_LE(times.size() - distinct.size(), 2U) << "to a hundredth of a second two may happen to be the same";
 }
 
 TEST(RandomMission, AnotherRateOfOneFaultLeavesTheOthersAsTheyWere) {
