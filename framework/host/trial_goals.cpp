@@ -104,6 +104,7 @@ class Judge {
   [[nodiscard]] Moments during(double begin_s, double end_s) const;
   [[nodiscard]] bool is_true(const std::string& category, const Point& at_m) const;
   [[nodiscard]] std::vector<Point> places_of(const Target& target, const std::string& leaf) const;
+  [[nodiscard]] double way_to_m(const Target& target, const std::vector<Point>& places_m, const Point& p_m) const;
   [[nodiscard]] double missed_m(const Goal& goal, const std::string& leaf, Moments moments) const;
   [[nodiscard]] bool is_reachable(const Target& target, Moments moments);
   [[nodiscard]] bool is_mapped(const Target& target, const std::string& leaf) const;
@@ -137,6 +138,18 @@ std::vector<Point> Judge::places_of(const Target& target, const std::string& lea
   return places_m;
 }
 
+// From a robot's true place. A planner may end beside a landmark elsewhere than the map says that one stands.
+double Judge::way_to_m(const Target& target, const std::vector<Point>& places_m, const Point& p_m) const {
+  double way_m = std::numeric_limits<double>::infinity();
+  for (const Point& place_m : places_m) way_m = std::min(way_m, (place_m - p_m).norm());
+  if (target.category.empty() || places_m.empty()) return way_m;
+  for (const WorldObject& object : world_.objects)
+    if (object.category == target.category)
+      way_m = std::min(
+          way_m, object.contour.signed_distance(inverse(object.T_map_object) * p_m) - evidence_.mission.robot.radius_m);
+  return way_m;
+}
+
 // How much farther off than it may be: of one place at the end, of several at the best time for each. Negative: there.
 double Judge::missed_m(const Goal& goal, const std::string& leaf, Moments moments) const {
   if (moments.empty()) return std::numeric_limits<double>::infinity();
@@ -144,9 +157,9 @@ double Judge::missed_m(const Goal& goal, const std::string& leaf, Moments moment
   double worst_m = -std::numeric_limits<double>::infinity();
   for (const Target& target : goal.targets) {
     double nearest_m = std::numeric_limits<double>::infinity();
-    for (const Point& place_m : places_of(target, leaf))
-      for (const TrialMoment& moment : counting)
-        nearest_m = std::min(nearest_m, (moment.T_map_robot.position() - place_m).norm());
+    const std::vector<Point> places_m = places_of(target, leaf);
+    for (const TrialMoment& moment : counting)
+      nearest_m = std::min(nearest_m, way_to_m(target, places_m, moment.T_map_robot.position()));
     worst_m = std::max(worst_m, nearest_m);
   }
   return worst_m - config_.off_m - goal.tolerance_m;

@@ -48,8 +48,8 @@ struct TrialEvidence {
 // several times (retry, repeat) is under way from its first begin to its last end, and ended as the last time. A
 // success counts as reached when the robot's true place is within off_m and the leaf's tolerance_m of the goal at its
 // end; of several places it must have been that near to each. Of a landmark: to where the map says that one stands
-// beside it, if it is where in truth there is one of its category. Throws ConfigError on settings that are none of
-// these modules'.
+// beside it, or its disc to the outline; if the map held one of the category where in truth there is one. Throws
+// ConfigError on settings that are none of these modules'.
 [[nodiscard]] std::vector<GoalVerdict> judge_goals(const TrialsConfig& config, const TrialEvidence& evidence);
 
 }  // namespace cairn

@@ -185,6 +185,10 @@ TEST(TrialGoals, ALandmarkIsReachedWhereTheMapSaysToStandIfItIsTrue) {
   EXPECT_EQ(goals[1].end, GoalEnd::false_success) << "0.6 m from where one stands";
   EXPECT_TRUE(goals[0].is_reachable);
   EXPECT_FALSE(goals[2].is_reachable) << "there is no circle";
+  trial.graph.find(id)->access = Pose2{4.0, 3.0, 0.0};
+  trial.end_steps(2);
+  EXPECT_EQ(trial.judge()[0].end, GoalEnd::reached) << "beside its outline, elsewhere than the map says";
+  EXPECT_EQ(trial.judge()[1].end, GoalEnd::false_success);
   trial.graph.find(id)->T_map_landmark = {1.0, 2.0, 0.0};
   trial.end_steps(2);
   EXPECT_EQ(trial.judge()[0].end, GoalEnd::false_success) << "no square is there";
