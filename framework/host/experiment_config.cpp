@@ -144,6 +144,7 @@ void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
   fields.file_name("name", &ExperimentVariant::name, "what it is called in tables").required = true;
   fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
   fields.file("robot", &ExperimentVariant::robot, "robot file in place of the missions' own");
+  fields.file("world", &ExperimentVariant::world, "world file in place of the missions' own");
   fields.number("specular_ratio", &ExperimentVariant::specular_ratio, {0.0, 1.0}, "",
                 "of `recognition` and `curves`: share of walls and things with a smooth surface");
 }
@@ -212,8 +213,10 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   check_missions(config, root);
   if (config.variants.empty()) config.variants.emplace_back().name = "as_is";
   const std::vector<std::string> names = checked_names(config, root);
-  for (ExperimentVariant& variant : config.variants)
+  for (ExperimentVariant& variant : config.variants) {
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
+    if (!variant.world.empty()) variant.overrides.push_back("world=" + variant.world.string());
+  }
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
     throw ConfigError(root.find("baseline")->place,
                       "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));

@@ -29,7 +29,8 @@ struct SeedRange {
 struct ExperimentVariant {
   std::string name;
   std::vector<std::string> overrides;
-  std::filesystem::path robot{};  // after loading one of the overrides
+  std::filesystem::path robot{};  // after loading one of the overrides, as the world
+  std::filesystem::path world{};
   double specular_ratio = 0.0;
   static void describe(Fields<ExperimentVariant>& fields);
 };

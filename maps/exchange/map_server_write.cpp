@@ -64,18 +64,24 @@ ExportedGrid map_server_of(const OccupancyGrid& grid, MapServerMode mode) {
   if (mode == MapServerMode::scale) exported.picture.alpha.reserve(count);
   std::vector<LogOdds> row(static_cast<std::size_t>(box.width()));
   std::size_t doubtful = 0;
+  std::size_t even = 0;
   for (int y = box.max.y - 1; y >= box.min.y; --y) {
     grid.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, row);
     for (const LogOdds log_odds : row) {
       exported.picture.grey.push_back(grey_of(log_odds, mode));
       if (mode == MapServerMode::scale) exported.picture.alpha.push_back(log_odds == 0 ? 0 : 255);
-      doubtful += log_odds != 0 && OccupancyThresholds{}.state(log_odds) == CellState::unknown;
+      if (log_odds == 0) continue;
+      doubtful += OccupancyThresholds{}.state(log_odds) == CellState::unknown;
+      even += percent_of(log_odds) == 50;
     }
   }
   if (mode == MapServerMode::trinary && doubtful > 0)
     exported.warnings.push_back(exchange::counted(doubtful, "cell") +
                                 ": seen, but neither free nor occupied (0.35 to 0.65), and so written as unknown; "
                                 "scale and raw keep the percent");
+  if (mode != MapServerMode::trinary && even > 0)
+    exported.warnings.push_back(exchange::counted(even, "cell") +
+                                ": seen, and as likely free as occupied (50 %); read back they are unseen");
   return exported;
 }
 

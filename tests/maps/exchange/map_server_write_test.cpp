@@ -89,6 +89,20 @@ TEST(MapServerWrite, TrinaryTellsWhatItTakesForUnknown) {
   EXPECT_TRUE(exported.warnings[0].starts_with("1 cell: seen, but neither free nor occupied")) << exported.warnings[0];
 }
 
+TEST(MapServerWrite, RawAndScaleTellWhichSeenCellsComeBackUnseen) {
+  OccupancyGrid grid(0.05);
+  grid.set_log_odds({0, 0}, 2);  // 50.2 %
+  grid.set_log_odds({1, 0}, -200);
+  for (const MapServerMode mode : {MapServerMode::raw, MapServerMode::scale}) {
+    const ExportedGrid exported = map_server_of(grid, mode);
+    ASSERT_EQ(exported.warnings.size(), 1U);
+    EXPECT_TRUE(exported.warnings[0].starts_with("1 cell: seen, and as likely free as occupied"))
+        << exported.warnings[0];
+    const OccupancyGrid back = read_back(exported, PictureFormat::png).grid;
+    EXPECT_EQ(back.log_odds(back.bounds().min), 0);
+  }
+}
+
 TEST(MapServerWrite, TheGreysAreMapServers) {
   OccupancyGrid grid(0.05);
   for (int x = 0; x < 3; ++x) grid.set_log_odds({x, 0}, static_cast<LogOdds>(1024 * (x - 1)));
