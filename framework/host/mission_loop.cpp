@@ -30,6 +30,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
   budget_.cancel = options_.cancel;
   pose_.T_map_robot = T_map_first_start_ = modules_.T_map_start;
   const MissionConfig& config = mission_.config;
+  tick_ = clock_.add("tick", "");
   sensor_ = clock_.add("sensor", config.sensor.name);
   localizer_ = clock_.add("localizer", config.localizer.name);
   mapper_ = clock_.add("map", config.map.name);
@@ -100,7 +101,9 @@ MissionOutcome MissionLoop::loop() {
     if (!std::isfinite(observation_.stamp_s) || !is_finite(observation_.T_odom_robot))
       throw ModuleFault("sensor", clock_.module_of(sensor_), "returned a stamp or an odometry that is not finite");
     if (is_known_already(observation_)) continue;
+    const auto begin = std::chrono::steady_clock::now();
     tick();
+    if (!pace_) clock_.add_time(tick_, std::chrono::steady_clock::now() - begin);
     if (failed_step_) return ended(MissionOutcome::step_failed, failure_);
     if (!mission_.steps.empty() && step_ == mission_.steps.size()) return MissionOutcome::done;
     if (result_.time_s >= mission_.config.at_most_s)
@@ -216,10 +219,10 @@ void MissionLoop::tell_changes(const std::vector<LandmarkKeeper::Change>& change
 
 void MissionLoop::drive_on() {
   if (drive_ == nullptr) return;
-  const Twist allowed = stop_layer_.limit(wanted_);
-  held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, allowed);
+  commanded_ = stop_layer_.limit(wanted_);
+  held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, commanded_);
   result_.stop_layer = stop_layer_.figures();
-  in_stage(drive_stage_, [&] { drive_->command(allowed); });
+  in_stage(drive_stage_, [&] { drive_->command(commanded_); });
 }
 
 // A command holds until the next one: the robot stands while the host is at something that may take long, and is
@@ -267,7 +270,7 @@ WorldView MissionLoop::view() const {
 void MissionLoop::tell(const Event& event) {
   if (grid_ == nullptr) return;  // there is nothing to show yet
   const WorldView world = view();
-  const MissionView seen{world, coarse_};
+  const MissionView seen{world, coarse_, commanded_};
   std::erase_if(listeners_, [&](Listener* listener) {
     // What a listener throws must not change the mission: it is told nothing more.
     try {

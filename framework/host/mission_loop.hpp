@@ -116,7 +116,8 @@ class MissionLoop : private Orders, private TreeHost {
   std::vector<Listener*> listeners_;
   std::vector<std::string> listener_faults_;
   StageClock clock_;
-  StageClock::Id sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0, drive_stage_ = 0;
+  StageClock::Id tick_ = 0, sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0,
+                 drive_stage_ = 0;
   struct Leaf {
     Behaviour* behaviour = nullptr;
     StageClock::Id stage = 0;
@@ -140,6 +141,7 @@ class MissionLoop : private Orders, private TreeHost {
   Pose2 T_odom_last_;
   Pose2 T_odom_localized_;  // where pose_ is from
   Twist wanted_;
+  Twist commanded_;
   std::optional<Twist> ordered_;  // by the leaf that is ticked
   double begin_s_ = 0.0;
   double held_back_ratio_ = 0.0;
