@@ -215,6 +215,10 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   const std::vector<std::string> names = checked_names(config, root);
   for (ExperimentVariant& variant : config.variants) {
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
+    if (!variant.world.empty() && in_random_worlds(config.experiment))
+      throw ConfigError(root.find("variants")->place, "variant \"" + variant.name +
+                                                          "\" names a world, but each run of " +
+                                                          std::string(name_of(config.experiment)) + " has its own");
     if (!variant.world.empty()) variant.overrides.push_back("world=" + variant.world.string());
   }
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
