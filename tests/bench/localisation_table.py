@@ -46,7 +46,7 @@ def print_seeds(variant, reports):
 
 def draw(runs, file, seed, variants):
     plots = ", ".join(f"'-' with lines lw 1.2 title '{variant}'" for variant in variants)
-    script = (f"set terminal pngcairo size 1000,420; set output '{file}'; set grid; set xlabel 'time, s'; "
+    script = (f"set terminal pngcairo noenhanced size 1000,420; set output '{file}'; set grid; set xlabel 'time, s'; "
               f"set ylabel 'error of the position, m'; set yrange [0:*]; set key top left; plot {plots}\n")
     for variant in variants:
         for sample in runs[variant][seed]["pose_errors"]:
