@@ -43,11 +43,12 @@ StopLayer::StopLayer(const StopLayerConfig& config, const RobotModel& robot)
 
 void StopLayer::see(const Observation& observation) {
   const double passed_s = observation.stamp_s - stamp_s_;
-  stands_still_ = !std::isfinite(observation.stamp_s) || (begun_ && passed_s <= 0.0);
-  if (stands_still_) {
-    // A clock that has jumped back goes on from there; what was seen before is of no known time.
+  const bool jumped_back = begun_ && passed_s <= 0.0;
+  useless_ = jumped_back || !is_placed(observation);
+  if (useless_) {
+    // What was seen before is of no known time or place; a clock that has jumped back goes on from there.
     memory_.forget();
-    if (std::isfinite(observation.stamp_s)) stamp_s_ = last_reading_s_ = observation.stamp_s;
+    if (jumped_back) stamp_s_ = last_reading_s_ = observation.stamp_s;
     return;
   }
   if (begun_) tick_s_ = passed_s;
@@ -56,10 +57,7 @@ void StopLayer::see(const Observation& observation) {
   begun_ = true;
   stamp_s_ = observation.stamp_s;
   memory_.see(observation);
-  const bool has_reading =
-      std::any_of(observation.ranges.begin(), observation.ranges.end(),
-                  [](const RangeReading& reading) { return reading.sensor >= 0 && !std::isnan(reading.range_m); });
-  if (has_reading) last_reading_s_ = stamp_s_;
+  if (std::any_of(observation.ranges.begin(), observation.ranges.end(), says_something)) last_reading_s_ = stamp_s_;
   feel_bump(observation.bumped);
 }
 
@@ -76,7 +74,7 @@ void StopLayer::feel_bump(bool bumped) {
 
 bool StopLayer::is_stale() const {
   const double blind_s = config_.blind_s.value_or(kBlindPeriods * period_s_);
-  return !begun_ || stands_still_ || stamp_s_ - last_reading_s_ > blind_s;
+  return !begun_ || useless_ || stamp_s_ - last_reading_s_ > blind_s;
 }
 
 // Of the twist: 1 all of it, 0 nothing.

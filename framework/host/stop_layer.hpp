@@ -37,7 +37,8 @@ class StopLayer {
  public:
   StopLayer(const StopLayerConfig& config, const RobotModel& robot);
 
-  // Every observation, in order. One whose stamp is not later than the last one's is stale as a whole.
+  // Every observation, in order. One whose stamp is not later than the last one's, or whose stamp or odometry is no
+  // number, is stale as a whole.
   void see(const Observation& observation);
   // The wanted velocity, within the robot's limits and what the sensors allow. Once after each see().
   [[nodiscard]] Twist limit(const Twist& wanted);
@@ -59,7 +60,7 @@ class StopLayer {
   double period_s_ = 0.0;  // of readings
   double last_reading_s_ = 0.0;
   bool begun_ = false;
-  bool stands_still_ = false;  // the clock
+  bool useless_ = false;  // the last observation: its clock stands still, or it is not placed
   bool bumped_ = false;
   Twist allowed_;  // of the last tick
   StopLayerFigures figures_;

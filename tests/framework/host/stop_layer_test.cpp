@@ -263,6 +263,33 @@ TEST(StopLayer, AReadingThatIsNoNumberIsNoReading) {
   EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
 }
 
+// Also for a moment only: what it has seen in a frame that is lost may be anywhere.
+TEST(StopLayer, OdometryThatIsNoNumberIsStale) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity}) {
+    for (const Pose2& T_odom_robot : {Pose2{bad, 0.0, 0.0}, Pose2{0.0, bad, 0.0}, Pose2{0.0, 0.0, bad}}) {
+      StopLayer layer = layer_that_sees({.ahead_m = 0.17});
+      layer.see(observation(1.08, {.ahead_m = 0.17}, T_odom_robot));
+      EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
+      EXPECT_GT(layer.figures().stale_s, 0.0);
+      layer.see(without_readings(1.10));
+      EXPECT_LE(layer.limit({0.3, 0.0}).v_mps, 0.04) << "nobody has looked since";
+      layer.see(observation(1.12, {.ahead_m = 0.17}));
+      EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.0);
+    }
+  }
+}
+
+TEST(StopLayer, AReadingFromNoPlaceIsNoReading) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0});
+  for (const double stamp_s : {1.08, 1.12}) {
+    Observation o = observation(stamp_s, {0.17, 3.0, 3.0});
+    o.ranges[0].T_robot_sensor.x_m = o.ranges[1].T_robot_sensor.theta_rad = o.ranges[2].half_beam_rad = nan;
+    layer.see(o);
+  }
+  EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
+}
+
 TEST(StopLayer, AClockThatStandsStillOrJumpsBackIsStale) {
   StopLayer layer = layer_that_sees({3.0, 3.0, 3.0});
   layer.see(observation(1.04, {3.0, 3.0, 3.0}));
