@@ -80,6 +80,7 @@ using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkReti
 struct MissionView {
   const WorldView& world;
   const CoarseGrid* coarse = nullptr;
+  Twist commanded{};  // what the wheels were last ordered to do
 };
 
 class Listener {

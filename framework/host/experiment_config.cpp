@@ -8,10 +8,13 @@ namespace cairn {
 namespace {
 
 const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
-  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{
-      {"missions", ExperimentKind::missions},       {"maps", ExperimentKind::maps},
-      {"places", ExperimentKind::places},           {"lap", ExperimentKind::lap},
-      {"recognition", ExperimentKind::recognition}, {"curves", ExperimentKind::curves}};
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
+                                                                          {"maps", ExperimentKind::maps},
+                                                                          {"places", ExperimentKind::places},
+                                                                          {"lap", ExperimentKind::lap},
+                                                                          {"recognition", ExperimentKind::recognition},
+                                                                          {"curves", ExperimentKind::curves},
+                                                                          {"trials", ExperimentKind::trials}};
   return kKinds;
 }
 
@@ -50,6 +53,34 @@ void check_worlds(const RandomWorldConfig& worlds, const ConfigValue& value) {
                         fmt::format("start_m must lie within the smallest room: its {} is {:g}, that of "
                                     "smallest_room_m {:g}",
                                     name, worlds.start_m[axis], worlds.smallest_room_m[axis]));
+  }
+}
+
+// value: the map `trials`.
+void check_trials(const ExperimentConfig& config, const ConfigValue& value) {
+  if (config.trials.robots.empty())
+    throw ConfigError(value.find("robots")->place, "robots must list at least one robot file");
+  if (config.trials.least_goals > config.trials.most_goals) {
+    const ConfigValue* given =
+        value.find("least_goals") != nullptr ? value.find("least_goals") : value.find("most_goals");
+    throw ConfigError(given->place, fmt::format("least_goals must be at most most_goals, found {} and {}",
+                                                config.trials.least_goals, config.trials.most_goals));
+  }
+}
+
+// What an experiment is about: the missions listed, or drawn ones.
+void check_missions(const ExperimentConfig& config, const ConfigValue& root) {
+  const ConfigValue* missions = root.find("missions");
+  const ConfigValue* trials = root.find("trials");
+  if (config.experiment == ExperimentKind::trials) {
+    if (missions != nullptr)
+      throw ConfigError(missions->place, "an experiment of trials draws its missions and lists none");
+    if (trials == nullptr) throw ConfigError(root.place, "an experiment of trials must say under trials what it draws");
+    check_trials(config, *trials);
+  } else {
+    if (trials != nullptr) throw ConfigError(trials->place, "trials goes with experiment: trials");
+    if (missions == nullptr) throw ConfigError(root.place, "experiment lacks the key \"missions\": mission files");
+    if (config.missions.empty()) throw ConfigError(missions->place, "missions must list at least one file");
   }
 }
 
@@ -136,22 +167,25 @@ void LapConfig::describe(Fields<LapConfig>& fields) {
 void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   using C = ExperimentConfig;
   fields
-      .choice("experiment", &C::experiment, kinds(),
-              "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
-              "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
-              "each category fits at given places of the drive; `lap`, how well each category and each template fits "
-              "along a lap round a landmark; `recognition`, which landmarks are found in random worlds; `curves`, "
-              "precision "
-              "and recall of several detectors on the grids of the same runs, at every threshold")
+      .choice(
+          "experiment", &C::experiment, kinds(),
+          "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
+          "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
+          "each category fits at given places of the drive; `lap`, how well each category and each template fits "
+          "along a lap round a landmark; `recognition`, which landmarks are found in random worlds; `curves`, "
+          "precision "
+          "and recall of several detectors on the grids of the same runs, at every threshold; `trials`, what comes of "
+          "random missions in random worlds with random faults")
       .required = true;
-  fields.files("missions", &C::missions, "mission files").required = true;
+  fields.files("missions", &C::missions, "mission files; needed but for `trials`, which draws its own");
   fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
   fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
   fields.group("seeds", &C::seeds, "which seeds");
   fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
   fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
   fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
-                "share of good runs that makes the experiment a success");
+                "share of good runs (of `trials`: of reached goals among the reachable, mapped ones that no fault "
+                "took away) that makes the experiment a success");
   fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
   fields.texts("categories", &C::categories,
                "of `places` and `lap`: the categories, in the order of the table's columns");
@@ -159,8 +193,10 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
               "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
               "before that looked at its landmark");
   fields.group("lap", &C::lap, "of `lap`: the lap");
-  fields.group("worlds", &C::worlds,
-               "of `recognition` and `curves`: the world of each seed, which takes the place of the missions' own");
+  fields.group(
+      "worlds", &C::worlds,
+      "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
+  fields.group("trials", &C::trials, "of `trials`: the missions that are drawn, how they are judged, and limits");
   fields.raw("detectors", &C::detectors_as_given, "list of detectors",
              "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
              "setting left out is as the mission's own detector has it; but tau_match is 0");
@@ -170,14 +206,19 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
                  "of `places`: number of matchings published elsewhere");
 }
 
-ExperimentConfig load_experiment(const std::filesystem::path& file) {
-  const ConfigValue root = read_config_file(file);
+ExperimentConfig load_experiment(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  ConfigValue root = read_config_file(file);
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
   auto config = load_config<ExperimentConfig>(root, "experiment");
-  if (config.missions.empty()) throw ConfigError(root.find("missions")->place, "missions must list at least one file");
+  check_missions(config, root);
   if (config.variants.empty()) config.variants.emplace_back().name = "as_is";
   const std::vector<std::string> names = checked_names(config, root);
   for (ExperimentVariant& variant : config.variants) {
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
+    if (!variant.world.empty() && in_random_worlds(config.experiment))
+      throw ConfigError(root.find("variants")->place, "variant \"" + variant.name +
+                                                          "\" names a world, but each run of " +
+                                                          std::string(name_of(config.experiment)) + " has its own");
     if (!variant.world.empty()) variant.overrides.push_back("world=" + variant.world.string());
   }
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())

@@ -10,13 +10,14 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/host/random_world.hpp"
+#include "framework/host/trials_config.hpp"
 
 namespace cairn {
 
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
 // fit at given places of the drive, and along a lap round a landmark; what is recognised in random worlds,
-// and what other detectors recognise on the same grids.
-enum class ExperimentKind { missions, maps, places, lap, recognition, curves };
+// and what other detectors recognise on the same grids; what comes of random missions in random worlds.
+enum class ExperimentKind { missions, maps, places, lap, recognition, curves, trials };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
 
 struct SeedRange {
@@ -71,6 +72,7 @@ struct ExperimentConfig {
   std::vector<PlaceConfig> places;
   std::optional<LapConfig> lap;
   RandomWorldConfig worlds;
+  TrialsConfig trials;
   ConfigValue detectors_as_given;
   std::vector<ComparedDetector> detectors;  // after loading
   double looks_within_m = 0.35;
@@ -81,7 +83,8 @@ struct ExperimentConfig {
 // Whether the experiment puts a random world in place of each mission's own.
 [[nodiscard]] bool in_random_worlds(ExperimentKind kind);
 
-// Throws ConfigError.
-[[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file);
+// overrides: "key=value" texts of --set. Throws ConfigError.
+[[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file,
+                                               const std::vector<std::string>& overrides = {});
 
 }  // namespace cairn

@@ -9,6 +9,7 @@
 #include "framework/host/lap_table.hpp"
 #include "framework/host/places_table.hpp"
 #include "framework/host/recognition_table.hpp"
+#include "framework/host/trials_table.hpp"
 
 namespace cairn {
 namespace {
@@ -102,6 +103,31 @@ ordered_json json_of_sweeps(const ExperimentRow& row) {
   return sweeps;
 }
 
+ordered_json json_of_trial(const TrialVerdict& trial) {
+  ordered_json goals = ordered_json::array();
+  for (const GoalVerdict& goal : trial.goals)
+    goals.push_back({{"node", goal.path},
+                     {"goal", goal.goal},
+                     {"begin_s", goal.begin_s},
+                     {"end_s", goal.end_s},
+                     {"end", std::string(name_of(goal.end))},
+                     {"reason", goal.reason},
+                     {"reachable", goal.is_reachable},
+                     {"mapped", goal.is_mapped},
+                     {"struck", goal.is_struck},
+                     {"displaced", goal.is_displaced}});
+  ordered_json fast = ordered_json::array();
+  for (const TimedContact& touch : trial.fast_contacts)
+    fast.push_back({{"time_s", touch.time_s}, {"speed_mps", touch.contact.speed_mps}});
+  return {{"contacts", trial.contacts},
+          {"fast_contacts", std::move(fast)},
+          {"longest_stand_s", trial.stand.for_s},
+          {"silences", trial.silences.silences},
+          {"worst_stop_ticks", trial.silences.worst_stop_ticks},
+          {"faults", trial.fault_count},
+          {"goals", std::move(goals)}};
+}
+
 std::string cell_text(const Estimate& estimate) {
   return " " + text_of(estimate, 4) + " |";
 }
@@ -178,6 +204,7 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
   if (config.experiment == ExperimentKind::curves) json["detectors"] = json_of_sweeps(row);
   if (config.experiment == ExperimentKind::lap) json["lap"] = json_of_lap(config, row);
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
+  if (row.trial) json["trial"] = json_of_trial(*row.trial);
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
     if (measure.is_known(row)) json[measure.name] = measure.of(row);
@@ -241,6 +268,8 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
       return recognition_table(config, rows);
     case ExperimentKind::curves:
       return curves_table(config, rows);
+    case ExperimentKind::trials:
+      return trials_table(config, rows);
   }
   return {};
 }
@@ -248,11 +277,12 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
 std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   ordered_json list = ordered_json::array();
   for (const ExperimentRow& row : rows) list.push_back(json_of(row, config));
-  const ordered_json all = {{"experiment", std::string(name_of(config.experiment))},
-                            {"tolerance_m", config.tolerance_m},
-                            {"good", good_rows(rows)},
-                            {"runs", rows.size()},
-                            {"rows", list}};
+  ordered_json all = {{"experiment", std::string(name_of(config.experiment))},
+                      {"tolerance_m", config.tolerance_m},
+                      {"good", good_rows(rows)},
+                      {"runs", rows.size()},
+                      {"rows", list}};
+  if (config.experiment == ExperimentKind::trials) all["broken_limits"] = broken_limits(config, rows);
   return all.dump();
 }
 

@@ -181,7 +181,7 @@ void LandmarkKeeper::find_access(const WorldView& world) {
     graph_.find(id)->access = standing_place(space, reach, landmark.T_map_landmark.position());
 }
 
-void LandmarkKeeper::connect(const WorldView& world, const Planner& planner, const Budget& budget, std::uint64_t seed) {
+void LandmarkKeeper::connect(const WorldView& world, const Plan& plan, std::uint64_t seed) {
   while (!graph_.routes().empty()) graph_.remove_route(graph_.routes().begin()->first);
   find_access(world);
   for (const auto& [id, landmark] : graph_.landmarks()) {
@@ -193,19 +193,18 @@ void LandmarkKeeper::connect(const WorldView& world, const Planner& planner, con
     if (others.size() > static_cast<std::size_t>(config_.routes_per_landmark))
       others.resize(static_cast<std::size_t>(config_.routes_per_landmark));
     for (const auto& [distance, other] : others)
-      if (graph_.route_between(id, other) == nullptr) join(landmark, *graph_.find(other), world, planner, budget, seed);
+      if (graph_.route_between(id, other) == nullptr) join(landmark, *graph_.find(other), plan, seed);
   }
 }
 
-void LandmarkKeeper::join(const Landmark& from, const Landmark& to, const WorldView& world, const Planner& planner,
-                          const Budget& budget, std::uint64_t seed) {
+void LandmarkKeeper::join(const Landmark& from, const Landmark& to, const Plan& plan, std::uint64_t seed) {
   if (!from.access || !to.access) return;
   PlanRequest request;
   request.from.pose = from.access;
   request.to.pose = to.access;
   request.radius_m = robot_.radius_m + kMostRounding_m;
   request.seed = seed;
-  const PlanResult planned = planner.plan(request, world, budget);
+  const PlanResult planned = plan(request);
   if (planned.outcome != PlanOutcome::solved) return;
   const std::vector<Pose2> driven = driven_between(*from.access, *to.access);
   Route route;

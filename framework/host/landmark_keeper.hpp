@@ -2,6 +2,7 @@
 // which routes join it to the others.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "framework/config/fields.hpp"
@@ -50,8 +51,10 @@ class LandmarkKeeper {
   void follow(const Pose2& T_map_robot);
 
   // Finds a standing place beside each landmark and joins near landmarks by routes: the way the robot
-  // drove between them where there is one, a planned one elsewhere. Replaces all earlier routes.
-  void connect(const WorldView& world, const Planner& planner, const Budget& budget, std::uint64_t seed);
+  // drove between them where there is one, a planned one elsewhere. Replaces all earlier routes. The graph is whole
+  // whenever plan is called, so that a call which never returns costs the routes to come and nothing else.
+  using Plan = std::function<PlanResult(const PlanRequest&)>;
+  void connect(const WorldView& world, const Plan& plan, std::uint64_t seed);
 
   [[nodiscard]] const LandmarkGraph& graph() const { return graph_; }
   [[nodiscard]] const LandmarkGraph& candidates() const { return candidates_; }
@@ -61,8 +64,7 @@ class LandmarkKeeper {
   void see(const Detection& detection);
   void merge_beside(LandmarkId id, std::vector<Change>& changes);
   void find_access(const WorldView& world);
-  void join(const Landmark& from, const Landmark& to, const WorldView& world, const Planner& planner,
-            const Budget& budget, std::uint64_t seed);
+  void join(const Landmark& from, const Landmark& to, const Plan& plan, std::uint64_t seed);
   [[nodiscard]] std::vector<Pose2> driven_between(const Pose2& from, const Pose2& to) const;
 
   LandmarkKeeperConfig config_;

@@ -22,15 +22,18 @@ struct Job {
 
 std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::path& out) {
   std::vector<Job> jobs;
-  for (const std::filesystem::path& mission : config.missions) {
-    const bool is_log = !load_mission(mission, config.overrides).world;
+  const bool of_trials = config.experiment == ExperimentKind::trials;
+  const std::vector<std::filesystem::path> drawn{"trials"};  // each seed's own
+  const std::vector<std::filesystem::path>& missions = of_trials ? drawn : config.missions;
+  for (const std::filesystem::path& mission : missions) {
+    const bool is_log = !of_trials && !load_mission(mission, config.overrides).world;
     const int seeds = is_log ? std::min(config.seeds.count, std::max(config.withhold_every, 1)) : config.seeds.count;
     for (const ExperimentVariant& variant : config.variants)
       for (int i = 0; i < seeds; ++i) {
         const std::int64_t seed = config.seeds.from + i;
         const std::string name = "seed_" + std::to_string(seed);
         // One mission as it stands needs no folders of its own.
-        const bool alone = config.missions.size() == 1 && config.variants.size() == 1;
+        const bool alone = missions.size() == 1 && config.variants.size() == 1;
         jobs.push_back({mission, variant, seed, alone ? out / name : out / mission.stem() / variant.name / name});
       }
   }
@@ -53,6 +56,8 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
   std::vector<std::string> overrides = config.overrides;
   overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
   if (config.withhold_every > 0) overrides.push_back("withhold_every=" + std::to_string(config.withhold_every));
+  if (config.experiment == ExperimentKind::trials)
+    return load_mission(write_trial(config.trials, config.worlds, job.seed, job.out), overrides, job.seed);
   if (in_random_worlds(config.experiment))
     overrides.push_back("world=" + write_world(config, job, load_mission(job.mission, overrides).shapes));
   return load_mission(job.mission, overrides, job.seed);
@@ -80,12 +85,14 @@ struct Listeners {
     runner.subscribe(known);
     runner.subscribe(path);
     runner.subscribe(withheld);
+    runner.subscribe(trial);
   }
 
   RunReport report;
   FirstKnown known;
   TruePath path;
   WithheldReadings withheld;
+  TrialRecord trial;
 };
 
 // What the experiment's kind asks of a run that has ended.
@@ -103,6 +110,10 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
     row.places = degrees_at_places(config, *mission.world, listeners.report.degrees(), row.result.steps);
   if (in_random_worlds(config.experiment))
     row.verdicts = judge_recognition(mission, runner.graph(), listeners.known, config.tolerance_m);
+  const bool was_cancelled = row.result.outcome == MissionOutcome::cancelled;  // by the user: no mission's end
+  if (config.experiment == ExperimentKind::trials && !was_cancelled)
+    row.trial =
+        judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
   row.step_rad = mission.template_settings.step_rad;
   if (config.experiment == ExperimentKind::lap)
     row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), listeners.report.degrees());
@@ -129,8 +140,10 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   }
   std::ofstream(job.out / "report.json") << listeners.report.report_json(mission, row.result, runner.graph(), {});
   measure(config, mission, runner, listeners, row);
-  for (const StageTime& time : runner.times())
+  for (const StageTime& time : runner.times()) {
     if (time.stage == "detector") row.detector_wall_s += time.total_s;
+    if (time.stage == "tick") row.tick = time;
+  }
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (config.experiment == ExperimentKind::curves && runner.grid() != nullptr)
     for (const ComparedDetector& detector : config.detectors)

@@ -12,6 +12,7 @@
 #include "framework/host/experiment_lap.hpp"
 #include "framework/host/experiment_places.hpp"
 #include "framework/host/experiment_recognition.hpp"
+#include "framework/host/experiment_trials.hpp"
 #include "framework/host/map_quality.hpp"
 #include "framework/host/mission_runner.hpp"
 #include "framework/host/module_library.hpp"
@@ -34,6 +35,8 @@ struct ExperimentRow {
   std::vector<LapSample> lap;            // of the experiment's lap
   std::vector<Verdict> verdicts;         // of an experiment of recognition or of curves
   std::vector<DetectorSweep> sweeps;     // of an experiment of curves, one a detector
+  std::optional<TrialVerdict> trial;     // of an experiment of trials
+  StageTime tick;                        // wall clock of the host's ticks, all but the sensor's part
   double step_rad = 0.0;                 // between the orientations of the templates
   double wall_s = 0.0;
   double detector_wall_s = 0.0;

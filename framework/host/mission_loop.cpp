@@ -30,6 +30,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
   budget_.cancel = options_.cancel;
   pose_.T_map_robot = T_map_first_start_ = modules_.T_map_start;
   const MissionConfig& config = mission_.config;
+  tick_ = clock_.add("tick", "");
   sensor_ = clock_.add("sensor", config.sensor.name);
   localizer_ = clock_.add("localizer", config.localizer.name);
   mapper_ = clock_.add("map", config.map.name);
@@ -97,8 +98,12 @@ MissionOutcome MissionLoop::loop() {
     if (step.state == SensorState::fault) return ended(MissionOutcome::sensor_fault, step.reason);
     if (step.state == SensorState::end_of_data) return at_end_of_data(step.reason);
     observation_ = std::move(step.observation);
+    if (!std::isfinite(observation_.stamp_s) || !is_finite(observation_.T_odom_robot))
+      throw ModuleFault("sensor", clock_.module_of(sensor_), "returned a stamp or an odometry that is not finite");
     if (is_known_already(observation_)) continue;
+    const auto begin = std::chrono::steady_clock::now();
     tick();
+    if (!pace_) clock_.add_time(tick_, std::chrono::steady_clock::now() - begin);
     if (failed_step_) return ended(MissionOutcome::step_failed, failure_);
     if (!mission_.steps.empty() && step_ == mission_.steps.size()) return MissionOutcome::done;
     if (result_.time_s >= mission_.config.at_most_s)
@@ -214,17 +219,26 @@ void MissionLoop::tell_changes(const std::vector<LandmarkKeeper::Change>& change
 
 void MissionLoop::drive_on() {
   if (drive_ == nullptr) return;
-  const Twist allowed = stop_layer_.limit(wanted_);
-  held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, allowed);
+  commanded_ = stop_layer_.limit(wanted_);
+  held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, commanded_);
   result_.stop_layer = stop_layer_.figures();
-  in_stage(drive_stage_, [&] { drive_->command(allowed); });
+  in_stage(drive_stage_, [&] { drive_->command(commanded_); });
+}
+
+// A command holds until the next one: the robot stands while the host is at something that may take long, and is
+// ordered on at the end of the tick.
+void MissionLoop::stand_meanwhile() {
+  if (drive_ != nullptr) in_stage(drive_stage_, [&] { drive_->command(Twist{}); });
 }
 
 void MissionLoop::connect_landmarks() {
-  if (!modules_.planner || keeper_.graph().landmarks().empty()) return;
-  in_stage(routes_, [&] {
-    keeper_.connect(view(), *modules_.planner, budget_, module_seed(mission_.config.seed, PluginKind::planner, 1));
-  });
+  if (!modules_.planner || grid_ == nullptr || keeper_.graph().landmarks().empty()) return;
+  stand_meanwhile();
+  const WorldView world = view();
+  const auto plan = [&](const PlanRequest& request) {
+    return in_stage(routes_, [&] { return modules_.planner->plan(request, world, budget_); });
+  };
+  keeper_.connect(world, plan, module_seed(mission_.config.seed, PluginKind::planner, 1));
 }
 
 MissionOutcome MissionLoop::at_end_of_data(const std::string& reason) {
@@ -254,8 +268,9 @@ WorldView MissionLoop::view() const {
 }
 
 void MissionLoop::tell(const Event& event) {
+  if (grid_ == nullptr) return;  // there is nothing to show yet
   const WorldView world = view();
-  const MissionView seen{world, coarse_};
+  const MissionView seen{world, coarse_, commanded_};
   std::erase_if(listeners_, [&](Listener* listener) {
     // What a listener throws must not change the mission: it is told nothing more.
     try {
@@ -282,12 +297,13 @@ void MissionLoop::drive(const Twist& wanted) {
 }
 
 PlanResult MissionLoop::plan(const PlanRequest& request) {
+  const StageClock::Visit visit(clock_, StageClock::kHost);
   if (!modules_.planner) throw std::runtime_error("asked for a plan, but the mission names no planner");
+  stand_meanwhile();
   WorldView world = view();
   hierarchies_.update();
   world.hierarchies = &hierarchies_;
   PlanResult result = in_stage(planner_, [&] { return modules_.planner->plan(request, world, budget_); });
-  const StageClock::Visit visit(clock_, StageClock::kHost);
   tell(PlanDone{result});
   return result;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,7 @@ class MissionLoop : private Orders, private TreeHost {
   void end_step(const TreeNode& step, const Status& status);
   void note_nodes();
   void drive_on();
+  void stand_meanwhile();
   void connect_landmarks();
   MissionOutcome at_end_of_data(const std::string& reason);
   MissionOutcome ended(MissionOutcome outcome, std::string reason);
@@ -114,7 +116,8 @@ class MissionLoop : private Orders, private TreeHost {
   std::vector<Listener*> listeners_;
   std::vector<std::string> listener_faults_;
   StageClock clock_;
-  StageClock::Id sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0, drive_stage_ = 0;
+  StageClock::Id tick_ = 0, sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0,
+                 drive_stage_ = 0;
   struct Leaf {
     Behaviour* behaviour = nullptr;
     StageClock::Id stage = 0;
@@ -138,6 +141,7 @@ class MissionLoop : private Orders, private TreeHost {
   Pose2 T_odom_last_;
   Pose2 T_odom_localized_;  // where pose_ is from
   Twist wanted_;
+  Twist commanded_;
   std::optional<Twist> ordered_;  // by the leaf that is ticked
   double begin_s_ = 0.0;
   double held_back_ratio_ = 0.0;
@@ -167,11 +171,22 @@ class MissionLoop : private Orders, private TreeHost {
   std::optional<Pace> pace_;  // wall clock and observations go together from here on
 };
 
+// However the call comes back, a mission that was given up meanwhile is touched no more.
 template <class Call>
 auto MissionLoop::in_stage(StageClock::Id stage, Call&& call) -> decltype(call()) {
-  try {
+  const auto visit_and_call = [&]() -> decltype(call()) {
     const StageClock::Visit visit(clock_, stage);
     return fenced(clock_.stage_of(stage), clock_.module_of(stage), std::forward<Call>(call));
+  };
+  try {
+    if constexpr (std::is_void_v<decltype(call())>) {
+      visit_and_call();
+      clock_.check();
+    } else {
+      decltype(auto) result = visit_and_call();
+      clock_.check();
+      return result;
+    }
   } catch (const ModuleFault&) {
     clock_.check();
     throw;

@@ -23,11 +23,17 @@ void MissionLoop::pace(double stamp_s) {
     return;
   }
   if (!pace_) pace_ = Pace{std::chrono::steady_clock::now(), stamp_s};
-  std::this_thread::sleep_until(pace_->wall + std::chrono::duration<double>(stamp_s - pace_->stamp_s));
+  const auto until = pace_->wall + std::chrono::duration<double>(stamp_s - pace_->stamp_s);
+  // In short naps: a log may hold a gap of hours, and the user may want to end it in there.
+  while (!budget_.cancelled()) {
+    const auto rest = until - std::chrono::steady_clock::now();
+    if (rest <= rest.zero()) return;
+    std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(rest, kLookEvery));
+  }
 }
 
 void MissionLoop::heed_control() {
-  if (is_pause_wanted() == paused_) return;
+  if (drive_ == nullptr || is_pause_wanted() == paused_) return;
   paused_ = !paused_;
   if (paused_) {
     paused_before_s_ = result_.paused_s;

@@ -38,6 +38,7 @@ void MissionLoop::go_on_from(const SavedMap& map) {
   keeper_.go_on_from(map.graph, progress.candidates, map.driven_path);
   result_.resumed_s = result_.time_s = last_freed_check_s_ = progress.time_s;
   result_.distance_m = progress.distance_m;
+  result_.paused_s = paused_before(map);
   result_.readings = progress.readings;
   result_.matchings = progress.matchings;
   result_.collisions = progress.collisions;
@@ -105,6 +106,7 @@ void MissionLoop::autosave() {
 
 SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
   SavedMap map = map_of_mission(mission_, *grid_, keeper_, std::move(clusters), progress());
+  add_pauses(map, result_.paused_s);
   if (step_ < trees_.size() && step_begun_)
     add_tree(map, {tree_fingerprint(mission_.steps[step_]), tree_left_.value_or(trees_[step_].state())});
   return map;
@@ -122,7 +124,11 @@ void MissionLoop::tell_of_autosave() {
 
 // Whatever happened: the robot stops, and the map so far is saved.
 void MissionLoop::finish() {
-  if (drive_ != nullptr) stop();
+  try {
+    stand_meanwhile();
+  } catch (const ModuleFault&) {
+    // It has failed already and is being left; there is no one else to tell.
+  }
   if (paused_) tell(WentOn{result_.paused_s - paused_before_s_});
   if (step_begun_) halt_step();
   note_nodes();
@@ -168,6 +174,7 @@ void MissionLoop::write_last_map() {
 // A step that could not save does not end the mission: where it drives matters too.
 Status MissionLoop::save(const std::string& file_name) {
   const StageClock::Visit visit(clock_, StageClock::kHost);
+  stand_meanwhile();
   // Autosaves would write over it, and take it away at the end.
   if (mission_.config.autosave.every_s > 0.0 && file_name == autosaver_.file().filename())
     return {Progress::failure, file_name + " is the name of the mission's autosaves"};
@@ -225,6 +232,7 @@ Status MissionLoop::answer(const PlanQuestion& question, const std::string& file
 
 Status MissionLoop::write_map(const std::string& file_name) {
   if (grid_ == nullptr) return {Progress::failure, "there is no map to save"};
+  result_.explored_ratio = known_ratio(*grid_);
   hierarchies_.update();
   try {
     save_map(options_.out / file_name, map_so_far(hierarchies_.tree()));

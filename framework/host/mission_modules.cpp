@@ -121,7 +121,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   built.T_map_start = start_of(config);
   if (resume != nullptr) {
     check_resumable(*resume, mission);
-    built.begin_s = resume->progress->time_s;
+    built.begin_s = resume->progress->time_s + paused_before(*resume);
     // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
     built.T_map_start = resume->progress->true_T_map_robot.value_or(resume->progress->T_map_robot);
   }

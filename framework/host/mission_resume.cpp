@@ -7,11 +7,14 @@
 #include "framework/host/fingerprint.hpp"
 #include "framework/host/mission_map.hpp"
 #include "framework/host/mission_tree_text.hpp"
+#include "maps/spelling.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr const char* kTreeProperty = "tree";
+constexpr const char* kPausedProperty = "paused_s";
+constexpr double kMostPaused_s = 1e8;
 
 std::string property(const SavedMap& map, const std::string& key) {
   const auto found = map.properties.find(key);
@@ -85,6 +88,21 @@ std::optional<SavedTree> saved_tree(const SavedMap& map) {
   } catch (const std::invalid_argument& error) {
     throw StoreError(fmt::format("cannot be gone on from: its property {}: {}", kTreeStateProperty, error.what()));
   }
+}
+
+void add_pauses(SavedMap& map, double paused_s) {
+  if (paused_s > 0.0) map.properties[kPausedProperty] = fmt::format("{}", paused_s);
+}
+
+double paused_before(const SavedMap& map) {
+  const std::string text = property(map, kPausedProperty);
+  if (text.empty()) return 0.0;
+  double paused_s = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), paused_s);
+  if (error != std::errc() || end != text.data() + text.size() || !(paused_s >= 0.0 && paused_s <= kMostPaused_s))
+    throw StoreError(fmt::format("cannot be gone on from: its property {} is {}, not a time in seconds",
+                                 kPausedProperty, shown(text)));
+  return paused_s;
 }
 
 void check_same_cells(const OccupancyGrid& saved, const OccupancyGrid& of_mission) {

@@ -32,6 +32,11 @@ void add_tree(SavedMap& map, const SavedTree& tree);
 // Nothing in maps that do not say. Throws StoreError, without the map's name, when what they say is damaged.
 [[nodiscard]] std::optional<SavedTree> saved_tree(const SavedMap& map);
 
+// How long the mission had been paused: the world goes on meanwhile, its clock does not. Nothing is written of 0 s, and
+// maps that do not say are of 0 s. Throws StoreError, without the map's name, when what they say is damaged.
+void add_pauses(SavedMap& map, double paused_s);
+[[nodiscard]] double paused_before(const SavedMap& map);
+
 // Throws StoreError when the mission's map module makes grids of other cells than the saved one has.
 void check_same_cells(const OccupancyGrid& saved, const OccupancyGrid& of_mission);
 

@@ -50,6 +50,7 @@ struct MissionResult {
   double distance_m = 0.0;
   double time_s = 0.0;                             // simulated or recorded
   double paused_s = 0.0;                           // not in time_s
+  double explored_ratio = 0.0;                     // of the map as it was last saved, or would have been
   std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
   StopLayerFigures stop_layer{};
   AutosaveFigures autosave{};

@@ -4,24 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
+
+#include "framework/host/chance.hpp"
 
 namespace cairn {
 namespace {
-
-// The same numbers on every compiler, unlike the distributions of the standard library.
-class Chance {
- public:
-  explicit Chance(std::uint64_t seed) : random_(seed) {}
-  double share() { return static_cast<double>(random_() >> 11) * 0x1.0p-53; }
-  double between(double low, double high) { return low + (high - low) * share(); }
-  // One of low .. high, both included.
-  int whole(int low, int high) { return low + std::min(high - low, static_cast<int>((high - low + 1) * share())); }
-
- private:
-  std::mt19937_64 random_;
-};
 
 struct Thing {
   std::string outline;  // its key and value in a world file

@@ -233,7 +233,6 @@ void RunReport::on(const Event& event, const MissionView& view) {
   }
   if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world);
   if (std::holds_alternative<Bumped>(event)) note_contact(view);
-  if (std::holds_alternative<MapSaved>(event)) explored_ratio_ = known_ratio(view.world.grid);
   const std::string sentence = std::visit(Sentence{}, event);
   if (!sentence.empty()) events_.push_back(at_time(view.world.time_s, sentence));
 }
@@ -252,7 +251,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
     landmark["reason"] = retired.reason;
     report["retired"].push_back(std::move(landmark));
   }
-  report["explored_ratio"] = rounded(explored_ratio_);
+  report["explored_ratio"] = rounded(result.explored_ratio);
   if (result.resumed_s) report["resumed_s"] = rounded(*result.resumed_s);
   report["steps"] = json_of(result.steps);
   report["nodes"] = json_of(result.nodes);
@@ -282,7 +281,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
                                     const std::filesystem::path& out, const std::vector<std::string>& pictures,
                                     double wall_s) const {
   ordered_json summary = main_figures(mission, result, runner.graph(), contacts_);
-  summary["explored_ratio"] = rounded(explored_ratio_);
+  summary["explored_ratio"] = rounded(result.explored_ratio);
   if (const auto error = pose_errors_.figures()) summary["pose_error"] = json_of(*error);
   summary["wall_s"] = rounded(wall_s);
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);

@@ -54,7 +54,6 @@ class RunReport : public Listener {
   PoseErrors pose_errors_;
   RunTimeline timeline_;
   std::vector<std::string> events_;  // sentences with their time
-  double explored_ratio_ = 0.0;
 };
 
 // Wall-clock times of modules as JSON; not in the report, which is the same in every run.

@@ -58,6 +58,8 @@ class StageClock {
   };
   // Throws GivenUp.
   void check() const;
+  // Of something that holds stages and is none itself: it is not watched.
+  void add_time(Id id, std::chrono::nanoseconds took) { note(id, took.count()); }
 
   // From any thread: gives the mission up when one call has lasted longer than that. Returns the
   // stage it was in, or kHost when all is well.

@@ -196,6 +196,7 @@ int plugins_reference(const ReferenceCommand& command, const CommonOptions& comm
 struct ExperimentCommand {
   std::filesystem::path file;
   std::filesystem::path out = "out/experiment";
+  std::vector<std::string> overrides{};
 };
 int experiment(const ExperimentCommand& command, const CommonOptions& common);
 

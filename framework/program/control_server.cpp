@@ -5,9 +5,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,8 @@ constexpr seconds kAskWithin(2);
 constexpr seconds kTickWithin(10);  // a planner may be at work
 constexpr seconds kEndWithin(60);   // the map is saved
 constexpr seconds kLineWithin(2);
+constexpr std::size_t kMostAnswers = 16;  // at once
+constexpr std::chrono::milliseconds kNoneLeftFor(100);
 
 double rounded(double value) {
   return std::round(value * 1e3) / 1e3;
@@ -98,24 +102,46 @@ ControlServer::ControlServer(std::filesystem::path folder, RunControl& control)
     : folder_(std::move(folder)),
       control_(control),
       listening_(listen_in(folder_)),
-      ending_(::eventfd(0, EFD_CLOEXEC)),
-      thread_([this] { serve(); }) {}
+      ending_(::eventfd(0, EFD_CLOEXEC)) {
+  if (ending_.get() < 0) throw std::system_error(errno, std::generic_category(), "no descriptor is left");
+  thread_ = std::thread([this] { serve(); });
+}
 
 ControlServer::~ControlServer() {
   const std::uint64_t one = 1;
   (void)!::write(ending_.get(), &one, sizeof one);
   thread_.join();
+  answers_.clear();  // waits for them
   remove_socket(folder_);
 }
 
 void ControlServer::serve() {
   while (true) {
     pollfd ready[] = {{listening_.get(), POLLIN, 0}, {ending_.get(), POLLIN, 0}};
-    if (::poll(ready, 2, -1) < 0) continue;  // a signal
+    if (::poll(ready, 2, -1) < 0) {
+      if (errno == EINTR) continue;
+      return;
+    }
     if (ready[1].revents != 0) return;
-    const Descriptor connection(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (connection.get() >= 0) answer(connection.get());
+    Descriptor connection(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    if (connection.get() >= 0)
+      take(std::move(connection));
+    else
+      std::this_thread::sleep_for(kNoneLeftFor);  // no descriptors, or whoever called has gone
   }
+}
+
+void ControlServer::take(Descriptor connection) {
+  std::erase_if(answers_, [](const Answer& given) { return given.is_given.load(); });
+  if (answers_.size() >= kMostAnswers) {
+    write_line(connection.get(), refusal("too many commands at once; ask again"));
+    return;
+  }
+  Answer& here = answers_.emplace_back();
+  here.thread = std::jthread([this, &here, connection = std::move(connection)] {
+    answer(connection.get());
+    here.is_given = true;
+  });
 }
 
 void ControlServer::answer(int connection) {

@@ -6,6 +6,7 @@
 
 #include "framework/host/curves_table.hpp"
 #include "framework/host/experiment_report.hpp"
+#include "framework/host/trials_table.hpp"
 #include "framework/program/commands.hpp"
 #include "framework/program/experiment_charts.hpp"
 #include "framework/program/interrupt.hpp"
@@ -35,10 +36,11 @@ std::string times_text(const ExperimentConfig& config, const std::vector<Experim
                         detector_s / std::max(runs, 1.0),
                         matchings > 0.0 ? fmt::format("{:.0f}", 1e6 * detector_s / matchings) : "");
   }
+  if (config.experiment == ExperimentKind::trials) text += "\n" + trial_times_table(config, rows);
   return text + "\n" + sweep_times_table(config, rows);
 }
 
-// Done when every run was, and of missions when enough of them were good.
+// Done when every run was, of missions when enough of them were good, of trials when all limits were kept.
 int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   const auto count = [&](auto is_so) { return std::count_if(rows.begin(), rows.end(), is_so); };
   const auto runs = static_cast<double>(rows.size());
@@ -46,6 +48,9 @@ int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentR
       count([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::cancelled; }) > 0;
   const auto done = count([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::done; });
   const auto good = count([](const ExperimentRow& row) { return row.is_good(); });
+  if (config.experiment == ExperimentKind::trials)
+    return !cancelled && broken_limits(config, rows).empty() && too_long(config, rows).empty() ? kExitDone
+                                                                                               : kExitNotSolved;
   const bool enough = config.experiment != ExperimentKind::missions
                           ? static_cast<double>(done) == runs
                           : static_cast<double>(good) >= config.at_least_ratio * runs;
@@ -55,7 +60,7 @@ int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentR
 }  // namespace
 
 int experiment(const ExperimentCommand& command, const CommonOptions& common) {
-  const ExperimentConfig config = load_experiment(command.file);
+  const ExperimentConfig config = load_experiment(command.file, command.overrides);
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   make_folder(command.out);
   const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel_on_interrupt());

@@ -186,6 +186,8 @@ void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& co
   CLI::App* sub = app.add_subcommand("experiment", "Run an experiment over many seeds and write its table");
   sub->add_option("FILE", c.file, "experiment file (config/experiments/*.yaml)")->required();
   sub->add_option("--out", c.out, "folder for the table and reports")->capture_default_str();
+  sub->add_option("--set", c.overrides, "override a setting of the file, as seeds.count=20 (may be repeated)")
+      ->allow_extra_args(false);
   sub->callback([&] { action = [&] { return experiment(c, common); }; });
 }
 

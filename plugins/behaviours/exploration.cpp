@@ -234,7 +234,10 @@ void Exploration::arrive(const WorldView& world) {
     faced_s_ = world.time_s;
     return;
   }
-  if (is_to_be_faced()) give_up(*task_, space_now(world, search_), settings_, memory_);
+  // What it arrives at again without having gone anywhere has nothing more to show, whatever is still missing of it.
+  const bool is_still_here = driven_m_ - driven_when_arrived_m_ < kThere_m;
+  driven_when_arrived_m_ = driven_m_;
+  if (is_to_be_faced() || is_still_here) give_up(*task_, space_now(world, search_), settings_, memory_);
   task_.reset();
 }
 

@@ -66,6 +66,7 @@ class Exploration {
   double looked_around_at_m_ = 0.0;  // of the way driven
   double driven_m_ = 0.0;
   double driven_when_stuck_m_ = 0.0;
+  double driven_when_arrived_m_ = -1.0;
   int stuck_in_a_row_ = 0;
   Pose2 last_pose_;
   Point backed_from_{0.0, 0.0};

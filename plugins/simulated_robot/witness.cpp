@@ -8,7 +8,7 @@ namespace cairn {
 namespace {
 
 constexpr double kMemory_s = 1.0;
-constexpr double kInTime_s = 0.3;          // about a round of the sonars; what comes up later nobody can stop for
+constexpr double kInTime_s = 0.3;          // what comes up later nobody can stop for
 constexpr double kPart_m = 0.1;            // so far from the place of the touch belongs to what was touched
 constexpr double kRay_rad = radians(1.0);  // half a beam that has no width
 constexpr double kBack_m = 1e-4;
@@ -37,7 +37,16 @@ std::array<Point, 3> parts_of(const Nearest& touched) {
           face.centre_m + Pose2{0, 0, -turn_rad} * from_centre};
 }
 
+// One transducer fires after the other: nobody has looked everywhere before a round is over.
+double round_s(const RobotModel& robot) {
+  const std::size_t order = robot.firing_order.empty() ? robot.sonars.size() : robot.firing_order.size();
+  return static_cast<double>(order) * robot.firing_period_s;
+}
+
 }  // namespace
+
+Witness::Witness(const RobotModel& robot)
+    : robot_(robot), in_time_s_(std::min(kMemory_s, std::max(kInTime_s, round_s(robot)))) {}
 
 void Witness::note(double time_s, const Pose2& T_map_robot, const Places& places) {
   while (!moments_.empty() && moments_.front().time_s < time_s - kMemory_s) moments_.pop_front();
@@ -56,7 +65,7 @@ bool Witness::could_see(const Nearest& touched, const Scene& scene, const Traffi
   const std::array<Point, 3> parts_m = parts_of(touched);
   Scene then = scene;
   return std::any_of(moments_.begin(), moments_.end(), [&](const Moment& moment) {
-    if (moment.time_s > moments_.back().time_s - kInTime_s) return false;
+    if (moment.time_s > moments_.back().time_s - in_time_s_) return false;
     Point shift_m(0.0, 0.0);
     if (mover != kFixed) {
       const auto index = static_cast<std::size_t>(mover);

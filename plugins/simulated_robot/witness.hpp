@@ -1,5 +1,6 @@
-// Judges a touch: how fast the robot came, and whether its transducers could have seen what it met in time, which is a
-// round of the sonars before: a door that closes just ahead of the robot could not be seen.
+// Judges a touch: how fast the robot came, and whether its transducers could have seen what it met in time, which is
+// 0.3 s before, or a round of the robot's sonars where that takes longer: a door that closes just ahead of the robot
+// could not be seen.
 //
 // Seen is geometry, from where everything truly was: no fault of a transducer counts, nor whether it was its turn to
 // fire, nor how loud the echo would have been.
@@ -16,7 +17,7 @@ namespace cairn {
 
 class Witness {
  public:
-  explicit Witness(const RobotModel& robot) : robot_(robot) {}
+  explicit Witness(const RobotModel& robot);
 
   // What it remembers for a second. Times ascend.
   void note(double time_s, const Pose2& T_map_robot, const Places& places);
@@ -38,6 +39,7 @@ class Witness {
   [[nodiscard]] bool is_in_a_beam(const Pose2& T_map_robot, const Point& p_m, const Scene& scene) const;
 
   RobotModel robot_;
+  double in_time_s_;
   std::deque<Moment> moments_;
 };
 

@@ -44,6 +44,16 @@ class CountingSensor : public Sensor, public Drive {
   int count_ = 0;
 };
 
+class NanSensor : public CountingSensor {
+ public:
+  NanSensor() : CountingSensor(5) {}
+  SensorStep next(const Budget& budget) override {
+    SensorStep step = CountingSensor::next(budget);
+    step.observation.T_odom_robot.x_m = std::numeric_limits<double>::quiet_NaN();
+    return step;
+  }
+};
+
 class StillLocalizer : public Localizer {
  public:
   PoseEstimate update(const Observation&, std::span<const LandmarkSighting>) override { return {}; }
@@ -112,6 +122,16 @@ class HangingBehaviour : public Behaviour {
   void halt() override {}
 };
 
+// Comes back after it was given up.
+class LateBehaviour : public Behaviour {
+ public:
+  Status tick(const WorldView&, Orders&) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    return {Progress::success, "late, but here"};
+  }
+  void halt() override {}
+};
+
 class NanBehaviour : public Behaviour {
  public:
   Status tick(const WorldView&, Orders& orders) override {
@@ -143,6 +163,7 @@ void register_module(Registrar& registrar) {
   registrar.add<Sensor, CountingConfig>(
       "counting_sensor", "for tests",
       [](const CountingConfig& c, const ModuleContext&) { return std::make_unique<CountingSensor>(c.readings); });
+  add_plain<Sensor, NanSensor>(registrar, "nan_sensor");
   add_plain<Localizer, StillLocalizer>(registrar, "still_localizer");
   add_plain<Localizer, NanLocalizer>(registrar, "nan_localizer");
   add_plain<Mapper, EmptyMapper>(registrar, "empty_map");
@@ -152,6 +173,7 @@ void register_module(Registrar& registrar) {
   add_plain<Mapper, HangingMapper>(registrar, "hanging_map");
   add_plain<Detector, NanDetector>(registrar, "nan_detector");
   add_plain<Behaviour, HangingBehaviour>(registrar, "hang");
+  add_plain<Behaviour, LateBehaviour>(registrar, "late");
   add_plain<Behaviour, NanBehaviour>(registrar, "drive_nan");
   add_plain<Behaviour, EndlessBehaviour>(registrar, "endless");
   registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",

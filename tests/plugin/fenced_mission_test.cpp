@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 #include <tuple>
 
 #include "framework/host/fence.hpp"
@@ -62,6 +64,14 @@ TEST_F(FencedMission, SomethingThatIsNoExceptionIsFencedToo) {
 TEST_F(FencedMission, APoseThatIsNotANumberEndsTheMission) {
   EXPECT_EQ(run("nan_localizer", "empty_map").reason,
             "module nan_localizer failed in stage localizer: returned a pose that is not finite");
+}
+
+TEST_F(FencedMission, AnOdometryThatIsNotANumberEndsTheMission) {
+  (void)mission_with("still_localizer", "empty_map", "[endless]");
+  const Mission mission = load_mission(folder_ / "mission.yaml", {"sensor={plugin: nan_sensor}"});
+  const MissionResult result = MissionRunner(mission, library_, {folder_, false, nullptr}).run();
+  EXPECT_EQ(result.reason,
+            "module nan_sensor failed in stage sensor: returned a stamp or an odometry that is not finite");
 }
 
 TEST_F(FencedMission, ADetectionThatIsNotANumberEndsTheMission) {
@@ -122,6 +132,24 @@ TEST_F(HangingMission, ABehaviourThatNeverReturnsIsGivenUpAndTheMapIsSaved) {
   EXPECT_EQ(result.steps.at(0).status.progress, Progress::failure);
   EXPECT_TRUE(fs::exists(folder_ / "fenced.cairn"));
   EXPECT_NE(runner.grid(), nullptr);
+}
+
+class CountingListener : public Listener {
+ public:
+  void on(const Event&, const MissionView&) override { ++told; }
+  std::atomic<int> told = 0;
+};
+
+TEST_F(HangingMission, WhatComesBackAfterItWasGivenUpTouchesNothingMore) {
+  CountingListener listener;
+  MissionRunner runner = runner_of("empty_map", "[late, endless]");
+  runner.subscribe(listener);
+  const MissionResult result = runner.run();
+  EXPECT_EQ(result.reason, "module late has not returned from stage behaviour for 200 ms and was given up");
+  EXPECT_EQ(result.nodes.at(0).status.progress, Progress::failure);
+  const int told = listener.told;
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  EXPECT_EQ(listener.told, told);
 }
 
 TEST_F(HangingMission, TheMapOfAMapperThatNeverReturnsIsLeftAlone) {

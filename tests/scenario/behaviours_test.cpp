@@ -165,5 +165,40 @@ TEST(Behaviours, WrongSettingsAreToldWithTheirPlaceAndTheNearestName) {
     EXPECT_THAT(finished.err + finished.out, HasSubstr(told));
 }
 
+// Somebody who has walked on leaves a ghost in the map; the way round it once ended where the robot stood, for ever: it
+// had driven 12 m by then.
+TEST(Behaviours, ExploreGetsOnWhereItHasArrivedAlready) {
+  const auto folder = fresh_folder("behaviours_arrived");
+  write_text(folder / "world.yaml", R"(
+bounds_m: [[0, 0], [6.398, 5.510]]
+walls:
+  - {points_m: [[0.000, 0.000], [6.398, 0.000]], surface: rough}
+  - {points_m: [[6.398, 0.000], [6.398, 5.510]], surface: rough}
+  - {points_m: [[6.398, 5.510], [0.000, 5.510]], surface: rough}
+  - {points_m: [[0.000, 5.510], [0.000, 0.000]], surface: rough}
+objects:
+  - {template: square, scale: 1.095, at_m: [3.940, 2.131], angle_deg: 310.3, surface: rough}
+  - {polygon_m: [[0, 0], [0.997, 0], [0.997, 0.253], [0.253, 0.253], [0.253, 0.997], [0, 0.997]], at_m: [1.957, 3.438], angle_deg: 180.8, surface: rough}
+  - {circle_diameter_m: 0.198, at_m: [4.746, 3.861], angle_deg: 165.5, surface: rough}
+movers:
+  - {name: person 1, circle_diameter_m: 0.4, path_m: [[3.088, 2.709], [2.973, 0.756]], speed_mps: 0.353, pause_s: 9.1}
+  - {name: person 2, circle_diameter_m: 0.4, path_m: [[0.308, 5.091], [0.350, 2.563]], speed_mps: 0.333, pause_s: 6.2}
+)");
+  write_text(folder / "mission.yaml", "mission: on\nseed: 1007\nrobot: " + config("robots/pioneer3dx.yaml") + R"(
+world: world.yaml
+start: {at_m: [1.100, 1.772], angle_deg: 299.0}
+sensor: {plugin: simulated_robot, faults: [{at_s: 53.36, for_s: 8, silent: true}]}
+localizer: {plugin: odometry_compass}
+map: {plugin: muriel, cell_m: 0.05, false_echo_per_m: 2}
+detector: {plugin: template_matcher, sizes: [1, 1.07], coarse_cells: 5, degrees: above_threshold, templates: )" +
+                                          config("templates") + R"(}
+planner: {plugin: hybrid, route: {plugin: ompl}}
+at_most_s: 240
+steps: [explore: {until_known_ratio: 0.97, at_most_s: 400}]
+)");
+  const Finished run = run_cairn({"run", (folder / "mission.yaml").string(), "--out", folder.string(), "--json"});
+  EXPECT_GT(json::parse(run.out)["distance_m"], 16.0) << run.err;
+}
+
 }  // namespace
 }  // namespace cairn::testing_program

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -158,6 +159,23 @@ TEST_F(Control, WhatIsNoCommandIsRefusedAndTheMissionGoesOn) {
   EXPECT_EQ(run.exit_status(), 1);
 }
 
+TEST_F(Control, NobodyWaitsForTheAnswerToAnother) {
+  Conversation run(run_of(mission_in(folder_, "[wait: 1000]"), {"--realtime"}));
+  (void)status_in(out_, "running");
+  // Connected, and says nothing: it is listened to for two seconds.
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  (out_ / "control.sock").string().copy(name.sun_path, sizeof name.sun_path - 1);
+  const int silent = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  ASSERT_EQ(::connect(silent, reinterpret_cast<const sockaddr*>(&name), sizeof name), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(json::parse(answer_to(out_ / "control.sock", "status\n"))["state"], "running");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1900));
+  ::close(silent);
+  EXPECT_EQ(tell("cancel").exit_status, 0);
+  EXPECT_EQ(run.exit_status(), 1);
+}
+
 std::size_t runs_of(const json& report, const std::string& path, const std::string& outcome) {
   return static_cast<std::size_t>(std::ranges::count_if(
       report["node_runs"], [&](const json& run) { return run["path"] == path && run["outcome"] == outcome; }));
@@ -209,6 +227,34 @@ TEST_F(Control, AnotherTreeBeginsTheStepAfreshAndADamagedStateIsRefused) {
     const Finished refused = run_cairn(run_of(mission, {"--resume", (folder_ / "damaged.cairn").string()}));
     EXPECT_EQ(refused.exit_status, 2) << bad;
     EXPECT_THAT(refused.err, HasSubstr("damaged.cairn: cannot be gone on from: its property tree_state: ")) << bad;
+  }
+}
+
+TEST_F(Control, TheTimeOfPausesIsKeptSinceTheWorldWentOnMeanwhile) {
+  const fs::path mission = mission_in(folder_, "[wait: 4]");
+  write_text(folder_ / "world.yaml", text_of_file(folder_ / "world.yaml") +
+                                         "doors: [{from_m: [2.2, 0.1], to_m: [2.2, 1.1], closed_s: [[8, 100]]}]\n");
+  ASSERT_EQ(run_cairn(run_of(mission, {"--set", "at_most_s=2"})).exit_status, 1);
+  const fs::path map = folder_ / "cut.cairn";
+  SavedMap saved = load_map(out_ / "held.cairn");
+  EXPECT_FALSE(saved.properties.contains("paused_s"));
+  const auto grid_after = [&](const std::string& paused_s) {
+    saved.properties["paused_s"] = paused_s;
+    save_map(map, saved);
+    EXPECT_EQ(run_cairn(run_of(mission, {"--resume", map.string()})).exit_status, 0);
+    return load_map(out_ / "held.cairn");
+  };
+  const SavedMap soon = grid_after("1.5");
+  const SavedMap later = grid_after("20");
+  EXPECT_EQ(later.properties.at("paused_s"), "20");
+  const auto is_seen = [](const SavedMap& map, const Point& at) { return map.grid.log_odds(map.grid.cell_at(at)); };
+  EXPECT_GT(is_seen(later, {2.2, 0.6}), is_seen(soon, {2.2, 0.6})) << "the door has closed while the mission paused";
+  for (const std::string bad : {"soon", "-1", "nan", "1e300", "2 s"}) {
+    saved.properties["paused_s"] = bad;
+    save_map(map, saved);
+    const Finished refused = run_cairn(run_of(mission, {"--resume", map.string()}));
+    EXPECT_EQ(refused.exit_status, 2) << bad;
+    EXPECT_THAT(refused.err, HasSubstr("its property paused_s is \"" + bad + "\", not a time in seconds")) << bad;
   }
 }
 

@@ -19,5 +19,21 @@ TEST(Interrupt, CtrlCStopsTheRobotSavesTheMapAndSaysSo) {
   EXPECT_NO_THROW((void)load_map(out / "office.cairn"));
 }
 
+// The log's second line comes an hour after the first.
+TEST(Interrupt, CtrlCEndsAPacedLogInTheMiddleOfAGap) {
+  const auto folder = fresh_folder("interrupt_gap");
+  const std::string header = "PARAM robot_frontlaser_offset 0\n";
+  const std::string reading = "FLASER 3 1.0 1.0 1.0 0 0 0 0 0 0 ";
+  write_text(folder / "gap.log", header + reading + "1000 here 0\n" + reading + "4600 here 3600\n");
+  write_text(folder / "mission.yaml",
+             "mission: gap\nrobot: " + source_folder() +
+                 "/config/robots/pioneer1.yaml\nsensor: {plugin: carmen_log, file: gap.log}\n"
+                 "localizer: {plugin: odometry_compass}\nmap: {plugin: bayes, cell_m: 0.05}\n");
+  const Finished run =
+      interrupt_cairn({"run", (folder / "mission.yaml").string(), "--out", folder.string(), "--realtime"});
+  EXPECT_EQ(run.exit_status, 1) << run.out << run.err;
+  EXPECT_THAT(run.out, testing::HasSubstr("cancelled by the user"));
+}
+
 }  // namespace
 }  // namespace cairn::testing_program

@@ -61,7 +61,9 @@ class LandmarkKeeperTest : public testing::Test {
     PoseEstimate pose;
     pose.T_map_robot = {3.0, 1.0, 0.0};
     const LandmarkGraph graph = keeper_.graph();
-    keeper_.connect({grid_, graph, robot_, pose, 0.0, nullptr, 0.0}, StraightPlanner{}, {}, 1);
+    const WorldView world{grid_, graph, robot_, pose, 0.0, nullptr, 0.0};
+    keeper_.connect(
+        world, [&](const PlanRequest& request) { return StraightPlanner{}.plan(request, world, {}); }, 1);
   }
 };
 
