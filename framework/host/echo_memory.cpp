@@ -30,12 +30,25 @@ std::vector<Point> arc_of(const RangeReading& reading, const Pose2& T_odom_senso
   return points;
 }
 
+bool is_finite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+}
+
 double round_of(const RobotModel& robot) {
   const std::size_t shots = robot.firing_order.empty() ? robot.sonars.size() : robot.firing_order.size();
   return robot.firing_period_s * static_cast<double>(std::max<std::size_t>(1, shots));
 }
 
 }  // namespace
+
+bool is_placed(const Observation& observation) {
+  return std::isfinite(observation.stamp_s) && is_finite(observation.T_odom_robot);
+}
+
+bool says_something(const RangeReading& reading) {
+  return reading.sensor >= 0 && reading.sensor < kMostSensors && !std::isnan(reading.range_m) &&
+         is_finite(reading.T_robot_sensor) && std::isfinite(reading.half_beam_rad) && std::isfinite(reading.min_m);
+}
 
 EchoMemory::EchoMemory(const RobotModel& robot, double kept_s)
     : kept_s_(std::max(kept_s, 1.5 * round_of(robot))), round_s_(round_of(robot)) {}
@@ -50,7 +63,7 @@ void EchoMemory::see(const Observation& observation) {
   T_odom_robot_ = observation.T_odom_robot;
   stamp_s_ = observation.stamp_s;
   for (const RangeReading& reading : observation.ranges)
-    if (reading.sensor >= 0 && reading.sensor < kMostSensors && !std::isnan(reading.range_m)) take(reading);
+    if (says_something(reading)) take(reading);
   for (Transducer& transducer : transducers_)
     std::erase_if(transducer.echoes, [&](const Echo& echo) { return stamp_s_ - echo.stamp_s > kept_s_; });
   std::erase_if(touches_, [&](const Touch& touch) { return stamp_s_ - touch.stamp_s > kTouchKept_s; });

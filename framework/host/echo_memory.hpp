@@ -20,11 +20,17 @@ struct SeenPoint {
   double until_fired_s = 0.0;  // before its transducer fires again
 };
 
+// Whether an observation's clock and odometry are numbers: otherwise nothing in it has a time and a place.
+[[nodiscard]] bool is_placed(const Observation& observation);
+// Whether a reading is one, be it "no echo": of a transducer, from a place of the robot, and not a bad one.
+[[nodiscard]] bool says_something(const RangeReading& reading);
+
 class EchoMemory {
  public:
   // kept_s: how long an echo counts.
   EchoMemory(const RobotModel& robot, double kept_s);
 
+  // It must be placed; readings that say nothing are left out.
   void see(const Observation& observation);
   // A place of the robot's frame that was felt: counts for a while like an echo, whatever is heard from behind it.
   void feel(const Point& at_robot);

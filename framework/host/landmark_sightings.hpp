@@ -25,6 +25,9 @@ namespace cairn {
 class LandmarkSightings {
  public:
   explicit LandmarkSightings(std::vector<LandmarkShape> shapes) : shapes_(std::move(shapes)) {}
+  // Anchors point to the shapes.
+  LandmarkSightings(const LandmarkSightings&) = delete;
+  LandmarkSightings& operator=(const LandmarkSightings&) = delete;
 
   // Takes in the readings of one observation and says what they and those before have shown. `pose` is that of the
   // observation before, whose odometry was T_odom_before. Valid until the next call.

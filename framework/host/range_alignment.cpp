@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kOutlier_sigmas = 3.0;
 constexpr double kSettled = 1e-4;            // m, rad
+constexpr double kStillMoves = 5e-3;         // after the last iteration: far below what a sighting is believed to
 const Eigen::Vector3d kHold(1.0, 1.0, 4.0);  // information: 1 m, 0.5 rad
 
 struct Sum {
@@ -65,6 +66,7 @@ std::optional<Alignment> align(const Pose2& T_map_robot, int readings,
     if (moved.position().norm() > limits.most_shift_m || std::abs(moved.theta_rad) > limits.most_turn_rad)
       return std::nullopt;
   }
+  if (change > kStillMoves) return std::nullopt;
   const Sum sum = summed(T_map_now, Eigen::Vector3d::Zero(), readings, compare, kOutlier_sigmas);
   Alignment found{inverse(T_map_robot) * T_map_now, sum.information.inverse(), 0.0, sum.inliers, sum.outliers};
   if (found.readings < limits.least_readings ||

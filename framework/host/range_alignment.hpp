@@ -37,7 +37,8 @@ struct AlignmentLimits {
 // A shift is (x_m, y_m, theta_rad) in the robot's own frame: T_map_robot * shift. `compare(i, T_map_robot)` is asked
 // for every reading in every iteration; none: it does not count there. Weights are those of Geman and McClure, so that
 // what stands in front (people) and crosstalk do not pull. What readings do not say (along a wall) stays as it was, at
-// a deviation of 1 m and 0.5 rad. None beyond the limits, or when it does not settle.
+// a deviation of 1 m and 0.5 rad. None beyond the limits, or when it does not settle: the
+// last step was longer than 5 mm and mrad together.
 [[nodiscard]] std::optional<Alignment> align(
     const Pose2& T_map_robot, int readings,
     const std::function<std::optional<RangeResidual>(int, const Pose2&)>& compare, const AlignmentLimits& limits = {});

@@ -191,7 +191,8 @@ bool Dock::choose_stand(const WorldView& world, const Landmark& landmark) {
 
 Status Dock::drive(const WorldView& world, Orders& orders) {
   const Status status = driver_.tick(stand_, world, orders);
-  if (status.progress == Progress::running) return {Progress::running, status.reason + ", to " + where(world)};
+  if (status.progress == Progress::running)
+    return {Progress::running, status.reason + ", to " + where(world), status.left_s};
   if (status.progress == Progress::failure)
     return {Progress::failure, "cannot get to " + where(world) + ": " + status.reason};
   mode_ = Mode::approach;
@@ -222,10 +223,12 @@ void Dock::see(const WorldView& world, const Axis& line, double mapped_m) {
     const double echo_m = robot_m - (reading.T_robot_sensor.x_m + reading.range_m);
     if (std::isnan(echo_m)) continue;
     if (echo_m > mapped_m + kBefore_m) {
-      if (between_since_s_ < 0.0) between_since_s_ = world.time_s;
+      if (between_since_s_ >= 0.0) continue;
+      between_since_s_ = world.time_s;
+      between_sensor_ = reading.sensor;
       continue;
     }
-    between_since_s_ = -1.0;
+    if (reading.sensor == between_sensor_) between_since_s_ = -1.0;
     if (echo_m < kPast_m) continue;  // or no echo
     echoes_m_.push_back(echo_m);
     if (echoes_m_.size() > kEchoes) echoes_m_.pop_front();
@@ -246,6 +249,8 @@ Status Dock::approach(const WorldView& world, Orders& orders, const Landmark& la
   if (std::abs(line.aside_m(pose.position())) > kBeside_m) return go_again(world, landmark);
   see(world, line, mapped_m);
   if (between_since_s_ >= 0.0) {
+    wanted_ = {};
+    watch_.restart();  // waiting is not being held back
     if (world.time_s - between_since_s_ > config_.patience_s)
       return {Progress::failure, "something stands between the robot and " + where(world)};
     return {Progress::running, "waiting: something is before " + where(world)};

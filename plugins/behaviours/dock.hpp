@@ -81,6 +81,7 @@ class Dock : public Behaviour {
   Place stand_;
   std::deque<double> echoes_m_;  // of the outline, along the axis
   double between_since_s_ = -1.0;
+  int between_sensor_ = -1;  // the transducer that has heard it: only the same one can say that it has gone
   double still_since_s_ = -1.0;
   double gap_m_ = 0.0;  // as last estimated
   Twist wanted_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "plugins/behaviours/place_name.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
@@ -88,8 +90,7 @@ Place GoTo::goal_of(const NamedLandmarks& named) const {
 }
 
 Status GoTo::drive_there(const WorldView& world, Orders& orders) {
-  const auto is_known = [&](LandmarkId id) { return world.graph.find(id) != nullptr; };
-  if (goal_ && !goal_->landmarks.empty() && std::ranges::none_of(goal_->landmarks, is_known)) goal_.reset();  // retired
+  if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
   if (!goal_) {
     driver_.restart();
     NamedLandmarks named;

@@ -112,7 +112,8 @@ Status Inspect::drive(const WorldView& world, Orders& orders, const Landmark& la
     goal.landmarks = {landmark_};
     status = driver_.tick(goal, world, orders);
   }
-  if (status.progress == Progress::running) return {Progress::running, status.reason + ", to " + described(landmark)};
+  if (status.progress == Progress::running)
+    return {Progress::running, status.reason + ", to " + described(landmark), status.left_s};
   if (status.progress == Progress::failure)
     return {Progress::failure, "cannot get to " + described(landmark) + ": " + status.reason};
   mode_ = Mode::lap;

@@ -34,6 +34,10 @@ FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph) {
   return found;
 }
 
+bool names_retired(const Place& goal, const LandmarkGraph& graph) {
+  return std::ranges::any_of(goal.landmarks, [&](LandmarkId id) { return graph.find(id) == nullptr; });
+}
+
 std::string described(const Landmark& landmark) {
   return label_of(landmark) + (landmark.category.empty() ? "" : " (" + landmark.category + ")");
 }

@@ -25,6 +25,9 @@ struct FoundPlace {
 };
 [[nodiscard]] FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph);
 
+// Whether a landmark of a goal is known no more: planners refuse all of it then, so its name must be looked up again.
+[[nodiscard]] bool names_retired(const Place& goal, const LandmarkGraph& graph);
+
 // "L3 (square)".
 [[nodiscard]] std::string described(const Landmark& landmark);
 [[nodiscard]] std::string described(const Point& at_m);

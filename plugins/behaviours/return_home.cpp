@@ -29,8 +29,7 @@ Status ReturnHome::tick(const WorldView& world, Orders& orders) {
   const std::string home = to_.empty() ? "home at " + described(world.T_map_start.position()) : "home at " + to_;
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up on the way " + home};
-  const auto is_known = [&](LandmarkId id) { return world.graph.find(id) != nullptr; };
-  if (goal_ && !to_.empty() && std::ranges::none_of(goal_->landmarks, is_known)) goal_.reset();  // retired
+  if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
   if (!goal_) {
     driver_.restart();
     Place goal;

@@ -51,7 +51,7 @@ Status Search::tick(const WorldView& world, Orders& orders) {
   const Status status = explore_.tick(world, orders);
   const std::string count = std::to_string(found.size()) + " of " + std::to_string(config_.until) + " " + category_ +
                             " found" + (found.empty() ? "" : " (" + labels_of(found, world.graph) + ")");
-  if (status.progress == Progress::running) return {Progress::running, status.reason + "; " + count};
+  if (status.progress == Progress::running) return {Progress::running, status.reason + "; " + count, status.left_s};
   return {Progress::failure, count + "; " + status.reason};
 }
 

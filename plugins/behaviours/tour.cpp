@@ -42,8 +42,9 @@ Status Tour::tick(const WorldView& world, Orders& orders) {
 void PatrolConfig::describe(Fields<PatrolConfig>& fields) {
   using C = PatrolConfig;
   fields.raw("rounds", &C::patrol_rounds, "rounds", "how many: a number from 1, or forever").required = true;
-  fields.raw("places", &C::places, "list of places",
-             "as those of `tour`; without them, all landmarks that are known when a round begins");
+  fields.raw(
+      "places", &C::places, "list of places",
+      "as those of `tour`; without them, all landmarks that are known when a round begins, the first 50 of more");
   describe_visits(fields);
   fields.shorthand("rounds");
 }
@@ -57,13 +58,22 @@ void Patrol::halt() {
   *this = Patrol(config_, seed_);
 }
 
+std::vector<PlaceName> Patrol::all_landmarks(const LandmarkGraph& graph, Orders& orders) const {
+  std::vector<PlaceName> places;
+  for (const auto& [id, landmark] : graph.landmarks())
+    if (places.size() < kMostPlaces) places.push_back({"L" + std::to_string(id), std::nullopt});
+  const std::size_t all = graph.landmarks().size();
+  if (all > places.size())
+    orders.say("a round has " + std::to_string(kMostPlaces) + " places at most: " +
+               std::to_string(all - places.size()) + " of " + std::to_string(all) + " landmarks are left out of it");
+  return places;
+}
+
 Status Patrol::begin_round(const WorldView& world, Orders& orders) {
-  std::vector<PlaceName> places = places_;
-  if (places.empty())
-    for (const auto& [id, landmark] : world.graph.landmarks())
-      if (places.size() < kMostPlaces) places.push_back({"L" + std::to_string(id), std::nullopt});
+  const bool chooses_itself = places_.empty();
+  std::vector<PlaceName> places = chooses_itself ? all_landmarks(world.graph, orders) : places_;
   if (places.empty()) return {Progress::failure, "there is nothing to patrol: the map holds no landmark"};
-  round_.emplace(config_, seed_, std::move(places));
+  round_.emplace(config_, seed_, std::move(places), chooses_itself ? Unknown::left_out : Unknown::as_skip_says);
   const std::string of = rounds_wanted_ == 0 ? "" : " of " + std::to_string(rounds_wanted_);
   orders.say("round " + std::to_string(rounds_done_ + 1) + of + " begins");
   return {Progress::running, "round " + std::to_string(rounds_done_ + 1) + of};
@@ -74,7 +84,7 @@ Status Patrol::tick(const WorldView& world, Orders& orders) {
   if (!round_) return begin_round(world, orders);
   const Status status = round_->tick(world, orders);
   const std::string number = "round " + std::to_string(rounds_done_ + 1);
-  if (status.progress != Progress::success) return {status.progress, number + ": " + status.reason};
+  if (status.progress != Progress::success) return {status.progress, number + ": " + status.reason, status.left_s};
   ++rounds_done_;
   visited_ += round_->visited();
   left_out_ += round_->left_out();

@@ -43,6 +43,7 @@ class Patrol : public Behaviour {
 
  private:
   Status begin_round(const WorldView& world, Orders& orders);
+  [[nodiscard]] std::vector<PlaceName> all_landmarks(const LandmarkGraph& graph, Orders& orders) const;
 
   PatrolConfig config_;
   std::uint64_t seed_;

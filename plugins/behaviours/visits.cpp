@@ -26,10 +26,11 @@ std::vector<PlaceName> to_place_names(const ConfigValue& value, const std::strin
   return places;
 }
 
-Visits::Visits(const VisitSettings& settings, std::uint64_t seed, std::vector<PlaceName> places)
+Visits::Visits(const VisitSettings& settings, std::uint64_t seed, std::vector<PlaceName> places, Unknown unknown)
     : settings_(settings),
       seed_(seed),
       driver_(settings, seed),
+      if_unknown_(unknown),
       ordered_(settings.order == VisitOrder::given || places.size() == 1) {
   for (PlaceName& name : places) stops_.push_back({std::move(name), std::nullopt});
 }
@@ -50,8 +51,8 @@ Place Visits::place_of(const Stop& stop, const LandmarkGraph& graph) const {
 }
 
 Status Visits::find_order(const WorldView& world, Orders& orders) {
-  if (cost_m_.empty()) begin_order(world);
   const std::size_t all = stops_.size() + 1;
+  if (cost_m_.empty()) cost_m_.assign(all, std::vector<double>(all, 0.0));
   if (from_ + 1 < all) {
     ask_next_way(world, orders);
     return {Progress::running, "asking for the ways between " + std::to_string(all - 1) + " places"};
@@ -64,11 +65,6 @@ Status Visits::find_order(const WorldView& world, Orders& orders) {
   for (const Stop& stop : stops_) names.push_back(stop.chosen ? "L" + std::to_string(*stop.chosen) : stop.name.text);
   orders.say("the shortest order is " + joined(names));
   return {Progress::running, "has found the shortest order"};
-}
-
-void Visits::begin_order(const WorldView&) {
-  const std::size_t all = stops_.size() + 1;
-  cost_m_.assign(all, std::vector<double>(all, 0.0));
 }
 
 // Ways count the same in both directions.
@@ -104,20 +100,19 @@ bool Visits::resolve(const WorldView& world) {
 }
 
 Status Visits::drive(const WorldView& world, Orders& orders) {
-  const auto is_known = [&](LandmarkId id) { return world.graph.find(id) != nullptr; };
-  if (goal_ && !goal_->pose && std::ranges::none_of(goal_->landmarks, is_known)) {  // retired
+  if (goal_ && names_retired(*goal_, world.graph)) {
     goal_.reset();
     driver_.restart();
   }
-  if (!goal_ && !resolve(world)) return leave_out(unknown_);
+  if (!goal_ && !resolve(world)) return leave_out(unknown_, settings_.skip || if_unknown_ == Unknown::left_out);
   const Status status = driver_.tick(*goal_, world, orders);
   const std::string& name = stops_[next_].name.text;
   const std::string number = std::to_string(next_ + 1) + " of " + std::to_string(stops_.size());
   if (status.progress == Progress::running)
-    return {Progress::running, status.reason + ", to " + name + ", place " + number};
+    return {Progress::running, status.reason + ", to " + name + ", place " + number, status.left_s};
   if (status.progress == Progress::failure) {
     if (settings_.skip) orders.say("leaves out " + name + ": " + status.reason);
-    return leave_out(status.reason);
+    return leave_out(status.reason, settings_.skip);
   }
   const Landmark* landmark = world.graph.find(driver_.goal_landmark());
   visited_.push_back(landmark == nullptr ? name : described(*landmark));
@@ -135,9 +130,10 @@ Status Visits::wait(const WorldView& world) {
   return {Progress::running, "has been at " + visited_.back()};
 }
 
-Status Visits::leave_out(const std::string& why) {
-  left_out_.push_back(stops_[next_].name.text + " (" + why + ")");
-  if (!settings_.skip) return {Progress::failure, "cannot get to " + left_out_.back() + "; " + summary()};
+Status Visits::leave_out(const std::string& why, bool may_be_left_out) {
+  const std::string place = stops_[next_].name.text + " (" + why + ")";
+  if (!may_be_left_out) return {Progress::failure, "cannot get to " + place + "; " + summary()};
+  left_out_.push_back(place);
   goal_.reset();
   driver_.restart();
   if (++next_ < stops_.size()) return {Progress::running, "leaves out " + left_out_.back()};
@@ -147,7 +143,7 @@ Status Visits::leave_out(const std::string& why) {
 std::string Visits::summary() const {
   std::string text = "visited " + std::to_string(visited_.size()) + " of " + std::to_string(stops_.size()) + " places";
   if (!visited_.empty()) text += ": " + joined(visited_);
-  if (!left_out_.empty() && settings_.skip) text += "; left out: " + joined(left_out_);
+  if (!left_out_.empty()) text += "; left out: " + joined(left_out_);
   return text;
 }
 

@@ -46,9 +46,13 @@ struct VisitSettings : RouteSettings {
 // Throws ConfigError unless it is a list of 1 to kMostPlaces places.
 [[nodiscard]] std::vector<PlaceName> to_place_names(const ConfigValue& value, const std::string& key);
 
+// Of a place that is unknown when it is its turn: as `skip` says, or left out because nobody has asked for just that.
+enum class Unknown { as_skip_says, left_out };
+
 class Visits {
  public:
-  Visits(const VisitSettings& settings, std::uint64_t seed, std::vector<PlaceName> places);
+  Visits(const VisitSettings& settings, std::uint64_t seed, std::vector<PlaceName> places,
+         Unknown unknown = Unknown::as_skip_says);
 
   // Success when every place was visited or left out, but not all left out; failure with the place and why. `shortest`
   // asks the planner for one way a tick, n (n + 1) / 2 in all, while the robot stands.
@@ -65,11 +69,10 @@ class Visits {
     std::optional<LandmarkId> chosen;  // of several landmarks, when the order was found
   };
   Status find_order(const WorldView& world, Orders& orders);
-  void begin_order(const WorldView& world);
   void ask_next_way(const WorldView& world, Orders& orders);
   Status drive(const WorldView& world, Orders& orders);
   Status wait(const WorldView& world);
-  Status leave_out(const std::string& why);
+  Status leave_out(const std::string& why, bool may_be_left_out);
   [[nodiscard]] bool resolve(const WorldView& world);
   [[nodiscard]] Place place_of(const Stop& stop, const LandmarkGraph& graph) const;
 
@@ -79,6 +82,7 @@ class Visits {
   std::vector<Stop> stops_;  // in the order of the visits, once that is known
   std::size_t next_ = 0;
   std::optional<Place> goal_;
+  Unknown if_unknown_;
   std::string unknown_;  // why there is no goal
   std::optional<double> waiting_since_s_;
   std::vector<std::string> visited_;

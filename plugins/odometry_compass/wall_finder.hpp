@@ -42,7 +42,8 @@ class WallFinder {
   // What the echoes since the last search say of a wall that is known; those of which another one is nearer are that
   // one's. They are used up.
   [[nodiscard]] std::optional<SeenWall> look_for(const ExpectedWall& wall, std::span<const ExpectedWall> all);
-  // The wall that most echoes speak for; its echoes are used up. None, until enough new ones have come.
+  // The wall that most echoes speak for; its echoes are used up. Looks at all that are kept, whether or not it
+  // is_due(): that is for the caller to ask.
   [[nodiscard]] std::optional<SeenWall> find();
 
  private:

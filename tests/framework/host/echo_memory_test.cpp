@@ -104,6 +104,7 @@ TEST(EchoMemory, BadReadingsAreNone) {
   memory.see(echo(1.0, std::numeric_limits<double>::quiet_NaN()));
   memory.see(echo(1.1, 0.5, {}, 0.0, -1));
   memory.see(echo(1.2, 0.5, {}, 0.0, 1 << 30));
+  memory.see(echo(1.3, 0.5, {}, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_TRUE(memory.points().empty());
   EXPECT_FALSE(memory.covers(0.0));
 }

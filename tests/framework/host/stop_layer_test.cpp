@@ -113,17 +113,81 @@ TEST(StopLayer, WhatIsBesideTheRobotAlreadyMayBePassedAlong) {
 
 TEST(StopLayer, LooksAlongTheArcNotOnlyStraightAhead) {
   // Something to the left ahead: in the way of a left turn, not of a right one.
-  StopLayer layer({.slow_m = 0.02}, a_robot());
-  for (const double stamp_s : {1.0, 1.04}) {
-    Observation o = observation(stamp_s);
-    o.ranges.push_back(reading(0.25, radians(70.0), 3));
-    layer.see(o);
+  const auto allowed = [](const Twist& wanted) {
+    StopLayer layer({.slow_m = 0.02}, a_robot());
+    for (const double stamp_s : {1.0, 1.04}) {
+      Observation o = observation(stamp_s);
+      o.ranges.push_back(reading(0.25, radians(70.0), 3));
+      layer.see(o);
+    }
+    return layer.limit(wanted).v_mps;
+  };
+  EXPECT_LT(allowed({0.4, 1.2}), allowed({0.4, 0.0}));
+  EXPECT_EQ(allowed({0.4, -1.2}), 0.4);
+}
+
+// Rays all round, past a wall across the x axis.
+Observation before_a_wall(double stamp_s, const Pose2& pose, double wall_m) {
+  Observation o;
+  o.stamp_s = stamp_s;
+  o.T_odom_robot = pose;
+  for (int i = 0; i < 36; ++i) {
+    const double angle_rad = radians(10.0 * i);
+    const double ahead = std::cos(pose.theta_rad + angle_rad);
+    RangeReading ray = reading(ahead > 0.1 ? (wall_m - pose.x_m) / ahead : kInfinity, angle_rad, i);
+    ray.T_robot_sensor = {0.0, 0.0, angle_rad};
+    ray.half_beam_rad = 0.0;
+    o.ranges.push_back(ray);
   }
-  const double straight = layer.limit({0.4, 0.0}).v_mps;
-  const double left = layer.limit({0.4, 1.2}).v_mps;
-  const double right = layer.limit({0.4, -1.2}).v_mps;
-  EXPECT_LT(left, straight);
-  EXPECT_EQ(right, 0.4);
+  return o;
+}
+
+// The wanted arc clears the wall, the one on which the robot gets there does not.
+TEST(StopLayer, BrakesForTheArcThatTheRobotIsOnBeforeItHasTurned) {
+  RobotModel robot = a_robot();
+  robot.max_acceleration_mps2 = 0.2;
+  robot.max_turn_acceleration_radps2 = radians(20.0);
+  StopLayer layer({.slow_m = 0.02, .blind_s = std::nullopt}, robot);
+  const double wall_m = 1.6;
+  const auto towards = [](double from, double to, double most) { return from + std::clamp(to - from, -most, most); };
+  Pose2 pose;
+  Twist twist;
+  double nearest_m = kInfinity;
+  bool has_turned_away = false;
+  for (int tick = 1; tick < 600; ++tick) {
+    layer.see(before_a_wall(kTick_s * tick, pose, wall_m));
+    const Twist allowed = layer.limit(wall_m - pose.x_m > 0.7 ? Twist{0.4, 0.0} : Twist{0.4, 1.7});
+    twist.v_mps = towards(twist.v_mps, allowed.v_mps, robot.max_acceleration_mps2 * kTick_s);
+    twist.w_radps = towards(twist.w_radps, allowed.w_radps, robot.max_turn_acceleration_radps2 * kTick_s);
+    pose = pose * Pose2{twist.v_mps * kTick_s, 0.0, twist.w_radps * kTick_s};
+    nearest_m = std::min(nearest_m, wall_m - pose.x_m - robot.radius_m);
+    has_turned_away = has_turned_away || std::cos(pose.theta_rad) < -0.5;
+  }
+  EXPECT_GT(nearest_m, 0.02);
+  EXPECT_TRUE(has_turned_away) << "it is not stuck there";
+}
+
+RobotModel a_car() {
+  RobotModel robot = a_robot();
+  robot.kinematics = Kinematics::car;
+  robot.min_turning_radius_m = 0.6;
+  return robot;
+}
+
+TEST(StopLayer, ACarsArcIsNoTighterThanItsTurningCircle) {
+  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0}, a_car());
+  EXPECT_EQ(layer.limit({0.3, 1.5}), (Twist{0.3, 0.5}));
+  EXPECT_EQ(layer.limit({-0.3, 1.5}), (Twist{-0.3, 0.5}));
+  EXPECT_EQ(layer.limit({0.0, 1.5}), Twist{}) << "no car turns in place";
+  // What is ahead is clear of the wanted arc, but not of the one that a car can drive.
+  const auto allowed_mps = [](RobotModel robot) {
+    robot.max_acceleration_mps2 = 0.2;
+    return layer_that_sees({.ahead_m = 0.45}, robot, {.slow_m = 0.02, .blind_s = std::nullopt})
+        .limit({0.35, 1.7})
+        .v_mps;
+  };
+  EXPECT_EQ(allowed_mps(a_robot()), 0.35);
+  EXPECT_LT(allowed_mps(a_car()), 0.35);
 }
 
 TEST(StopLayer, SlowingDownKeepsTheArc) {
@@ -157,6 +221,45 @@ TEST(StopLayer, APolygonDoesNotTurnItsCornersIntoWhatItSees) {
   }
   EXPECT_LT(layer.limit({0.0, 1.0}).w_radps, 0.5);
   EXPECT_EQ(layer.limit({0.0, -0.5}).w_radps, -0.5) << "the other corners are free";
+}
+
+RobotModel a_long_box() {
+  RobotModel robot = a_robot();
+  robot.polygon_m = {{-0.4, -0.15}, {0.4, -0.15}, {0.4, 0.15}, {-0.4, 0.15}};
+  robot.radius_m = 0.43;
+  return robot;
+}
+
+TEST(StopLayer, APolygonThatIsTouchedCreepsWhenItTurnsInPlaceToo) {
+  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0}, a_long_box());
+  Observation bump = observation(1.08, {3.0, 3.0, 3.0});
+  bump.bumped = true;
+  layer.see(bump);
+  const double w_radps = layer.limit({0.0, 1.0}).w_radps;
+  EXPECT_NEAR(w_radps * std::hypot(0.4, 0.15), 0.04, 1e-9) << "its fastest corner";
+}
+
+TEST(StopLayer, APolygonTurnsSlowlyInTheSlowZone) {
+  RobotModel robot = a_long_box();
+  StopLayer layer({.slow_m = 0.2}, robot);
+  for (const double stamp_s : {1.0, 1.04}) {
+    Observation o = observation(stamp_s);
+    o.ranges.push_back(reading(0.5, radians(40.0), 3));  // the front left corner comes within 0.1 m of it
+    o.ranges.back().half_beam_rad = 0.0;
+    layer.see(o);
+  }
+  EXPECT_NEAR(layer.limit({0.0, 1.0}).w_radps * std::hypot(0.4, 0.15), 0.4 * robot.max_v_mps, 1e-9);
+  EXPECT_EQ(layer.limit({0.0, 0.3}).w_radps, 0.3) << "slow already";
+}
+
+TEST(StopLayer, TellsHowMuchOfATurnInPlaceItLeavesOut) {
+  const StopLayer layer({}, a_robot());
+  EXPECT_EQ(layer.held_back_ratio({0.0, 0.5}, {}), 1.0);
+  EXPECT_EQ(layer.held_back_ratio({0.0, -0.5}, {0.0, -0.25}), 0.5);
+  EXPECT_EQ(layer.held_back_ratio({0.0, 0.5}, {0.0, 0.5}), 0.0);
+  EXPECT_EQ(layer.held_back_ratio({0.0, 9.0}, {0.0, a_robot().max_w_radps}), 0.0) << "its own limit holds nothing back";
+  EXPECT_EQ(layer.held_back_ratio({0.2, 0.5}, {0.0, 0.5}), 1.0);
+  EXPECT_EQ(layer.held_back_ratio({}, {}), 0.0);
 }
 
 TEST(StopLayer, AnEchoBesideTheRobotDoesNotHoldItBack) {
@@ -255,11 +358,73 @@ TEST(StopLayer, StopsWithinTwoTicksWithoutReadings) {
   EXPECT_EQ(layer.limit({0.3, 0.2}), (Twist{0.3, 0.2}));
 }
 
+// Seconds of ten in which a robot with readings every read_s and odometry every odometry_s, each by itself, is let go.
+double let_go_s(double odometry_s, double read_s, double jitter_s) {
+  StopLayer layer({}, a_robot());
+  const int every = static_cast<int>(std::lround(read_s / odometry_s));
+  double gone_s = 0.0;
+  for (int tick = 1; tick * odometry_s < 10.0; ++tick) {
+    const double late_s = tick == 20 ? jitter_s : 0.0;  // the one before comes as late as that
+    const double stamp_s = 1.0 + tick * odometry_s;
+    layer.see(tick % every == 0 ? observation(stamp_s, {3.0, 3.0, 3.0}) : without_readings(stamp_s));
+    if (late_s > 0.0) layer.see(observation(stamp_s + late_s, {3.0, 3.0, 3.0}));
+    if (layer.limit({0.3, 0.0}) != Twist{}) gone_s += odometry_s;
+  }
+  return gone_s;
+}
+
+TEST(StopLayer, MeasuresThePeriodOfReadingsNotOfOdometry) {
+  EXPECT_GT(let_go_s(0.02, 0.1, 0.0), 9.7) << "only the first readings tell how often they come";
+  EXPECT_GT(let_go_s(0.04, 0.04, 0.0), 9.7);
+}
+
+TEST(StopLayer, OneStampThatJittersDoesNotBlindItForGood) {
+  EXPECT_GT(let_go_s(0.02, 0.1, 0.001), 9.6);
+  EXPECT_GT(let_go_s(0.04, 0.04, 0.001), 9.6);
+}
+
+TEST(StopLayer, ReadingsThatHaveBeenMissingOnceDoNotMakeItPatient) {
+  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0});
+  double stamp_s = 1.0 + kTick_s;
+  for (int i = 0; i < 20; ++i) layer.see(observation(stamp_s += kTick_s, {3.0, 3.0, 3.0}));
+  layer.see(observation(stamp_s += 3.0, {3.0, 3.0, 3.0}));
+  layer.see(observation(stamp_s += kTick_s, {3.0, 3.0, 3.0}));
+  for (int i = 0; i < 2; ++i) layer.see(without_readings(stamp_s += kTick_s));
+  EXPECT_EQ(layer.limit({0.3, 0.0}), Twist{});
+}
+
 TEST(StopLayer, AReadingThatIsNoNumberIsNoReading) {
   StopLayer layer = layer_that_sees({3.0, 3.0, 3.0});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   layer.see(observation(1.08, {nan, nan, nan}));
   layer.see(observation(1.12, {nan, nan, nan}));
+  EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
+}
+
+// Also for a moment only: what it has seen in a frame that is lost may be anywhere.
+TEST(StopLayer, OdometryThatIsNoNumberIsStale) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity}) {
+    for (const Pose2& T_odom_robot : {Pose2{bad, 0.0, 0.0}, Pose2{0.0, bad, 0.0}, Pose2{0.0, 0.0, bad}}) {
+      StopLayer layer = layer_that_sees({.ahead_m = 0.17});
+      layer.see(observation(1.08, {.ahead_m = 0.17}, T_odom_robot));
+      EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
+      EXPECT_GT(layer.figures().stale_s, 0.0);
+      layer.see(without_readings(1.10));
+      EXPECT_LE(layer.limit({0.3, 0.0}).v_mps, 0.04) << "nobody has looked since";
+      layer.see(observation(1.12, {.ahead_m = 0.17}));
+      EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.0);
+    }
+  }
+}
+
+TEST(StopLayer, AReadingFromNoPlaceIsNoReading) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0});
+  for (const double stamp_s : {1.08, 1.12}) {
+    Observation o = observation(stamp_s, {0.17, 3.0, 3.0});
+    o.ranges[0].T_robot_sensor.x_m = o.ranges[1].T_robot_sensor.theta_rad = o.ranges[2].half_beam_rad = nan;
+    layer.see(o);
+  }
   EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
 }
 

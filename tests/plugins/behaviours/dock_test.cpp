@@ -147,6 +147,43 @@ TEST(Dock, WaitsForWhatStandsBetweenAndFailsWhenItStays) {
             (Status{Progress::failure, "something stands between the robot and the right side of L1 (square)"}));
 }
 
+bool is_near(const FakeHost& host) {
+  return (host.T_map_robot.position() - kCentre).norm() < 1.1;
+}
+
+// The second one looks as straight ahead, and past it.
+TEST(Dock, SilenceOfAnotherTransducerDoesNotClearWhatStandsBetween) {
+  for (const bool silent_first : {false, true}) {
+    FakeHost host = room();
+    host.robot = with_sonar_ahead(host.robot);
+    host.observe = [&](const FakeHost& now) {
+      Observation seen = ahead(now, is_near(now) ? 0.4 : 0.0);
+      RangeReading silent = seen.ranges.front();
+      silent.sensor = 1;
+      silent.range_m = std::numeric_limits<double>::infinity();
+      seen.ranges.insert(silent_first ? seen.ranges.begin() : seen.ranges.end(), silent);
+      return seen;
+    };
+    Dock step = dock("{landmark: L1, side: right, patience_s: 5}");
+    EXPECT_THAT(host.run(step, 200.0).reason, HasSubstr("something stands between the robot and the right side"));
+  }
+}
+
+TEST(Dock, WaitingForWhatStandsBetweenDoesNotCountAsBeingHeldBack) {
+  FakeHost host = room();
+  host.robot = with_sonar_ahead(host.robot);
+  double near_since_s = -1.0;
+  // Somebody steps before it for three seconds, aside for a moment, and once more.
+  host.observe = [&](const FakeHost& now) {
+    if (near_since_s < 0.0 && is_near(now)) near_since_s = now.time_s;
+    const double near_s = near_since_s < 0.0 ? -1.0 : now.time_s - near_since_s;
+    return ahead(now, (near_s >= 0.0 && near_s < 3.0) || (near_s > 3.15 && near_s < 6.5) ? 0.4 : 0.0);
+  };
+  Dock step = dock("{landmark: L1, side: right, patience_s: 5}");
+  const Status status = host.run(step, 200.0);
+  EXPECT_EQ(status.progress, Progress::success) << status.reason;
+}
+
 TEST(Dock, StaysOnItsSideWhenTheLandmarkIsTurnedOnTheMap) {
   FakeHost host = room();
   Dock step = dock("{landmark: L1, side: right}");
@@ -177,6 +214,12 @@ TEST(Dock, FailsWhenItIsHeldBack) {
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_THAT(status.reason, HasSubstr("held back 0.5"));
   EXPECT_THAT(status.reason, HasSubstr("before the right side of L1 (square), not at 0.40 m"));
+}
+
+TEST(Dock, TellsHowLongItsWayStillTakes) {
+  FakeHost host = room();
+  Dock step = dock("{landmark: L1, side: right}");
+  EXPECT_GT(host.first_left_s(step, 20.0).value_or(0.0), 1.0);
 }
 
 TEST(Dock, TellsWhereItsSettingsAreWrong) {

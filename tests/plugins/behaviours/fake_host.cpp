@@ -130,12 +130,23 @@ Status FakeHost::tick(Behaviour& behaviour) {
   world.T_map_start = T_map_start;
   Status status = behaviour.tick(world, *this);
   const Twist allowed = stop_layer ? stop_layer(T_map_robot, wanted_) : wanted_;
-  held_back_ratio = wanted_.v_mps == 0.0 ? 0.0 : 1.0 - allowed.v_mps / wanted_.v_mps;
+  held_back_ratio = 0.0;
+  if (wanted_.v_mps != 0.0)
+    held_back_ratio = 1.0 - allowed.v_mps / wanted_.v_mps;
+  else if (wanted_.w_radps != 0.0)
+    held_back_ratio = 1.0 - allowed.w_radps / wanted_.w_radps;
   move(allowed);
   driven.push_back(T_map_robot);
   time_s += kTick_s;
   if (++ticks_ % kRevealEvery == 0) reveal();
   return status;
+}
+
+std::optional<double> FakeHost::first_left_s(Behaviour& behaviour, double at_most_s) {
+  const double end_s = time_s + at_most_s;
+  Status status;
+  while (status.progress == Progress::running && !status.left_s && time_s < end_s) status = tick(behaviour);
+  return status.left_s;
 }
 
 Status FakeHost::run(Behaviour& behaviour, double at_most_s) {

@@ -45,6 +45,8 @@ class FakeHost : public Orders {
   // Ticks until the behaviour ends or the time is up (then its status is still running).
   Status run(Behaviour& behaviour, double at_most_s);
   Status tick(Behaviour& behaviour);
+  // Ticks until it tells how long it still takes; none when it ends or the time is up before.
+  std::optional<double> first_left_s(Behaviour& behaviour, double at_most_s);
 
   [[nodiscard]] bool is_solid(const Point& p) const;
   // From the robot's centre to the nearest solid square.

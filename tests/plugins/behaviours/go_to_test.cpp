@@ -102,6 +102,20 @@ TEST(GoTo, AsksForAllLandmarksOfTheNearestCategory) {
   EXPECT_GE(host.planned[0].radius_m, host.robot.radius_m);
 }
 
+// As planners do: a place that names an unknown landmark is refused as a whole.
+TEST(GoTo, LooksItsGoalUpAgainWhenOneOfItsLandmarksIsRetired) {
+  FakeHost host = host_with_landmarks();
+  host.graph.add(landmark("square", {0.5, 1.5, 0}, {0.5, 1.2, 0}));
+  GoTo go(config_for("nearest square"), 5);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(host.tick(go).progress, Progress::running);
+  host.graph.retire(3, "merged into L2");
+  host.planned.clear();
+  const Status status = host.run(go, 60.0);
+  EXPECT_EQ(status, (Status{Progress::success, "at desk (square)"}));
+  ASSERT_FALSE(host.planned.empty());
+  for (const PlanRequest& request : host.planned) EXPECT_EQ(request.to.landmarks, (std::vector<LandmarkId>{2}));
+}
+
 TEST(GoTo, NamesTheLandmarksThereAreWhenItDoesNotKnowOne) {
   FakeHost host = host_with_landmarks();
   GoTo go(config_for("desc"), 1);

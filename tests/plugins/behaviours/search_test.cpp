@@ -174,6 +174,18 @@ TEST(Inspect, EndsAfterItsLastLapHoweverTheDegreeRises) {
   EXPECT_THAT(status.reason, HasSubstr("in 1 lap, that was the last lap"));
 }
 
+TEST(Search, TellsHowLongExploringStillTakes) {
+  FakeHost host(kRoom);
+  Search step = search("{category: square}");
+  EXPECT_TRUE(host.first_left_s(step, 120.0));
+}
+
+TEST(Inspect, TellsHowLongTheWayThereStillTakes) {
+  FakeHost host = room_with_block();
+  Inspect step = inspect("L1");
+  EXPECT_GT(host.first_left_s(step, 20.0).value_or(0.0), 0.0);
+}
+
 TEST(Inspect, SaysSoWhenTheLandmarkIsUnknownOrGone) {
   FakeHost host = room_with_block();
   Inspect unknown = inspect("nearest cirle");

@@ -72,6 +72,16 @@ TEST(Drive, FailsWhenItIsHeldBack) {
   EXPECT_THAT(status.reason, HasSubstr("on the way to (2.90, 0.65)"));
 }
 
+// A robot that stands with its back to the point, and must turn first.
+TEST(Drive, FailsWhenItsTurnInPlaceIsHeld) {
+  FakeHost host(kHall);
+  host.stop_layer = [](const Pose2&, const Twist&) { return Twist{}; };
+  DriveTo drive({.points_m = {host.T_map_robot * Point(-0.3, 0.0)}, .patience_s = 3.0}, 1);
+  const Status status = host.run(drive, 60.0);
+  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_NEAR(host.time_s, 3.0, 0.2);
+}
+
 TEST(Drive, ScatteredPointsDifferBySeedAndStayNear) {
   const auto end_of = [](std::uint64_t seed) {
     FakeHost host(kHall);

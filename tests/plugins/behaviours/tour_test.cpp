@@ -108,6 +108,14 @@ TEST(Tour, WaitsAtEachPlaceAndRunsOutOfTime) {
   EXPECT_NEAR(host.time_s, 30.0, 0.1);
 }
 
+TEST(Tour, TellsHowLongTheWayToThePlaceStillTakes) {
+  FakeHost host = hall();
+  Tour step = tour("{places: [[2.6, 0.5]]}");
+  EXPECT_GT(host.first_left_s(step, 20.0).value_or(0.0), 1.0);
+  Patrol patrol(config_of<PatrolConfig>("{rounds: 1, places: [[0.5, 1.4]]}"), 1);
+  EXPECT_GT(host.first_left_s(patrol, 20.0).value_or(0.0), 1.0);
+}
+
 TEST(Tour, TellsWhereItsSettingsAreWrong) {
   EXPECT_EQ(error_of([] { tour("{places: []}"); }),
             "mission.yaml:1:10: places must be a list of 1 to 50 places, found an empty list");
@@ -148,6 +156,32 @@ TEST(Patrol, WithoutPlacesVisitsAllLandmarksThatAreKnownWhenARoundBegins) {
     ASSERT_LT(host.time_s, 600.0);
   }
   EXPECT_THAT(host.said.back(), HasSubstr("visited 3 of 3 places"));
+}
+
+TEST(Patrol, LeavesOutALandmarkThatItChoseItselfAndThatIsRetiredDuringTheRound) {
+  FakeHost host = hall();
+  host.graph.add(landmark_at("triangle", {1.5, 0.3, 0.0}, {1.5, 0.5, 0.0}));
+  Patrol step(config_of<PatrolConfig>("1"), 1);
+  EXPECT_EQ(host.run(step, 1.0).progress, Progress::running);
+  host.graph.retire(3, "merged into L2");
+  EXPECT_EQ(host.run(step, 300.0), (Status{Progress::success, "1 round, 2 places visited, 1 left out"}));
+  EXPECT_THAT(host.said.back(), HasSubstr("left out: L3 (no landmark \"L3\""));
+
+  FakeHost asked = hall();
+  asked.graph.add(landmark_at("triangle", {1.5, 0.3, 0.0}, {1.5, 0.5, 0.0}));
+  Patrol named(config_of<PatrolConfig>("{rounds: 1, places: [L1, L3]}"), 1);
+  EXPECT_EQ(asked.run(named, 1.0).progress, Progress::running);
+  asked.graph.retire(3, "merged into L2");
+  EXPECT_EQ(asked.run(named, 300.0).progress, Progress::failure) << "that one was asked for";
+}
+
+TEST(Patrol, SaysHowManyLandmarksARoundLeavesOut) {
+  FakeHost host = hall();
+  for (int i = 0; i < 51; ++i) host.graph.add(landmark_at("circle", {1.5, 0.3, 0.0}, {1.5, 0.5, 0.0}));
+  Patrol step(config_of<PatrolConfig>("1"), 1);
+  EXPECT_EQ(host.tick(step).progress, Progress::running);
+  EXPECT_THAT(host.said, ElementsAre("a round has 50 places at most: 3 of 53 landmarks are left out of it",
+                                     "round 1 of 1 begins"));
 }
 
 TEST(Patrol, FailsWithoutLandmarksAndTellsWrongRounds) {
