@@ -27,7 +27,7 @@ class OfficeCapture : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = fresh_folder("office_capture");
     const Finished run =
-        run_cairn({"run", source_folder() + "/config/missions/office.yaml", "--seed", "1", "--out", folder_.string()});
+        run_cairn({"run", source_folder() + "/config/missions/office.yaml", "--seed", "7", "--out", folder_.string()});
     ASSERT_EQ(run.exit_status, 0) << run.err;
   }
   static Finished capture(const std::string& at, const std::string& category, const std::string& file,
