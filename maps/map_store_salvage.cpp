@@ -170,18 +170,27 @@ class Copying {
     try {
       Statement stored(from_, "SELECT row_count, crc32 FROM checksums WHERE table_name = ?");
       stored.bind_text(table_->name);
-      if (!stored.step()) return lose("has no checksum: what is missing in it cannot be told");
+      if (!stored.step()) {
+        note_unproven();
+        return lose("has no checksum: what is missing in it cannot be told");
+      }
       const Checksum found = checksum_of(to_, *table_);
       if (found.row_count != stored.integer(0))
         return lose(std::to_string(found.row_count) + " of its " + std::to_string(stored.integer(0)) +
                     " rows can be read");
       if (found.crc != stored.integer(1) && !unreadable_) {
         lose("its content does not match its checksum: some value in it was damaged or edited; kept, but not proven");
-        unproven_ += (unproven_.empty() ? "" : ", ") + std::string(table_->name);
+        note_unproven();
       }
     } catch (const StoreError& error) {
+      note_unproven();
       lose(std::string("its checksum cannot be read: ") + error.what());
     }
+  }
+  // Of nothing there is nothing to prove.
+  void note_unproven() {
+    if (checksum_of(to_, *table_).row_count > 0)
+      unproven_ += (unproven_.empty() ? "" : ", ") + std::string(table_->name);
   }
 
   Database& from_;

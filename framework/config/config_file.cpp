@@ -14,6 +14,8 @@
 #include <sstream>
 
 #include "framework/config/config_value.hpp"
+#include "framework/config/unclosed_quote.hpp"
+#include "maps/exchange/source_text.hpp"
 
 namespace cairn {
 namespace {
@@ -249,6 +251,7 @@ std::string text_of(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw ConfigError(place, "no such file" + near_files(file));
   if (std::filesystem::is_directory(file, error)) throw ConfigError(place, "a folder, not a file");
+  if (exchange::may_never_open(file)) throw ConfigError(place, "no file: a pipe, a socket or a device");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw ConfigError(place, std::string("cannot be read: ") + std::strerror(errno));
@@ -260,6 +263,11 @@ std::string text_of(const std::filesystem::path& file) {
   }
   if (stream.bad()) throw ConfigError(place, "cannot be read to its end");
   return text;
+}
+
+void check_quotes(const std::string& text, const std::string& file) {
+  if (const auto place = unclosed_quote(text, file))
+    throw ConfigError(*place, "the quote that is opened here is never closed");
 }
 
 }  // namespace
@@ -274,10 +282,12 @@ ConfigValue parse_config_text(const std::string& text, const std::string& file_n
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
+    check_quotes(text, file_name);
     SourcePlace place{file_name, 0, 0};
     if (!error.mark.is_null()) place = {file_name, error.mark.line + 1, error.mark.column + 1};
     throw ConfigError(place, "not valid YAML: " + error.msg);
   }
+  check_quotes(text, file_name);
   ConfigValue root = builder.take();
   if (root.kind == ConfigValue::Kind::null) {
     root.kind = ConfigValue::Kind::map;

@@ -59,12 +59,19 @@ void warn_of_rounding(double resolution_m, const ConfigValue& value, std::vector
                      exchange::number_text(error_percent) + " % off");
 }
 
-// As the path is written; a link that lies in the folder is nothing that the file could have made.
+bool lies_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const std::filesystem::path within = file.lexically_relative(folder);
+  return !within.empty() && std::ranges::find(within, std::filesystem::path("..")) == within.end();
+}
+
+// As the path is written, and where its links lead: an archive may hold both the file and the link.
 void check_inside(const MapServerFile& file, const std::filesystem::path& yaml) {
-  const std::filesystem::path folder = std::filesystem::absolute(yaml).parent_path().lexically_normal();
-  const std::filesystem::path within =
-      std::filesystem::absolute(file.picture).lexically_normal().lexically_relative(folder);
-  if (!within.empty() && std::ranges::find(within, std::filesystem::path("..")) == within.end()) return;
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(yaml).parent_path();
+  const fs::path picture = fs::absolute(file.picture);
+  if (lies_in(folder.lexically_normal(), picture.lexically_normal()) &&
+      lies_in(fs::weakly_canonical(folder), fs::weakly_canonical(picture)))
+    return;
   throw ConfigError(file.picture_place, "image: " + shown(file.picture.string()) +
                                             " is outside the folder of the map; --allow-outside reads it all the same");
 }

@@ -68,11 +68,19 @@ void SourceText::check_coordinate(std::size_t offset, double coordinate_m) const
                      number_text(kMostCoordinate_m) + " m");
 }
 
+bool may_never_open(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) return false;
+  const std::string name = file.string();
+  return !(name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/"));
+}
+
 std::string text_of_file(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw ExchangeError(file.string() + ": no such file");
   if (std::filesystem::is_directory(status)) throw ExchangeError(file.string() + ": is a folder");
+  if (may_never_open(file)) throw ExchangeError(file.string() + ": is no file: a pipe, a socket or a device");
   std::ifstream in(file, std::ios::binary);
   if (!in) throw ExchangeError(file.string() + ": cannot be read");
   std::string text;

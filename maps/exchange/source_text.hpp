@@ -42,6 +42,10 @@ class SourceText {
   std::string file_;
 };
 
+// A named pipe, a socket or a device: opening or reading it may never return. What a shell hands over (/dev/stdin,
+// /dev/fd/N) is none.
+[[nodiscard]] bool may_never_open(const std::filesystem::path& file);
+
 // All bytes of a file. Throws ExchangeError: no such file, a folder, larger than 4 GB, not readable to its end.
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& file);
 

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <clocale>
@@ -67,6 +69,31 @@ TEST(ConfigFile, AliasesAreCopies) {
   const ConfigValue root = parse_config_text("a: &x {b: [1, 2]}\nc: *x\n", "m.yaml");
   EXPECT_EQ(root.find("c")->find("b")->items[1].scalar, "2");
   EXPECT_EQ(root.find("c")->place.text(), "m.yaml:1:4") << "a bad value is where it is written";
+}
+
+// yaml-cpp takes the end of the text for the end of a quote.
+TEST(ConfigFile, AQuoteThatIsNeverClosedIsToldWhereItIsOpened) {
+  const std::string sentence = ": the quote that is opened here is never closed";
+  EXPECT_EQ(parse_error("steps:\n  - log: \"abc\n  - goto: home\n  - save: a.cairn\n"), "m.yaml:2:10" + sentence);
+  EXPECT_EQ(parse_error("mission: 'office\nsteps: []\n"), "m.yaml:1:10" + sentence);
+  EXPECT_EQ(parse_error("a: 1\nb: \"x"), "m.yaml:2:4" + sentence);
+  EXPECT_EQ(parse_error("a: \"two\n  lines\"\nb: it's\nc: [1, 'x]\nd: 3\n"), "m.yaml:4:8" + sentence);
+  EXPECT_EQ(parse_config_text("a: \"two\n  lines\"\nb: it's 5\" wide # don't\nc: 'it''s'\n", "m.yaml").entries.size(),
+            3U);
+  EXPECT_EQ(parse_config_text("a: |\n  \"open\nb: 1\n", "m.yaml").entries.size(), 2U);
+}
+
+TEST(ConfigFile, APipeIsNotWaitedFor) {
+  const std::filesystem::path pipe =
+      std::filesystem::path(testing::TempDir()) / ("cairn_pipe_" + std::to_string(::getpid()) + ".yaml");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    (void)read_config_file(pipe);
+    ADD_FAILURE() << "read";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(std::string(error.what()), pipe.string() + ": no file: a pipe, a socket or a device");
+  }
+  std::filesystem::remove(pipe);
 }
 
 TEST(ConfigFile, SaysWhatIsWrongAndWhere) {
@@ -151,9 +178,9 @@ TEST(ConfigFile, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(reading("huge.yaml"), "huge.yaml: larger than 16 MiB");
 }
 
-TEST(ConfigFile, ReadsTheEndlessOnlyToItsLimit) {
+TEST(ConfigFile, DevicesAreNoFiles) {
   if (!std::filesystem::exists("/dev/zero")) GTEST_SKIP();
-  EXPECT_EQ(error_of([] { (void)read_config_file("/dev/zero"); }), "/dev/zero: larger than 16 MiB");
+  EXPECT_EQ(error_of([] { (void)read_config_file("/dev/zero"); }), "/dev/zero: no file: a pipe, a socket or a device");
 }
 
 // Text put together from what YAML is made of, at random.

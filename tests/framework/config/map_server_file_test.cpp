@@ -122,8 +122,11 @@ TEST(MapServerFile, APictureOutsideTheFolderIsReadOnlyWhenThatIsAllowed) {
   const auto yaml_of = [&](const std::string& image) {
     return folder.write("maps/m.yaml", Keys{}.with("image", image).text());
   };
-  for (const std::string& image : {std::string("../map.pgm"), std::string("pictures/../../map.pgm"),
-                                   (folder.path() / "map.pgm").string(), std::string("/etc/passwd")}) {
+  std::filesystem::create_symlink("../map.pgm", folder.path() / "maps/out.pgm");
+  std::filesystem::create_symlink("pictures/map.pgm", folder.path() / "maps/in.pgm");
+  for (const std::string& image :
+       {std::string("../map.pgm"), std::string("out.pgm"), std::string("pictures/../../map.pgm"),
+        (folder.path() / "map.pgm").string(), std::string("/etc/passwd")}) {
     const std::filesystem::path yaml = yaml_of(image);
     try {
       static_cast<void>(load_map_server(yaml));
@@ -135,8 +138,9 @@ TEST(MapServerFile, APictureOutsideTheFolderIsReadOnlyWhenThatIsAllowed) {
     }
   }
   EXPECT_EQ(load_map_server(yaml_of("../map.pgm"), PictureFolder::any).grid.bounds().width(), 1);
-  for (const std::string& image : {std::string("pictures/map.pgm"), std::string("./pictures/../pictures/map.pgm"),
-                                   (folder.path() / "maps/pictures/map.pgm").string()})
+  for (const std::string& image :
+       {std::string("pictures/map.pgm"), std::string("in.pgm"), std::string("./pictures/../pictures/map.pgm"),
+        (folder.path() / "maps/pictures/map.pgm").string()})
     EXPECT_EQ(load_map_server(yaml_of(image)).grid.bounds().width(), 2) << image;
 }
 
