@@ -6,17 +6,10 @@
 
 #include "framework/config/template_file.hpp"
 #include "maps/captured_outline.hpp"
+#include "plugins/behaviours/file_name.hpp"
 
 namespace cairn::behaviours {
 namespace {
-
-std::string with_ending(const ConfigValue& value, const std::string& usual, const std::string& ending) {
-  if (value.kind == ConfigValue::Kind::null) return usual;
-  std::string name = config_detail::to_file_name(value, "file");
-  if (!name.ends_with(ending) || name == ending)
-    throw ConfigError(value.place, "file must end in " + ending + ", found " + shown(name));
-  return name;
-}
 
 std::string number(const char* format, double value) {
   char text[64];
@@ -64,7 +57,7 @@ void CaptureTemplateConfig::describe(Fields<CaptureTemplateConfig>& fields) {
 CaptureTemplate::CaptureTemplate(const CaptureTemplateConfig& config)
     : at_(to_place_name(config.at, "at")),
       category_(config_detail::to_file_name(config.name, "name")),
-      file_name_(with_ending(config.file, category_ + ".yaml", ".yaml")),
+      file_name_(file_name_of(config.file, category_ + ".yaml", ".yaml")),
       radius_m_(config.radius_m) {
   check_category(category_, config.name.place);
 }
@@ -109,7 +102,7 @@ void PlanQueryConfig::describe(Fields<PlanQueryConfig>& fields) {
 PlanQuery::PlanQuery(const PlanQueryConfig& config)
     : question_{config.from,        config_detail::to_text(config.to, "to"), config.via, config.avoid, config.closed,
                 config.alternatives},
-      file_name_(with_ending(config.file, "answers.jsonl", ".jsonl")) {
+      file_name_(file_name_of(config.file, "answers.jsonl", ".jsonl")) {
   question_.cost = config.cost == PlanQueryConfig::Cost::time        ? "time"
                    : config.cost == PlanQueryConfig::Cost::clearance ? "clearance"
                                                                      : "length";

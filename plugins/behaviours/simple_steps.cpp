@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <random>
 
+#include "plugins/behaviours/file_name.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
@@ -105,13 +107,13 @@ Status Wait::tick(const WorldView& world, Orders&) {
 }
 
 void SaveConfig::describe(Fields<SaveConfig>& fields) {
-  fields.raw("file", &SaveConfig::file, "text", "name of the saved map in the output folder, e.g. office.cairn")
-      .required = true;
+  fields.raw("file", &SaveConfig::file, "text", "name of the saved map in the output folder, NAME.cairn").required =
+      true;
   fields.shorthand("file");
 }
 
 // Maps are saved into the output folder.
-Save::Save(const SaveConfig& config) : file_name_(config_detail::to_file_name(config.file, "save")) {}
+Save::Save(const SaveConfig& config) : file_name_(file_name_of(config.file, "map.cairn", ".cairn")) {}
 
 Status Save::tick(const WorldView&, Orders& orders) {
   return orders.save(file_name_);

@@ -136,5 +136,23 @@ TEST(Save, RefusesAnythingButAPlainName) {
   }
 }
 
+// What the run writes at its end (report.json, map.png) would take its place.
+TEST(Save, RefusesWhatIsNoMapsName) {
+  for (const char* name : {"report.json", "map.png", "office", ".cairn", "control.sock"}) {
+    try {
+      Save save({.file = scalar(name)});
+      ADD_FAILURE() << name;
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("mission.yaml:7:11: file must end in .cairn")) << name;
+    }
+  }
+  try {
+    Save save({.file = scalar("office.autosave.cairn")});
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is a name of autosaves"));
+  }
+}
+
 }  // namespace
 }  // namespace cairn::behaviours
