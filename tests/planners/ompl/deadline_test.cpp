@@ -19,7 +19,7 @@ using test::overrun_of;
 
 constexpr int kRuns = 3;
 constexpr int kMostRuns = 30;  // the least overshoot is judged: a run may be disturbed, a habit shows in all
-constexpr auto kPromised = std::chrono::milliseconds(10);
+constexpr auto kPromised = test::kSlowdown * std::chrono::milliseconds(10);
 
 // 200 x 200 cells: corridors two metres wide, one after another, with a post in the middle of each.
 test::DrawnWorld winding_world() {

@@ -14,7 +14,7 @@ using Clock = Budget::Clock;
 using test::Overrun;
 using test::overrun_of;
 
-constexpr auto kPromised = std::chrono::milliseconds(10);
+constexpr auto kPromised = test::kSlowdown * std::chrono::milliseconds(10);
 constexpr double kRadius_m = 0.2;
 
 void fill(OccupancyGrid& grid, const CellBox& box, LogOdds odds) {

@@ -17,6 +17,18 @@ namespace cairn::test {
 
 constexpr auto kMostLate = std::chrono::milliseconds(2);
 
+// Promises of processor time are of the program as it is shipped; under the address sanitizer it is many times slower.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define CAIRN_IS_INSTRUMENTED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(CAIRN_IS_INSTRUMENTED)
+constexpr int kSlowdown = 10;
+#else
+constexpr int kSlowdown = 1;
+#endif
+
 // Processor time of one thread.
 inline Budget::Clock::duration worked(clockid_t thread) {
   timespec time{};
