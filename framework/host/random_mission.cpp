@@ -146,7 +146,11 @@ std::string Drawing::go_to_landmark() {
   if (categories.empty()) return go_to_place();
   const std::string& category =
       categories[static_cast<std::size_t>(chance_.whole(0, static_cast<int>(categories.size()) - 1))];
-  return fmt::format("goto: {{landmark: nearest {}, at_most_s: {:g}}}", category, config_.goal_at_most_s);
+  // Who wants to go to one looks for it first: search is done at once where one is known.
+  return fmt::format(
+      "sequence: [{{always: {{search: {{category: {}, at_most_s: {:g}}}}}}}, {{goto: {{landmark: nearest {}, "
+      "at_most_s: {:g}}}}}]",
+      category, config_.explore_at_most_s, category, config_.goal_at_most_s);
 }
 
 // The settings of two or three of them.

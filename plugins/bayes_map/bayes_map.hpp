@@ -8,6 +8,7 @@
 
 #include "framework/contracts/mapper.hpp"
 #include "plugins/bayes_map/config.hpp"
+#include "plugins/sonar_model/standing_room.hpp"
 
 namespace cairn::bayes_map {
 
@@ -19,13 +20,16 @@ class BayesMap final : public Mapper {
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
   void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
+  // Whose room is free where it stands.
+  void clear_under(const RobotModel& robot) { standing_room_ = sonar_model::StandingRoom(robot); }
 
  private:
   void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);
 
   sonar_model::BeamModel beam_model_;
   OccupancyGrid grid_;
-  CellChanges changes_;          // of the latest call
+  CellChanges changes_;  // of the latest call
+  sonar_model::StandingRoom standing_room_;
   std::vector<CellSpan> spans_;  // kept for its memory only
 };
 

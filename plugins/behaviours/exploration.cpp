@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plugins/behaviours/openings.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
@@ -168,16 +170,22 @@ bool Exploration::is_shut_in(const WorldView& world) const {
   return static_cast<double>(back) < kShutInRatio * static_cast<double>(memory_.trace.size());
 }
 
+bool Exploration::leads_on(const WorldView& world, double clearance_m) const {
+  return tighter_leads_on(space_now(world, {kEverywhere_m, config_.clearance_m}),
+                          space_now(world, {kEverywhere_m, clearance_m}));
+}
+
 bool Exploration::choose(const WorldView& world, Orders& orders) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   chosen_s_ = world.time_s;
   follow_state_ = {0.0, follow_state_.turning};
   const double tight_m = std::min(config_.clearance_m, kTightClearance_m);
-  // The whole map only when there is nothing to do around here; less room only when shut in.
+  // The whole map only when there is nothing to do around here; less room only when shut in, or where a door seems
+  // narrow also from right ahead.
   const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world) ||
                      choose_by({kEverywhere_m, config_.clearance_m}, world) ||
                      (is_shut_in(world) && choose_by({kEverywhere_m, tight_m}, world)) || choose_again(world) ||
-                     choose_opening(world);
+                     choose_opening(world) || (leads_on(world, tight_m) && choose_by({kEverywhere_m, tight_m}, world));
   if (!found) return false;
   if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
     said_about_ = task_->about;

@@ -38,6 +38,8 @@ class Exploration {
   };
   [[nodiscard]] FreeSpace space_now(const WorldView& world, const Search& search) const;
   [[nodiscard]] bool is_shut_in(const WorldView& world) const;
+  // Whether keeping less room gets the robot to more of the map.
+  [[nodiscard]] bool leads_on(const WorldView& world, double clearance_m) const;
   [[nodiscard]] bool choose_by(const Search& search, const WorldView& world);
   [[nodiscard]] bool is_blocked(const WorldView& world) const;
   [[nodiscard]] bool is_on_lap(const WorldView& world) const;

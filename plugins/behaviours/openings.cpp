@@ -9,10 +9,11 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kRoomBehind_m2 = 1.0;
+constexpr double kRoomToDrive_m2 = 0.2;  // what is seen of a room through its door
 constexpr double kSame_m = 0.5;
 
 // Roomy places that only the slimmer robot reaches, in connected groups.
-std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& squeezed) {
+std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& squeezed, double least_m2) {
   std::vector<Cell> behind;
   const CellBox box = space.box();
   for (int y = box.min.y; y < box.max.y; ++y) {
@@ -24,7 +25,7 @@ std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& sq
   }
   std::vector<CellGroup> groups = grouped(behind, 1);
   const double cell_m2 = space.cell_m() * space.cell_m();
-  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < kRoomBehind_m2; });
+  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < least_m2; });
   return groups;
 }
 
@@ -51,7 +52,7 @@ std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& 
                                        const std::vector<Point>& seen) {
   std::optional<Opening> best;
   double best_m = std::numeric_limits<double>::infinity();
-  for (const CellGroup& place : places_behind(space, squeezed)) {
+  for (const CellGroup& place : places_behind(space, squeezed, kRoomBehind_m2)) {
     const Cell nearest = *std::min_element(place.begin(), place.end(),
                                            [&](Cell a, Cell b) { return squeezed.cost_m(a) < squeezed.cost_m(b); });
     const std::optional<Opening> opening = opening_on_way(space, squeezed.path_to(nearest));
@@ -63,6 +64,10 @@ std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& 
     best_m = space.cost_m(opening->lookout);
   }
   return best;
+}
+
+bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter) {
+  return !places_behind(space, tighter, kRoomToDrive_m2).empty();
 }
 
 }  // namespace cairn::behaviours

@@ -20,4 +20,7 @@ struct Opening {
 [[nodiscard]] std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& squeezed,
                                                      const std::vector<Point>& seen);
 
+// Whether a robot that keeps less room, in the same space, gets to where there is room again.
+[[nodiscard]] bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter);
+
 }  // namespace cairn::behaviours

@@ -44,6 +44,7 @@ const CellChanges& HimmMap::integrate(const Observation& observation, const Pose
   changes_.spans.clear();
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
+  for (const Cell cell : standing_room_.unknown_under(grid_, pose.T_map_robot)) set_certainty(cell, 0);
   sonar_model::tidy(changes_.spans);
   return changes_;
 }

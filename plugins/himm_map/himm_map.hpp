@@ -12,6 +12,7 @@
 
 #include "framework/contracts/mapper.hpp"
 #include "plugins/himm_map/config.hpp"
+#include "plugins/sonar_model/standing_room.hpp"
 #include "plugins/sonar_model/tile_map.hpp"
 
 namespace cairn::himm_map {
@@ -24,6 +25,8 @@ class HimmMap final : public Mapper {
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
   // Certainties as its values say; a cell that was in the middle of the scale is one never seen.
   void begin_with(const OccupancyGrid& grid);
+  // Whose room is free where it stands.
+  void clear_under(const RobotModel& robot) { standing_room_ = sonar_model::StandingRoom(robot); }
   [[nodiscard]] int certainty(Cell cell) const;
 
  private:
@@ -35,7 +38,8 @@ class HimmMap final : public Mapper {
   std::vector<LogOdds> log_odds_of_certainty_;
   OccupancyGrid grid_;
   sonar_model::TileMap<std::array<std::uint8_t, sonar_model::kCellsInTile>> certainties_;
-  CellChanges changes_;          // of the latest call
+  CellChanges changes_;  // of the latest call
+  sonar_model::StandingRoom standing_room_;
   std::vector<CellSpan> spans_;  // kept for its memory only
 };
 

@@ -11,6 +11,7 @@ void register_module(cairn::Registrar& registrar) {
       "himm", "occupancy grid from sonar, for comparison: histogrammic in-motion mapping (HIMM)",
       [](const Config& config, const cairn::ModuleContext& context) {
         auto map = std::make_unique<HimmMap>(config);
+        map->clear_under(context.robot);
         if (context.grid_so_far != nullptr) map->begin_with(*context.grid_so_far);
         return map;
       });

@@ -23,6 +23,7 @@
 #include "plugins/muriel/beam_kernels.hpp"
 #include "plugins/muriel/independence_log.hpp"
 #include "plugins/muriel/reading_model.hpp"
+#include "plugins/sonar_model/standing_room.hpp"
 
 namespace cairn::muriel {
 
@@ -34,6 +35,8 @@ class Muriel final : public Mapper {
   // One span a row, from the first cell whose log-odds changed to the last. O(cells in the beams).
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
+  // Whose room is free where it stands.
+  void clear_under(const RobotModel& robot) { standing_room_ = sonar_model::StandingRoom(robot); }
   // What it was read from is not known: the log begins empty.
   void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
 
@@ -73,6 +76,7 @@ class Muriel final : public Mapper {
   OccupancyGrid grid_;
   IndependenceLog log_;
   CellChanges changes_;  // of the latest call
+  sonar_model::StandingRoom standing_room_;
 
   // Of one reading; kept for their memory.
   std::vector<CellSpan> spans_;

@@ -11,6 +11,7 @@ void register_module(cairn::Registrar& registrar) {
                                        "occupancy grid from sonar, for comparison: the model of Murphy's textbook",
                                        [](const Config& config, const cairn::ModuleContext& context) {
                                          auto map = std::make_unique<MurphyMap>(config);
+                                         map->clear_under(context.robot);
                                          if (context.grid_so_far != nullptr) map->begin_with(*context.grid_so_far);
                                          return map;
                                        });

@@ -20,8 +20,17 @@ void Config::describe(Fields<Config>& fields) {
                 "standard deviation of the compass's local bias over the bound that the robot's file gives");
   fields.number("compass_gate_sigmas", &Config::compass_gate_sigmas, {1.0, 100.0}, "",
                 "compass readings further off than this many standard deviations are refused");
-  fields.integer("compass_refusals", &Config::compass_refusals, {1, 1000000},
-                 "after so many refusals in a row the compass is believed and the heading is the suspect");
+  fields.number("compass_drift_sigmas", &Config::compass_drift_sigmas, {1.0, 100.0}, "",
+                "when the compass and the heading part, little by little, by so many standard deviations of the last "
+                "readings' mean, the heading is the suspect: wheels slip");
+  fields.number("compass_jump_sigmas", &Config::compass_jump_sigmas, {1.0, 100.0}, "",
+                "what the compass turns more than the wheels from one reading to the next, by so many standard "
+                "deviations, is a disturbance: what it reads then is refused while it is beyond the gate");
+  fields.integer(
+      "compass_refusals", &Config::compass_refusals, {1, 1000000},
+      "after so many refusals in a row the compass is believed nevertheless, and the heading is the suspect");
+  fields.flag("bound_bias", &Config::bound_bias,
+              "the compass's local bias is kept within the bound that the robot's file gives");
   fields.flag("use_walls", &Config::use_walls, "straight walls that sonars meet again correct the pose");
   fields.number("wall_gate_sigmas", &Config::wall_gate_sigmas, {1.0, 100.0}, "",
                 "known walls further off than this (Mahalanobis distance) are refused");

@@ -18,7 +18,10 @@ struct Config {
   double least_compass_noise_rad = radians(0.5);
   double local_bias_ratio = 0.63;
   double compass_gate_sigmas = 4.0;
-  int compass_refusals = 75;
+  double compass_drift_sigmas = 4.5;
+  double compass_jump_sigmas = 4.0;
+  int compass_refusals = 375;
+  bool bound_bias = true;
   // Walls.
   bool use_walls = true;
   double wall_gate_sigmas = 3.5;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace cairn::odometry_compass {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 // Further out than any robot gets; squares of what is beyond would drown every covariance.
 constexpr double kFarthest_m = 1e6;
 constexpr double kSmoothness = 6.0;
+constexpr double kDriftShare = 0.15;  // of the newest reading in the mean that drift is seen by: about 12 readings
 
 bool is_usable(const Pose2& pose) {
   return std::abs(pose.x_m) <= kFarthest_m && std::abs(pose.y_m) <= kFarthest_m && std::isfinite(pose.theta_rad);
@@ -55,6 +57,8 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
     : config_(config),
       motion_noise_(motion_noise_of(config, robot)),
       compass_noise_rad_(std::max(config.least_compass_noise_rad, robot.compass_error.noise_rad)),
+      most_bias_rad_(robot.compass_error.local_bias_rad),
+      half_track_m_(robot.radius_m),
       filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
                             motion_noise_.bias_rad}),
       wall_finder_(wall_rules_of(motion_noise_, config.use_compass ? compass_noise_rad_ : 0.0)) {}
@@ -73,20 +77,59 @@ PoseEstimate OdometryCompass::update(const Observation& observation, std::span<c
 
 void OdometryCompass::follow_odometry(const Pose2& T_odom_robot) {
   if (!is_usable(T_odom_robot)) return;
-  if (T_odom_robot_) filter_.predict(inverse(*T_odom_robot_) * T_odom_robot, motion_noise_);
+  if (T_odom_robot_) {
+    const Pose2 step = inverse(*T_odom_robot_) * T_odom_robot;
+    filter_.predict(step, motion_noise_);
+    turned_rad_ += step.theta_rad;
+    last_step_ = step;
+  }
   T_odom_robot_ = T_odom_robot;
 }
 
 void OdometryCompass::follow_compass(double compass_rad) {
   if (!std::isfinite(compass_rad)) return;
-  if (filter_.correct_heading(compass_rad, compass_noise_rad_, config_.compass_gate_sigmas)) {
+  jumped_ = jumped_ || has_jumped(compass_rad);
+  compass_rad_ = compass_rad;
+  turned_rad_ = 0.0;
+  const double gate = config_.compass_gate_sigmas;
+  const auto [off_rad, sigma_rad] = filter_.compare_heading(compass_rad, compass_noise_rad_);
+  const double off_sigmas = off_rad / sigma_rad;
+  const bool is_refused = std::abs(off_sigmas) > gate;
+  if (!is_refused) jumped_ = false;
+  refused_in_a_row_ = is_refused ? refused_in_a_row_ + 1 : 0;
+  const bool persists = refused_in_a_row_ >= config_.compass_refusals;
+  if (jumped_ && !persists) return;
+  drift_sigmas_ += kDriftShare * (std::clamp(off_sigmas, -gate, gate) - drift_sigmas_);
+  const double mean_sigmas = std::sqrt(kDriftShare / (2.0 - kDriftShare));
+  const bool slips = !jumped_ && std::abs(drift_sigmas_) > config_.compass_drift_sigmas * mean_sigmas;
+  const double before_rad = filter_.estimate().T_map_robot.theta_rad;
+  if (slips || persists) {
+    filter_.doubt_heading(std::max(std::abs(off_rad), std::abs(drift_sigmas_) * sigma_rad));
+    drift_sigmas_ = 0.0;
     refused_in_a_row_ = 0;
-    return;
   }
-  if (++refused_in_a_row_ < config_.compass_refusals) return;
-  filter_.doubt_heading(compass_rad);
-  (void)filter_.correct_heading(compass_rad, compass_noise_rad_, config_.compass_gate_sigmas);
-  refused_in_a_row_ = 0;
+  (void)filter_.correct_heading(compass_rad, compass_noise_rad_, gate);
+  if (slips) follow_slip(wrap_angle(filter_.estimate().T_map_robot.theta_rad - before_rad));
+  if (config_.bound_bias) filter_.bound_bias(most_bias_rad_);
+}
+
+bool OdometryCompass::has_jumped(double compass_rad) const {
+  if (!compass_rad_) return false;
+  const double parted_rad = std::abs(wrap_angle(compass_rad - *compass_rad_ - turned_rad_));
+  return parted_rad > config_.compass_jump_sigmas * std::numbers::sqrt2 * compass_noise_rad_;
+}
+
+// A wheel that slips turns the robot, and the robot has gone less far: where only one of the wheels, by the way that it
+// turned, can have done so, that is known, about.
+void OdometryCompass::follow_slip(double turned_rad) {
+  const double lost_m = std::abs(turned_rad) * half_track_m_;
+  const double across_m = last_step_.theta_rad * half_track_m_;
+  const double left_m = last_step_.x_m - across_m;
+  const double right_m = last_step_.x_m + across_m;
+  const bool left_may = left_m * turned_rad > 0.0;
+  const bool right_may = right_m * turned_rad < 0.0;
+  const double along_m = left_may == right_may ? 0.0 : std::copysign(lost_m, left_may ? -left_m : -right_m);
+  filter_.slide(along_m, along_m == 0.0 ? lost_m : 0.5 * lost_m);
 }
 
 int OdometryCompass::follow_walls(const Observation& observation) {

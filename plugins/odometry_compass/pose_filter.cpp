@@ -12,6 +12,9 @@ constexpr double kBeside_m = 2.5;       // a wall goes on at least so far beyond
 constexpr double kSurely_sigmas = 6.0;  // further off than this from every known wall: a new one
 constexpr double kSameDirection_rad = radians(25.0);
 constexpr double kSamePlace_m = 0.6;
+constexpr double kFurthestCut_sigmas = 8.0;  // beyond, the tail is too thin for its moments
+constexpr double kHalfRoot = 0.70710678118654752;
+constexpr double kRootTwoPi = 2.5066282746310005;
 constexpr double kAmbiguous = 4.0;  // squared distance by which the best must lead
 
 constexpr double squared(double x) {
@@ -87,8 +90,36 @@ bool PoseFilter::correct_heading(double compass_rad, double noise_rad, double ga
   return correct<1>(innovation, h, Eigen::Matrix<double, 1, 1>(squared(noise_rad)), gate_sigmas);
 }
 
-void PoseFilter::doubt_heading(double compass_rad) {
-  covariance_(kTheta, kTheta) += squared(wrap_angle(compass_rad - state_[kTheta] - state_[kBias]));
+PoseFilter::HeadingOff PoseFilter::compare_heading(double compass_rad, double noise_rad) const {
+  const double variance =
+      covariance_(kTheta, kTheta) + 2.0 * covariance_(kTheta, kBias) + covariance_(kBias, kBias) + squared(noise_rad);
+  return {wrap_angle(compass_rad - state_[kTheta] - state_[kBias]), std::sqrt(variance)};
+}
+
+void PoseFilter::doubt_heading(double off_rad) {
+  covariance_(kTheta, kTheta) += squared(off_rad);
+}
+
+void PoseFilter::slide(double along_m, double deviation_m) {
+  const Point ahead = direction(state_[kTheta]);
+  state_.head<2>() += along_m * ahead;
+  covariance_.topLeftCorner<2, 2>() += squared(deviation_m) * ahead * ahead.transpose();
+}
+
+void PoseFilter::bound_bias(double most_rad) {
+  const double beyond_rad = std::abs(state_[kBias]) - most_rad;
+  const double variance = covariance_(kBias, kBias);
+  if (!(beyond_rad > 0.0) || !(variance > 0.0)) return;
+  const double sigma = std::sqrt(variance);
+  const double cut = std::max(-kFurthestCut_sigmas, -beyond_rad / sigma);
+  const double hazard = std::exp(-0.5 * squared(cut)) / (0.5 * std::erfc(-cut * kHalfRoot) * kRootTwoPi);
+  const double less_rad = std::copysign(std::max(beyond_rad, sigma * hazard), state_[kBias]);
+  const double less_ratio = std::clamp(hazard * (cut + hazard), 0.0, 1.0);  // of the variance
+  const State with = covariance_.col(kBias) / variance;
+  state_ -= with * less_rad;
+  state_[kTheta] = wrap_angle(state_[kTheta]);
+  for (int wall = 0; wall < walls_; ++wall) state_[kPoseStates + 2 * wall] = wrap_angle(state_[kPoseStates + 2 * wall]);
+  covariance_ -= with * (variance * less_ratio) * with.transpose();
 }
 
 bool PoseFilter::correct_position(const Point& p_map, const Point& p_robot, const Eigen::Matrix2d& noise,

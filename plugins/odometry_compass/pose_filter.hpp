@@ -41,8 +41,18 @@ class PoseFilter {
   void predict(const Pose2& T_before_after, const MotionNoise& noise);
   // Compass. Returns false, and does nothing, when the reading is more than gate deviations off.
   bool correct_heading(double compass_rad, double noise_rad, double gate_sigmas);
-  // Widens the heading so that this reading passes any gate.
-  void doubt_heading(double compass_rad);
+  struct HeadingOff {
+    double off_rad = 0.0;  // of the reading from what is expected
+    double sigma_rad = 0.0;
+  };
+  [[nodiscard]] HeadingOff compare_heading(double compass_rad, double noise_rad) const;
+  // Widens the heading by that.
+  void doubt_heading(double off_rad);
+  // The robot has gone so much farther along its heading than it was believed, give or take the deviation.
+  void slide(double along_m, double deviation_m);
+  // Brings a compass bias that is beyond that bound back within it, and all that goes together with it: the moments of
+  // the truncated distribution (Simon 2010, section 2.4).
+  void bound_bias(double most_rad);
   // Landmark position in robot coordinates; the same gate rule on the Mahalanobis distance.
   bool correct_position(const Point& p_map, const Point& p_robot, const Eigen::Matrix2d& noise, double gate_sigmas);
   // Landmark position and orientation in robot coordinates, whose errors may go together.

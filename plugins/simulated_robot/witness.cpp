@@ -7,8 +7,8 @@
 namespace cairn {
 namespace {
 
-constexpr double kMemory_s = 1.0;
-constexpr double kInTime_s = 0.3;          // what comes up later nobody can stop for
+constexpr double kMemory_s = 1.0;  // and as long as stopping takes
+constexpr double kReaction_s = 0.3;
 constexpr double kPart_m = 0.1;            // so far from the place of the touch belongs to what was touched
 constexpr double kRay_rad = radians(1.0);  // half a beam that has no width
 constexpr double kBack_m = 1e-4;
@@ -45,12 +45,16 @@ double round_s(const RobotModel& robot) {
 
 }  // namespace
 
-Witness::Witness(const RobotModel& robot)
-    : robot_(robot), in_time_s_(std::min(kMemory_s, std::max(kInTime_s, round_s(robot)))) {}
+Witness::Witness(const RobotModel& robot) : robot_(robot), reaction_s_(std::max(kReaction_s, round_s(robot))) {}
 
 void Witness::note(double time_s, const Pose2& T_map_robot, const Places& places) {
-  while (!moments_.empty() && moments_.front().time_s < time_s - kMemory_s) moments_.pop_front();
-  moments_.push_back({time_s, T_map_robot, places});
+  const double memory_s = kMemory_s + reaction_s_ + robot_.max_v_mps / robot_.max_acceleration_mps2;
+  while (!moments_.empty() && moments_.front().time_s < time_s - memory_s) moments_.pop_front();
+  double speed_mps = 0.0;
+  if (!moments_.empty() && time_s > moments_.back().time_s)
+    speed_mps =
+        (T_map_robot.position() - moments_.back().T_map_robot.position()).norm() / (time_s - moments_.back().time_s);
+  moments_.push_back({time_s, T_map_robot, places, speed_mps});
 }
 
 Contact Witness::judge(const Body& body, const Scene& scene, const Traffic& traffic, const Pose2& T_map_robot,
@@ -65,7 +69,8 @@ bool Witness::could_see(const Nearest& touched, const Scene& scene, const Traffi
   const std::array<Point, 3> parts_m = parts_of(touched);
   Scene then = scene;
   return std::any_of(moments_.begin(), moments_.end(), [&](const Moment& moment) {
-    if (moment.time_s > moments_.back().time_s - in_time_s_) return false;
+    const double stopping_s = reaction_s_ + moment.speed_mps / robot_.max_acceleration_mps2;
+    if (moment.time_s + stopping_s > moments_.back().time_s) return false;
     Point shift_m(0.0, 0.0);
     if (mover != kFixed) {
       const auto index = static_cast<std::size_t>(mover);

@@ -243,5 +243,19 @@ TEST(Muriel, DescribesAllItsSettings) {
                                             "log_readings", "log_fall"}));
 }
 
+// The sensors say nothing of it.
+TEST(Muriel, WhereTheRobotStandsIsFree) {
+  Muriel map{Config{}};
+  RobotModel robot;
+  robot.radius_m = 0.2;
+  map.clear_under(robot);
+  const CellChanges changes = map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}});
+  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.1, 2.0})), CellState::free);
+  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.3, 2.0})), CellState::unknown);
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes.spans.front().y, map.grid().cell_at({1.0, 1.78}).y);
+  EXPECT_TRUE(map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}}).empty());
+}
+
 }  // namespace
 }  // namespace cairn::muriel

@@ -85,5 +85,19 @@ TEST(MurphyMap, DescribesAllItsSettings) {
             (std::vector<std::string>{"cell_m", "clamp_nat", "range_m", "tolerance_m", "max_occupied_p", "keep_sign"}));
 }
 
+// The sensors say nothing of it.
+TEST(Murphy, WhereTheRobotStandsIsFree) {
+  MurphyMap map{Config{}};
+  RobotModel robot;
+  robot.radius_m = 0.2;
+  map.clear_under(robot);
+  const CellChanges changes = map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}});
+  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.1, 2.0})), CellState::free);
+  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.3, 2.0})), CellState::unknown);
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes.spans.front().y, map.grid().cell_at({1.0, 1.78}).y);
+  EXPECT_TRUE(map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}}).empty());
+}
+
 }  // namespace
 }  // namespace cairn::murphy_map

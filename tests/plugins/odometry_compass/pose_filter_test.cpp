@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace cairn::odometry_compass {
@@ -98,6 +99,43 @@ TEST(PoseFilter, BelievesADoubtedHeading) {
   filter.doubt_heading(2.0);
   EXPECT_TRUE(filter.correct_heading(2.0, radians(2.0), 1.0));
   EXPECT_NEAR(filter.estimate().T_map_robot.theta_rad, 2.0, 0.01);
+}
+
+// Monte Carlo: of a heading and a bias whose sum is known, those draws whose bias is within the bound.
+TEST(PoseFilter, BoundsABiasAsTheTruncatedDistributionDoes) {
+  const double sigma_rad = radians(3.0);
+  PoseFilter filter({}, {0.0, sigma_rad, 0.0, sigma_rad});
+  ASSERT_TRUE(filter.correct_heading(radians(12.0), radians(0.1), 4.0));  // 6 degrees each
+  const double bound_rad = radians(5.0);
+  filter.bound_bias(bound_rad);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  double sum_rad = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const double bias_rad = radians(6.0) + sigma_rad / std::numbers::sqrt2 * normal(random);
+    if (bias_rad > bound_rad) continue;
+    const double heading_rad = radians(12.0) - bias_rad;
+    sum_rad += heading_rad;
+    squares += heading_rad * heading_rad;
+    ++count;
+  }
+  const double mean_rad = sum_rad / count;
+  const PoseEstimate estimate = filter.estimate();
+  EXPECT_NEAR(estimate.T_map_robot.theta_rad, mean_rad, radians(0.1));
+  EXPECT_NEAR(deviation(estimate, 2), std::sqrt(squares / count - mean_rad * mean_rad), radians(0.1));
+  filter.bound_bias(bound_rad);
+  EXPECT_EQ(filter.estimate().T_map_robot, estimate.T_map_robot) << "within the bound nothing is to be done";
+}
+
+TEST(PoseFilter, SlidesAlongItsHeading) {
+  PoseFilter filter({1.0, 2.0, radians(90.0)}, {0.01, 0.0, 0.0, 0.0});
+  filter.slide(-0.3, 0.2);
+  EXPECT_NEAR(filter.estimate().T_map_robot.x_m, 1.0, 1e-12);
+  EXPECT_NEAR(filter.estimate().T_map_robot.y_m, 1.7, 1e-12);
+  EXPECT_NEAR(deviation(filter.estimate(), 0), 0.01, 1e-9);
+  EXPECT_NEAR(deviation(filter.estimate(), 1), std::hypot(0.01, 0.2), 1e-9);
 }
 
 TEST(PoseFilter, MovesToWhereALandmarkSaysItIs) {

@@ -50,6 +50,25 @@ TEST(Witness, AWallBehindCouldNotBeSeen) {
   EXPECT_FALSE(met[0].could_be_seen);
 }
 
+// It takes 0.3 s to see it and 0.8 s to brake from 0.4 m/s.
+TEST(Witness, ADoorThatClosesJustAheadCouldNotBeSeenInTime) {
+  World world;
+  WorldDoor& door = world.doors.emplace_back();
+  door.from_m = {2.0, -1.0};
+  door.to_m = {2.0, 1.0};
+  const auto closing = [&](double at_s) {
+    door.closed_s = {{at_s, 100.0}};
+    return contacts(world, {}, {0.4, 0.0}, 8.0);
+  };
+  const auto early = closing(2.5);
+  ASSERT_EQ(early.size(), 1U);
+  EXPECT_TRUE(early[0].could_be_seen);
+  const auto late = closing(3.8);
+  ASSERT_EQ(late.size(), 1U);
+  EXPECT_NEAR(late[0].speed_mps, 0.4, 1e-6);
+  EXPECT_FALSE(late[0].could_be_seen);
+}
+
 TEST(Witness, AFaultOfTheTransducerIsNoExcuse) {
   SimulatedRobotConfig config;
   config.faults.emplace_back().silent = true;
