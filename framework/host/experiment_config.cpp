@@ -213,13 +213,13 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   check_missions(config, root);
   if (config.variants.empty()) config.variants.emplace_back().name = "as_is";
   const std::vector<std::string> names = checked_names(config, root);
-  for (ExperimentVariant& variant : config.variants) {
+  for (std::size_t i = 0; i < config.variants.size(); ++i) {
+    ExperimentVariant& variant = config.variants[i];
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
-    if (!variant.world.empty() &&
-        (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials))
-      throw ConfigError(root.find("variants")->place, "variant \"" + variant.name +
-                                                          "\" names a world, but each run of " +
-                                                          std::string(name_of(config.experiment)) + " has its own");
+    if (!variant.world.empty() && (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials))
+      throw ConfigError(root.find("variants")->items[i].find("world")->place,
+                        "variant \"" + variant.name + "\" names a world, but each run of " +
+                            std::string(name_of(config.experiment)) + " has its own");
     if (!variant.world.empty()) variant.overrides.push_back("world=" + variant.world.string());
   }
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
