@@ -46,9 +46,9 @@ TEST_F(ExperimentFile, AVariantNamesAWorldWhereTheMissionsHaveOne) {
 
 TEST_F(ExperimentFile, AVariantNamesNoWorldWhereEachRunHasItsOwn) {
   EXPECT_EQ(error_of(kTrials + kVariants),
-            "e.yaml:5:26: variant \"office\" names a world, but each run of trials has its own");
+            "e.yaml:5:27: variant \"office\" names a world, but each run of trials has its own");
   EXPECT_EQ(error_of("experiment: recognition\nmissions: [m.yaml]\n" + kVariants),
-            "e.yaml:5:26: variant \"office\" names a world, but each run of recognition has its own");
+            "e.yaml:5:27: variant \"office\" names a world, but each run of recognition has its own");
   EXPECT_EQ(load(kTrials).variants.size(), 1U);
 }
 

@@ -143,7 +143,8 @@ TEST_F(MissionTreeFiles, WhatIsWrongIsToldWithItsPlace) {
        "main.yaml:1:13: explored: at_least_ratio must be a number from 0 to 1, found \"95\" (95 % is 0.95)"},
       {"- at_place: {within_m: 1}", "main.yaml:1:3: at_place needs one of landmark, at_m"},
       {"- at_place: {landmark: L1, at_m: [0, 0]}", "at_place takes only one of"},
-      {"- battery_above: 30", "main.yaml:1:18: battery_above: ratio must be a number from 0 to 1, found \"30\" (30 % is 0.3)"},
+      {"- battery_above: 30",
+       "main.yaml:1:18: battery_above: ratio must be a number from 0 to 1, found \"30\" (30 % is 0.3)"},
       {"- time_before: {s: 3}", "main.yaml:1:17: unknown key \"s\" in time_before"},
       {"- wait: $time", "main.yaml:1:9: unknown parameter \"time\" of the mission itself; it has none"},
   };
@@ -263,7 +264,8 @@ TEST_F(MissionTreeFiles, WhatStandsInAFileElsewhereThatIsNoSubMissionIsNotShown)
   const std::string hidden = " (what stands in a file outside the mission's folder is not shown)";
   const std::string no_map = "secret:1:1: a sub-mission must be a map with the key \"steps\", found ";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"root:$6$hush:19000:0:::\ndaemon:*:19000:0:::\n", "secret:1:1: no sub-mission: it lacks the key \"steps\"" + hidden},
+      {"root:$6$hush:19000:0:::\ndaemon:*:19000:0:::\n",
+       "secret:1:1: no sub-mission: it lacks the key \"steps\"" + hidden},
       {"root:x:0:0:hush:/root\n", no_map + "text"},
       {"[hush]\n", no_map + "a list"},
       {"{a: 1, hush: 2}\n", "secret:1:1: no sub-mission: it lacks the key \"steps\"" + hidden},
@@ -287,7 +289,8 @@ TEST_F(MissionTreeFiles, WhatStandsInAFileElsewhereThatIsNoSubMissionIsNotShown)
   const MissionTree linked = read_mission_tree(read_config_file(folder_ / "in/main.yaml"), folder_ / "in/main.yaml");
   EXPECT_THAT(linked.errors.at(0).what(), AllOf(HasSubstr("link.yaml:1:1: no sub-mission"), Not(HasSubstr("hush"))));
   write("beside.yaml", "stpes: [wait]\n");
-  EXPECT_THAT(errors("- mission: beside.yaml"), ElementsAre(HasSubstr("\"stpes\" in sub-mission (did you mean \"steps\"?)")));
+  EXPECT_THAT(errors("- mission: beside.yaml"),
+              ElementsAre(HasSubstr("\"stpes\" in sub-mission (did you mean \"steps\"?)")));
 }
 
 TEST_F(MissionTreeFiles, ASubMissionThatRunsItselfIsRefusedWithTheChain) {
