@@ -71,6 +71,13 @@ std::string quotes_hint(const ConfigValue& value) {
   return parsed<double>(plain) ? " (leave out the quotes)" : "";
 }
 
+// 90 where 0.9 is meant.
+std::string per_cent_hint(const std::optional<double>& number, const std::string& key, const Range& range) {
+  const bool is_ratio = key.ends_with("ratio") && range.min == 0.0 && range.max == 1.0;
+  if (!is_ratio || !number || *number <= 1.0 || *number > 100.0) return "";
+  return " (" + config_detail::number_text(*number) + " % is " + config_detail::number_text(*number / 100.0) + ")";
+}
+
 std::vector<std::string> keys_of(const Schema& schema) {
   std::vector<std::string> keys;
   for (const FieldSpec& field : schema.fields) keys.push_back(field.key);
@@ -99,6 +106,18 @@ void check_required(const Schema& schema, const ConfigValue& value, const std::s
   }
 }
 
+// Whoever wrote `explored: 90` has never seen the key that the value stands for.
+void load_short_form(const FieldSpec& field, void* config, const ConfigValue& value, const std::string& what) {
+  try {
+    field.load(config, value);
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    const std::string own = value.place.text() + ": " + field.key + " must ";
+    if (!text.starts_with(own)) throw;
+    throw ConfigError(value.place, what + ": " + text.substr(value.place.text().size() + 2));
+  }
+}
+
 }  // namespace
 
 void Schema::load_into(void* config, const ConfigValue& value, const std::string& what) const {
@@ -107,7 +126,7 @@ void Schema::load_into(void* config, const ConfigValue& value, const std::string
     const FieldSpec* field = field_of(*this, shorthand);
     if (field == nullptr) throw std::logic_error(what + ": the shorthand \"" + shorthand + "\" is no field");
     check_required(*this, value, what);
-    field->load(config, value);
+    load_short_form(*field, config, value, what);
     return;
   }
   for (const ConfigValue::Entry& entry : value.entries) {
@@ -123,7 +142,7 @@ namespace config_detail {
 double to_number(const ConfigValue& value, const std::string& key, const Range& range, const std::string& unit) {
   const std::optional<double> number = parsed<double>(value);
   if (!number || *number < range.min || *number > range.max) {
-    fail(value, key, allowed_text("a number", range, unit), quotes_hint(value));
+    fail(value, key, allowed_text("a number", range, unit), quotes_hint(value) + per_cent_hint(number, key, range));
   }
   return *number;
 }

@@ -184,8 +184,8 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
   fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
   fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
-                "share of good runs (of `trials`: of reached goals among the reachable, mapped ones that no fault "
-                "took away) that makes the experiment a success");
+                "share of good runs (of `trials`: of reached goals among the reachable ones that no fault took away) "
+                "that makes the experiment a success");
   fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
   fields.texts("categories", &C::categories,
                "of `places` and `lap`: the categories, in the order of the table's columns");
@@ -213,12 +213,13 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   check_missions(config, root);
   if (config.variants.empty()) config.variants.emplace_back().name = "as_is";
   const std::vector<std::string> names = checked_names(config, root);
-  for (ExperimentVariant& variant : config.variants) {
+  for (std::size_t i = 0; i < config.variants.size(); ++i) {
+    ExperimentVariant& variant = config.variants[i];
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
-    if (!variant.world.empty() && in_random_worlds(config.experiment))
-      throw ConfigError(root.find("variants")->place, "variant \"" + variant.name +
-                                                          "\" names a world, but each run of " +
-                                                          std::string(name_of(config.experiment)) + " has its own");
+    if (!variant.world.empty() && (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials))
+      throw ConfigError(root.find("variants")->items[i].find("world")->place,
+                        "variant \"" + variant.name + "\" names a world, but each run of " +
+                            std::string(name_of(config.experiment)) + " has its own");
     if (!variant.world.empty()) variant.overrides.push_back("world=" + variant.world.string());
   }
   if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())

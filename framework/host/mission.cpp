@@ -1,5 +1,6 @@
 #include "framework/host/mission.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -7,6 +8,7 @@
 #include "framework/config/template_file.hpp"
 #include "framework/config/world_file.hpp"
 #include "framework/host/fingerprint.hpp"
+#include "framework/host/mission_condition.hpp"
 
 namespace cairn {
 namespace {
@@ -40,6 +42,12 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
                           " m across, larger than the mission's world of " + config_detail::number_text(size_m.x()) +
                           " x " + config_detail::number_text(size_m.y()) + " m");
   }
+}
+
+std::vector<std::string> categories_of(const std::vector<LandmarkShape>& shapes) {
+  std::vector<std::string> categories;
+  for (const LandmarkShape& shape : shapes) categories.push_back(shape.category);
+  return categories;
 }
 
 // A plain name: an autosave never leaves the output folder.
@@ -128,6 +136,8 @@ ReadMission read_mission(const std::filesystem::path& file, const std::vector<st
   MissionTree tree = read_mission_tree(mission.config.steps, file);
   mission.steps = std::move(tree.steps);
   read.step_errors = std::move(tree.errors);
+  std::ranges::move(unknown_categories(mission.steps, categories_of(mission.shapes)),
+                    std::back_inserter(read.step_errors));
   return read;
 }
 

@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
+
+#include "framework/config/named_category.hpp"
+#include "framework/host/mission_parameters.hpp"
 
 namespace cairn {
 namespace {
@@ -47,6 +52,24 @@ Status battery_above(double ratio, const WorldView& world) {
 }
 
 }  // namespace
+
+std::vector<ConfigError> unknown_categories(const std::vector<TreeNode>& steps,
+                                            const std::vector<std::string>& categories) {
+  std::vector<ConfigError> errors;
+  for (const TreeNode& node : steps) {
+    const ConfigValue& settings = node.choice.config;
+    const ConfigValue* const landmark =
+        settings.kind == ConfigValue::Kind::scalar ? &settings : settings.find("landmark");
+    try {
+      if (is_condition(node.kind) && landmark != nullptr)
+        check_named_categories(*landmark, node.choice.name, categories);
+    } catch (const ConfigError& error) {
+      errors.push_back(with_place_of_use(error, settings, node.place));
+    }
+    std::ranges::move(unknown_categories(node.children, categories), std::back_inserter(errors));
+  }
+  return errors;
+}
 
 Status ConditionCheck::operator()(const TreeNode& node, const WorldView& world) {
   const Condition& condition = node.condition;

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "framework/contracts/behaviour.hpp"
 #include "framework/contracts/world_view.hpp"
 #include "framework/host/mission_tree.hpp"
 
 namespace cairn {
+
+// What is wrong with conditions that name `nearest CATEGORY`, when the mission can find landmarks of these categories
+// only. No categories: not known, so nothing is wrong.
+[[nodiscard]] std::vector<ConfigError> unknown_categories(const std::vector<TreeNode>& steps,
+                                                          const std::vector<std::string>& categories);
 
 class ConditionCheck {
  public:

@@ -1,6 +1,7 @@
 #include "framework/host/mission_modules.hpp"
 
 #include "framework/host/fence.hpp"
+#include "framework/host/mission_parameters.hpp"
 #include "framework/host/mission_resume.hpp"
 #include "framework/host/sensed_templates.hpp"
 
@@ -35,7 +36,7 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
 }
 
 // What is no behaviour may be meant for a node.
-[[noreturn]] void fail_unknown(const ModuleLibrary& library, const PluginChoice& choice) {
+[[noreturn]] void fail_unknown(const ModuleLibrary& library, const TreeNode& node) {
   std::string known;
   std::vector<std::string> names;
   for (const ModuleEntry& entry : library.entries()) {
@@ -44,27 +45,35 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
     known += (known.empty() ? "" : ", ") + names.back();
   }
   std::string nodes;
-  for (const std::string& node : node_names()) {
-    names.push_back(node);
-    nodes += (nodes.empty() ? "" : ", ") + node;
+  for (const std::string& name : node_names()) {
+    names.push_back(name);
+    nodes += (nodes.empty() ? "" : ", ") + name;
   }
-  std::string sentence = "unknown behaviour plugin " + shown(choice.name) + did_you_mean(choice.name, names) +
+  std::string sentence = "unknown behaviour plugin " + shown(node.choice.name) + did_you_mean(node.choice.name, names) +
                          "; known are: " + (known.empty() ? "none" : known) + "; and these nodes: " + nodes;
   for (const std::string& fault : library.faults()) sentence += "\n  not loaded: " + fault;
-  throw ConfigError(choice.config.place, sentence);
+  throw ConfigError(node.place, sentence);
 }
 
-std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const PluginChoice& choice,
+std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const TreeNode& node,
                                            const ModuleContext& context) {
-  if (library.find_any(choice.name) == nullptr) fail_unknown(library, choice);
+  if (library.find_any(node.choice.name) == nullptr) fail_unknown(library, node);
   try {
-    return build<Behaviour>(library, choice, context);
+    return build<Behaviour>(library, node.choice, context);
   } catch (const ConfigError& error) {
     // A module knows no place for a setting that is not there.
     const std::string text = error.what();
-    if (text.starts_with(": ")) throw ConfigError(choice.config.place, text.substr(2));
-    throw;
+    if (text.starts_with(": ")) throw ConfigError(node.place, text.substr(2));
+    throw with_place_of_use(error, node.choice.config, node.place);
   }
+}
+
+// Without a step such a mission would be done at once, and its map nothing but the first readings.
+void check_has_steps(const MissionConfig& config, const std::vector<TreeNode>& steps, Sensor& sensor) {
+  if (!steps.empty() || config.steps.kind != ConfigValue::Kind::null) return;
+  if (fenced("sensor", config.sensor.name, [&] { return sensor.drive(); }) == nullptr) return;
+  throw ConfigError(config.sensor.config.place, "the mission has no steps, and " + config.sensor.name +
+                                                    " drives: say under `steps` what is to be done");
 }
 
 Pose2 start_of(const MissionConfig& config) {
@@ -129,6 +138,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     return context_for(mission, library, built, kind, index);
   };
   built.sensor = build<Sensor>(library, config.sensor, context(PluginKind::sensor));
+  check_has_steps(config, mission.steps, *built.sensor);
   const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
   if (start) built.T_map_start = *start;
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
@@ -141,7 +151,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     built.planner = build<Planner>(library, config.planner, context(PluginKind::planner));
   for (const TreeNode* node : behaviours_of(mission.steps))
     built.behaviours.push_back(
-        build_behaviour(library, node->choice, context(PluginKind::behaviour, built.behaviours.size())));
+        build_behaviour(library, *node, context(PluginKind::behaviour, built.behaviours.size())));
   return built;
 }
 
@@ -162,7 +172,10 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
   const auto context = [&](PluginKind kind, std::size_t index = 0) {
     return context_for(mission, library, built, kind, index);
   };
-  attempt([&] { (void)build<Sensor>(library, config.sensor, context(PluginKind::sensor)); });
+  attempt([&] {
+    const auto sensor = build<Sensor>(library, config.sensor, context(PluginKind::sensor));
+    check_has_steps(config, mission.steps, *sensor);
+  });
   attempt([&] { (void)build<Localizer>(library, config.localizer, context(PluginKind::localizer)); });
   attempt([&] { built.mapper = build<Mapper>(library, config.map, context(PluginKind::map)); });
   attempt([&] {
@@ -175,7 +188,7 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
     if (!config.planner.name.empty()) (void)build<Planner>(library, config.planner, context(PluginKind::planner));
   });
   for (const TreeNode* node : behaviours_of(mission.steps))
-    attempt([&] { (void)build_behaviour(library, node->choice, context(PluginKind::behaviour)); });
+    attempt([&] { (void)build_behaviour(library, *node, context(PluginKind::behaviour)); });
   return errors;
 }
 

@@ -34,6 +34,13 @@ void require_map(const ConfigValue& value, const char* what) {
                     std::string(what) + ": expected a map of parameters {name: value}, found " + value.kind_name());
 }
 
+// Of --set there is no line, and nothing more to tell.
+void collect_files(const ConfigValue& value, std::set<std::string>& files) {
+  if (value.place.line > 0) files.insert(value.place.file);
+  for (const ConfigValue& item : value.items) collect_files(item, files);
+  for (const ConfigValue::Entry& entry : value.entries) collect_files(entry.value, files);
+}
+
 class Putter {
  public:
   Putter(const Parameters& parameters, std::size_t& left, std::vector<ConfigError>& errors)
@@ -115,6 +122,19 @@ ConfigValue with_parameters(const ConfigValue& steps, const Parameters& paramete
     if (!putter.has_used(name))
       errors.emplace_back(value.place, "the parameter " + shown(name) + " of " + parameters.of + " is used by no step");
   return out;
+}
+
+ConfigError with_place_of_use(const ConfigError& error, const ConfigValue& value, const SourcePlace& place) {
+  std::set<std::string> files;
+  collect_files(value, files);
+  files.erase(place.file);
+  const std::string text = error.what();
+  const bool is_given =
+      std::ranges::any_of(files, [&](const std::string& file) { return text.starts_with(file + ":"); });
+  if (!is_given) return error;
+  const std::size_t place_end = text.find(": ");
+  return {SourcePlace{text.substr(0, place_end), 0, 0},
+          text.substr(place_end + 2) + " (given as a parameter to " + place.text() + ")"};
 }
 
 }  // namespace cairn

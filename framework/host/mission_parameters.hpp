@@ -27,4 +27,9 @@ struct Parameters {
 [[nodiscard]] ConfigValue with_parameters(const ConfigValue& steps, const Parameters& parameters,
                                           std::size_t& values_left, std::vector<ConfigError>& errors);
 
+// The error with the place of the node that uses the value, when it stands in another file than the node: a parameter
+// that was given there. value: what the error is about holds it; place: of the node.
+[[nodiscard]] ConfigError with_place_of_use(const ConfigError& error, const ConfigValue& value,
+                                            const SourcePlace& place);
+
 }  // namespace cairn

@@ -20,10 +20,9 @@ class Reachability {
     ends.*leave = false;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!(ends.*go_on)) {
-        errors.emplace_back(nodes[i].choice.config.place,
-                            shown(nodes[i].name) + " is never reached: " + shown(nodes[i - 1].name) +
-                                " before it (line " + std::to_string(nodes[i - 1].choice.config.place.line) +
-                                ") never " + never);
+        errors.emplace_back(nodes[i].place, shown(nodes[i].name) + " is never reached: " + shown(nodes[i - 1].name) +
+                                                " before it (line " + std::to_string(nodes[i - 1].place.line) +
+                                                ") never " + never);
         break;
       }
       const Ends child = of(nodes[i]);

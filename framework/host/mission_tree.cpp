@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "framework/host/mission_parameters.hpp"
+#include "framework/host/sub_mission_file.hpp"
 
 namespace cairn {
 namespace {
@@ -56,9 +57,12 @@ class TreeReader {
   MissionTree read(const ConfigValue& steps) {
     MissionTree tree;
     attempt([&] {
-      if (steps.kind == ConfigValue::Kind::null) return;
-      if (steps.kind != ConfigValue::Kind::list)
-        throw ConfigError(steps.place, "steps: expected a list of steps, found " + steps.kind_name());
+      if (steps.kind == ConfigValue::Kind::null && steps.place.file.empty()) return;
+      if (steps.kind != ConfigValue::Kind::list || steps.items.empty())
+        throw ConfigError(
+            steps.place,
+            "steps: expected a list of at least one step, found " +
+                (steps.items.empty() && steps.kind == ConfigValue::Kind::list ? "an empty list" : steps.kind_name()));
       tree.steps = nodes_of(with_parameters(steps, {"the mission itself", {}}, values_left_, errors_), "");
     });
     if (errors_.empty()) errors_ = unreachable_nodes(tree.steps);
@@ -92,7 +96,13 @@ class TreeReader {
     std::vector<TreeNode> nodes;
     for (std::size_t i = 0; i < list.items.size(); ++i) {
       const std::string path = (above.empty() ? "" : above + "/") + std::to_string(i + 1);
-      attempt([&] { nodes.push_back(node_of(list.items[i], path)); });
+      attempt([&] {
+        try {
+          nodes.push_back(node_of(list.items[i], path));
+        } catch (const ConfigError& error) {
+          throw with_place_of_use(error, list.items[i], list.items[i].place);
+        }
+      });
     }
     return nodes;
   }
@@ -104,8 +114,10 @@ class TreeReader {
     node.name = item.name;
     node.path = path;
     node.choice = {item.keyword, item.value};
-    node.choice.config.place = item.place;
+    node.place = item.place;
     if (item.value.kind == ConfigValue::Kind::null) node.choice.config.kind = ConfigValue::Kind::map;
+    // What is missing in a map is told where the node stands; a short form is wrong where it was written.
+    if (node.choice.config.kind == ConfigValue::Kind::map) node.choice.config.place = item.place;
     if (const NodeType* type = find_node_type(item.keyword)) {
       node.kind = type->kind;
       fill(node, type->shape, item.value);
@@ -158,7 +170,7 @@ class TreeReader {
 
   std::vector<TreeNode> some_nodes(const ConfigValue& value, const TreeNode& parent) {
     if (value.kind != ConfigValue::Kind::list || value.items.empty())
-      throw ConfigError(value.kind == ConfigValue::Kind::null ? parent.choice.config.place : value.place,
+      throw ConfigError(value.kind == ConfigValue::Kind::null ? parent.place : value.place,
                         parent.choice.name + " needs a list of at least one node, found " +
                             (value.kind == ConfigValue::Kind::list ? "an empty list" : value.kind_name()));
     return nodes_of(value, parent.path);
@@ -167,7 +179,7 @@ class TreeReader {
   TreeNode child_of(const ConfigValue& value, const TreeNode& parent) {
     const bool is_list = value.kind == ConfigValue::Kind::list;
     if (value.kind == ConfigValue::Kind::null || (is_list && value.items.empty()))
-      throw ConfigError(value.kind == ConfigValue::Kind::null ? parent.choice.config.place : value.place,
+      throw ConfigError(value.kind == ConfigValue::Kind::null ? parent.place : value.place,
                         parent.choice.name + " needs one node, found " + (is_list ? "an empty list" : "nothing"));
     const std::string path = parent.path + "/1";
     if (!is_list) return node_of(value, path);
@@ -177,7 +189,7 @@ class TreeReader {
     node.kind = NodeKind::sequence;
     node.name = node.choice.name = name_of(node.kind);
     node.choice.config.kind = ConfigValue::Kind::map;
-    node.choice.config.place = value.place;
+    node.place = node.choice.config.place = value.place;
     node.path = path;
     node.children = nodes_of(value, path);
     return node;
@@ -235,31 +247,22 @@ class TreeReader {
         node.kind == NodeKind::landmark_known || (node.kind == NodeKind::at_place && !condition.at_m);
     if (needs_landmark && condition.landmark.empty())
       throw ConfigError(value.place, what + " needs a landmark or category, found an empty text");
+    if (needs_landmark && (condition.landmark == "nearest" || condition.landmark == "nearest "))
+      throw ConfigError(value.place, what + ": " + shown(condition.landmark) + " names no category");
     return condition;
   }
 
   void run_file(TreeNode& node, const SubMissionSettings& settings) {
-    const SourcePlace& place = node.choice.config.place;
+    const SourcePlace& place = node.place;
     if (node.name == node.choice.name) node.name = settings.file.stem().string();
     const File file{canonical(settings.file), called(settings.file)};
     refuse_recursion(file, place);
-    const auto sub = load_config<SubMissionFile>(content_of(settings.file, place), "sub-mission");
+    const auto sub = read_sub_mission(settings.file, chain_.back().path, place);
     const Parameters parameters = bind_parameters(sub, file.name, settings.with, place);
     const ConfigValue steps = with_parameters(sub.steps, parameters, values_left_, errors_);
     chain_.push_back(file);
     attempt([&] { node.children = some_nodes(steps, node); });
     chain_.pop_back();
-  }
-
-  // A file that is not there is told where it is named.
-  static ConfigValue content_of(const std::filesystem::path& file, const SourcePlace& place) {
-    std::error_code error;
-    if (std::filesystem::exists(file, error)) return read_config_file(file);
-    try {
-      return read_config_file(file);
-    } catch (const ConfigError& missing) {
-      throw ConfigError(place, missing.what());
-    }
   }
 
   void refuse_recursion(const File& file, const SourcePlace& place) const {

@@ -23,6 +23,7 @@ struct TreeNode {
   NodeKind kind = NodeKind::behaviour;
   std::string name{};     // for people: its `name`, otherwise what the file calls it
   PluginChoice choice{};  // what the file calls it, with its settings but not its children; of a behaviour the module
+  SourcePlace place{};    // where that stands
   std::string path{};     // the step's number, then a child's number each, all from 1: "3", "3/1/2"
   std::vector<TreeNode> children{};
   Condition condition{};       // of a condition
@@ -40,9 +41,9 @@ struct MissionTree {
 inline constexpr std::size_t kMostTreeDepth = 64;     // nodes on the way from a step to a leaf
 inline constexpr std::size_t kMostTreeNodes = 10000;  // of a mission with all its sub-missions
 
-// steps: the list of the mission's file, or nothing. Reads sub-missions, too. Errors: unknown settings, wrong types,
-// wrong numbers of children, parameters that do not fit, a sub-mission that runs itself, and nodes that are never
-// reached. Whether there is such a behaviour, only the modules know.
+// steps: the list of the mission's file, or a value without a place where it has none. Reads sub-missions, too. Errors:
+// unknown settings, wrong types, wrong numbers of children, parameters that do not fit, a sub-mission that runs itself,
+// and nodes that are never reached. Whether there is such a behaviour, only the modules know.
 [[nodiscard]] MissionTree read_mission_tree(const ConfigValue& steps, const std::filesystem::path& file);
 
 // The behaviours of a tree in the order of its file. The pointers are into the steps.

@@ -106,7 +106,7 @@ std::string Drawing::fault(const std::string& kind, Chance& chance) {
 }
 
 std::string Drawing::fault_lines() {
-  const TrialFaultRates& rates = config_.faults_per_hour;
+  const FaultRates& rates = config_.faults_per_hour;
   const std::array<std::pair<const char*, double>, 6> kinds{{{"dead", rates.dead},
                                                              {"stuck", rates.stuck},
                                                              {"slip", rates.slip},

@@ -2,17 +2,6 @@
 
 namespace cairn {
 
-void TrialFaultRates::describe(Fields<TrialFaultRates>& fields) {
-  using C = TrialFaultRates;
-  constexpr Range kRate{0.0, 3600.0};
-  fields.number("dead", &C::dead, kRate, "1/h", "one transducer without echo");
-  fields.number("stuck", &C::stuck, kRate, "1/h", "one transducer at its last reading");
-  fields.number("slip", &C::slip, kRate, "1/h", "left, right or both wheels, by a share from 0.1 to 0.9");
-  fields.number("compass_jump", &C::compass_jump, kRate, "1/h", "by up to 90 deg either way");
-  fields.number("silent", &C::silent, kRate, "1/h", "no ranges");
-  fields.number("kidnap", &C::kidnap, kRate, "1/h", "to a place with room, turned anyhow");
-}
-
 void TrialsConfig::describe(Fields<TrialsConfig>& fields) {
   using C = TrialsConfig;
   fields.files("robots", &C::robots, "robot files; each mission takes one of them").required = true;

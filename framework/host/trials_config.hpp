@@ -4,20 +4,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "framework/config/fault_rates.hpp"
 #include "framework/config/fields.hpp"
 
 namespace cairn {
-
-// How often each fault of the simulated robot strikes; independent of each other.
-struct TrialFaultRates {
-  double dead = 0.0;
-  double stuck = 0.0;
-  double slip = 0.0;
-  double compass_jump = 0.0;
-  double silent = 0.0;
-  double kidnap = 0.0;
-  static void describe(Fields<TrialFaultRates>& fields);
-};
 
 struct TrialsConfig {
   // What is drawn.
@@ -29,7 +19,7 @@ struct TrialsConfig {
   int most_goals = 6;
   double goal_at_most_s = 900.0;
   double anywhere_ratio = 0.1;
-  TrialFaultRates faults_per_hour;
+  FaultRates faults_per_hour;
   double fault_for_s = 8.0;
   double battery_ratio = 0.0;
   // How it is judged.

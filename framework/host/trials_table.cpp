@@ -175,8 +175,8 @@ std::vector<std::string> broken_limits(const ExperimentConfig& config, const std
       if (!is_kept) broken.push_back(variant.name + ": " + sentence);
     };
     check(
-        f.reached_mapped.value >= config.at_least_ratio || f.unfaulted == f.unmapped,
-        fmt::format("{:.4f} of the goals reached, asked for are {:g}", f.reached_mapped.value, config.at_least_ratio));
+        f.reached_fairly.value >= config.at_least_ratio || f.unfaulted == 0,
+        fmt::format("{:.4f} of the goals reached, asked for are {:g}", f.reached_fairly.value, config.at_least_ratio));
     check(
         f.fast_contacts <= trials.most_fast_contacts,
         fmt::format("{} fast contacts that could be seen, allowed are {}", f.fast_contacts, trials.most_fast_contacts));

@@ -138,10 +138,14 @@ void ControlServer::take(Descriptor connection) {
     return;
   }
   Answer& here = answers_.emplace_back();
-  here.thread = std::jthread([this, &here, connection = std::move(connection)] {
-    answer(connection.get());
-    here.is_given = true;
-  });
+  try {
+    here.thread = std::jthread([this, &here, connection = std::move(connection)] {
+      answer(connection.get());
+      here.is_given = true;
+    });
+  } catch (const std::system_error&) {
+    answers_.pop_back();  // no thread is left: the connection closes unanswered, and the mission goes on
+  }
 }
 
 void ControlServer::answer(int connection) {

@@ -92,7 +92,7 @@ std::optional<double> outline_distance_m(const OccupancyGrid& grid, const Point&
 Dock::Dock(const DockConfig& config, std::uint64_t seed)
     : config_(config),
       seed_(seed),
-      name_(config_detail::to_text(config.landmark, "landmark")),
+      name_(to_landmark_name(config.landmark, "landmark")),
       driver_(config, seed),
       watch_(config.patience_s) {
   const bool names_side = config.side.kind != ConfigValue::Kind::null;

@@ -65,7 +65,7 @@ GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed
   if (!names_landmark && !config.at_m)
     throw ConfigError(config.landmark.place,
                       "goto: needs a landmark (`landmark: nearest square`) or a place (`at_m: [x, y]`)");
-  if (names_landmark) landmark_name_ = config_detail::to_text(config.landmark, "landmark");
+  if (names_landmark) landmark_name_ = to_landmark_name(config.landmark, "landmark");
 }
 
 void GoTo::halt() {

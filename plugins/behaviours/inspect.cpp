@@ -58,7 +58,7 @@ void InspectConfig::describe(Fields<InspectConfig>& fields) {
 Inspect::Inspect(const InspectConfig& config, std::uint64_t seed)
     : config_(config),
       seed_(seed),
-      name_(config_detail::to_text(config.landmark, "landmark")),
+      name_(to_landmark_name(config.landmark, "landmark")),
       driver_(config, seed),
       watch_(config.patience_s) {}
 

@@ -1,5 +1,6 @@
 #include "framework/contracts/module.hpp"
 
+#include "framework/config/named_category.hpp"
 #include "plugins/behaviours/dock.hpp"
 #include "plugins/behaviours/explore.hpp"
 #include "plugins/behaviours/go_to.hpp"
@@ -15,18 +16,21 @@ namespace {
 using namespace cairn;
 using namespace cairn::behaviours;
 
-// A behaviour that drives: made with its settings and a seed.
-template <class Step, class Config>
-void add_driving(Registrar& registrar, const char* name, const char* summary) {
-  registrar.add<Behaviour, Config>(name, summary, [](const Config& config, const ModuleContext& context) {
+// A behaviour that drives: made with its settings and a seed. places: the settings that name some.
+template <class Step, class Config, class... Member>
+void add_driving(Registrar& registrar, const char* name, const char* summary, Member... places) {
+  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const ModuleContext& context) {
+    (check_named_categories(config.*places, name, context.categories), ...);
     return std::make_unique<Step>(config, context.seed);
   });
 }
 
-template <class Step, class Config>
-void add(Registrar& registrar, const char* name, const char* summary) {
-  registrar.add<Behaviour, Config>(
-      name, summary, [](const Config& config, const ModuleContext&) { return std::make_unique<Step>(config); });
+template <class Step, class Config, class... Member>
+void add(Registrar& registrar, const char* name, const char* summary, Member... places) {
+  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const ModuleContext& context) {
+    (check_named_categories(config.*places, name, context.categories), ...);
+    return std::make_unique<Step>(config);
+  });
 }
 
 void register_module(Registrar& registrar) {
@@ -37,19 +41,27 @@ void register_module(Registrar& registrar) {
                                            return std::make_unique<Search>(config, context.categories);
                                          });
   add_driving<Inspect, InspectConfig>(registrar, "inspect",
-                                      "goes to a landmark and circles it until its degree does not rise any more");
-  add_driving<GoTo, GoToConfig>(registrar, "goto", "goes to a landmark or a place by the mission's planner");
-  add_driving<Tour, TourConfig>(registrar, "tour", "visits places, in the given or the shortest order");
-  add_driving<Patrol, PatrolConfig>(registrar, "patrol", "visits places again and again, or all known landmarks");
-  add_driving<ReturnHome, ReturnHomeConfig>(registrar, "return_home", "goes back to where the mission began");
-  add_driving<Dock, DockConfig>(registrar, "dock", "stops at a distance beside a landmark, on a given side of it");
+                                      "goes to a landmark and circles it until its degree does not rise any more",
+                                      &InspectConfig::landmark);
+  add_driving<GoTo, GoToConfig>(registrar, "goto", "goes to a landmark or a place by the mission's planner",
+                                &GoToConfig::landmark);
+  add_driving<Tour, TourConfig>(registrar, "tour", "visits places, in the given or the shortest order",
+                                &TourConfig::places);
+  add_driving<Patrol, PatrolConfig>(registrar, "patrol", "visits places again and again, or all known landmarks",
+                                    &PatrolConfig::places);
+  add_driving<ReturnHome, ReturnHomeConfig>(registrar, "return_home", "goes back to where the mission began",
+                                            &ReturnHomeConfig::to);
+  add_driving<Dock, DockConfig>(registrar, "dock", "stops at a distance beside a landmark, on a given side of it",
+                                &DockConfig::landmark);
   add_driving<DriveTo, DriveConfig>(registrar, "drive", "drives straight from point to point");
   add<Wait, WaitConfig>(registrar, "wait", "stands still for a time");
   add<Save, SaveConfig>(registrar, "save", "saves the map so far into the output folder");
   add<CaptureTemplate, CaptureTemplateConfig>(registrar, "capture_template",
-                                              "writes a template of what is mapped at a place into the output folder");
+                                              "writes a template of what is mapped at a place into the output folder",
+                                              &CaptureTemplateConfig::at);
   add<PlanQuery, PlanQueryConfig>(registrar, "plan_query",
-                                  "asks the mission's planner and writes its answer into the output folder");
+                                  "asks the mission's planner and writes its answer into the output folder",
+                                  &PlanQueryConfig::from, &PlanQueryConfig::to, &PlanQueryConfig::via);
   add<Log, LogConfig>(registrar, "log", "says a line for people");
 }
 

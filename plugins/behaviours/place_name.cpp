@@ -7,14 +7,29 @@
 #include "plugins/behaviours/go_to.hpp"
 
 namespace cairn::behaviours {
+namespace {
+
+bool names_nothing(const std::string& text) {
+  return text.empty() || text == "nearest" || text == "nearest ";
+}
+
+}  // namespace
 
 PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
   if (value.kind == ConfigValue::Kind::list) return place_name_of(config_detail::to_point(value, key));
   PlaceName name{config_detail::to_text(value, key), std::nullopt};
-  if (name.text.empty() || name.text == "nearest" || name.text == "nearest ")
+  if (names_nothing(name.text))
     throw ConfigError(value.place, key + ": " + shown(name.text) +
                                        " is no place; one is [x, y], a landmark's id (L3) or name, or `nearest "
                                        "CATEGORY`");
+  return name;
+}
+
+std::string to_landmark_name(const ConfigValue& value, const std::string& key) {
+  std::string name = config_detail::to_text(value, key);
+  if (names_nothing(name))
+    throw ConfigError(value.place,
+                      key + ": " + shown(name) + " is no landmark; one is an id (L3), a name, or `nearest CATEGORY`");
   return name;
 }
 

@@ -16,6 +16,8 @@ struct PlaceName {
 };
 // Throws ConfigError on anything else, and on an empty text.
 [[nodiscard]] PlaceName to_place_name(const ConfigValue& value, const std::string& key);
+// Text that names landmarks. Throws ConfigError on anything else, and on an empty text.
+[[nodiscard]] std::string to_landmark_name(const ConfigValue& value, const std::string& key);
 [[nodiscard]] PlaceName place_name_of(const Point& at_m);
 
 // What a name stands for on this map; when it stands for nothing, `unknown` says so, naming what there is.

@@ -44,6 +44,13 @@ std::string value_of(const std::string& name, const WorldView& world) {
   return knows ? number("%.0f %%", 100.0 * *world.observation->battery_ratio) : "unknown";
 }
 
+std::vector<std::string> texts_of(const ConfigValue& list, const std::string& key) {
+  std::vector<std::string> texts;
+  if (list.kind == ConfigValue::Kind::null) return texts;
+  for (const ConfigValue& item : config_detail::to_list(list, key)) texts.push_back(config_detail::to_text(item, key));
+  return texts;
+}
+
 }  // namespace
 
 void CaptureTemplateConfig::describe(Fields<CaptureTemplateConfig>& fields) {
@@ -85,9 +92,10 @@ Status CaptureTemplate::tick(const WorldView& world, Orders& orders) {
 
 void PlanQueryConfig::describe(Fields<PlanQueryConfig>& fields) {
   using C = PlanQueryConfig;
-  fields.text("from", &C::from, "`here`, or a place as `cairn plan` takes it: x,y, a landmark's id or name, ...");
+  fields.raw("from", &C::from, "text", "`here`, or a place as `cairn plan` takes it: x,y, a landmark's id or name, ...")
+      .default_text = "here";
   fields.raw("to", &C::to, "text", "the same").required = true;
-  fields.texts("via", &C::via, "places to pass, in this order");
+  fields.raw("via", &C::via, "list of texts", "places to pass, in this order");
   fields.texts("avoid", &C::avoid, "landmarks and clusters that are not passed");
   fields.texts("closed", &C::closed, "routes that are not taken: 12 or R12");
   fields.integer("alternatives", &C::alternatives, {0.0, 1000.0}, "so many more ways; not with via");
@@ -100,7 +108,11 @@ void PlanQueryConfig::describe(Fields<PlanQueryConfig>& fields) {
 }
 
 PlanQuery::PlanQuery(const PlanQueryConfig& config)
-    : question_{config.from,        config_detail::to_text(config.to, "to"), config.via, config.avoid, config.closed,
+    : question_{config.from.kind == ConfigValue::Kind::null ? "here" : config_detail::to_text(config.from, "from"),
+                config_detail::to_text(config.to, "to"),
+                texts_of(config.via, "via"),
+                config.avoid,
+                config.closed,
                 config.alternatives},
       file_name_(file_name_of(config.file, "answers.jsonl", ".jsonl")) {
   question_.cost = config.cost == PlanQueryConfig::Cost::time        ? "time"
@@ -109,7 +121,7 @@ PlanQuery::PlanQuery(const PlanQueryConfig& config)
   question_.explain = config.explain;
   if (question_.from.empty() || question_.to.empty())
     throw ConfigError(config.to.place, "plan_query: from and to must be places, found an empty text");
-  if (!config.via.empty() && config.alternatives > 0)
+  if (!question_.via.empty() && config.alternatives > 0)
     throw ConfigError(config.to.place, "plan_query: alternatives are known from place to place, not for a tour");
 }
 

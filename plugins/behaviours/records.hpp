@@ -35,9 +35,9 @@ class CaptureTemplate : public Behaviour {
 };
 
 struct PlanQueryConfig {
-  std::string from = "here";
-  ConfigValue to;  // text
-  std::vector<std::string> via;
+  ConfigValue from;  // text; none: here
+  ConfigValue to;    // text
+  ConfigValue via;   // list of texts
   std::vector<std::string> avoid;
   std::vector<std::string> closed;
   int alternatives = 0;

@@ -17,8 +17,7 @@ void ReturnHomeConfig::describe(Fields<ReturnHomeConfig>& fields) {
 ReturnHome::ReturnHome(const ReturnHomeConfig& config, std::uint64_t seed)
     : config_(config), seed_(seed), driver_(config, seed) {
   if (config.to.kind == ConfigValue::Kind::null) return;
-  to_ = config_detail::to_text(config.to, "to");
-  if (to_.empty()) throw ConfigError(config.to.place, "to must name a landmark, found an empty text");
+  to_ = to_landmark_name(config.to, "to");
 }
 
 void ReturnHome::halt() {

@@ -1,6 +1,6 @@
 #include "plugins/behaviours/search.hpp"
 
-#include <algorithm>
+#include "framework/config/named_category.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -31,13 +31,7 @@ void SearchConfig::describe(Fields<SearchConfig>& fields) {
 
 Search::Search(const SearchConfig& config, const std::vector<std::string>& categories)
     : config_(config), category_(config_detail::to_text(config.category, "category")), explore_(exploring(config)) {
-  const bool is_known = categories.empty() || std::ranges::find(categories, category_) != categories.end();
-  if (is_known && !category_.empty()) return;
-  std::string known;
-  for (const std::string& name : categories) known += (known.empty() ? "" : ", ") + name;
-  throw ConfigError(config.category.place, "search: the mission has no template of category " + shown(category_) +
-                                               did_you_mean(category_, categories) +
-                                               (known.empty() ? "" : "; it has " + known));
+  check_category_is_known(category_, config.category.place, "search", categories);
 }
 
 void Search::halt() {

@@ -60,17 +60,6 @@ void FaultConfig::describe(Fields<FaultConfig>& fields) {
   fields.one_of({"dead", "stuck", "slip", "compass_jump_deg", "silent", "kidnap"});
 }
 
-void FaultRates::describe(Fields<FaultRates>& fields) {
-  using C = FaultRates;
-  constexpr Range kRate{0.0, 3600.0};
-  fields.number("dead", &C::dead, kRate, "1/h", "one transducer without echo");
-  fields.number("stuck", &C::stuck, kRate, "1/h", "one transducer at its last reading");
-  fields.number("slip", &C::slip, kRate, "1/h", "left, right or both wheels, by a share from 0.1 to 0.9");
-  fields.number("compass_jump", &C::compass_jump, kRate, "1/h", "by up to 90 deg either way");
-  fields.number("silent", &C::silent, kRate, "1/h", "no ranges");
-  fields.number("kidnap", &C::kidnap, kRate, "1/h", "to a free place of the world, turned anyhow");
-}
-
 void RandomFaultsConfig::describe(Fields<RandomFaultsConfig>& fields) {
   fields.group("per_hour", &RandomFaultsConfig::per_hour, "how often each kind strikes, on average");
   fields.number("for_s", &RandomFaultsConfig::for_s, {0.0, 1e6}, "s", "how long each lasts");

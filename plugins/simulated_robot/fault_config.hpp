@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "framework/config/fault_rates.hpp"
 #include "framework/config/fields.hpp"
 
 namespace cairn {
@@ -42,17 +43,6 @@ struct FaultConfig {
   std::optional<KidnapConfig> kidnap;
   SourcePlace place;  // in the file; none of a random fault
   static void describe(Fields<FaultConfig>& fields);
-};
-
-// How often each kind strikes by chance.
-struct FaultRates {
-  double dead = 0.0;
-  double stuck = 0.0;
-  double slip = 0.0;
-  double compass_jump = 0.0;
-  double silent = 0.0;
-  double kidnap = 0.0;
-  static void describe(Fields<FaultRates>& fields);
 };
 
 struct RandomFaultsConfig {

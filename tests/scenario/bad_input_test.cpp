@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -128,6 +129,61 @@ TEST_F(BadMission, AnUnknownStepNamesTheNearestOne) {
   const Finished finished = run("- wait:", "- wiat:");
   EXPECT_EQ(finished.exit_status, 2);
   EXPECT_THAT(finished.err, HasSubstr("unknown behaviour plugin \"wiat\" (did you mean \"wait\"?)"));
+}
+
+// Known from the templates before the robot has moved.
+TEST_F(BadMission, ACategoryWithoutATemplateNamesTheNearestOne) {
+  const std::string sentence =
+      ": the mission has no template of category \"squar\" (did you mean \"square\"?); it has circle, square, triangle";
+  const std::vector<std::array<std::string, 3>> cases = {
+      {"goto", "goto: nearest squar", "11:11: "},
+      {"goto", "goto: {landmark: nearest squar}", "11:22: "},
+      {"tour", "tour: {places: [[1, 1], nearest squar]}", "11:29: "},
+      {"patrol", "patrol: {rounds: 1, places: [nearest squar]}", "11:34: "},
+      {"return_home", "return_home: nearest squar", "11:18: "},
+      {"dock", "dock: {landmark: nearest squar, side: left}", "11:22: "},
+      {"inspect", "inspect: nearest squar", "11:14: "},
+      {"capture_template", "capture_template: {at: nearest squar, name: a}", "11:28: "},
+      {"plan_query", "plan_query: {from: nearest squar, to: L1}", "11:24: "},
+      {"plan_query", "plan_query: {to: L1, via: [nearest squar]}", "11:32: "},
+      {"search", "search: squar", "11:13: "},
+      {"landmark_known", "landmark_known: nearest squar", "11:21: "},
+      {"at_place", "not: {at_place: {landmark: nearest squar}}", "11:32: "},
+  };
+  for (const auto& [name, step, at] : cases) {
+    const Finished finished = run("wait: {for_s: 1}", step);
+    EXPECT_EQ(finished.exit_status, 2) << step;
+    EXPECT_THAT(finished.err, StartsWith(place(at + name + sentence))) << step;
+    const Finished checked = run_cairn({"mission", "check", (folder_ / "bad.yaml").string()});
+    EXPECT_EQ(checked.exit_status, 2) << step;
+    EXPECT_THAT(checked.err, HasSubstr("bad.yaml:" + at + name + sentence)) << step;
+  }
+  EXPECT_THAT(run("- wait: {for_s: 1}", "- goto: ''").err,
+              StartsWith(place("11:11: landmark: \"\" is no landmark; one is an id")));
+}
+
+// Such a mission would be done at once, and take the place of a finished map.
+TEST_F(BadMission, WithoutAStepNothingIsRun) {
+  EXPECT_EQ(run("for_s: 1", "for_s: 1").exit_status, 0);
+  const auto saved = std::filesystem::last_write_time(folder_ / "out" / "bad.cairn");
+  const auto refused = [&](const std::string& steps, const std::string& error) {
+    const Finished finished = run("steps:\n  - wait: {for_s: 1}\n", steps);
+    EXPECT_EQ(finished.exit_status, 2) << steps;
+    EXPECT_THAT(finished.err, StartsWith(place(error))) << steps;
+    EXPECT_THAT(run_cairn({"mission", "check", (folder_ / "bad.yaml").string()}).err, HasSubstr(error)) << steps;
+  };
+  refused("steps: []\n", "10:8: steps: expected a list of at least one step, found an empty list");
+  refused("steps:\n", "10:1: steps: expected a list of at least one step, found nothing");
+  refused("", "5:9: the mission has no steps, and simulated_robot drives");
+  EXPECT_EQ(std::filesystem::last_write_time(folder_ / "out" / "bad.cairn"), saved);
+}
+
+TEST_F(BadMission, AWrongParameterIsToldWhereItWasGivenAndWhereItIsUsed) {
+  write_text(folder_ / "sub.yaml", "parameters: {for_s: }\nsteps:\n  - wait: $for_s\n");
+  const Finished finished = run("wait: {for_s: 1}", "mission: {file: sub.yaml, with: {for_s: soon}}");
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, AllOf(StartsWith(place("11:45: ")), HasSubstr("wait: for_s must be a number"),
+                                  HasSubstr("sub.yaml:3:5)")));
 }
 
 TEST_F(BadMission, CoarseCellsLargerThanTheSmallestLandmarkAreRefused) {

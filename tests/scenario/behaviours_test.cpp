@@ -154,13 +154,14 @@ TEST(Behaviours, WrongSettingsAreToldWithTheirPlaceAndTheNearestName) {
   const Finished finished = run_cairn({"mission", "check", file});
   EXPECT_EQ(finished.exit_status, 2);
   for (const char* told :
-       {":12:5: search: the mission has no template of category \"sqare\" (did you mean \"square\"?)",
+       {":12:13: search: the mission has no template of category \"sqare\" (did you mean \"square\"?)",
         ":13:35: gain must be a number", ":14:26: unknown key \"ordr\" in plugin tour (did you mean \"order\"?)",
         ":15:22: rounds must be forever or a number",
         ":16:19: unknown key \"too\" in plugin return_home (did you mean \"to\"?)",
         ":17:32: side must be one of front, left, back, right, found \"letf\" (did you mean \"left\"?)",
         ":18:51: file must be a plain file name", ":19:32: cost must be one of", "(did you mean \"length\"?)",
-        ":20:5: text: there is no {batery} (did you mean \"battery\"?)", ":21:20: ratio must be a number",
+        ":20:10: text: there is no {batery} (did you mean \"battery\"?)",
+        ":21:20: battery_above: ratio must be a number",
         ":22:5: unknown behaviour plugin \"ptrol\" (did you mean \"patrol\"?)"})
     EXPECT_THAT(finished.err + finished.out, HasSubstr(told));
 }

@@ -16,6 +16,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 // A folder of files; "main.yaml" is the list of steps.
@@ -102,7 +103,8 @@ TEST_F(MissionTreeFiles, EveryNodeIsReadWithItsSettingsAndPath) {
 
 TEST_F(MissionTreeFiles, WhatIsWrongIsToldWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"wait: 1", "main.yaml:1:1: steps: expected a list of steps, found a map"},
+      {"wait: 1", "main.yaml:1:1: steps: expected a list of at least one step, found a map"},
+      {"[]", "main.yaml:1:1: steps: expected a list of at least one step, found an empty list"},
       {"- {wait: 1, save: a}",
        "main.yaml:1:3: a step is one behaviour or node with its settings, such as `goto: "
        "{landmark: nearest square}`, not a map with 2 keys"},
@@ -136,10 +138,13 @@ TEST_F(MissionTreeFiles, WhatIsWrongIsToldWithItsPlace) {
       {"- always: []", "main.yaml:1:11: always needs one node, found an empty list"},
       {"- landmark_known:", "main.yaml:1:3: landmark_known lacks the key \"landmark\""},
       {"- landmark_known: ''", "main.yaml:1:19: landmark_known needs a landmark or category, found an empty text"},
-      {"- explored: 95", "main.yaml:1:13: at_least_ratio must be a number from 0 to 1, found \"95\""},
+      {"- landmark_known: nearest", "main.yaml:1:19: landmark_known: \"nearest\" names no category"},
+      {"- explored: 95",
+       "main.yaml:1:13: explored: at_least_ratio must be a number from 0 to 1, found \"95\" (95 % is 0.95)"},
       {"- at_place: {within_m: 1}", "main.yaml:1:3: at_place needs one of landmark, at_m"},
       {"- at_place: {landmark: L1, at_m: [0, 0]}", "at_place takes only one of"},
-      {"- battery_above: 30", "main.yaml:1:18: ratio must be a number from 0 to 1, found \"30\""},
+      {"- battery_above: 30",
+       "main.yaml:1:18: battery_above: ratio must be a number from 0 to 1, found \"30\" (30 % is 0.3)"},
       {"- time_before: {s: 3}", "main.yaml:1:17: unknown key \"s\" in time_before"},
       {"- wait: $time", "main.yaml:1:9: unknown parameter \"time\" of the mission itself; it has none"},
   };
@@ -209,8 +214,17 @@ TEST_F(MissionTreeFiles, ParametersGoThroughSubMissionsToTheFieldThatTheyAreFor)
   write("inner.yaml", "parameters: {after_s: 3}\nsteps:\n  - timeout: {after_s: $after_s, do: wait}\n");
   EXPECT_THAT(text("- mission: {file: outer.yaml, with: {patience: 7}}"), HasSubstr("after_s: 7"));
   EXPECT_THAT(errors("- mission:\n    file: outer.yaml\n    with: {patience: soon}"),
-              ElementsAre(StartsWith("main.yaml:3:22: after_s must be a number from 0.001")))
-      << "told where the value was written";
+              ElementsAre(AllOf(StartsWith("main.yaml:3:22: after_s must be a number from 0.001"),
+                                EndsWith("(given as a parameter to inner.yaml:3:5)"))))
+      << "told where the value was written, and where it is used";
+  write("short.yaml", "parameters: {share: , to: L1}\nsteps:\n  - explored: $share\n  - goto: $to\n");
+  EXPECT_THAT(errors("- mission: {file: short.yaml, with: {share: 90}}"),
+              ElementsAre(AllOf(StartsWith("main.yaml:1:45: explored: at_least_ratio must be"),
+                                EndsWith("(given as a parameter to short.yaml:3:5)"))));
+  const MissionTree tree = read("- mission: {file: short.yaml, with: {share: 0.9, to: L2}}");
+  const TreeNode& go = tree.steps[0].children[1];
+  EXPECT_EQ(go.place.text(), (folder_ / "short.yaml").string() + ":4:5");
+  EXPECT_EQ(go.choice.config.place.text(), (folder_ / "main.yaml").string() + ":1:54");
 }
 
 TEST_F(MissionTreeFiles, ParametersThatDoNotFitAreErrors) {
@@ -242,6 +256,41 @@ TEST_F(MissionTreeFiles, ParametersThatDoNotFitAreErrors) {
       errors("- mission: typo.yaml"),
       ElementsAre(HasSubstr("typo.yaml:3:11: unknown parameter \"wher\" of typo.yaml (did you mean \"where\"?)"),
                   HasSubstr("typo.yaml:1:21: the parameter \"where\" of typo.yaml is used by no step")));
+}
+
+// A mission from elsewhere that names /etc/shadow must not show it.
+TEST_F(MissionTreeFiles, WhatStandsInAFileElsewhereThatIsNoSubMissionIsNotShown) {
+  std::filesystem::create_directories(folder_ / "in");
+  const std::string hidden = " (what stands in a file outside the mission's folder is not shown)";
+  const std::string no_map = "secret:1:1: a sub-mission must be a map with the key \"steps\", found ";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"root:$6$hush:19000:0:::\ndaemon:*:19000:0:::\n",
+       "secret:1:1: no sub-mission: it lacks the key \"steps\"" + hidden},
+      {"root:x:0:0:hush:/root\n", no_map + "text"},
+      {"[hush]\n", no_map + "a list"},
+      {"{a: 1, hush: 2}\n", "secret:1:1: no sub-mission: it lacks the key \"steps\"" + hidden},
+      {"hush: 1\nhush: 2\n", "secret:2:1: the key" + hidden},
+      {"- !hush 3\n", "secret:1:3: the YAML tag" + hidden},
+      {"a: *hush\n", "not valid YAML" + hidden},
+      {"a: 1\n  hush: : 2\n", "not valid YAML" + hidden},
+      {"a: \"hush\n", "secret:1:4: the quote that is opened here is never closed" + hidden},
+      {"a: \x01hush\n", "secret:1:4: a control character" + hidden},
+  };
+  for (const auto& [content, expected] : cases) {
+    write("secret", content);
+    write("in/main.yaml", "- mission: ../secret\n");
+    const MissionTree tree = read_mission_tree(read_config_file(folder_ / "in/main.yaml"), folder_ / "in/main.yaml");
+    ASSERT_EQ(tree.errors.size(), 1U) << content;
+    EXPECT_THAT(tree.errors.front().what(), AllOf(HasSubstr(expected), Not(HasSubstr("hush")))) << content;
+  }
+  std::filesystem::create_symlink("../secret", folder_ / "in/link.yaml");
+  write("secret", "hush: 1\n");
+  write("in/main.yaml", "- mission: link.yaml\n");
+  const MissionTree linked = read_mission_tree(read_config_file(folder_ / "in/main.yaml"), folder_ / "in/main.yaml");
+  EXPECT_THAT(linked.errors.at(0).what(), AllOf(HasSubstr("link.yaml:1:1: no sub-mission"), Not(HasSubstr("hush"))));
+  write("beside.yaml", "stpes: [wait]\n");
+  EXPECT_THAT(errors("- mission: beside.yaml"),
+              ElementsAre(HasSubstr("\"stpes\" in sub-mission (did you mean \"steps\"?)")));
 }
 
 TEST_F(MissionTreeFiles, ASubMissionThatRunsItselfIsRefusedWithTheChain) {

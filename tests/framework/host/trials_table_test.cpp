@@ -76,6 +76,16 @@ TEST(BrokenLimits, AreToldOneByOne) {
                                    "as_is: 1 missions ended without a reason"));
 }
 
+TEST(BrokenLimits, AGoalThatWasNeverExploredCountsAsMissed) {
+  const GoalVerdict reached = goal(GoalEnd::reached);
+  const GoalVerdict unmapped = goal(GoalEnd::failed, true, false);
+  EXPECT_THAT(broken_limits(config_of_trials(), {row_with({reached, unmapped})}), testing::IsEmpty());
+  EXPECT_THAT(broken_limits(config_of_trials(), {row_with({reached, unmapped, unmapped})}),
+              testing::ElementsAre("as_is: 0.3333 of the goals reached, asked for are 0.5"));
+  const GoalVerdict struck = goal(GoalEnd::failed, true, true, true);
+  EXPECT_THAT(broken_limits(config_of_trials(), {row_with({struck})}), testing::IsEmpty()) << "nothing to judge by";
+}
+
 TEST(TrialsTable, ListsEveryCaseToLookInto) {
   ExperimentRow row = row_with({goal(GoalEnd::failed), goal(GoalEnd::failed, false)});
   row.trial->fast_contacts.push_back({3.5, {0.2, true}});

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 
 #include "tests/plugins/behaviours/fake_host.hpp"
+#include "tests/plugins/behaviours/written_config.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -226,6 +228,10 @@ TEST(GoTo, NeedsExactlyOneGoal) {
   GoToConfig both = config_for("L1");
   both.at_m = Point{1.0, 1.0};
   EXPECT_THROW(GoTo(both, 1), ConfigError);
+  for (const char* nothing : {"\"\"", "nearest", "\"nearest \""})
+    EXPECT_THAT(error_of([&] { GoTo(config_of<GoToConfig>(std::string("landmark: ") + nothing), 1); }),
+                AllOf(StartsWith("mission.yaml:1:11: landmark: "), HasSubstr(" is no landmark; one is an id (L3), a")))
+        << nothing;
 }
 
 TEST(GoTo, BeginsAfreshAfterAHalt) {

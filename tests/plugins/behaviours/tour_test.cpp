@@ -213,7 +213,7 @@ TEST(ReturnHome, GoesToItsDockByName) {
   ReturnHome lost(config_of<ReturnHomeConfig>("dok"), 1);
   EXPECT_THAT(host.run(lost, 10.0).reason, HasSubstr("no landmark \"dok\" (did you mean \"dock\"?)"));
   EXPECT_THAT(error_of([] { ReturnHome(config_of<ReturnHomeConfig>("{to: \"\"}"), 1); }),
-              HasSubstr("mission.yaml:1:6: to must name a landmark"));
+              HasSubstr("mission.yaml:1:6: to: \"\" is no landmark; one is"));
 }
 
 }  // namespace
