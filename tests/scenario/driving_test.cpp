@@ -20,7 +20,7 @@ const std::string kWallWithDoor =
     "  - {points_m: [[3, 0], [3, 0.5]], surface: rough}\n  - {points_m: [[3, 1.5], [3, 2]], surface: rough}\n";
 
 json run(const std::string& name, const std::string& world, const std::string& sensor = "",
-         const std::string& seed = "1") {
+         const std::string& seed = "1", const std::string& at_most_s = "300") {
   const auto folder = fresh_folder("driving_" + name);
   write_text(folder / "world.yaml", world);
   write_text(folder / "mission.yaml",
@@ -30,7 +30,8 @@ json run(const std::string& name, const std::string& world, const std::string& s
                  sensor +
                  "}\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel, cell_m: 0.05}\n"
                  "planner: {plugin: hybrid, route: {plugin: ompl}}\nsteps:\n"
-                 "  - goto: {at_m: [5.2, 1.0], at_most_s: 300}\n");
+                 "  - goto: {at_m: [5.2, 1.0], at_most_s: " +
+                 at_most_s + "}\n");
   const Finished finished =
       run_cairn({"run", (folder / "mission.yaml").string(), "--seed", seed, "--out", folder.string(), "--json"});
   EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
@@ -103,12 +104,17 @@ TEST(Driving, TakesTheOtherWayRoundWhenADoorStaysClosed) {
   expect_no_hard_touch(report);
 }
 
+// Sonars draw it narrower than the robot: it takes some looking.
 TEST(Driving, PassesADoorOfSeventyCentimetres) {
-  const json report = run("narrow", kRoom +
-                                        "  - {points_m: [[3, 0], [3, 0.65]], surface: rough}\n"
-                                        "  - {points_m: [[3, 1.35], [3, 2]], surface: rough}\n");
-  EXPECT_EQ(report["outcome"], "done") << report["reason"];
-  EXPECT_EQ(report["collisions"], 0);
+  for (const std::string seed : {"1", "2", "3", "4"}) {
+    const json report = run("narrow",
+                            kRoom +
+                                "  - {points_m: [[3, 0], [3, 0.65]], surface: rough}\n"
+                                "  - {points_m: [[3, 1.35], [3, 2]], surface: rough}\n",
+                            "", seed, "1200");
+    EXPECT_EQ(report["outcome"], "done") << seed << report["reason"];
+    EXPECT_EQ(report["collisions"], 0) << seed;
+  }
 }
 
 TEST(Driving, StandsWhileItsSensorsAreSilentAndGoesOnAfter) {
