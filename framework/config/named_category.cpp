@@ -1,7 +1,6 @@
 #include "framework/config/named_category.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 namespace cairn {
 namespace {
@@ -9,6 +8,10 @@ namespace {
 constexpr std::string_view kNearest = "nearest ";
 
 }  // namespace
+
+bool names_nothing(std::string_view text) {
+  return text.empty() || text == kNearest || text == kNearest.substr(0, kNearest.size() - 1);
+}
 
 void check_category_is_known(const std::string& category, const SourcePlace& place, const std::string& what,
                              const std::vector<std::string>& categories) {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "framework/config/config_value.hpp"
 
 namespace cairn {
+
+// Nothing, or `nearest` without what.
+[[nodiscard]] bool names_nothing(std::string_view text);
 
 // Throws ConfigError at the place when the category is none of the known ones, with the nearest of them. No known ones:
 // nobody knows, so that everything but an empty text is fine. what: that names it, such as "goto".

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "framework/config/named_category.hpp"
 #include "framework/host/mission_parameters.hpp"
 #include "framework/host/sub_mission_file.hpp"
 
@@ -247,7 +248,7 @@ class TreeReader {
         node.kind == NodeKind::landmark_known || (node.kind == NodeKind::at_place && !condition.at_m);
     if (needs_landmark && condition.landmark.empty())
       throw ConfigError(value.place, what + " needs a landmark or category, found an empty text");
-    if (needs_landmark && (condition.landmark == "nearest" || condition.landmark == "nearest "))
+    if (needs_landmark && names_nothing(condition.landmark))
       throw ConfigError(value.place, what + ": " + shown(condition.landmark) + " names no category");
     return condition;
   }

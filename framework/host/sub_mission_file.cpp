@@ -8,7 +8,7 @@
 namespace cairn {
 namespace {
 
-constexpr const char* kNotShown = " (what stands in a file outside the mission's folder is not shown)";
+constexpr const char* kNotShown = " (what stands in a file outside the folder of the one that names it is not shown)";
 
 std::filesystem::path resolved(const std::filesystem::path& file) {
   std::error_code error;

@@ -16,12 +16,10 @@ const CellChanges& BayesMap::integrate(const Observation& observation, const Pos
   changes_.spans.clear();
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
-  const std::span<const Cell> under = standing_room_.unknown_under(grid_, pose.T_map_robot);
-  for (const Cell cell : under) {
-    grid_.set_log_odds(cell, sonar_model::StandingRoom::kFree);
-    changes_.spans.push_back({cell.y, cell.x, cell.x + 1});
-  }
-  if (observation.ranges.size() > 1 || !under.empty()) sonar_model::tidy(changes_.spans);
+  const std::size_t beams = changes_.spans.size();
+  standing_room_.take(grid_, pose.T_map_robot, changes_.spans);
+  const bool is_one_beam = observation.ranges.size() <= 1 && changes_.spans.size() == beams;
+  if (!is_one_beam) sonar_model::tidy(changes_.spans);
   return changes_;
 }
 

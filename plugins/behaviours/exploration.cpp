@@ -128,13 +128,13 @@ bool Exploration::needs_choice(const WorldView& world) const {
   return since_s >= kChoiceEvery_s || !still_worthwhile(*task_, world.grid);
 }
 
-bool Exploration::choose_by(const Search& search, const WorldView& world) {
+bool Exploration::choose_by(const Search& search, const WorldView& world, const std::optional<ExploreTask>& before) {
   search_ = search;
   const FreeSpace space = space_now(world, search);
   const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
   // Each turn of the loop either ends it or gives a part of a task up.
   for (;;) {
-    task_ = next_task(space, world.pose.T_map_robot, frontiers_wanted, task_ ? &*task_ : nullptr, settings_, memory_);
+    task_ = next_task(space, world.pose.T_map_robot, frontiers_wanted, before ? &*before : nullptr, settings_, memory_);
     if (!task_) return false;
     const bool is_there = length_of(task_->path) < kThere_m;
     if (!is_there || is_to_be_faced()) return true;
@@ -142,10 +142,10 @@ bool Exploration::choose_by(const Search& search, const WorldView& world) {
   }
 }
 
-bool Exploration::choose_again(const WorldView& world) {
+bool Exploration::choose_again(const WorldView& world, const std::optional<ExploreTask>& before) {
   if (!config_.second_look || config_.look_closer_m <= 0.0) return false;
   const Search search{kEverywhere_m, config_.clearance_m};
-  return look_again(space_now(world, search), world.graph, settings_.lap, memory_) && choose_by(search, world);
+  return look_again(space_now(world, search), world.graph, settings_.lap, memory_) && choose_by(search, world, before);
 }
 
 bool Exploration::choose_opening(const WorldView& world) {
@@ -170,22 +170,22 @@ bool Exploration::is_shut_in(const WorldView& world) const {
   return static_cast<double>(back) < kShutInRatio * static_cast<double>(memory_.trace.size());
 }
 
-bool Exploration::leads_on(const WorldView& world, double clearance_m) const {
-  return tighter_leads_on(space_now(world, {kEverywhere_m, config_.clearance_m}),
-                          space_now(world, {kEverywhere_m, clearance_m}));
+bool Exploration::leads_on(const WorldView& world, const Search& tight) const {
+  return tighter_leads_on(space_now(world, {tight.within_m, config_.clearance_m}), space_now(world, tight));
 }
 
 bool Exploration::choose(const WorldView& world, Orders& orders) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   chosen_s_ = world.time_s;
   follow_state_ = {0.0, follow_state_.turning};
-  const double tight_m = std::min(config_.clearance_m, kTightClearance_m);
   // The whole map only when there is nothing to do around here; less room only when shut in, or where a door seems
   // narrow also from right ahead.
-  const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world) ||
-                     choose_by({kEverywhere_m, config_.clearance_m}, world) ||
-                     (is_shut_in(world) && choose_by({kEverywhere_m, tight_m}, world)) || choose_again(world) ||
-                     choose_opening(world) || (leads_on(world, tight_m) && choose_by({kEverywhere_m, tight_m}, world));
+  const std::optional<ExploreTask> before = task_;
+  const Search tight{kEverywhere_m, std::min(config_.clearance_m, kTightClearance_m)};
+  const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world, before) ||
+                     choose_by({kEverywhere_m, config_.clearance_m}, world, before) ||
+                     (is_shut_in(world) && choose_by(tight, world, before)) || choose_again(world, before) ||
+                     choose_opening(world) || (leads_on(world, tight) && choose_by(tight, world, before));
   if (!found) return false;
   if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
     said_about_ = task_->about;

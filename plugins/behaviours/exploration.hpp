@@ -39,13 +39,13 @@ class Exploration {
   [[nodiscard]] FreeSpace space_now(const WorldView& world, const Search& search) const;
   [[nodiscard]] bool is_shut_in(const WorldView& world) const;
   // Whether keeping less room gets the robot to more of the map.
-  [[nodiscard]] bool leads_on(const WorldView& world, double clearance_m) const;
-  [[nodiscard]] bool choose_by(const Search& search, const WorldView& world);
+  [[nodiscard]] bool leads_on(const WorldView& world, const Search& tight) const;
+  [[nodiscard]] bool choose_by(const Search& search, const WorldView& world, const std::optional<ExploreTask>& before);
   [[nodiscard]] bool is_blocked(const WorldView& world) const;
   [[nodiscard]] bool is_on_lap(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
   [[nodiscard]] bool choose(const WorldView& world, Orders& orders);
-  [[nodiscard]] bool choose_again(const WorldView& world);
+  [[nodiscard]] bool choose_again(const WorldView& world, const std::optional<ExploreTask>& before);
   [[nodiscard]] bool choose_opening(const WorldView& world);
   [[nodiscard]] bool is_to_be_faced() const;
   Status nothing_left(const WorldView& world, Orders& orders);

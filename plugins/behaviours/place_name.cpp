@@ -4,16 +4,10 @@
 #include <cstdio>
 
 #include "framework/config/fields.hpp"
+#include "framework/config/named_category.hpp"
 #include "plugins/behaviours/go_to.hpp"
 
 namespace cairn::behaviours {
-namespace {
-
-bool names_nothing(const std::string& text) {
-  return text.empty() || text == "nearest" || text == "nearest ";
-}
-
-}  // namespace
 
 PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
   if (value.kind == ConfigValue::Kind::list) return place_name_of(config_detail::to_point(value, key));

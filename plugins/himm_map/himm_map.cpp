@@ -17,6 +17,12 @@ std::vector<LogOdds> log_odds_table(int certainty_max) {
   return table;
 }
 
+// The highest certainty that is as surely free as that.
+int surest_of(const std::vector<LogOdds>& log_odds_of_certainty, LogOdds free) {
+  const auto beyond = std::ranges::upper_bound(log_odds_of_certainty, free);
+  return static_cast<int>(std::max<std::ptrdiff_t>(0, beyond - log_odds_of_certainty.begin() - 1));
+}
+
 }  // namespace
 
 using sonar_model::Meaning;
@@ -24,6 +30,7 @@ using sonar_model::Meaning;
 HimmMap::HimmMap(const Config& config)
     : config_(config),
       log_odds_of_certainty_(log_odds_table(config.certainty_max)),
+      free_certainty_(surest_of(log_odds_of_certainty_, sonar_model::StandingRoom::kFree)),
       grid_(config.cell_m, kRoomForEveryCertainty_nat) {}
 
 void HimmMap::begin_with(const OccupancyGrid& grid) {
@@ -44,7 +51,7 @@ const CellChanges& HimmMap::integrate(const Observation& observation, const Pose
   changes_.spans.clear();
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
-  for (const Cell cell : standing_room_.unknown_under(grid_, pose.T_map_robot)) set_certainty(cell, 0);
+  for (const Cell cell : standing_room_.unknown_under(grid_, pose.T_map_robot)) set_certainty(cell, free_certainty_);
   sonar_model::tidy(changes_.spans);
   return changes_;
 }

@@ -1,9 +1,9 @@
 // Mapper for comparison: histogrammic in-motion mapping (Borenstein and Koren, 1991).
 //
-// Only cells on the acoustic axis learn anything: the one at the echo's range gains `increment`, those
-// before it lose `decrement`, certainties end at 0 and certainty_max. Without an echo all lose, up to
-// range_m. A cell's certainty c stands in OG1 as P = (c + 0.5) / (certainty_max + 1), a cell never on an
-// axis as unknown. What a reading means stands in sonar_model/reading.hpp.
+// But for those where the robot stands (standing_room.hpp) only cells on the acoustic axis learn anything: the one at
+// the echo's range gains `increment`, those before it lose `decrement`, certainties end at 0 and certainty_max. Without
+// an echo all lose, up to range_m. A cell's certainty c stands in OG1 as P = (c + 0.5) / (certainty_max + 1), a cell
+// never on an axis as unknown. What a reading means stands in sonar_model/reading.hpp.
 #pragma once
 
 #include <array>
@@ -36,6 +36,7 @@ class HimmMap final : public Mapper {
 
   Config config_;
   std::vector<LogOdds> log_odds_of_certainty_;
+  int free_certainty_;  // of where the robot stands
   OccupancyGrid grid_;
   sonar_model::TileMap<std::array<std::uint8_t, sonar_model::kCellsInTile>> certainties_;
   CellChanges changes_;  // of the latest call

@@ -38,10 +38,7 @@ const CellChanges& Muriel::integrate(const Observation& observation, const PoseE
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges)
     if (const auto news = placed(config_, reading, pose.T_map_robot)) integrate_reading(*news);
-  for (const Cell cell : standing_room_.unknown_under(grid_, pose.T_map_robot)) {
-    grid_.set_log_odds(cell, sonar_model::StandingRoom::kFree);
-    changes_.spans.push_back({cell.y, cell.x, cell.x + 1});
-  }
+  standing_room_.take(grid_, pose.T_map_robot, changes_.spans);
   join_rows();
   return changes_;
 }

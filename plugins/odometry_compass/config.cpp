@@ -26,9 +26,8 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("compass_jump_sigmas", &Config::compass_jump_sigmas, {1.0, 100.0}, "",
                 "what the compass turns more than the wheels from one reading to the next, by so many standard "
                 "deviations, is a disturbance: what it reads then is refused while it is beyond the gate");
-  fields.integer(
-      "compass_refusals", &Config::compass_refusals, {1, 1000000},
-      "after so many refusals in a row the compass is believed nevertheless, and the heading is the suspect");
+  fields.number("compass_refused_at_most_s", &Config::compass_refused_at_most_s, {0.0, 1e6}, "s",
+                "after so long beyond the gate the compass is believed nevertheless, and the heading is the suspect");
   fields.flag("bound_bias", &Config::bound_bias,
               "the compass's local bias is kept within the bound that the robot's file gives");
   fields.flag("use_walls", &Config::use_walls, "straight walls that sonars meet again correct the pose");

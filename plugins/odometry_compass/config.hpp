@@ -20,7 +20,7 @@ struct Config {
   double compass_gate_sigmas = 4.0;
   double compass_drift_sigmas = 4.5;
   double compass_jump_sigmas = 4.0;
-  int compass_refusals = 375;
+  double compass_refused_at_most_s = 15.0;
   bool bound_bias = true;
   // Walls.
   bool use_walls = true;

@@ -58,14 +58,14 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
       motion_noise_(motion_noise_of(config, robot)),
       compass_noise_rad_(std::max(config.least_compass_noise_rad, robot.compass_error.noise_rad)),
       most_bias_rad_(robot.compass_error.local_bias_rad),
-      half_track_m_(robot.radius_m),
+      about_half_track_m_(robot.kinematics == Kinematics::differential ? robot.radius_m : 0.0),
       filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
                             motion_noise_.bias_rad}),
       wall_finder_(wall_rules_of(motion_noise_, config.use_compass ? compass_noise_rad_ : 0.0)) {}
 
 PoseEstimate OdometryCompass::update(const Observation& observation, std::span<const LandmarkSighting> sightings) {
   follow_odometry(observation.T_odom_robot);
-  if (config_.use_compass && observation.compass_rad) follow_compass(*observation.compass_rad);
+  if (config_.use_compass && observation.compass_rad) follow_compass(*observation.compass_rad, observation.stamp_s);
   int used = config_.use_walls ? follow_walls(observation) : 0;
   int refused = 0;
   for (const LandmarkSighting& sighting : sightings) ++(follow_landmark(sighting) ? used : refused);
@@ -81,55 +81,76 @@ void OdometryCompass::follow_odometry(const Pose2& T_odom_robot) {
     const Pose2 step = inverse(*T_odom_robot_) * T_odom_robot;
     filter_.predict(step, motion_noise_);
     turned_rad_ += step.theta_rad;
+    rolled_m_ += step.position().norm() + std::abs(step.theta_rad) * about_half_track_m_;
     last_step_ = step;
   }
   T_odom_robot_ = T_odom_robot;
 }
 
-void OdometryCompass::follow_compass(double compass_rad) {
+void OdometryCompass::follow_compass(double compass_rad, double stamp_s) {
   if (!std::isfinite(compass_rad)) return;
   jumped_ = jumped_ || has_jumped(compass_rad);
+  drift_rolled_m_ = (1.0 - kDriftShare) * drift_rolled_m_ + rolled_m_;
   compass_rad_ = compass_rad;
   turned_rad_ = 0.0;
+  rolled_m_ = 0.0;
   const double gate = config_.compass_gate_sigmas;
   const auto [off_rad, sigma_rad] = filter_.compare_heading(compass_rad, compass_noise_rad_);
   const double off_sigmas = off_rad / sigma_rad;
-  const bool is_refused = std::abs(off_sigmas) > gate;
-  if (!is_refused) jumped_ = false;
-  refused_in_a_row_ = is_refused ? refused_in_a_row_ + 1 : 0;
-  const bool persists = refused_in_a_row_ >= config_.compass_refusals;
+  if (std::abs(off_sigmas) <= gate) {
+    jumped_ = false;
+    refused_since_s_.reset();
+  } else if (!refused_since_s_) {
+    refused_since_s_ = stamp_s;
+  }
+  const bool persists = refused_since_s_ && stamp_s - *refused_since_s_ >= config_.compass_refused_at_most_s;
   if (jumped_ && !persists) return;
   drift_sigmas_ += kDriftShare * (std::clamp(off_sigmas, -gate, gate) - drift_sigmas_);
-  const double mean_sigmas = std::sqrt(kDriftShare / (2.0 - kDriftShare));
-  const bool slips = !jumped_ && std::abs(drift_sigmas_) > config_.compass_drift_sigmas * mean_sigmas;
+  const double doubted_rad = std::max(std::abs(off_rad), std::abs(drift_sigmas_) * sigma_rad);
+  const bool slips = !jumped_ && is_drifting() && could_slip(doubted_rad);
   const double before_rad = filter_.estimate().T_map_robot.theta_rad;
   if (slips || persists) {
-    filter_.doubt_heading(std::max(std::abs(off_rad), std::abs(drift_sigmas_) * sigma_rad));
+    filter_.doubt_heading(doubted_rad);
     drift_sigmas_ = 0.0;
-    refused_in_a_row_ = 0;
+    refused_since_s_.reset();
   }
   (void)filter_.correct_heading(compass_rad, compass_noise_rad_, gate);
   if (slips) follow_slip(wrap_angle(filter_.estimate().T_map_robot.theta_rad - before_rad));
   if (config_.bound_bias) filter_.bound_bias(most_bias_rad_);
 }
 
+// The compass itself has turned, and it and the odometry have parted by more than a wheel that slips could make them.
 bool OdometryCompass::has_jumped(double compass_rad) const {
   if (!compass_rad_) return false;
-  const double parted_rad = std::abs(wrap_angle(compass_rad - *compass_rad_ - turned_rad_));
-  return parted_rad > config_.compass_jump_sigmas * std::numbers::sqrt2 * compass_noise_rad_;
+  const double noise_rad = config_.compass_jump_sigmas * std::numbers::sqrt2 * compass_noise_rad_;
+  const double slip_rad = about_half_track_m_ > 0.0 ? rolled_m_ / (2.0 * about_half_track_m_) : 0.0;
+  const double turned_rad = wrap_angle(compass_rad - *compass_rad_);
+  return std::abs(turned_rad) > noise_rad && std::abs(wrap_angle(turned_rad - turned_rad_)) > noise_rad + slip_rad;
+}
+
+bool OdometryCompass::is_drifting() const {
+  const double mean_sigmas = std::sqrt(kDriftShare / (2.0 - kDriftShare));
+  return std::abs(drift_sigmas_) > config_.compass_drift_sigmas * mean_sigmas;
+}
+
+// Whether the wheels have rolled far enough for half of it. Nobody knows of a car's.
+bool OdometryCompass::could_slip(double turned_rad) const {
+  return about_half_track_m_ <= 0.0 ? drift_rolled_m_ > 0.0 : drift_rolled_m_ >= turned_rad * about_half_track_m_;
 }
 
 // A wheel that slips turns the robot, and the robot has gone less far: where only one of the wheels, by the way that it
 // turned, can have done so, that is known, about.
 void OdometryCompass::follow_slip(double turned_rad) {
-  const double lost_m = std::abs(turned_rad) * half_track_m_;
-  const double across_m = last_step_.theta_rad * half_track_m_;
+  if (about_half_track_m_ <= 0.0) return;
+  const double lost_m = std::min(std::abs(turned_rad) * about_half_track_m_, 0.5 * drift_rolled_m_);
+  const double across_m = last_step_.theta_rad * about_half_track_m_;
   const double left_m = last_step_.x_m - across_m;
   const double right_m = last_step_.x_m + across_m;
   const bool left_may = left_m * turned_rad > 0.0;
   const bool right_may = right_m * turned_rad < 0.0;
   const double along_m = left_may == right_may ? 0.0 : std::copysign(lost_m, left_may ? -left_m : -right_m);
-  filter_.slide(along_m, along_m == 0.0 ? lost_m : 0.5 * lost_m);
+  // The pieces of one slip err the same way, so that each counts for more than its own error.
+  filter_.slide(along_m, along_m == 0.0 ? 2.0 * lost_m : lost_m);
 }
 
 int OdometryCompass::follow_walls(const Observation& observation) {

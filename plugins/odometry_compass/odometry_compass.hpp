@@ -6,8 +6,8 @@
 //   odometry that is not finite, or   the step is skipped, the next one counts from the last good one
 //   beyond 1000 km
 //   no compass, or not finite         odometry alone
-//   compass that turns at once by     a disturbance: refused while it is beyond the gate; after
-//   what no wheel could turn          `compass_refusals` in a row it is believed
+//   compass that turns at once by     a disturbance: refused while it is beyond the gate, at most
+//   what no wheel could turn          `compass_refused_at_most_s`
 //   compass that parts from the       wheels slip: the heading is the suspect
 //   heading little by little
 //   landmark beyond the gate          refused (the wrong landmark, most likely)
@@ -36,9 +36,11 @@ class OdometryCompass final : public Localizer {
 
  private:
   void follow_odometry(const Pose2& T_odom_robot);
-  void follow_compass(double compass_rad);
+  void follow_compass(double compass_rad, double stamp_s);
   void follow_slip(double turned_rad);
   [[nodiscard]] bool has_jumped(double compass_rad) const;
+  [[nodiscard]] bool is_drifting() const;
+  [[nodiscard]] bool could_slip(double turned_rad) const;
   int follow_walls(const Observation& observation);
   bool follow_landmark(const LandmarkSighting& sighting);
   [[nodiscard]] bool correct_by(const LandmarkSighting& sighting);
@@ -47,17 +49,19 @@ class OdometryCompass final : public Localizer {
   MotionNoise motion_noise_;
   double compass_noise_rad_;
   double most_bias_rad_;
-  double half_track_m_;
+  double about_half_track_m_;  // of a differential robot; 0: of another
   PoseFilter filter_;
   WallFinder wall_finder_;
-  std::optional<Pose2> T_odom_robot_;  // the last good one
-  Pose2 last_step_;                    // as odometry saw it
-  std::optional<double> compass_rad_;  // the last reading
-  double turned_rad_ = 0.0;            // since then, by odometry
-  bool jumped_ = false;                // the compass; nothing of it was within the gate since
-  int refused_in_a_row_ = 0;           // of the compass
-  double drift_sigmas_ = 0.0;          // mean of how far off the last readings were
-  int refused_places_ = 0;             // sightings in a row that would all move the robot by about the same
+  std::optional<Pose2> T_odom_robot_;      // the last good one
+  Pose2 last_step_;                        // as odometry saw it
+  std::optional<double> compass_rad_;      // the last reading
+  double turned_rad_ = 0.0;                // since then, by odometry
+  double rolled_m_ = 0.0;                  // since then, by the wheel that rolled more
+  bool jumped_ = false;                    // the compass; nothing of it was within the gate since
+  std::optional<double> refused_since_s_;  // the compass
+  double drift_sigmas_ = 0.0;              // mean of how far off the last readings were
+  double drift_rolled_m_ = 0.0;            // rolled in that time, about
+  int refused_places_ = 0;                 // sightings in a row that would all move the robot by about the same
   Point refused_off_m_{0.0, 0.0};
 };
 

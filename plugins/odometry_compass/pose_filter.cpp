@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace cairn::odometry_compass {
 namespace {
@@ -13,8 +14,7 @@ constexpr double kSurely_sigmas = 6.0;  // further off than this from every know
 constexpr double kSameDirection_rad = radians(25.0);
 constexpr double kSamePlace_m = 0.6;
 constexpr double kFurthestCut_sigmas = 8.0;  // beyond, the tail is too thin for its moments
-constexpr double kHalfRoot = 0.70710678118654752;
-constexpr double kRootTwoPi = 2.5066282746310005;
+constexpr double kRootTwoPi = std::numbers::sqrt2 / std::numbers::inv_sqrtpi;
 constexpr double kAmbiguous = 4.0;  // squared distance by which the best must lead
 
 constexpr double squared(double x) {
@@ -112,14 +112,18 @@ void PoseFilter::bound_bias(double most_rad) {
   if (!(beyond_rad > 0.0) || !(variance > 0.0)) return;
   const double sigma = std::sqrt(variance);
   const double cut = std::max(-kFurthestCut_sigmas, -beyond_rad / sigma);
-  const double hazard = std::exp(-0.5 * squared(cut)) / (0.5 * std::erfc(-cut * kHalfRoot) * kRootTwoPi);
+  const double hazard = std::exp(-0.5 * squared(cut)) / (0.5 * std::erfc(-cut / std::numbers::sqrt2) * kRootTwoPi);
   const double less_rad = std::copysign(std::max(beyond_rad, sigma * hazard), state_[kBias]);
   const double less_ratio = std::clamp(hazard * (cut + hazard), 0.0, 1.0);  // of the variance
   const State with = covariance_.col(kBias) / variance;
   state_ -= with * less_rad;
   state_[kTheta] = wrap_angle(state_[kTheta]);
   for (int wall = 0; wall < walls_; ++wall) state_[kPoseStates + 2 * wall] = wrap_angle(state_[kPoseStates + 2 * wall]);
-  covariance_ -= with * (variance * less_ratio) * with.transpose();
+  for (Eigen::Index i = 0; i < covariance_.cols(); ++i)
+    for (Eigen::Index j = i; j < covariance_.cols(); ++j) {
+      covariance_(i, j) -= with[i] * (variance * less_ratio) * with[j];
+      covariance_(j, i) = covariance_(i, j);
+    }
 }
 
 bool PoseFilter::correct_position(const Point& p_map, const Point& p_robot, const Eigen::Matrix2d& noise,

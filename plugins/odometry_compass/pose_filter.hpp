@@ -51,7 +51,7 @@ class PoseFilter {
   // The robot has gone so much farther along its heading than it was believed, give or take the deviation.
   void slide(double along_m, double deviation_m);
   // Brings a compass bias that is beyond that bound back within it, and all that goes together with it: the moments of
-  // the truncated distribution (Simon 2010, section 2.4).
+  // the distribution cut off there (Simon 2010, section 2.4). Nothing is done within the bounds.
   void bound_bias(double most_rad);
   // Landmark position in robot coordinates; the same gate rule on the Mahalanobis distance.
   bool correct_position(const Point& p_map, const Point& p_robot, const Eigen::Matrix2d& noise, double gate_sigmas);

@@ -7,7 +7,7 @@
 namespace cairn {
 namespace {
 
-constexpr double kMemory_s = 1.0;  // and as long as stopping takes
+constexpr double kMemory_s = 1.0;  // and as long as it takes to stop from top speed
 constexpr double kReaction_s = 0.3;
 constexpr double kPart_m = 0.1;            // so far from the place of the touch belongs to what was touched
 constexpr double kRay_rad = radians(1.0);  // half a beam that has no width
@@ -50,11 +50,23 @@ Witness::Witness(const RobotModel& robot) : robot_(robot), reaction_s_(std::max(
 void Witness::note(double time_s, const Pose2& T_map_robot, const Places& places) {
   const double memory_s = kMemory_s + reaction_s_ + robot_.max_v_mps / robot_.max_acceleration_mps2;
   while (!moments_.empty() && moments_.front().time_s < time_s - memory_s) moments_.pop_front();
-  double speed_mps = 0.0;
-  if (!moments_.empty() && time_s > moments_.back().time_s)
-    speed_mps =
-        (T_map_robot.position() - moments_.back().T_map_robot.position()).norm() / (time_s - moments_.back().time_s);
-  moments_.push_back({time_s, T_map_robot, places, speed_mps});
+  Moment moment{time_s, T_map_robot, places, 0.0, 0.0};
+  if (!moments_.empty()) {
+    const Moment& last = moments_.back();
+    const double way_m = (T_map_robot.position() - last.T_map_robot.position()).norm();
+    moment.driven_m = last.driven_m + way_m;
+    if (time_s > last.time_s) moment.speed_mps = way_m / (time_s - last.time_s);
+  }
+  moments_.push_back(std::move(moment));
+}
+
+// By now, had it braked for what it saw then.
+bool Witness::could_stand(const Moment& seen) const {
+  const double since_s = moments_.back().time_s - seen.time_s;
+  const double brake_s = seen.speed_mps / robot_.max_acceleration_mps2;
+  const double stop_m = seen.speed_mps * (reaction_s_ + 0.5 * brake_s);
+  const bool had_way = moments_.back().driven_m - seen.driven_m >= stop_m;
+  return since_s >= reaction_s_ && (had_way || since_s >= reaction_s_ + brake_s);
 }
 
 Contact Witness::judge(const Body& body, const Scene& scene, const Traffic& traffic, const Pose2& T_map_robot,
@@ -69,8 +81,7 @@ bool Witness::could_see(const Nearest& touched, const Scene& scene, const Traffi
   const std::array<Point, 3> parts_m = parts_of(touched);
   Scene then = scene;
   return std::any_of(moments_.begin(), moments_.end(), [&](const Moment& moment) {
-    const double stopping_s = reaction_s_ + moment.speed_mps / robot_.max_acceleration_mps2;
-    if (moment.time_s + stopping_s > moments_.back().time_s) return false;
+    if (!could_stand(moment)) return false;
     Point shift_m(0.0, 0.0);
     if (mover != kFixed) {
       const auto index = static_cast<std::size_t>(mover);

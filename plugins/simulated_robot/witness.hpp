@@ -1,6 +1,6 @@
-// Judges a touch: how fast the robot came, and whether its transducers could have seen what it met in time: a round of
-// its sonars (0.3 s at least) and the time to brake from its speed before (as ISO 13855 counts a stopping distance). A
-// door that closes just ahead of the robot could not be seen.
+// Judges a touch: how fast the robot came, and whether its transducers could have seen what it met in time to stand.
+// From a speed v that takes the reaction r (a round of its sonars, 0.3 s at least) and braking at a: v r + v^2 / 2a of
+// way and r + v / a of time. Whoever had either could have stood. A door that closes just ahead could not be seen.
 //
 // Seen is geometry, from where everything truly was: no fault of a transducer counts, nor whether it was its turn to
 // fire, nor how loud the echo would have been.
@@ -19,7 +19,7 @@ class Witness {
  public:
   explicit Witness(const RobotModel& robot);
 
-  // What it remembers for a second longer than the robot needs to stop. Times ascend.
+  // What it remembers for a second longer than the robot needs to stop from its top speed. Times ascend.
   void note(double time_s, const Pose2& T_map_robot, const Places& places);
   // The robot has been carried elsewhere.
   void forget() { moments_.clear(); }
@@ -33,9 +33,11 @@ class Witness {
     double time_s;
     Pose2 T_map_robot;
     Places places;
+    double driven_m;  // since it began
     double speed_mps;
   };
 
+  [[nodiscard]] bool could_stand(const Moment& seen) const;
   [[nodiscard]] bool could_see(const Nearest& touched, const Scene& scene, const Traffic& traffic) const;
   [[nodiscard]] bool is_in_a_beam(const Pose2& T_map_robot, const Point& p_m, const Scene& scene) const;
 

@@ -29,10 +29,19 @@ std::span<const Cell> StandingRoom::unknown_under(const OccupancyGrid& grid, con
   const Cell low = grid.cell_at(at_m - Point(reach_m, reach_m));
   const Cell high = grid.cell_at(at_m + Point(reach_m, reach_m));
   for (int y = low.y; y <= high.y; ++y)
-    for (int x = low.x; x <= high.x; ++x)
-      if ((grid.centre_of({x, y}) - at_m).norm() <= reach_m && grid.state({x, y}) == CellState::unknown)
-        cells_.push_back({x, y});
+    for (int x = low.x; x <= high.x; ++x) {
+      const double off_m = (grid.centre_of({x, y}) - at_m).norm();
+      const bool may_be_free = off_m <= radius_m_ || (off_m <= reach_m && grid.log_odds({x, y}) <= 0);
+      if (may_be_free && grid.state({x, y}) == CellState::unknown) cells_.push_back({x, y});
+    }
   return cells_;
+}
+
+void StandingRoom::take(OccupancyGrid& grid, const Pose2& T_map_robot, std::vector<CellSpan>& changed) {
+  for (const Cell cell : unknown_under(grid, T_map_robot)) {
+    grid.set_log_odds(cell, kFree);
+    changed.push_back({cell.y, cell.x, cell.x + 1});
+  }
 }
 
 }  // namespace cairn::sonar_model

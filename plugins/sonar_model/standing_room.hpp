@@ -20,9 +20,11 @@ class StandingRoom {
   explicit StandingRoom(const RobotModel& robot);
 
   // The cells that are unknown and belong to the largest disc round the robot's origin that its footprint holds, or
-  // are a cell beside it: their room is taken, to the cell, by where it stands. Nothing once more where the robot has
-  // moved less than half a cell, nor where the grid cannot grow to. Rows rising; valid until the next call.
+  // are a cell beside it and do not look occupied: planners ask for the room of whole cells. Nothing once more before
+  // the robot has moved half a cell, nor where the grid cannot grow to. Rows rising; valid until the next call.
   [[nodiscard]] std::span<const Cell> unknown_under(const OccupancyGrid& grid, const Pose2& T_map_robot);
+  // Sets these to kFree, a span each.
+  void take(OccupancyGrid& grid, const Pose2& T_map_robot, std::vector<CellSpan>& changed);
 
  private:
   double radius_m_ = 0.0;

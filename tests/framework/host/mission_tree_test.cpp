@@ -261,7 +261,7 @@ TEST_F(MissionTreeFiles, ParametersThatDoNotFitAreErrors) {
 // A mission from elsewhere that names /etc/shadow must not show it.
 TEST_F(MissionTreeFiles, WhatStandsInAFileElsewhereThatIsNoSubMissionIsNotShown) {
   std::filesystem::create_directories(folder_ / "in");
-  const std::string hidden = " (what stands in a file outside the mission's folder is not shown)";
+  const std::string hidden = " (what stands in a file outside the folder of the one that names it is not shown)";
   const std::string no_map = "secret:1:1: a sub-mission must be a map with the key \"steps\", found ";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"root:$6$hush:19000:0:::\ndaemon:*:19000:0:::\n",

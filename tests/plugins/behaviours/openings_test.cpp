@@ -68,5 +68,34 @@ TEST(NearestOpening, IsNoneWhereTheRobotFitsThrough) {
   EXPECT_FALSE(opening_of(AsciiGrid(drawing)));
 }
 
+// Of an opening of 0.3 m, for a robot of 0.2 m.
+bool leads_on(const AsciiGrid& map, double clearance_m) {
+  const Pose2 robot{map.at('R').x(), map.at('R').y(), 0.0};
+  const FreeSpace space(map.grid, {robot.position(), 0.2, 0.1}, {robot});
+  return tighter_leads_on(space, FreeSpace(map.grid, {robot.position(), 0.2, clearance_m}, {robot}));
+}
+
+TEST(TighterLeadsOn, WhereItGetsToARoom) {
+  EXPECT_TRUE(leads_on(AsciiGrid(kNarrow), -0.08));
+  EXPECT_FALSE(leads_on(AsciiGrid(kNarrow), 0.05)) << "not through";
+  EXPECT_FALSE(leads_on(AsciiGrid(kNarrow), 0.1)) << "no tighter";
+}
+
+TEST(TighterLeadsOn, NotForTheRimOfItsOwnRoom) {
+  EXPECT_FALSE(leads_on(AsciiGrid(R"(
+############
+#..........#
+#..........#
+#..........#
+#..........#
+#..R.......#
+#..........#
+#..........#
+#..........#
+############
+)"),
+                        -0.08));
+}
+
 }  // namespace
 }  // namespace cairn::behaviours

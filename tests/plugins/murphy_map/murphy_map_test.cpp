@@ -86,7 +86,7 @@ TEST(MurphyMap, DescribesAllItsSettings) {
 }
 
 // The sensors say nothing of it.
-TEST(Murphy, WhereTheRobotStandsIsFree) {
+TEST(MurphyMap, WhereTheRobotStandsIsFree) {
   MurphyMap map{Config{}};
   RobotModel robot;
   robot.radius_m = 0.2;

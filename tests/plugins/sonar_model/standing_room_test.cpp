@@ -36,11 +36,14 @@ TEST(StandingRoom, LeavesWhatTheMapKnowsAsItIs) {
   grid.set_log_odds({0, 0}, 900);
   grid.set_log_odds({1, 0}, -900);
   grid.set_log_odds({2, 0}, 100);
+  grid.set_log_odds({5, 0}, 50);
   StandingRoom room(round_robot(0.2));
   const std::span<const Cell> under = room.unknown_under(grid, {0.05, 0.0, 0.0});
   EXPECT_EQ(std::ranges::count(under, Cell{0, 0}), 0);
   EXPECT_EQ(std::ranges::count(under, Cell{1, 0}), 0);
   EXPECT_EQ(std::ranges::count(under, Cell{2, 0}), 1) << "not known well enough";
+  EXPECT_EQ(std::ranges::count(under, Cell{5, 0}), 0) << "beside the robot, and rather occupied";
+  EXPECT_EQ(std::ranges::count(under, Cell{5, -1}), 1);
 }
 
 TEST(StandingRoom, GrowsWithTheWay) {
