@@ -5,6 +5,8 @@
 namespace cairn::behaviours {
 namespace {
 
+constexpr double kPause_s = 10.0;  // between two rounds: somebody may make room
+
 std::string labels_of(const std::vector<LandmarkId>& ids, const LandmarkGraph& graph) {
   std::string text;
   for (const LandmarkId id : ids) text += (text.empty() ? "" : ", ") + label_of(*graph.find(id));
@@ -25,6 +27,8 @@ void SearchConfig::describe(Fields<SearchConfig>& fields) {
   fields.raw("category", &C::category, "text", "of the landmarks to find, as a template file names it").required = true;
   fields.integer("until", &C::until, {1.0, 1e6}, "so many landmarks of the category must be known");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to search; when it is up the step has failed");
+  fields.integer("rounds", &C::rounds, {1.0, 1e6},
+                 "all is looked at so often before the search is given up: doors open, people go on");
   describe_ways(fields);
   fields.shorthand("category");
 }
@@ -36,16 +40,37 @@ Search::Search(const SearchConfig& config, const std::vector<std::string>& categ
 
 void Search::halt() {
   explore_.halt();
+  begun_s_.reset();
+  waits_since_s_.reset();
+  round_ = 1;
 }
 
 Status Search::tick(const WorldView& world, Orders& orders) {
   const std::vector<LandmarkId> found = world.graph.of_category(category_);
   if (found.size() >= static_cast<std::size_t>(config_.until))
     return {Progress::success, "found " + category_ + ": " + labels_of(found, world.graph)};
-  const Status status = explore_.tick(world, orders);
+  if (!begun_s_) begun_s_ = world.time_s;
   const std::string count = std::to_string(found.size()) + " of " + std::to_string(config_.until) + " " + category_ +
                             " found" + (found.empty() ? "" : " (" + labels_of(found, world.graph) + ")");
-  if (status.progress == Progress::running) return {Progress::running, status.reason + "; " + count, status.left_s};
+  const double left_s = *begun_s_ + config_.at_most_s - world.time_s;
+  if (left_s <= 0.0) return {Progress::failure, count + "; time is up in round " + std::to_string(round_)};
+  if (waits_since_s_ && world.time_s - *waits_since_s_ < kPause_s) {
+    orders.drive({});
+    return {Progress::running, "waiting before it looks at all once more; " + count, left_s};
+  }
+  waits_since_s_.reset();
+  const Status status = explore_.tick(world, orders);
+  if (status.progress == Progress::running)
+    return {Progress::running, status.reason + "; " + count,
+            status.left_s ? std::min(*status.left_s, left_s) : status.left_s};
+  if (status.progress == Progress::success && round_ < config_.rounds) {
+    orders.say(count + " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds) + ": " +
+               status.reason);
+    explore_.halt();
+    ++round_;
+    waits_since_s_ = world.time_s;
+    return {Progress::running, "looks at all once more; " + count, left_s};
+  }
   return {Progress::failure, count + "; " + status.reason};
 }
 

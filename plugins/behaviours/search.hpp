@@ -1,7 +1,9 @@
-// Explores until so many landmarks of a category are known.
+// Explores until so many landmarks of a category are known, and again from the beginning when all is seen without:
+// doors open, people go on, and what has been looked at twice is known better.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace cairn::behaviours {
 struct SearchConfig : ExploreConfig {
   ConfigValue category;  // text
   int until = 1;
+  int rounds = 3;
   static void describe(Fields<SearchConfig>& fields);
 };
 
@@ -21,7 +24,7 @@ class Search : public Behaviour {
  public:
   // categories: that the mission can find, where that is known. Throws ConfigError on another one, with the nearest.
   Search(const SearchConfig& config, const std::vector<std::string>& categories);
-  // Success names the landmarks; failure when all is explored, or time is up, without them.
+  // Success names the landmarks; failure when all has been explored so many rounds, or time is up, without them.
   Status tick(const WorldView& world, Orders& orders) override;
   void halt() override;
 
@@ -29,6 +32,9 @@ class Search : public Behaviour {
   SearchConfig config_;
   std::string category_;
   Explore explore_;
+  std::optional<double> begun_s_;
+  int round_ = 1;
+  std::optional<double> waits_since_s_;  // between two rounds
 };
 
 }  // namespace cairn::behaviours

@@ -74,11 +74,24 @@ TEST(Search, EndsAsSoonAsEnoughLandmarksOfTheCategoryAreKnown) {
 
 TEST(Search, FailsWhenAllIsExploredWithout) {
   FakeHost host(kRoom);
-  Search step = search("{category: square}");
+  Search step = search("{category: square, rounds: 1}");
   const Status status = host.run(step, 1500.0);
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_THAT(status.reason, HasSubstr("0 of 1 square found; nothing left to explore: ")) << host.picture();
   EXPECT_GT(known_ratio(host.grid), 0.9);
+}
+
+TEST(Search, LooksAtAllOnceMore) {
+  const auto driven_m = [](const std::string& rounds) {
+    FakeHost host(kRoom);
+    Search step = search("{category: square, at_most_s: 4000, rounds: " + rounds + "}");
+    EXPECT_EQ(host.run(step, 4100.0).progress, Progress::failure);
+    const auto told = std::ranges::count_if(
+        host.said, [](const std::string& text) { return text.starts_with("0 of 1 square found in round 1 of 2: "); });
+    EXPECT_EQ(told, rounds == "2" ? 1 : 0);
+    return host.driven_m;
+  };
+  EXPECT_GT(driven_m("2"), 1.5 * driven_m("1"));
 }
 
 TEST(Search, FailsWhenItsTimeIsUp) {
