@@ -1,6 +1,6 @@
 // The pictures of a run: map.png (OG1, landmarks, graph, driven path), coarse.png (OG2), degrees.png (matching degrees
-// over time), pose_error.png (error of the position over time, where the truth is known) and timeline.png (when each node
-// of the tree ran).
+// over time), pose_error.png (error of the position over time, where the truth is known) and timeline.png (when each
+// node of the tree ran).
 #pragma once
 
 #include <filesystem>
