@@ -1,5 +1,7 @@
 #include "plugins/behaviours/search.hpp"
 
+#include <algorithm>
+
 #include "framework/config/named_category.hpp"
 
 namespace cairn::behaviours {

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/plugins/sonar_model/standing_room_law.hpp"
+
 namespace cairn::bayes_map {
 namespace {
 
@@ -245,18 +247,8 @@ TEST(BayesMap, DescribesAllItsSettings) {
                                             "delta_per_m", "false_echo_per_m"}));
 }
 
-// The sensors say nothing of it.
 TEST(BayesMap, WhereTheRobotStandsIsFree) {
-  BayesMap map{Config{}};
-  RobotModel robot;
-  robot.radius_m = 0.2;
-  map.clear_under(robot);
-  const CellChanges changes = map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}});
-  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.1, 2.0})), CellState::free);
-  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.3, 2.0})), CellState::unknown);
-  ASSERT_FALSE(changes.empty());
-  EXPECT_EQ(changes.spans.front().y, map.grid().cell_at({1.0, 1.78}).y);
-  EXPECT_TRUE(map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}}).empty());
+  sonar_model::expect_free_where_the_robot_stands(BayesMap{Config{}});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/plugins/muriel/test_readings.hpp"
+#include "tests/plugins/sonar_model/standing_room_law.hpp"
 
 namespace cairn::muriel {
 namespace {
@@ -243,18 +244,8 @@ TEST(Muriel, DescribesAllItsSettings) {
                                             "log_readings", "log_fall"}));
 }
 
-// The sensors say nothing of it.
 TEST(Muriel, WhereTheRobotStandsIsFree) {
-  Muriel map{Config{}};
-  RobotModel robot;
-  robot.radius_m = 0.2;
-  map.clear_under(robot);
-  const CellChanges changes = map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}});
-  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.1, 2.0})), CellState::free);
-  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.3, 2.0})), CellState::unknown);
-  ASSERT_FALSE(changes.empty());
-  EXPECT_EQ(changes.spans.front().y, map.grid().cell_at({1.0, 1.78}).y);
-  EXPECT_TRUE(map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}}).empty());
+  sonar_model::expect_free_where_the_robot_stands(Muriel{Config{}});
 }
 
 }  // namespace

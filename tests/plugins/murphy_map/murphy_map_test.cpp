@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/plugins/sonar_model/standing_room_law.hpp"
+
 namespace cairn::murphy_map {
 namespace {
 
@@ -85,18 +87,8 @@ TEST(MurphyMap, DescribesAllItsSettings) {
             (std::vector<std::string>{"cell_m", "clamp_nat", "range_m", "tolerance_m", "max_occupied_p", "keep_sign"}));
 }
 
-// The sensors say nothing of it.
 TEST(MurphyMap, WhereTheRobotStandsIsFree) {
-  MurphyMap map{Config{}};
-  RobotModel robot;
-  robot.radius_m = 0.2;
-  map.clear_under(robot);
-  const CellChanges changes = map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}});
-  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.1, 2.0})), CellState::free);
-  EXPECT_EQ(map.grid().state(map.grid().cell_at({1.3, 2.0})), CellState::unknown);
-  ASSERT_FALSE(changes.empty());
-  EXPECT_EQ(changes.spans.front().y, map.grid().cell_at({1.0, 1.78}).y);
-  EXPECT_TRUE(map.integrate({}, {Pose2{1.0, 2.0, 0.0}, {}}).empty());
+  sonar_model::expect_free_where_the_robot_stands(MurphyMap{Config{}});
 }
 
 }  // namespace
