@@ -1,5 +1,6 @@
 #include "framework/program/run_pictures.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "framework/program/run_timeline_picture.hpp"
@@ -105,7 +106,8 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
       coarse.title = "OG2 of " + mission.config.mission;
       write_coarse_picture(file, coarse);
     });
-  if (!report.degrees().empty())
+  // A detector may tell of nothing below its threshold.
+  if (std::ranges::any_of(report.degrees(), [](const DegreeSample& sample) { return !sample.degrees.empty(); }))
     attempt("degrees.png", [&](const std::filesystem::path& file) { draw_chart(file, chart_of(report.degrees())); });
   if (const auto& errors = report.pose_errors().samples(); !errors.empty())
     attempt("pose_error.png", [&](const std::filesystem::path& file) { draw_chart(file, chart_of(errors)); });

@@ -38,7 +38,7 @@ void register_module(Registrar& registrar) {
                               "explores the reachable space at a safe distance and looks closer at what it finds");
   registrar.add<Behaviour, SearchConfig>("search", "explores until so many landmarks of a category are known",
                                          [](const SearchConfig& config, const ModuleContext& context) {
-                                           return std::make_unique<Search>(config, context.categories);
+                                           return std::make_unique<Search>(config, context.seed, context.categories);
                                          });
   add_driving<Inspect, InspectConfig>(registrar, "inspect",
                                       "goes to a landmark and circles it until its degree does not rise any more",

@@ -1,6 +1,7 @@
 #include "plugins/behaviours/openings.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "plugins/behaviours/path_follower.hpp"
@@ -9,24 +10,32 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kRoomBehind_m2 = 1.0;
+constexpr double kRoomOutOfReach_m2 = 0.5;
+constexpr double kRoomForWay = 4.0;
+constexpr double kRoomy_m = 0.8;
 constexpr double kRoomToDrive_m2 = 0.2;  // what is seen of a room through its door
 constexpr double kSame_m = 0.5;
 
-// Roomy places that only the slimmer robot reaches, in connected groups.
-std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& squeezed, double least_m2) {
+// Free cells with room for the robot that it does not get to, in connected groups.
+std::vector<CellGroup> places_behind(const FreeSpace& space, double least_m2,
+                                     const std::function<bool(Cell)>& is_wanted) {
   std::vector<Cell> behind;
   const CellBox box = space.box();
   for (int y = box.min.y; y < box.max.y; ++y) {
     for (int x = box.min.x; x < box.max.x; ++x) {
       const Cell c{x, y};
       const bool is_roomy = space.state(c) == CellState::free && space.distance_m(c) >= space.least_distance_m();
-      if (is_roomy && squeezed.reaches(c) && !space.reaches(c)) behind.push_back(c);
+      if (is_roomy && !space.reaches(c) && is_wanted(c)) behind.push_back(c);
     }
   }
   std::vector<CellGroup> groups = grouped(behind, 1);
   const double cell_m2 = space.cell_m() * space.cell_m();
   std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < least_m2; });
   return groups;
+}
+
+std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& squeezed, double least_m2) {
+  return places_behind(space, least_m2, [&](Cell c) { return squeezed.reaches(c); });
 }
 
 // Where the slimmer robot's way to a place leaves what the robot itself can reach.
@@ -68,6 +77,23 @@ std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& 
 
 bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter) {
   return !places_behind(space, tighter, kRoomToDrive_m2).empty();
+}
+
+std::optional<Point> room_out_of_reach(const FreeSpace& space, const Point& from, const std::vector<Point>& tried) {
+  std::vector<CellGroup> rooms = places_behind(space, kRoomOutOfReach_m2, [](Cell) { return true; });
+  std::stable_sort(rooms.begin(), rooms.end(),
+                   [](const CellGroup& a, const CellGroup& b) { return a.size() > b.size(); });
+  for (const CellGroup& room : rooms) {
+    // Well inside, so that from there the room is nearer than what it comes from.
+    const auto worth_m = [&](Cell c) {
+      return kRoomForWay * std::min(space.distance_m(c), kRoomy_m) - (space.centre_of(c) - from).norm();
+    };
+    const Point place =
+        space.centre_of(*std::ranges::max_element(room, [&](Cell a, Cell b) { return worth_m(a) < worth_m(b); }));
+    const bool is_new = std::ranges::none_of(tried, [&](const Point& p) { return (p - place).norm() < kSame_m; });
+    if (is_new) return place;
+  }
+  return std::nullopt;
 }
 
 }  // namespace cairn::behaviours

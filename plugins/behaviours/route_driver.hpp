@@ -3,10 +3,11 @@
 //   RouteDriver driver(settings, seed);
 //   const Status status = driver.tick(goal, world, orders);  // every tick until it is no longer running
 //
-// Plans, follows the route with the local planner, and when it does not get on climbs a ladder: wait, back up, turn in
-// place, plan again (round what it was held back by), close the stored route that is blocked for a while, and in the
-// end give up with a reason that names the place and what was tried. Getting on takes it down the ladder again. Where
-// the map has no way it goes to look whether what blocks the likeliest one is still there: a door may have opened.
+// Plans, follows the route with the local planner, and when it does not get on climbs a ladder: wait, back up, turn or
+// look whether the way is free again, make way for whoever waits, plan again (round what it was held back by), close
+// the stored route that is blocked for a while, and in the end give up with a reason that names the place and what was
+// tried. Getting on takes it down the ladder again. Where the map has no way it goes to look whether what blocks the
+// likeliest one is still there: a door may have opened.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,7 @@
 #include "plugins/behaviours/local_planner.hpp"
 #include "plugins/behaviours/near_echoes.hpp"
 #include "plugins/behaviours/path_follower.hpp"
+#include "plugins/behaviours/way_to_look.hpp"
 
 namespace cairn::behaviours {
 
@@ -65,6 +67,14 @@ class RouteDriver {
   // leaves less room than the robot needs may be the width of the sonars' beams.
   enum class Trust { all, no_specks, only_solid, squeezed };
 
+  // Facing a place until it is free, or for long enough.
+  struct Look {
+    Point at{0.0, 0.0};
+    double at_least_s = 3.0;
+    bool is_live = false;         // it held the robot back: afterwards what the near echoes have said is of before
+    std::map<Cell, int> through;  // occupied cells about it: for how many ticks more they were seen through than not
+  };
+
   void remember(const WorldView& world);
   void hear(const WorldView& world);
   void forget_echoes(const WorldView& world);
@@ -77,10 +87,14 @@ class RouteDriver {
   Status no_plan(const PlanResult& result, const WorldView& world, Orders& orders);
   [[nodiscard]] bool begin_way_out(const WorldView& world);
   [[nodiscard]] bool begin_look(const WorldView& world);
+  [[nodiscard]] bool begin_look_at_goal(const WorldView& world);
+  void go_to_look(const WayToLook& way);
 
   Status travel(const WorldView& world, Orders& orders);
   Status arrive(const WorldView& world, Orders& orders);
   Status held_back(const WorldView& world, Orders& orders);
+  [[nodiscard]] Point nearest_ahead(const WorldView& world) const;
+  [[nodiscard]] bool begin_aside(const WorldView& world);
   Status back_up(const WorldView& world, Orders& orders);
   Status turn(const WorldView& world, Orders& orders);
   void plan_past(const WorldView& world, Orders& orders);
@@ -103,7 +117,7 @@ class RouteDriver {
   Place goal_;
   Mode mode_ = Mode::plan;
   double mode_since_s_ = 0.0;
-  enum class Leg { route, way_out, to_look };  // what the path is
+  enum class Leg { route, way_out, to_look, aside };  // what the path is
   Leg leg_ = Leg::route;
   std::vector<Point> path_;
   FollowState follow_state_;
@@ -129,11 +143,11 @@ class RouteDriver {
   int unknown_ways_ = 0;
   int squeezes_ = 0;
   std::optional<Trust> own_trust_;  // the path is one by its own eyes
-  Point look_at_{0.0, 0.0};
-  std::map<Cell, int> through_;  // occupied cells about it: for how many ticks more they were seen through than not
+  Look look_;
   std::vector<Point> looked_at_;
-  int round_ = 0;     // of the ladder, at this place
-  int hold_ups_ = 0;  // in all
+  std::vector<Point> beside_goal_;  // where it has stood to look at a goal that is blocked
+  int round_ = 0;                   // of the ladder, at this place
+  int hold_ups_ = 0;                // in all
   Point held_at_{1e9, 1e9};
   double turn_left_rad_ = 0.0;
   double last_theta_rad_ = 0.0;

@@ -1,8 +1,8 @@
 // How the route driver finds a way: by the planner, by its own eyes, by looking again.
 
 #include <algorithm>
-#include <cstdio>
 
+#include "plugins/behaviours/place_name.hpp"
 #include "plugins/behaviours/route_driver.hpp"
 #include "plugins/behaviours/specks.hpp"
 #include "plugins/behaviours/way_to_look.hpp"
@@ -34,17 +34,43 @@ constexpr int kLooksBeforeSqueezing = 2;
 constexpr int kMostSqueezes = 3;
 constexpr double kStandOff_m = 0.8;  // from what is looked at
 constexpr double kStandOffNearer_m = 0.5;
-
-std::string text_of(const Point& p) {
-  char text[48];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f)", p.x(), p.y());
-  return text;
-}
+constexpr double kBesideGoal_m = 0.8;
+constexpr double kBesideApart_m = 0.3;
+constexpr double kBeforeGoal_m = 0.1;
+constexpr double kBesideGoalFor_s = 6.0;
 
 std::vector<Point> points_of(const std::vector<Pose2>& path) {
   std::vector<Point> points;
   for (const Pose2& pose : path) points.push_back(pose.position());
   return points;
+}
+
+// At least at what is before it: the place itself may be drawn inside a wall.
+bool can_look_at(const Point& place, Cell from, const FreeSpace& space) {
+  const Point stand = space.centre_of(from);
+  const Point towards = stand - place;
+  const double before_m = std::min(towards.norm(), kBeforeGoal_m);
+  return towards.norm() < 1e-9 || space.sees(stand, space.cell_at(place + towards.normalized() * before_m));
+}
+
+// The nearest to a goal that is in reach, in sight of it and not where the robot has stood before.
+std::optional<Cell> cell_beside(const Point& goal, const FreeSpace& space, const std::vector<Point>& stood) {
+  const Cell at = space.cell_at(goal);
+  const int reach = static_cast<int>(kBesideGoal_m / space.cell_m());
+  std::optional<Cell> nearest;
+  double nearest_m = kBesideGoal_m;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const Cell c = at + Cell{dx, dy};
+      const Point place = space.centre_of(c);
+      const double distance_m = (place - goal).norm();
+      if (distance_m >= nearest_m || !space.reaches(c) || !can_look_at(goal, c, space)) continue;
+      if (std::ranges::any_of(stood, [&](const Point& p) { return (p - place).norm() < kBesideApart_m; })) continue;
+      nearest_m = distance_m;
+      nearest = c;
+    }
+  }
+  return nearest;
 }
 
 // Within what is known and about the goal.
@@ -82,8 +108,8 @@ std::vector<Cell> RouteDriver::doubtful_cells(const OccupancyGrid& map) const {
 void RouteDriver::doubt(const std::vector<Cell>& cells, const WorldView& world) {
   for (const Cell c : cells) {
     doubted_.insert(c);
-    const auto looked = through_.find(c);
-    const bool is_seen_through = looked != through_.end() && looked->second >= 0;
+    const auto looked = look_.through.find(c);
+    const bool is_seen_through = looked != look_.through.end() && looked->second >= 0;
     if (!is_seen_through && near_echoes_->is_occupied(world.grid, c))
       doubted_places_.push_back(world.grid.centre_of(c));
   }
@@ -238,10 +264,11 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "trying an opening that looks too narrow"};
   }
-  if (!is_final && begin_look(world)) {
-    orders.say("no way now (" + why + "): looks again at " + text_of(look_at_));
+  const bool goal_is_blocked = result.outcome == PlanOutcome::goal_blocked;
+  if (!is_final && ((goal_is_blocked && begin_look_at_goal(world)) || begin_look(world))) {
+    orders.say("no way now (" + why + "): looks again at " + described(look_.at));
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "going to look at " + text_of(look_at_)};
+    return {Progress::running, "going to look at " + described(look_.at)};
   }
   return {Progress::failure, why + (tried_.empty() ? "" : "; " + tried_)};
 }
@@ -268,15 +295,39 @@ bool RouteDriver::begin_look(const WorldView& world) {
   const std::optional<WayToLook> way = way_to_look(space_now(world, kTightClearance_m, Trust::all), world.grid,
                                                    world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
   if (!way) return false;
+  looked_at_.push_back(way->at);
+  go_to_look(*way);
+  return true;
+}
+
+// Walls are drawn thick where they have been seen from afar, and people leave traces: from right beside the goal it may
+// be free.
+bool RouteDriver::begin_look_at_goal(const WorldView& world) {
+  const std::optional<Point> goal = goal_point(world);
+  if (!goal || looks_ >= kMostLooks) return false;
+  for (const Trust trust : {Trust::all, Trust::no_specks, Trust::only_solid}) {
+    const FreeSpace space = space_now(world, kTightClearance_m, trust);
+    std::optional<Cell> beside = cell_beside(*goal, space, beside_goal_);
+    if (!beside) beside = cell_beside(*goal, space, {});  // once more: somebody may have gone on
+    if (!beside) continue;
+    beside_goal_.push_back(space.centre_of(*beside));
+    looked_at_.push_back(*goal);
+    go_to_look({*goal, space.path_to(*beside)});
+    look_.at_least_s = kBesideGoalFor_s;
+    stop_doubting();
+    if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
+    return true;
+  }
+  return false;
+}
+
+void RouteDriver::go_to_look(const WayToLook& way) {
   ++looks_;
-  through_.clear();
-  look_at_ = way->at;
-  looked_at_.push_back(look_at_);
-  path_ = way->path;
+  look_ = {.at = way.at, .through = {}};
+  path_ = way.path;
   follow_state_ = {};
   leg_ = Leg::to_look;
-  tried_ = "looked " + std::to_string(looks_) + " times whether the way is free again, last at " + text_of(look_at_);
-  return true;
+  tried_ = "looked " + std::to_string(looks_) + " times whether the way is free again, last at " + described(way.at);
 }
 
 }  // namespace cairn::behaviours

@@ -111,5 +111,19 @@ TEST(MissionCommand, ATreeRunsAndIsToldAsItGoes) {
   EXPECT_EQ(nodes[1]["reason"], "no landmark \"square\" is known");
 }
 
+// A detector that tells of nothing below its threshold leaves nothing to draw, which is no fault.
+TEST(Run, DrawsEveryPictureOfAMissionWithoutLandmarks) {
+  const auto folder = fresh_folder("mission_without_landmarks");
+  const std::filesystem::path file = mission_in(folder,
+                                                "  - drive: [[2.0, 1.774]]\n"
+                                                "detector: {plugin: template_matcher, degrees: above_threshold, "
+                                                "templates: " +
+                                                    config("templates") + "}\n");
+  const Finished finished = run_cairn({"run", file.string(), "--out", folder.string()});
+  EXPECT_EQ(finished.exit_status, 0) << finished.err;
+  EXPECT_THAT(finished.out, testing::Not(HasSubstr("no picture")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "map.png"));
+}
+
 }  // namespace
 }  // namespace cairn::testing_program

@@ -97,5 +97,44 @@ TEST(TighterLeadsOn, NotForTheRimOfItsOwnRoom) {
                         -0.08));
 }
 
+// A room of 2 x 1 m in reach; one of 1.5 x 1 m and one of 0.6 x 0.6 m are shut.
+const std::string kShut = R"(
+########################################
+#....................#...............#.#
+#....................#...............#.#
+#....................#...............###
+#....................#...............#.#
+#....................#...............#.#
+#..R.................#...............#.#
+#....................#...............#.#
+#....................#...............#.#
+#....................#...............#.#
+########################################
+)";
+
+std::optional<Point> room_of(const AsciiGrid& map, const std::vector<Point>& tried = {}) {
+  const Pose2 robot{map.at('R').x(), map.at('R').y(), 0.0};
+  return room_out_of_reach(FreeSpace(map.grid, {robot.position(), 0.2, 0.1}, {robot}), robot.position(), tried);
+}
+
+TEST(RoomOutOfReach, IsTheLargestThatIsShut) {
+  const std::optional<Point> place = room_of(AsciiGrid(kShut));
+  ASSERT_TRUE(place);
+  EXPECT_GT(place->x(), 2.3);
+  EXPECT_LT(place->x(), 3.5);
+  EXPECT_NEAR(place->y(), 0.55, 0.25) << "well inside";
+}
+
+TEST(RoomOutOfReach, IsNoneOnceItHasBeenTried) {
+  const AsciiGrid map(kShut);
+  EXPECT_FALSE(room_of(map, {*room_of(map)})) << "what is left is too small";
+}
+
+TEST(RoomOutOfReach, IsNoneWhereAllIsInReach) {
+  std::string open = kShut;
+  for (const std::size_t row : {4U, 5U, 6U, 7U, 8U}) open[1 + 41 * row + 21] = '.';
+  EXPECT_FALSE(room_of(AsciiGrid(open)));
+}
+
 }  // namespace
 }  // namespace cairn::behaviours

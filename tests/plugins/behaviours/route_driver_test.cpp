@@ -130,6 +130,82 @@ TEST(RouteDriver, WaitsFirstAndThenClimbsTheLadder) {
   EXPECT_THAT(host.said, Contains(HasSubstr("(2 of 2)")));
 }
 
+// Somebody in the middle of the room goes on only when the robot is a metre off.
+TEST(RouteDriver, MakesWayForSomebodyWhoWaits) {
+  const auto drive = [](int rounds) {
+    FakeHost host(kTwoDoors, kKnown);
+    RouteSettings settings;
+    settings.rounds = rounds;
+    Driving driving(settings, kOtherRoom);
+    bool is_gone = false;
+    host.stop_layer = [&](const Pose2& pose, const Twist& wanted) {
+      const double distance_m = (pose.position() - Point(1.6, 0.8)).norm();
+      is_gone = is_gone || (host.time_s > 20.0 && distance_m > 1.2);
+      const bool is_held = !is_gone && pose.x_m > 1.2 && wanted.v_mps > 0.0 && std::abs(pose.theta_rad) < 1.5;
+      return is_held ? Twist{0.0, wanted.w_radps} : wanted;
+    };
+    const Status status = host.run(driving, 400.0);
+    EXPECT_EQ(status.progress, is_gone ? Progress::success : Progress::failure) << status.reason << host.picture();
+    return is_gone;
+  };
+  EXPECT_FALSE(drive(2)) << "backing up is not enough";
+  EXPECT_TRUE(drive(6));
+}
+
+// What it has heard there counts no more once an echo comes from behind.
+TEST(RouteDriver, LooksAtWhatHoldsItBackAndForgetsItWhenItHasGone) {
+  FakeHost host(kTwoDoors, kKnown);
+  Driving driving({}, kOtherRoom);
+  bool is_closed = true;
+  host.observe = [&](const FakeHost& self) {
+    Observation seen;
+    for (int i = 0; i < 7; ++i) {
+      RangeReading reading;
+      reading.sensor = i;
+      reading.T_robot_sensor = {0.0, 0.0, radians(15.0 * (i - 3))};
+      reading.half_beam_rad = radians(12.0);
+      reading.min_m = 0.1;
+      reading.max_m = 4.0;
+      const Pose2 from = self.T_map_robot * reading.T_robot_sensor;
+      const Point along{std::cos(from.theta_rad), std::sin(from.theta_rad)};
+      reading.range_m = 0.1;
+      while (reading.range_m < 3.0 && !self.is_solid(from.position() + along * reading.range_m) &&
+             !(is_closed && from.x_m < 1.5 && from.x_m + along.x() * reading.range_m >= 1.5))
+        reading.range_m += 0.01;
+      seen.ranges.push_back(reading);
+    }
+    return seen;
+  };
+  Status status = host.run(driving, 30.0);
+  EXPECT_EQ(status.progress, Progress::running) << status.reason;
+  EXPECT_LT(host.T_map_robot.x_m, 1.5) << "a leaf that the map does not have";
+  is_closed = false;
+  const double opened_s = host.time_s;
+  status = host.run(driving, 60.0);
+  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_LT(host.time_s, opened_s + 45.0);
+}
+
+TEST(RouteDriver, LooksAtABlockedGoalFromBesideIt) {
+  FakeHost host(kTwoDoors, {.sight_m = 0.45, .all_known = true});
+  const Point goal = kOtherRoom.pose->position();
+  // Drawn by somebody who has gone on, or as part of a wall that was seen from afar.
+  for (double x = -0.1; x < 0.15; x += 0.05)
+    for (double y = -0.1; y < 0.15; y += 0.05) host.grid.set_log_odds(host.grid.cell_at(goal + Point(x, y)), 600);
+  host.planner = [&](const PlanRequest& request) {
+    PlanResult result;
+    const bool is_free = host.grid.state(host.grid.cell_at(goal)) == CellState::free;
+    result.outcome = is_free ? PlanOutcome::solved : PlanOutcome::goal_blocked;
+    result.reason = "it lies on an occupied cell";
+    result.path = {*request.from.pose, {goal.x(), goal.y(), 0.0}};
+    return result;
+  };
+  Driving driving({}, kOtherRoom);
+  const Status status = host.run(driving, 120.0);
+  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_THAT(host.said, Contains(HasSubstr("looks again at (3.30, 0.50)")));
+}
+
 TEST(RouteDriver, GoesOnWhenWhatWasInTheWayHasGone) {
   FakeHost host(kTwoDoors, kKnown);
   Driving driving({}, kOtherRoom);
@@ -180,7 +256,7 @@ TEST(RouteDriver, ARouteFoundBlockedIsOpenAgainAfterAWhile) {
   host.run(driving, 30.0);
   ASSERT_GT(host.planned.size(), 1U);
   EXPECT_EQ(host.planned.at(1).closed, std::vector<RouteId>{5});
-  host.run(driving, 60.0);
+  host.run(driving, 120.0);
   EXPECT_THAT(host.planned.back().closed, testing::IsEmpty());
 }
 

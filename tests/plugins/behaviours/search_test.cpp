@@ -57,8 +57,32 @@ const std::string kRoom = R"(
 )";
 const Point kBlock{2.0, 2.2};
 
+// With a door of 1 m.
+const std::string kTwoRooms = R"(
+  ########################################
+  #...................#..................#
+  #...................#..................#
+  #...................#..................#
+  #...................#..................#
+  #......................................#
+  #......................................#
+  #......................................#
+  #......................................#
+  #......................................#
+  #.....R................................#
+  #......................................#
+  #......................................#
+  #......................................#
+  #......................................#
+  #...................#..................#
+  #...................#..................#
+  #...................#..................#
+  #...................#..................#
+  ########################################
+)";
+
 Search search(const std::string& yaml, const std::vector<std::string>& categories = {"circle", "square"}) {
-  return Search(config_of<SearchConfig>(yaml), categories);
+  return Search(config_of<SearchConfig>(yaml), 1, categories);
 }
 
 TEST(Search, EndsAsSoonAsEnoughLandmarksOfTheCategoryAreKnown) {
@@ -92,6 +116,27 @@ TEST(Search, LooksAtAllOnceMore) {
     return host.driven_m;
   };
   EXPECT_GT(driven_m("2"), 1.5 * driven_m("1"));
+}
+
+// Between two rounds it goes to see whether it can get to where it could not get to.
+TEST(Search, GetsIntoARoomWhoseDoorHasOpened) {
+  FakeHost host(kTwoRooms, {.sight_m = 1.0, .all_known = true});
+  const auto shut_door = [&](bool shut) {
+    for (double y = 0.55; y < 1.5; y += 0.1) host.solidify({2.05, y}, shut);
+    // As it was when the robot last saw it.
+    if (shut)
+      for (double y = 0.525; y < 1.5; y += 0.05)
+        for (const double x : {2.025, 2.075}) host.grid.set_log_odds(host.grid.cell_at({x, y}), 600);
+  };
+  shut_door(true);
+  Search step = search("{category: square, at_most_s: 900, look_closer_m: 0}");
+  Status status;
+  while (host.time_s < 900.0 && (status = host.tick(step)).progress == Progress::running) {
+    if (host.said.size() == 1) shut_door(false);  // the first round is over
+    if (host.T_map_robot.x_m > 2.6 && host.graph.landmarks().empty())
+      host.graph.add(landmark_at("square", {3.0, 1.0, 0.0}, {3.0, 1.0, 0.0}));
+  }
+  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
 }
 
 TEST(Search, FailsWhenItsTimeIsUp) {
