@@ -31,7 +31,7 @@ class Orders {
  public:
   virtual ~Orders() = default;
   virtual void drive(const Twist& wanted) = 0;              // for this tick; no call: stop. Throws: no drive, no number
-  virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once. Throws: there is none
+  virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once; without one, no_route
   // Asks the mission's planner and adds its answer to a file of the output folder, one JSON object a line. Success when
   // it is solved; failure with the reason, which is in the file too, unless the question makes no sense on this map.
   virtual Status answer(const PlanQuestion& question, const std::string& file_name) = 0;

@@ -298,7 +298,11 @@ void MissionLoop::drive(const Twist& wanted) {
 
 PlanResult MissionLoop::plan(const PlanRequest& request) {
   const StageClock::Visit visit(clock_, StageClock::kHost);
-  if (!modules_.planner) throw std::runtime_error("asked for a plan, but the mission names no planner");
+  if (!modules_.planner) {
+    PlanResult none;
+    none.reason = "the mission names no planner";
+    return none;
+  }
   stand_meanwhile();
   WorldView world = view();
   hierarchies_.update();

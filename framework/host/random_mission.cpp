@@ -150,7 +150,7 @@ std::string Drawing::go_to_landmark() {
   return fmt::format(
       "sequence: [{{always: {{search: {{category: {}, at_most_s: {:g}}}}}}}, {{goto: {{landmark: nearest {}, "
       "at_most_s: {:g}}}}}]",
-      category, config_.explore_at_most_s, category, config_.goal_at_most_s);
+      category, config_.goal_at_most_s, category, config_.goal_at_most_s);
 }
 
 // The settings of two or three of them.

@@ -9,11 +9,11 @@ void TrialsConfig::describe(Fields<TrialsConfig>& fields) {
       .required = true;
   fields.number("most_specular_ratio", &C::most_specular_ratio, {0.0, 1.0}, "",
                 "each world's share of smooth surfaces is drawn from 0 to this");
-  fields.number("explore_at_most_s", &C::explore_at_most_s, {0.0, 1e6}, "s",
-                "exploring, which comes first, and looking for a landmark before going to it");
+  fields.number("explore_at_most_s", &C::explore_at_most_s, {0.0, 1e6}, "s", "exploring, which comes first");
   fields.integer("least_goals", &C::least_goals, {1.0, 100.0}, "at least so many goals before the way home");
   fields.integer("most_goals", &C::most_goals, {1.0, 100.0}, "at most so many");
-  fields.number("goal_at_most_s", &C::goal_at_most_s, {10.0, 1e6}, "s", "for each goal");
+  fields.number("goal_at_most_s", &C::goal_at_most_s, {10.0, 1e6}, "s",
+                "for each goal, and as much to look for its landmark before");
   fields.number("anywhere_ratio", &C::anywhere_ratio, {0.0, 1.0}, "",
                 "share of the places that are drawn anywhere, also where nothing can stand; the others have room");
   fields.group("faults_per_hour", &C::faults_per_hour, "how often each fault of the simulated robot strikes");

@@ -4,25 +4,17 @@
 #include <cmath>
 #include <cstdio>
 
-#include "plugins/behaviours/openings.hpp"
-
 namespace cairn::behaviours {
 namespace {
 
+constexpr double kAway_s = 0.5;   // longer than any two ticks
 constexpr double kTrace_m = 0.1;  // spacing of remembered poses
 constexpr double kTraceTurn_rad = radians(30.0);
 constexpr double kChoiceEvery_s = 2.5;
-constexpr double kAroundHere_m = 8.0;
-constexpr double kShutInRatio = 0.9;  // of the trace
-constexpr int kNearTrace_cells = 4;
-constexpr double kSqueezed_m = 0.12;  // an opening twice this wide is looked into
-constexpr double kTightClearance_m = 0.02;
-constexpr double kEverywhere_m = 1e6;
 constexpr double kChoiceAtLeastApart_s = 0.5;
 constexpr double kLookAround_radps = radians(45.0);
 constexpr double kBlockedAhead_m = 0.8;
 constexpr double kOnLap_m = 0.5;         // from its first lookout
-constexpr double kThere_m = 0.12;        // a lookout this near needs no drive
 constexpr double kTrustedRange_m = 3.0;  // beyond it a sonar's beam is wider than a door
 constexpr double kFace_rad = radians(8.0);
 constexpr double kFaceDwell_s = 0.6;  // one round of the sonars, about
@@ -42,10 +34,7 @@ constexpr double kGettingOn_m = 0.5;  // driven between two hold-ups, they are n
 Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
     : config_(config),
       limits_(follow_limits(world.robot, config.speed_mps)),
-      mode_(limits_.min_turning_radius_m > 0.0 ? Mode::travel : Mode::look_around),
       begun_s_(world.time_s),
-      mode_since_s_(world.time_s),
-      last_pose_(world.pose.T_map_robot),
       near_echoes_(world.grid) {
   settings_.lap = {config.lap_distance_m, config.look_closer_m, config.largest_object_m};
   settings_.smallest_frontier_m = config.smallest_frontier_m;
@@ -53,10 +42,11 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
   double farthest_m = 0.0;
   for (const SonarModel& sonar : world.robot.sonars) farthest_m = std::max(farthest_m, sonar.max_m);
   settings_.gain_range_m = std::min(farthest_m, kTrustedRange_m);
-  memory_.trace.push_back(last_pose_);
 }
 
 Status Exploration::tick(const WorldView& world, Orders& orders) {
+  if (world.time_s - last_tick_s_ > kAway_s) begin_here(world);
+  last_tick_s_ = world.time_s;
   remember(world);
   if (world.time_s - begun_s_ >= config_.at_most_s) return {Progress::success, "time is up: " + summary(world)};
   switch (mode_) {
@@ -70,6 +60,17 @@ Status Exploration::tick(const WorldView& world, Orders& orders) {
       break;
   }
   return travel(world, orders);
+}
+
+// Something else has driven the robot meanwhile, perhaps to where it could not get to before.
+void Exploration::begin_here(const WorldView& world) {
+  last_pose_ = world.pose.T_map_robot;
+  near_echoes_ = NearEchoes(world.grid);
+  memory_.trace.push_back(last_pose_);
+  task_.reset();
+  turned_rad_ = 0.0;
+  stuck_in_a_row_ = 0;
+  set_mode(limits_.min_turning_radius_m > 0.0 ? Mode::travel : Mode::look_around, world.time_s);
 }
 
 void Exploration::remember(const WorldView& world) {
@@ -98,17 +99,6 @@ void Exploration::drive(const Twist& wanted, const WorldView& world, Orders& ord
   orders.drive(local_.approach(wanted, world));
 }
 
-FreeSpace Exploration::space_now(const WorldView& world, const Search& search) const {
-  const Point position = world.pose.T_map_robot.position();
-  const Cell here = world.grid.cell_at(position);
-  const CellBox all = world.grid.bounds();
-  const double most_cells = 1.0 + std::max(all.width(), all.height());
-  const int reach = static_cast<int>(std::min(search.within_m / world.grid.cell_m(), most_cells));
-  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
-  return FreeSpace(near_echoes_.applied_to(world.grid, part), {position, world.robot.radius_m, search.clearance_m},
-                   memory_.trace, memory_.troubles);
-}
-
 // One turn on the spot, before the first choice: it costs no distance and opens the map all round.
 Status Exploration::look_around(const WorldView& world, Orders& orders) {
   const bool held = world.time_s - mode_since_s_ > 3.0 * 2.0 * std::numbers::pi / kLookAround_radps;
@@ -126,72 +116,6 @@ bool Exploration::needs_choice(const WorldView& world) const {
   const double since_s = world.time_s - chosen_s_;
   if (since_s < kChoiceAtLeastApart_s) return false;
   return since_s >= kChoiceEvery_s || !still_worthwhile(*task_, world.grid);
-}
-
-bool Exploration::choose_by(const Search& search, const WorldView& world, const std::optional<ExploreTask>& before) {
-  search_ = search;
-  const FreeSpace space = space_now(world, search);
-  const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
-  // Each turn of the loop either ends it or gives a part of a task up.
-  for (;;) {
-    task_ = next_task(space, world.pose.T_map_robot, frontiers_wanted, before ? &*before : nullptr, settings_, memory_);
-    if (!task_) return false;
-    const bool is_there = length_of(task_->path) < kThere_m;
-    if (!is_there || is_to_be_faced()) return true;
-    give_up(*task_, space, settings_, memory_);
-  }
-}
-
-bool Exploration::choose_again(const WorldView& world, const std::optional<ExploreTask>& before) {
-  if (!config_.second_look || config_.look_closer_m <= 0.0) return false;
-  const Search search{kEverywhere_m, config_.clearance_m};
-  return look_again(space_now(world, search), world.graph, settings_.lap, memory_) && choose_by(search, world, before);
-}
-
-bool Exploration::choose_opening(const WorldView& world) {
-  search_ = {kEverywhere_m, config_.clearance_m};
-  const FreeSpace space = space_now(world, search_);
-  const FreeSpace squeezed = space_now(world, {kEverywhere_m, kSqueezed_m - world.robot.radius_m});
-  task_ = opening_task(space, squeezed, memory_);
-  return task_.has_value();
-}
-
-// Noise can wall the robot in where it just came through: it cannot go back to where it has been.
-bool Exploration::is_shut_in(const WorldView& world) const {
-  const FreeSpace space = space_now(world, {kEverywhere_m, config_.clearance_m});
-  const auto can_go_back = [&](const Pose2& pose) {
-    const Cell centre = space.cell_at(pose.position());
-    for (int dy = -kNearTrace_cells; dy <= kNearTrace_cells; ++dy)
-      for (int dx = -kNearTrace_cells; dx <= kNearTrace_cells; ++dx)
-        if (space.reaches(centre + Cell{dx, dy})) return true;
-    return false;
-  };
-  const auto back = std::count_if(memory_.trace.begin(), memory_.trace.end(), can_go_back);
-  return static_cast<double>(back) < kShutInRatio * static_cast<double>(memory_.trace.size());
-}
-
-bool Exploration::leads_on(const WorldView& world, const Search& tight) const {
-  return tighter_leads_on(space_now(world, {tight.within_m, config_.clearance_m}), space_now(world, tight));
-}
-
-bool Exploration::choose(const WorldView& world, Orders& orders) {
-  std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
-  chosen_s_ = world.time_s;
-  follow_state_ = {0.0, follow_state_.turning};
-  // The whole map only when there is nothing to do around here; less room only when shut in, or where a door seems
-  // narrow also from right ahead.
-  const std::optional<ExploreTask> before = task_;
-  const Search tight{kEverywhere_m, std::min(config_.clearance_m, kTightClearance_m)};
-  const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world, before) ||
-                     choose_by({kEverywhere_m, config_.clearance_m}, world, before) ||
-                     (is_shut_in(world) && choose_by(tight, world, before)) || choose_again(world, before) ||
-                     choose_opening(world) || (leads_on(world, tight) && choose_by(tight, world, before));
-  if (!found) return false;
-  if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
-    said_about_ = task_->about;
-    orders.say(sentence_of(*task_));
-  }
-  return true;
 }
 
 bool Exploration::is_blocked(const WorldView& world) const {

@@ -1,4 +1,4 @@
-// One run of exploring, from its first tick to its end.
+// One run of exploring, from its first tick to its end; ticked after that it explores on with what it remembers.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,12 @@ class Exploration {
   Exploration(const ExploreConfig& config, const WorldView& world);
 
   Status tick(const WorldView& world, Orders& orders);
+  // As openings.hpp, on the map as it sees it.
+  [[nodiscard]] std::optional<Point> room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const;
 
  private:
+  static constexpr double kThere_m = 0.12;  // a lookout this near needs no drive
+
   enum class Mode { look_around, travel, face, back_off };
 
   Status look_around(const WorldView& world, Orders& orders);
@@ -28,6 +32,7 @@ class Exploration {
   Status face(const WorldView& world, Orders& orders);
   Status back_off(const WorldView& world, Orders& orders);
 
+  void begin_here(const WorldView& world);
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   void drive(const Twist& wanted, const WorldView& world, Orders& orders);
@@ -59,9 +64,10 @@ class Exploration {
   Search search_;  // of the last choice
   TaskSettings settings_;
   FollowLimits limits_;
-  Mode mode_;
+  Mode mode_ = Mode::travel;
   double begun_s_;
-  double mode_since_s_;
+  double mode_since_s_ = 0.0;
+  double last_tick_s_ = -1e9;
   double chosen_s_ = 0.0;
   double faced_s_ = 0.0;
   double turned_rad_ = 0.0;

@@ -40,4 +40,8 @@ void Explore::halt() {
   run_.reset();
 }
 
+std::optional<Point> Explore::room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const {
+  return run_ ? run_->room_out_of_reach(world, done) : std::nullopt;
+}
+
 }  // namespace cairn::behaviours

@@ -61,6 +61,9 @@ class Explore : public Behaviour {
 
   Status tick(const WorldView& world, Orders& orders) override;
   void halt() override;
+  // Where it did not get to, as openings.hpp; none before the first tick. done: rooms to leave out. Ticked after its
+  // end it explores on from where the robot is then.
+  [[nodiscard]] std::optional<Point> room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const;
 
  private:
   ExploreConfig config_;

@@ -36,7 +36,8 @@ constexpr double kGatherEvery_s = 0.2;
 constexpr double kEchoCounts_s = 0.7;
 constexpr double kBehind_m = 0.15;
 constexpr double kExplained_m = 0.1;
-constexpr double kSurelyInBeam = 0.6;  // of half a beam
+constexpr double kSurelyInBeam = 0.6;       // of half a beam
+constexpr double kThin_rad = radians(1.0);  // half a beam of no width
 constexpr int kArcPoints = 5;
 constexpr int kMostSensors = 4096;
 constexpr double kLongestTick_s = 0.5;
@@ -216,7 +217,7 @@ LocalPlanner::Live LocalPlanner::live_echo_at(const Point& p_map, double time_s)
     const Point to = p_map - echo.T_map_sensor.position();
     const double behind_m = echo.range_m - to.norm();
     const double off_rad = wrap_angle(std::atan2(to.y(), to.x()) - echo.T_map_sensor.theta_rad);
-    if (std::abs(off_rad) > kSurelyInBeam * echo.half_beam_rad || behind_m < -kBehind_m) continue;
+    if (std::abs(off_rad) > kSurelyInBeam * echo.half_beam_rad + kThin_rad || behind_m < -kBehind_m) continue;
     if (behind_m >= kBehind_m) return Live::seen_through;
     live = Live::there;
   }

@@ -79,21 +79,22 @@ bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter) {
   return !places_behind(space, tighter, kRoomToDrive_m2).empty();
 }
 
-std::optional<Point> room_out_of_reach(const FreeSpace& space, const Point& from, const std::vector<Point>& tried) {
+std::optional<Point> room_out_of_reach(const FreeSpace& space, const Point& from, const std::vector<Point>& done) {
+  const auto is_done = [&](const CellGroup& room) {
+    return std::ranges::any_of(room, [&](Cell c) {
+      return std::ranges::any_of(done, [&](const Point& p) { return (p - space.centre_of(c)).norm() < kSame_m; });
+    });
+  };
   std::vector<CellGroup> rooms = places_behind(space, kRoomOutOfReach_m2, [](Cell) { return true; });
-  std::stable_sort(rooms.begin(), rooms.end(),
-                   [](const CellGroup& a, const CellGroup& b) { return a.size() > b.size(); });
-  for (const CellGroup& room : rooms) {
-    // Well inside, so that from there the room is nearer than what it comes from.
-    const auto worth_m = [&](Cell c) {
-      return kRoomForWay * std::min(space.distance_m(c), kRoomy_m) - (space.centre_of(c) - from).norm();
-    };
-    const Point place =
-        space.centre_of(*std::ranges::max_element(room, [&](Cell a, Cell b) { return worth_m(a) < worth_m(b); }));
-    const bool is_new = std::ranges::none_of(tried, [&](const Point& p) { return (p - place).norm() < kSame_m; });
-    if (is_new) return place;
-  }
-  return std::nullopt;
+  std::erase_if(rooms, is_done);
+  const auto largest =
+      std::ranges::max_element(rooms, [](const CellGroup& a, const CellGroup& b) { return a.size() < b.size(); });
+  if (largest == rooms.end()) return std::nullopt;
+  // Well inside, so that from there the room is nearer than what it comes from.
+  const auto worth_m = [&](Cell c) {
+    return kRoomForWay * std::min(space.distance_m(c), kRoomy_m) - (space.centre_of(c) - from).norm();
+  };
+  return space.centre_of(*std::ranges::max_element(*largest, [&](Cell a, Cell b) { return worth_m(a) < worth_m(b); }));
 }
 
 }  // namespace cairn::behaviours

@@ -23,10 +23,10 @@ struct Opening {
 // Whether a robot that keeps less room, in the same space, gets to where there is room again.
 [[nodiscard]] bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter);
 
-// A near and roomy place of the largest room that is free but out of reach; none when each is smaller than 0.5 m2 or
-// within 0.5 m of where it has been tried to get to. A door that is closed now is shut before it, or a beam drawn
-// across one.
+// A near and roomy place of the largest room that is free but out of reach; none when each has less than 0.5 m2 for the
+// robot's centre or is within 0.5 m of a place that is done with. A door that is closed now is shut before it, or a
+// beam drawn across one.
 [[nodiscard]] std::optional<Point> room_out_of_reach(const FreeSpace& space, const Point& from,
-                                                     const std::vector<Point>& tried);
+                                                     const std::vector<Point>& done);
 
 }  // namespace cairn::behaviours

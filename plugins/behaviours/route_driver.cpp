@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kPlansApart_s = 1.0;
 constexpr double kOwnPlansApart_s = 3.0;  // they cost more
-constexpr double kClosedFor_s = 60.0;
 constexpr double kBlockedAhead_m = 1.0;
+constexpr double kAsideAtMost_s = 30.0;  // a car may circle round where it wants to stand
+constexpr double kToLookAtMost_s = 120.0;
 constexpr double kWayOutTolerance_m = 0.02;
 constexpr double kTrace_m = 0.1;
 constexpr std::size_t kMostTrace = 400;
-constexpr double kEchoesKept_s = 15.0;
 // What is doubted is gone near at a speed at which touching it would do no harm.
 constexpr double kDoubtNear_m = 0.25;
 constexpr double kDoubtful_mps = 0.05;
@@ -52,36 +52,13 @@ Status RouteDriver::tick(const Place& goal, const WorldView& world, Orders& orde
 
 void RouteDriver::remember(const WorldView& world) {
   const Pose2& pose = world.pose.T_map_robot;
-  hear(world);
+  echoes_.see(world);
   if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTrace_m) trace_.push_back(pose);
   if (trace_.size() > kMostTrace) trace_.erase(trace_.begin());
-  std::erase_if(troubles_, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
+  for (std::vector<TroubleSpot>* spots : {&troubles_, &shut_})
+    std::erase_if(*spots, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   std::erase_if(closed_until_s_, [&](const auto& closed) { return closed.second < world.time_s; });
-  local_.see(world, *near_echoes_, doubted_);
-}
-
-void RouteDriver::forget_echoes(const WorldView& world) {
-  near_echoes_.emplace(world.grid);
-  later_echoes_.emplace(world.grid);
-  echoes_since_s_ = world.time_s;
-}
-
-// Somebody who has gone on leaves near echoes that no later one takes away: they count for a while only.
-void RouteDriver::hear(const WorldView& world) {
-  const Pose2& pose = world.pose.T_map_robot;
-  if (!near_echoes_) {
-    forget_echoes(world);
-    last_theta_rad_ = pose.theta_rad;
-  }
-  if (world.time_s - echoes_since_s_ > kEchoesKept_s) {
-    near_echoes_ = std::move(later_echoes_);
-    later_echoes_.emplace(world.grid);
-    echoes_since_s_ = world.time_s;
-  }
-  for (NearEchoes* echoes : {&*near_echoes_, &*later_echoes_}) {
-    if (world.observation != nullptr) echoes->see(*world.observation, pose);
-    echoes->stand_at(pose.position(), world.robot.radius_m);
-  }
+  local_.see(world, echoes_.now(), doubted_);
 }
 
 void RouteDriver::set_mode(Mode mode, double time_s) {
@@ -100,22 +77,21 @@ void RouteDriver::plan_past(const WorldView& world, Orders& orders) {
     return;
   }
   const PlanResult result = ask_planner(world, orders);
-  for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
   if (result.outcome == PlanOutcome::solved) take_route(result, world);
 }
 
 Status RouteDriver::travel(const WorldView& world, Orders& orders) {
   const Pose2& pose = world.pose.T_map_robot;
-  if (watch_.is_stuck(world, preferred_)) return held_back(world, orders);
+  const bool is_late = world.time_s - mode_since_s_ > (leg_ == Leg::aside ? kAsideAtMost_s : kToLookAtMost_s);
+  if ((leg_ == Leg::aside || leg_ == Leg::to_look) && is_late) return begin_look_from_here(world, orders);
+  if (watch_.is_stuck(world, preferred_))
+    return leg_ == Leg::aside ? begin_look_from_here(world, orders) : held_back(world, orders);
   // One cell less than the planner's disc, so that the two never disagree about the same map.
   const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
   const bool blocked =
       leg_ != Leg::way_out && is_blocked(world, path_, follow_state_.along_m, kBlockedAhead_m, margin_m);
   if (blocked && world.time_s - planned_s_ >= kPlansApart_s) {
-    if (leg_ == Leg::to_look || leg_ == Leg::aside) {
-      set_mode(Mode::look, world.time_s);
-      return look(world, orders);
-    }
+    if (leg_ == Leg::to_look || leg_ == Leg::aside) return begin_look_from_here(world, orders);
     plan_past(world, orders);
   }
   FollowLimits limits = follow_limits(world.robot, settings_.speed_mps);
@@ -145,10 +121,7 @@ Status RouteDriver::arrive(const WorldView& world, Orders& orders) {
     set_mode(Mode::plan, world.time_s);
     return {Progress::running, "has made room"};
   }
-  if (leg_ == Leg::to_look || leg_ == Leg::aside) {
-    set_mode(Mode::look, world.time_s);
-    return look(world, orders);
-  }
+  if (leg_ == Leg::to_look || leg_ == Leg::aside) return begin_look_from_here(world, orders);
   set_mode(Mode::face, world.time_s);
   return face(world, orders);
 }

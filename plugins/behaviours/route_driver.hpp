@@ -6,7 +6,7 @@
 // Plans, follows the route with the local planner, and when it does not get on climbs a ladder: wait, back up, turn or
 // look whether the way is free again, make way for whoever waits, plan again (round what it was held back by), close
 // the stored route that is blocked for a while, and in the end give up with a reason that names the place and what was
-// tried. Getting on takes it down the ladder again. Where the map has no way it goes to look whether what blocks the
+// tried. A hold-up elsewhere begins the ladder anew. Where the map has no way it goes to look whether what blocks the
 // likeliest one is still there: a door may have opened.
 #pragma once
 
@@ -21,8 +21,8 @@
 #include "plugins/behaviours/free_space.hpp"
 #include "plugins/behaviours/held_back.hpp"
 #include "plugins/behaviours/local_planner.hpp"
-#include "plugins/behaviours/near_echoes.hpp"
 #include "plugins/behaviours/path_follower.hpp"
+#include "plugins/behaviours/recent_echoes.hpp"
 #include "plugins/behaviours/way_to_look.hpp"
 
 namespace cairn::behaviours {
@@ -62,7 +62,10 @@ class RouteDriver {
   [[nodiscard]] LandmarkId goal_landmark() const { return goal_landmark_; }
 
  private:
+  static constexpr double kClosedFor_s = 60.0;  // a stored route that was blocked
+
   enum class Mode { plan, travel, back_up, turn, look, face };
+  enum class Leg { route, way_out, to_look, aside };  // what the path is
   // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free; besides, what
   // leaves less room than the robot needs may be the width of the sonars' beams.
   enum class Trust { all, no_specks, only_solid, squeezed };
@@ -71,35 +74,37 @@ class RouteDriver {
   struct Look {
     Point at{0.0, 0.0};
     double at_least_s = 3.0;
-    bool is_live = false;         // it held the robot back: afterwards what the near echoes have said is of before
+    double at_most_s = 25.0;      // for a door to open
+    bool is_live = false;         // it held the robot back, whatever the map has there
     std::map<Cell, int> through;  // occupied cells about it: for how many ticks more they were seen through than not
   };
 
   void remember(const WorldView& world);
-  void hear(const WorldView& world);
-  void forget_echoes(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   Status plan(const WorldView& world, Orders& orders);
   [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
+  void take_path(const std::vector<Point>& path, Leg leg);
   void take_route(const PlanResult& result, const WorldView& world);
   [[nodiscard]] std::optional<Point> goal_point(const WorldView& world) const;
   [[nodiscard]] bool plan_by_own_eyes(const WorldView& world, Trust trust);
   Status no_plan(const PlanResult& result, const WorldView& world, Orders& orders);
   [[nodiscard]] bool begin_way_out(const WorldView& world);
-  [[nodiscard]] bool begin_look(const WorldView& world);
-  [[nodiscard]] bool begin_look_at_goal(const WorldView& world);
+  [[nodiscard]] bool begin_look(PlanOutcome outcome, const WorldView& world);
+  [[nodiscard]] bool begin_look_at_goal(const Point& goal, const WorldView& world);
   void go_to_look(const WayToLook& way);
 
   Status travel(const WorldView& world, Orders& orders);
   Status arrive(const WorldView& world, Orders& orders);
   Status held_back(const WorldView& world, Orders& orders);
-  [[nodiscard]] Point nearest_ahead(const WorldView& world) const;
+  [[nodiscard]] std::optional<Point> nearest_ahead(const WorldView& world) const;
   [[nodiscard]] bool begin_aside(const WorldView& world);
   Status back_up(const WorldView& world, Orders& orders);
   Status turn(const WorldView& world, Orders& orders);
   void plan_past(const WorldView& world, Orders& orders);
   [[nodiscard]] bool has_opened(const WorldView& world);
   [[nodiscard]] std::vector<Cell> seen_through() const;
+  [[nodiscard]] bool is_seen_through(Cell cell) const;
+  Status begin_look_from_here(const WorldView& world, Orders& orders);
   Status look(const WorldView& world, Orders& orders);
   Status face(const WorldView& world, Orders& orders);
   void close_route_here(const WorldView& world, Orders& orders);
@@ -107,6 +112,7 @@ class RouteDriver {
   [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m, Trust trust) const;
   [[nodiscard]] std::vector<Cell> doubtful_cells(const OccupancyGrid& map) const;
   void doubt(const std::vector<Cell>& cells, const WorldView& world);
+  void doubt_as(Trust trust, const WorldView& world);
   void doubt_along_path(const WorldView& world);
   void stop_doubting();
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
@@ -117,7 +123,6 @@ class RouteDriver {
   Place goal_;
   Mode mode_ = Mode::plan;
   double mode_since_s_ = 0.0;
-  enum class Leg { route, way_out, to_look, aside };  // what the path is
   Leg leg_ = Leg::route;
   std::vector<Point> path_;
   FollowState follow_state_;
@@ -126,11 +131,10 @@ class RouteDriver {
   std::vector<PlanPiece> pieces_;   // of the path, when it is the planner's
   std::map<RouteId, double> closed_until_s_;
 
-  std::optional<NearEchoes> near_echoes_;   // from the first tick on; of the last 15 to 30 s
-  std::optional<NearEchoes> later_echoes_;  // that will be the next near_echoes_
-  double echoes_since_s_ = 0.0;
+  RecentEchoes echoes_;
   std::vector<Pose2> trace_;           // where the robot has been
   std::vector<TroubleSpot> troubles_;  // where it was held back
+  std::vector<TroubleSpot> shut_;      // what held it back on a way through what is unknown: there is none
   CellSet doubted_;                    // left out of account on the way by its own eyes
   std::vector<Point> doubted_places_;  // the occupied ones
   LocalPlanner local_;
@@ -145,10 +149,12 @@ class RouteDriver {
   std::optional<Trust> own_trust_;  // the path is one by its own eyes
   Look look_;
   std::vector<Point> looked_at_;
+  bool beside_again_ = false;
   std::vector<Point> beside_goal_;  // where it has stood to look at a goal that is blocked
   int round_ = 0;                   // of the ladder, at this place
   int hold_ups_ = 0;                // in all
   Point held_at_{1e9, 1e9};
+  std::optional<Point> held_by_;
   double turn_left_rad_ = 0.0;
   double last_theta_rad_ = 0.0;
   bool said_wait_ = false;

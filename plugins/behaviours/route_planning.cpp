@@ -17,12 +17,12 @@ constexpr double kPlansApart_s = 1.0;
 constexpr int kMostPlans = 200;
 constexpr int kMostWaysOut = 4;
 constexpr double kWayOutClearance_m = 0.1;
-constexpr double kClosedFor_s = 60.0;
 constexpr double kSpaceAround_m = 12.0;
 constexpr double kSpaceClearance_m = 0.08;
 constexpr double kTightClearance_m = 0.03;
 constexpr double kAroundGoal_m = 1.0;
 constexpr int kMostAcross_cells = 1000;
+constexpr double kShutAround_m = 0.3;
 constexpr double kFree = 0.1;  // probability of what is taken to be free
 constexpr int kMostLooks = 12;
 constexpr int kLooksBeforeAgain = 6;  // then at the same places once more
@@ -34,7 +34,7 @@ constexpr int kLooksBeforeSqueezing = 2;
 constexpr int kMostSqueezes = 3;
 constexpr double kStandOff_m = 0.8;  // from what is looked at
 constexpr double kStandOffNearer_m = 0.5;
-constexpr double kBesideGoal_m = 0.8;
+constexpr double kBesideGoal_m = 0.5;  // from the robot's rim
 constexpr double kBesideApart_m = 0.3;
 constexpr double kBeforeGoal_m = 0.1;
 constexpr double kBesideGoalFor_s = 6.0;
@@ -56,9 +56,9 @@ bool can_look_at(const Point& place, Cell from, const FreeSpace& space) {
 // The nearest to a goal that is in reach, in sight of it and not where the robot has stood before.
 std::optional<Cell> cell_beside(const Point& goal, const FreeSpace& space, const std::vector<Point>& stood) {
   const Cell at = space.cell_at(goal);
-  const int reach = static_cast<int>(kBesideGoal_m / space.cell_m());
   std::optional<Cell> nearest;
-  double nearest_m = kBesideGoal_m;
+  double nearest_m = space.radius_m() + kBesideGoal_m;
+  const int reach = static_cast<int>(nearest_m / space.cell_m());
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const Cell c = at + Cell{dx, dy};
@@ -87,6 +87,14 @@ void take_unknown_for_free(OccupancyGrid& map, const Point& goal) {
       if (map.state({x, y}) == CellState::unknown) map.set_log_odds({x, y}, free);
 }
 
+void occupy_around(const Point& p, OccupancyGrid& map) {
+  const Cell at = map.cell_at(p);
+  const int reach = static_cast<int>(kShutAround_m / map.cell_m());
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (dx * dx + dy * dy <= reach * reach) map.set_log_odds(at + Cell{dx, dy}, log_odds_of(1.0 - kFree));
+}
+
 }  // namespace
 
 // What it has looked through; specks; and whatever stands alone where the robot has looked again: it is there if it
@@ -109,10 +117,14 @@ void RouteDriver::doubt(const std::vector<Cell>& cells, const WorldView& world) 
   for (const Cell c : cells) {
     doubted_.insert(c);
     const auto looked = look_.through.find(c);
-    const bool is_seen_through = looked != look_.through.end() && looked->second >= 0;
-    if (!is_seen_through && near_echoes_->is_occupied(world.grid, c))
-      doubted_places_.push_back(world.grid.centre_of(c));
+    const bool was_there = looked == look_.through.end() || looked->second < 0;
+    if (was_there && echoes_.now().is_occupied(world.grid, c)) doubted_places_.push_back(world.grid.centre_of(c));
   }
+}
+
+// What a plan of this trust has left out of account.
+void RouteDriver::doubt_as(Trust trust, const WorldView& world) {
+  if (trust != Trust::all) doubt(doubtful_cells(echoes_.now().applied_to(world.grid, world.grid.bounds())), world);
 }
 
 void RouteDriver::doubt_along_path(const WorldView& world) {
@@ -134,10 +146,13 @@ FreeSpace RouteDriver::space_now(const WorldView& world, double clearance_m, Tru
   const Cell here = world.grid.cell_at(position);
   const int reach = static_cast<int>(kSpaceAround_m / world.grid.cell_m());
   const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
-  OccupancyGrid map = near_echoes_->applied_to(world.grid, part);
+  OccupancyGrid map = echoes_.now().applied_to(world.grid, part);
   if (trust != Trust::all)
     for (const Cell c : doubtful_cells(map)) map.set_log_odds(c, log_odds_of(kFree));
-  if (trust >= Trust::only_solid) take_unknown_for_free(map, goal_point(world).value_or(position));
+  if (trust >= Trust::only_solid) {
+    take_unknown_for_free(map, goal_point(world).value_or(position));
+    for (const TroubleSpot& spot : shut_) occupy_around(spot.at_m, map);
+  }
   return FreeSpace(map, {position, world.robot.radius_m, clearance_m}, trace_, troubles_);
 }
 
@@ -148,7 +163,7 @@ void RouteDriver::stop_doubting() {
 
 bool RouteDriver::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
                              double radius_m) const {
-  const auto is_occupied = [&](Cell c) { return near_echoes_->is_occupied(world.grid, c) && !doubted_.contains(c); };
+  const auto is_occupied = [&](Cell c) { return echoes_.now().is_occupied(world.grid, c) && !doubted_.contains(c); };
   return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, radius_m);
 }
 
@@ -169,6 +184,7 @@ PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
     for (const double room_m : kRooms_m) {
       request.radius_m = world.robot.radius_m + room_m;
       result = orders.plan(request);
+      for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
       if (result.outcome == PlanOutcome::solved) return result;
       if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return result;
     }
@@ -176,21 +192,26 @@ PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
   return result;
 }
 
+void RouteDriver::take_path(const std::vector<Point>& path, Leg leg) {
+  path_ = path;
+  pieces_.clear();
+  leg_ = leg;
+  own_trust_.reset();
+  follow_state_ = {0.0, follow_state_.turning};
+  stop_doubting();
+}
+
 void RouteDriver::take_route(const PlanResult& result, const WorldView& world) {
-  path_ = points_of(result.path);
+  take_path(points_of(result.path), Leg::route);
   // Planners over cells end in the middle of one.
   const double cell_m = world.grid.cell_m();
   if (goal_.pose && !path_.empty() && (path_.back() - goal_.pose->position()).norm() < cell_m)
     path_.back() = goal_.pose->position();
   pieces_ = result.pieces;
-  follow_state_ = {0.0, follow_state_.turning};
-  leg_ = Leg::route;
-  own_trust_.reset();
   if (!path_.empty()) route_end_ = path_.back();
   const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
     return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
   });
-  stop_doubting();
   goal_landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
 }
 
@@ -203,7 +224,6 @@ Status RouteDriver::plan(const WorldView& world, Orders& orders) {
     return {Progress::running, "going round what held it back"};
   }
   const PlanResult result = ask_planner(world, orders);
-  for (const RouteId route : result.blocked_routes) closed_until_s_[route] = world.time_s + kClosedFor_s;
   if (result.outcome != PlanOutcome::solved) return no_plan(result, world, orders);
   take_route(result, world);
   set_mode(Mode::travel, world.time_s);
@@ -227,19 +247,17 @@ bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
   for (const double room_m : {kSpaceClearance_m, kTightClearance_m}) {
     const double clearance_m = trust == Trust::squeezed ? kSqueezedRadius_m - world.robot.radius_m : room_m;
     const FreeSpace space = space_now(world, clearance_m, trust);
-    const std::vector<Point> path = space.path_to(space.cell_at(*goal));
-    if (path.size() < 2) continue;
-    path_ = path;
-    path_.push_back(*goal);
-    pieces_.clear();
-    follow_state_ = {0.0, follow_state_.turning};
-    leg_ = Leg::route;
-    own_trust_ = trust;
-    planned_s_ = world.time_s;
-    stop_doubting();
-    if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
-    if (trust == Trust::squeezed) doubt_along_path(world);
-    return true;
+    std::vector<Point> path = space.path_to(space.cell_at(*goal));
+    if (path.size() >= 2) {
+      path.push_back(*goal);
+      take_path(path, Leg::route);
+      own_trust_ = trust;
+      planned_s_ = world.time_s;
+      doubt_as(trust, world);
+      if (trust == Trust::squeezed) doubt_along_path(world);
+      return true;
+    }
+    if (trust == Trust::squeezed) break;
   }
   return false;
 }
@@ -264,8 +282,7 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "trying an opening that looks too narrow"};
   }
-  const bool goal_is_blocked = result.outcome == PlanOutcome::goal_blocked;
-  if (!is_final && ((goal_is_blocked && begin_look_at_goal(world)) || begin_look(world))) {
+  if (!is_final && begin_look(result.outcome, world)) {
     orders.say("no way now (" + why + "): looks again at " + described(look_.at));
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "going to look at " + described(look_.at)};
@@ -277,57 +294,57 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
 bool RouteDriver::begin_way_out(const WorldView& world) {
   if (ways_out_ >= kMostWaysOut) return false;
   ++ways_out_;
-  path_ = space_now(world, kWayOutClearance_m, Trust::all).way_out();
-  if (path_.size() < 2) path_ = space_now(world, kTightClearance_m, Trust::all).way_out();
-  if (path_.size() < 2) return false;
-  follow_state_ = {};
-  leg_ = Leg::way_out;
+  std::vector<Point> path = space_now(world, kWayOutClearance_m, Trust::all).way_out();
+  if (path.size() < 2) path = space_now(world, kTightClearance_m, Trust::all).way_out();
+  if (path.size() < 2) return false;
+  take_path(path, Leg::way_out);
   tried_ = "made room " + std::to_string(ways_out_) + " times";
   return true;
 }
 
-bool RouteDriver::begin_look(const WorldView& world) {
-  if (looks_ >= kMostLooks) return false;
+// Where the goal itself is blocked, from beside it: nothing else has to do with that.
+bool RouteDriver::begin_look(PlanOutcome outcome, const WorldView& world) {
   const std::optional<Point> goal = goal_point(world);
-  if (!goal) return false;
-  if (looks_ == kLooksBeforeAgain) looked_at_.clear();
+  if (!goal || looks_ >= kMostLooks) return false;
+  if (outcome == PlanOutcome::goal_blocked && (goal_.pose || route_end_) && begin_look_at_goal(*goal, world))
+    return true;
+  if (outcome == PlanOutcome::goal_blocked && !beside_goal_.empty()) return false;
   const double stand_off_m = looks_ < kLooksBeforeAgain ? kStandOff_m : kStandOffNearer_m;
   const std::optional<WayToLook> way = way_to_look(space_now(world, kTightClearance_m, Trust::all), world.grid,
                                                    world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
   if (!way) return false;
-  looked_at_.push_back(way->at);
   go_to_look(*way);
+  looked_at_.push_back(way->at);
   return true;
 }
 
 // Walls are drawn thick where they have been seen from afar, and people leave traces: from right beside the goal it may
-// be free.
-bool RouteDriver::begin_look_at_goal(const WorldView& world) {
-  const std::optional<Point> goal = goal_point(world);
-  if (!goal || looks_ >= kMostLooks) return false;
+// be free. Twice from each place, in case somebody goes on.
+bool RouteDriver::begin_look_at_goal(const Point& goal, const WorldView& world) {
   for (const Trust trust : {Trust::all, Trust::no_specks, Trust::only_solid}) {
     const FreeSpace space = space_now(world, kTightClearance_m, trust);
-    std::optional<Cell> beside = cell_beside(*goal, space, beside_goal_);
-    if (!beside) beside = cell_beside(*goal, space, {});  // once more: somebody may have gone on
+    std::optional<Cell> beside = cell_beside(goal, space, beside_goal_);
+    if (!beside && !beside_goal_.empty() && !beside_again_) {
+      beside_again_ = true;
+      beside_goal_.clear();
+      beside = cell_beside(goal, space, {});
+    }
     if (!beside) continue;
+    go_to_look({goal, space.path_to(*beside)});
+    doubt_as(trust, world);
+    look_.at_most_s = kBesideGoalFor_s;
+    looked_at_.push_back(goal);
     beside_goal_.push_back(space.centre_of(*beside));
-    looked_at_.push_back(*goal);
-    go_to_look({*goal, space.path_to(*beside)});
-    look_.at_least_s = kBesideGoalFor_s;
-    stop_doubting();
-    if (trust != Trust::all) doubt(doubtful_cells(near_echoes_->applied_to(world.grid, world.grid.bounds())), world);
     return true;
   }
   return false;
 }
 
 void RouteDriver::go_to_look(const WayToLook& way) {
-  ++looks_;
-  look_ = {.at = way.at, .through = {}};
-  path_ = way.path;
-  follow_state_ = {};
-  leg_ = Leg::to_look;
+  if (++looks_ == kLooksBeforeAgain + 1) looked_at_.clear();
+  take_path(way.path, Leg::to_look);
   tried_ = "looked " + std::to_string(looks_) + " times whether the way is free again, last at " + described(way.at);
+  look_ = {.at = way.at, .through = {}};
 }
 
 }  // namespace cairn::behaviours

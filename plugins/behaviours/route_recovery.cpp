@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMostHoldUps = 40;
 constexpr double kTroubleFor_s = 60.0;
+constexpr double kShutFor_s = 200.0;  // long enough to try the other gaps of a wall that sonars leak through
 constexpr double kBackUp_mps = 0.04;  // few robots see well behind: what it touches it shall not push
 constexpr double kBackUp_m = 0.2;
 constexpr double kBackUpAtMost_s = 6.0;
@@ -19,7 +20,6 @@ constexpr int kFarthestBackUp = 3;  // times as far, round after round
 constexpr double kTurn_rad = radians(100.0);
 constexpr double kTurn_radps = radians(45.0);
 constexpr double kTurnAtMost_s = 12.0;
-constexpr double kLookAtMost_s = 25.0;  // for a door to open
 constexpr double kAboutLook_m = 1.0;
 constexpr double kOpened_m = 0.7;  // of cells in a row
 constexpr int kSeenThrough_ticks = 10;
@@ -27,8 +27,6 @@ constexpr int kSurely_ticks = 50;
 constexpr double kSweep_rad = radians(25.0);  // looked at from a little aside, too
 constexpr double kSweep_s = 4.0;
 constexpr double kSamePlace_m = 0.8;
-constexpr double kClosedFor_s = 60.0;
-constexpr double kAhead_m = 0.1;
 constexpr double kAround_m = 0.5;
 constexpr double kAhead_rad = radians(60.0);
 constexpr double kLeastAside_m = 0.8;  // from what is in the way, less what the way costs
@@ -37,9 +35,12 @@ constexpr double kWayForRoom = 0.3;
 constexpr double kAsideClearance_m = 0.08;
 constexpr double kMakeWayFor_s = 8.0;
 
-// In these rounds of the ladder.
+// Waiting for what moves by itself comes before what costs a detour: rounds 2, 4, 6 against 3, 5.
+bool looks_in(int round) {
+  return round % 2 == 0;
+}
 bool makes_way(int round) {
-  return round >= 3 && round % 2 == 1;
+  return round >= 3 && !looks_in(round);
 }
 
 }  // namespace
@@ -49,39 +50,45 @@ Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   if ((pose.position() - held_at_).norm() > kSamePlace_m) round_ = 0;
   held_at_ = pose.position();
+  held_by_ = nearest_ahead(world);
   said_wait_ = false;
   stop_doubting();
   ++round_;
   ++hold_ups_;
   if (round_ > settings_.rounds || hold_ups_ > kMostHoldUps) return give_up(world);
-  const Point in_the_way = nearest_ahead(world);
-  look_ = {.at = in_the_way, .is_live = true, .through = {}};
-  orders.say("held back at " + described(held_at_) + " by what is at " + described(in_the_way) + " (" +
-             std::to_string(round_) + " of " + std::to_string(settings_.rounds) + ")");
+  const std::string where = "held back at " + described(held_at_) +
+                            (held_by_ ? " by what is at " + described(*held_by_) : "") + " (" + std::to_string(round_) +
+                            " of " + std::to_string(settings_.rounds) + "): ";
   troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kTroubleFor_s});
+  if (own_trust_ >= Trust::only_solid && held_by_) shut_.push_back({*held_by_, world.time_s + kShutFor_s});
   if (round_ >= 2) close_route_here(world, orders);
   if (makes_way(round_) && begin_aside(world)) {
+    orders.say(where + "makes way");
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "making way"};
   }
+  orders.say(where + (looks_in(round_) && held_by_ ? "backs up and looks" : "backs up and turns"));
   set_mode(Mode::back_up, world.time_s);
   return back_up(world, orders);
 }
 
-// Of the live obstacles before the robot; a little ahead when it knows of none.
-Point RouteDriver::nearest_ahead(const WorldView& world) const {
-  Point nearest{world.robot.radius_m + kAhead_m, 0.0};
+// Of the live obstacles before the robot; none when it knows of none.
+std::optional<Point> RouteDriver::nearest_ahead(const WorldView& world) const {
+  std::optional<Point> nearest;
   double nearest_m = world.robot.radius_m + kAround_m;
   for (const Point& p : local_.obstacles()) {
     if (p.norm() >= nearest_m || std::abs(std::atan2(p.y(), p.x())) > kAhead_rad) continue;
     nearest_m = p.norm();
-    nearest = p;
+    nearest = world.pose.T_map_robot * p;
   }
-  return world.pose.T_map_robot * nearest;
+  return nearest;
 }
 
-// People who wait for the robot to go on are waited for in vain: it goes where there is room, far from them.
+// People who wait for the robot to go on are waited for in vain: it goes where there is room, far from them. A car
+// cannot: the way there would begin with an arc towards them.
 bool RouteDriver::begin_aside(const WorldView& world) {
+  if (world.robot.kinematics != Kinematics::differential) return false;
+  const Point from = held_by_.value_or(world.pose.T_map_robot * Point{world.robot.radius_m, 0.0});
   const FreeSpace space = space_now(world, kAsideClearance_m, Trust::all);
   const Cell here = space.cell_at(world.pose.T_map_robot.position());
   const int reach = static_cast<int>(kMostAside_m / space.cell_m());
@@ -91,18 +98,18 @@ bool RouteDriver::begin_aside(const WorldView& world) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const Cell c = here + Cell{dx, dy};
       if (!space.reaches(c) || space.cost_m(c) > kMostAside_m) continue;
-      const double away_m = (space.centre_of(c) - look_.at).norm() - kWayForRoom * space.cost_m(c);
+      const double away_m = (space.centre_of(c) - from).norm() - kWayForRoom * space.cost_m(c);
       if (away_m <= best_m) continue;
       best_m = away_m;
       best = c;
     }
   }
   if (!best) return false;
-  path_ = space.path_to(*best);
-  if (path_.size() < 2) return false;
-  follow_state_ = {};
-  leg_ = Leg::aside;
-  look_.at_least_s = kMakeWayFor_s;
+  const std::vector<Point> path = space.path_to(*best);
+  if (path.size() < 2) return false;
+  take_path(path, Leg::aside);
+  look_ = {.at = from, .at_least_s = kMakeWayFor_s, .is_live = true, .through = {}};
+  tried_ = "made way";
   return true;
 }
 
@@ -128,12 +135,11 @@ Status RouteDriver::back_up(const WorldView& world, Orders& orders) {
     orders.drive(local_.approach({-kBackUp_mps, 0.0}, world));
     return {Progress::running, "backing up"};
   }
-  if (round_ % 2 == 0) {
-    set_mode(Mode::look, world.time_s);
-    return look(world, orders);
+  if (looks_in(round_) && held_by_) {
+    look_ = {.at = *held_by_, .is_live = true, .through = {}};
+    return begin_look_from_here(world, orders);
   }
   set_mode(Mode::turn, world.time_s);
-  // What the sonars have not looked at is not known any more.
   turn_left_rad_ = round_ == 1 ? kTurn_rad : 2.0 * std::numbers::pi;
   last_theta_rad_ = pose.theta_rad;
   return turn(world, orders);
@@ -152,6 +158,13 @@ Status RouteDriver::turn(const WorldView& world, Orders& orders) {
   return {Progress::running, "turning to look round"};
 }
 
+// What the near echoes have said so far of what holds it back is of before.
+Status RouteDriver::begin_look_from_here(const WorldView& world, Orders& orders) {
+  if (look_.is_live) echoes_.forget(world);
+  set_mode(Mode::look, world.time_s);
+  return look(world, orders);
+}
+
 // Faces what was in the way until it is gone, or for long enough.
 Status RouteDriver::look(const WorldView& world, Orders& orders) {
   const double waited_s = world.time_s - mode_since_s_;
@@ -159,17 +172,17 @@ Status RouteDriver::look(const WorldView& world, Orders& orders) {
   const double aside_rad = kSweep_rad * std::sin(2.0 * std::numbers::pi * waited_s / kSweep_s);
   const double error_rad = wrap_angle(heading_error(world.pose.T_map_robot, look_.at) + aside_rad);
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
-  if (can_turn) orders.drive(local_.approach(turn_by(error_rad, kTurn_radps), world));
+  orders.drive(
+      local_.approach(can_turn ? turn_by(error_rad, std::min(kTurn_radps, world.robot.max_w_radps)) : Twist{}, world));
   const bool is_open = has_opened(world);
-  const bool goes_on = waited_s < look_.at_least_s || (!is_open && waited_s < kLookAtMost_s);
+  const bool goes_on = waited_s < look_.at_least_s || (!is_open && waited_s < look_.at_most_s);
   if (goes_on) return {Progress::running, "looking whether the way is free again"};
-  if (look_.is_live) forget_echoes(world);
   set_mode(Mode::plan, world.time_s);
   return plan(world, orders);
 }
 
-// Nothing stands at the place, or the echoes go through it, or through enough of what the map holds occupied about it:
-// a door's worth. What the map alone has there may be drawn thick: only a live obstacle is gone with its own cell.
+// What held it back has gone when echoes come from behind it. What the map has there is gone when nothing stands at the
+// place, or the echoes go through enough of what is held occupied about it: a door's worth.
 bool RouteDriver::has_opened(const WorldView& world) {
   const OccupancyGrid& grid = world.grid;
   const Cell at = grid.cell_at(look_.at);
@@ -177,17 +190,21 @@ bool RouteDriver::has_opened(const WorldView& world) {
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const Cell c = at + Cell{dx, dy};
-      if (!near_echoes_->is_occupied(grid, c)) continue;
+      if (c != at && !echoes_.now().is_occupied(grid, c)) continue;
       const LocalPlanner::Live live = local_.live_echo_at(grid.centre_of(c), world.time_s);
       if (live == LocalPlanner::Live::silent) continue;
       int& ticks = look_.through[c];
       ticks = std::clamp(ticks + (live == LocalPlanner::Live::there ? -1 : 1), -kSurely_ticks, kSurely_ticks);
     }
   }
-  if (!near_echoes_->is_occupied(grid, at)) return true;
-  const auto there = look_.through.find(at);
-  if (look_.is_live && there != look_.through.end() && there->second >= kSeenThrough_ticks) return true;
+  if (look_.is_live) return is_seen_through(at);
+  if (!echoes_.now().is_occupied(grid, at)) return true;
   return static_cast<double>(seen_through().size()) * grid.cell_m() > kOpened_m;
+}
+
+bool RouteDriver::is_seen_through(Cell cell) const {
+  const auto found = look_.through.find(cell);
+  return found != look_.through.end() && found->second >= kSeenThrough_ticks;
 }
 
 std::vector<Cell> RouteDriver::seen_through() const {
@@ -199,7 +216,7 @@ std::vector<Cell> RouteDriver::seen_through() const {
 
 Status RouteDriver::give_up(const WorldView& world) const {
   const Point at = world.pose.T_map_robot.position();
-  return {Progress::failure, "held back at " + described(at) + ": waited, backed up, turned and planned again " +
+  return {Progress::failure, "held back at " + described(at) + ": waited, backed up, looked and planned again " +
                                  std::to_string(round_ - 1) + " times in this place, " + std::to_string(plans_) +
                                  " plans in all" + (tried_.empty() ? "" : "; " + tried_)};
 }

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "framework/config/named_category.hpp"
-#include "plugins/behaviours/openings.hpp"
 #include "plugins/behaviours/place_name.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
 constexpr double kPause_s = 10.0;  // between two rounds: somebody may make room
-constexpr double kToRoomAtMost_s = 120.0;
+constexpr double kToRoomAtMost_s = 90.0;
+constexpr double kBeenApart_m = 0.5;
 
 std::string labels_of(const std::vector<LandmarkId>& ids, const LandmarkGraph& graph) {
   std::string text;
@@ -55,38 +55,51 @@ Search::Search(const SearchConfig& config, std::uint64_t seed, const std::vector
 void Search::halt() {
   explore_.halt();
   begun_s_.reset();
-  between_since_s_.reset();
+  waits_since_s_.reset();
   room_.reset();
-  tried_rooms_.clear();
+  been_at_.clear();
   driver_.restart();
   round_ = 1;
 }
 
-void Search::begin_round(const WorldView& world) {
-  explore_.halt();
-  ++round_;
-  between_since_s_ = world.time_s;
-  const Point here = world.pose.T_map_robot.position();
-  const FreeSpace space(world.grid, {here, world.robot.radius_m, config_.clearance_m}, {world.pose.T_map_robot});
-  const std::optional<Point> place = room_out_of_reach(space, here, tried_rooms_);
-  if (!place) return;
-  tried_rooms_.push_back(*place);
-  room_ = Place{Pose2{place->x(), place->y(), 0.0}, false, {}, {}};
+// What it does while it does not explore.
+std::optional<Status> Search::between(const WorldView& world, Orders& orders) {
+  if (waits_since_s_ && world.time_s - *waits_since_s_ < kPause_s) {
+    orders.drive({});
+    return Status{Progress::running, "waiting before it looks at all once more"};
+  }
+  waits_since_s_.reset();
+  if (!room_) return std::nullopt;
+  const Status status = driver_.tick(*room_, world, orders);
+  const std::string place = described(room_->pose->position());
+  const bool is_late = world.time_s - to_room_since_s_ >= kToRoomAtMost_s;
+  if (status.progress == Progress::running && !is_late)
+    return Status{Progress::running, "trying to get to " + place + " (" + status.reason + ")"};
+  if (status.progress != Progress::success)
+    orders.say("does not get to " + place + ": " + (is_late ? "it takes too long" : status.reason));
+  driver_.restart();
+  room_.reset();
+  return std::nullopt;
 }
 
-bool Search::is_between_rounds(const WorldView& world, Orders& orders) {
-  if (!between_since_s_) return false;
-  const double since_s = world.time_s - *between_since_s_;
-  if (room_ && since_s < kToRoomAtMost_s && driver_.tick(*room_, world, orders).progress == Progress::running)
-    return true;
-  if (!room_ && since_s < kPause_s) {
-    orders.drive({});
-    return true;
+Status Search::nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders) {
+  const std::string so_far =
+      found + " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds) + ": " + why;
+  const std::optional<Point> place = explore_.room_out_of_reach(world, been_at_);
+  if (place) {
+    orders.say(so_far + "; tries to get to " + described(*place));
+    been_at_.push_back(*place);
+    room_ = Place{Pose2{place->x(), place->y(), 0.0}, false, {}, {}};
+    to_room_since_s_ = world.time_s;
+    return {Progress::running, "trying to get to " + described(*place)};
   }
-  if (room_) driver_.restart();
-  room_.reset();
-  between_since_s_.reset();
-  return false;
+  if (round_ >= config_.rounds) return {Progress::failure, found + "; " + why};
+  orders.say(so_far + "; looks at all once more");
+  explore_.halt();
+  been_at_.clear();
+  ++round_;
+  waits_since_s_ = world.time_s;
+  return {Progress::running, "looks at all once more"};
 }
 
 Status Search::tick(const WorldView& world, Orders& orders) {
@@ -98,23 +111,21 @@ Status Search::tick(const WorldView& world, Orders& orders) {
                             " found" + (found.empty() ? "" : " (" + labels_of(found, world.graph) + ")");
   const double left_s = *begun_s_ + config_.at_most_s - world.time_s;
   if (left_s <= 0.0) return {Progress::failure, count + "; time is up in round " + std::to_string(round_)};
-  if (is_between_rounds(world, orders))
-    return {Progress::running,
-            (room_ ? "trying to get to " + described(room_->pose->position())
-                   : "waiting before it looks at all once more") +
-                "; " + count,
-            left_s};
-  const Status status = explore_.tick(world, orders);
-  if (status.progress == Progress::running)
-    return {Progress::running, status.reason + "; " + count,
-            status.left_s ? std::min(*status.left_s, left_s) : status.left_s};
-  if (status.progress == Progress::success && round_ < config_.rounds) {
-    orders.say(count + " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds) + ": " +
-               status.reason);
-    begin_round(world);
-    return {Progress::running, "looks at all once more; " + count, left_s};
+  const Point here = world.pose.T_map_robot.position();
+  if (std::ranges::none_of(been_at_, [&](const Point& p) { return (p - here).norm() < kBeenApart_m; }))
+    been_at_.push_back(here);
+  Status status;
+  if (const std::optional<Status> now = between(world, orders)) {
+    status = *now;
+  } else {
+    status = explore_.tick(world, orders);
+    if (status.progress == Progress::success)
+      status = nothing_left(count, status.reason, world, orders);
+    else if (status.progress == Progress::failure)
+      status.reason = count + "; " + status.reason;
   }
-  return {Progress::failure, count + "; " + status.reason};
+  if (status.progress != Progress::running) return status;
+  return {Progress::running, status.reason + "; " + count, std::min(status.left_s.value_or(left_s), left_s)};
 }
 
 }  // namespace cairn::behaviours

@@ -1,6 +1,6 @@
-// Explores until so many landmarks of a category are known, and again from the beginning when all is seen without:
-// doors open, people go on, and what has been looked at twice is known better. In between it goes to see whether the
-// largest room that it could not get to can be got to now.
+// Explores until so many landmarks of a category are known. When all in reach is seen without, it tries to get to what
+// was out of reach, the largest room first, and explores on there; and begins again when there is no such room left:
+// doors open, people go on, and what has been looked at twice is known better.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace cairn::behaviours {
 struct SearchConfig : ExploreConfig {
   ConfigValue category;  // text
   int until = 1;
-  int rounds = 5;
+  int rounds = 3;
   static void describe(Fields<SearchConfig>& fields);
 };
 
@@ -31,17 +31,18 @@ class Search : public Behaviour {
   void halt() override;
 
  private:
-  void begin_round(const WorldView& world);
-  [[nodiscard]] bool is_between_rounds(const WorldView& world, Orders& orders);
+  [[nodiscard]] std::optional<Status> between(const WorldView& world, Orders& orders);
+  Status nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders);
 
   SearchConfig config_;
   std::string category_;
   Explore explore_;
   std::optional<double> begun_s_;
   int round_ = 1;
-  std::optional<double> between_since_s_;  // two rounds
-  std::optional<Place> room_;              // that it tries to get to then
-  std::vector<Point> tried_rooms_;
+  std::optional<double> waits_since_s_;  // between two rounds
+  std::optional<Place> room_;            // that it tries to get to
+  double to_room_since_s_ = 0.0;
+  std::vector<Point> been_at_;  // and what it could not get to, of this round
   RouteDriver driver_;
 };
 

@@ -125,5 +125,13 @@ TEST(Run, DrawsEveryPictureOfAMissionWithoutLandmarks) {
   EXPECT_TRUE(std::filesystem::exists(folder / "map.png"));
 }
 
+TEST(Run, WithoutAPlannerDrivesByItsOwnEyes) {
+  const auto folder = fresh_folder("mission_without_planner");
+  const std::filesystem::path file = mission_in(folder, "  - goto: {at_m: [2.1, 1.774]}\n");
+  const Finished finished = run_cairn({"run", file.string(), "--out", folder.string()});
+  EXPECT_EQ(finished.exit_status, 0) << finished.err;
+  EXPECT_THAT(text_of_file(folder / "report.json"), HasSubstr("at (2.10, 1.77)"));
+}
+
 }  // namespace
 }  // namespace cairn::testing_program

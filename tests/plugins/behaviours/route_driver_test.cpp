@@ -124,7 +124,7 @@ TEST(RouteDriver, WaitsFirstAndThenClimbsTheLadder) {
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_GT(host.time_s, held_s + 6.0);
   EXPECT_THAT(status.reason, HasSubstr("held back at ("));
-  EXPECT_THAT(status.reason, HasSubstr("waited, backed up, turned and planned again 2 times"));
+  EXPECT_THAT(status.reason, HasSubstr("waited, backed up, looked and planned again 2 times"));
   EXPECT_LT(host.T_map_robot.x_m, x_m - 0.1) << "has backed up";
   EXPECT_THAT(host.said, Contains(HasSubstr("(1 of 2)")));
   EXPECT_THAT(host.said, Contains(HasSubstr("(2 of 2)")));
@@ -146,18 +146,16 @@ TEST(RouteDriver, MakesWayForSomebodyWhoWaits) {
     };
     const Status status = host.run(driving, 400.0);
     EXPECT_EQ(status.progress, is_gone ? Progress::success : Progress::failure) << status.reason << host.picture();
+    EXPECT_LT(host.time_s, 390.0);
     return is_gone;
   };
   EXPECT_FALSE(drive(2)) << "backing up is not enough";
   EXPECT_TRUE(drive(6));
 }
 
-// What it has heard there counts no more once an echo comes from behind.
-TEST(RouteDriver, LooksAtWhatHoldsItBackAndForgetsItWhenItHasGone) {
-  FakeHost host(kTwoDoors, kKnown);
-  Driving driving({}, kOtherRoom);
-  bool is_closed = true;
-  host.observe = [&](const FakeHost& self) {
+// Seven sonars to the front; while it is closed they see a leaf at x = 1.5 m that the map does not have.
+std::function<Observation(const FakeHost&)> sonars_before_leaf(const bool& is_closed) {
+  return [&is_closed](const FakeHost& self) {
     Observation seen;
     for (int i = 0; i < 7; ++i) {
       RangeReading reading;
@@ -176,14 +174,64 @@ TEST(RouteDriver, LooksAtWhatHoldsItBackAndForgetsItWhenItHasGone) {
     }
     return seen;
   };
-  Status status = host.run(driving, 30.0);
-  EXPECT_EQ(status.progress, Progress::running) << status.reason;
-  EXPECT_LT(host.T_map_robot.x_m, 1.5) << "a leaf that the map does not have";
+}
+
+// Ticks until it looks whether the way is free (or no longer does), for so long at most.
+void run_until_look(FakeHost& host, Driving& driving, bool looks, double at_most_s) {
+  const double until_s = host.time_s + at_most_s;
+  Status status;
+  do {
+    status = host.tick(driving);
+  } while (host.time_s < until_s && status.progress == Progress::running &&
+           status.reason.starts_with("looking") != looks);
+}
+
+TEST(RouteDriver, LooksAtWhatHoldsItBackUntilItHasGone) {
+  FakeHost host(kTwoDoors, kKnown);
+  Driving driving({}, kOtherRoom);
+  bool is_closed = true;
+  host.observe = sonars_before_leaf(is_closed);
+  run_until_look(host, driving, true, 120.0);
+  const double looks_s = host.time_s;
+  EXPECT_LT(looks_s, 100.0);
+  host.run(driving, 10.0);
+  EXPECT_LT(std::abs(host.T_map_robot.theta_rad), radians(60.0)) << "faces it";
   is_closed = false;
-  const double opened_s = host.time_s;
-  status = host.run(driving, 60.0);
+  run_until_look(host, driving, false, 60.0);
+  EXPECT_LT(host.time_s, looks_s + 10.0 + 4.0) << "goes on as soon as echoes come from behind";
+  const Status status = host.run(driving, 60.0);
   EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
-  EXPECT_LT(host.time_s, opened_s + 45.0);
+}
+
+TEST(RouteDriver, LooksForLongWhereItStaysInTheWay) {
+  FakeHost host(kTwoDoors, kKnown);
+  Driving driving({}, kOtherRoom);
+  const bool is_closed = true;
+  host.observe = sonars_before_leaf(is_closed);
+  run_until_look(host, driving, true, 120.0);
+  const double looks_s = host.time_s;
+  run_until_look(host, driving, false, 60.0);
+  EXPECT_NEAR(host.time_s - looks_s, 25.0, 1.0);
+}
+
+// A way there would begin with an arc forwards, into whoever holds it.
+TEST(RouteDriver, ACarBacksUpInsteadOfMakingWay) {
+  for (const bool is_car : {false, true}) {
+    FakeHost host(kTwoDoors, kKnown);
+    if (is_car) {
+      host.robot.kinematics = Kinematics::car;
+      host.robot.min_turning_radius_m = 0.5;
+    }
+    Driving driving({}, kOtherRoom);
+    host.stop_layer = [](const Pose2& pose, const Twist& wanted) {
+      const bool is_held = pose.x_m > 1.2 && wanted.v_mps > 0.0 && std::abs(pose.theta_rad) < 1.5;
+      return is_held ? Twist{0.0, wanted.w_radps} : wanted;
+    };
+    EXPECT_EQ(host.run(driving, 600.0).progress, Progress::failure);
+    const bool made_way =
+        std::ranges::any_of(host.said, [](const std::string& text) { return text.ends_with("makes way"); });
+    EXPECT_EQ(made_way, !is_car);
+  }
 }
 
 TEST(RouteDriver, LooksAtABlockedGoalFromBesideIt) {

@@ -118,7 +118,7 @@ TEST(Search, LooksAtAllOnceMore) {
   EXPECT_GT(driven_m("2"), 1.5 * driven_m("1"));
 }
 
-// Between two rounds it goes to see whether it can get to where it could not get to.
+// It goes to see whether it can get to where it could not get to, and explores on there.
 TEST(Search, GetsIntoARoomWhoseDoorHasOpened) {
   FakeHost host(kTwoRooms, {.sight_m = 1.0, .all_known = true});
   const auto shut_door = [&](bool shut) {
