@@ -158,7 +158,7 @@ Status RouteDriver::turn(const WorldView& world, Orders& orders) {
   return {Progress::running, "turning to look round"};
 }
 
-// What the near echoes have said so far of what holds it back is of before.
+// What the near echoes have said of what holds it back is of before; and once more when that has gone.
 Status RouteDriver::begin_look_from_here(const WorldView& world, Orders& orders) {
   if (look_.is_live) echoes_.forget(world);
   set_mode(Mode::look, world.time_s);
@@ -177,6 +177,7 @@ Status RouteDriver::look(const WorldView& world, Orders& orders) {
   const bool is_open = has_opened(world);
   const bool goes_on = waited_s < look_.at_least_s || (!is_open && waited_s < look_.at_most_s);
   if (goes_on) return {Progress::running, "looking whether the way is free again"};
+  if (look_.is_live && is_open) echoes_.forget(world);
   set_mode(Mode::plan, world.time_s);
   return plan(world, orders);
 }
