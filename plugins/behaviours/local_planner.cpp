@@ -217,7 +217,7 @@ LocalPlanner::Live LocalPlanner::live_echo_at(const Point& p_map, double time_s)
     const Point to = p_map - echo.T_map_sensor.position();
     const double behind_m = echo.range_m - to.norm();
     const double off_rad = wrap_angle(std::atan2(to.y(), to.x()) - echo.T_map_sensor.theta_rad);
-    if (std::abs(off_rad) > kSurelyInBeam * echo.half_beam_rad + kThin_rad || behind_m < -kBehind_m) continue;
+    if (std::abs(off_rad) > std::max(kThin_rad, kSurelyInBeam * echo.half_beam_rad) || behind_m < -kBehind_m) continue;
     if (behind_m >= kBehind_m) return Live::seen_through;
     live = Live::there;
   }
