@@ -60,6 +60,8 @@ NamedLandmarks landmarks_named(const std::string& name, const LandmarkGraph& gra
 
 GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed_(seed), driver_(config, seed) {
   const bool names_landmark = config.landmark.kind != ConfigValue::Kind::null;
+  if (config.landmark.kind == ConfigValue::Kind::list)
+    throw ConfigError(config.landmark.place, "goto: landmark must be text; a place is written `{at_m: [x, y]}`");
   if (names_landmark && config.at_m)
     throw ConfigError(config.landmark.place, "goto: landmark and at_m exclude each other");
   if (!names_landmark && !config.at_m)

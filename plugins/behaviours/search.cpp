@@ -62,6 +62,10 @@ void Search::halt() {
   round_ = 1;
 }
 
+std::string Search::in_round() const {
+  return " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds);
+}
+
 // What it does while it does not explore.
 std::optional<Status> Search::between(const WorldView& world, Orders& orders) {
   if (waits_since_s_ && world.time_s - *waits_since_s_ < kPause_s) {
@@ -83,8 +87,7 @@ std::optional<Status> Search::between(const WorldView& world, Orders& orders) {
 }
 
 Status Search::nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders) {
-  const std::string so_far =
-      found + " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds) + ": " + why;
+  const std::string so_far = found + in_round() + ": " + why;
   const std::optional<Point> place = explore_.room_out_of_reach(world, been_at_);
   if (place) {
     orders.say(so_far + "; tries to get to " + described(*place));
@@ -93,7 +96,7 @@ Status Search::nothing_left(const std::string& found, const std::string& why, co
     to_room_since_s_ = world.time_s;
     return {Progress::running, "trying to get to " + described(*place)};
   }
-  if (round_ >= config_.rounds) return {Progress::failure, found + "; " + why};
+  if (round_ >= config_.rounds) return {Progress::failure, so_far};
   orders.say(so_far + "; looks at all once more");
   explore_.halt();
   been_at_.clear();
@@ -110,7 +113,7 @@ Status Search::tick(const WorldView& world, Orders& orders) {
   const std::string count = std::to_string(found.size()) + " of " + std::to_string(config_.until) + " " + category_ +
                             " found" + (found.empty() ? "" : " (" + labels_of(found, world.graph) + ")");
   const double left_s = *begun_s_ + config_.at_most_s - world.time_s;
-  if (left_s <= 0.0) return {Progress::failure, count + "; time is up in round " + std::to_string(round_)};
+  if (left_s <= 0.0) return {Progress::failure, count + "; time is up" + in_round()};
   const Point here = world.pose.T_map_robot.position();
   if (std::ranges::none_of(been_at_, [&](const Point& p) { return (p - here).norm() < kBeenApart_m; }))
     been_at_.push_back(here);

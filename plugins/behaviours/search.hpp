@@ -31,6 +31,7 @@ class Search : public Behaviour {
   void halt() override;
 
  private:
+  [[nodiscard]] std::string in_round() const;
   [[nodiscard]] std::optional<Status> between(const WorldView& world, Orders& orders);
   Status nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders);
 

@@ -243,5 +243,10 @@ TEST(GoTo, BeginsAfreshAfterAHalt) {
   EXPECT_GE(host.planned.size(), 2U);
 }
 
+TEST(GoTo, SaysHowAPlaceIsWrittenWhereItsPairStandsAlone) {
+  EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("[1, 2]"), 1); }),
+            "mission.yaml:1:1: goto: landmark must be text; a place is written `{at_m: [x, y]}`");
+}
+
 }  // namespace
 }  // namespace cairn::behaviours

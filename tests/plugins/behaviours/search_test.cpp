@@ -101,7 +101,8 @@ TEST(Search, FailsWhenAllIsExploredWithout) {
   Search step = search("{category: square, rounds: 1}");
   const Status status = host.run(step, 1500.0);
   EXPECT_EQ(status.progress, Progress::failure);
-  EXPECT_THAT(status.reason, HasSubstr("0 of 1 square found; nothing left to explore: ")) << host.picture();
+  EXPECT_THAT(status.reason, HasSubstr("0 of 1 square found in round 1 of 1: nothing left to explore: "))
+      << host.picture();
   EXPECT_GT(known_ratio(host.grid), 0.9);
 }
 
@@ -145,7 +146,7 @@ TEST(Search, FailsWhenItsTimeIsUp) {
   host.graph.add(landmark_at("square", {1.0, 3.0, 0.0}, {1.0, 3.0, 0.0}));
   const Status status = host.run(step, 60.0);
   EXPECT_EQ(status.progress, Progress::failure);
-  EXPECT_THAT(status.reason, HasSubstr("1 of 2 square found (L1); time is up"));
+  EXPECT_THAT(status.reason, HasSubstr("1 of 2 square found (L1); time is up in round 1 of 3"));
 }
 
 TEST(Search, TellsACategoryThatNoTemplateHas) {
