@@ -63,6 +63,7 @@ class RouteDriver {
 
  private:
   static constexpr double kClosedFor_s = 60.0;  // a stored route that was blocked
+  static constexpr double kBesideGoal_m = 0.5;  // from the robot's rim
 
   enum class Mode { plan, travel, back_up, turn, look, face };
   enum class Leg { route, way_out, to_look, aside };  // what the path is
@@ -75,6 +76,7 @@ class RouteDriver {
     Point at{0.0, 0.0};
     double at_least_s = 3.0;
     double at_most_s = 25.0;      // for a door to open
+    bool is_goal = false;         // it is blocked, and looked at from beside
     bool is_live = false;         // it held the robot back, whatever the map has there
     std::map<Cell, int> through;  // occupied cells about it: for how many ticks more they were seen through than not
   };
@@ -149,7 +151,6 @@ class RouteDriver {
   std::optional<Trust> own_trust_;  // the path is one by its own eyes
   Look look_;
   std::vector<Point> looked_at_;
-  bool beside_again_ = false;
   std::vector<Point> beside_goal_;  // where it has stood to look at a goal that is blocked
   int round_ = 0;                   // of the ladder, at this place
   int hold_ups_ = 0;                // in all

@@ -34,7 +34,6 @@ constexpr int kLooksBeforeSqueezing = 2;
 constexpr int kMostSqueezes = 3;
 constexpr double kStandOff_m = 0.8;  // from what is looked at
 constexpr double kStandOffNearer_m = 0.5;
-constexpr double kBesideGoal_m = 0.5;  // from the robot's rim
 constexpr double kBesideApart_m = 0.3;
 constexpr double kBeforeGoal_m = 0.1;
 constexpr double kBesideGoalFor_s = 6.0;
@@ -54,10 +53,11 @@ bool can_look_at(const Point& place, Cell from, const FreeSpace& space) {
 }
 
 // The nearest to a goal that is in reach, in sight of it and not where the robot has stood before.
-std::optional<Cell> cell_beside(const Point& goal, const FreeSpace& space, const std::vector<Point>& stood) {
+std::optional<Cell> cell_beside(const Point& goal, double within_m, const FreeSpace& space,
+                                const std::vector<Point>& stood) {
   const Cell at = space.cell_at(goal);
   std::optional<Cell> nearest;
-  double nearest_m = space.radius_m() + kBesideGoal_m;
+  double nearest_m = within_m;
   const int reach = static_cast<int>(nearest_m / space.cell_m());
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
@@ -319,22 +319,19 @@ bool RouteDriver::begin_look(PlanOutcome outcome, const WorldView& world) {
 }
 
 // Walls are drawn thick where they have been seen from afar, and people leave traces: from right beside the goal it may
-// be free. Twice from each place, in case somebody goes on.
+// be free. Each time from another place, then again: somebody may go on.
 bool RouteDriver::begin_look_at_goal(const Point& goal, const WorldView& world) {
+  const double within_m = world.robot.radius_m + kBesideGoal_m;
   for (const Trust trust : {Trust::all, Trust::no_specks, Trust::only_solid}) {
     const FreeSpace space = space_now(world, kTightClearance_m, trust);
-    std::optional<Cell> beside = cell_beside(goal, space, beside_goal_);
-    if (!beside && !beside_goal_.empty() && !beside_again_) {
-      beside_again_ = true;
-      beside_goal_.clear();
-      beside = cell_beside(goal, space, {});
-    }
+    std::optional<Cell> beside = cell_beside(goal, within_m, space, beside_goal_);
+    if (!beside) beside = cell_beside(goal, within_m, space, {});
     if (!beside) continue;
     go_to_look({goal, space.path_to(*beside)});
     doubt_as(trust, world);
     look_.at_most_s = kBesideGoalFor_s;
+    look_.is_goal = true;
     looked_at_.push_back(goal);
-    beside_goal_.push_back(space.centre_of(*beside));
     return true;
   }
   return false;

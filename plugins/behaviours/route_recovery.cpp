@@ -161,6 +161,9 @@ Status RouteDriver::turn(const WorldView& world, Orders& orders) {
 // What the near echoes have said of what holds it back is of before; and once more when that has gone.
 Status RouteDriver::begin_look_from_here(const WorldView& world, Orders& orders) {
   if (look_.is_live) echoes_.forget(world);
+  const Point here = world.pose.T_map_robot.position();
+  if (look_.is_goal && (here - look_.at).norm() < world.robot.radius_m + kBesideGoal_m + settings_.tolerance_m)
+    beside_goal_.push_back(here);
   set_mode(Mode::look, world.time_s);
   return look(world, orders);
 }
