@@ -14,7 +14,7 @@ constexpr double kSeenOnce = 3.0;  // unknown, but an echo has come through
 constexpr double kUnknown = 15.0;
 constexpr double kOccupied = 20.0;
 constexpr double kSurelyOccupied = 60.0;  // besides, at the map's bound of certainty
-constexpr double kLookedAt = 12.0;  // less than a wall: a door is looked at twice before one
+constexpr double kLookedAt = 12.0;        // less than a wall: a door is looked at twice before one
 constexpr double kLookedAround_m = 0.8;
 
 double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const std::vector<Point>& looked_at) {
