@@ -67,7 +67,7 @@ Point Drawing::anywhere() {
 
 Point Drawing::with_room() {
   for (int t = 0; t < kTries; ++t)
-    if (const Point p_m = anywhere(); space_.has_room(p_m)) return p_m;
+    if (Point p_m = anywhere(); space_.has_room(p_m)) return p_m;
   throw ConfigError({robot_.name, 0, 0}, fmt::format("the robot and {:g} m beside it have room nowhere in the random "
                                                      "world of seed {}",
                                                      config_.room_m, seed_));

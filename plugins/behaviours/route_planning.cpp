@@ -40,6 +40,7 @@ constexpr double kBesideGoalFor_s = 6.0;
 
 std::vector<Point> points_of(const std::vector<Pose2>& path) {
   std::vector<Point> points;
+  points.reserve(path.size());
   for (const Pose2& pose : path) points.push_back(pose.position());
   return points;
 }
