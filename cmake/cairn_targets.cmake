@@ -13,17 +13,29 @@ if(CAIRN_SANITIZERS)
   target_link_options(cairn_private_options INTERFACE -fsanitize=${CAIRN_SANITIZERS})
 endif()
 
-# cairn_add_library(cairn_NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): a shared library of a room, for
-# others cairn::NAME.
+# cairn_add_room(NAME SOURCES ... [USES rooms...] [PRIVATE ...]): the sources of one room, as objects of the shared
+# library that cairn_add_library(... ROOMS ...) makes of several. USES are the arrows that tests/architecture checks.
+function(cairn_add_room name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;PRIVATE" ${ARGN})
+  add_library(cairn_${name} OBJECT ${arg_SOURCES})
+  target_compile_features(cairn_${name} PUBLIC cxx_std_20)
+  target_include_directories(cairn_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  list(TRANSFORM arg_USES PREPEND cairn_)
+  target_link_libraries(cairn_${name} PUBLIC Eigen3::Eigen ${arg_USES} PRIVATE cairn_private_options ${arg_PRIVATE})
+endfunction()
+
+# cairn_add_library(cairn_NAME [ROOMS ...] [SOURCES ...] [PUBLIC ...] [PRIVATE ...]): a shared library, for others
+# cairn::NAME.
 function(cairn_add_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "ROOMS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  list(TRANSFORM arg_ROOMS PREPEND cairn_)
   add_library(${name} SHARED ${arg_SOURCES})
   string(REGEX REPLACE "^cairn_" "" short_name ${name})
   add_library(cairn::${short_name} ALIAS ${name})
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                             $<INSTALL_INTERFACE:include/cairn>)
-  target_link_libraries(${name} PUBLIC Eigen3::Eigen ${arg_PUBLIC} PRIVATE cairn_private_options ${arg_PRIVATE})
+  target_link_libraries(${name} PUBLIC Eigen3::Eigen ${arg_PUBLIC} PRIVATE ${arg_ROOMS} cairn_private_options ${arg_PRIVATE})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${short_name} BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN"
                                            SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()

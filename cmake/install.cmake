@@ -6,14 +6,14 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS cairn RUNTIME DESTINATION bin)
 install(TARGETS cairn_maps cairn_framework EXPORT cairn LIBRARY DESTINATION lib)
-install(TARGETS cairn_pictures LIBRARY DESTINATION lib NAMELINK_SKIP)  # the program's alone
+install(TARGETS cairn_pictures cairn_experiments LIBRARY DESTINATION lib NAMELINK_SKIP)  # the program's alone
 
 # Headers keep the paths that sources include them by. The saved map's inner headers stay home.
 install(DIRECTORY maps DESTINATION include/cairn FILES_MATCHING PATTERN *.hpp
-        PATTERN pictures EXCLUDE PATTERN map_store_*.hpp EXCLUDE)
-foreach(folder contracts config host)
-  install(DIRECTORY framework/${folder} DESTINATION include/cairn/framework FILES_MATCHING PATTERN *.hpp)
-endforeach()
+        PATTERN pictures EXCLUDE PATTERN store EXCLUDE)
+install(FILES maps/store/map_store.hpp maps/store/repair.hpp DESTINATION include/cairn/maps/store)
+install(DIRECTORY framework DESTINATION include/cairn FILES_MATCHING PATTERN *.hpp
+        PATTERN experiments EXCLUDE PATTERN program EXCLUDE PATTERN scaffold EXCLUDE)
 install(DIRECTORY config framework/scaffold DESTINATION share/cairn)
 # The build tree has the same shape.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/cairn)

@@ -15,7 +15,7 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/config/unclosed_quote.hpp"
-#include "maps/exchange/source_text.hpp"
+#include "maps/base/source_text.hpp"
 
 namespace cairn {
 namespace {

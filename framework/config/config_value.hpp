@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "maps/spelling.hpp"
+#include "maps/base/spelling.hpp"
 
 namespace cairn {
 

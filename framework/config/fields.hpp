@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "framework/config/config_value.hpp"
-#include "maps/pose.hpp"
+#include "maps/geometry/pose.hpp"
 
 namespace cairn {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "framework/contracts/budget.hpp"
-#include "maps/coarse_grid.hpp"
-#include "maps/landmark_graph.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/coarse_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
 

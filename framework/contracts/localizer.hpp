@@ -5,7 +5,7 @@
 #include <span>
 
 #include "framework/contracts/observation.hpp"
-#include "maps/landmark_graph.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
 

@@ -3,7 +3,7 @@
 
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/observation.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "maps/pose.hpp"
+#include "maps/geometry/pose.hpp"
 
 namespace cairn {
 

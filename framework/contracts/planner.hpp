@@ -9,7 +9,7 @@
 
 #include "framework/contracts/budget.hpp"
 #include "framework/contracts/world_view.hpp"
-#include "maps/cluster_tree.hpp"
+#include "maps/hierarchy/cluster_tree.hpp"
 #include "maps/hierarchy/route_costs.hpp"
 
 namespace cairn {

@@ -19,7 +19,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
 #include "framework/contracts/world.hpp"
-#include "maps/landmark_template.hpp"
+#include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "maps/pose.hpp"
+#include "maps/geometry/pose.hpp"
 
 namespace cairn {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "maps/contour.hpp"
-#include "maps/pose.hpp"
+#include "maps/geometry/contour.hpp"
+#include "maps/geometry/pose.hpp"
 
 namespace cairn {
 

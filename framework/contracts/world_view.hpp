@@ -6,8 +6,8 @@
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
-#include "maps/landmark_graph.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
 

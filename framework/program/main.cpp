@@ -14,10 +14,10 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/contracts/abi_stamp.hpp"
-#include "framework/program/commands.hpp"
-#include "framework/program/map_file_options.hpp"
-#include "framework/program/mission_options.hpp"
-#include "framework/program/option_checks.hpp"
+#include "framework/program/common/commands.hpp"
+#include "framework/program/common/mission_options.hpp"
+#include "framework/program/common/option_checks.hpp"
+#include "framework/program/map/file_options.hpp"
 
 namespace cairn {
 namespace {

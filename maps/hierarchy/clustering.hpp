@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "maps/cluster_tree.hpp"
+#include "maps/hierarchy/cluster_tree.hpp"
 #include "maps/hierarchy/grouping.hpp"
 #include "maps/hierarchy/network.hpp"
 

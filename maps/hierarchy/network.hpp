@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "maps/landmark_graph.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
 

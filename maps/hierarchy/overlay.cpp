@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "maps/base/in_parallel.hpp"
 #include "maps/hierarchy/inner_search.hpp"
-#include "maps/in_parallel.hpp"
 
 namespace cairn {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "maps/distance_field.hpp"
+#include "maps/grid/distance_field.hpp"
 
 namespace cairn {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "maps/pictures/colours.hpp"
-#include "maps/pictures/legend.hpp"
-#include "maps/pictures/map_frame.hpp"
+#include "maps/pictures/drawing/colours.hpp"
+#include "maps/pictures/drawing/legend.hpp"
+#include "maps/pictures/drawing/map_frame.hpp"
 
 namespace cairn {
 namespace {

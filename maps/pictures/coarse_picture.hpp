@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "maps/coarse_grid.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/coarse_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn {
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "maps/grid_overlay.hpp"
-#include "maps/pictures/colours.hpp"
-#include "maps/pictures/label_placer.hpp"
-#include "maps/pictures/legend.hpp"
-#include "maps/pictures/map_frame.hpp"
+#include "maps/grid/grid_overlay.hpp"
+#include "maps/pictures/drawing/colours.hpp"
+#include "maps/pictures/drawing/label_placer.hpp"
+#include "maps/pictures/drawing/legend.hpp"
+#include "maps/pictures/drawing/map_frame.hpp"
 
 namespace cairn {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "maps/map_difference.hpp"
+#include "maps/edit/difference.hpp"
 
 namespace cairn {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "maps/pictures/colours.hpp"
+#include "maps/pictures/drawing/colours.hpp"
 
 namespace cairn::pictures {
 namespace {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "maps/cluster_tree.hpp"
-#include "maps/contour.hpp"
-#include "maps/landmark_graph.hpp"
-#include "maps/pictures/label_placer.hpp"
-#include "maps/pictures/legend.hpp"
-#include "maps/pictures/map_frame.hpp"
+#include "maps/geometry/contour.hpp"
+#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
+#include "maps/pictures/drawing/label_placer.hpp"
+#include "maps/pictures/drawing/legend.hpp"
+#include "maps/pictures/drawing/map_frame.hpp"
 
 namespace cairn::pictures {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "maps/pictures/colours.hpp"
+#include "maps/pictures/drawing/colours.hpp"
 #include "maps/pictures/graph_layer.hpp"
 #include "maps/pictures/robot_layer.hpp"
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "maps/cluster_tree.hpp"
-#include "maps/contour.hpp"
-#include "maps/landmark_graph.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/geometry/contour.hpp"
+#include "maps/grid/occupancy_grid.hpp"
+#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
 

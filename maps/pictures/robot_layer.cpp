@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "maps/pictures/colours.hpp"
+#include "maps/pictures/drawing/colours.hpp"
 
 namespace cairn::pictures {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "maps/pictures/legend.hpp"
-#include "maps/pictures/map_frame.hpp"
-#include "maps/pose.hpp"
+#include "maps/geometry/pose.hpp"
+#include "maps/pictures/drawing/legend.hpp"
+#include "maps/pictures/drawing/map_frame.hpp"
 
 namespace cairn::pictures {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "maps/pictures/colours.hpp"
-#include "maps/pictures/map_frame.hpp"
+#include "maps/pictures/drawing/colours.hpp"
+#include "maps/pictures/drawing/map_frame.hpp"
 
 namespace cairn {
 namespace {

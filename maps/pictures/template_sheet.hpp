@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "maps/landmark_template.hpp"
+#include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn {
 

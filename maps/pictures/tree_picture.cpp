@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "maps/pictures/colours.hpp"
-#include "maps/pictures/map_frame.hpp"
+#include "maps/pictures/drawing/colours.hpp"
+#include "maps/pictures/drawing/map_frame.hpp"
 
 namespace cairn {
 namespace {

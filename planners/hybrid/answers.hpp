@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planners/disc_space/ends.hpp"
+#include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/legs.hpp"
 
 namespace cairn {

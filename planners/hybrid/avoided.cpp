@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planners/disc_space/places.hpp"
+#include "planners/common/disc_space/places.hpp"
 
 namespace cairn {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "framework/contracts/planner.hpp"
-#include "planners/disc_space/disc_space.hpp"
+#include "planners/common/disc_space/disc_space.hpp"
 
 namespace cairn {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "planners/disc_space/ends.hpp"
+#include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/hybrid_query.hpp"
 

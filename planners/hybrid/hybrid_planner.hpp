@@ -5,8 +5,8 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/planner.hpp"
-#include "planners/any_angle/disc_routes.hpp"
-#include "planners/disc_space/space_cache.hpp"
+#include "planners/common/any_angle/disc_routes.hpp"
+#include "planners/common/disc_space/space_cache.hpp"
 
 namespace cairn {
 

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <set>
 
-#include "planners/any_angle/nearest_goals.hpp"
-#include "planners/disc_space/ends.hpp"
+#include "planners/common/any_angle/nearest_goals.hpp"
+#include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/legs.hpp"

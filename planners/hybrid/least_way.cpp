@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planners/any_angle/mesh_search.hpp"
+#include "planners/common/any_angle/mesh_search.hpp"
 
 // Why it is a bound. Let the disc's centre p be somewhere in a cell with centre c, and b the centre of a blocked cell.
 // p + (b - c) lies in the blocked square, so that square is no further from p than |b - c|, and the radius is no more

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "framework/contracts/budget.hpp"
-#include "maps/swept_disc.hpp"
+#include "maps/grid/swept_disc.hpp"
 
 namespace cairn {
 

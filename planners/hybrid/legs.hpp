@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "framework/contracts/planner.hpp"
-#include "planners/disc_space/routes.hpp"
+#include "planners/common/disc_space/routes.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
 
 namespace cairn {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "planners/disc_space/routes.hpp"
+#include "planners/common/disc_space/routes.hpp"
 
 namespace cairn {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/contracts/planner.hpp"
-#include "planners/disc_space/ends.hpp"
+#include "planners/common/disc_space/ends.hpp"
 
 namespace cairn {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "framework/contracts/planner.hpp"
-#include "maps/landmark_graph.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
 

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "planners/ompl/disc_query.hpp"
-#include "planners/ompl/pose_query.hpp"
-#include "planners/ompl/pose_setup.hpp"
-#include "planners/pose_space/footprint.hpp"
+#include "planners/common/pose_space/footprint.hpp"
+#include "planners/ompl/disc/disc_query.hpp"
+#include "planners/ompl/pose/pose_query.hpp"
+#include "planners/ompl/pose/pose_setup.hpp"
 
 namespace cairn {
 

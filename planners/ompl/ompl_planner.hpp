@@ -4,11 +4,11 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/planner.hpp"
-#include "planners/any_angle/disc_routes.hpp"
-#include "planners/disc_space/space_cache.hpp"
-#include "planners/ompl/algorithm_parameters.hpp"
-#include "planners/ompl/motion_kind.hpp"
-#include "planners/ompl/travel_cost.hpp"
+#include "planners/common/any_angle/disc_routes.hpp"
+#include "planners/common/disc_space/space_cache.hpp"
+#include "planners/ompl/pose/motion_kind.hpp"
+#include "planners/ompl/search/algorithm_parameters.hpp"
+#include "planners/ompl/search/travel_cost.hpp"
 
 namespace cairn {
 

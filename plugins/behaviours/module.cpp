@@ -1,15 +1,15 @@
 #include "framework/contracts/module.hpp"
 
 #include "framework/config/named_category.hpp"
-#include "plugins/behaviours/dock.hpp"
-#include "plugins/behaviours/explore.hpp"
-#include "plugins/behaviours/go_to.hpp"
-#include "plugins/behaviours/inspect.hpp"
-#include "plugins/behaviours/records.hpp"
-#include "plugins/behaviours/return_home.hpp"
-#include "plugins/behaviours/search.hpp"
-#include "plugins/behaviours/simple_steps.hpp"
-#include "plugins/behaviours/tour.hpp"
+#include "plugins/behaviours/errands/dock.hpp"
+#include "plugins/behaviours/errands/go_to.hpp"
+#include "plugins/behaviours/errands/records.hpp"
+#include "plugins/behaviours/errands/return_home.hpp"
+#include "plugins/behaviours/errands/search.hpp"
+#include "plugins/behaviours/errands/simple_steps.hpp"
+#include "plugins/behaviours/errands/tour.hpp"
+#include "plugins/behaviours/exploring/explore.hpp"
+#include "plugins/behaviours/exploring/inspect.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "plugins/carmen_log/lasers.hpp"
 #include "plugins/carmen_log/recording.hpp"
-#include "plugins/log_common/log_text.hpp"
+#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::carmen_log {
 namespace {

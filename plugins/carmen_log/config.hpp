@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
-#include "plugins/log_common/laser.hpp"
-#include "plugins/log_common/scan_log.hpp"
+#include "plugins/common/logs/laser.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 
 namespace cairn::carmen_log {
 

@@ -7,7 +7,7 @@
 
 #include "framework/contracts/observation.hpp"
 #include "plugins/carmen_log/config.hpp"
-#include "plugins/log_common/log_line.hpp"
+#include "plugins/common/logs/log_line.hpp"
 
 namespace cairn::carmen_log {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plugins/log_common/range_rule.hpp"
+#include "plugins/common/logs/range_rule.hpp"
 
 namespace cairn::carmen_log {
 namespace {

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "plugins/log_common/log_line.hpp"
-#include "plugins/log_common/scan_log.hpp"
+#include "plugins/common/logs/log_line.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 
 namespace cairn::carmen_log {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "plugins/log_common/log_line.hpp"
-#include "plugins/log_common/log_text.hpp"
+#include "plugins/common/logs/log_line.hpp"
+#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::json_log {
 namespace {

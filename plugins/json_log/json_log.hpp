@@ -10,8 +10,8 @@
 
 #include <filesystem>
 
-#include "plugins/log_common/laser.hpp"
-#include "plugins/log_common/scan_log.hpp"
+#include "plugins/common/logs/laser.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 
 namespace cairn::json_log {
 

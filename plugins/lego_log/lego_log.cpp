@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plugins/log_common/log_line.hpp"
-#include "plugins/log_common/log_text.hpp"
+#include "plugins/common/logs/log_line.hpp"
+#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::lego_log {
 namespace {

@@ -13,9 +13,9 @@
 
 #include <filesystem>
 
+#include "plugins/common/logs/laser.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 #include "plugins/lego_log/wheel_path.hpp"
-#include "plugins/log_common/laser.hpp"
-#include "plugins/log_common/scan_log.hpp"
 
 namespace cairn::lego_log {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
-#include "maps/pose.hpp"
+#include "maps/geometry/pose.hpp"
 
 namespace cairn::lego_log {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 #include "plugins/muriel/config.hpp"
 
 namespace cairn::muriel {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "framework/config/fields.hpp"
-#include "plugins/sonar_model/beam_model.hpp"
+#include "plugins/common/sonar_model/beam_model.hpp"
 
 namespace cairn::muriel {
 

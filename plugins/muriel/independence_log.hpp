@@ -8,9 +8,9 @@
 #include <array>
 #include <cstdint>
 
-#include "maps/cell.hpp"
+#include "maps/grid/cell.hpp"
+#include "plugins/common/sonar_model/tile_map.hpp"
 #include "plugins/muriel/config.hpp"
-#include "plugins/sonar_model/tile_map.hpp"
 
 namespace cairn::muriel {
 

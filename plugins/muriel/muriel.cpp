@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "plugins/common/sonar_model/reading.hpp"
 #include "plugins/muriel/plain_muriel.hpp"
-#include "plugins/sonar_model/reading.hpp"
 
 namespace cairn::muriel {
 namespace {

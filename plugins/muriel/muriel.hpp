@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "framework/contracts/mapper.hpp"
+#include "plugins/common/sonar_model/standing_room.hpp"
 #include "plugins/muriel/beam_kernels.hpp"
 #include "plugins/muriel/independence_log.hpp"
 #include "plugins/muriel/reading_model.hpp"
-#include "plugins/sonar_model/standing_room.hpp"
 
 namespace cairn::muriel {
 

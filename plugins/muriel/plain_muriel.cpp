@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plugins/sonar_model/reading.hpp"
+#include "plugins/common/sonar_model/reading.hpp"
 
 namespace cairn::muriel {
 namespace {

@@ -1,6 +1,6 @@
 #include "plugins/muriel/reading_model.hpp"
 
-#include "plugins/sonar_model/reading.hpp"
+#include "plugins/common/sonar_model/reading.hpp"
 
 namespace cairn::muriel {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "framework/contracts/observation.hpp"
-#include "maps/beam_cells.hpp"
+#include "maps/grid/beam_cells.hpp"
 #include "plugins/muriel/config.hpp"
 
 namespace cairn::muriel {

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "plugins/log_common/log_line.hpp"
-#include "plugins/log_common/log_text.hpp"
+#include "plugins/common/logs/log_line.hpp"
+#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::player_log {
 namespace {

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "framework/contracts/robot_model.hpp"
-#include "plugins/log_common/laser.hpp"
-#include "plugins/log_common/scan_log.hpp"
+#include "plugins/common/logs/laser.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 
 namespace cairn::player_log {
 

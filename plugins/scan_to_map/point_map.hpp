@@ -5,7 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "maps/pose.hpp"
+#include "maps/geometry/pose.hpp"
 
 namespace cairn::scan_to_map {
 

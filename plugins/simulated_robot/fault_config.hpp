@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "framework/config/fault_rates.hpp"
 #include "framework/config/fields.hpp"
+#include "framework/files/fault_rates.hpp"
 
 namespace cairn {
 

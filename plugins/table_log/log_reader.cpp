@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plugins/log_common/range_rule.hpp"
+#include "plugins/common/logs/range_rule.hpp"
 #include "plugins/table_log/table_file.hpp"
 
 namespace cairn {

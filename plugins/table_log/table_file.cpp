@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "plugins/log_common/log_text.hpp"
+#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn {
 namespace {

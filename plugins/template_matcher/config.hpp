@@ -1,7 +1,7 @@
 // Settings of the template matcher (METHOD 3 to 7). Values of OL and OL2 are on the scale 0..255.
 #pragma once
 
-#include "framework/config/template_settings.hpp"
+#include "framework/files/template_settings.hpp"
 
 namespace cairn::template_matcher {
 

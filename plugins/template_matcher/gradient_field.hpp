@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn::template_matcher {
 

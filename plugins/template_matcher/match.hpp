@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "maps/landmark_template.hpp"
+#include "maps/landmarks/landmark_template.hpp"
 #include "plugins/template_matcher/gradient_field.hpp"
 
 namespace cairn::template_matcher {

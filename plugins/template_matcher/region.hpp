@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "maps/coarse_grid.hpp"
-#include "maps/landmark_template.hpp"
+#include "maps/grid/coarse_grid.hpp"
+#include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn::template_matcher {
 

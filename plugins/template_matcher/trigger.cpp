@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn::template_matcher {
 

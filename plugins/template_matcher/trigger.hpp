@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "maps/cell.hpp"
+#include "maps/grid/cell.hpp"
 #include "plugins/template_matcher/config.hpp"
 
 namespace cairn::template_matcher {

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "framework/contracts/module.hpp"
-#include "plugins/bayes_map/bayes_map.hpp"
+#include "plugins/baselines/bayes_map/bayes_map.hpp"
 
 namespace cairn {
 namespace {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "tests/framework/host/still_modules.hpp"
+#include "tests/framework/mission/still_modules.hpp"
 
 namespace cairn {
 namespace {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "plugins/bayes_map/bayes_map.hpp"
+#include "plugins/baselines/bayes_map/bayes_map.hpp"
 #include "plugins/muriel/muriel.hpp"
 #include "plugins/muriel/plain_muriel.hpp"
 

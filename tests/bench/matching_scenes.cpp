@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "framework/host/mission_modules.hpp"
-#include "framework/host/mission_runner.hpp"
+#include "framework/mission/modules.hpp"
+#include "framework/mission/runner.hpp"
 
 namespace cairn::bench {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "framework/host/mission_modules.hpp"
-#include "framework/host/mission_runner.hpp"
+#include "framework/mission/modules.hpp"
+#include "framework/mission/runner.hpp"
 
 namespace cairn::bench {
 namespace {

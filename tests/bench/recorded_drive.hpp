@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "maps/landmark_template.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
+#include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn::bench {
 

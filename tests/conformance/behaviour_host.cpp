@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "maps/travel_field.hpp"
+#include "maps/grid/travel_field.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/texts.hpp"
 

@@ -1,6 +1,6 @@
 // Every shipped module of kind `planner` passes the suite of its kind; `ompl` with each of its algorithms, left to
 // itself, and however the robot moves.
-#include "planners/ompl/algorithms.hpp"
+#include "planners/ompl/search/algorithms.hpp"
 #include "tests/conformance/planner.hpp"
 
 namespace cairn::conformance {

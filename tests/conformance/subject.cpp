@@ -1,7 +1,7 @@
 #include "tests/conformance/subject.hpp"
 
 #include "framework/config/config_value.hpp"
-#include "framework/config/robot_file.hpp"
+#include "framework/files/robot_file.hpp"
 #include "tests/conformance/fixtures.hpp"
 
 namespace cairn::conformance {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "framework/contracts/module.hpp"
-#include "framework/host/module_library.hpp"
+#include "framework/modules/module_library.hpp"
 
 namespace cairn::conformance {
 

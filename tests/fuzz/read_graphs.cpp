@@ -3,14 +3,14 @@
 #include <array>
 #include <cmath>
 
-#include "framework/config/rmf_file.hpp"
-#include "maps/exchange/exchanged_graph.hpp"
-#include "maps/exchange/graph_list.hpp"
-#include "maps/exchange/graphml.hpp"
-#include "maps/exchange/json_text.hpp"
-#include "maps/exchange/nav2_routes.hpp"
-#include "maps/exchange/rmf_nav_graph.hpp"
-#include "maps/exchange/source_text.hpp"
+#include "framework/files/rmf_file.hpp"
+#include "maps/base/json_text.hpp"
+#include "maps/base/source_text.hpp"
+#include "maps/exchange/graphs/exchanged_graph.hpp"
+#include "maps/exchange/graphs/graph_list.hpp"
+#include "maps/exchange/graphs/graphml.hpp"
+#include "maps/exchange/graphs/nav2_routes.hpp"
+#include "maps/exchange/graphs/rmf_nav_graph.hpp"
 #include "tests/fuzz/reader.hpp"
 
 namespace cairn::fuzz {

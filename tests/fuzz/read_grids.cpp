@@ -1,12 +1,12 @@
 #include <cmath>
 
 #include "framework/config/config_value.hpp"
-#include "framework/config/map_server_file.hpp"
-#include "maps/exchange/grey_picture_write.hpp"
-#include "maps/exchange/map_server_write.hpp"
-#include "maps/exchange/moving_ai_map.hpp"
-#include "maps/exchange/source_text.hpp"
-#include "tests/bench/moving_ai_set.hpp"
+#include "framework/files/map_server_file.hpp"
+#include "maps/base/source_text.hpp"
+#include "maps/exchange/grids/grey_picture_write.hpp"
+#include "maps/exchange/grids/map_server_write.hpp"
+#include "maps/exchange/grids/moving_ai_map.hpp"
+#include "tests/bench/routes/moving_ai_set.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace cairn::fuzz {

@@ -3,9 +3,9 @@
 #include <limits>
 
 #include "plugins/carmen_log/carmen_log.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 #include "plugins/json_log/json_log.hpp"
 #include "plugins/lego_log/lego_log.hpp"
-#include "plugins/log_common/scan_log.hpp"
 #include "plugins/player_log/player_log.hpp"
 #include "plugins/table_log/log_reader.hpp"
 #include "tests/fuzz/scratch.hpp"

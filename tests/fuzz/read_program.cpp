@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "framework/config/config_value.hpp"
-#include "framework/host/place.hpp"
-#include "framework/program/line_reader.hpp"
-#include "framework/program/plan_query.hpp"
-#include "maps/map_store_repair.hpp"
+#include "framework/planning/place.hpp"
+#include "framework/program/plan/line_reader.hpp"
+#include "framework/program/plan/plan_query.hpp"
+#include "maps/store/repair.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace cairn::fuzz {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/config/robot_file.hpp"
-#include "framework/config/template_file.hpp"
-#include "framework/config/world_file.hpp"
-#include "framework/host/experiment_config.hpp"
-#include "framework/host/mission.hpp"
+#include "framework/experiments/config.hpp"
+#include "framework/files/robot_file.hpp"
+#include "framework/files/template_file.hpp"
+#include "framework/files/world_file.hpp"
+#include "framework/mission/mission.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace cairn::fuzz {

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "maps/map_store.hpp"
+#include "maps/store/map_store.hpp"
 #include "tests/fuzz/map_file.hpp"
 #include "tests/fuzz/reader.hpp"
 #include "tests/fuzz/scratch.hpp"

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "maps/landmark_graph.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
 

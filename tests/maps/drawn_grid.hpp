@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "maps/distance_field.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/distance_field.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn {
 

@@ -11,9 +11,9 @@
 #include <thread>
 #include <tuple>
 
-#include "framework/host/fence.hpp"
-#include "framework/host/mission_runner.hpp"
-#include "framework/host/run_report.hpp"
+#include "framework/mission/runner.hpp"
+#include "framework/modules/fence.hpp"
+#include "framework/reporting/report.hpp"
 
 namespace cairn {
 namespace {

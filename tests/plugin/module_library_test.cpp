@@ -1,4 +1,4 @@
-#include "framework/host/module_library.hpp"
+#include "framework/modules/module_library.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "framework/config/config_value.hpp"
-#include "plugins/log_common/scan_log.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 
 namespace cairn::log_files {
 

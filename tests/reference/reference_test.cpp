@@ -1,6 +1,6 @@
 // The reference and the schemas in the tree say what the program says today.
 
-#include "framework/host/reference.hpp"
+#include "framework/program/reference/reference.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

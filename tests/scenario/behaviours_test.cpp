@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/config/template_file.hpp"
-#include "maps/map_store.hpp"
+#include "framework/files/template_file.hpp"
+#include "maps/store/map_store.hpp"
 #include "tests/scenario/program.hpp"
 
 namespace cairn::testing_program {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "maps/map_store.hpp"
+#include "maps/store/map_store.hpp"
 #include "tests/scenario/program.hpp"
 
 namespace cairn::testing_program {

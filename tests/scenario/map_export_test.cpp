@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "maps/exchange/grey_picture.hpp"
-#include "maps/map_store.hpp"
+#include "maps/exchange/grids/grey_picture.hpp"
+#include "maps/store/map_store.hpp"
 #include "tests/scenario/map_files.hpp"
 
 namespace cairn::testing_program {

@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/config/robot_file.hpp"
-#include "framework/config/template_file.hpp"
 #include "framework/contracts/detector.hpp"
-#include "framework/host/module_library.hpp"
-#include "framework/host/sensed_templates.hpp"
-#include "maps/map_store.hpp"
+#include "framework/files/robot_file.hpp"
+#include "framework/files/template_file.hpp"
+#include "framework/modules/module_library.hpp"
+#include "framework/templates/sensed_templates.hpp"
+#include "maps/store/map_store.hpp"
 #include "tests/scenario/program.hpp"
 
 namespace cairn::testing_program {

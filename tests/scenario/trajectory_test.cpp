@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "framework/config/robot_file.hpp"
-#include "tests/maps/picture_fixture.hpp"
+#include "framework/files/robot_file.hpp"
+#include "tests/maps/pictures/picture_fixture.hpp"
 #include "tests/scenario/program.hpp"
 
 namespace cairn::testing_program {

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <random>
 
-#include "maps/exchange/exchanged_graph.hpp"
-#include "maps/exchange/source_text.hpp"
+#include "maps/base/source_text.hpp"
+#include "maps/exchange/graphs/exchanged_graph.hpp"
 
 namespace cairn {
 

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <random>
 
-#include "planners/any_angle/disc_routes.hpp"
-#include "planners/disc_space/routes.hpp"
+#include "planners/common/any_angle/disc_routes.hpp"
+#include "planners/common/disc_space/routes.hpp"
 #include "tests/planners/drawn_world.hpp"
 
 namespace cairn {

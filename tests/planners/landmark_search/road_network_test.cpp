@@ -1,6 +1,6 @@
 // Real road networks, directed: what the hierarchy answers is what Boost.Graph's Dijkstra finds.
 
-#include "tests/bench/road_network.hpp"
+#include "tests/bench/graph/road_network.hpp"
 
 #include <gtest/gtest.h>
 

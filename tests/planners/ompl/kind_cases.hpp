@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "planners/ompl/motion_kind.hpp"
+#include "planners/ompl/pose/motion_kind.hpp"
 
 namespace cairn::test {
 

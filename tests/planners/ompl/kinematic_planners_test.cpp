@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planners/pose_space/pose_recheck.hpp"
+#include "planners/common/pose_space/pose_recheck.hpp"
 #include "tests/planners/ompl/pose_search.hpp"
 
 namespace cairn {

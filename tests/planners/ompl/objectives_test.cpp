@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "planners/disc_space/routes.hpp"
+#include "planners/common/disc_space/routes.hpp"
 #include "tests/planners/ompl/ompl_worlds.hpp"
 #include "tests/planners/ompl/overrun.hpp"
 

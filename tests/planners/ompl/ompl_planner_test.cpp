@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "planners/disc_space/routes.hpp"
+#include "planners/common/disc_space/routes.hpp"
 #include "tests/planners/ompl/ompl_worlds.hpp"
 
 namespace cairn {

@@ -8,8 +8,8 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
-#include "planners/ompl/algorithm_factory.hpp"
-#include "planners/ompl/kinematic_spaces.hpp"
+#include "planners/ompl/pose/kinematic_spaces.hpp"
+#include "planners/ompl/search/algorithm_factory.hpp"
 #include "tests/planners/drawn_world.hpp"
 
 namespace cairn::test {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "maps/occupancy_grid.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn::behaviours {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "maps/travel_field.hpp"
+#include "maps/grid/travel_field.hpp"
 
 namespace cairn::behaviours {
 namespace {

@@ -1,11 +1,12 @@
 // What RunRecording writes, carmen_log gives back to the last bit.
+#include "framework/reporting/recording.hpp"
+
 #include <gmock/gmock.h>
 
 #include <bit>
 #include <cmath>
 #include <random>
 
-#include "framework/host/run_recording.hpp"
 #include "plugins/carmen_log/carmen_log.hpp"
 #include "tests/plugins/log_files.hpp"
 

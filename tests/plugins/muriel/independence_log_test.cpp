@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "maps/pose.hpp"
+#include "maps/geometry/pose.hpp"
 
 namespace cairn::muriel {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "tests/plugins/common/sonar_model/standing_room_law.hpp"
 #include "tests/plugins/muriel/test_readings.hpp"
-#include "tests/plugins/sonar_model/standing_room_law.hpp"
 
 namespace cairn::muriel {
 namespace {

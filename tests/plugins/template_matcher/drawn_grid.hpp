@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "maps/contour.hpp"
-#include "maps/landmark_template.hpp"
-#include "maps/occupancy_grid.hpp"
+#include "maps/geometry/contour.hpp"
+#include "maps/grid/occupancy_grid.hpp"
+#include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn::template_matcher {
 

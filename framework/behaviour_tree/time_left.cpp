@@ -1,0 +1,36 @@
+#include "framework/behaviour_tree/time_left.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn {
+
+void add_unknown(TimeLeft& left, const std::string& what) {
+  if (std::find(left.without.begin(), left.without.end(), what) == left.without.end()) left.without.push_back(what);
+}
+
+TimeLeft in_order(TimeLeft first, const TimeLeft& then) {
+  first.about_s += then.about_s;
+  first.most_s += then.most_s;
+  for (const std::string& what : then.without) add_unknown(first, what);
+  return first;
+}
+
+TimeLeft cut(TimeLeft left, double most_s) {
+  left.most_s = std::min(left.most_s, std::max(0.0, most_s));
+  left.about_s = std::min(left.about_s, left.most_s);
+  return left;
+}
+
+std::string text_of(const TimeLeft& left) {
+  std::string without;
+  for (const std::string& what : left.without) without += (without.empty() ? "" : ", ") + what;
+  const bool is_known = without.empty() || left.about_s >= 0.5;
+  std::string text = is_known ? fmt::format("about {:.0f} s left", left.about_s) : std::string("time left unknown");
+  if (is_known && !without.empty()) text += " without " + without;
+  return is_known || !std::isfinite(left.most_s) ? text : text + fmt::format(", at most {:.0f} s", left.most_s);
+}
+
+}  // namespace cairn

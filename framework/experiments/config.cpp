@@ -1,0 +1,243 @@
+#include "framework/experiments/config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
+                                                                          {"maps", ExperimentKind::maps},
+                                                                          {"places", ExperimentKind::places},
+                                                                          {"lap", ExperimentKind::lap},
+                                                                          {"recognition", ExperimentKind::recognition},
+                                                                          {"curves", ExperimentKind::curves},
+                                                                          {"trials", ExperimentKind::trials}};
+  return kKinds;
+}
+
+void check_places(const ExperimentConfig& config, const ConfigValue& root) {
+  if (config.places.empty()) throw ConfigError(root.place, "an experiment of places must list some under places");
+  for (std::size_t i = 0; i < config.places.size(); ++i) {
+    const PlaceConfig& place = config.places[i];
+    const ConfigValue& value = root.find("places")->items[i];
+    if (std::ranges::find(config.categories, place.looks_at) == config.categories.end())
+      throw ConfigError(value.find("looks_at")->place, "\"" + place.looks_at + "\" is not among the categories" +
+                                                           did_you_mean(place.looks_at, config.categories));
+    if (!place.expected.empty() && place.expected.size() != config.categories.size())
+      throw ConfigError(value.find("expected")->place,
+                        "expected must give one degree for each of the " + std::to_string(config.categories.size()) +
+                            " categories, found " + std::to_string(place.expected.size()));
+  }
+}
+
+// Ranges that fit together. value: the map `worlds`.
+void check_worlds(const RandomWorldConfig& worlds, const ConfigValue& value) {
+  const auto place_of = [&](const char* key, const char* other) {
+    const ConfigValue* given = value.find(key) != nullptr ? value.find(key) : value.find(other);
+    return given != nullptr ? given->place : value.place;
+  };
+  if (worlds.least_landmarks > worlds.most_landmarks)
+    throw ConfigError(place_of("least_landmarks", "most_landmarks"),
+                      fmt::format("least_landmarks must be at most most_landmarks, found {} and {}",
+                                  worlds.least_landmarks, worlds.most_landmarks));
+  for (const auto& [name, axis] : {std::pair{"x", 0}, {"y", 1}}) {
+    if (worlds.smallest_room_m[axis] > worlds.largest_room_m[axis])
+      throw ConfigError(place_of("smallest_room_m", "largest_room_m"),
+                        fmt::format("{} of smallest_room_m must be at most that of largest_room_m, found {:g} and {:g}",
+                                    name, worlds.smallest_room_m[axis], worlds.largest_room_m[axis]));
+    if (worlds.start_m[axis] >= worlds.smallest_room_m[axis])
+      throw ConfigError(place_of("start_m", "smallest_room_m"),
+                        fmt::format("start_m must lie within the smallest room: its {} is {:g}, that of "
+                                    "smallest_room_m {:g}",
+                                    name, worlds.start_m[axis], worlds.smallest_room_m[axis]));
+  }
+}
+
+// value: the map `trials`.
+void check_trials(const ExperimentConfig& config, const ConfigValue& value) {
+  if (config.trials.robots.empty())
+    throw ConfigError(value.find("robots")->place, "robots must list at least one robot file");
+  if (config.trials.least_goals > config.trials.most_goals) {
+    const ConfigValue* given =
+        value.find("least_goals") != nullptr ? value.find("least_goals") : value.find("most_goals");
+    throw ConfigError(given->place, fmt::format("least_goals must be at most most_goals, found {} and {}",
+                                                config.trials.least_goals, config.trials.most_goals));
+  }
+}
+
+// What an experiment is about: the missions listed, or drawn ones.
+void check_missions(const ExperimentConfig& config, const ConfigValue& root) {
+  const ConfigValue* missions = root.find("missions");
+  const ConfigValue* trials = root.find("trials");
+  if (config.experiment == ExperimentKind::trials) {
+    if (missions != nullptr)
+      throw ConfigError(missions->place, "an experiment of trials draws its missions and lists none");
+    if (trials == nullptr) throw ConfigError(root.place, "an experiment of trials must say under trials what it draws");
+    check_trials(config, *trials);
+  } else {
+    if (trials != nullptr) throw ConfigError(trials->place, "trials goes with experiment: trials");
+    if (missions == nullptr) throw ConfigError(root.place, "experiment lacks the key \"missions\": mission files");
+    if (config.missions.empty()) throw ConfigError(missions->place, "missions must list at least one file");
+  }
+}
+
+// The variants' names, after the objections to them and to the missions' file names.
+std::vector<std::string> checked_names(const ExperimentConfig& config, const ConfigValue& root) {
+  std::vector<std::string> names;
+  for (const ExperimentVariant& variant : config.variants) {
+    if (variant.name.empty() || variant.name.front() == '.')
+      throw ConfigError(root.find("variants")->place,
+                        "a variant's name is also a folder's, and \"" + variant.name + "\" cannot be one");
+    if (std::ranges::find(names, variant.name) != names.end())
+      throw ConfigError(root.find("variants")->place, "two variants are called \"" + variant.name + "\"");
+    names.push_back(variant.name);
+  }
+  std::vector<std::string> stems;
+  for (const std::filesystem::path& mission : config.missions) {
+    if (std::ranges::find(stems, mission.stem().string()) != stems.end())
+      throw ConfigError(root.find("missions")->place, "two missions have the file name \"" + mission.stem().string() +
+                                                          "\"; tables and folders are named by it");
+    stems.push_back(mission.stem());
+  }
+  return names;
+}
+
+// Each a module with its settings, as in a mission, and a name.
+std::vector<ComparedDetector> detectors_of(const ConfigValue& list) {
+  if (list.kind != ConfigValue::Kind::list)
+    throw ConfigError(list.place,
+                      "detectors must be a list of {name: ..., plugin: ..., its settings}, found " + list.kind_name());
+  std::vector<ComparedDetector> detectors;
+  for (const ConfigValue& item : list.items) {
+    ComparedDetector detector{"", config_detail::to_plugin(item, "detectors")};
+    const ConfigValue* name = item.find("name");
+    if (name == nullptr) throw ConfigError(item.place, "detectors lacks the key \"name\": what it is called in tables");
+    detector.name = config_detail::to_text(*name, "name");
+    if (detector.name.empty()) throw ConfigError(name->place, "a detector's name must not be empty");
+    if (std::ranges::find(detectors, detector.name, &ComparedDetector::name) != detectors.end())
+      throw ConfigError(name->place, "two detectors are called " + shown(detector.name));
+    std::erase_if(detector.choice.config.entries, [](const ConfigValue::Entry& entry) { return entry.key == "name"; });
+    detectors.push_back(std::move(detector));
+  }
+  return detectors;
+}
+
+}  // namespace
+
+bool in_random_worlds(ExperimentKind kind) {
+  return kind == ExperimentKind::recognition || kind == ExperimentKind::curves;
+}
+
+std::string_view name_of(ExperimentKind kind) {
+  return std::ranges::find(kinds(), kind, &std::pair<std::string, ExperimentKind>::second)->first;
+}
+
+void SeedRange::describe(Fields<SeedRange>& fields) {
+  fields.integer("from", &SeedRange::from, {0.0, 9.0e15}, "first seed");
+  fields.integer("count", &SeedRange::count, {1.0, 100000.0}, "how many seeds");
+}
+
+void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
+  fields.file_name("name", &ExperimentVariant::name, "what it is called in tables").required = true;
+  fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
+  fields.file("robot", &ExperimentVariant::robot, "robot file in place of the missions' own");
+  fields.file("world", &ExperimentVariant::world, "world file in place of the missions' own");
+  fields.number("specular_ratio", &ExperimentVariant::specular_ratio, {0.0, 1.0}, "",
+                "of `recognition` and `curves`: share of walls and things with a smooth surface");
+}
+
+void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
+  fields.text("name", &PlaceConfig::name, "what it is called in tables").required = true;
+  fields
+      .text("looks_at", &PlaceConfig::looks_at,
+            "category of the landmark that is looked at from there; the world has one of it")
+      .required = true;
+  fields.numbers("expected", &PlaceConfig::expected, {0.0, 1.0}, "",
+                 "degrees published elsewhere, in the order of `categories`, to be printed beside");
+}
+
+void LapConfig::describe(Fields<LapConfig>& fields) {
+  fields.text("around", &LapConfig::around, "category of the landmark, of which the world has one").required = true;
+  fields.angle("bin_deg", &LapConfig::bin_rad, {1.0, 180.0}, "one point of the charts in each such part of the lap");
+}
+
+void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
+  using C = ExperimentConfig;
+  fields
+      .choice(
+          "experiment", &C::experiment, kinds(),
+          "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
+          "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
+          "each category fits at given places of the drive; `lap`, how well each category and each template fits "
+          "along a lap round a landmark; `recognition`, which landmarks are found in random worlds; `curves`, "
+          "precision "
+          "and recall of several detectors on the grids of the same runs, at every threshold; `trials`, what comes of "
+          "random missions in random worlds with random faults")
+      .required = true;
+  fields.files("missions", &C::missions, "mission files; needed but for `trials`, which draws its own");
+  fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
+  fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
+  fields.group("seeds", &C::seeds, "which seeds");
+  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
+  fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
+  fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
+                "share of good runs (of `trials`: of reached goals among the reachable ones that no fault took away) "
+                "that makes the experiment a success");
+  fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
+  fields.texts("categories", &C::categories,
+               "of `places` and `lap`: the categories, in the order of the table's columns");
+  fields.list("places", &C::places,
+              "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
+              "before that looked at its landmark");
+  fields.group("lap", &C::lap, "of `lap`: the lap");
+  fields.group(
+      "worlds", &C::worlds,
+      "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
+  fields.group("trials", &C::trials, "of `trials`: the missions that are drawn, how they are judged, and limits");
+  fields.raw("detectors", &C::detectors_as_given, "list of detectors",
+             "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
+             "setting left out is as the mission's own detector has it; but tau_match is 0");
+  fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
+                "a matching looks at a landmark when the middle of its region is this near to the landmark's");
+  fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
+                 "of `places`: number of matchings published elsewhere");
+}
+
+ExperimentConfig load_experiment(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  ConfigValue root = read_config_file(file);
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  auto config = load_config<ExperimentConfig>(root, "experiment");
+  check_missions(config, root);
+  if (config.variants.empty()) config.variants.emplace_back().name = "as_is";
+  const std::vector<std::string> names = checked_names(config, root);
+  for (std::size_t i = 0; i < config.variants.size(); ++i) {
+    ExperimentVariant& variant = config.variants[i];
+    if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
+    if (!variant.world.empty() && (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials))
+      throw ConfigError(root.find("variants")->items[i].find("world")->place,
+                        "variant \"" + variant.name + "\" names a world, but each run of " +
+                            std::string(name_of(config.experiment)) + " has its own");
+    if (!variant.world.empty()) variant.overrides.push_back("world=" + variant.world.string());
+  }
+  if (!config.baseline.empty() && std::find(names.begin(), names.end(), config.baseline) == names.end())
+    throw ConfigError(root.find("baseline")->place,
+                      "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
+  const bool of_places = config.experiment == ExperimentKind::places;
+  const bool of_lap = config.experiment == ExperimentKind::lap;
+  if ((of_places || of_lap) && config.categories.empty())
+    throw ConfigError(root.place, "an experiment of places or of a lap must list its categories");
+  if (of_places) check_places(config, root);
+  if (of_lap && !config.lap)
+    throw ConfigError(root.place, "an experiment of a lap must say under lap what it goes round");
+  if (const ConfigValue* worlds = root.find("worlds")) check_worlds(config.worlds, *worlds);
+  if (config.detectors_as_given.kind != ConfigValue::Kind::null)
+    config.detectors = detectors_of(config.detectors_as_given);
+  if (config.experiment == ExperimentKind::curves && config.detectors.empty())
+    throw ConfigError(root.place, "an experiment of curves must list the detectors to compare under detectors");
+  return config;
+}
+
+}  // namespace cairn

@@ -1,0 +1,90 @@
+// What an experiment's file says (config/experiments/*.yaml).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+#include "framework/experiments/trials/config.hpp"
+#include "framework/experiments/trials/random_world.hpp"
+
+namespace cairn {
+
+// What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
+// fit at given places of the drive, and along a lap round a landmark; what is recognised in random worlds,
+// and what other detectors recognise on the same grids; what comes of random missions in random worlds.
+enum class ExperimentKind { missions, maps, places, lap, recognition, curves, trials };
+[[nodiscard]] std::string_view name_of(ExperimentKind kind);
+
+struct SeedRange {
+  std::int64_t from = 1;
+  int count = 20;
+  static void describe(Fields<SeedRange>& fields);
+};
+
+struct ExperimentVariant {
+  std::string name;
+  std::vector<std::string> overrides;
+  std::filesystem::path robot{};  // after loading one of the overrides, as the world
+  std::filesystem::path world{};
+  double specular_ratio = 0.0;
+  static void describe(Fields<ExperimentVariant>& fields);
+};
+
+// A place of the drive, at the end of one of the mission's steps: the first place at that of the first
+// step, and so on.
+struct PlaceConfig {
+  std::string name;
+  std::string looks_at;          // category of the one landmark that is looked at from there
+  std::vector<double> expected;  // degrees that somebody else has published, as the experiment's categories
+  static void describe(Fields<PlaceConfig>& fields);
+};
+
+// A lap round one landmark.
+struct LapConfig {
+  std::string around;  // category of the landmark; the world has one of it
+  double bin_rad = radians(15.0);
+  static void describe(Fields<LapConfig>& fields);
+};
+
+// A detector that is compared with others on the same grids.
+struct ComparedDetector {
+  std::string name;
+  PluginChoice choice;
+};
+
+// config/experiments/*.yaml
+struct ExperimentConfig {
+  ExperimentKind experiment = ExperimentKind::missions;
+  std::vector<std::filesystem::path> missions;
+  std::vector<ExperimentVariant> variants;  // after loading at least one
+  std::string baseline;                     // a variant's name
+  SeedRange seeds;
+  int withhold_every = 0;
+  double tolerance_m = 0.10;    // a landmark further from the truth is false
+  double at_least_ratio = 0.0;  // share of good runs that makes the experiment a success
+  std::vector<std::string> overrides;
+  std::vector<std::string> categories;  // columns of the table of places
+  std::vector<PlaceConfig> places;
+  std::optional<LapConfig> lap;
+  RandomWorldConfig worlds;
+  TrialsConfig trials;
+  ConfigValue detectors_as_given;
+  std::vector<ComparedDetector> detectors;  // after loading
+  double looks_within_m = 0.35;
+  int expected_matchings = 0;  // 0: none published
+  static void describe(Fields<ExperimentConfig>& fields);
+};
+
+// Whether the experiment puts a random world in place of each mission's own.
+[[nodiscard]] bool in_random_worlds(ExperimentKind kind);
+
+// overrides: "key=value" texts of --set. Throws ConfigError.
+[[nodiscard]] ExperimentConfig load_experiment(const std::filesystem::path& file,
+                                               const std::vector<std::string>& overrides = {});
+
+}  // namespace cairn

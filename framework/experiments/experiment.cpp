@@ -1,0 +1,181 @@
+#include "framework/experiments/experiment.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "framework/mission/held_out.hpp"
+#include "framework/mission/mission.hpp"
+#include "maps/base/in_parallel.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kMostRunsAtATime = 8;
+
+struct Job {
+  std::filesystem::path mission;
+  ExperimentVariant variant;
+  std::int64_t seed = 0;
+  std::filesystem::path out;
+};
+
+std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::path& out) {
+  std::vector<Job> jobs;
+  const bool of_trials = config.experiment == ExperimentKind::trials;
+  const std::vector<std::filesystem::path> drawn{"trials"};  // each seed's own
+  const std::vector<std::filesystem::path>& missions = of_trials ? drawn : config.missions;
+  for (const std::filesystem::path& mission : missions) {
+    const bool is_log = !of_trials && !load_mission(mission, config.overrides).world;
+    const int seeds = is_log ? std::min(config.seeds.count, std::max(config.withhold_every, 1)) : config.seeds.count;
+    for (const ExperimentVariant& variant : config.variants)
+      for (int i = 0; i < seeds; ++i) {
+        const std::int64_t seed = config.seeds.from + i;
+        const std::string name = "seed_" + std::to_string(seed);
+        // One mission as it stands needs no folders of its own.
+        const bool alone = missions.size() == 1 && config.variants.size() == 1;
+        jobs.push_back({mission, variant, seed, alone ? out / name : out / mission.stem() / variant.name / name});
+      }
+  }
+  return jobs;
+}
+
+// The world of a seed stays in the run's folder, so that `cairn run --set world=FILE` gives the run again.
+std::string write_world(const ExperimentConfig& config, const Job& job, const std::vector<LandmarkShape>& shapes) {
+  if (shapes.empty())
+    throw ConfigError({job.mission.string(), 0, 0},
+                      "an experiment in random worlds needs a mission whose detector has templates");
+  std::filesystem::create_directories(job.out);
+  const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
+  std::ofstream(file) << random_world_yaml(config.worlds, shapes, job.variant.specular_ratio,
+                                           static_cast<std::uint64_t>(job.seed));
+  return file.string();
+}
+
+Mission mission_of(const ExperimentConfig& config, const Job& job) {
+  std::vector<std::string> overrides = config.overrides;
+  overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
+  if (config.withhold_every > 0) overrides.push_back("withhold_every=" + std::to_string(config.withhold_every));
+  if (config.experiment == ExperimentKind::trials)
+    return load_mission(write_trial(config.trials, config.worlds, job.seed, job.out), overrides, job.seed);
+  if (in_random_worlds(config.experiment))
+    overrides.push_back("world=" + write_world(config, job, load_mission(job.mission, overrides).shapes));
+  return load_mission(job.mission, overrides, job.seed);
+}
+
+// A fault in the last variant's settings is told before the first one has run for an hour.
+void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<Job>& jobs) {
+  for (const Job& job : jobs) {
+    if (job.seed != config.seeds.from) continue;
+    const Mission mission = mission_of(config, job);
+    if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
+    if (config.experiment == ExperimentKind::lap)
+      require_one(mission, config.lap->around, "the lap goes round", job.mission);
+    MissionRunner(mission, library, {job.out, false, nullptr});
+    for (const ComparedDetector& detector : config.detectors)
+      MissionRunner(with_detector(mission, detector, library), library, {job.out, false, nullptr});
+  }
+}
+
+// What a run is measured by while it lasts.
+struct Listeners {
+  explicit Listeners(const Mission& mission) : withheld(mission.config.withhold_every, mission.config.seed) {}
+  void subscribe_to(MissionRunner& runner) {
+    runner.subscribe(report);
+    runner.subscribe(known);
+    runner.subscribe(path);
+    runner.subscribe(withheld);
+    runner.subscribe(trial);
+  }
+
+  RunReport report;
+  FirstKnown known;
+  TruePath path;
+  WithheldReadings withheld;
+  TrialRecord trial;
+};
+
+// What the experiment's kind asks of a run that has ended.
+void measure(const ExperimentConfig& config, const Mission& mission, const MissionRunner& runner,
+             const Listeners& listeners, ExperimentRow& row) {
+  if (mission.world) row.score = score_against(*mission.world, runner.graph(), config.tolerance_m);
+  for (const LandmarkTruth& matched : row.score.matched)
+    row.worst_error_m = std::max(row.worst_error_m, matched.error_m);
+  if (config.experiment == ExperimentKind::maps && runner.grid() != nullptr) {
+    if (mission.world) row.quality = map_quality(*runner.grid(), *mission.world, listeners.path.places_m());
+    row.withheld = listeners.withheld.count();
+    row.withheld_log_likelihood = listeners.withheld.mean_log_likelihood(*runner.grid());
+  }
+  if (config.experiment == ExperimentKind::places)
+    row.places = degrees_at_places(config, *mission.world, listeners.report.degrees(), row.result.steps);
+  if (in_random_worlds(config.experiment))
+    row.verdicts = judge_recognition(mission, runner.graph(), listeners.known, config.tolerance_m);
+  const bool was_cancelled = row.result.outcome == MissionOutcome::cancelled;  // by the user: no mission's end
+  if (config.experiment == ExperimentKind::trials && !was_cancelled)
+    row.trial =
+        judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
+  row.step_rad = mission.template_settings.step_rad;
+  if (config.experiment == ExperimentKind::lap)
+    row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), listeners.report.degrees());
+}
+
+ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
+                      const Job& job) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Mission mission = mission_of(config, job);
+  std::filesystem::create_directories(job.out);
+  MissionRunner runner(mission, library, {job.out, false, &cancel});
+  Listeners listeners(mission);
+  listeners.subscribe_to(runner);
+  ExperimentRow row;
+  row.mission = job.mission.stem();
+  row.variant = job.variant.name;
+  row.seed = job.seed;
+  row.folder = job.out;
+  row.result = runner.run();
+  row.gave_up = runner.gave_up();
+  for (const std::string& fault : runner.listener_faults()) {
+    row.result.outcome = MissionOutcome::module_fault;  // what was measured is not of the whole run
+    row.result.reason += "; a listener failed: " + fault;
+  }
+  std::ofstream(job.out / "report.json") << listeners.report.report_json(mission, row.result, runner.graph(), {});
+  measure(config, mission, runner, listeners, row);
+  for (const StageTime& time : runner.times()) {
+    if (time.stage == "detector") row.detector_wall_s += time.total_s;
+    if (time.stage == "tick") row.tick = time;
+  }
+  row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (config.experiment == ExperimentKind::curves && runner.grid() != nullptr)
+    for (const ComparedDetector& detector : config.detectors)
+      row.sweeps.push_back(sweep(mission, detector, library, *runner.grid(), config.tolerance_m));
+  return row;
+}
+
+}  // namespace
+
+bool ExperimentRow::is_good() const {
+  return result.outcome == MissionOutcome::done && score.missed_objects == 0 && score.false_landmarks == 0 &&
+         result.collisions == 0;
+}
+
+std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
+                                          const std::filesystem::path& out, const std::atomic<bool>& cancel) {
+  const std::vector<Job> jobs = jobs_of(config, out);
+  check(config, library, jobs);
+  std::vector<ExperimentRow> rows(jobs.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    rows[i].mission = jobs[i].mission.stem();
+    rows[i].variant = jobs[i].variant.name;
+    rows[i].seed = jobs[i].seed;
+    rows[i].result.outcome = MissionOutcome::cancelled;  // until it has run
+  }
+  in_parallel(
+      jobs.size(),
+      [&](std::size_t i) {
+        if (!cancel.load()) rows[i] = run_job(config, library, cancel, jobs[i]);
+      },
+      kMostRunsAtATime);
+  return rows;
+}
+
+}  // namespace cairn

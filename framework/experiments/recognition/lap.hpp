@@ -1,0 +1,24 @@
+// What the matchings of a run said along a lap round one landmark (the paper's Fig. 6).
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "framework/experiments/config.hpp"
+#include "framework/reporting/report.hpp"
+
+namespace cairn {
+
+// One matching that looked at the landmark.
+struct LapSample {
+  double angle_rad = 0.0;           // how far round the landmark the robot had come, either way
+  std::vector<double> categories;   // best degrees, in the order of the experiment's categories
+  std::map<int, double> templates;  // of the landmark's category: best degree by orientation, whole degrees
+};
+
+// Angles count from the start and add up from matching to matching, so the robot must not go half round
+// between two of them. Only one lap: what comes after it is left out.
+[[nodiscard]] std::vector<LapSample> degrees_along_lap(const ExperimentConfig& config, const World& world,
+                                                       const Point& start_m, const std::vector<DegreeSample>& samples);
+
+}  // namespace cairn

@@ -1,0 +1,31 @@
+// The degrees along a lap, in bins, over all seeds: as a table, and as what a chart draws.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/experiments/experiment.hpp"
+#include "framework/experiments/statistics.hpp"
+
+namespace cairn {
+
+// One line of a chart: a value in the middle of each bin of the lap, none where fewer than half of the
+// runs had a matching.
+struct LapSeries {
+  std::string name;
+  std::vector<std::optional<Estimate>> bins;
+};
+// In each run the last matching of a bin counts.
+[[nodiscard]] std::vector<LapSeries> lap_categories(const ExperimentConfig& config,
+                                                    const std::vector<const ExperimentRow*>& rows);
+[[nodiscard]] std::vector<LapSeries> lap_templates(const ExperimentConfig& config,
+                                                   const std::vector<const ExperimentRow*>& rows);
+
+// "square 15 deg"
+[[nodiscard]] std::string template_name(const ExperimentConfig& config, int orientation_deg);
+
+// Markdown; a table a mission and variant.
+[[nodiscard]] std::string lap_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
+
+}  // namespace cairn

@@ -1,0 +1,131 @@
+#include "framework/mission/autosave.hpp"
+
+#include <algorithm>
+
+#include "maps/hierarchy/hierarchy.hpp"
+
+namespace cairn {
+namespace {
+
+double seconds_since(Autosaver::Clock::time_point begin) {
+  return std::chrono::duration<double>(Autosaver::Clock::now() - begin).count();
+}
+
+}  // namespace
+
+void AutosaveConfig::describe(Fields<AutosaveConfig>& fields) {
+  using C = AutosaveConfig;
+  fields.number("every_s", &C::every_s, {0.0, 1e6}, "s",
+                "wall clock between two autosaves while the mission runs; 0: none");
+  fields.text("file", &C::file,
+              "name of the autosaved map in the output folder, MISSION.autosave.cairn without it; it is taken away "
+              "once the mission has saved its map");
+}
+
+Autosaver::Autosaver(std::filesystem::path file, double every_s) : file_(std::move(file)), every_(every_s) {}
+
+Autosaver::~Autosaver() {
+  finish();
+}
+
+bool Autosaver::is_due() {
+  if (every_.count() <= 0.0) return false;
+  const Clock::time_point now = Clock::now();
+  if (asked_) longest_tick_ = std::max<std::chrono::duration<double>>(longest_tick_, now - *asked_);
+  asked_ = now;
+  const std::scoped_lock lock(mutex_);
+  if (writing_ || copy_) return false;
+  // Twice, since the next copy may be larger and the disk slower.
+  const auto ahead = std::min(every_ / 2, longest_tick_ + 2 * longest_write_);
+  return !last_ || now - *last_ >= every_ - ahead;
+}
+
+void Autosaver::save(SavedMap copy, Clock::time_point taken) {
+  last_ = taken;
+  const std::scoped_lock lock(mutex_);
+  copy_ = std::move(copy);
+  taken_ = taken;
+  try {
+    if (!thread_.joinable()) thread_ = std::thread([this] { write_copies(); });
+    changed_.notify_all();
+  } catch (const std::system_error& error) {
+    copy_.reset();
+    note({.reason = std::string("no thread can be started: ") + error.what()});
+  }
+  figures_.in_loop_s += seconds_since(taken);
+}
+
+void Autosaver::finish() {
+  {
+    const std::scoped_lock lock(mutex_);
+    ending_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void Autosaver::write_copies() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return copy_ || ending_; });
+    if (!copy_) return;
+    SavedMap copy = std::move(*copy_);
+    copy_.reset();
+    writing_ = true;
+    lock.unlock();
+    write(copy);
+    lock.lock();
+    writing_ = false;
+  }
+}
+
+void Autosaver::write(SavedMap& copy) {
+  const Clock::time_point begin = Clock::now();
+  News news;
+  news.time_s = copy.progress ? copy.progress->time_s : 0.0;
+  try {
+    copy.clusters = Hierarchy(copy.graph, copy.clusters).tree();
+    save_map(file_, copy);
+    news.saved = true;
+  } catch (const std::exception& error) {
+    news.reason = error.what();
+  }
+  const std::scoped_lock lock(mutex_);
+  const double took_s = seconds_since(taken_);
+  news.took_ms = 1e3 * took_s;
+  longest_write_ = std::max(longest_write_, std::chrono::duration<double>(took_s));
+  figures_.writing_s += seconds_since(begin);
+  note(std::move(news));
+}
+
+// With the mutex held.
+void Autosaver::note(News news) {
+  ++(news.saved ? figures_.saved : figures_.failed);
+  if (news.saved) figures_.last_time_s = news.time_s;
+  if (figures_.failure.empty()) figures_.failure = news.reason;
+  news_ = std::move(news);
+}
+
+std::optional<Autosaver::News> Autosaver::news() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(news_, std::nullopt);
+}
+
+AutosaveFigures Autosaver::figures() const {
+  const std::scoped_lock lock(mutex_);
+  return figures_;
+}
+
+std::optional<std::filesystem::path> keep_earlier_autosave(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  for (int number = 1;; ++number) {
+    std::filesystem::path kept = file;
+    kept.replace_extension("." + std::to_string(number) + file.extension().string());
+    if (std::filesystem::exists(kept, error)) continue;
+    std::filesystem::rename(file, kept, error);
+    return error ? std::nullopt : std::optional(kept);
+  }
+}
+
+}  // namespace cairn

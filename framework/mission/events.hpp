@@ -1,0 +1,92 @@
+// The event stream of a mission. Listeners (reports, pictures, progress) subscribe to it; they see
+// values and can never change what happens.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "framework/behaviour_tree/nodes.hpp"
+#include "framework/contracts/behaviour.hpp"
+#include "framework/contracts/detector.hpp"
+#include "framework/contracts/world_view.hpp"
+
+namespace cairn {
+
+struct TickDone {};  // after each tick; the view holds the new state
+struct MatchingDone {
+  Matching matching;
+};
+struct LandmarkChanged {
+  Landmark landmark;
+  bool is_new = false;
+};
+struct LandmarkRetired {
+  Landmark landmark;
+  std::string reason;
+};
+struct PlanDone {
+  PlanResult result;
+};
+struct StepStarted {
+  int index = 0;
+  std::string name;
+};
+struct StepEnded {
+  int index = 0;
+  std::string name;
+  Status status;
+};
+// Of nodes below a step. One that begins and ends in one tick, as it did the last time, is not told again.
+struct NodeStarted {
+  std::string path;  // "3/1/2"
+  std::string name;
+  NodeKind kind = NodeKind::behaviour;
+};
+struct NodeEnded {
+  std::string path;
+  std::string name;
+  NodeKind kind = NodeKind::behaviour;
+  Status status;
+  bool is_halted = false;  // a failure
+};
+struct MapSaved {
+  std::string file_name;
+};
+// Told when it has happened, at a moment that differs from run to run: not for reports.
+struct Autosaved {
+  std::string file_name;
+  double time_s = 0.0;   // of the mission, up to which the file holds everything
+  double took_ms = 0.0;  // wall clock, from taking the copy to the file on the disk
+};
+// The first time only; the mission goes on.
+struct AutosaveFailed {
+  std::string reason;
+};
+struct Said {
+  std::string sentence;
+};
+struct Bumped {};
+// The mission's clock stands from here on: the robot is stopped, readings still come.
+struct Paused {};
+struct WentOn {
+  double paused_s = 0.0;  // by the robot's clock
+};
+
+using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
+                           NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Said, Bumped, Paused, WentOn>;
+
+// What listeners see beside the event. Valid during the call only.
+struct MissionView {
+  const WorldView& world;
+  const CoarseGrid* coarse = nullptr;
+  Twist commanded{};  // what the wheels were last ordered to do
+};
+
+class Listener {
+ public:
+  virtual ~Listener() = default;
+  virtual void on(const Event& event, const MissionView& view) = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,152 @@
+#include "framework/mission/mission.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "framework/behaviour_tree/condition.hpp"
+#include "framework/files/robot_file.hpp"
+#include "framework/files/template_file.hpp"
+#include "framework/files/world_file.hpp"
+#include "maps/base/fingerprint.hpp"
+
+namespace cairn {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The detector's settings hold keys of its own too: take those that the host knows.
+TemplateSettings template_settings_of(const PluginChoice& detector) {
+  ConfigValue mine;
+  mine.kind = ConfigValue::Kind::map;
+  mine.place = detector.config.place;
+  for (const FieldSpec& field : schema_of<TemplateSettings>().fields)
+    for (const ConfigValue::Entry& entry : detector.config.entries)
+      if (entry.key == field.key) mine.entries.push_back(entry);
+  auto settings = load_config<TemplateSettings>(mine, "detector");
+  if (settings.sizes.empty()) throw ConfigError(mine.find("sizes")->place, "sizes must hold at least one size");
+  return settings;
+}
+
+// A landmark that does not fit into the world cannot be found in it.
+void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, const std::filesystem::path& folder) {
+  const Point size_m = world.max_m - world.min_m;
+  for (const LandmarkShape& shape : shapes) {
+    const double diameter_m = shape.contour.outer_diameter_m();
+    if (diameter_m <= size_m.maxCoeff() && shape.contour.inner_diameter_m() <= size_m.minCoeff()) continue;
+    throw ConfigError(SourcePlace{folder.string(), 0, 0},
+                      "the template " + shown(shape.category) + " is " + config_detail::number_text(diameter_m) +
+                          " m across, larger than the mission's world of " + config_detail::number_text(size_m.x()) +
+                          " x " + config_detail::number_text(size_m.y()) + " m");
+  }
+}
+
+std::vector<std::string> categories_of(const std::vector<LandmarkShape>& shapes) {
+  std::vector<std::string> categories;
+  for (const LandmarkShape& shape : shapes) categories.push_back(shape.category);
+  return categories;
+}
+
+// A plain name: an autosave never leaves the output folder.
+void check_autosave(const ConfigValue& root, const std::string& mission, const std::string& file) {
+  const auto refuse = [&](const std::string& why) {
+    throw ConfigError(root.find("autosave")->find("file")->place, "autosave.file: " + shown(file) + why);
+  };
+  if (file == "." || file == ".." || file.find_first_of("/\\") != std::string::npos)
+    refuse(" is not a plain file name; maps are saved into the output folder");
+  if (!file.empty() && !file.ends_with(".cairn")) refuse(" does not end in .cairn, as a saved map's name does");
+  if (file == mission + ".cairn") refuse(" is the name of the map that the mission saves at its end");
+}
+
+}  // namespace
+
+void StartConfig::describe(Fields<StartConfig>& fields) {
+  fields.point("at_m", &StartConfig::at_m, "m", "where the robot begins, in the map frame");
+  fields.angle("angle_deg", &StartConfig::angle_rad, {-360.0, 360.0}, "which way it looks there");
+}
+
+void MissionConfig::describe(Fields<MissionConfig>& fields) {
+  using C = MissionConfig;
+  fields.file_name("mission", &C::mission, "name of the mission").required = true;
+  fields.integer("seed", &C::seed, {0.0, 9.0e15}, "of all randomness; the same seed gives the same bytes");
+  fields.file("robot", &C::robot, "robot file").required = true;
+  fields.file("world", &C::world, "world file; leave out when the sensor is a log");
+  fields.group("start", &C::start, "where the robot begins; a log with poses may know better");
+  fields.plugin("sensor", &C::sensor, "sensor", "source of observations").required = true;
+  fields.plugin("localizer", &C::localizer, "localizer", "where the robot is").required = true;
+  fields.plugin("map", &C::map, "map", "builds the occupancy grid").required = true;
+  fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
+  fields.plugin("planner", &C::planner, "planner", "finds ways");
+  fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
+  fields.group("stop_layer", &C::stop_layer, "what keeps the robot from driving into what it sees");
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
+  fields.number(
+      "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
+      "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
+  fields.file_name(
+      "record", &C::record,
+      "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
+  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6},
+                 "every n-th range reading is withheld from the map, so that an experiment can ask how well the "
+                 "map foretells it; 0: none");
+  fields.group("autosave", &C::autosave, "the map is saved while the mission runs, for `cairn run --resume`");
+  fields.raw("steps", &C::steps, "list of steps",
+             "behaviours and other nodes one after the other, each `{name: settings}`: docs/missions.md");
+}
+
+std::string autosave_file_of(const MissionConfig& config) {
+  return config.autosave.file.empty() ? config.mission + ".autosave.cairn" : config.autosave.file;
+}
+
+void use_detector(Mission& mission, const PluginChoice& detector) {
+  mission.config.detector = detector;
+  mission.template_settings = template_settings_of(mission.config.detector);
+  mission.shapes.clear();
+  if (!mission.template_settings.templates.empty())
+    mission.shapes = load_landmark_shapes(mission.template_settings.templates);
+}
+
+ReadMission read_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                         std::optional<std::int64_t> seed) {
+  ConfigValue root = read_config_file(file);
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  ReadMission read;
+  Mission& mission = read.mission;
+  mission.config = load_config<MissionConfig>(root, "mission");
+  check_autosave(root, mission.config.mission, mission.config.autosave.file);
+  if (seed) mission.config.seed = *seed;
+  const auto attempt = [&](auto work) {
+    try {
+      work();
+    } catch (const ConfigError& error) {
+      read.errors.push_back(error);
+    }
+  };
+  attempt([&] { mission.robot = load_robot(mission.config.robot); });
+  attempt([&] {
+    if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);
+    if (mission.config.world.empty()) return;
+    mission.world = load_world(mission.config.world, mission.shapes);
+    mission.world_fingerprint = fingerprint_of(bytes_of(mission.config.world));
+    check_sizes(mission.shapes, *mission.world, mission.template_settings.templates);
+  });
+  MissionTree tree = read_mission_tree(mission.config.steps, file);
+  mission.steps = std::move(tree.steps);
+  read.step_errors = std::move(tree.errors);
+  std::ranges::move(unknown_categories(mission.steps, categories_of(mission.shapes)),
+                    std::back_inserter(read.step_errors));
+  return read;
+}
+
+Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                     std::optional<std::int64_t> seed) {
+  ReadMission read = read_mission(file, overrides, seed);
+  if (!read.errors.empty()) throw read.errors.front();
+  if (!read.step_errors.empty()) throw read.step_errors.front();
+  return std::move(read.mission);
+}
+
+}  // namespace cairn

@@ -1,0 +1,80 @@
+// A mission as its file describes it (config/missions/*.yaml), checked but not yet built.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/behaviour_tree/tree.hpp"
+#include "framework/config/fields.hpp"
+#include "framework/contracts/robot_model.hpp"
+#include "framework/contracts/world.hpp"
+#include "framework/files/template_settings.hpp"
+#include "framework/landmarks/tracker.hpp"
+#include "framework/mission/autosave.hpp"
+#include "framework/safety/collision_monitor.hpp"
+#include "maps/landmarks/landmark_template.hpp"
+
+namespace cairn {
+
+struct StartConfig {
+  Point at_m{0.0, 0.0};
+  double angle_rad = 0.0;
+  static void describe(Fields<StartConfig>& fields);
+};
+
+struct MissionConfig {
+  std::string mission;
+  std::int64_t seed = 1;
+  std::filesystem::path robot;
+  std::filesystem::path world;
+  StartConfig start;
+  PluginChoice sensor;
+  PluginChoice localizer;
+  PluginChoice map;
+  PluginChoice detector;
+  PluginChoice planner;
+  LandmarkKeeperConfig landmarks;
+  StopLayerConfig stop_layer;
+  double at_most_s = 36000.0;
+  double watchdog_s = 30.0;
+  std::string record;
+  int withhold_every = 0;
+  AutosaveConfig autosave;
+  ConfigValue steps;
+  static void describe(Fields<MissionConfig>& fields);
+};
+
+struct Mission {
+  MissionConfig config;
+  TemplateSettings template_settings;  // as the detector's own say
+  RobotModel robot;
+  std::optional<World> world;
+  std::string world_fingerprint;  // of its file; empty without one
+  std::vector<LandmarkShape> shapes;
+  std::vector<TreeNode> steps;
+};
+
+// Name of the autosaved map in the output folder.
+[[nodiscard]] std::string autosave_file_of(const MissionConfig& config);
+
+// Takes the detector and loads its templates. Throws ConfigError.
+void use_detector(Mission& mission, const PluginChoice& detector);
+
+// Throws ConfigError. overrides: "key=value" texts of --set; seed wins over the file's.
+[[nodiscard]] Mission load_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                                   std::optional<std::int64_t> seed = std::nullopt);
+
+struct ReadMission {
+  Mission mission;                       // without what could not be read
+  std::vector<ConfigError> errors;       // of the files that it names; load_mission throws the first there is
+  std::vector<ConfigError> step_errors;  // then the first of these
+};
+// All that is wrong, not only the first. Throws ConfigError when the mission's own settings are wrong.
+[[nodiscard]] ReadMission read_mission(const std::filesystem::path& file,
+                                       const std::vector<std::string>& overrides = {},
+                                       std::optional<std::int64_t> seed = std::nullopt);
+
+}  // namespace cairn

@@ -1,0 +1,45 @@
+// The modules of one mission, built in the order in which they need each other.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framework/mission/mission.hpp"
+#include "framework/modules/module_library.hpp"
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+
+struct MissionModules {
+  std::shared_ptr<Sensor> sensor;
+  std::shared_ptr<Localizer> localizer;
+  std::shared_ptr<Mapper> mapper;
+  std::shared_ptr<const TemplateSet> templates;        // null without a detector
+  std::shared_ptr<Detector> detector;                  // may be null
+  std::shared_ptr<Planner> planner;                    // may be null
+  std::vector<std::shared_ptr<Behaviour>> behaviours;  // in the order of behaviours_of()
+  Pose2 T_map_start;
+  double begin_s = 0.0;  // the mission's clock
+};
+
+// resume: the map to go on from, or null. Throws ConfigError or ModuleFault; StoreError when the map does not fit.
+[[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
+                                           const SavedMap* resume = nullptr);
+
+// What is wrong with the mission's modules and their settings, each as `cairn run` would tell the first: every module
+// is made once. Costs no rendering of templates.
+[[nodiscard]] std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library);
+
+// Templates as the mission's detector gets them: rendered for the mission's cell size, or taken from the
+// user's cache.
+[[nodiscard]] TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules);
+
+// The mission's detector alone, with its templates for grids of this cell size. Throws ConfigError or
+// ModuleFault.
+[[nodiscard]] std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library,
+                                                       double cell_m);
+
+// A seed of its own for each module of a mission.
+[[nodiscard]] std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index = 0);
+
+}  // namespace cairn

@@ -1,0 +1,100 @@
+#include "framework/mission/runner.hpp"
+
+#include <cmath>
+#include <future>
+#include <thread>
+
+#include "framework/mission/loop.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::chrono::milliseconds kLookEvery(20);
+
+}  // namespace
+
+std::string_view name_of(MissionOutcome outcome) {
+  switch (outcome) {
+    case MissionOutcome::done:
+      return "done";
+    case MissionOutcome::step_failed:
+      return "step_failed";
+    case MissionOutcome::out_of_time:
+      return "out_of_time";
+    case MissionOutcome::cancelled:
+      return "cancelled";
+    case MissionOutcome::sensor_fault:
+      return "sensor_fault";
+    case MissionOutcome::module_fault:
+      return "module_fault";
+    case MissionOutcome::map_not_saved:
+      return "map_not_saved";
+  }
+  return "?";
+}
+
+MissionRunner::MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
+    : loop_(std::make_shared<MissionLoop>(mission, library, options)),
+      control_(options.control),
+      longest_call_s_(mission.config.watchdog_s) {}
+
+MissionRunner::~MissionRunner() = default;
+
+void MissionRunner::subscribe(Listener& listener) {
+  loop_->subscribe(listener);
+}
+
+const std::vector<std::string>& MissionRunner::listener_faults() const {
+  return loop_->listener_faults();
+}
+
+const Pose2& MissionRunner::T_map_start() const {
+  return loop_->T_map_start();
+}
+
+MissionResult MissionRunner::run() {
+  if (longest_call_s_ <= 0.0)
+    loop_->run();
+  else
+    watch();
+  if (control_ != nullptr) control_->tell(loop_->last_status());
+  return loop_->result();
+}
+
+void MissionRunner::watch() {
+  std::promise<void> promise;
+  std::future<void> done = promise.get_future();
+  // The thread shares the loop, so that a call that comes back late finds everything where it was.
+  std::thread thread([loop = loop_, promise = std::move(promise)]() mutable {
+    loop->run();
+    promise.set_value();
+  });
+  const std::chrono::nanoseconds longest(std::llround(longest_call_s_ * 1e9));
+  while (done.wait_for(kLookEvery) != std::future_status::ready && !gave_up_) gave_up_ = loop_->give_up_after(longest);
+  if (gave_up_)
+    thread.detach();
+  else
+    thread.join();
+}
+
+RunStatus MissionRunner::status() const {
+  return loop_->status();
+}
+
+const OccupancyGrid* MissionRunner::grid() const {
+  return loop_->grid();
+}
+const CoarseGrid* MissionRunner::coarse_grid() const {
+  return loop_->coarse_grid();
+}
+const LandmarkGraph& MissionRunner::graph() const {
+  return loop_->keeper().graph();
+}
+const std::vector<Pose2>& MissionRunner::driven_path() const {
+  return loop_->keeper().driven_path();
+}
+std::vector<StageTime> MissionRunner::times() const {
+  return loop_->times();
+}
+
+}  // namespace cairn

@@ -1,0 +1,101 @@
+// Runs a mission: one thread of control, one tick after the other (DESIGN, "One tick, as data").
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/behaviour_tree/node_runs.hpp"
+#include "framework/behaviour_tree/runner.hpp"
+#include "framework/mission/events.hpp"
+#include "framework/mission/mission.hpp"
+#include "framework/mission/run_control.hpp"
+#include "framework/modules/module_library.hpp"
+#include "framework/modules/stage_clock.hpp"
+#include "framework/safety/collision_monitor.hpp"
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+
+enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fault, module_fault, map_not_saved };
+[[nodiscard]] std::string_view name_of(MissionOutcome outcome);
+
+struct RunOptions {
+  std::filesystem::path out;  // folder of everything written; must exist
+  bool realtime = false;      // pace simulated time to the wall clock
+  const std::atomic<bool>* cancel = nullptr;
+  bool autosave = false;             // as the mission's settings say
+  const SavedMap* resume = nullptr;  // go on from this map; must outlive the constructor's call only
+  RunControl* control = nullptr;     // must outlive the runner
+};
+
+struct StepReport {
+  std::string name;
+  Status status;
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+struct MissionResult {
+  MissionOutcome outcome = MissionOutcome::done;
+  std::string reason;  // a sentence for people; empty when all went well
+  std::vector<StepReport> steps;
+  NodeRuns node_runs;             // each time that a node ran
+  std::vector<NodeReport> nodes;  // of all nodes that were ticked, the steps among them, in the order of the file
+  std::int64_t readings = 0;
+  std::int64_t matchings = 0;
+  std::int64_t collisions = 0;
+  double distance_m = 0.0;
+  double time_s = 0.0;                             // simulated or recorded
+  double paused_s = 0.0;                           // not in time_s
+  double explored_ratio = 0.0;                     // of the map as it was last saved, or would have been
+  std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
+  StopLayerFigures stop_layer{};
+  AutosaveFigures autosave{};
+  std::string map_file;  // name in the output folder; empty: could not be saved
+};
+
+class MissionLoop;
+
+class MissionRunner {
+ public:
+  // Builds every module. Throws ConfigError (the user's files), ModuleFault (a module's fault) or StoreError (the
+  // map to go on from does not fit).
+  MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
+  ~MissionRunner();
+
+  // The listener must outlive the runner. It cannot change what happens: one that throws is told
+  // nothing more, and what it threw is kept.
+  void subscribe(Listener& listener);
+  [[nodiscard]] const std::vector<std::string>& listener_faults() const;
+  // Where the robot begins: as the mission says, or the sensor.
+  [[nodiscard]] const Pose2& T_map_start() const;
+  // The mission runs in a thread of its own, watched by this one: a module whose call does not return
+  // within the mission's watchdog_s ends the mission (outcome module_fault) and is left behind.
+  MissionResult run();
+  // A module was left behind: its thread may still be in there, so the process should end without
+  // tearing anything down (std::_Exit).
+  [[nodiscard]] bool gave_up() const { return gave_up_; }
+
+  // How it stands: for listeners, while they are told something.
+  [[nodiscard]] RunStatus status() const;
+
+  // After run(). The grids are null when the module that was left behind was working on them.
+  [[nodiscard]] const OccupancyGrid* grid() const;
+  [[nodiscard]] const CoarseGrid* coarse_grid() const;
+  [[nodiscard]] const LandmarkGraph& graph() const;
+  [[nodiscard]] const std::vector<Pose2>& driven_path() const;
+  [[nodiscard]] std::vector<StageTime> times() const;  // wall clock: differs from run to run
+
+ private:
+  void watch();
+
+  std::shared_ptr<MissionLoop> loop_;
+  RunControl* control_ = nullptr;
+  double longest_call_s_ = 0.0;
+  bool gave_up_ = false;
+};
+
+}  // namespace cairn

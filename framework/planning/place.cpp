@@ -1,0 +1,124 @@
+#include "framework/planning/place.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "framework/config/config_value.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::string_view kNearest = "nearest ";
+constexpr std::string_view kWhatAPlaceIs =
+    "a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`";
+
+[[noreturn]] void refuse(const std::string& place, const std::string& why) {
+  throw MalformedPlace("place \"" + place + "\" " + why + "; " + std::string(kWhatAPlaceIs));
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+std::optional<double> number(const std::string& text) {
+  const std::string token = trimmed(text);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
+  return value;
+}
+
+// All comma separated parts as numbers, or nothing when one is not a number.
+std::optional<std::vector<double>> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t comma = text.find(',', begin);
+    const auto value = number(text.substr(begin, comma - begin));
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+    if (comma == std::string::npos) return values;
+    begin = comma + 1;
+  }
+}
+
+// "1,", "1,a", "1;2", "1 2": meant as x,y, and no name.
+bool begins_with_a_coordinate(const std::string& text) {
+  const std::size_t end = text.find_first_of(",; \t");
+  if (end == std::string::npos || !number(text.substr(0, end))) return false;
+  const bool has_letters = std::ranges::any_of(text, [](unsigned char c) { return std::isalpha(c) != 0 || c > 127; });
+  return text[end] == ',' || !has_letters;
+}
+
+Place place_of(const std::vector<double>& values, const std::string& text) {
+  if (values.size() > 3) refuse(text, "has " + std::to_string(values.size()) + " numbers");
+  for (const double value : values)
+    if (!std::isfinite(value)) refuse(text, "has a number that is not finite");
+  Place place;
+  const bool heading = values.size() == 3;
+  place.pose = Pose2{values[0], values[1], heading ? wrap_angle(radians(values[2])) : 0.0};
+  place.heading_matters = heading;
+  return place;
+}
+
+Place nearest_place(const std::string& category, const LandmarkGraph& graph) {
+  Place place;
+  place.landmarks = graph.of_category(category);
+  if (!place.landmarks.empty()) return place;
+  std::set<std::string> known;
+  for (const auto& [id, landmark] : graph.landmarks())
+    if (!landmark.category.empty()) known.insert(landmark.category);
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  throw PlaceError("no landmark of category \"" + category + "\"" +
+                   did_you_mean(category, {known.begin(), known.end()}) +
+                   "; the map holds: " + (list.empty() ? "none" : list));
+}
+
+}  // namespace
+
+bool reads_as_place(const std::string& text) {
+  const auto values = numbers(text);
+  return trimmed(text).starts_with(kNearest) || (values && values->size() > 1);
+}
+
+Place parse_place(const std::string& text, const LandmarkGraph& graph) {
+  const std::string place_text = trimmed(text);
+  if (place_text.starts_with(kNearest)) return nearest_place(trimmed(place_text.substr(kNearest.size())), graph);
+  if (reads_as_place(place_text)) return place_of(*numbers(place_text), place_text);
+  if (const Landmark* landmark = graph.find_by_name(place_text)) {
+    Place place;
+    place.landmarks = {landmark->id};
+    return place;
+  }
+  if (place_text.empty()) refuse(place_text, "is empty");
+  if (place_text + " " == kNearest) refuse(place_text, "names no category");
+  if (numbers(place_text))
+    refuse(place_text, "is one number" + std::string(graph.find_by_name("L" + place_text) == nullptr
+                                                         ? ""
+                                                         : " (did you mean \"L" + place_text + "\"?)"));
+  if (begins_with_a_coordinate(place_text)) refuse(place_text, "is not made of numbers alone");
+  std::vector<std::string> names;
+  for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
+  throw PlaceError("unknown place \"" + place_text + "\"" + did_you_mean(place_text, names) + "; " +
+                   std::string(kWhatAPlaceIs));
+}
+
+RouteId parse_route(const std::string& text, const LandmarkGraph& graph) {
+  RouteId id = 0;
+  const std::string digits = text.starts_with('R') ? text.substr(1) : text;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
+  if (error != std::errc{} || end != digits.data() + digits.size())
+    throw MalformedPlace("route \"" + text + "\": a route is named by its number, as 12 or R12");
+  if (graph.find_route(id) == nullptr) throw PlaceError("the map has no route " + std::to_string(id));
+  return id;
+}
+
+}  // namespace cairn

@@ -1,0 +1,170 @@
+#include "framework/program/experiment/experiment_charts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "framework/experiments/recognition/curves_table.hpp"
+#include "framework/experiments/recognition/lap_table.hpp"
+#include "framework/experiments/recognition/recognition_table.hpp"
+#include "framework/experiments/report.hpp"
+#include "framework/program/run/pictures.hpp"
+#include "maps/pictures/drawing/chart.hpp"
+
+namespace cairn {
+namespace {
+
+// A chart a measure: a place a mission, a series a variant, bars for the 95 % intervals.
+Chart map_chart(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows, const RunMeasure& measure) {
+  Chart chart;
+  chart.title = measure.name + ", mean and 95 % interval";
+  chart.y_label = measure.name;
+  chart.x_names = missions_of(rows);
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  const auto variants = static_cast<double>(config.variants.size());
+  for (std::size_t v = 0; v < config.variants.size(); ++v) {
+    Series series{config.variants[v].name, {}, SeriesStyle::points, {}};
+    const double beside = 0.7 * ((static_cast<double>(v) + 0.5) / variants - 0.5);
+    for (std::size_t m = 0; m < chart.x_names.size(); ++m) {
+      const std::vector<double> values = known_values(rows_of(rows, chart.x_names[m], series.name), measure);
+      if (values.empty()) continue;
+      const Estimate estimate = estimate_of(values);
+      series.points.emplace_back(static_cast<double>(m) + beside, estimate.mean);
+      series.half_widths.push_back(estimate.half_width);
+      least = std::min(least, estimate.mean);
+      most = std::max(most, estimate.mean);
+    }
+    chart.series.push_back(std::move(series));
+  }
+  chart.log_y = least > 0.0 && most > 10.0 * least;
+  return chart;
+}
+
+std::string file_name_of(const std::string& title) {
+  std::string name = title + ".png";
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+Chart lap_chart(const ExperimentConfig& config, const std::vector<LapSeries>& all, const std::string& title) {
+  Chart chart;
+  chart.title = title;
+  chart.x_label = "how far round the " + config.lap->around + ", deg";
+  chart.y_label = "degree";
+  const double bin_deg = degrees(config.lap->bin_rad);
+  for (const LapSeries& of : all) {
+    Series series{of.name, {}, SeriesStyle::lines_and_points, {}};
+    for (std::size_t b = 0; b < of.bins.size(); ++b) {
+      if (!of.bins[b]) continue;
+      series.points.emplace_back(bin_deg * (static_cast<double>(b) + 0.5), of.bins[b]->mean);
+      series.half_widths.push_back(of.bins[b]->half_width);
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+// Recall to the right, precision upwards: a curve a detector, and the mission itself as one point.
+Chart curve_chart(const ExperimentConfig& config, const std::vector<const ExperimentRow*>& rows) {
+  Chart chart;
+  chart.title = "Precision and recall at every threshold, on the same grids";
+  chart.x_label = "recall";
+  chart.y_label = "precision";
+  chart.of_shares = true;
+  for (const ComparedDetector& detector : config.detectors) {
+    Series series{detector.name, {}, SeriesStyle::lines, {}};
+    for (const CurvePoint& point : precision_recall(worlds_of(rows, detector.name)))
+      series.points.emplace_back(point.recall, point.precision);
+    chart.series.push_back(std::move(series));
+  }
+  const RecognitionFigures own = recognition_figures(rows, rows.front()->step_rad);
+  chart.series.push_back({"the mission itself", {{own.recall.value, own.precision.value}}, SeriesStyle::points, {}});
+  return chart;
+}
+
+struct NamedChart {
+  std::string file_name;
+  Chart chart;
+};
+
+std::vector<NamedChart> map_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::vector<NamedChart> charts;
+  for (const RunMeasure& measure : map_measures()) {
+    Chart chart = map_chart(config, rows, measure);
+    if (std::ranges::all_of(chart.series, [](const Series& series) { return series.points.empty(); })) continue;
+    charts.push_back({file_name_of(measure.name), std::move(chart)});
+  }
+  return charts;
+}
+
+std::vector<NamedChart> lap_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::vector<NamedChart> charts;
+  for (const std::string& mission : missions_of(rows))
+    for (const ExperimentVariant& variant : config.variants) {
+      const auto of_variant = rows_of(rows, mission, variant.name);
+      const bool alone = of_variant.size() == rows.size();
+      const std::string name = alone ? "lap" : mission + " " + variant.name;
+      charts.push_back({file_name_of(name + " categories"),
+                        lap_chart(config, lap_categories(config, of_variant), "Best degree of each category")});
+      const std::vector<LapSeries> templates = lap_templates(config, of_variant);
+      if (!templates.empty())
+        charts.push_back({file_name_of(name + " templates"),
+                          lap_chart(config, templates, "Best degree of each template of the " + config.lap->around)});
+    }
+  return charts;
+}
+
+std::vector<NamedChart> curve_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::vector<NamedChart> charts;
+  for (const std::string& mission : missions_of(rows))
+    for (const ExperimentVariant& variant : config.variants) {
+      const auto of_variant = rows_of(rows, mission, variant.name);
+      const bool alone = of_variant.size() == rows.size();
+      if (!of_variant.empty())
+        charts.push_back({file_name_of(alone ? "curves" : mission + " " + variant.name + " curves"),
+                          curve_chart(config, of_variant)});
+    }
+  return charts;
+}
+
+// The map of the first seed.
+void write_map(const ExperimentRow& row, const std::filesystem::path& file) {
+  if (row.result.map_file.empty()) throw std::runtime_error(file.string() + ": the run saved no map");
+  draw_saved_map(file, load_map(row.folder / row.result.map_file), row.mission + ", seed " + std::to_string(row.seed));
+}
+
+std::vector<std::string> write_place_maps(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
+                                          const std::filesystem::path& out) {
+  std::vector<std::string> missing;
+  for (const std::string& mission : missions_of(rows))
+    for (const ExperimentVariant& variant : config.variants) {
+      const auto of_variant = rows_of(rows, mission, variant.name);
+      if (of_variant.empty()) continue;
+      const bool alone = of_variant.size() == rows.size();
+      try {
+        write_map(*of_variant.front(), out / file_name_of(alone ? "map" : mission + " " + variant.name + " map"));
+      } catch (const std::exception& error) {
+        missing.emplace_back(error.what());
+      }
+    }
+  return missing;
+}
+
+}  // namespace
+
+std::vector<std::string> write_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
+                                      const std::filesystem::path& out) {
+  std::vector<NamedChart> charts;
+  if (config.experiment == ExperimentKind::maps) charts = map_charts(config, rows);
+  if (config.experiment == ExperimentKind::lap) charts = lap_charts(config, rows);
+  if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
+  std::vector<std::string> missing;
+  if (config.experiment == ExperimentKind::places) missing = write_place_maps(config, rows, out);
+  for (const NamedChart& named : charts) {
+    const ChartOutcome outcome = write_chart(out / named.file_name, named.chart);
+    if (!outcome.drawn) missing.push_back(outcome.reason);
+  }
+  return missing;
+}
+
+}  // namespace cairn

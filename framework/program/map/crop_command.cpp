@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/program/common/commands.hpp"
+#include "framework/program/map/exchange_report.hpp"
+#include "framework/program/map/number_list.hpp"
+#include "maps/base/source_text.hpp"
+#include "maps/edit/crop.hpp"
+
+namespace cairn {
+
+int map_crop(const CropCommand& command, const CommonOptions& common) {
+  const std::vector<double> box = number_list(command.box, "x0,y0,x1,y1", "map crop: --box", kMostCoordinate);
+  const SavedMap map = load_map(command.map);
+  CroppedMap cropped;
+  try {
+    cropped = crop_map(map, {box[0], box[1]}, {box[2], box[3]});
+  } catch (const std::invalid_argument& refused) {
+    throw std::runtime_error("map crop: " + command.map.string() + ": " + refused.what());
+  }
+  cropped.map.properties["cropped_to"] = command.box;
+  save_map(command.out, cropped.map);
+  const std::size_t landmarks = cropped.map.graph.landmarks().size();
+  const std::size_t routes = cropped.map.graph.routes().size();
+  const CellBox cells = cropped.map.grid.bounds();
+  std::vector<std::string> warnings;
+  if (cropped.landmarks_dropped > 0)
+    warnings.push_back(exchange::counted(cropped.landmarks_dropped, "landmark") + " outside: dropped");
+  if (cropped.routes_dropped > 0)
+    warnings.push_back(exchange::counted(cropped.routes_dropped, "route") + " to the outside or through it: dropped");
+  warnings.insert(warnings.end(), cropped.warnings.begin(), cropped.warnings.end());
+  tell_people(fmt::format("wrote {}: {} x {} cells, {}, {}", command.out.string(), cells.width(), cells.height(),
+                          exchange::counted(landmarks, "landmark"), exchange::counted(routes, "route")),
+              warnings, common);
+  if (common.json)
+    tell_json({{"map", command.out.string()},
+               {"size_cells", {cells.width(), cells.height()}},
+               {"landmarks", landmarks},
+               {"routes", routes},
+               {"landmarks_dropped", cropped.landmarks_dropped},
+               {"routes_dropped", cropped.routes_dropped},
+               {"warnings", warnings}});
+  return kExitDone;
+}
+
+}  // namespace cairn

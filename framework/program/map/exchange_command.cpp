@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "framework/contracts/robot_model.hpp"
+#include "framework/files/map_server_file.hpp"
+#include "framework/files/rmf_file.hpp"
+#include "framework/program/common/commands.hpp"
+#include "framework/program/map/exchange_report.hpp"
+#include "maps/base/source_text.hpp"
+#include "maps/exchange/graphs/graph_file.hpp"
+#include "maps/exchange/grids/moving_ai_map.hpp"
+#include "maps/hierarchy/hierarchy.hpp"
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::string_view kMovingAi = ".map";
+constexpr std::array<std::string_view, 3> kGridExtensions{kMovingAi, ".yaml", ".yml"};
+constexpr double kMovingAiCell_m = 1.0;
+
+int import_graph(const ExchangeCommand& command, ImportedGraph imported, const CommonOptions& common) {
+  SavedMap map;
+  map.graph = std::move(imported.graph);
+  map.clusters = cluster_landmarks(map.graph);
+  map.properties = imported.properties;
+  map.properties["imported_from"] = command.from.filename().string();
+  save_map(command.to, map);
+  const std::vector<std::string> warnings = about(command.from, std::move(imported.warnings));
+  const std::size_t landmarks = map.graph.landmarks().size();
+  const std::size_t routes = map.graph.routes().size();
+  tell_people(fmt::format("wrote {}: {} landmarks, {} routes", command.to.string(), landmarks, routes), warnings,
+              common);
+  if (common.json)
+    tell_json({{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", warnings}});
+  return kExitDone;
+}
+
+ImportedGrid read_grid(const ExchangeCommand& command) {
+  if (command.from.extension() != kMovingAi)
+    return load_map_server(command.from, command.allow_outside ? PictureFolder::any : PictureFolder::own);
+  return parse_moving_ai_map(exchange::text_of_file(command.from), command.from.string(),
+                             command.cell_m.value_or(kMovingAiCell_m));
+}
+
+int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
+  ImportedGrid imported = read_grid(command);
+  SavedMap map;
+  map.grid = std::move(imported.grid);
+  map.properties["imported_from"] = command.from.filename().string();
+  save_map(command.to, map);
+  const CellBox box = map.grid.bounds();
+  tell_people(fmt::format("wrote {}: {} x {} cells of {:g} m, {:.1f} % known within its outermost walls; no robot came "
+                          "with them: `cairn "
+                          "plan` takes one of {:g} m radius unless it is told --radius-m",
+                          command.to.string(), box.width(), box.height(), map.grid.cell_m(),
+                          100.0 * known_ratio(map.grid), RobotModel{}.radius_m),
+              imported.warnings, common);
+  if (common.json)
+    tell_json({{"map", command.to.string()},
+               {"size_cells", {box.width(), box.height()}},
+               {"cell_m", map.grid.cell_m()},
+               {"landmarks", 0},
+               {"routes", 0},
+               {"warnings", imported.warnings}});
+  return kExitDone;
+}
+
+}  // namespace
+
+int map_import(const ExchangeCommand& command, const CommonOptions& common) {
+  const std::string extension = command.from.extension().string();
+  const std::optional<GraphFormat> format = graph_format_of(command.from);
+  if (!format && std::ranges::find(kGridExtensions, extension) == kGridExtensions.end()) {
+    std::vector<std::string> known = graph_extensions();
+    known.insert(known.end(), kGridExtensions.begin(), kGridExtensions.end());
+    fail_extension(command.from, "imported", known);
+  }
+  if (command.cell_m && extension != kMovingAi)
+    throw std::runtime_error("map import: --cell-m is for Moving AI grids (*.map); " + command.from.string() +
+                             " says itself how large it is");
+  if (format) return import_graph(command, read_graph_file(command.from, *format), common);
+  if (extension != kMovingAi) {
+    const ConfigValue root = parse_config_text(exchange::text_of_file(command.from), command.from.string());
+    if (is_rmf(root)) return import_graph(command, rmf_graph_of(root), common);
+  }
+  return import_grid(command, common);
+}
+
+}  // namespace cairn

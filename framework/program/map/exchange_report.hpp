@@ -1,0 +1,22 @@
+// How the commands that read and write files of other tools tell what they have done.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "framework/program/common/commands.hpp"
+
+namespace cairn {
+
+// "FILE: cannot be VERB: unknown extension ..." with the nearest known one. Throws std::runtime_error.
+[[noreturn]] void fail_extension(const std::filesystem::path& file, const char* verb,
+                                 const std::vector<std::string>& known);
+// Warnings with the file that they are about in front.
+[[nodiscard]] std::vector<std::string> about(const std::filesystem::path& file, std::vector<std::string> warnings);
+// The line and the warnings; with --json on standard error, where warnings go anyway.
+void tell_people(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common);
+void tell_json(const nlohmann::ordered_json& json);
+
+}  // namespace cairn

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "framework/program/common/commands.hpp"
+#include "framework/program/run/pictures.hpp"
+#include "maps/hierarchy/cluster_levels.hpp"
+#include "maps/store/repair.hpp"
+
+namespace cairn {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kShown = 50;
+
+ordered_json levels_json(const SavedMap& map) {
+  ordered_json levels = ordered_json::array();
+  for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
+    levels.push_back({{"clusters", clusters}, {"boundary", boundary}});
+  return levels;
+}
+
+// The first of them, and how many more there are.
+template <class Things, class Text>
+void list_first(const Things& things, const char* what, Text text_of) {
+  std::size_t shown = 0;
+  for (const auto& [id, thing] : things) {
+    if (shown++ == kShown) break;
+    std::cout << text_of(thing);
+  }
+  if (things.size() > kShown) std::cout << fmt::format("  ... and {} more {}\n", things.size() - kShown, what);
+}
+
+ordered_json json_of(const std::optional<MissionProgress>& progress) {
+  if (!progress) return nullptr;
+  return {{"time_s", progress->time_s}, {"step", progress->step + 1}, {"step_name", progress->step_name}};
+}
+
+ordered_json json_of(const SavedMap& map, int schema) {
+  const CellBox bounds = map.grid.bounds();
+  const double cell_m = map.grid.cell_m();
+  const Point corner = map.grid.origin_m() + cell_m * Point(bounds.min.x, bounds.min.y);
+  return {{"schema", schema},
+          {"cell_m", cell_m},
+          {"size_cells", {bounds.width(), bounds.height()}},
+          {"origin_m", {corner.x(), corner.y()}},
+          {"landmarks", map.graph.landmarks().size()},
+          {"routes", map.graph.routes().size()},
+          {"levels", levels_json(map)},
+          {"explored_ratio", known_ratio(map.grid)},
+          {"progress", json_of(map.progress)}};
+}
+
+std::string text_of_grid(const OccupancyGrid& grid) {
+  const CellBox bounds = grid.bounds();
+  if (bounds.empty()) return "no grid";
+  return fmt::format("{:.2f} x {:.2f} m in cells of {:g} m, {:.1f} % known within its outermost walls",
+                     bounds.width() * grid.cell_m(), bounds.height() * grid.cell_m(), grid.cell_m(),
+                     100.0 * known_ratio(grid));
+}
+
+}  // namespace
+
+int map_info(const MapCommand& command, const CommonOptions& common) {
+  const SavedMap map = load_map(command.map);
+  const int schema = schema_version_of(command.map);
+  if (common.json) {
+    std::cout << json_of(map, schema).dump() << "\n";
+    return kExitDone;
+  }
+  std::cout << fmt::format("{}: schema {}, {}\n", command.map.string(), schema, text_of_grid(map.grid));
+  for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
+  if (map.progress)
+    std::cout << fmt::format("  saved {:.1f} s after the mission began, {}\n", map.progress->time_s,
+                             map.progress->step_name.empty()
+                                 ? "all steps done"
+                                 : fmt::format("at step {}: {}", map.progress->step + 1, map.progress->step_name));
+  std::cout << fmt::format("  {} landmarks, {} routes\n", map.graph.landmarks().size(), map.graph.routes().size());
+  int level = 0;
+  for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
+    std::cout << fmt::format("  level {}: {} clusters, {} landmarks on their boundaries\n", ++level, clusters,
+                             boundary);
+  list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
+    return fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),
+                       landmark.category, landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
+                       degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
+  });
+  list_first(map.graph.routes(), "routes", [](const Route& route) {
+    return fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", route.id, route.from, route.to, route.cost_m,
+                       route.driven ? "driven" : "planned", route.closed ? ", closed" : "");
+  });
+  return kExitDone;
+}
+
+int map_render(const MapCommand& command, const CommonOptions& common) {
+  draw_saved_map(command.picture, load_map(command.map), command.map.filename().string());
+  if (common.json)
+    std::cout << ordered_json{{"picture", command.picture.string()}}.dump() << "\n";
+  else
+    std::cout << "wrote " << command.picture.string() << "\n";
+  return kExitDone;
+}
+
+}  // namespace cairn

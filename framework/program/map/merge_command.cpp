@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/program/common/commands.hpp"
+#include "framework/program/map/exchange_report.hpp"
+#include "framework/program/map/number_list.hpp"
+#include "maps/base/source_text.hpp"
+#include "maps/edit/merge.hpp"
+
+namespace cairn {
+
+int map_merge(const MergeCommand& command, const CommonOptions& common) {
+  const std::vector<double> transform =
+      number_list(command.transform, "x,y,deg", "map merge: --transform", kMostCoordinate);
+  std::error_code error;
+  if (std::filesystem::equivalent(command.a, command.b, error))
+    throw std::runtime_error("map merge: " + command.a.string() + " and " + command.b.string() +
+                             " are the same file, whose evidence would count twice");
+  const SavedMap a = load_map(command.a);
+  const SavedMap b = load_map(command.b);
+  MergedMap merged;
+  try {
+    merged = merge_maps(a, b, {{transform[0], transform[1], wrap_angle(radians(transform[2]))}, command.near_m});
+  } catch (const std::logic_error& refused) {  // cells of different size, or far too many
+    throw std::runtime_error("map merge: " + command.a.string() + " and " + command.b.string() + ": " + refused.what());
+  }
+  std::string& history = merged.map.properties["merged_from"];
+  history += (history.empty() ? "" : "; ") + command.b.filename().string() + " at " + command.transform;
+  save_map(command.out, merged.map);
+  const std::size_t landmarks = merged.map.graph.landmarks().size();
+  const std::size_t routes = merged.map.graph.routes().size();
+  const CellBox box = merged.map.grid.bounds();
+  tell_people(fmt::format("wrote {}: {} x {} cells, {}, {}; {} and {} of the second map are also in the first",
+                          command.out.string(), box.width(), box.height(), exchange::counted(landmarks, "landmark"),
+                          exchange::counted(routes, "route"), exchange::counted(merged.joined_landmarks, "landmark"),
+                          exchange::counted(merged.joined_routes, "route")),
+              merged.warnings, common);
+  if (common.json)
+    tell_json({{"map", command.out.string()},
+               {"size_cells", {box.width(), box.height()}},
+               {"landmarks", landmarks},
+               {"routes", routes},
+               {"joined_landmarks", merged.joined_landmarks},
+               {"joined_routes", merged.joined_routes},
+               {"warnings", merged.warnings}});
+  return kExitDone;
+}
+
+}  // namespace cairn

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "framework/planning/place.hpp"
+#include "framework/program/common/commands.hpp"
+#include "maps/base/source_text.hpp"
+#include "maps/base/spelling.hpp"
+#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kLongestName = 200;
+
+// Something of a map that can be named.
+struct Named {
+  std::string id;  // "L17", "C1:L17": what finds it whatever its name
+  std::string* name = nullptr;
+};
+
+Named find_named(SavedMap& map, const std::string& what) {
+  if (const Landmark* landmark = map.graph.find_by_name(what))
+    return {"L" + std::to_string(landmark->id), &map.graph.find(landmark->id)->name};
+  if (const Cluster* cluster = find_cluster(map.clusters, map.graph, what))
+    return {"C" + std::to_string(cluster->level) + ":L" + std::to_string(cluster->anchor),
+            &map.clusters.clusters.at(cluster->id).name};
+  std::vector<std::string> known;
+  for (const auto& [id, landmark] : map.graph.landmarks()) known.push_back(label_of(landmark));
+  for (const auto& [id, cluster] : map.clusters.clusters) known.push_back(label_of(cluster, map.graph));
+  throw std::runtime_error("there is no landmark and no cluster " + shown(what) + did_you_mean(what, known) +
+                           ": give a landmark's id or name (L17), or a cluster's (C1:L17)");
+}
+
+// A name must find what it names: wherever a place is asked for, nothing else may be meant by it.
+void check_name(const SavedMap& map, const Named& named, const std::string& name) {
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error("the name " + shown(name) + " cannot be given: " + why);
+  };
+  if (name.size() > kLongestName) fail("it is longer than " + std::to_string(kLongestName) + " bytes");
+  if (exchange::first_not_utf8(name) != std::string::npos) fail("it is not UTF-8 text");
+  if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }))
+    fail("it holds a control character");
+  if (name.front() == ' ' || name.back() == ' ') fail("it begins or ends with a blank");
+  if (looks_like_id(name)) fail("it looks like an id");
+  if (reads_as_place(name)) fail("it reads as a place: x,y or nearest CATEGORY");
+  for (const auto& [id, landmark] : map.graph.landmarks())
+    if (&landmark.name != named.name && landmark.name == name) fail("landmark L" + std::to_string(id) + " has it");
+  for (const auto& [id, cluster] : map.clusters.clusters)
+    if (&cluster.name != named.name && cluster.name == name)
+      fail("cluster C" + std::to_string(cluster.level) + ":L" + std::to_string(cluster.anchor) + " has it");
+}
+
+}  // namespace
+
+int map_name(const NameCommand& command, const CommonOptions& common) {
+  SavedMap map = load_map(command.map);
+  const Named named = find_named(map, command.what);
+  if (!command.name.empty()) check_name(map, named, command.name);
+  *named.name = command.name;
+  save_map(command.map, map);
+  if (common.json)
+    std::cout << nlohmann::ordered_json{{"map", command.map.string()}, {"id", named.id}, {"name", command.name}}.dump()
+              << "\n";
+  else if (command.name.empty())
+    std::cout << named.id << " has no name any more\n";
+  else
+    std::cout << named.id << " is " << command.name << "\n";
+  return kExitDone;
+}
+
+}  // namespace cairn

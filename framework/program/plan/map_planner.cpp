@@ -1,0 +1,171 @@
+#include "framework/program/plan/map_planner.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "framework/files/robot_file.hpp"
+#include "framework/modules/fence.hpp"
+#include "framework/planning/place.hpp"
+#include "framework/planning/tour.hpp"
+#include "framework/program/plan/map_part.hpp"
+#include "framework/program/plan/saved_radius.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::uint64_t kLoadedGrid = 1;  // its planner sees this grid as it was loaded, and parts of it as the next
+constexpr std::int64_t kLarge_cells = 1'000'000;  // smaller grids are not worth taking apart
+constexpr double kLikelyDetour_ratio = 1.4;       // of a way against the straight one, for the first part tried
+constexpr double kAround_m = 5.0;                 // of a part, beyond what ways may pass: what stands there counts too
+constexpr int kParts = 3;                         // that are tried
+
+bool is_large(const CellBox& cells) {
+  return std::int64_t{cells.width()} * cells.height() >= kLarge_cells;
+}
+
+// For one question, which a part of the grid may answer.
+std::optional<MapFile> opened_in_part(const PlanCommand& command) {
+  if (!command.queries.empty() || !command.picture.empty()) return std::nullopt;
+  std::optional<MapFile> file(command.map);
+  return is_large(file->lattice().bounds()) ? std::move(file) : std::nullopt;
+}
+
+RouteCostRules rules_of(const RobotModel& robot, const SavedMap& map) {
+  return {robot.max_v_mps, robot.max_w_radps, robot.radius_m, &map.grid};
+}
+
+PluginChoice choice_of(const PlanCommand& command) {
+  PluginChoice choice{command.planner, {}};
+  choice.config.kind = ConfigValue::Kind::map;
+  choice.config.place.file = "--planner";
+  for (const std::string& assignment : command.settings) apply_override(choice.config, assignment);
+  return choice;
+}
+
+PlanResult unknown_place(const PlaceError& error) {
+  PlanResult unknown;
+  unknown.outcome = PlanOutcome::unknown_place;
+  unknown.reason = error.what();
+  return unknown;
+}
+
+}  // namespace
+
+RobotModel robot_of(const PlanCommand& command, const SavedMap& map) {
+  RobotModel robot;
+  if (!command.robot.empty())
+    robot = load_robot(command.robot);
+  else if (!command.radius_m)
+    robot.radius_m = saved_radius_m(map, command.map);
+  if (command.radius_m) {
+    robot.radius_m = *command.radius_m;
+    robot.polygon_m.clear();
+  }
+  return robot;
+}
+
+MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
+    : command_(command),
+      many_(!command.queries.empty()),
+      library_(plugin_folders(common.plugin_folders)),
+      file_(opened_in_part(command)),
+      map_(file_ ? file_->without_cells() : load_map(command.map)),
+      robot_(robot_of(command, map_)),
+      hierarchies_(map_.graph, map_.clusters, rules_of(robot_, map_)) {
+  const PluginChoice choice = choice_of(command);
+  ModuleContext context{robot_};
+  context.seed = static_cast<std::uint64_t>(command.seed);
+  context.modules = &library_;
+  if (many_) static_cast<void>(hierarchies_.by(CostKind::length));  // not in the time of the first answer
+  planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
+  if (many_) prepare(map_.grid, kLoadedGrid);  // neither is what the planner makes of the grid
+}
+
+void MapPlanner::prepare(const OccupancyGrid& grid, std::uint64_t version) const {
+  const WorldView world{grid, map_.graph, robot_, {}, 0.0, nullptr, 0.0, nullptr, version};
+  fenced("planner", command_.planner, [&] {
+    planner_->prepare(world, robot_.radius_m);
+    return 0;
+  });
+}
+
+PlanResult MapPlanner::plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
+                               const Budget& budget) const {
+  // One answer is not worth making the hierarchy for.
+  const bool on_hierarchy = many_ || request.explain;
+  const WorldView world{grid,   map_.graph, robot_, {}, 0.0, nullptr, 0.0, on_hierarchy ? &hierarchies_ : nullptr,
+                        version};
+  return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
+}
+
+// What is made of the map meanwhile does not count, what was tried before does.
+Budget MapPlanner::budget_after(Budget::Clock::duration spent) const {
+  Budget budget;
+  if (command_.budget_ms)
+    budget.deadline = Budget::Clock::now() + std::chrono::microseconds(std::llround(*command_.budget_ms * 1e3)) - spent;
+  return budget;
+}
+
+std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request, Budget::Clock::duration& spent) const {
+  const CellBox whole = map_.grid.bounds();
+  const auto ends = ends_of(request, map_.graph);
+  const bool counts_lengths = command_.settings.empty() && request.cost == CostKind::length;
+  const bool asks_more = request.alternatives > 0 || request.explain || !request.avoid.empty();
+  if (!file_ || !ends || !counts_lengths || asks_more || robot_.radius_m > kAround_m / 2 ||
+      !costs_are_lengths(map_.graph))
+    return std::nullopt;
+  double length_m = kLikelyDetour_ratio * (ends->to - ends->from).norm() + kAround_m;
+  for (std::uint64_t version = kLoadedGrid + 1; version <= kLoadedGrid + kParts; ++version) {
+    const CellBox box = part_for(*ends, length_m, kAround_m, map_.grid, whole);
+    if (box == whole) return std::nullopt;
+    const OccupancyGrid part = file_->grid_within(box);
+    if (request.from.pose || request.to.pose) prepare(part, version);  // over landmarks, most of it is not needed
+    const Budget::Clock::time_point begin = Budget::Clock::now();
+    PlanResult result = plan_on(part, version, request, budget_after(spent));
+    spent += Budget::Clock::now() - begin;
+    // Nor is it known on the part what stands further from the way than its rim.
+    const bool is_clear_of_all = result.clearance_m + robot_.radius_m >= kAround_m / 2;
+    if (result.outcome != PlanOutcome::solved || is_clear_of_all) return std::nullopt;
+    length_m = std::max(result.cost_m, result.length_m);
+    if (length_m <= least_outside_m({result.path.front().position(), result.path.back().position()}, box, kAround_m / 2,
+                                    map_.grid, whole))
+      return result;
+  }
+  return std::nullopt;
+}
+
+PlanResult MapPlanner::answer(const PlanQuery& query) const {
+  PlanTask task;
+  try {
+    task = task_of(query.question, map_.graph, query.question.avoid.empty() ? ClusterTree{} : clusters());
+  } catch (const MalformedPlace& error) {
+    if (!many_) throw;
+    return unknown_place(error);
+  } catch (const PlaceError& error) {
+    return unknown_place(error);
+  }
+  task.request.radius_m = robot_.radius_m;
+  task.request.seed = static_cast<std::uint64_t>(command_.seed);
+  Budget::Clock::duration spent{0};
+  if (!many_ && task.via.empty())
+    if (auto result = plan_on_part(task.request, spent)) return *std::move(result);
+  const OccupancyGrid& grid = whole_grid();
+  if (!many_) prepare(grid, kLoadedGrid);
+  const Budget budget = budget_after(spent);
+  return plan_tour([&](const PlanRequest& request) { return plan_on(grid, kLoadedGrid, request, budget); },
+                   task.request, task.via);
+}
+
+const OccupancyGrid& MapPlanner::whole_grid() const {
+  std::call_once(grid_read_, [&] {
+    if (file_) map_.grid = file_->grid_within(map_.grid.bounds());
+  });
+  return map_.grid;
+}
+
+const ClusterTree& MapPlanner::clusters() const {
+  std::call_once(clusters_made_, [&] { clusters_ = hierarchies_.tree(); });
+  return clusters_;
+}
+
+}  // namespace cairn

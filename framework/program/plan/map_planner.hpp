@@ -1,0 +1,62 @@
+// A saved map with everything that one planner needs to answer questions about it.
+//
+// One question alone is answered on the part of the grid that it needs, where that gives an answer that is as good as
+// one on the whole map (map_part.hpp).
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "framework/contracts/planner.hpp"
+#include "framework/modules/module_library.hpp"
+#include "framework/program/plan/plan_query.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+
+// The robot that the command and the map say: of the robot file, or of the saved radius; --radius-m makes a disc of
+// that radius of it. Throws ConfigError, StoreError.
+[[nodiscard]] RobotModel robot_of(const PlanCommand& command, const SavedMap& map);
+
+class MapPlanner {
+ public:
+  // The command must outlive it. Throws what loading the map and the modules throws.
+  MapPlanner(const PlanCommand& command, const CommonOptions& common);
+
+  // A text that names nothing on any map ends a single question with a MalformedPlace; among many it is answered, like
+  // a name that this map does not know, with `unknown_place`. Thread-safe among many
+  // questions; a single one is asked from one thread.
+  [[nodiscard]] PlanResult answer(const PlanQuery& query) const;
+  // As the hierarchy has them.
+  [[nodiscard]] const ClusterTree& clusters() const;
+  // Its grid may not be read yet where one question has not needed it.
+  [[nodiscard]] const SavedMap& map() const { return map_; }
+  [[nodiscard]] const OccupancyGrid& whole_grid() const;
+  [[nodiscard]] double radius_m() const { return robot_.radius_m; }
+  [[nodiscard]] const RobotModel& robot() const { return robot_; }
+
+ private:
+  void prepare(const OccupancyGrid& grid, std::uint64_t version) const;
+  [[nodiscard]] PlanResult plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
+                                   const Budget& budget) const;
+  // None: no answer that is surely as good as one on the whole map.
+  [[nodiscard]] std::optional<PlanResult> plan_on_part(const PlanRequest& request,
+                                                       Budget::Clock::duration& spent) const;
+  [[nodiscard]] Budget budget_after(Budget::Clock::duration spent) const;
+
+  const PlanCommand& command_;
+  bool many_ = false;
+  ModuleLibrary library_;
+  std::optional<MapFile> file_;  // of a large map for one question: its grid is read as far as it is needed
+  mutable std::once_flag grid_read_;
+  mutable SavedMap map_;
+  RobotModel robot_;
+  Hierarchies hierarchies_;
+  mutable std::once_flag clusters_made_;
+  mutable ClusterTree clusters_;
+  std::shared_ptr<Planner> planner_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,29 @@
+// What `cairn plan` is asked, by options or by a line of a query file, and how it is answered for people.
+#pragma once
+
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "framework/contracts/planner.hpp"
+#include "framework/planning/plan_task.hpp"
+#include "framework/program/common/commands.hpp"
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+
+struct PlanQuery {
+  nlohmann::json id = "";  // as it came: text or number
+  PlanQuestion question;
+};
+
+// One line {"id", "from", "to"} with, optionally, "via", "avoid", "closed", "alternatives", "cost", "explain",
+// "trajectory"; what it leaves out is as in `defaults`. Throws ConfigError with file:line:column.
+[[nodiscard]] PlanQuery query_of_line(const std::string& line, const std::string& file, int number,
+                                      const PlanQuestion& defaults);
+
+void tell_people(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
+                 const ClusterTree& clusters);
+
+}  // namespace cairn

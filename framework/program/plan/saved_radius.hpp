@@ -1,0 +1,14 @@
+// The robot that a saved map was made with, as far as routes need it.
+#pragma once
+
+#include <filesystem>
+
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+
+// The saved property robot_radius_m, or the radius of the robot model when there is none. file: for the error.
+// Throws StoreError when it is no radius.
+[[nodiscard]] double saved_radius_m(const SavedMap& map, const std::filesystem::path& file);
+
+}  // namespace cairn

@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "framework/mission/resume.hpp"
+#include "framework/mission/runner.hpp"
+#include "framework/modules/fence.hpp"
+#include "framework/program/common/commands.hpp"
+#include "framework/program/common/interrupt.hpp"
+#include "framework/program/common/output_files.hpp"
+#include "framework/program/mission/control_server.hpp"
+#include "framework/program/run/pictures.hpp"
+#include "framework/program/run/progress_line.hpp"
+#include "framework/reporting/recording.hpp"
+#include "framework/reporting/report.hpp"
+
+namespace cairn {
+namespace {
+
+void finish(RunRecording& recording) {
+  try {
+    recording.close();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+  }
+}
+
+void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGraph& graph) {
+  if (graph.landmarks().empty()) return;
+  out << "\n  landmark  category        x m     y m   angle deg  degree" << (mission.world ? "   error m" : "") << "\n";
+  const TruthScore truth = mission.world ? score_against(*mission.world, graph, 0.5) : TruthScore{};
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    out << fmt::format("  {:<9} {:<12} {:7.2f} {:7.2f} {:11.0f} {:7.2f}", label_of(landmark), landmark.category,
+                       landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
+                       degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
+    for (const LandmarkTruth& matched : truth.matched)
+      if (matched.landmark == id) out << fmt::format(" {:9.3f}", matched.error_m);
+    out << "\n";
+  }
+}
+
+void print_times(std::ostream& out, const std::vector<StageTime>& times) {
+  out << "\n  stage       module                  calls  median us     p99 us   worst us\n";
+  for (const StageTime& t : times)
+    out << fmt::format("  {:<11} {:<20} {:>8} {:>10.2f} {:>10.2f} {:>10.2f}\n", t.stage, t.module, t.count, t.median_us,
+                       t.p99_us, t.worst_us);
+}
+
+void print_summary(std::ostream& out, const Mission& mission, const MissionResult& result, const MissionRunner& runner,
+                   const RunReport& report, const RunPictures& pictures, const std::filesystem::path& folder,
+                   double wall_s) {
+  print_landmarks(out, mission, runner.graph());
+  out << fmt::format("\n  outcome     {}{}\n", name_of(result.outcome),
+                     result.reason.empty() ? "" : ": " + result.reason);
+  out << fmt::format("  driven      {:.1f} m in {:.0f} s, {} collisions\n", result.distance_m, result.time_s,
+                     result.collisions);
+  if (const auto error = report.pose_errors().figures())
+    out << fmt::format("  pose error  median {:.3f} m, 95 % {:.3f} m, worst {:.3f} m; {} corrections, {} refused\n",
+                       error->median_m, error->p95_m, error->worst_m, error->corrections, error->refused);
+  out << fmt::format("  readings    {}, matchings {}, landmarks {}, routes {}\n", result.readings, result.matchings,
+                     runner.graph().landmarks().size(), runner.graph().routes().size());
+  out << fmt::format("  took        {:.1f} s, {:.0f} times faster than real time\n", wall_s,
+                     result.time_s / std::max(wall_s, 1e-9));
+  if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
+  if (!result.map_file.empty()) out << "  map         " << (folder / result.map_file).string() << "\n";
+  if (std::filesystem::exists(folder / "report.json"))
+    out << "  report      " << (folder / "report.json").string() << "\n";
+  for (const std::string& picture : pictures.files) out << "  picture     " << (folder / picture).string() << "\n";
+  for (const std::string& sentence : pictures.missing) out << "  no picture  " << sentence << "\n";
+}
+
+// The map to go on from, and its seed when the command line names none.
+std::optional<SavedMap> map_to_resume(const RunCommand& command, std::optional<std::int64_t>& seed) {
+  if (command.resume.empty()) return std::nullopt;
+  SavedMap map = load_map(command.resume);
+  try {
+    if (!seed) seed = seed_of(map);
+  } catch (const StoreError& error) {
+    throw StoreError(command.resume.string() + ": " + error.what());
+  }
+  return map;
+}
+
+MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
+                        const RunCommand& command) {
+  try {
+    if (options.resume != nullptr && !command.other_world) check_same_world(*options.resume, mission);
+    return MissionRunner(mission, library, options);
+  } catch (const StoreError& error) {
+    throw StoreError(command.resume.string() + ": " + error.what());
+  }
+}
+
+// An autosave that this run does not go on from is all that is left of a run that was cut short.
+void keep_earlier_run(const RunCommand& command, const MissionConfig& config, std::ostream& people) {
+  const std::filesystem::path file = command.out / autosave_file_of(config);
+  std::error_code error;
+  if (config.autosave.every_s <= 0.0 || std::filesystem::equivalent(file, command.resume, error)) return;
+  if (const auto kept = keep_earlier_autosave(file))
+    people << "an earlier run here did not end: its map is kept as " << kept->string()
+           << " (--resume goes on from it)\n";
+}
+
+// Without it the mission runs all the same, and signals still reach it.
+std::unique_ptr<ControlServer> control_server(const std::filesystem::path& folder, RunControl& control) {
+  try {
+    return std::make_unique<ControlServer>(folder, control);
+  } catch (const std::exception& error) {
+    std::cerr << "`cairn mission` cannot reach this run: " << error.what() << "\n";
+    return nullptr;
+  }
+}
+
+// What cannot be written is told, and the rest of the run's outcome is not lost for it.
+bool try_to_write(const std::filesystem::path& file, const std::string& text) {
+  try {
+    write_file(file, text);
+    return true;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return false;
+  }
+}
+
+}  // namespace
+
+int run(const RunCommand& command, const CommonOptions& common) {
+  const auto begin = std::chrono::steady_clock::now();
+  ControlFlags& flags = flags_of_signals();
+  std::optional<std::int64_t> seed = command.seed;
+  const std::optional<SavedMap> resume = map_to_resume(command, seed);
+  const Mission mission = load_mission(command.mission, command.overrides, seed);
+  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
+  make_folder(command.out);
+  hold_folder(command.out);
+  std::ostream& people = common.json ? std::cerr : std::cout;
+  const bool live = isatty(common.json ? STDERR_FILENO : STDOUT_FILENO) != 0;
+  people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
+  RunControl control(flags, mission.config.mission);
+  std::unique_ptr<ControlServer> server = control_server(command.out, control);
+  RunOptions options{command.out, command.realtime, &flags.cancel, true, resume ? &*resume : nullptr, &control};
+  MissionRunner runner = runner_of(mission, library, options, command);
+  keep_earlier_run(command, mission.config, people);
+  RunReport report;
+  MissionResult result;
+  std::optional<RunRecording> recording;
+  if (!mission.config.record.empty()) recording.emplace(command.out / mission.config.record, runner.T_map_start());
+  {
+    ProgressLine progress(people, live, [&] { return runner.status(); });
+    runner.subscribe(report);
+    if (recording) runner.subscribe(*recording);
+    runner.subscribe(progress);
+    result = runner.run();
+  }
+  for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
+  if (recording) finish(*recording);
+  const RunPictures pictures = draw_run(command.out, mission, runner, result, report);
+  try_to_write(command.out / "timing.json", timing_json(runner.times()) + "\n");
+  const bool reported =
+      try_to_write(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  print_times(people, runner.times());
+  print_summary(people, mission, result, runner, report, pictures, command.out, wall_s);
+  if (common.json)
+    std::cout << report.summary_json(mission, result, runner, command.out, pictures.files, wall_s) << "\n";
+  if (runner.gave_up()) {
+    // The lost call still runs: nothing that it may use can be torn down.
+    server.reset();
+    std::cout.flush();
+    std::cerr.flush();
+    std::_Exit(kExitNotSolved);
+  }
+  return result.outcome == MissionOutcome::done && reported ? kExitDone : kExitNotSolved;
+}
+
+}  // namespace cairn

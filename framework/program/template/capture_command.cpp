@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "framework/files/template_file.hpp"
+#include "framework/planning/place.hpp"
+#include "framework/program/common/commands.hpp"
+#include "maps/landmarks/captured_outline.hpp"
+#include "maps/store/map_store.hpp"
+
+namespace cairn {
+namespace {
+
+Point place_in(const SavedMap& map, const std::string& text) {
+  const Place place = parse_place(text, map.graph);
+  if (place.pose) return place.pose->position();
+  if (place.landmarks.size() != 1)
+    throw std::runtime_error("template capture: --at \"" + text + "\" is " + std::to_string(place.landmarks.size()) +
+                             " landmarks; name one, such as L" + std::to_string(place.landmarks.front()));
+  return map.graph.find(place.landmarks.front())->T_map_landmark.position();
+}
+
+// Leaves no file behind that would not load.
+LandmarkShape write_template(const std::filesystem::path& file, const std::string& text) {
+  if (std::filesystem::exists(file)) throw std::runtime_error(file.string() + ": there is such a file already");
+  std::ofstream out(file);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  try {
+    return load_landmark_shape(file);
+  } catch (...) {
+    std::filesystem::remove(file);
+    throw;
+  }
+}
+
+}  // namespace
+
+int template_capture(const CaptureCommand& command, const CommonOptions& common) {
+  const SavedMap map = load_map(command.map);
+  CapturedOutline captured;
+  try {
+    captured = captured_outline(map.grid, place_in(map, command.at), command.radius_m);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(command.map.string() + ": " + error.what());
+  }
+  const LandmarkShape shape =
+      write_template(command.out, template_text(command.category, captured, command.map.filename().string()));
+  const double diameter_m = shape.contour.outer_diameter_m();
+  if (common.json)
+    std::cout << nlohmann::ordered_json{{"file", command.out.string()}, {"category", shape.category},
+                                        {"x_m", captured.at_m.x()},     {"y_m", captured.at_m.y()},
+                                        {"diameter_m", diameter_m},     {"parts", shape.contour.polygons_m.size()}}
+                     .dump()
+              << "\n";
+  else
+    std::cout << fmt::format(
+        "wrote {}: {}, {:.2f} m across, {} part{}\n"
+        "It is what lies within {:g} m, as large as the sensors saw it: correct it by hand where you know better{}.\n",
+        command.out.string(), shape.category, diameter_m, shape.contour.polygons_m.size(),
+        shape.contour.polygons_m.size() == 1 ? "" : "s", command.radius_m,
+        shape.contour.polygons_m.size() == 1 ? "" : ", or take fewer things with a smaller --radius-m");
+  return kExitDone;
+}
+
+}  // namespace cairn

@@ -1,0 +1,37 @@
+// The observations of a run as a CARMEN log that gives them back to the last bit (docs/logs.md).
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "framework/mission/events.hpp"
+
+namespace cairn {
+
+class RunRecording : public Listener {
+ public:
+  // Throws std::runtime_error when the file cannot be written.
+  RunRecording(const std::filesystem::path& file, const Pose2& T_map_start);
+
+  // Writes one observation a tick. Throws std::runtime_error when the disk takes no more.
+  void on(const Event& event, const MissionView& view) override;
+  // The last bytes go to the disk. Throws like on().
+  void close();
+
+ private:
+  void write(const Observation& observation);
+  void write_new_sensors(const Observation& observation, std::string_view end);
+  void write_sonars(const Observation& observation, std::string_view end);
+  void flush_text();
+
+  std::string file_name_;
+  std::ofstream out_;
+  std::string text_;
+  std::unordered_map<std::string, int> numbers_;  // of transducers, by their values as text
+  std::vector<int> fired_;                        // in this observation, by number
+};
+
+}  // namespace cairn

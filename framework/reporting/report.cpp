@@ -1,0 +1,325 @@
+#include "framework/reporting/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace cairn {
+namespace {
+
+using nlohmann::ordered_json;
+
+// A sentence may quote a file that is no text.
+constexpr auto kBadText = ordered_json::error_handler_t::replace;
+
+// Figures are for people and scripts: micrometres and micro-degrees are enough.
+double rounded(double value) {
+  return std::round(value * 1e6) / 1e6;
+}
+
+ordered_json json_of(const Landmark& landmark) {
+  ordered_json templates = ordered_json::array();
+  for (const TemplateDegree& t : landmark.templates)
+    templates.push_back(
+        {{"category", t.category}, {"angle_deg", rounded(degrees(t.orientation_rad))}, {"degree", rounded(t.degree)}});
+  ordered_json evidence = ordered_json::object();
+  for (const CategoryEvidence& e : landmark.evidence)
+    evidence[e.category] = {{"matchings", e.matchings},
+                            {"mean_degree", rounded(e.mean_degree)},
+                            {"best_degree", rounded(e.best_degree)},
+                            {"last_degree", rounded(e.last_degree)}};
+  return {{"id", "L" + std::to_string(landmark.id)},
+          {"category", landmark.category},
+          {"x_m", rounded(landmark.T_map_landmark.x_m)},
+          {"y_m", rounded(landmark.T_map_landmark.y_m)},
+          {"angle_deg", rounded(degrees(landmark.T_map_landmark.theta_rad))},
+          {"degree", rounded(landmark.degree)},
+          {"sightings", landmark.sightings},
+          {"templates", templates},
+          {"evidence", evidence}};
+}
+
+ordered_json json_of(const LandmarkGraph& graph) {
+  ordered_json landmarks = ordered_json::array();
+  for (const auto& [id, landmark] : graph.landmarks()) landmarks.push_back(json_of(landmark));
+  return landmarks;
+}
+
+ordered_json json_of(const std::vector<StepReport>& steps) {
+  ordered_json list = ordered_json::array();
+  for (const StepReport& step : steps)
+    list.push_back({{"step", step.name},
+                    {"outcome", step.status.progress == Progress::success ? "success" : "failure"},
+                    {"reason", step.status.reason},
+                    {"begin_s", rounded(step.begin_s)},
+                    {"end_s", rounded(step.end_s)}});
+  return list;
+}
+
+ordered_json json_of(const std::vector<NodeReport>& nodes) {
+  const auto outcome_of = [](const NodeReport& node) {
+    if (node.is_halted) return "halted";
+    return node.status.progress == Progress::success ? "success" : "failure";
+  };
+  ordered_json list = ordered_json::array();
+  for (const NodeReport& node : nodes)
+    list.push_back({{"path", node.path},
+                    {"kind", node.kind},
+                    {"name", node.name},
+                    {"outcome", outcome_of(node)},
+                    {"reason", node.status.reason},
+                    {"begin_s", rounded(node.begin_s)},
+                    {"end_s", rounded(node.end_s)},
+                    {"ticks", node.ticks},
+                    {"runs", node.runs}});
+  return list;
+}
+
+ordered_json json_of(const std::vector<NodeRun>& runs) {
+  ordered_json list = ordered_json::array();
+  for (const NodeRun& run : runs)
+    list.push_back({{"path", run.path},
+                    {"begin_s", rounded(run.begin_s)},
+                    {"end_s", rounded(run.end_s)},
+                    {"outcome", std::string(name_of(run.end))},
+                    {"runs", run.runs}});
+  return list;
+}
+
+void add_timeline(ordered_json& report, const RunTimeline& timeline) {
+  report["pauses"] = report["stops"] = ordered_json::array();
+  for (const PauseSpan& pause : timeline.pauses())
+    report["pauses"].push_back({{"time_s", rounded(pause.time_s)}, {"for_s", rounded(pause.for_s)}});
+  for (const RunSpan& stop : timeline.stops())
+    report["stops"].push_back({{"begin_s", rounded(stop.begin_s)}, {"end_s", rounded(stop.end_s)}});
+}
+
+ordered_json json_of(const std::vector<StageTime>& times) {
+  ordered_json list = ordered_json::array();
+  for (const StageTime& t : times)
+    list.push_back({{"stage", t.stage},
+                    {"module", t.module},
+                    {"count", t.count},
+                    {"median_us", rounded(t.median_us)},
+                    {"p99_us", rounded(t.p99_us)},
+                    {"worst_us", rounded(t.worst_us)},
+                    {"total_s", rounded(t.total_s)}});
+  return list;
+}
+
+ordered_json json_of(const AutosaveFigures& autosave) {
+  return {{"saved", autosave.saved},
+          {"failed", autosave.failed},
+          {"reason", autosave.failure},
+          {"in_loop_s", rounded(autosave.in_loop_s)},
+          {"writing_s", rounded(autosave.writing_s)}};
+}
+
+ordered_json json_of(const StopLayerFigures& figures) {
+  return {{"slowed_s", rounded(figures.slowed_s)},
+          {"stopped_s", rounded(figures.stopped_s)},
+          {"stale_s", rounded(figures.stale_s)}};
+}
+
+ordered_json json_of(const std::vector<TimedContact>& contacts) {
+  ordered_json list = ordered_json::array();
+  for (const TimedContact& touch : contacts)
+    list.push_back({{"time_s", rounded(touch.time_s)},
+                    {"speed_mps", rounded(touch.contact.speed_mps)},
+                    {"could_be_seen", touch.contact.could_be_seen}});
+  return list;
+}
+
+ordered_json main_figures(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+                          const std::vector<TimedContact>& contacts) {
+  return {{"mission", mission.config.mission},
+          {"seed", mission.config.seed},
+          {"outcome", std::string(name_of(result.outcome))},
+          {"reason", result.reason},
+          {"landmarks", json_of(graph)},
+          {"routes", graph.routes().size()},
+          {"matchings", result.matchings},
+          {"readings", result.readings},
+          {"collisions", result.collisions},
+          {"contacts", json_of(contacts)},
+          {"stop_layer", json_of(result.stop_layer)},
+          {"distance_m", rounded(result.distance_m)},
+          {"time_s", rounded(result.time_s)}};
+}
+
+ordered_json json_of(const PoseErrorFigures& error) {
+  return {{"median_m", rounded(error.median_m)},
+          {"p95_m", rounded(error.p95_m)},
+          {"worst_m", rounded(error.worst_m)},
+          {"last_m", rounded(error.last_m)},
+          {"median_deg", rounded(error.median_deg)},
+          {"worst_deg", rounded(error.worst_deg)},
+          {"sigmas_median", rounded(error.sigmas_median)},
+          {"corrections", error.corrections},
+          {"refused", error.refused}};
+}
+
+ordered_json json_of(const std::vector<PoseErrorSample>& samples) {
+  ordered_json rows = ordered_json::array();
+  for (const PoseErrorSample& sample : samples)
+    rows.push_back({{"time_s", rounded(sample.time_s)},
+                    {"error_m", rounded(sample.error_m)},
+                    {"error_deg", rounded(degrees(sample.error_rad))}});
+  return rows;
+}
+
+std::string at_time(double time_s, const std::string& sentence) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(2) << time_s << " s: " << sentence;
+  return out.str();
+}
+
+Pose2 true_pose(const WorldView& world) {
+  const bool is_known = world.observation != nullptr && world.observation->true_T_map_robot;
+  return is_known ? *world.observation->true_T_map_robot : world.pose.T_map_robot;
+}
+
+struct Sentence {
+  std::string operator()(const TickDone&) const { return {}; }
+  std::string operator()(const MatchingDone&) const { return {}; }
+  std::string operator()(const LandmarkChanged& e) const {
+    std::ostringstream out;
+    out << (e.is_new ? "found " : "improved ") << label_of(e.landmark) << ", " << e.landmark.category << " at ("
+        << std::fixed << std::setprecision(2) << e.landmark.T_map_landmark.x_m << ", " << e.landmark.T_map_landmark.y_m
+        << "), degree " << e.landmark.degree;
+    return out.str();
+  }
+  std::string operator()(const LandmarkRetired& e) const {
+    return "retired " + label_of(e.landmark) + ", " + e.landmark.category + ": " + e.reason;
+  }
+  std::string operator()(const PlanDone& e) const {
+    return "plan: " + std::string(name_of(e.result.outcome)) + (e.result.reason.empty() ? "" : ", " + e.result.reason);
+  }
+  static std::string ended(const Status& status) {
+    return std::string(" ends: ") + (status.progress == Progress::success ? "success" : "failure") +
+           (status.reason.empty() ? "" : ", " + status.reason);
+  }
+  std::string operator()(const StepStarted& e) const {
+    return "step " + std::to_string(e.index + 1) + " (" + e.name + ") begins";
+  }
+  std::string operator()(const StepEnded& e) const {
+    return "step " + std::to_string(e.index + 1) + " (" + e.name + ")" + ended(e.status);
+  }
+  std::string operator()(const NodeStarted& e) const { return "node " + e.path + " (" + e.name + ") begins"; }
+  std::string operator()(const NodeEnded& e) const {
+    return "node " + e.path + " (" + e.name + ")" + (e.is_halted ? " is halted: " + e.status.reason : ended(e.status));
+  }
+  std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
+  std::string operator()(const Autosaved&) const { return {}; }
+  std::string operator()(const AutosaveFailed& e) const {
+    return "autosaving failed, the mission goes on: " + e.reason;
+  }
+  std::string operator()(const Said& e) const { return e.sentence; }
+  std::string operator()(const Bumped&) const { return "bumped into something"; }
+  std::string operator()(const Paused&) const { return "paused"; }
+  std::string operator()(const WentOn&) const { return "goes on"; }
+};
+
+}  // namespace
+
+void RunReport::on(const Event& event, const MissionView& view) {
+  timeline_.on(event, view);
+  if (const auto* done = std::get_if<MatchingDone>(&event)) {
+    const Matching& matching = done->matching;
+    degrees_.push_back({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
+                        true_pose(view.world).position()});
+  }
+  if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world);
+  if (std::holds_alternative<Bumped>(event)) note_contact(view);
+  const std::string sentence = std::visit(Sentence{}, event);
+  if (!sentence.empty()) events_.push_back(at_time(view.world.time_s, sentence));
+}
+
+void RunReport::note_contact(const MissionView& view) {
+  if (view.world.observation != nullptr && view.world.observation->contact)
+    contacts_.push_back({view.world.time_s, *view.world.observation->contact});
+}
+
+std::string RunReport::report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+                                   const std::vector<std::string>& pictures) const {
+  ordered_json report = main_figures(mission, result, graph, contacts_);
+  report["retired"] = ordered_json::array();
+  for (const auto& [id, retired] : graph.retired()) {
+    ordered_json landmark = json_of(retired.landmark);
+    landmark["reason"] = retired.reason;
+    report["retired"].push_back(std::move(landmark));
+  }
+  report["explored_ratio"] = rounded(result.explored_ratio);
+  if (result.resumed_s) report["resumed_s"] = rounded(*result.resumed_s);
+  report["steps"] = json_of(result.steps);
+  report["nodes"] = json_of(result.nodes);
+  report["node_runs"] = json_of(result.node_runs.runs());
+  report["node_runs_left_out"] = result.node_runs.left_out();
+  add_timeline(report, timeline_);
+  report["map"] = result.map_file;
+  report["pictures"] = pictures;
+  if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
+  ordered_json degrees = ordered_json::array();
+  for (const DegreeSample& sample : degrees_) {
+    ordered_json row = {{"time_s", rounded(sample.time_s)}};
+    for (const CategoryDegree& d : sample.degrees) row[d.category] = rounded(d.degree);
+    degrees.push_back(std::move(row));
+  }
+  report["degrees"] = degrees;
+  report["pose_errors"] = json_of(pose_errors_.samples());
+  report["events"] = events_;
+  return report.dump(2, ' ', false, kBadText) + "\n";
+}
+
+std::string timing_json(const std::vector<StageTime>& times) {
+  return json_of(times).dump(2);
+}
+
+std::string RunReport::summary_json(const Mission& mission, const MissionResult& result, const MissionRunner& runner,
+                                    const std::filesystem::path& out, const std::vector<std::string>& pictures,
+                                    double wall_s) const {
+  ordered_json summary = main_figures(mission, result, runner.graph(), contacts_);
+  summary["explored_ratio"] = rounded(result.explored_ratio);
+  if (const auto error = pose_errors_.figures()) summary["pose_error"] = json_of(*error);
+  summary["wall_s"] = rounded(wall_s);
+  if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
+  summary["autosave"] = json_of(result.autosave);
+  summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();
+  const std::filesystem::path report = out / "report.json";
+  summary["report"] = std::filesystem::exists(report) ? report.string() : "";
+  ordered_json files = ordered_json::array();
+  for (const std::string& picture : pictures) files.push_back((out / picture).string());
+  summary["pictures"] = files;
+  summary["timing"] = json_of(runner.times());
+  return summary.dump(-1, ' ', false, kBadText);
+}
+
+TruthScore score_against(const World& world, const LandmarkGraph& graph, double tolerance_m) {
+  TruthScore score;
+  std::vector<bool> found(world.objects.size(), false);
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    std::size_t best = world.objects.size();
+    double best_error = tolerance_m;
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+      const WorldObject& object = world.objects[i];
+      if (found[i] || object.category.empty() || object.category != landmark.category) continue;
+      const double error = (object.T_map_object.position() - landmark.T_map_landmark.position()).norm();
+      if (error > best_error) continue;
+      best = i;
+      best_error = error;
+    }
+    if (best == world.objects.size()) {
+      ++score.false_landmarks;
+      continue;
+    }
+    found[best] = true;
+    score.matched.push_back({id, best_error});
+  }
+  for (std::size_t i = 0; i < world.objects.size(); ++i)
+    if (!world.objects[i].category.empty() && !found[i]) ++score.missed_objects;
+  return score;
+}
+
+}  // namespace cairn

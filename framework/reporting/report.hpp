@@ -1,0 +1,75 @@
+// The report of a run, gathered from the event stream and written as JSON.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/mission/events.hpp"
+#include "framework/mission/runner.hpp"
+#include "framework/reporting/pose_errors.hpp"
+#include "framework/reporting/timeline.hpp"
+
+namespace cairn {
+
+// Best degree a category at one matching, for charts and reports.
+struct DegreeSample {
+  double time_s = 0.0;
+  Point region_centre_m{0.0, 0.0};
+  std::vector<CategoryDegree> degrees;
+  std::vector<TemplateDegree> templates{};  // where the detector tells them
+  Point robot_m{0.0, 0.0};                  // in truth where that is known, otherwise as estimated
+};
+
+// A touch that the simulation judged.
+struct TimedContact {
+  double time_s = 0.0;
+  Contact contact;
+};
+
+class RunReport : public Listener {
+ public:
+  void on(const Event& event, const MissionView& view) override;
+
+  // The same bytes for the same build, mission and seed: no clock, no path of this machine.
+  [[nodiscard]] std::string report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
+                                        const std::vector<std::string>& pictures) const;
+  // One line for `--json`: the report's main figures, where its files are, and the wall clock (of the
+  // whole run, and a stage and module).
+  [[nodiscard]] std::string summary_json(const Mission& mission, const MissionResult& result,
+                                         const MissionRunner& runner, const std::filesystem::path& out,
+                                         const std::vector<std::string>& pictures, double wall_s) const;
+
+  [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
+  [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
+  [[nodiscard]] const PoseErrors& pose_errors() const { return pose_errors_; }
+  [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
+
+ private:
+  void note_contact(const MissionView& view);
+
+  std::vector<DegreeSample> degrees_;
+  std::vector<TimedContact> contacts_;
+  PoseErrors pose_errors_;
+  RunTimeline timeline_;
+  std::vector<std::string> events_;  // sentences with their time
+};
+
+// Wall-clock times of modules as JSON; not in the report, which is the same in every run.
+[[nodiscard]] std::string timing_json(const std::vector<StageTime>& times);
+
+// One landmark against the world it was found in: the nearest true object of its category.
+struct LandmarkTruth {
+  LandmarkId landmark = 0;
+  double error_m = 0.0;
+};
+
+struct TruthScore {
+  std::vector<LandmarkTruth> matched;  // right category, within the tolerance; each object once
+  int false_landmarks = 0;             // found, but no such object there
+  int missed_objects = 0;              // standing there, but not found
+};
+[[nodiscard]] TruthScore score_against(const World& world, const LandmarkGraph& graph, double tolerance_m);
+
+}  // namespace cairn

@@ -1,0 +1,45 @@
+// What happened in a run beside its nodes, when: for the report and the picture of the run.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "framework/mission/events.hpp"
+
+namespace cairn {
+
+// By the mission's clock.
+struct RunSpan {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+// The mission's clock stood at time_s, for so long by the robot's.
+struct PauseSpan {
+  double time_s = 0.0;
+  double for_s = 0.0;
+};
+
+inline constexpr std::size_t kMostRunSpans = 10000;  // of each kind; what comes later is left out
+
+class RunTimeline : public Listener {
+ public:
+  void on(const Event& event, const MissionView& view) override;
+
+  [[nodiscard]] const std::vector<PauseSpan>& pauses() const { return pauses_; }
+  // While the stop layer allowed nothing of a wanted speed.
+  [[nodiscard]] const std::vector<RunSpan>& stops() const { return stops_; }
+  [[nodiscard]] const std::vector<double>& bumps_s() const { return bumps_s_; }
+  [[nodiscard]] const std::vector<double>& saves_s() const { return saves_s_; }  // of maps, by the mission itself
+
+ private:
+  void note_stop(double held_back_ratio, double time_s);
+
+  std::vector<PauseSpan> pauses_;
+  std::vector<RunSpan> stops_;
+  std::vector<double> bumps_s_;
+  std::vector<double> saves_s_;
+  bool is_stopped_ = false;
+};
+
+}  // namespace cairn

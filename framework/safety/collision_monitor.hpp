@@ -1,0 +1,77 @@
+// The stop layer: below every behaviour, it never lets the robot drive into what its sensors see. It knows nothing of
+// maps, poses or missions, and nothing in a mission takes it away: only live ranges, the odometry and the footprint.
+//
+// Stop zone: the footprint, grown by the margin, swept along the arc that the velocity describes for as long as the
+// robot needs to stand: its reaction (a tick, and until the transducer fires again) and its braking way. The speed is
+// cut, on the same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. The arc
+// that the robot is on, before it has come to the wanted one, counts as well. Slow zone: the same with a wider margin,
+// in which the robot only goes slowly. Where no transducer looks it creeps.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/observation.hpp"
+#include "framework/contracts/robot_model.hpp"
+#include "framework/safety/range_buffer.hpp"
+
+namespace cairn {
+
+struct StopLayerConfig {
+  double margin_m = 0.05;         // kept between the footprint and anything seen
+  double slow_m = 0.1;            // beyond the margin: only slowly
+  double stale_s = 1.0;           // how long an echo counts, and how long a transducer may be silent
+  std::optional<double> blind_s;  // without any reading for so long, no driving; none: one and a half periods of them
+  static void describe(Fields<StopLayerConfig>& fields);
+};
+
+// How long it has interfered.
+struct StopLayerFigures {
+  double slowed_s = 0.0;   // cut the speed, for what was seen or because nobody looked
+  double stopped_s = 0.0;  // let nothing of it through, for what was seen
+  double stale_s = 0.0;    // wanted to drive without fresh readings
+};
+
+class StopLayer {
+ public:
+  StopLayer(const StopLayerConfig& config, const RobotModel& robot);
+
+  // Every observation, in order. One whose stamp is not later than the last one's, or whose stamp or odometry is no
+  // number, is stale as a whole.
+  void see(const Observation& observation);
+  // The wanted velocity, within the robot's limits and what the sensors allow. Once after each see().
+  [[nodiscard]] Twist limit(const Twist& wanted);
+  // Share of a wanted speed, or of a wanted turn in place, that an allowed one leaves out: 0 none, 1 all.
+  [[nodiscard]] double held_back_ratio(const Twist& wanted, const Twist& allowed) const;
+  [[nodiscard]] const StopLayerFigures& figures() const { return figures_; }
+
+ private:
+  [[nodiscard]] bool is_stale() const;
+  void note_reading();
+  void feel_bump(bool bumped);
+  [[nodiscard]] Twist within_limits(const Twist& wanted) const;
+  [[nodiscard]] Twist next_towards(const Twist& twist) const;
+  [[nodiscard]] Twist allowed_of(const Twist& wanted);
+  [[nodiscard]] Twist cut(const Twist& clamped) const;
+  [[nodiscard]] double allowed_share(const Twist& twist, double margin_m) const;
+
+  StopLayerConfig config_;
+  RobotModel robot_;
+  EchoMemory memory_;
+  double tick_s_ = 0.0;  // between the last two observations
+  double stamp_s_ = 0.0;
+  double period_s_ = 0.0;       // of readings
+  std::vector<double> gaps_s_;  // the last few between readings, where the robot's file does not tell the period
+  double last_reading_s_ = 0.0;
+  bool begun_ = false;
+  bool useless_ = false;  // the last observation: its clock stands still, or it is not placed
+  bool heard_ = false;    // a reading
+  bool bumped_ = false;
+  Twist allowed_;  // of the last tick
+  Twist driven_;   // what it makes of the orders within its accelerations
+  StopLayerFigures figures_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,80 @@
+#include "framework/safety/swept_footprint.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+// What is within the margin already may be passed along: nearer by less than this on the first metres of the arc.
+constexpr double kSoon_m = 0.05;
+constexpr double kNearer_m = 0.01;
+
+double distance_to_segment_m(const Point& p, const Point& a, const Point& b) {
+  const Point along = b - a;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (a + t * along - p).norm();
+}
+
+bool is_inside(const std::vector<Point>& polygon, const Point& p) {
+  bool inside = false;
+  for (std::size_t i = 0, k = polygon.size() - 1; i < polygon.size(); k = i++) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[k];
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+      inside = !inside;
+  }
+  return inside;
+}
+
+// Where the robot is after so many seconds of a constant twist.
+Pose2 after(const Twist& twist, double time_s) {
+  const double turn_rad = twist.w_radps * time_s;
+  if (std::abs(turn_rad) < 1e-6) return {twist.v_mps * time_s, 0.0, turn_rad};
+  const double radius_m = twist.v_mps / twist.w_radps;
+  return {radius_m * std::sin(turn_rad), radius_m * (1.0 - std::cos(turn_rad)), wrap_angle(turn_rad)};
+}
+
+}  // namespace
+
+double distance_to_footprint_m(const RobotModel& robot, const Point& p) {
+  if (robot.polygon_m.empty()) return p.norm() - robot.radius_m;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  const std::vector<Point>& corners = robot.polygon_m;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    nearest_m = std::min(nearest_m, distance_to_segment_m(p, corners[i], corners[(i + 1) % corners.size()]));
+  return is_inside(corners, p) ? -nearest_m : nearest_m;
+}
+
+double reach_of_m(const RobotModel& robot) {
+  if (robot.polygon_m.empty()) return robot.radius_m;
+  double reach_m = 0.0;
+  for (const Point& corner : robot.polygon_m) reach_m = std::max(reach_m, corner.norm());
+  return reach_m;
+}
+
+double sweep_speed_mps(const RobotModel& robot, const Twist& twist) {
+  return std::abs(twist.v_mps) + (robot.polygon_m.empty() ? 0.0 : reach_of_m(robot) * std::abs(twist.w_radps));
+}
+
+double free_sweep_m(const RobotModel& robot, const Twist& twist, const Point& p, double margin_m, double at_most_m,
+                    double step_m) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double speed_mps = sweep_speed_mps(robot, twist);
+  if (speed_mps <= 0.0 || p.norm() - reach_of_m(robot) - margin_m > at_most_m) return kNever;
+  const auto gap_m = [&](double way_m) {
+    return distance_to_footprint_m(robot, inverse(after(twist, way_m / speed_mps)) * p) - margin_m;
+  };
+  const double gap_now_m = gap_m(0.0);
+  if (gap_now_m < 0.0) return gap_m(kSoon_m) < gap_now_m - kNearer_m ? 0.0 : kNever;
+  // No step goes farther than the gap, so that none jumps over the point's neighbourhood.
+  for (double way_m = 0.0; way_m <= at_most_m;) {
+    const double gap = gap_m(way_m);
+    if (gap < 0.0) return std::max(0.0, way_m - step_m);
+    way_m += std::max(gap, step_m);
+  }
+  return kNever;
+}
+
+}  // namespace cairn

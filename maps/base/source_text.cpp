@@ -1,0 +1,129 @@
+#include "maps/base/source_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+namespace cairn::exchange {
+namespace {
+
+// Bytes of the UTF-8 character at the front, 0 when there is none: too long forms and surrogates are none.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto follows = [&](std::size_t i, unsigned least = 0x80, unsigned most = 0xBF) {
+    return byte(i) >= least && byte(i) <= most;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    const unsigned least = first == 0xE0 ? 0xA0 : 0x80;
+    const unsigned most = first == 0xED ? 0x9F : 0xBF;
+    return follows(1, least, most) && follows(2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    const unsigned least = first == 0xF0 ? 0x90 : 0x80;
+    const unsigned most = first == 0xF4 ? 0x8F : 0xBF;
+    return follows(1, least, most) && follows(2) && follows(3) ? 4 : 0;
+  }
+  return 0;
+}
+
+constexpr std::size_t kMostBytes = std::size_t{4} << 30;
+constexpr std::size_t kBlock = std::size_t{1} << 20;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+}  // namespace
+
+SourceText::SourceText(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
+  if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  const std::size_t bad = first_not_utf8(text_);
+  if (bad != std::string_view::npos) fail(bad, "is not UTF-8 text");
+}
+
+int SourceText::line_of(std::size_t offset) const {
+  return 1 + static_cast<int>(std::ranges::count(text_.substr(0, offset), '\n'));
+}
+
+void SourceText::fail(std::size_t offset, const std::string& sentence) const {
+  offset = std::min(offset, text_.size());
+  const std::size_t line_end = offset == 0 ? std::string_view::npos : text_.rfind('\n', offset - 1);
+  const std::size_t line_begin = line_end == std::string_view::npos ? 0 : line_end + 1;
+  throw ExchangeError(file_ + ":" + std::to_string(line_of(offset)) + ":" + std::to_string(offset - line_begin + 1) +
+                      ": " + sentence);
+}
+
+void SourceText::fail(const std::string& sentence) const {
+  throw ExchangeError(file_ + ": " + sentence);
+}
+
+void SourceText::fail_cut(std::size_t offset, const std::string& sentence) const {
+  fail(offset, sentence + "; the file ends here, it may have been cut");
+}
+
+void SourceText::check_coordinate(std::size_t offset, double coordinate_m) const {
+  if (!(std::abs(coordinate_m) <= kMostCoordinate_m))
+    fail(offset, "the coordinate " + number_text(coordinate_m) + " is not allowed: it must be within " +
+                     number_text(kMostCoordinate_m) + " m");
+}
+
+bool may_never_open(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) return false;
+  const std::string name = file.string();
+  return !(name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/"));
+}
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw ExchangeError(file.string() + ": no such file");
+  if (std::filesystem::is_directory(status)) throw ExchangeError(file.string() + ": is a folder");
+  if (may_never_open(file)) throw ExchangeError(file.string() + ": is no file: a pipe, a socket or a device");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw ExchangeError(file.string() + ": cannot be read");
+  std::string text;
+  // Block by block: what is no plain file has no size to ask for.
+  while (in) {
+    const std::size_t before = text.size();
+    if (before > kMostBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
+    text.resize(before + kBlock);
+    in.read(text.data() + before, static_cast<std::streamsize>(kBlock));
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw ExchangeError(file.string() + ": cannot be read to its end");
+  return text;
+}
+
+std::size_t first_not_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) return at;
+    at += length;
+  }
+  return std::string_view::npos;
+}
+
+void append_number(std::string& text, double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  text.append(buffer, end);
+}
+
+std::string number_text(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void warn_of(std::size_t count, const std::string& noun, const std::string& sentence,
+             std::vector<std::string>& warnings) {
+  if (count > 0) warnings.push_back(counted(count, noun) + ": " + sentence);
+}
+
+}  // namespace cairn::exchange

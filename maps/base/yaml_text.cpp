@@ -1,0 +1,54 @@
+#include "maps/base/yaml_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+
+namespace cairn::exchange {
+namespace {
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+// A letter, then letters, digits and what stands within file names.
+bool is_plain(std::string_view text) {
+  static constexpr std::array<std::string_view, 12> kMeaning{"true", "false", "yes", "no",   "on",  "off",
+                                                             "null", "y",     "n",   "none", "nan", "inf"};
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return !text.empty() && is_letter(text.front()) && std::ranges::find(kMeaning, lower) == kMeaning.end() &&
+         std::ranges::all_of(
+             text, [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; });
+}
+
+}  // namespace
+
+std::string yaml_number(double value) {
+  std::array<char, 512> buffer{};  // enough for every double
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed).ptr;
+  std::string text(buffer.data(), end);
+  if (text.find('.') == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string yaml_text(std::string_view text) {
+  if (is_plain(text)) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20U || byte == 0x7FU) {
+      std::array<char, 8> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\x%02X", static_cast<unsigned>(byte));
+      quoted += escape.data();
+      continue;
+    }
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace cairn::exchange

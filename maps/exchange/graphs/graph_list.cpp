@@ -1,0 +1,263 @@
+#include "maps/exchange/graphs/graph_list.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "maps/base/source_text.hpp"
+#include "maps/base/spelling.hpp"
+#include "maps/exchange/graphs/file_ids.hpp"
+#include "maps/exchange/graphs/losses.hpp"
+
+namespace cairn {
+namespace {
+
+using exchange::FileId;
+using exchange::NodeIds;
+using exchange::SourceText;
+
+constexpr std::string_view kBlanks = " \t\r";
+constexpr const char* kNodeLine = "node ID X_M Y_M [NAME]";
+constexpr const char* kEdgeLine = "edge FROM TO COST_M";
+
+struct Node {
+  std::int64_t id = 0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  std::string_view name;
+  std::size_t offset = 0;  // of the id
+};
+
+struct Edge {
+  std::int64_t from = 0;
+  std::int64_t to = 0;
+  double cost_m = 0.0;
+  std::size_t offset = 0;  // of `from`; `to` is the next token
+};
+
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20U || c == 0x7F;
+}
+
+// The text, token by token and line by line.
+class Cursor {
+ public:
+  explicit Cursor(const SourceText& source) : source_(source) {}
+
+  // To the next line; false behind the last.
+  bool next_line() {
+    if (next_ >= source_.text().size()) return false;
+    at_ = next_;
+    end_ = std::min(source_.text().find('\n', at_), source_.text().size());
+    next_ = end_ + 1;
+    return true;
+  }
+  [[nodiscard]] bool is_cut() const { return end_ == source_.text().size(); }
+
+  // The next token, empty at the end of the line.
+  std::string_view token() {
+    skip_blanks();
+    token_ = at_;
+    at_ = std::min(source_.text().find_first_of(" \t\r\n", at_), end_);
+    return source_.text().substr(token_, at_ - token_);
+  }
+  // What is left of the line, without blanks around it.
+  std::string_view rest() {
+    skip_blanks();
+    token_ = at_;
+    std::string_view left = source_.text().substr(at_, end_ - at_);
+    const std::size_t last = left.find_last_not_of(kBlanks);
+    return left.substr(0, last == std::string_view::npos ? 0 : last + 1);
+  }
+  [[nodiscard]] std::size_t offset() const { return token_; }  // of the last token
+
+  [[noreturn]] void fail(const std::string& sentence) const { fail_at(token_, sentence); }
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& sentence) const {
+    if (is_cut()) source_.fail_cut(offset, sentence);
+    source_.fail(offset, sentence);
+  }
+
+  std::int64_t id(const char* what, const char* line) {
+    const std::string_view text = required(what, line);
+    std::uint64_t id = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (error != std::errc{} || rest != text.data() + text.size() || id > exchange::kMaxFileId)
+      fail(std::string(what) + " " + shown(text) + " is no whole number of 0 to " +
+           std::to_string(exchange::kMaxFileId));
+    return static_cast<std::int64_t>(id);
+  }
+
+  double coordinate_m(const char* what, const char* line) {
+    const double value_m = number(what, line);
+    source_.check_coordinate(token_, value_m);
+    return value_m;
+  }
+
+  double number(const char* what, const char* line) {
+    const std::string_view text = required(what, line);
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::invalid_argument || rest != text.data() + text.size())
+      fail(std::string(what) + " " + shown(text) + " is no number");
+    if (error != std::errc{} || !std::isfinite(value))
+      fail(std::string(what) + " " + shown(text) + " is not allowed: it must be a finite number");
+    return value;
+  }
+
+ private:
+  void skip_blanks() { at_ = std::min(source_.text().find_first_not_of(kBlanks, at_), end_); }
+  std::string_view required(const char* what, const char* line) {
+    const std::string_view text = token();
+    if (text.empty()) fail(std::string(what) + " is missing: " + line);
+    return text;
+  }
+
+  const SourceText& source_;
+  std::size_t at_ = 0;
+  std::size_t end_ = 0;
+  std::size_t next_ = 0;
+  std::size_t token_ = 0;
+};
+
+std::string_view name_of(Cursor& line) {
+  const std::string_view name = line.rest();
+  if (name.starts_with('#')) return {};
+  const auto control = std::ranges::find_if(name, is_control);
+  if (control != name.end())
+    line.fail_at(line.offset() + static_cast<std::size_t>(control - name.begin()),
+                 "the name " + shown(name) + " holds a control character");
+  return name;
+}
+
+Node node_of(Cursor& line) {
+  Node node;
+  node.id = line.id("the node's id", kNodeLine);
+  node.offset = line.offset();
+  node.x_m = line.coordinate_m("x_m", kNodeLine);
+  node.y_m = line.coordinate_m("y_m", kNodeLine);
+  node.name = name_of(line);
+  return node;
+}
+
+Edge edge_of(Cursor& line) {
+  Edge edge;
+  edge.from = line.id("the id that the edge comes from", kEdgeLine);
+  edge.offset = line.offset();
+  edge.to = line.id("the id that the edge goes to", kEdgeLine);
+  edge.cost_m = line.number("the cost", kEdgeLine);
+  if (edge.cost_m < 0.0)
+    line.fail("the cost " + exchange::number_text(edge.cost_m) + " is not allowed: it must not be negative");
+  const std::string_view more = line.rest();
+  if (!more.empty() && !more.starts_with('#')) line.fail(shown(more) + " is too much: " + kEdgeLine);
+  return edge;
+}
+
+struct Lines {
+  std::vector<Node> nodes;
+  std::vector<Edge> edges;
+  std::vector<std::string> warnings;
+};
+
+Lines lines_of(const SourceText& source) {
+  Lines lines;
+  Cursor line(source);
+  while (line.next_line()) {
+    const std::string_view word = line.token();
+    if (word == "node") {
+      lines.nodes.push_back(node_of(line));
+    } else if (word == "edge") {
+      lines.edges.push_back(edge_of(line));
+    } else if (!word.empty() && !word.starts_with('#')) {
+      line.fail("unknown word " + shown(word) + did_you_mean(word, {"node", "edge"}) +
+                ": a line begins with node, edge or #");
+    }
+  }
+  if (lines.nodes.empty()) source.fail("holds no node (" + std::string(kNodeLine) + ")");
+  if (line.is_cut()) lines.warnings.emplace_back("the last line has no line end: the file may have been cut");
+  return lines;
+}
+
+[[noreturn]] void fail_unknown_end(const SourceText& source, const Edge& edge, bool from_is_known) {
+  std::size_t at = edge.offset;
+  if (from_is_known) at = source.text().find_first_not_of(kBlanks, source.text().find_first_of(kBlanks, at));
+  source.fail(at, "there is no node " + std::to_string(from_is_known ? edge.to : edge.from));
+}
+
+void take_nodes(const std::vector<Node>& nodes, const NodeIds& ids, ImportedGraph& imported) {
+  for (const Node& node : nodes) {
+    Landmark landmark;
+    landmark.id = ids.landmark_of(node.id);
+    landmark.name = node.id == 0 && node.name.empty() ? "0" : std::string(node.name);
+    landmark.T_map_landmark = {node.x_m, node.y_m, 0.0};
+    imported.graph.add(std::move(landmark));
+  }
+}
+
+void take_edges(const std::vector<Edge>& edges, const NodeIds& ids, const SourceText& source, LandmarkGraph& graph) {
+  for (const Edge& edge : edges) {
+    Route route;
+    route.from = ids.landmark_of(edge.from);
+    route.to = ids.landmark_of(edge.to);
+    if (route.from == 0 || route.to == 0) fail_unknown_end(source, edge, route.from != 0);
+    route.cost_m = edge.cost_m;
+    graph.add_route(std::move(route));
+  }
+}
+
+// Whether a node's line gives the name back as it is.
+bool fits_a_line(const std::string& name) {
+  return !name.starts_with('#') && name.find_first_not_of(' ') == 0 && name.back() != ' ' &&
+         std::ranges::none_of(name, is_control) && exchange::first_not_utf8(name) == std::string::npos;
+}
+
+}  // namespace
+
+ImportedGraph parse_graph_list(std::string_view text, const std::string& file_name) {
+  const SourceText source(text, file_name);
+  Lines lines = lines_of(source);
+  std::vector<FileId> node_ids;
+  node_ids.reserve(lines.nodes.size());
+  for (const Node& node : lines.nodes) node_ids.push_back({node.id, node.offset});
+  const NodeIds ids(std::move(node_ids), source);
+  ImportedGraph imported{{}, std::move(lines.warnings)};
+  take_nodes(lines.nodes, ids, imported);
+  take_edges(lines.edges, ids, source, imported.graph);
+  if (ids.has_zero())
+    imported.warnings.push_back("node 0 is landmark L" + std::to_string(ids.landmark_of(0)) +
+                                ": ids of landmarks begin at 1");
+  exchange::warn_of_shared_names(imported.graph, imported.warnings);
+  return imported;
+}
+
+ExportedGraph graph_list_of(const LandmarkGraph& graph) {
+  ExportedGraph exported;
+  std::string& text = exported.text;
+  text = "# " + exchange::counted(graph.landmarks().size(), "landmark") + ", " +
+         exchange::counted(graph.routes().size(), "route") + "\n";
+  std::size_t nameless = 0;
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    text += "node " + std::to_string(id) + ' ';
+    exchange::append_number(text, landmark.T_map_landmark.x_m);
+    text += ' ';
+    exchange::append_number(text, landmark.T_map_landmark.y_m);
+    const bool has_name = !landmark.name.empty();
+    if (has_name && fits_a_line(landmark.name))
+      text += ' ' + landmark.name;
+    else if (has_name)
+      ++nameless;
+    text += '\n';
+  }
+  for (const auto& [id, route] : graph.routes()) {
+    if (route.closed) continue;
+    text += "edge " + std::to_string(route.from) + ' ' + std::to_string(route.to) + ' ';
+    exchange::append_number(text, route.cost_m);
+    text += '\n';
+  }
+  exported.warnings = exchange::warnings_of_loss(graph, {});
+  if (nameless > 0)
+    exported.warnings.push_back(exchange::counted(nameless, "landmark") +
+                                ": the name does not fit on a line of the list and is not written");
+  return exported;
+}
+
+}  // namespace cairn

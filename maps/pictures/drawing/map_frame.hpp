@@ -1,0 +1,63 @@
+// The part of a picture that shows the plane: where a point of the map is drawn, its border with metres
+// along it, its scale bar; and the page about it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "maps/grid/occupancy_grid.hpp"
+#include "maps/pictures/drawing/canvas.hpp"
+
+namespace cairn::pictures {
+
+// Finite, and not beyond any place on earth: grids are looked up with whole numbers.
+[[nodiscard]] bool is_drawable(const Point& p_map);
+
+struct Extent {
+  Point min_m{0.0, 0.0};
+  Point max_m{0.0, 0.0};
+  bool is_empty = true;
+
+  void include(const Point& p, double margin_m = 0.0);  // what is not drawable is passed over
+};
+
+struct MapFrame {
+  PixelBox box;
+  Point min_m{0.0, 0.0};
+  double px_per_m = 1.0;
+
+  [[nodiscard]] Pixel pixel_of(const Point& p_map) const {
+    return {box.min.x() + (p_map.x() - min_m.x()) * px_per_m, box.max.y() - (p_map.y() - min_m.y()) * px_per_m};
+  }
+  // Points that are not drawable are left out.
+  [[nodiscard]] std::vector<Pixel> pixels_of(std::span<const Point> points_map) const;
+  [[nodiscard]] Point point_at(const Pixel& pixel) const {
+    return {min_m.x() + (pixel.x() - box.min.x()) / px_per_m, min_m.y() + (box.max.y() - pixel.y()) / px_per_m};
+  }
+};
+
+inline constexpr double kPageMarginPx = 20.0;
+
+// Its longer side is about 930 pixels, and cells of cell_m a whole or half number of pixels where possible.
+[[nodiscard]] MapFrame frame_of(const Extent& extent, double cell_m);
+// Border, ticks and metres.
+void draw_border(Canvas& canvas, const MapFrame& frame);
+void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle);
+// Right-aligned at the point, as long as a round number of metres.
+void draw_scale_bar(Canvas& canvas, const MapFrame& frame, const Pixel& right_end);
+inline constexpr double kScaleBarRoomPx = 230.0;
+
+[[nodiscard]] int page_width_px(const MapFrame& frame);
+// Upper edge of what follows below the map.
+[[nodiscard]] double below_frame_px(const MapFrame& frame);
+
+// The cells of the box as colours, with y up; averaged down when the box is far larger than a picture.
+[[nodiscard]] CellImage image_of(const OccupancyGrid& grid, const CellBox& box);
+[[nodiscard]] PixelBox pixel_box_of(const MapFrame& frame, const OccupancyGrid& grid, const CellBox& box);
+
+// A number with this many decimals, and with at most this many.
+[[nodiscard]] std::string short_text(double value, int decimals);
+[[nodiscard]] std::string trimmed_text(double value, int decimals);
+
+}  // namespace cairn::pictures

@@ -1,0 +1,211 @@
+#include "maps/store/file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "maps/store/map_store.hpp"
+#include "maps/store/schema.hpp"
+
+namespace cairn::store {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 100;
+constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
+
+[[noreturn]] void fail(const char* what, int error) {
+  throw StoreError(what + std::string(": ") + std::strerror(error));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  [[nodiscard]] int get() const { return fd_; }
+  [[nodiscard]] int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+bool is_still_named(int fd, const std::filesystem::path& name) {
+  struct stat held {};
+  struct stat found {};
+  return ::fstat(fd, &held) == 0 && ::stat(name.c_str(), &found) == 0 && held.st_ino == found.st_ino &&
+         held.st_dev == found.st_dev;
+}
+
+// Opens the file to write in and locks it against other savers. A saver that had to wait holds a file
+// that has been renamed meanwhile, and tries again.
+int open_locked(const std::filesystem::path& name) {
+  for (;;) {
+    const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (fd < 0) fail("cannot be written", errno);
+    Descriptor opened(fd);
+    while (::flock(fd, LOCK_EX) != 0)
+      if (errno != EINTR) fail("cannot be locked against other savers", errno);
+    if (is_still_named(fd, name)) return opened.release();
+  }
+}
+
+void write_all(int fd, std::string_view bytes) {
+  if (::ftruncate(fd, 0) != 0) fail("cannot be written", errno);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot be written", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fsync(fd) != 0) fail("cannot be written", errno);
+}
+
+std::uint32_t big_endian_at(const std::string& bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = (value << 8) | static_cast<unsigned char>(bytes[offset + i]);
+  return value;
+}
+
+struct Beginning {
+  std::string header;
+  std::uintmax_t file_bytes = 0;  // of the same file, also when another takes its name meanwhile
+};
+
+Beginning beginning_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail("cannot be read", errno);
+  Beginning found{std::string(kHeaderBytes, '\0')};
+  stream.read(found.header.data(), static_cast<std::streamsize>(kHeaderBytes));
+  found.header.resize(static_cast<std::size_t>(stream.gcount()));
+  stream.clear();
+  stream.seekg(0, std::ios::end);
+  found.file_bytes = static_cast<std::uintmax_t>(std::max<std::streamoff>(stream.tellg(), 0));
+  return found;
+}
+
+// A new file is nobody else's than the one that it replaces.
+void take_over_mode(int fd, const std::filesystem::path& replaced) {
+  struct stat found {};
+  if (::stat(replaced.c_str(), &found) == 0 && ::fchmod(fd, found.st_mode & 0777) != 0)
+    fail("cannot be written", errno);
+}
+
+// Offsets as SQLite's file format lays them down.
+std::uint64_t page_bytes_of(const std::string& header) {
+  const std::uint32_t page = big_endian_at(header, 16) >> 16;
+  return page == 1 ? 65536 : std::max(page, 1U);
+}
+
+void check_size(const std::string& header, std::uintmax_t found) {
+  const std::uint64_t expected = page_bytes_of(header) * big_endian_at(header, 28);
+  if (found < expected)
+    throw StoreError("is truncated: " + std::to_string(found) + " of " + std::to_string(expected) + " bytes are there");
+}
+
+void check_version(std::int64_t version) {
+  const std::string known = std::to_string(kMapSchemaVersion);
+  if (version > kMapSchemaVersion)
+    throw StoreError("was written with schema version " + std::to_string(version) +
+                     ", this Cairn reads up to version " + known + ": use a newer Cairn");
+  if (version < 1)
+    throw StoreError("has schema version " + std::to_string(version) + ", this Cairn reads versions 1 to " + known);
+}
+
+}  // namespace
+
+bool names_its_program(const std::string& bytes) {
+  return bytes.size() >= kHeaderBytes && std::string_view(bytes).starts_with(kSqliteMagic) &&
+         big_endian_at(bytes, 68) == kMapApplicationId;
+}
+
+void replace_file(const std::filesystem::path& file, std::string_view bytes) {
+  const std::filesystem::path target = std::filesystem::is_symlink(file) ? std::filesystem::canonical(file) : file;
+  const std::filesystem::path beside = target.parent_path() / ("." + target.filename().string() + ".saving");
+  const Descriptor written(open_locked(beside));
+  try {
+    write_all(written.get(), bytes);
+    take_over_mode(written.get(), target);
+    if (::rename(beside.c_str(), target.c_str()) != 0) fail("cannot be replaced", errno);
+  } catch (const StoreError&) {
+    ::unlink(beside.c_str());
+    throw;
+  }
+  // The rename itself must reach the disk too; file systems that cannot sync a folder need no asking.
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.get() >= 0) ::fsync(opened.get());
+}
+
+namespace {
+
+void check_is_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw StoreError("no such file");
+  if (!std::filesystem::is_regular_file(status)) throw StoreError("is not a file");
+}
+
+int check_kind_of(const std::string& header) {
+  if (header.empty()) throw StoreError("is empty");
+  if (!std::string_view(header).starts_with(kSqliteMagic)) throw StoreError("is not a saved map (no SQLite 3 file)");
+  if (header.size() < kHeaderBytes)
+    throw StoreError("is truncated: only " + std::to_string(header.size()) + " bytes are there");
+  if (!names_its_program(header))
+    throw StoreError("is not a saved map (an SQLite file of another program: application_id " +
+                     std::to_string(big_endian_at(header, 68)) + ", a map has " + std::to_string(kMapApplicationId) +
+                     ")");
+  const auto version = static_cast<std::int32_t>(big_endian_at(header, 60));
+  check_version(version);
+  return version;
+}
+
+}  // namespace
+
+int check_kind(const std::filesystem::path& file) {
+  check_is_file(file);
+  return check_kind_of(beginning_of(file).header);
+}
+
+void check_header(const std::filesystem::path& file) {
+  check_is_file(file);
+  const Beginning found = beginning_of(file);
+  static_cast<void>(check_kind_of(found.header));
+  check_size(found.header, found.file_bytes);
+}
+
+std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions) {
+  const std::size_t page_bytes = page_bytes_of(definitions == nullptr ? bytes : definitions->bytes);
+  const std::size_t found = (bytes.size() + page_bytes - 1) / page_bytes;
+  bytes.resize(found * page_bytes, '\0');
+  if (definitions != nullptr) {
+    const std::size_t least = definitions->bytes.size() / page_bytes;
+    bytes.resize(std::max(found, least) * page_bytes, '\0');
+    for (std::uint32_t number = 1; number <= least; ++number)
+      if (number > found || !definitions->content_pages.contains(number))
+        bytes.replace((number - 1) * page_bytes, page_bytes, definitions->bytes, (number - 1) * page_bytes, page_bytes);
+  }
+  const std::size_t pages = bytes.size() / page_bytes;
+  for (std::size_t i = 0; i < 4; ++i) bytes[28 + i] = static_cast<char>((pages >> (8 * (3 - i))) & 0xFF);
+  for (std::size_t i = 0; i < 4; ++i) bytes[92 + i] = bytes[24 + i];  // so that the number of pages is believed
+  return bytes;
+}
+
+bool may_be_replaced(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return true;
+  if (!std::filesystem::is_regular_file(file)) return false;
+  const std::string header = beginning_of(file).header;
+  return header.empty() || names_its_program(header);
+}
+
+}  // namespace cairn::store

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <charconv>
+
+#include "maps/store/codec.hpp"
+#include "maps/store/tables.hpp"
+#include "maps/store/trajectory.hpp"
+
+namespace cairn::store {
+namespace {
+
+constexpr int kSide = OccupancyGrid::kTileSide;
+
+int tile_index(int cell) {
+  return cell >> 6;
+}
+
+void write_grid(Database& database, const OccupancyGrid& grid) {
+  const CellBox box = grid.bounds().empty() ? CellBox{} : grid.bounds();
+  Statement(database, "INSERT INTO grid VALUES (0, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(grid.cell_m())
+      .bind(grid.origin_m().x())
+      .bind(grid.origin_m().y())
+      .bind(grid.clamp_nat())
+      .bind(std::int64_t{box.min.x})
+      .bind(std::int64_t{box.min.y})
+      .bind(std::int64_t{box.max.x})
+      .bind(std::int64_t{box.max.y})
+      .run();
+}
+
+void write_tiles(Database& database, const OccupancyGrid& grid) {
+  const CellBox box = grid.bounds();
+  if (box.empty()) return;
+  Statement insert(database, "INSERT INTO tiles VALUES (0, ?, ?, ?, ?)");
+  std::vector<LogOdds> cells(kSide * kSide);
+  for (int ty = tile_index(box.min.y); ty <= tile_index(box.max.y - 1); ++ty) {
+    for (int tx = tile_index(box.min.x); tx <= tile_index(box.max.x - 1); ++tx) {
+      grid.copy_log_odds({{tx * kSide, ty * kSide}, {(tx + 1) * kSide, (ty + 1) * kSide}}, cells);
+      if (std::ranges::all_of(cells, [](LogOdds value) { return value == 0; })) continue;
+      std::string raw;
+      for (const LogOdds value : cells) append_little_endian(raw, value);
+      insert.bind(std::int64_t{ty}).bind(std::int64_t{tx}).bind_blob(compressed(raw));
+      insert.bind(std::int64_t{crc32_of(raw)}).run();
+    }
+  }
+}
+
+// The columns that landmarks and retired ones begin with.
+void bind_landmark(Statement& insert, const Landmark& landmark) {
+  const Pose2& pose = landmark.T_map_landmark;
+  insert.bind(landmark.id).bind(std::int64_t{landmark.level}).bind_text(landmark.name).bind_text(landmark.category);
+  insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).bind(landmark.degree);
+  insert.bind(std::int64_t{landmark.sightings});
+  const auto access = [&](double Pose2::*part) {
+    return landmark.access ? std::optional((*landmark.access).*part) : std::nullopt;
+  };
+  insert.bind(access(&Pose2::x_m)).bind(access(&Pose2::y_m)).bind(access(&Pose2::theta_rad));
+}
+
+// prefix: of the tables, "landmark" or "candidate".
+void write_history(Database& database, const std::string& prefix, const Landmark& landmark) {
+  if (landmark.templates.empty() && landmark.evidence.empty()) return;
+  Statement insert_template(database, "INSERT INTO " + prefix + "_templates VALUES (?, ?, ?, ?, ?)");
+  std::int64_t rank = 0;
+  for (const auto& [category, orientation_rad, degree] : landmark.templates)
+    insert_template.bind(landmark.id).bind(++rank).bind_text(category).bind(orientation_rad).bind(degree).run();
+  Statement insert(database, "INSERT INTO " + prefix + "_evidence VALUES (?, ?, ?, ?, ?, ?)");
+  for (const auto& [category, matchings, mean_degree, best_degree, last_degree] : landmark.evidence) {
+    insert.bind(landmark.id).bind_text(category).bind(std::int64_t{matchings});
+    insert.bind(mean_degree).bind(best_degree).bind(last_degree).run();
+  }
+}
+
+void write_landmarks(Database& database, const std::string& prefix, const LandmarkGraph& graph) {
+  Statement insert(database, "INSERT INTO " + prefix + "s VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    bind_landmark(insert, landmark);
+    insert.bind_text(landmark.annotations).run();
+    write_history(database, prefix, landmark);
+  }
+}
+
+void write_retired_landmarks(Database& database, const LandmarkGraph& graph) {
+  Statement insert(database, "INSERT INTO retired_landmarks VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const auto& [id, retired] : graph.retired()) {
+    bind_landmark(insert, retired.landmark);
+    insert.bind_text(retired.reason).bind_text(retired.landmark.annotations).run();
+    write_history(database, "landmark", retired.landmark);
+  }
+}
+
+void write_routes(Database& database, const LandmarkGraph& graph) {
+  Statement insert(database, "INSERT INTO routes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const auto& [id, route] : graph.routes()) {
+    insert.bind(id).bind(std::int64_t{route.level}).bind(route.from).bind(route.to).bind(route.cost_m);
+    insert.bind(std::int64_t{route.driven}).bind(std::int64_t{route.closed});
+    insert.bind(static_cast<std::int64_t>(route.trajectory.size()));
+    const std::string packed = packed_trajectory(route.trajectory);
+    insert.bind_blob(packed).bind(std::int64_t{crc32_of(packed)});
+    insert.bind(route.speed_limit_mps).bind_text(route.annotations).run();
+  }
+}
+
+void write_clusters(Database& database, const ClusterTree& tree) {
+  Statement insert(database, "INSERT INTO clusters VALUES (?, ?, ?, ?, ?)");
+  for (const auto& [id, cluster] : tree.clusters) {
+    insert.bind(id).bind(std::int64_t{cluster.level}).bind(cluster.parent).bind(cluster.anchor);
+    insert.bind_text(cluster.name).run();
+  }
+  Statement insert_member(database, "INSERT INTO landmark_clusters VALUES (?, ?)");
+  for (const auto& [landmark, cluster] : tree.cluster_of) insert_member.bind(landmark).bind(cluster).run();
+}
+
+void write_next_ids(Database& database, const SavedMap& map) {
+  Statement next(database, "INSERT INTO next_ids VALUES (?, ?)");
+  const LandmarkId next_candidate = map.progress ? map.progress->candidates.next_landmark_id() : 1;
+  next.bind_text("candidate").bind(next_candidate).run();
+  next.bind_text("cluster").bind(map.clusters.next_id).run();
+  next.bind_text("landmark").bind(map.graph.next_landmark_id()).run();
+  next.bind_text("route").bind(map.graph.next_route_id()).run();
+}
+
+// The shortest text that reads back as the same double.
+std::string text_of(double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return {buffer, end};
+}
+
+// "diameter", or "x,y x,y ..." with ";" between polygons.
+std::string parameters_of(const Contour& contour) {
+  if (contour.is_circle()) return text_of(contour.circle_diameter_m);
+  std::string parameters;
+  for (const std::vector<Point>& corners : contour.polygons_m) {
+    if (!parameters.empty()) parameters += ';';
+    for (const Point& corner : corners) {
+      if (&corner != &corners.front()) parameters += ' ';
+      parameters += text_of(corner.x()) + ',' + text_of(corner.y());
+    }
+  }
+  return parameters;
+}
+
+void write_shapes(Database& database, const std::vector<LandmarkShape>& shapes) {
+  Statement insert(database, "INSERT INTO shapes VALUES (?, ?, ?, ?)");
+  std::int64_t number = 0;
+  for (const LandmarkShape& shape : shapes) {
+    const Contour& contour = shape.contour;
+    const char* const kind = contour.is_circle() ? "circle" : contour.polygons_m.size() == 1 ? "polygon" : "polygons";
+    insert.bind(++number).bind_text(shape.category).bind_text(kind).bind_text(parameters_of(contour)).run();
+  }
+}
+
+void write_driven_path(Database& database, const std::vector<Pose2>& path) {
+  Statement insert(database, "INSERT INTO driven_path VALUES (?, ?, ?, ?)");
+  std::int64_t number = 0;
+  for (const Pose2& pose : path) insert.bind(++number).bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).run();
+}
+
+void write_progress(Database& database, const MissionProgress& progress) {
+  Statement insert(database, "INSERT INTO progress VALUES (0, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const Pose2& pose = progress.T_map_robot;
+  insert.bind(progress.time_s).bind(std::int64_t{progress.step}).bind_text(progress.step_name);
+  insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad);
+  for (double Pose2::*part : {&Pose2::x_m, &Pose2::y_m, &Pose2::theta_rad})
+    insert.bind(progress.true_T_map_robot ? std::optional((*progress.true_T_map_robot).*part) : std::nullopt);
+  insert.bind(progress.distance_m).bind(progress.readings).bind(progress.matchings).bind(progress.collisions).run();
+  write_landmarks(database, "candidate", progress.candidates);
+}
+
+}  // namespace
+
+void write_content(Database& database, const SavedMap& map) {
+  Statement insert(database, "INSERT INTO meta VALUES (?, ?)");
+  for (const auto& [key, value] : map.properties) insert.bind_text(key).bind_text(value).run();
+  write_grid(database, map.grid);
+  write_tiles(database, map.grid);
+  write_landmarks(database, "landmark", map.graph);
+  write_retired_landmarks(database, map.graph);
+  write_routes(database, map.graph);
+  write_clusters(database, map.clusters);
+  write_next_ids(database, map);
+  write_shapes(database, map.shapes);
+  write_driven_path(database, map.driven_path);
+  if (map.progress) write_progress(database, *map.progress);
+}
+
+}  // namespace cairn::store

@@ -1,0 +1,20 @@
+// Goals in the order in which they are tried.
+#pragma once
+
+#include <vector>
+
+#include "planners/common/any_angle/disc_routes.hpp"
+#include "planners/common/disc_space/ends.hpp"
+
+namespace cairn {
+
+struct RankedGoal {
+  GoalPlace place;
+  double least_length_m = 0.0;  // no way there is shorter; 0 where it was not asked for
+};
+
+// By how long a way to them must be at least, equal ones as they come. Of a single goal it is not asked.
+[[nodiscard]] std::vector<RankedGoal> nearest_first(const std::vector<GoalPlace>& goals, const Point& from,
+                                                    const DiscRoutes& routes, const Budget& budget);
+
+}  // namespace cairn

@@ -1,0 +1,80 @@
+// The two ends of a request as points on the grid: where the robot sets out and where it may arrive.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "planners/common/disc_space/places.hpp"
+#include "planners/common/disc_space/space_cache.hpp"
+
+namespace cairn {
+
+// Why there is no end, as an outcome.
+struct Refusal {
+  PlanOutcome outcome = PlanOutcome::unknown_place;
+  std::string reason;
+};
+
+[[nodiscard]] PlanResult refused_plan(const Refusal& refusal);
+// Of a call that its budget ended: `cancelled` or `out_of_budget`.
+[[nodiscard]] PlanOutcome stop_outcome(const Budget& budget);
+[[nodiscard]] PlanResult stopped_plan(PlanOutcome stop_outcome);
+
+// The robot at the start. The grid is the world's, with the unknown ground under the robot made free
+// when it stands there now.
+struct StartPlace {
+  std::optional<OccupancyGrid> patched_grid;
+  std::shared_ptr<const DiscSpace> space;
+  Pose2 pose;
+  LandmarkId landmark = 0;       // when the start is one
+  std::optional<Escape> escape;  // when it is left with less clearance than the radius
+  Point leave_from{0.0, 0.0};    // the escape's end, else the pose
+
+  [[nodiscard]] const OccupancyGrid& grid_of(const WorldView& world) const {
+    return patched_grid ? *patched_grid : world.grid;
+  }
+};
+
+struct GoalPlace {
+  Pose2 pose;
+  std::optional<double> heading_rad;  // when it matters
+  LandmarkId landmark = 0;
+  std::string note;  // for people, when it is not where one usually stands at the landmark
+};
+
+// What a robot that stands at a pose covers of the grid.
+struct Covering {
+  double reach_m = 0.0;  // no further from the pose
+  std::function<bool(const Pose2&, Cell)> covers;
+};
+
+struct EndRules {
+  GroundRules ground;
+  double radius_m = 0.22;
+  double start_tolerance_m = 0.3;
+  std::optional<Covering> covering;  // none: the disc
+};
+
+// Such a disc can stand nowhere, and looking at every cell it would cover takes for ever.
+[[nodiscard]] bool is_larger_than(const OccupancyGrid& grid, double radius_m);
+// Landmarks of a place that the graph lacks, non-finite numbers, a place that names nothing.
+[[nodiscard]] std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph,
+                                                      const std::string& end);
+// The first landmark that has a standing place stands for several.
+[[nodiscard]] std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& world,
+                                                         const EndRules& rules, const SpaceCache& spaces);
+// That the way is too narrow for the robot, for people.
+[[nodiscard]] Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m);
+// Whether a disc that leaves the start may get to a point; false is certain.
+using MayReach = std::function<bool(const Point&)>;
+// Every place that the request would accept, landmarks by their standing places that may be reached; one
+// that cannot be is left out. At least one, or a refusal that says why.
+[[nodiscard]] std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const WorldView& world,
+                                                                     const EndRules& rules, const StartPlace& start,
+                                                                     const MayReach& may_reach);
+
+}  // namespace cairn

@@ -1,0 +1,161 @@
+#include "planners/common/pose_space/pose_recheck.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace cairn {
+namespace {
+
+using Corners = std::vector<Point>;
+
+double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+double from_segment_m(const Point& p, const Point& a, const Point& b) {
+  const double squared = (b - a).squaredNorm();
+  const double t = squared > 0.0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
+  return (p - a - t * (b - a)).norm();
+}
+
+double between_segments_m(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const bool cross_each_other = cross(b - a, c - a) * cross(b - a, d - a) < 0.0 &&  //
+                                cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
+  if (cross_each_other) return 0.0;
+  return std::min({from_segment_m(a, c, d), from_segment_m(b, c, d), from_segment_m(c, a, b), from_segment_m(d, a, b)});
+}
+
+double from_rim_m(const Corners& corners, const Point& p) {
+  double least_m = from_segment_m(p, corners.back(), corners.front());
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    least_m = std::min(least_m, from_segment_m(p, corners[i - 1], corners[i]));
+  return least_m;
+}
+
+// By the number of times that the rim goes round the point.
+bool is_inside(const Corners& corners, const Point& p) {
+  int winding = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point a = corners[i] - p;
+    const Point b = corners[(i + 1) % corners.size()] - p;
+    if (a.y() <= 0.0 && b.y() > 0.0 && cross(a, b) > 0.0) ++winding;
+    if (a.y() > 0.0 && b.y() <= 0.0 && cross(a, b) < 0.0) --winding;
+  }
+  return winding != 0;
+}
+
+class Looker {
+ public:
+  Looker(const OccupancyGrid& grid, const GroundRules& rules, const Footprint& footprint)
+      : grid_(&grid), rules_(&rules), footprint_(&footprint) {}
+
+  // A cell that comes nearer than reach_m to the outline there.
+  [[nodiscard]] std::optional<Cell> blocked_near(const Pose2& pose, double reach_m) const {
+    Corners corners;
+    for (const Point& corner : footprint_->corners_m()) corners.push_back(pose * corner);
+    Point low = pose.position();
+    Point high = low;
+    if (footprint_->is_disc())
+      reach_m += footprint_->circumscribed_m();
+    else
+      low = high = corners.front();
+    for (const Point& corner : corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    const Cell first = grid_->cell_at(low - Point(reach_m, reach_m));
+    const Cell last = grid_->cell_at(high + Point(reach_m, reach_m));
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x)
+        if (rules_->blocks(grid_->state({x, y}, rules_->thresholds)) &&
+            (corners.empty() ? is_near(pose.position(), {x, y}, reach_m) : is_near(corners, {x, y}, reach_m)))
+          return Cell{x, y};
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] std::array<Point, 4> square(Cell cell) const {
+    const Point centre = grid_->centre_of(cell);
+    const double half_m = 0.5 * grid_->cell_m();
+    return {centre + Point(-half_m, -half_m), centre + Point(half_m, -half_m), centre + Point(half_m, half_m),
+            centre + Point(-half_m, half_m)};
+  }
+  [[nodiscard]] bool is_near(const Point& p, Cell cell, double reach_m) const {
+    const Point away = (p - grid_->centre_of(cell)).cwiseAbs() - Point::Constant(0.5 * grid_->cell_m());
+    return away.cwiseMax(0.0).norm() < reach_m;
+  }
+  [[nodiscard]] bool is_near(const Corners& corners, Cell cell, double reach_m) const {
+    const Point centre = grid_->centre_of(cell);
+    if (is_inside(corners, centre)) return true;
+    // The square lies within its half diagonal of its centre.
+    if (from_rim_m(corners, centre) > reach_m + grid_->cell_m()) return false;
+    const std::array<Point, 4> at = square(cell);
+    for (const Point& corner : corners)
+      if (is_near(corner, cell, reach_m)) return true;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (is_inside(corners, at[k])) return true;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        if (between_segments_m(at[k], at[(k + 1) % 4], corners[i], corners[(i + 1) % corners.size()]) < reach_m)
+          return true;
+    }
+    return false;
+  }
+
+  const OccupancyGrid* grid_;
+  const GroundRules* rules_;
+  const Footprint* footprint_;
+};
+
+// How far the fastest point of the outline moves on the element at most.
+double most_moved_m(const Footprint& footprint, const MotionElement& element) {
+  if (element.turn_rad == 0.0) return std::abs(element.length_m);
+  const Point hub(0.0, element.length_m / element.turn_rad);
+  double arm_m = hub.norm();
+  for (const Point& corner : footprint.corners_m()) arm_m = std::max(arm_m, (corner - hub).norm());
+  return arm_m * std::abs(element.turn_rad);
+}
+
+struct Piece {
+  double from_m;
+  double to_m;
+  double moved_m;
+};
+
+std::optional<Touch> first_touch_on(const Looker& looker, const Motion& motion, const Piece& piece, double slack_m) {
+  const double middle_m = 0.5 * (piece.from_m + piece.to_m);
+  const Pose2 pose = motion.pose_at(middle_m);
+  const double grown_m = 0.5 * piece.moved_m + kLeastRadius_m;
+  const auto cell = looker.blocked_near(pose, grown_m);
+  if (!cell) return std::nullopt;
+  if (grown_m <= slack_m + kLeastRadius_m) return Touch{middle_m, pose, *cell};
+  const double half_m = 0.5 * piece.moved_m;
+  if (auto touch = first_touch_on(looker, motion, {piece.from_m, middle_m, half_m}, slack_m)) return touch;
+  return first_touch_on(looker, motion, {middle_m, piece.to_m, half_m}, slack_m);
+}
+
+}  // namespace
+
+std::optional<Touch> first_touch(const OccupancyGrid& grid, const GroundRules& rules, const Footprint& footprint,
+                                 const Motion& motion, double slack_m) {
+  if (!(slack_m > 0.0))
+    throw std::invalid_argument("first_touch: slack_m must be positive, got " + std::to_string(slack_m));
+  if (!motion.is_finite()) return Touch{0.0, motion.start(), {}};
+  const Looker looker(grid, rules, footprint);
+  if (const auto cell = looker.blocked_near(motion.start(), kLeastRadius_m)) return Touch{0.0, motion.start(), *cell};
+  double s_m = 0.0;
+  for (const MotionElement& element : motion.elements()) {
+    const double extent_m = motion.extent_of(element);
+    const double moved_m = most_moved_m(footprint, element);
+    // Longer pieces than the outline would only have more cells to look at.
+    const double pieces = std::ceil(moved_m / (footprint.circumscribed_m() + grid.cell_m()));
+    for (double k = 0.0; k < pieces; k += 1.0) {
+      const Piece piece{s_m + extent_m * (k / pieces), s_m + extent_m * ((k + 1.0) / pieces), moved_m / pieces};
+      if (auto touch = first_touch_on(looker, motion, piece, slack_m)) return touch;
+    }
+    s_m += extent_m;
+  }
+  return std::nullopt;
+}
+
+}  // namespace cairn

@@ -1,0 +1,223 @@
+#include "planners/ompl/disc/disc_states.hpp"
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/OptimizationObjective.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/samplers/InformedStateSampler.h>
+#include <ompl/base/spaces/RealVectorStateProjections.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "planners/common/disc_space/field_box.hpp"
+#include "planners/ompl/search/mixed_seed.hpp"
+
+namespace cairn {
+namespace {
+
+namespace ob = ompl::base;
+
+constexpr std::uint64_t kInformed = 0x1000;  // apart from the numbers of the plain samplers
+
+// Whole segments, exactly; OMPL's own validator samples them.
+class SegmentValidator : public ob::MotionValidator {
+ public:
+  SegmentValidator(const ob::SpaceInformationPtr& info, const DiscSpace& space, double radius_m)
+      : MotionValidator(info), space_(&space), radius_m_(radius_m) {}
+
+  bool checkMotion(const ob::State* from, const ob::State* to) const override {
+    return space_->fits_along(point_of(from), point_of(to), radius_m_);
+  }
+  bool checkMotion(const ob::State* from, const ob::State* to,
+                   std::pair<ob::State*, double>& last_valid) const override {
+    if (checkMotion(from, to)) return true;
+    const Point a = point_of(from);
+    const Point b = point_of(to);
+    last_valid.second = space_->share_that_fits(a, b, radius_m_);
+    if (last_valid.first != nullptr) set_point(last_valid.first, a + last_valid.second * (b - a));
+    return false;
+  }
+
+ private:
+  const DiscSpace* space_;
+  double radius_m_;
+};
+
+// Even over the given cells, from its own generator.
+class CellDraw {
+ public:
+  CellDraw(const SampledCells& samples, std::uint64_t seed) : samples_(&samples), generator_(seed) {}
+
+  [[nodiscard]] Point point() {
+    const std::vector<Cell>& cells = samples_->cells;
+    const auto index = static_cast<std::size_t>(unit() * static_cast<double>(cells.size()));
+    const Point offset{unit() - 0.5, unit() - 0.5};
+    return samples_->lattice->field().centre_of(cells[std::min(index, cells.size() - 1)]) +
+           offset * samples_->lattice->cell_m();
+  }
+  [[nodiscard]] double unit() { return static_cast<double>(generator_() >> 11) * 0x1.0p-53; }  // [0, 1)
+
+ private:
+  const SampledCells* samples_;
+  std::mt19937_64 generator_;
+};
+
+class CellSampler : public ob::StateSampler {
+ public:
+  CellSampler(const ob::StateSpace* plane, const SampledCells& samples, std::uint64_t seed)
+      : StateSampler(plane), draw_(samples, seed) {}
+
+  void sampleUniform(ob::State* state) override { set_point(state, draw_.point()); }
+  void sampleUniformNear(ob::State* state, const ob::State* near, double distance_m) override {
+    const Point offset{2.0 * draw_.unit() - 1.0, 2.0 * draw_.unit() - 1.0};
+    set_point(state, point_of(near) + distance_m * offset);
+    space_->enforceBounds(state);
+  }
+  void sampleGaussian(ob::State* state, const ob::State* mean, double deviation_m) override {
+    const double angle_rad = 2.0 * std::numbers::pi * draw_.unit();
+    const double away_m = deviation_m * std::sqrt(-2.0 * std::log(1.0 - draw_.unit()));
+    set_point(state, point_of(mean) + away_m * Point(std::cos(angle_rad), std::sin(angle_rad)));
+    space_->enforceBounds(state);
+  }
+
+ private:
+  CellDraw draw_;
+};
+
+// Points that a cheaper route may pass: the way there and on, at the least cost a metre, is below the bound.
+class InformedCellSampler : public ob::InformedSampler {
+ public:
+  static constexpr unsigned kTries = 200;
+  static constexpr std::size_t kMostCounted = 100'000;  // cells, for a measure: of more, every so many
+
+  InformedCellSampler(const ob::ProblemDefinitionPtr& definition, const DiscProblem& problem, std::uint64_t seed)
+      : InformedSampler(definition, kTries), problem_(problem), draw_(problem.samples, seed) {}
+
+  bool sampleUniform(ob::State* state, const ob::Cost& below) override {
+    return sampleUniform(state, ob::Cost(0.0), below);
+  }
+  bool sampleUniform(ob::State* state, const ob::Cost& from, const ob::Cost& below) override {
+    for (unsigned i = 0; i < kTries; ++i) {
+      const Point p = draw_.point();
+      const double least = least_through(p);
+      if (least < from.value() || least >= below.value()) continue;
+      set_point(state, p);
+      return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool hasInformedMeasure() const override { return true; }
+  [[nodiscard]] double getInformedMeasure(const ob::Cost& below) const override {
+    const SampledCells& samples = problem_.samples;
+    const std::size_t stride = 1 + samples.cells.size() / kMostCounted;
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < samples.cells.size(); i += stride)
+      inside += least_through(samples.lattice->field().centre_of(samples.cells[i])) < below.value() ? 1U : 0U;
+    const double cell_m = samples.lattice->cell_m();
+    return static_cast<double>(inside * stride) * cell_m * cell_m;
+  }
+
+ private:
+  [[nodiscard]] double least_through(const Point& p) const {
+    return problem_.cost.least_per_m() * ((p - problem_.from).norm() + (problem_.to - p).norm());
+  }
+
+  const DiscProblem& problem_;
+  CellDraw draw_;
+};
+
+class TravelObjective : public ob::OptimizationObjective {
+ public:
+  TravelObjective(const ob::SpaceInformationPtr& info, const DiscProblem& problem)
+      : OptimizationObjective(info), problem_(problem) {
+    description_ = "travel cost";
+    setCostToGoHeuristic([&problem](const ob::State* state, const ob::Goal*) {
+      return ob::Cost(problem.cost.least_per_m() * (problem.to - point_of(state)).norm());
+    });
+  }
+
+  [[nodiscard]] ob::Cost stateCost(const ob::State*) const override { return identityCost(); }
+  [[nodiscard]] ob::Cost motionCost(const ob::State* from, const ob::State* to) const override {
+    return ob::Cost(problem_.cost.between(point_of(from), point_of(to)));
+  }
+  [[nodiscard]] ob::Cost motionCostHeuristic(const ob::State* from, const ob::State* to) const override {
+    return ob::Cost(problem_.cost.least_per_m() * (point_of(to) - point_of(from)).norm());
+  }
+  [[nodiscard]] ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& definition,
+                                                                 unsigned) const override {
+    return std::make_shared<InformedCellSampler>(definition, problem_, mixed(mixed(problem_.seed) + kInformed));
+  }
+
+ private:
+  const DiscProblem& problem_;
+};
+
+}  // namespace
+
+Point point_of(const ob::State* state) {
+  const double* const values = state->as<PlaneSpace::StateType>()->values;
+  return {values[0], values[1]};
+}
+
+void set_point(ob::State* state, const Point& p) {
+  double* const values = state->as<PlaneSpace::StateType>()->values;
+  values[0] = p.x();
+  values[1] = p.y();
+}
+
+ob::SpaceInformationPtr space_information(const DiscProblem& problem) {
+  const DistanceField& field = problem.space.field();
+  const auto [low, high] = box_of(field, field.box());
+  auto space = std::make_shared<PlaneSpace>(2);
+  ob::RealVectorBounds bounds(2);
+  for (int axis = 0; axis < 2; ++axis) {
+    bounds.setLow(static_cast<unsigned>(axis), low[axis]);
+    bounds.setHigh(static_cast<unsigned>(axis), high[axis]);
+  }
+  space->setBounds(bounds);
+  auto samplers = std::make_shared<std::uint64_t>(0);
+  space->setStateSamplerAllocator([&problem, samplers](const ob::StateSpace* plane) {
+    return std::make_shared<CellSampler>(plane, problem.samples, mixed(mixed(problem.seed) + ++*samplers));
+  });
+  auto info = std::make_shared<ob::SpaceInformation>(space);
+  info->setStateValidityChecker(
+      [&problem](const ob::State* state) { return problem.space.fits(point_of(state), problem.radius_m); });
+  info->setMotionValidator(std::make_shared<SegmentValidator>(info, problem.space, problem.radius_m));
+  // For what still counts in steps: half a cell.
+  info->setStateValidityCheckingResolution(0.5 * field.cell_m() / space->getMaximumExtent());
+  info->setup();
+  // The identity projection that 1.5.2 has just registered by itself aborts on use.
+  auto projection = std::make_shared<ob::RealVectorOrthogonalProjectionEvaluator>(space, std::vector<unsigned>{0, 1});
+  projection->setup();
+  space->registerDefaultProjection(projection);
+  return info;
+}
+
+ob::ProblemDefinitionPtr definition_of(const DiscProblem& problem, const ob::SpaceInformationPtr& info) {
+  auto definition = std::make_shared<ob::ProblemDefinition>(info);
+  ob::ScopedState<PlaneSpace> from(info);
+  ob::ScopedState<PlaneSpace> to(info);
+  set_point(from.get(), problem.from);
+  set_point(to.get(), problem.to);
+  definition->setStartAndGoalStates(from, to);
+  definition->setOptimizationObjective(std::make_shared<TravelObjective>(info, problem));
+  return definition;
+}
+
+void add_route(KnownStates& states, const std::vector<Point>& route) {
+  constexpr double kMostSteps = 40.0;
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i] - route[i - 1]).norm();
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    const Point before = route[i == 0 ? 0 : i - 1];
+    const int steps =
+        std::max(1, static_cast<int>(std::ceil((route[i] - before).norm() / std::max(length_m / kMostSteps, 1e-9))));
+    for (int k = i == 0 ? steps : 1; k <= steps; ++k) {
+      set_point(states.add(), k == steps ? route[i] : Point(before + (route[i] - before) * k / steps));
+    }
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,20 @@
+// A way that was found, checked again and told.
+#pragma once
+
+#include "planners/ompl/pose/pose_problem.hpp"
+#include "planners/ompl/pose/pose_setup.hpp"
+
+namespace cairn {
+
+struct FoundWay {
+  std::vector<Pose2> states;
+  bool exact = false;
+  bool interrupted = false;
+  std::string how;
+};
+
+// The re-check is straight from the grid, over the whole of every motion; throws std::logic_error when it refuses.
+[[nodiscard]] PlanResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
+                                   const StartPlace& start, const GoalPlace& goal, const FoundWay& found);
+
+}  // namespace cairn

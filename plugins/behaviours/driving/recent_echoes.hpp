@@ -1,0 +1,28 @@
+// Near echoes of the last 15 to 30 s: somebody who has gone on leaves some that no later one takes away.
+#pragma once
+
+#include <optional>
+
+#include "framework/contracts/world_view.hpp"
+#include "plugins/behaviours/driving/near_echoes.hpp"
+
+namespace cairn::behaviours {
+
+class RecentEchoes {
+ public:
+  // Every tick.
+  void see(const WorldView& world);
+  // All but where the robot stands.
+  void forget(const WorldView& world);
+  // After the first see().
+  [[nodiscard]] const NearEchoes& now() const { return *now_; }
+
+ private:
+  void hear(const WorldView& world);
+
+  std::optional<NearEchoes> now_;
+  std::optional<NearEchoes> later_;  // will be now_
+  double since_s_ = 0.0;
+};
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,90 @@
+// Docks beside a landmark: plans to a standing place on the wanted side, then approaches straight and slowly by the
+// latest echoes, and stops at a distance between the robot's footprint and the landmark's outline.
+//
+// Where no echo of the landmark comes back, its outline is taken from the map. Honest failures: the side is blocked,
+// the standing place cannot be reached, something stands between, the robot is held back.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/behaviour.hpp"
+#include "plugins/behaviours/driving/progress_checker.hpp"
+#include "plugins/behaviours/driving/route_driver.hpp"
+
+namespace cairn::behaviours {
+
+struct DockConfig : RouteSettings {
+  enum class Facing { landmark, away };
+
+  ConfigValue landmark;  // text
+  std::optional<double> side_rad;
+  ConfigValue side;  // front, left, back or right
+  double distance_m = 0.4;
+  Facing facing = Facing::landmark;
+  double dock_tolerance_m = 0.03;
+  double approach_mps = 0.1;
+  double at_most_s = 300.0;
+  static void describe(Fields<DockConfig>& fields);
+};
+
+// How far a landmark's outline is from its centre in a direction of the map, as the grid has it; none: nothing occupied
+// within 1.2 m there.
+[[nodiscard]] std::optional<double> outline_distance_m(const OccupancyGrid& grid, const Point& centre,
+                                                       double angle_rad);
+
+class Dock : public Behaviour {
+ public:
+  // Throws ConfigError on both or neither of side and side_deg, and a side that is none.
+  Dock(const DockConfig& config, std::uint64_t seed);
+  Status tick(const WorldView& world, Orders& orders) override;
+  void halt() override;
+
+ private:
+  enum class Mode { drive, approach, turn };
+
+  // The line on which the robot approaches: from the landmark's centre outward.
+  struct Axis {
+    Point centre{0.0, 0.0};
+    double outward_rad = 0.0;
+    [[nodiscard]] Point outward() const;
+    [[nodiscard]] double along_m(const Point& p) const { return (p - centre).dot(outward()); }
+    [[nodiscard]] double aside_m(const Point& p) const;  // to the left of who looks outward
+  };
+  [[nodiscard]] Axis axis(const Landmark& landmark) const;
+  Status begin(const WorldView& world, Orders& orders);
+  [[nodiscard]] bool choose_stand(const WorldView& world, const Landmark& landmark);
+  Status drive(const WorldView& world, Orders& orders);
+  Status approach(const WorldView& world, Orders& orders, const Landmark& landmark);
+  Status go_again(const WorldView& world, const Landmark& landmark);
+  Status turn(const WorldView& world, Orders& orders, const Landmark& landmark);
+  void see(const WorldView& world, const Axis& axis, double mapped_m);
+  [[nodiscard]] double outline_m(double mapped_m) const;
+  [[nodiscard]] double wanted_m(const RobotModel& robot) const;
+  [[nodiscard]] std::string where(const WorldView& world) const;
+
+  DockConfig config_;
+  std::uint64_t seed_;
+  std::string name_;
+  double side_rad_ = 0.0;
+  RouteDriver driver_;
+  HeldBackWatch watch_;
+  Mode mode_ = Mode::drive;
+  std::optional<double> begun_s_;
+  LandmarkId landmark_ = 0;
+  // Of the side that was meant at first: a square's orientation may turn by a right angle when more of it is seen.
+  double outward_rad_ = 0.0;
+  int again_ = 0;
+  Place stand_;
+  std::deque<double> echoes_m_;  // of the outline, along the axis
+  double between_since_s_ = -1.0;
+  int between_sensor_ = -1;  // the transducer that has heard it: only the same one can say that it has gone
+  double still_since_s_ = -1.0;
+  double gap_m_ = 0.0;  // as last estimated
+  Twist wanted_;
+};
+
+}  // namespace cairn::behaviours

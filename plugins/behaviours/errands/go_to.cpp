@@ -1,0 +1,137 @@
+#include "plugins/behaviours/errands/go_to.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "plugins/behaviours/errands/place_name.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kFace_rad = radians(3.0);
+constexpr double kFaceAtMost_s = 15.0;
+constexpr std::size_t kMostNamed = 12;
+const std::string kNearest = "nearest ";
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return text + (names.size() > kMostNamed ? ", ..." : "");
+}
+
+std::string known_landmarks(const LandmarkGraph& graph) {
+  std::vector<std::string> names;
+  for (const auto& [id, landmark] : graph.landmarks())
+    names.push_back(label_of(landmark) + (landmark.category.empty() ? "" : " (" + landmark.category + ")"));
+  return names.empty() ? "the map holds no landmark" : "the map holds " + list_of(names);
+}
+
+NamedLandmarks nearest_of(const std::string& category, const LandmarkGraph& graph) {
+  NamedLandmarks named{graph.of_category(category), ""};
+  if (!named.ids.empty()) return named;
+  std::vector<std::string> categories;
+  for (const auto& [id, landmark] : graph.landmarks()) categories.push_back(landmark.category);
+  named.unknown = "no landmark of category \"" + category + "\"" + did_you_mean(category, categories) + "; " +
+                  known_landmarks(graph);
+  return named;
+}
+
+}  // namespace
+
+void GoToConfig::describe(Fields<GoToConfig>& fields) {
+  using C = GoToConfig;
+  fields.raw("landmark", &C::landmark, "text",
+             "where to go: a landmark's id (L3) or name, or `nearest CATEGORY`; this or at_m");
+  fields.point("at_m", &C::at_m, "m", "where to go: a place of the map");
+  fields.angle("angle_deg", &C::angle_rad, {-360.0, 360.0},
+               "heading at the end; without it the robot faces the landmark");
+  RouteSettings::describe_route(fields);
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to get there; when it is up the step has failed");
+  fields.shorthand("landmark");
+}
+
+NamedLandmarks landmarks_named(const std::string& name, const LandmarkGraph& graph) {
+  if (name.starts_with(kNearest)) return nearest_of(name.substr(kNearest.size()), graph);
+  if (const Landmark* landmark = graph.find_by_name(name)) return {{landmark->id}, ""};
+  std::vector<std::string> labels;
+  for (const auto& [id, landmark] : graph.landmarks()) labels.push_back(label_of(landmark));
+  return {{}, "no landmark \"" + name + "\"" + did_you_mean(name, labels) + "; " + known_landmarks(graph)};
+}
+
+GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed_(seed), driver_(config, seed) {
+  const bool names_landmark = config.landmark.kind != ConfigValue::Kind::null;
+  if (config.landmark.kind == ConfigValue::Kind::list)
+    throw ConfigError(config.landmark.place, "goto: landmark must be text; a place is written `{at_m: [x, y]}`");
+  if (names_landmark && config.at_m)
+    throw ConfigError(config.landmark.place, "goto: landmark and at_m exclude each other");
+  if (!names_landmark && !config.at_m)
+    throw ConfigError(config.landmark.place,
+                      "goto: needs a landmark (`landmark: nearest square`) or a place (`at_m: [x, y]`)");
+  if (names_landmark) landmark_name_ = to_landmark_name(config.landmark, "landmark");
+}
+
+void GoTo::halt() {
+  *this = GoTo(config_, seed_);
+}
+
+Status GoTo::tick(const WorldView& world, Orders& orders) {
+  if (!begun_s_) begun_s_ = world.time_s;
+  if (world.time_s - *begun_s_ >= config_.at_most_s)
+    return {Progress::failure, "time is up on the way to " + destination(world)};
+  return facing_since_s_ ? face(world, orders) : drive_there(world, orders);
+}
+
+Place GoTo::goal_of(const NamedLandmarks& named) const {
+  Place goal;
+  if (config_.at_m) {
+    goal.pose = Pose2{config_.at_m->x(), config_.at_m->y(), config_.angle_rad.value_or(0.0)};
+    goal.heading_matters = config_.angle_rad.has_value();
+  }
+  goal.landmarks = named.ids;
+  return goal;
+}
+
+Status GoTo::drive_there(const WorldView& world, Orders& orders) {
+  if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
+  if (!goal_) {
+    driver_.restart();
+    NamedLandmarks named;
+    if (!config_.at_m) named = landmarks_named(landmark_name_, world.graph);
+    if (!named.unknown.empty()) return {Progress::failure, named.unknown};
+    goal_ = goal_of(named);
+  }
+  const Status status = driver_.tick(*goal_, world, orders);
+  if (status.progress == Progress::running)
+    return {Progress::running, status.reason + ", to " + destination(world), status.left_s};
+  if (status.progress == Progress::failure)
+    return {Progress::failure, status.reason + "; on the way to " + destination(world)};
+  facing_since_s_ = world.time_s;
+  return face(world, orders);
+}
+
+Status GoTo::face(const WorldView& world, Orders& orders) {
+  const Pose2& pose = world.pose.T_map_robot;
+  const Landmark* landmark = world.graph.find(driver_.goal_landmark());
+  double error_rad = 0.0;
+  if (config_.angle_rad) {
+    error_rad = wrap_angle(*config_.angle_rad - pose.theta_rad);
+  } else if (landmark != nullptr) {
+    error_rad = heading_error(pose, landmark->T_map_landmark.position());
+  }
+  const bool can_turn = world.robot.kinematics == Kinematics::differential;
+  if (!can_turn || std::abs(error_rad) <= kFace_rad || world.time_s - *facing_since_s_ > kFaceAtMost_s)
+    return {Progress::success, "at " + destination(world)};
+  orders.drive(turn_by(error_rad, follow_limits(world.robot, config_.speed_mps).max_w_radps));
+  return {Progress::running, "turning to " + destination(world)};
+}
+
+std::string GoTo::destination(const WorldView& world) const {
+  if (const Landmark* landmark = world.graph.find(driver_.goal_landmark()))
+    return label_of(*landmark) + (landmark->category.empty() ? "" : " (" + landmark->category + ")");
+  if (!config_.at_m) return landmark_name_;
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.2f, %.2f)", config_.at_m->x(), config_.at_m->y());
+  return text;
+}
+
+}  // namespace cairn::behaviours

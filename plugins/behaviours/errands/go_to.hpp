@@ -1,0 +1,55 @@
+// Goes to a landmark or a place by the mission's planner, and faces it.
+//
+// The route driver does the driving, and says why when it gives up.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/behaviour.hpp"
+#include "plugins/behaviours/driving/route_driver.hpp"
+
+namespace cairn::behaviours {
+
+struct GoToConfig : RouteSettings {
+  ConfigValue landmark;  // text: `L3`, a name, or `nearest CATEGORY`
+  std::optional<Point> at_m;
+  std::optional<double> angle_rad;
+  double at_most_s = 900.0;
+
+  static void describe(Fields<GoToConfig>& fields);
+};
+
+// The landmarks that a name stands for; when there are none, `unknown` says so, naming what there is.
+struct NamedLandmarks {
+  std::vector<LandmarkId> ids;
+  std::string unknown;
+};
+[[nodiscard]] NamedLandmarks landmarks_named(const std::string& name, const LandmarkGraph& graph);
+
+class GoTo : public Behaviour {
+ public:
+  // Throws ConfigError unless exactly one of landmark and at_m is given.
+  GoTo(const GoToConfig& config, std::uint64_t seed);
+
+  Status tick(const WorldView& world, Orders& orders) override;
+  void halt() override;
+
+ private:
+  Status drive_there(const WorldView& world, Orders& orders);
+  Status face(const WorldView& world, Orders& orders);
+  [[nodiscard]] Place goal_of(const NamedLandmarks& named) const;
+  [[nodiscard]] std::string destination(const WorldView& world) const;
+
+  GoToConfig config_;
+  std::string landmark_name_;
+  std::uint64_t seed_;
+  RouteDriver driver_;
+  std::optional<double> begun_s_;
+  std::optional<Place> goal_;             // from the first tick on
+  std::optional<double> facing_since_s_;  // there, turning to the landmark
+};
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,51 @@
+#include "plugins/behaviours/errands/return_home.hpp"
+
+#include "plugins/behaviours/errands/go_to.hpp"
+#include "plugins/behaviours/errands/place_name.hpp"
+
+namespace cairn::behaviours {
+
+void ReturnHomeConfig::describe(Fields<ReturnHomeConfig>& fields) {
+  using C = ReturnHomeConfig;
+  fields.raw("to", &C::to, "text",
+             "a landmark's id (L3) or name, or `nearest CATEGORY`; without it, the pose where the mission began");
+  RouteSettings::describe_route(fields);
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to get there; when it is up the step has failed");
+  fields.shorthand("to");
+}
+
+ReturnHome::ReturnHome(const ReturnHomeConfig& config, std::uint64_t seed)
+    : config_(config), seed_(seed), driver_(config, seed) {
+  if (config.to.kind == ConfigValue::Kind::null) return;
+  to_ = to_landmark_name(config.to, "to");
+}
+
+void ReturnHome::halt() {
+  *this = ReturnHome(config_, seed_);
+}
+
+Status ReturnHome::tick(const WorldView& world, Orders& orders) {
+  const std::string home = to_.empty() ? "home at " + described(world.T_map_start.position()) : "home at " + to_;
+  if (!begun_s_) begun_s_ = world.time_s;
+  if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up on the way " + home};
+  if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
+  if (!goal_) {
+    driver_.restart();
+    Place goal;
+    if (to_.empty()) {
+      goal.pose = world.T_map_start;
+      goal.heading_matters = true;
+    } else {
+      NamedLandmarks named = landmarks_named(to_, world.graph);
+      if (!named.unknown.empty()) return {Progress::failure, named.unknown};
+      goal.landmarks = std::move(named.ids);
+    }
+    goal_ = goal;
+  }
+  const Status status = driver_.tick(*goal_, world, orders);
+  if (status.progress == Progress::running) return {Progress::running, status.reason + ", " + home, status.left_s};
+  if (status.progress == Progress::failure) return {Progress::failure, status.reason + "; on the way " + home};
+  return {Progress::success, home};
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,134 @@
+#include "plugins/behaviours/errands/search.hpp"
+
+#include <algorithm>
+
+#include "framework/config/named_category.hpp"
+#include "plugins/behaviours/errands/place_name.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kPause_s = 10.0;  // between two rounds: somebody may make room
+constexpr double kToRoomAtMost_s = 90.0;
+constexpr double kBeenApart_m = 0.5;
+
+std::string labels_of(const std::vector<LandmarkId>& ids, const LandmarkGraph& graph) {
+  std::string text;
+  for (const LandmarkId id : ids) text += (text.empty() ? "" : ", ") + label_of(*graph.find(id));
+  return text;
+}
+
+// To the end: there is no share of the map that is enough.
+ExploreConfig exploring(const SearchConfig& config) {
+  ExploreConfig explore = config;
+  explore.until_known_ratio = 1.0;
+  return explore;
+}
+
+RouteSettings driving(const SearchConfig& config) {
+  RouteSettings settings;
+  settings.speed_mps = config.speed_mps;
+  return settings;
+}
+
+}  // namespace
+
+void SearchConfig::describe(Fields<SearchConfig>& fields) {
+  using C = SearchConfig;
+  fields.raw("category", &C::category, "text", "of the landmarks to find, as a template file names it").required = true;
+  fields.integer("until", &C::until, {1.0, 1e6}, "so many landmarks of the category must be known");
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to search; when it is up the step has failed");
+  fields.integer("rounds", &C::rounds, {1.0, 1e6},
+                 "all is looked at so often before the search is given up: doors open, people go on");
+  describe_ways(fields);
+  fields.shorthand("category");
+}
+
+Search::Search(const SearchConfig& config, std::uint64_t seed, const std::vector<std::string>& categories)
+    : config_(config),
+      category_(config_detail::to_text(config.category, "category")),
+      explore_(exploring(config)),
+      driver_(driving(config), seed) {
+  check_category_is_known(category_, config.category.place, "search", categories);
+}
+
+void Search::halt() {
+  explore_.halt();
+  begun_s_.reset();
+  waits_since_s_.reset();
+  room_.reset();
+  been_at_.clear();
+  driver_.restart();
+  round_ = 1;
+}
+
+std::string Search::in_round() const {
+  return " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds);
+}
+
+// What it does while it does not explore.
+std::optional<Status> Search::between(const WorldView& world, Orders& orders) {
+  if (waits_since_s_ && world.time_s - *waits_since_s_ < kPause_s) {
+    orders.drive({});
+    return Status{Progress::running, "waiting before it looks at all once more"};
+  }
+  waits_since_s_.reset();
+  if (!room_) return std::nullopt;
+  const Status status = driver_.tick(*room_, world, orders);
+  const std::string place = described(room_->pose->position());
+  const bool is_late = world.time_s - to_room_since_s_ >= kToRoomAtMost_s;
+  if (status.progress == Progress::running && !is_late)
+    return Status{Progress::running, "trying to get to " + place + " (" + status.reason + ")"};
+  if (status.progress != Progress::success)
+    orders.say("does not get to " + place + ": " + (is_late ? "it takes too long" : status.reason));
+  driver_.restart();
+  room_.reset();
+  return std::nullopt;
+}
+
+Status Search::nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders) {
+  const std::string so_far = found + in_round() + ": " + why;
+  const std::optional<Point> place = explore_.room_out_of_reach(world, been_at_);
+  if (place) {
+    orders.say(so_far + "; tries to get to " + described(*place));
+    been_at_.push_back(*place);
+    room_ = Place{Pose2{place->x(), place->y(), 0.0}, false, {}, {}};
+    to_room_since_s_ = world.time_s;
+    return {Progress::running, "trying to get to " + described(*place)};
+  }
+  if (round_ >= config_.rounds) return {Progress::failure, so_far};
+  orders.say(so_far + "; looks at all once more");
+  explore_.halt();
+  been_at_.clear();
+  ++round_;
+  waits_since_s_ = world.time_s;
+  return {Progress::running, "looks at all once more"};
+}
+
+Status Search::tick(const WorldView& world, Orders& orders) {
+  const std::vector<LandmarkId> found = world.graph.of_category(category_);
+  if (found.size() >= static_cast<std::size_t>(config_.until))
+    return {Progress::success, "found " + category_ + ": " + labels_of(found, world.graph)};
+  if (!begun_s_) begun_s_ = world.time_s;
+  const std::string count = std::to_string(found.size()) + " of " + std::to_string(config_.until) + " " + category_ +
+                            " found" + (found.empty() ? "" : " (" + labels_of(found, world.graph) + ")");
+  const double left_s = *begun_s_ + config_.at_most_s - world.time_s;
+  if (left_s <= 0.0) return {Progress::failure, count + "; time is up" + in_round()};
+  const Point here = world.pose.T_map_robot.position();
+  if (std::ranges::none_of(been_at_, [&](const Point& p) { return (p - here).norm() < kBeenApart_m; }))
+    been_at_.push_back(here);
+  Status status;
+  if (const std::optional<Status> now = between(world, orders)) {
+    status = *now;
+  } else {
+    status = explore_.tick(world, orders);
+    if (status.progress == Progress::success)
+      status = nothing_left(count, status.reason, world, orders);
+    else if (status.progress == Progress::failure)
+      status.reason = count + "; " + status.reason;
+  }
+  if (status.progress != Progress::running) return status;
+  return {Progress::running, status.reason + "; " + count, std::min(status.left_s.value_or(left_s), left_s)};
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,50 @@
+// Explores until so many landmarks of a category are known. When all in reach is seen without, it tries to get to what
+// was out of reach, the largest room first, and explores on there; and begins again when there is no such room left:
+// doors open, people go on, and what has been looked at twice is known better.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/behaviour.hpp"
+#include "plugins/behaviours/driving/route_driver.hpp"
+#include "plugins/behaviours/exploring/explore.hpp"
+
+namespace cairn::behaviours {
+
+struct SearchConfig : ExploreConfig {
+  ConfigValue category;  // text
+  int until = 1;
+  int rounds = 3;
+  static void describe(Fields<SearchConfig>& fields);
+};
+
+class Search : public Behaviour {
+ public:
+  // categories: that the mission can find, where that is known. Throws ConfigError on another one, with the nearest.
+  Search(const SearchConfig& config, std::uint64_t seed, const std::vector<std::string>& categories);
+  // Success names the landmarks; failure when all has been explored so many rounds, or time is up, without them.
+  Status tick(const WorldView& world, Orders& orders) override;
+  void halt() override;
+
+ private:
+  [[nodiscard]] std::string in_round() const;
+  [[nodiscard]] std::optional<Status> between(const WorldView& world, Orders& orders);
+  Status nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders);
+
+  SearchConfig config_;
+  std::string category_;
+  Explore explore_;
+  std::optional<double> begun_s_;
+  int round_ = 1;
+  std::optional<double> waits_since_s_;  // between two rounds
+  std::optional<Place> room_;            // that it tries to get to
+  double to_room_since_s_ = 0.0;
+  std::vector<Point> been_at_;  // and what it could not get to, of this round
+  RouteDriver driver_;
+};
+
+}  // namespace cairn::behaviours

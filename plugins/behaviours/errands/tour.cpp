@@ -1,0 +1,99 @@
+#include "plugins/behaviours/errands/tour.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+int to_rounds(const ConfigValue& value) {
+  const bool is_text = value.kind == ConfigValue::Kind::scalar && value.kind_name() == "text";
+  if (is_text && value.scalar == "forever") return 0;
+  if (is_text)
+    throw ConfigError(value.place, "rounds must be forever or a number, found " + shown(value.scalar) +
+                                       did_you_mean(value.scalar, {"forever"}));
+  return static_cast<int>(config_detail::to_integer(value, "rounds", {1.0, 1e6}));
+}
+
+}  // namespace
+
+void TourConfig::describe(Fields<TourConfig>& fields) {
+  using C = TourConfig;
+  fields
+      .raw("places", &C::places, "list of places",
+           "each `[x, y]`, a landmark's id (L3) or name, or `nearest CATEGORY`: the nearest when it is gone to, with "
+           "`shortest` from where the tour begins")
+      .required = true;
+  describe_visits(fields);
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "when it is up the step has failed");
+  fields.shorthand("places");
+}
+
+Tour::Tour(const TourConfig& config, std::uint64_t seed)
+    : config_(config), seed_(seed), visits_(config, seed, to_place_names(config.places, "places")) {}
+
+void Tour::halt() {
+  *this = Tour(config_, seed_);
+}
+
+Status Tour::tick(const WorldView& world, Orders& orders) {
+  if (!begun_s_) begun_s_ = world.time_s;
+  if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up: " + visits_.summary()};
+  return visits_.tick(world, orders);
+}
+
+void PatrolConfig::describe(Fields<PatrolConfig>& fields) {
+  using C = PatrolConfig;
+  fields.raw("rounds", &C::patrol_rounds, "rounds", "how many: a number from 1, or forever").required = true;
+  fields.raw(
+      "places", &C::places, "list of places",
+      "as those of `tour`; without them, all landmarks that are known when a round begins, the first 50 of more");
+  describe_visits(fields);
+  fields.shorthand("rounds");
+}
+
+Patrol::Patrol(const PatrolConfig& config, std::uint64_t seed)
+    : config_(config), seed_(seed), rounds_wanted_(to_rounds(config.patrol_rounds)) {
+  if (config.places.kind != ConfigValue::Kind::null) places_ = to_place_names(config.places, "places");
+}
+
+void Patrol::halt() {
+  *this = Patrol(config_, seed_);
+}
+
+std::vector<PlaceName> Patrol::all_landmarks(const LandmarkGraph& graph, Orders& orders) const {
+  std::vector<PlaceName> places;
+  for (const auto& [id, landmark] : graph.landmarks())
+    if (places.size() < kMostPlaces) places.push_back({"L" + std::to_string(id), std::nullopt});
+  const std::size_t all = graph.landmarks().size();
+  if (all > places.size())
+    orders.say("a round has " + std::to_string(kMostPlaces) + " places at most: " +
+               std::to_string(all - places.size()) + " of " + std::to_string(all) + " landmarks are left out of it");
+  return places;
+}
+
+Status Patrol::begin_round(const WorldView& world, Orders& orders) {
+  const bool chooses_itself = places_.empty();
+  std::vector<PlaceName> places = chooses_itself ? all_landmarks(world.graph, orders) : places_;
+  if (places.empty()) return {Progress::failure, "there is nothing to patrol: the map holds no landmark"};
+  round_.emplace(config_, seed_, std::move(places), chooses_itself ? Unknown::left_out : Unknown::as_skip_says);
+  const std::string of = rounds_wanted_ == 0 ? "" : " of " + std::to_string(rounds_wanted_);
+  orders.say("round " + std::to_string(rounds_done_ + 1) + of + " begins");
+  return {Progress::running, "round " + std::to_string(rounds_done_ + 1) + of};
+}
+
+// The next round begins with the next tick: no tick is without end.
+Status Patrol::tick(const WorldView& world, Orders& orders) {
+  if (!round_) return begin_round(world, orders);
+  const Status status = round_->tick(world, orders);
+  const std::string number = "round " + std::to_string(rounds_done_ + 1);
+  if (status.progress != Progress::success) return {status.progress, number + ": " + status.reason, status.left_s};
+  ++rounds_done_;
+  visited_ += round_->visited();
+  left_out_ += round_->left_out();
+  orders.say(number + " is done: " + round_->summary());
+  round_.reset();
+  if (rounds_done_ != rounds_wanted_) return {Progress::running, number + " is done"};
+  return {Progress::success, std::to_string(rounds_done_) + (rounds_done_ == 1 ? " round, " : " rounds, ") +
+                                 std::to_string(visited_) + " places visited" +
+                                 (left_out_ == 0 ? "" : ", " + std::to_string(left_out_) + " left out")};
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,236 @@
+#include "plugins/behaviours/exploring/explore_tasks.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "plugins/behaviours/driving/openings.hpp"
+#include "plugins/behaviours/exploring/frontiers.hpp"
+#include "plugins/behaviours/exploring/information_gain.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+// What a task may cost more than the next one and still come first, in metres of way.
+constexpr double kLapBonus_m = 1.5;             // an object is circled when the robot first comes near
+constexpr double kFrontierBonus_m_per_m = 0.3;  // of the frontier's length
+constexpr double kMostFrontierBonus_m = 0.8;
+constexpr int kLeastLap_sectors = 2;
+constexpr double kLapFrom_m = 1.5;
+constexpr double kMostWayForLaps_m = 1.0;  // for each open sector
+constexpr double kIsLandmark_m = 0.4;      // an object this near to a landmark's centre is that landmark
+constexpr double kStayBonus_m = 0.8;
+constexpr double kSame_m = 0.8;                    // tasks this near are the same one, grown or shrunk
+constexpr double kMostWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
+constexpr double kSmallEdge_m = 0.6;
+constexpr double kLeastEdge_m = 0.3;
+// Things are looked at from a little nearer than needed, so that arriving is seeing.
+constexpr double kViewRatio = 0.85;
+
+struct Choice {
+  double score_m = std::numeric_limits<double>::infinity();
+  ExploreTask task;
+};
+
+Point middle_of(const FreeSpace& space, const CellGroup& cells) {
+  Point sum{0.0, 0.0};
+  for (const Cell c : cells) sum += space.centre_of(c);
+  return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
+}
+
+std::vector<CellGroup> groups_of(const std::vector<Cell>& cells, double least_cells) {
+  std::vector<CellGroup> groups = grouped(cells, 1);
+  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) < least_cells; });
+  return groups;
+}
+
+// A frontier that the robot does not fit through: a leak in a wall, the inside of an object.
+bool is_crack(const FreeSpace& space, const CellGroup& frontier) {
+  return std::none_of(frontier.begin(), frontier.end(),
+                      [&](Cell c) { return space.distance_m(c) >= space.radius_m(); });
+}
+
+bool is_about_the_same(const ExploreTask& a, const ExploreTask& b) {
+  return a.kind == b.kind && ((a.lookout - b.lookout).norm() < kSame_m || (a.about - b.about).norm() < kSame_m);
+}
+
+void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* previous) {
+  if (previous != nullptr && is_about_the_same(*previous, task)) bonus_m += kStayBonus_m;
+  if (task.cost_m - bonus_m >= best.score_m) return;
+  best = {task.cost_m - bonus_m, std::move(task)};
+}
+
+// What groups of cells of one kind are worth.
+struct Worth {
+  TaskKind kind = TaskKind::frontier;
+  double view_m = 1.0;         // looked at from within this distance
+  double bonus_m_per_m = 0.0;  // of the group's length
+  double small_m = 0.0;        // shorter groups are worth ...
+  double most_m_per_m = 0.0;   // ... no longer way for each of their metres
+  double gain_m = 0.0;         // > 0: the area that would be seen counts instead of the length
+  double gain_range_m = 0.0;
+};
+
+void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& worth, const FreeSpace& space,
+                  const ExploreTask* previous) {
+  const std::vector<std::optional<Cell>> stands = lookouts(space, groups, worth.view_m);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!stands[i]) continue;
+    const double size_m = static_cast<double>(groups[i].size()) * space.cell_m();
+    ExploreTask task;
+    task.kind = worth.kind;
+    task.about = middle_of(space, groups[i]);
+    task.targets = std::move(groups[i]);
+    task.lookout = space.centre_of(*stands[i]);
+    task.cost_m = space.cost_m(*stands[i]);
+    if (size_m < worth.small_m && task.cost_m > worth.most_m_per_m * size_m) continue;
+    const double bonus_m = worth.gain_m > 0.0
+                               ? worth_of_area_m(new_area_m2(space, task.lookout, worth.gain_range_m), worth.gain_m)
+                               : std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m);
+    offer(best, std::move(task), bonus_m, previous);
+  }
+}
+
+// An object that the robot has not been near to yet is an edge to look at: from afar a piece of wall looks the same.
+// And a small rest of a lap is worth a small detour only.
+bool is_worth_a_lap(const Lap& lap, double cost_m) {
+  const int open = lap.count(SectorState::open);
+  if (lap.count(SectorState::covered) == 0 && cost_m > kLapFrom_m) return false;
+  return open >= kLeastLap_sectors && cost_m <= kMostWayForLaps_m * open;
+}
+
+const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centre) {
+  const auto found = std::find_if(memory.second_looks.begin(), memory.second_looks.end(),
+                                  [&](const SecondLook& look) { return (look.about - centre).norm() < kSame_m; });
+  return found == memory.second_looks.end() ? nullptr : &*found;
+}
+
+void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
+                const LapSettings& settings, const ExploreMemory& memory) {
+  for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
+    // No lap begins nearer than this.
+    const double least_m =
+        (middle_of(space, object) - T_map_robot.position()).norm() - settings.largest_object_m - settings.look_closer_m;
+    if (least_m - kLapBonus_m - kStayBonus_m >= best.score_m) continue;
+    const SecondLook* again = second_look_at(memory, middle_of(space, object));
+    const auto trace = std::span(memory.trace).subspan(again == nullptr ? 0 : again->trace_from);
+    const Lap lap = lap_round(space, object, trace, memory.given_up_lookouts, settings);
+    if (!lap.is_round_trip() || lap.count(SectorState::open) == 0) continue;
+    LapRoute route = lap_route(space, lap, T_map_robot);
+    ExploreTask task;
+    task.kind = TaskKind::lap;
+    task.about = lap.centre;
+    task.lookout = space.centre_of(route.first);
+    task.path = std::move(route.path);
+    task.way_m = route.way_m;
+    task.cost_m = route.cost_m;
+    const bool is_at_it = previous != nullptr && is_about_the_same(*previous, task);
+    if (!is_at_it && again == nullptr && !is_worth_a_lap(lap, task.cost_m)) continue;
+    offer(best, std::move(task), kLapBonus_m, previous);
+  }
+}
+
+}  // namespace
+
+std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot, bool frontiers_wanted,
+                                     const ExploreTask* previous, const TaskSettings& settings, ExploreMemory& memory) {
+  Choice best;
+  const double look_closer_m = settings.lap.look_closer_m;
+  if (look_closer_m > 0.0) {
+    const std::vector<Cell> left = unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges);
+    const Worth worth{TaskKind::edge, kViewRatio * look_closer_m, 0.0, kSmallEdge_m, kMostWayForEdges_m_per_m};
+    offer_groups(best, groups_of(left, kLeastEdge_m / space.cell_m()), worth, space, previous);
+  }
+  if (frontiers_wanted) {
+    const Sight& sight = settings.frontier_sight;
+    const std::vector<Cell> left = unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers);
+    std::vector<CellGroup> groups = groups_of(left, settings.smallest_frontier_m / space.cell_m());
+    std::erase_if(groups, [&](const CellGroup& group) { return is_crack(space, group); });
+    Worth worth{TaskKind::frontier, kViewRatio * sight.within_m, kFrontierBonus_m_per_m};
+    worth.gain_m = settings.gain_m;
+    worth.gain_range_m = settings.gain_range_m;
+    offer_groups(best, std::move(groups), worth, space, previous);
+  }
+  if (look_closer_m > 0.0) offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
+  if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
+  if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
+  return std::move(best.task);
+}
+
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const LapSettings& settings,
+                ExploreMemory& memory) {
+  bool found = false;
+  for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
+    const Point centre = middle_of(space, object);
+    if (known.nearest(centre, kIsLandmark_m) != nullptr || second_look_at(memory, centre) != nullptr) continue;
+    if (!lap_round(space, object, memory.trace, {}, settings).is_round_trip()) continue;
+    memory.second_looks.push_back({centre, memory.trace.size()});
+    found = true;
+  }
+  return found;
+}
+
+std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,
+                                        const ExploreMemory& memory) {
+  const std::optional<Opening> opening = nearest_opening(space, squeezed, memory.seen_openings);
+  if (!opening) return std::nullopt;
+  ExploreTask task;
+  task.kind = TaskKind::opening;
+  task.about = opening->at_m;
+  task.lookout = space.centre_of(opening->lookout);
+  task.path = space.path_to(opening->lookout);
+  task.cost_m = space.cost_m(opening->lookout);
+  return task;
+}
+
+void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory) {
+  if (task.kind == TaskKind::lap) {
+    memory.given_up_lookouts.push_back(task.lookout);
+    return;
+  }
+  if (task.kind == TaskKind::opening) {
+    memory.seen_openings.push_back(task.about);
+    return;
+  }
+  const bool is_frontier_task = task.kind == TaskKind::frontier;
+  const double reach_m = 1.3 * (is_frontier_task ? settings.frontier_sight.within_m : settings.lap.look_closer_m);
+  CellSet& set = is_frontier_task ? memory.seen_frontiers : memory.seen_edges;
+  for (const Cell cell : task.targets) {
+    if ((space.centre_of(cell) - task.lookout).norm() > reach_m) continue;
+    // Outlines shift by a cell as evidence grows; what has shifted is still given up.
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) set.insert(cell + Cell{dx, dy});
+  }
+}
+
+bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid) {
+  if (task.kind != TaskKind::frontier) return true;
+  const auto is_open = [&](Cell c) {
+    if (grid.state(c) == CellState::occupied) return false;
+    return std::any_of(std::begin(kNeighbours), std::end(kNeighbours),
+                       [&](Cell step) { return grid.state(c + step) == CellState::unknown; });
+  };
+  const auto left = std::count_if(task.targets.begin(), task.targets.end(), is_open);
+  return 4 * left > static_cast<std::ptrdiff_t>(task.targets.size());
+}
+
+std::string sentence_of(const ExploreTask& task) {
+  const auto what = [&] {
+    switch (task.kind) {
+      case TaskKind::lap:
+        return "going round the object";
+      case TaskKind::frontier:
+        return "going to the frontier";
+      case TaskKind::edge:
+        return "looking closer at the edge";
+      case TaskKind::opening:
+        break;
+    }
+    return "looking into the narrow opening";
+  };
+  char text[96];
+  std::snprintf(text, sizeof text, "%s at (%.2f, %.2f)", what(), task.about.x(), task.about.y());
+  return text;
+}
+
+}  // namespace cairn::behaviours

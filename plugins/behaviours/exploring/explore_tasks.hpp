@@ -1,0 +1,72 @@
+// What exploring does next: a lap round an object, a frontier, or an edge to look at, whichever is
+// cheapest from here.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "maps/landmarks/landmark_graph.hpp"
+#include "plugins/behaviours/exploring/look_closer.hpp"
+
+namespace cairn::behaviours {
+
+struct TaskSettings {
+  LapSettings lap;  // lap.look_closer_m 0: no laps and no edges
+  double smallest_frontier_m = 0.3;
+  Sight frontier_sight{1.0, radians(60.0)};  // a frontier is looked at from within it
+  double gain_m = 0.0;                       // what e times the new area is worth; 0: the nearest frontier first
+  double gain_range_m = 3.0;                 // of the sensors, for the new area
+};
+
+// An object that is circled again: only the trace from here on counts as having looked at it.
+struct SecondLook {
+  Point about{0.0, 0.0};
+  std::size_t trace_from = 0;
+};
+
+// What exploring remembers between two choices.
+struct ExploreMemory {
+  std::vector<Pose2> trace;              // where the robot has been, a pose each 10 cm
+  CellSet seen_edges;                    // or given up
+  CellSet seen_frontiers;                // or given up
+  std::vector<Point> given_up_lookouts;  // of laps
+  std::vector<SecondLook> second_looks;
+  std::vector<Point> seen_openings;
+  std::vector<TroubleSpot> troubles;
+};
+
+enum class TaskKind { lap, frontier, edge, opening };
+
+struct ExploreTask {
+  TaskKind kind = TaskKind::frontier;
+  Point about{0.0, 0.0};    // the middle of what is looked at
+  CellGroup targets;        // of frontiers and edges
+  Point lookout{0.0, 0.0};  // the first place that the path leads to
+  std::vector<Point> path;
+  double way_m = 0.0;  // of the path, to the lookout; a lap goes on behind it
+  double cost_m = 0.0;
+};
+
+// None when nothing in reach is left. previous: what the robot is at, preferred when nearly as good.
+[[nodiscard]] std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot,
+                                                   bool frontiers_wanted, const ExploreTask* previous,
+                                                   const TaskSettings& settings, ExploreMemory& memory);
+
+// For when nothing else is left: notes that a free-standing object which is no known landmark is to be
+// circled once more, since a second lap often shows what the first did not. False when there is none.
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const LapSettings& settings, ExploreMemory& memory);
+
+// For when nothing else is left either: an opening that looks too narrow, to be looked at head on.
+[[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,
+                                                      const ExploreMemory& memory);
+
+// Not to be chosen again: what the task has from its lookout.
+void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory);
+
+// False when most of what the task was for is known by now. Cheap: reads the task's cells only.
+[[nodiscard]] bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid);
+
+[[nodiscard]] std::string sentence_of(const ExploreTask& task);
+
+}  // namespace cairn::behaviours

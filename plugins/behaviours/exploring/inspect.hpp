@@ -1,0 +1,72 @@
+// Inspects a landmark: goes there and circles it until its degree does not rise any more.
+//
+// The laps are those of exploring (look_closer.hpp): what cannot be stood in is left out. Success says the degree
+// before and after; failure when it cannot be circled at all.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/config/fields.hpp"
+#include "framework/contracts/behaviour.hpp"
+#include "plugins/behaviours/driving/progress_checker.hpp"
+#include "plugins/behaviours/driving/route_driver.hpp"
+#include "plugins/behaviours/exploring/look_closer.hpp"
+
+namespace cairn::behaviours {
+
+struct InspectConfig : RouteSettings {
+  ConfigValue landmark;  // text
+  double distance_m = 0.6;
+  int rounds_at_most = 3;
+  double gain = 0.01;
+  double lap_speed_mps = 0.1;
+  double at_most_s = 900.0;
+  static void describe(Fields<InspectConfig>& fields);
+};
+
+class Inspect : public Behaviour {
+ public:
+  Inspect(const InspectConfig& config, std::uint64_t seed);
+  Status tick(const WorldView& world, Orders& orders) override;
+  void halt() override;
+
+ private:
+  enum class Mode { drive, lap, back_off };
+
+  Status begin(const WorldView& world, Orders& orders);
+  Status drive(const WorldView& world, Orders& orders, const Landmark& landmark);
+  Status lap(const WorldView& world, Orders& orders, const Landmark& landmark);
+  Status back_off(const WorldView& world, Orders& orders);
+  Status end_lap(const Landmark& landmark, Orders& orders);
+  Status finish(const Landmark& landmark, const std::string& why) const;
+  void remember(const WorldView& world);
+  // False when nothing of the lap is left.
+  [[nodiscard]] bool choose_way(const WorldView& world, const Landmark& landmark);
+
+  InspectConfig config_;
+  std::uint64_t seed_;
+  std::string name_;
+  RouteDriver driver_;
+  HeldBackWatch watch_;
+  Mode mode_ = Mode::drive;
+  std::optional<double> begun_s_;
+  LandmarkId landmark_ = 0;
+  double degree_before_ = 0.0;
+  double degree_at_lap_ = 0.0;             // when the lap began
+  int laps_ = 0;                           // done
+  int covered_ = 0;                        // sectors of this lap
+  std::vector<Pose2> trace_;               // of this lap
+  std::size_t lap_begins_ = 0;             // in the trace
+  std::optional<NearEchoes> near_echoes_;  // from the first tick on
+  std::vector<Point> avoid_;
+  std::vector<Point> path_;
+  FollowState follow_state_;
+  double chosen_s_ = -1e9;
+  double backing_since_s_ = 0.0;
+  Twist wanted_;
+};
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,84 @@
+#include "plugins/common/logs/log_line.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace cairn::log_common {
+namespace {
+
+constexpr std::string_view kBlank = " \t";
+constexpr double kLargestCount = 1e6;
+
+}  // namespace
+
+bool read_number(std::string_view text, double& value) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return !text.empty() && error == std::errc{} && end == text.data() + text.size();
+}
+
+void LogLine::cut(std::string_view text, int line) {
+  text_ = text;
+  line_ = line;
+  words_.clear();
+  std::size_t begin = text.find_first_not_of(kBlank);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(kBlank, begin), text.size());
+    words_.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBlank, end);
+  }
+}
+
+SourcePlace LogLine::place(std::size_t i) const {
+  const std::size_t at = i < words_.size() ? static_cast<std::size_t>(words_[i].data() - text_.data()) : text_.size();
+  return {file_, line_, static_cast<int>(at) + 1};
+}
+
+double LogLine::number(std::size_t i, std::string_view what) const {
+  double value = 0.0;
+  if (i >= words_.size()) throw ConfigError(place(i), "the line ends where the " + std::string(what) + " must be");
+  if (!read_number(words_[i], value))
+    throw ConfigError(place(i), "the " + std::string(what) + " must be a number, not " + shown(words_[i]));
+  return value;
+}
+
+double LogLine::finite(std::size_t i, std::string_view what) const {
+  const double value = number(i, what);
+  if (!std::isfinite(value))
+    throw ConfigError(place(i), "the " + std::string(what) + " must be finite, not " + shown(words_[i]));
+  return value;
+}
+
+double LogLine::metres(std::size_t i, std::string_view what) const {
+  const double value = finite(i, what);
+  if (std::abs(value) > kFarthest_m)
+    throw ConfigError(place(i), "the " + std::string(what) + " is beyond 100 km: " + shown(words_[i]));
+  return value;
+}
+
+double LogLine::heading(std::size_t i) const {
+  constexpr double kMost_rad = 1e6;  // an unwrapped heading counts turns; beyond that it is no heading
+  const double value = finite(i, "heading");
+  if (std::abs(value) > kMost_rad) throw ConfigError(place(i), "the heading is no angle: " + shown(words_[i]));
+  return value;
+}
+
+Pose2 LogLine::pose(std::size_t i) const {
+  return {metres(i, "x"), metres(i + 1, "y"), wrap_angle(heading(i + 2))};
+}
+
+double LogLine::range_m(std::size_t i) const {
+  const double value = number(i, "range");
+  return std::isfinite(value) ? metres(i, "range") : value;
+}
+
+std::size_t LogLine::count(std::size_t i, std::string_view what) const {
+  const double value = number(i, what);
+  if (!(value >= 0.0 && value <= kLargestCount) || value != std::floor(value))
+    throw ConfigError(
+        place(i), "the " + std::string(what) + " must be a whole number from 0 to 1000000, not " + shown(words_[i]));
+  return static_cast<std::size_t>(value);
+}
+
+}  // namespace cairn::log_common

@@ -1,0 +1,56 @@
+#include "framework/experiments/config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace cairn {
+namespace {
+
+using testing::ElementsAre;
+
+class ExperimentFile : public testing::Test {
+ protected:
+  ExperimentFile() { std::filesystem::create_directories(folder_); }
+  ~ExperimentFile() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] ExperimentConfig load(const std::string& text) const {
+    std::ofstream(folder_ / "e.yaml") << text;
+    return load_experiment(folder_ / "e.yaml");
+  }
+  // Without the folder.
+  [[nodiscard]] std::string error_of(const std::string& text) const {
+    try {
+      (void)load(text);
+    } catch (const ConfigError& error) {
+      return std::string(error.what()).substr(folder_.string().size() + 1);
+    }
+    return "no error";
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("cairn_experiment_file_" + std::to_string(getpid()));
+};
+
+const std::string kTrials = "experiment: trials\ntrials: {robots: [r.yaml], templates: t}\n";
+const std::string kVariants = "variants:\n  - {name: plain}\n  - {name: office, world: office.yaml}\n";
+
+TEST_F(ExperimentFile, AVariantNamesAWorldWhereTheMissionsHaveOne) {
+  const ExperimentConfig config = load("experiment: missions\nmissions: [m.yaml]\n" + kVariants);
+  ASSERT_EQ(config.variants.size(), 2U);
+  EXPECT_THAT(config.variants[0].overrides, testing::IsEmpty());
+  EXPECT_THAT(config.variants[1].overrides, ElementsAre("world=" + (folder_ / "office.yaml").string()));
+}
+
+TEST_F(ExperimentFile, AVariantNamesNoWorldWhereEachRunHasItsOwn) {
+  EXPECT_EQ(error_of(kTrials + kVariants),
+            "e.yaml:5:27: variant \"office\" names a world, but each run of trials has its own");
+  EXPECT_EQ(error_of("experiment: recognition\nmissions: [m.yaml]\n" + kVariants),
+            "e.yaml:5:27: variant \"office\" names a world, but each run of recognition has its own");
+  EXPECT_EQ(load(kTrials).variants.size(), 1U);
+}
+
+}  // namespace
+}  // namespace cairn

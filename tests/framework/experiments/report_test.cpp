@@ -1,0 +1,67 @@
+#include "framework/experiments/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cairn {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+ExperimentRow row_of(const std::string& variant, std::int64_t seed, double log_loss) {
+  ExperimentRow row;
+  row.mission = "hallway";
+  row.variant = variant;
+  row.seed = seed;
+  row.quality = MapQuality{};
+  row.quality->log_loss = log_loss;
+  return row;
+}
+
+ExperimentConfig maps_of_two() {
+  ExperimentConfig config;
+  config.experiment = ExperimentKind::maps;
+  config.variants = {{"plain", {}}, {"better", {}}};
+  config.baseline = "plain";
+  return config;
+}
+
+TEST(ExperimentReport, TheDifferenceIsTakenSeedBySeed) {
+  const std::vector<ExperimentRow> rows{row_of("plain", 1, 0.2), row_of("plain", 2, 0.8), row_of("better", 1, 0.1),
+                                        row_of("better", 2, 0.7)};
+  const std::string table = table_of(maps_of_two(), rows);
+  EXPECT_THAT(table, HasSubstr("log loss less plain's"));
+  EXPECT_THAT(table, HasSubstr("-0.1000 ± 0.0000 |")) << table;
+  EXPECT_THAT(table, Not(HasSubstr("withheld"))) << "nothing was withheld";
+}
+
+// An interrupted experiment has rows that never ran, and others of half a drive.
+TEST(ExperimentReport, RunsThatDidNotEndWellAreLeftOutAndCounted) {
+  std::vector<ExperimentRow> rows{row_of("plain", 1, 0.2), row_of("plain", 2, 0.4), row_of("better", 1, 0.1),
+                                  row_of("better", 2, 9.0)};
+  rows[3].result.outcome = MissionOutcome::cancelled;
+  rows[3].quality.reset();
+  const std::string table = table_of(maps_of_two(), rows);
+  EXPECT_THAT(table, HasSubstr("1 that did not end well left out"));
+  EXPECT_THAT(table, HasSubstr("| better | 0.1000 |"));
+  EXPECT_THAT(table, HasSubstr("| -0.1000 |")) << "of the one seed that both have, which has no interval";
+}
+
+TEST(ExperimentReport, WithoutATrueWorldOnlyWithheldReadingsCount) {
+  ExperimentConfig config = maps_of_two();
+  config.withhold_every = 5;
+  std::vector<ExperimentRow> rows{row_of("plain", 1, 0.0), row_of("better", 1, 0.0)};
+  for (ExperimentRow& row : rows) {
+    row.quality.reset();
+    row.withheld = 3;
+  }
+  rows[1].withheld_log_likelihood = -1.5;
+  const std::string table = table_of(config, rows);
+  EXPECT_THAT(table, HasSubstr("| variant | withheld log-likelihood |"));
+  EXPECT_THAT(table, HasSubstr("| better | -1.5000"));
+  EXPECT_THAT(table, Not(HasSubstr("Brier")));
+}
+
+}  // namespace
+}  // namespace cairn

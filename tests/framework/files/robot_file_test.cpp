@@ -1,0 +1,164 @@
+#include "framework/files/robot_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/framework/config/config_test_support.hpp"
+
+namespace cairn {
+namespace {
+
+using config_test::error_of;
+using config_test::TestFolder;
+
+const std::filesystem::path kRobots = std::filesystem::path(CAIRN_SOURCE_DIR) / "config" / "robots";
+
+RobotModel load_text(const std::string& text) {
+  const TestFolder folder;
+  return load_robot(folder.write("r.yaml", text));
+}
+
+std::string error_in(const std::string& text) {
+  const TestFolder folder;
+  const auto file = folder.write("r.yaml", text);
+  return folder.without_folder(error_of([&] { (void)load_robot(file); }));
+}
+
+TEST(RobotFile, EveryShippedRobotLoads) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kRobots)) {
+    SCOPED_TRACE(entry.path());
+    const RobotModel robot = load_robot(entry.path());
+    EXPECT_FALSE(robot.name.empty());
+    // The beams of recorded lasers come with their logs.
+    EXPECT_EQ(robot.sonars.empty(), (entry.path().stem() == "laser_robot" || entry.path().stem() == "lego_robot"));
+    EXPECT_EQ(robot.firing_period_s, 0.04);
+    EXPECT_EQ(robot.firing_order.size(), robot.sonars.size());
+    for (const SonarModel& sonar : robot.sonars) {
+      EXPECT_DOUBLE_EQ(sonar.half_beam_rad, radians(15.0));
+      EXPECT_EQ(sonar.min_m, 0.1);
+      EXPECT_EQ(sonar.max_m, 5.0);
+    }
+    ++files;
+  }
+  EXPECT_GE(files, 3);
+}
+
+TEST(RobotFile, ThePioneer1IsAsMeasured) {
+  const RobotModel robot = load_robot(kRobots / "pioneer1.yaml");
+  EXPECT_EQ(robot.radius_m, 0.22);
+  EXPECT_EQ(robot.max_v_mps, 0.4);
+  EXPECT_DOUBLE_EQ(robot.max_w_radps, radians(100.0));
+  EXPECT_EQ(robot.kinematics, Kinematics::differential);
+  ASSERT_EQ(robot.sonars.size(), 7U);
+  EXPECT_EQ(robot.sonars[1].T_robot_sonar, (Pose2{0.12, 0.08, radians(30.0)}));
+  EXPECT_EQ(robot.sonars[6].T_robot_sonar, (Pose2{0.1, -0.1, radians(-90.0)}));
+  EXPECT_EQ(robot.odometry_error.distance_ratio, 0.01);
+  EXPECT_EQ(robot.odometry_error.distance_bias_ratio, 0.0);
+  EXPECT_DOUBLE_EQ(robot.odometry_error.heading_rad_per_m, radians(0.5));
+  EXPECT_DOUBLE_EQ(robot.compass_error.noise_rad, radians(2.0));
+  EXPECT_EQ(robot.compass_error.local_bias_rad, 0.0);
+}
+
+TEST(RobotFile, TheWornPioneer1DiffersInItsErrorsOnly) {
+  const RobotModel robot = load_robot(kRobots / "pioneer1.yaml");
+  const RobotModel worn = load_robot(kRobots / "pioneer1_worn.yaml");
+  EXPECT_EQ(worn.odometry_error.distance_ratio, 0.03);
+  EXPECT_GT(worn.odometry_error.distance_bias_ratio, 0.0);
+  EXPECT_DOUBLE_EQ(worn.odometry_error.heading_rad_per_m, radians(2.0));
+  EXPECT_DOUBLE_EQ(worn.compass_error.noise_rad, radians(2.0));
+  EXPECT_DOUBLE_EQ(worn.compass_error.local_bias_rad, radians(5.0));
+  ASSERT_EQ(worn.sonars.size(), robot.sonars.size());
+  for (std::size_t i = 0; i < robot.sonars.size(); ++i) {
+    EXPECT_EQ(worn.sonars[i].T_robot_sonar, robot.sonars[i].T_robot_sonar);
+  }
+  EXPECT_EQ(worn.radius_m, robot.radius_m);
+}
+
+TEST(RobotFile, ThePioneer3DxSeesAllRound) {
+  const RobotModel robot = load_robot(kRobots / "pioneer3dx.yaml");
+  EXPECT_EQ(robot.radius_m, 0.25);
+  ASSERT_EQ(robot.sonars.size(), 16U);
+  // The listing is symmetric: sonar 7 - i mirrors sonar i, and 23 - i mirrors i at the back.
+  for (std::size_t i = 0; i < 16; ++i) {
+    const Pose2& left = robot.sonars[i].T_robot_sonar;
+    const Pose2& right = robot.sonars[i < 8 ? 7 - i : 23 - i].T_robot_sonar;
+    EXPECT_EQ(left.x_m, right.x_m) << i;
+    EXPECT_EQ(left.y_m, -right.y_m) << i;
+    EXPECT_DOUBLE_EQ(left.theta_rad, -right.theta_rad) << i;
+  }
+}
+
+TEST(RobotFile, LittleIsNeeded) {
+  const RobotModel robot = load_text("name: disc\nradius_m: 0.3\n");
+  const RobotModel defaults;
+  EXPECT_EQ(robot.radius_m, 0.3);
+  EXPECT_EQ(robot.max_v_mps, defaults.max_v_mps);
+  EXPECT_EQ(robot.max_w_radps, defaults.max_w_radps);
+  EXPECT_EQ(robot.max_acceleration_mps2, defaults.max_acceleration_mps2);
+  EXPECT_EQ(robot.max_turn_acceleration_radps2, defaults.max_turn_acceleration_radps2);
+  EXPECT_EQ(robot.firing_period_s, defaults.firing_period_s);
+  EXPECT_EQ(robot.range_error.noise_m, defaults.range_error.noise_m);
+  EXPECT_EQ(robot.compass_error.local_bias_scale_m, defaults.compass_error.local_bias_scale_m);
+  EXPECT_TRUE(robot.firing_order.empty());
+}
+
+TEST(RobotFile, APolygonIsEnclosedByItsRadius) {
+  const RobotModel robot = load_text(
+      "name: box\npolygon_m: [[-0.1, -0.2], [-0.1, 0.2], [0.3, 0.2], [0.3, -0.2]]\nkinematics: car\n"
+      "limits: {min_turning_radius_m: 0.5}\n");
+  ASSERT_EQ(robot.polygon_m.size(), 4U);
+  EXPECT_DOUBLE_EQ(robot.radius_m, std::hypot(0.3, 0.2));
+  EXPECT_EQ(robot.kinematics, Kinematics::car);
+  EXPECT_EQ(robot.min_turning_radius_m, 0.5);
+  EXPECT_EQ(robot.polygon_m[0], Point(0.3, -0.2)) << "anticlockwise, in the robot's own frame";
+}
+
+TEST(RobotFile, SaysWhatIsWrong) {
+  EXPECT_EQ(error_in("radius_m: 0.2\n"), "r.yaml:1:1: robot lacks the key \"name\": what people call it");
+  EXPECT_EQ(error_in(""), "r.yaml:1:1: robot lacks the key \"name\": what people call it");
+  EXPECT_EQ(error_in("name: a\n"), "r.yaml:1:1: robot needs one of radius_m, polygon_m");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\npolygon_m: []\n"),
+            "r.yaml:3:1: robot takes only one of radius_m, polygon_m, found both \"radius_m\" and \"polygon_m\"");
+  EXPECT_EQ(error_in("name: a\nradius_m: -1\n"),
+            "r.yaml:2:11: radius_m must be a number from 0.01 to 10 m, found \"-1\"");
+  EXPECT_EQ(error_in("name: a\npolygon_m: [[0, 0], [1, 0]]\n"),
+            "r.yaml:2:12: polygon_m: a polygon needs at least 3 corners, this one has 2");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nkinematics: tracked\n"),
+            "r.yaml:3:13: kinematics must be one of differential, car, found \"tracked\"");
+  EXPECT_EQ(
+      error_in("name: a\nradius_m: 1\nlimits: {max_v: 1}\n"),
+      "r.yaml:3:10: unknown key \"max_v\" in limits (did you mean \"max_v_mps\"?); known: max_v_mps, max_w_degps, "
+      "max_acceleration_mps2, max_turn_acceleration_degps2, min_turning_radius_m");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nlimits: {max_w_degps: 0}\n"),
+            "r.yaml:3:23: max_w_degps must be a number from 1 to 1000 deg/s, found \"0\"");
+}
+
+TEST(RobotFile, SaysWhatIsWrongWithItsMotion) {
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nkinematics: car\n"),
+            "r.yaml:1:1: a car needs limits: {min_turning_radius_m: ...} above 0");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nkinematics: car\nlimits: {max_v_mps: 1}\n"),
+            "r.yaml:4:9: a car needs limits: {min_turning_radius_m: ...} above 0");
+  EXPECT_EQ(
+      error_in("name: a\nradius_m: 1\nlimits: {min_turning_radius_m: 1}\n"),
+      "r.yaml:3:32: min_turning_radius_m is for \"kinematics: car\" only; a differential robot turns on the spot");
+}
+
+TEST(RobotFile, SaysWhatIsWrongWithItsSonars) {
+  const std::string head = "name: a\nradius_m: 1\nsonars:\n";
+  EXPECT_EQ(error_in(head + "  - {x_m: 0, y_m: 0}\n"),
+            "r.yaml:4:5: sonars lacks the key \"angle_deg\": beam axis, anticlockwise from ahead");
+  EXPECT_EQ(error_in(head + "  - {x_m: 100, y_m: 0, angle_deg: 0}\n"),
+            "r.yaml:4:11: x_m must be a number from -10 to 10 m, found \"100\"");
+  EXPECT_EQ(error_in(head + "  - {x_m: 0, y_m: 0, angle_deg: 0}\n  - {x_m: 0, y_m: 0, angle_deg: 0, min_m: 6}\n"),
+            "r.yaml:5:5: min_m must be less than max_m, found 6 and 5");
+  EXPECT_EQ(error_in(head + "  - {x_m: 0, y_m: 0, angle_deg: 0}\nfiring: {order: [0, 1]}\n"),
+            "r.yaml:5:21: each item of order must be a whole number from 0 to 0, found \"1\"");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nfiring: {order: [0]}\n"),
+            "r.yaml:3:18: order names a sonar, but the robot has none");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nfiring: {order: 0}\n"), "r.yaml:3:17: order must be a list, found \"0\"");
+  EXPECT_EQ(error_in("name: a\nradius_m: 1\nfiring: {period_s: -1}\n"),
+            "r.yaml:3:20: period_s must be a number from 0 to 10 s, found \"-1\"");
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,80 @@
+#include "framework/reporting/report.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cairn {
+namespace {
+
+World world_with_square_at(double x_m, double y_m) {
+  World world;
+  WorldObject square;
+  square.category = "square";
+  square.T_map_object = {x_m, y_m, 0.0};
+  world.objects.push_back(square);
+  return world;
+}
+
+LandmarkGraph graph_with(const std::string& category, double x_m, double y_m) {
+  LandmarkGraph graph;
+  Landmark landmark;
+  landmark.category = category;
+  landmark.T_map_landmark = {x_m, y_m, 0.0};
+  graph.add(landmark);
+  return graph;
+}
+
+TEST(TruthScore, ALandmarkWithinTheToleranceIsFound) {
+  const TruthScore score = score_against(world_with_square_at(1.0, 2.0), graph_with("square", 1.05, 2.0), 0.10);
+  ASSERT_EQ(score.matched.size(), 1U);
+  EXPECT_NEAR(score.matched[0].error_m, 0.05, 1e-12);
+  EXPECT_EQ(score.false_landmarks, 0);
+  EXPECT_EQ(score.missed_objects, 0);
+}
+
+TEST(TruthScore, AWrongCategoryIsBothFalseAndMissed) {
+  const TruthScore score = score_against(world_with_square_at(1.0, 2.0), graph_with("circle", 1.0, 2.0), 0.10);
+  EXPECT_EQ(score.false_landmarks, 1);
+  EXPECT_EQ(score.missed_objects, 1);
+}
+
+TEST(TruthScore, AnObjectIsFoundOnlyOnce) {
+  LandmarkGraph graph = graph_with("square", 1.0, 2.0);
+  Landmark second;
+  second.category = "square";
+  second.T_map_landmark = {1.02, 2.0, 0.0};
+  graph.add(second);
+  const TruthScore score = score_against(world_with_square_at(1.0, 2.0), graph, 0.10);
+  EXPECT_EQ(score.matched.size(), 1U);
+  EXPECT_EQ(score.false_landmarks, 1);
+}
+
+TEST(TruthScore, ObstaclesWithoutCategoryAreNotMissed) {
+  World world = world_with_square_at(1.0, 2.0);
+  world.objects.push_back({});
+  EXPECT_EQ(score_against(world, graph_with("square", 1.0, 2.0), 0.10).missed_objects, 0);
+}
+
+TEST(RunReport, ListsTheContactsThatTheSimulationJudged) {
+  const OccupancyGrid grid(0.05);
+  const LandmarkGraph graph;
+  const RobotModel robot;
+  Observation observation;
+  observation.bumped = true;
+  WorldView world{grid, graph, robot, {}, 12.5, &observation};
+  RunReport report;
+  report.on(Bumped{}, {world});  // of a log
+  observation.contact = Contact{0.25, true};
+  report.on(Bumped{}, {world});
+  ASSERT_EQ(report.contacts().size(), 1U);
+  MissionResult result;
+  result.collisions = 2;
+  const std::string text = report.report_json({}, result, graph, {});
+  const std::size_t at = text.find("\"contacts\"");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(text.substr(at, text.find(']', at) - at + 1),
+            "\"contacts\": [\n    {\n      \"time_s\": 12.5,\n      \"speed_mps\": 0.25,\n      "
+            "\"could_be_seen\": true\n    }\n  ]");
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,161 @@
+#include "plugins/behaviours/driving/local_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace cairn::behaviours {
+namespace {
+
+const double kNever = std::numeric_limits<double>::infinity();
+
+std::vector<Point> wall(const Point& from, const Point& to) {
+  std::vector<Point> points;
+  const int count = static_cast<int>((to - from).norm() / 0.05) + 1;
+  for (int i = 0; i <= count; ++i) points.push_back(from + (to - from) * (static_cast<double>(i) / count));
+  return points;
+}
+
+void add(std::vector<Point>& points, const std::vector<Point>& more) {
+  points.insert(points.end(), more.begin(), more.end());
+}
+
+TEST(FreeWay, StraightAheadAndBack) {
+  EXPECT_NEAR(free_way_m({0.2, 0.0}, {{1.0, 0.0}}, 0.3), 0.7, 1e-9);
+  EXPECT_EQ(free_way_m({0.2, 0.0}, {{1.0, 0.31}}, 0.3), kNever);
+  EXPECT_EQ(free_way_m({-0.2, 0.0}, {{1.0, 0.0}}, 0.3), kNever);
+  EXPECT_NEAR(free_way_m({-0.2, 0.0}, {{-1.0, 0.0}}, 0.3), 0.7, 1e-9);
+}
+
+TEST(FreeWay, WithinReachOnlyTheWayNearerIsBlocked) {
+  EXPECT_EQ(free_way_m({0.2, 0.0}, {{0.25, 0.0}}, 0.3), 0.0);
+  EXPECT_EQ(free_way_m({-0.2, 0.0}, {{0.25, 0.0}}, 0.3), kNever);
+  EXPECT_EQ(free_way_m({0.2, 0.0}, {{0.01, 0.29}}, 0.3), kNever);
+}
+
+// Against the disc's centre moved in tiny steps.
+TEST(FreeWay, AgreesWithTinyStepsOnRandomArcs) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 500; ++i) {
+    const Twist twist{0.3 * any(random), 1.5 * any(random)};
+    if (std::abs(twist.v_mps) < 0.02) continue;
+    const Point p(1.5 * any(random), 1.5 * any(random));
+    if (p.norm() < 0.31) continue;
+    double oracle_m = kNever;
+    Pose2 pose;
+    for (double way = 0.0; way < 1.5 && oracle_m == kNever; way += 1e-3) {
+      if ((pose.position() - p).norm() < 0.3) oracle_m = way;
+      const double dt = 1e-3 / std::abs(twist.v_mps);
+      pose = pose * Pose2{0, 0, 0.5 * twist.w_radps * dt} * Pose2{twist.v_mps * dt, 0, 0} *
+             Pose2{0, 0, 0.5 * twist.w_radps * dt};
+    }
+    const double way_m = free_way_m(twist, {p}, 0.3);
+    if (oracle_m < 1.5) {
+      EXPECT_NEAR(way_m, oracle_m, 0.02) << i;
+    } else {
+      EXPECT_GE(way_m, 1.48) << i;
+    }
+  }
+}
+
+TEST(LocalPlanner, TakesWhatTheFollowerPrefersInTheOpen) {
+  const LocalWish wish{{0.25, 0.3}, {0.3, 0.1}};
+  const LocalStep step = best_in_window({0.25, 0.0}, wish, {{2.0, 0.0}, {0.0, 0.5}}, {});
+  EXPECT_EQ(step.target, wish.preferred);
+  EXPECT_FALSE(step.blocked);
+}
+
+TEST(LocalPlanner, SteersRoundAPost) {
+  const LocalWish wish{{0.25, 0.0}, {0.8, 0.0}};
+  const LocalStep step = best_in_window({0.25, 0.0}, wish, {{0.45, 0.05}}, {});
+  EXPECT_FALSE(step.blocked);
+  EXPECT_LT(step.target.w_radps, -0.1) << "to the side with more room";
+}
+
+TEST(LocalPlanner, StopsBeforeAWall) {
+  const LocalWish wish{{0.25, 0.0}, {0.8, 0.0}};
+  const LocalStep step = best_in_window({0.1, 0.0}, wish, wall({0.26, -1.5}, {0.26, 1.5}), {});
+  EXPECT_TRUE(step.blocked);
+  EXPECT_EQ(step.target, Twist{});
+}
+
+TEST(LocalPlanner, PassesADoorOfSeventyCentimetres) {
+  std::vector<Point> jambs = wall({0.6, 0.35}, {0.6, 1.5});
+  add(jambs, wall({0.6, -0.35}, {0.6, -1.5}));
+  for (double x_m = 0.0; x_m < 1.2; x_m += 0.05) {
+    std::vector<Point> seen;
+    for (const Point& p : jambs) seen.push_back(p - Point(x_m, 0.0));
+    const LocalStep step = best_in_window({0.2, 0.0}, {{0.2, 0.0}, {0.4, 0.0}}, seen, {});
+    EXPECT_GT(step.target.v_mps, 0.05) << "at " << x_m;
+    EXPECT_LT(std::abs(step.target.w_radps), 0.2) << "at " << x_m;
+  }
+}
+
+TEST(LocalPlanner, WhatItTakesIsAdmissible) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const LocalLimits limits;
+  for (int i = 0; i < 500; ++i) {
+    std::vector<Point> obstacles;
+    for (int k = 0; k < 12; ++k) {
+      const Point p(0.8 + 0.6 * any(random), any(random));
+      if (p.norm() > 0.35) obstacles.push_back(p);
+    }
+    const Twist now{0.125 + 0.125 * any(random), 0.5 * any(random)};
+    const LocalStep step = best_in_window(now, {{0.25, 0.0}, {0.5, 0.2 * any(random)}}, obstacles, limits);
+    if (step.blocked) {
+      EXPECT_EQ(step.target, Twist{});
+      continue;
+    }
+    EXPECT_LE(step.target.v_mps, limits.max_v_mps + 1e-12);
+    EXPECT_LE(std::abs(step.target.w_radps), limits.max_w_radps + 1e-12);
+    const double v = step.target.v_mps;
+    EXPECT_GE(free_way_m(step.target, obstacles, limits.radius_m + 0.03), v * v / (2.0 * limits.acceleration_mps2));
+  }
+}
+
+TEST(LocalPlanner, ACarKeepsItsTurningRadius) {
+  LocalLimits limits;
+  limits.min_turning_radius_m = 0.6;
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  Twist now;
+  for (int i = 0; i < 500; ++i) {
+    const LocalStep step =
+        best_in_window(now, {{0.25, 0.1}, {0.5, 0.0}}, {{0.6 + 0.2 * any(random), 0.3 * any(random)}}, limits);
+    now = approached(now, step.target, 0.04, limits);
+    EXPECT_LE(std::abs(now.w_radps) * 0.6, std::abs(now.v_mps) + 1e-9);
+  }
+}
+
+TEST(LocalPlanner, ApproachesWithinTheAccelerations) {
+  const LocalLimits limits;
+  const Twist next = approached({0.0, 0.0}, {0.25, -0.9}, 0.04, limits);
+  EXPECT_NEAR(next.v_mps, 0.02, 1e-12);
+  EXPECT_NEAR(next.w_radps, -0.14, 1e-12);
+  EXPECT_EQ(approached({0.24, 0.1}, {0.25, 0.1}, 0.04, limits), (Twist{0.25, 0.1}));
+}
+
+TEST(LocalPlanner, WhatALiveEchoComesThroughIsNotInTheWay) {
+  OccupancyGrid grid(0.05);
+  grid.set_log_odds(grid.cell_at({0.6, 0.0}), 600);  // somebody who has gone on
+  const LandmarkGraph graph;
+  const RobotModel robot;
+  const NearEchoes near_echoes(grid);
+  const auto obstacles_with = [&](double range_m) {
+    Observation observation;
+    observation.ranges = {{{0.1, 0.0, 0.0}, radians(15.0), 0.1, 5.0, range_m, 0}};
+    LocalPlanner planner;
+    planner.see({grid, graph, robot, {Pose2{}, Eigen::Matrix3d::Zero()}, 1.0, &observation}, near_echoes);
+    return planner.obstacles().size();
+  };
+  EXPECT_EQ(obstacles_with(kNever), 1U) << "silence says nothing";
+  EXPECT_EQ(obstacles_with(2.0), 0U);
+  EXPECT_EQ(obstacles_with(0.5), 1U) << "the echo came from there";
+  EXPECT_GT(obstacles_with(0.3), 1U) << "something else: its whole arc besides";
+}
+
+}  // namespace
+}  // namespace cairn::behaviours
