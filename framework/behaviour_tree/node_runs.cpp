@@ -27,7 +27,7 @@ void NodeRuns::add(const TreeNode& node, const NodeReport& how, double begun_s) 
       return;
     }
   }
-  if (runs_.size() >= kMostNodeRuns) {
+  if (runs_.size() >= kMaxNodeRuns) {
     ++left_out_;
     return;
   }

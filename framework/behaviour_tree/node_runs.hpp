@@ -21,7 +21,7 @@ struct NodeRun {
   std::int64_t runs = 1;  // of a node that was asked again and again and answered the same at once: how often
 };
 
-inline constexpr std::size_t kMostNodeRuns = 10000;
+inline constexpr std::size_t kMaxNodeRuns = 10000;
 
 class NodeRuns {
  public:

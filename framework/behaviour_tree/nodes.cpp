@@ -8,7 +8,7 @@ namespace {
 // In the order of NodeKind.
 constexpr auto kNames = std::to_array<std::string_view>(
     {"sequence", "reactive_sequence", "fallback", "reactive_fallback", "parallel", "repeat", "retry", "timeout", "not",
-     "always", "mission", "landmark_known", "explored", "time_before", "time_after", "at_place", "battery_above",
+     "force_success", "mission", "landmark_known", "explored", "time_before", "time_after", "at_place", "battery_above",
      "behaviour"});
 static_assert(kNames.size() == static_cast<std::size_t>(NodeKind::behaviour) + 1);
 
@@ -30,7 +30,7 @@ std::vector<NodeType> all_types() {
       {K::retry, S::settings_node, "its child again each time that it fails", schema_of<RoundsSettings>()},
       {K::timeout, S::settings_node, "its child, halted and failed when its time is up", schema_of<TimeoutSettings>()},
       {K::inverse, S::one_node, "success when its child fails, failure when it succeeds"},
-      {K::always, S::one_node, "success when its child has ended, whatever has come of it"},
+      {K::force_success, S::one_node, "success when its child has ended, whatever has come of it"},
       {K::mission, S::settings, "the steps of another file, in order", schema_of<SubMissionSettings>()},
       {K::landmark_known, S::settings, "whether the map holds a landmark", schema_of<LandmarkKnownSettings>()},
       {K::explored, S::settings, "whether so much of the map is known; looked at once a second of the mission's clock",

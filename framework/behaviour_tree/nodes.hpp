@@ -24,7 +24,7 @@ enum class NodeKind : std::uint8_t {
   retry,
   timeout,
   inverse,
-  always,
+  force_success,
   mission,
   landmark_known,
   explored,

@@ -58,7 +58,7 @@ class Reachability {
         const Ends child = of(node.children.front());
         return {child.failure, child.success};
       }
-      case NodeKind::always: {
+      case NodeKind::force_success: {
         const Ends child = of(node.children.front());
         return {child.success || child.failure, false};
       }

@@ -48,7 +48,7 @@ Status TreeRunner::tick_node(std::size_t at) {
   ++state.report.ticks;
   Status status = tick_kind(at);
   if (status.progress == Progress::running) {
-    tell_start(at);
+    report_start(at);
     return status;
   }
   end(at, status);
@@ -83,7 +83,7 @@ Status TreeRunner::tick_kind(std::size_t at) {
       status.progress = has_failed ? Progress::success : Progress::failure;
       return status;
     }
-    case NodeKind::always: {
+    case NodeKind::force_success: {
       Status status = tick_node(state.children.front());
       if (status.progress == Progress::failure) status.progress = Progress::success;
       return status;
@@ -93,7 +93,7 @@ Status TreeRunner::tick_kind(std::size_t at) {
   }
   if (state.node->kind == NodeKind::behaviour) doing_ = at;
   LeafTick leaf = host_.tick_leaf(*state.node);
-  state.told = leaf.status;
+  state.reported = leaf.status;
   state.is_forgiven = leaf.is_forgiven;
   if (leaf.wanted && leaf.status.progress == Progress::running) {
     driver_ = at;
@@ -230,30 +230,30 @@ Status TreeRunner::tick_timeout(State& state) {
 void TreeRunner::begin(std::size_t at) {
   State& state = states_[at];
   state.is_running = true;
-  state.is_told = state.is_forgiven = false;
+  state.is_reported = state.is_forgiven = false;
   state.next = 0;
   state.rounds = 0;
   state.begun_s = now_s_;
   state.outcomes.clear();
   state.failures.clear();
-  state.told = {};
+  state.reported = {};
   if (state.report.runs++ == 0) state.report.begin_s = now_s_;
-  if (state.node->kind == NodeKind::behaviour) tell_start(at);
+  if (state.node->kind == NodeKind::behaviour) report_start(at);
 }
 
 // Parents first.
-void TreeRunner::tell_start(std::size_t at) {
+void TreeRunner::report_start(std::size_t at) {
   State& state = states_[at];
-  if (at == 0 || state.is_told) return;
-  tell_start(state.parent);
-  state.is_told = true;
+  if (at == 0 || state.is_reported) return;
+  report_start(state.parent);
+  state.is_reported = true;
   host_.started(*state.node);
 }
 
 void TreeRunner::end(std::size_t at, const Status& status) {
   State& state = states_[at];
   NodeReport& report = state.report;
-  const bool is_news = state.is_told || report.is_halted || report.status.progress != status.progress;
+  const bool has_changed = state.is_reported || report.is_halted || report.status.progress != status.progress;
   state.is_running = false;
   report.status = status;
   report.is_halted = false;
@@ -261,8 +261,8 @@ void TreeRunner::end(std::size_t at, const Status& status) {
   state.done_s += now_s_ - state.begun_s;
   ++state.done;
   host_.ran(*state.node, report, state.begun_s);
-  if (at == 0 || !is_news) return;
-  tell_start(at);
+  if (at == 0 || !has_changed) return;
+  report_start(at);
   host_.ended(*state.node, report);
 }
 
@@ -290,7 +290,7 @@ void TreeRunner::halt_node(std::size_t at, const std::string& reason) {
   }
   host_.ran(*state.node, state.report, state.begun_s);
   if (state.node->kind == NodeKind::behaviour) host_.halt_leaf(*state.node);
-  if (state.is_told) host_.ended(*state.node, state.report);
+  if (state.is_reported) host_.ended(*state.node, state.report);
 }
 
 void TreeRunner::abandon(double time_s, const std::string& reason) {

@@ -104,7 +104,7 @@ class TreeRunner {
     std::size_t parent = 0;
     std::vector<std::size_t> children{};
     bool is_running = false;
-    bool is_told = false;      // that it has started
+    bool is_reported = false;  // that it has started
     bool is_forgiven = false;  // how it ended the last time
     std::size_t next = 0;      // of nodes with memory: the child to tick
     std::int64_t rounds = 0;   // of repeat and retry: that have ended
@@ -112,7 +112,7 @@ class TreeRunner {
     std::vector<Status> outcomes{};  // of parallel: of each child
     std::string failures{};          // of fallback: of the children so far
     NodeReport report{};
-    Status told{};        // of a leaf: in its last tick
+    Status reported{};    // of a leaf: in its last tick
     double done_s = 0.0;  // of all times that it has ended, not halted
     std::int64_t done = 0;
   };
@@ -140,7 +140,7 @@ class TreeRunner {
   void restore(State& state, const NodeState& saved, double time_s);
   void begin(std::size_t at);
   void end(std::size_t at, const Status& status);
-  void tell_start(std::size_t at);
+  void report_start(std::size_t at);
   void halt_node(std::size_t at, const std::string& reason);
   void halt_children(const State& state, std::size_t from, const std::string& reason);
   [[nodiscard]] std::string failure_of(std::size_t at, const std::string& reason) const;

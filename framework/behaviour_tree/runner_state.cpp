@@ -27,7 +27,7 @@ bool counts(NodeKind kind) {
 std::optional<TreeRunner::Doing> TreeRunner::doing() const {
   if (!doing_ || !states_[*doing_].is_running) return std::nullopt;
   const State& state = states_[*doing_];
-  return Doing{state.report.path, state.report.name, state.told.reason};
+  return Doing{state.report.path, state.report.name, state.reported.reason};
 }
 
 TreeState TreeRunner::state() const {

@@ -16,14 +16,14 @@ TimeLeft nothing() {
 
 TimeLeft side_by_side(TimeLeft a, const TimeLeft& b) {
   a.about_s = std::max(a.about_s, b.about_s);
-  a.most_s = std::max(a.most_s, b.most_s);
+  a.max_s = std::max(a.max_s, b.max_s);
   for (const std::string& what : b.without) add_unknown(a, what);
   return a;
 }
 
 TimeLeft again(TimeLeft one, double times) {
   one.about_s *= times;
-  one.most_s *= times;
+  one.max_s *= times;
   return one;
 }
 
@@ -79,7 +79,7 @@ TimeLeft TreeRunner::left_of(std::size_t at, const Reckoning& reckoning) const {
       return cut(child(0), state.node->after_s - (reckoning.time_s - state.begun_s));
     case NodeKind::retry:
     case NodeKind::inverse:
-    case NodeKind::always:
+    case NodeKind::force_success:
       return child(0);
     default:
       return leaf_left(state, reckoning);
@@ -89,8 +89,8 @@ TimeLeft TreeRunner::left_of(std::size_t at, const Reckoning& reckoning) const {
 TimeLeft TreeRunner::leaf_left(const State& state, const Reckoning& reckoning) const {
   TimeLeft left;
   const std::optional<double> mean_s = reckoning.times.mean_s(state.report.kind);
-  if (state.told.left_s && std::isfinite(*state.told.left_s))
-    left.about_s = std::max(0.0, *state.told.left_s);
+  if (state.reported.left_s && std::isfinite(*state.reported.left_s))
+    left.about_s = std::max(0.0, *state.reported.left_s);
   else if (mean_s)
     left.about_s = std::max(0.0, *mean_s - (reckoning.time_s - state.begun_s));
   else if (!is_condition(state.node->kind))
@@ -115,7 +115,7 @@ TimeLeft TreeRunner::rounds_left(const State& state, const Reckoning& reckoning)
   const TimeLeft now = left_of(child, reckoning);
   TimeLeft left = now;
   if (state.node->times == 0) {
-    left.most_s = kForEver_s;
+    left.max_s = kForEver_s;
     add_unknown(left, "rounds without end");
     return left;
   }
@@ -152,7 +152,7 @@ TimeLeft TreeRunner::whole_of(std::size_t at, const Reckoning& reckoning) const 
     case NodeKind::repeat:
       left = again(child(0), std::max(1, state.node->times));
       if (state.node->times == 0) {
-        left.most_s = kForEver_s;
+        left.max_s = kForEver_s;
         add_unknown(left, "rounds without end");
       }
       return left;
@@ -160,10 +160,10 @@ TimeLeft TreeRunner::whole_of(std::size_t at, const Reckoning& reckoning) const 
       return cut(child(0), state.node->after_s);
     case NodeKind::retry:
     case NodeKind::inverse:
-    case NodeKind::always:
+    case NodeKind::force_success:
       return child(0);
     default:
-      left.most_s = kForEver_s;
+      left.max_s = kForEver_s;
       if (const auto mean_s = reckoning.times.mean_s(state.report.kind))
         left.about_s = *mean_s;
       else

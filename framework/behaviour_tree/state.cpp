@@ -9,8 +9,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kMostDepth = 6;  // of the text that text_of() writes
-constexpr std::size_t kMostBytes = 16U << 20U;
+constexpr int kMaxDepth = 6;  // of the text that text_of() writes
+constexpr std::size_t kMaxBytes = 16U << 20U;
 constexpr std::array kOutcomes{"running", "success", "failure"};  // in the order of Progress
 
 [[noreturn]] void fail(const std::string& what) {
@@ -82,9 +82,9 @@ std::string text_of(const TreeState& state) {
 }
 
 TreeState tree_state_of(const std::string& text) {
-  if (text.size() > kMostBytes) fail("it is too long");
+  if (text.size() > kMaxBytes) fail("it is too long");
   const auto is_shallow = [](int depth, ordered_json::parse_event_t, ordered_json&) {
-    if (depth > kMostDepth) fail("it is nested too deeply");
+    if (depth > kMaxDepth) fail("it is nested too deeply");
     return true;
   };
   ordered_json root;

@@ -13,14 +13,14 @@ void add_unknown(TimeLeft& left, const std::string& what) {
 
 TimeLeft in_order(TimeLeft first, const TimeLeft& then) {
   first.about_s += then.about_s;
-  first.most_s += then.most_s;
+  first.max_s += then.max_s;
   for (const std::string& what : then.without) add_unknown(first, what);
   return first;
 }
 
-TimeLeft cut(TimeLeft left, double most_s) {
-  left.most_s = std::min(left.most_s, std::max(0.0, most_s));
-  left.about_s = std::min(left.about_s, left.most_s);
+TimeLeft cut(TimeLeft left, double max_s) {
+  left.max_s = std::min(left.max_s, std::max(0.0, max_s));
+  left.about_s = std::min(left.about_s, left.max_s);
   return left;
 }
 
@@ -30,7 +30,7 @@ std::string text_of(const TimeLeft& left) {
   const bool is_known = without.empty() || left.about_s >= 0.5;
   std::string text = is_known ? fmt::format("about {:.0f} s left", left.about_s) : std::string("time left unknown");
   if (is_known && !without.empty()) text += " without " + without;
-  return is_known || !std::isfinite(left.most_s) ? text : text + fmt::format(", at most {:.0f} s", left.most_s);
+  return is_known || !std::isfinite(left.max_s) ? text : text + fmt::format(", at most {:.0f} s", left.max_s);
 }
 
 }  // namespace cairn

@@ -8,8 +8,8 @@
 namespace cairn {
 
 struct TimeLeft {
-  double about_s = 0.0;                                     // of all that can be told
-  double most_s = std::numeric_limits<double>::infinity();  // it has ended by then; infinite: nothing says so
+  double about_s = 0.0;                                    // of all that can be told
+  double max_s = std::numeric_limits<double>::infinity();  // it has ended by then; infinite: nothing says so
   std::vector<std::string> without{};  // kinds of nodes of which nothing is known: what they take comes on top
 };
 
@@ -18,7 +18,7 @@ void add_unknown(TimeLeft& left, const std::string& what);
 // Both, one after the other.
 [[nodiscard]] TimeLeft in_order(TimeLeft first, const TimeLeft& then);
 // At most so long.
-[[nodiscard]] TimeLeft cut(TimeLeft left, double most_s);
+[[nodiscard]] TimeLeft cut(TimeLeft left, double max_s);
 
 // "about 80 s left", "about 80 s left without goto, save", "time left unknown, at most 900 s".
 [[nodiscard]] std::string text_of(const TimeLeft& left);

@@ -10,7 +10,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMostValues = 1'000'000;
+constexpr std::size_t kMaxValues = 1'000'000;
 constexpr const char* kName = "name";
 constexpr const char* kChild = "do";
 
@@ -127,10 +127,10 @@ class TreeReader {
   }
 
   void count(const SourcePlace& place, const std::string& path) {
-    if (++nodes_ > kMostTreeNodes)
-      throw ConfigError(place, "the mission has more than " + std::to_string(kMostTreeNodes) + " nodes");
-    if (static_cast<std::size_t>(std::ranges::count(path, '/')) >= kMostTreeDepth)
-      throw ConfigError(place, "the nodes are nested deeper than " + std::to_string(kMostTreeDepth) + " levels");
+    if (++nodes_ > kMaxTreeNodes)
+      throw ConfigError(place, "the mission has more than " + std::to_string(kMaxTreeNodes) + " nodes");
+    if (static_cast<std::size_t>(std::ranges::count(path, '/')) >= kMaxTreeDepth)
+      throw ConfigError(place, "the nodes are nested deeper than " + std::to_string(kMaxTreeDepth) + " levels");
   }
 
   void fill(TreeNode& node, NodeShape shape, const ConfigValue& value) {
@@ -276,7 +276,7 @@ class TreeReader {
 
   std::vector<File> chain_;  // of files, the mission's first
   std::size_t nodes_ = 0;
-  std::size_t values_left_ = kMostValues;
+  std::size_t values_left_ = kMaxValues;
   std::vector<ConfigError> errors_;
 };
 

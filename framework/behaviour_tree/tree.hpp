@@ -38,8 +38,8 @@ struct MissionTree {
   std::vector<ConfigError> errors;  // in the order of the files
 };
 
-inline constexpr std::size_t kMostTreeDepth = 64;     // nodes on the way from a step to a leaf
-inline constexpr std::size_t kMostTreeNodes = 10000;  // of a mission with all its sub-missions
+inline constexpr std::size_t kMaxTreeDepth = 64;     // nodes on the way from a step to a leaf
+inline constexpr std::size_t kMaxTreeNodes = 10000;  // of a mission with all its sub-missions
 
 // steps: the list of the mission's file, or a value without a place where it has none. Reads sub-missions, too. Errors:
 // unknown settings, wrong types, wrong numbers of children, parameters that do not fit, a sub-mission that runs itself,

@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMostLinesLookedAt = 100;  // from the end: each costs a parse of what is before it
+constexpr std::size_t kMaxLinesLookedAt = 100;  // from the end: each costs a parse of what is before it
 
 class NoEvents : public YAML::EventHandler {
  public:
@@ -56,7 +56,7 @@ std::optional<SourcePlace> unclosed_quote(const std::string& text, const std::st
   for (std::size_t at = text.find('\n'); at != std::string::npos && at + 1 < text.size(); at = text.find('\n', at + 1))
     begins.push_back(at + 1);
   const std::string_view all(text);
-  for (std::size_t i = 0; i < begins.size() && i < kMostLinesLookedAt; ++i) {
+  for (std::size_t i = 0; i < begins.size() && i < kMaxLinesLookedAt; ++i) {
     const std::size_t line = begins.size() - 1 - i;
     if (line > 0 && ends_in_quote(all.substr(0, begins[line]))) continue;
     const std::string_view rest = all.substr(begins[line]);

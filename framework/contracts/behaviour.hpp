@@ -27,9 +27,9 @@ struct OutputText {
 };
 
 // What a behaviour may ask for. Each is carried out by the host, inside its own limits. "Throws": std::runtime_error.
-class Orders {
+class BehaviourContext {
  public:
-  virtual ~Orders() = default;
+  virtual ~BehaviourContext() = default;
   virtual void drive(const Twist& wanted) = 0;              // for this tick; no call: stop. Throws: no drive, no number
   virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once; without one, no_route
   // Asks the mission's planner and adds its answer to a file of the output folder, one JSON object a line. Success when
@@ -45,7 +45,7 @@ class Orders {
 class Behaviour {
  public:
   virtual ~Behaviour() = default;
-  virtual Status tick(const WorldView& world, Orders& orders) = 0;
+  virtual Status tick(const WorldView& world, BehaviourContext& orders) = 0;
   // Called when the step is left before it ended, and when it is to be done once more after its end; it must
   // not ask for anything. A tick after it begins the step afresh.
   virtual void halt() = 0;

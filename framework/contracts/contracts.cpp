@@ -44,17 +44,17 @@ std::string_view name_of(PlanOutcome outcome) {
   return "?";
 }
 
-std::string_view name_of(PlanPiece::Origin origin) {
+std::string_view name_of(PathSegment::Origin origin) {
   switch (origin) {
-    case PlanPiece::Origin::stored:
+    case PathSegment::Origin::stored:
       return "stored";
-    case PlanPiece::Origin::straight:
+    case PathSegment::Origin::straight:
       return "straight";
-    case PlanPiece::Origin::planned:
+    case PathSegment::Origin::planned:
       return "planned";
-    case PlanPiece::Origin::cut:
+    case PathSegment::Origin::cut:
       return "cut";
-    case PlanPiece::Origin::escape:
+    case PathSegment::Origin::escape:
       return "escape";
   }
   return "?";

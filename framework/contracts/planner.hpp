@@ -72,7 +72,7 @@ struct PlanExplanation {
 };
 
 // A part of the path and where it came from, in the order of the path.
-struct PlanPiece {
+struct PathSegment {
   enum class Origin {
     stored,    // the trajectory of a stored route, still free today
     straight,  // a straight line that is free
@@ -84,7 +84,7 @@ struct PlanPiece {
   RouteId route = 0;  // whose leg it is; 0: no route's
   double length_m = 0.0;
 };
-[[nodiscard]] std::string_view name_of(PlanPiece::Origin origin);
+[[nodiscard]] std::string_view name_of(PathSegment::Origin origin);
 
 struct PlanResult {
   PlanOutcome outcome = PlanOutcome::no_route;
@@ -96,9 +96,9 @@ struct PlanResult {
   std::vector<RouteId> routes;          // stored routes used, in order
   std::vector<RouteId> blocked_routes;  // stored routes found blocked on the way to this answer
   std::vector<Pose2> path;
-  std::vector<PlanPiece> pieces;
-  std::optional<double> least_length_m;  // no path on this grid can be shorter
-  std::int64_t settled = 0;              // graph vertices settled
+  std::vector<PathSegment> segments;
+  std::optional<double> length_lower_bound_m;  // no path on this grid can be shorter
+  std::int64_t settled = 0;                    // graph vertices settled
   std::vector<PlanAlternative> alternatives;
   std::optional<PlanExplanation> explanation;
   PlanTimes time_ms;

@@ -11,7 +11,7 @@ const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
   static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
                                                                           {"maps", ExperimentKind::maps},
                                                                           {"places", ExperimentKind::places},
-                                                                          {"lap", ExperimentKind::lap},
+                                                                          {"orbit", ExperimentKind::orbit},
                                                                           {"recognition", ExperimentKind::recognition},
                                                                           {"curves", ExperimentKind::curves},
                                                                           {"trials", ExperimentKind::trials}};
@@ -39,10 +39,10 @@ void check_worlds(const RandomWorldConfig& worlds, const ConfigValue& value) {
     const ConfigValue* given = value.find(key) != nullptr ? value.find(key) : value.find(other);
     return given != nullptr ? given->place : value.place;
   };
-  if (worlds.least_landmarks > worlds.most_landmarks)
-    throw ConfigError(place_of("least_landmarks", "most_landmarks"),
-                      fmt::format("least_landmarks must be at most most_landmarks, found {} and {}",
-                                  worlds.least_landmarks, worlds.most_landmarks));
+  if (worlds.min_landmarks > worlds.max_landmarks)
+    throw ConfigError(place_of("min_landmarks", "max_landmarks"),
+                      fmt::format("min_landmarks must be at most max_landmarks, found {} and {}", worlds.min_landmarks,
+                                  worlds.max_landmarks));
   for (const auto& [name, axis] : {std::pair{"x", 0}, {"y", 1}}) {
     if (worlds.smallest_room_m[axis] > worlds.largest_room_m[axis])
       throw ConfigError(place_of("smallest_room_m", "largest_room_m"),
@@ -60,11 +60,10 @@ void check_worlds(const RandomWorldConfig& worlds, const ConfigValue& value) {
 void check_trials(const ExperimentConfig& config, const ConfigValue& value) {
   if (config.trials.robots.empty())
     throw ConfigError(value.find("robots")->place, "robots must list at least one robot file");
-  if (config.trials.least_goals > config.trials.most_goals) {
-    const ConfigValue* given =
-        value.find("least_goals") != nullptr ? value.find("least_goals") : value.find("most_goals");
-    throw ConfigError(given->place, fmt::format("least_goals must be at most most_goals, found {} and {}",
-                                                config.trials.least_goals, config.trials.most_goals));
+  if (config.trials.min_goals > config.trials.max_goals) {
+    const ConfigValue* given = value.find("min_goals") != nullptr ? value.find("min_goals") : value.find("max_goals");
+    throw ConfigError(given->place, fmt::format("min_goals must be at most max_goals, found {} and {}",
+                                                config.trials.min_goals, config.trials.max_goals));
   }
 }
 
@@ -159,9 +158,9 @@ void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
                  "degrees published elsewhere, in the order of `categories`, to be printed beside");
 }
 
-void LapConfig::describe(Fields<LapConfig>& fields) {
-  fields.text("around", &LapConfig::around, "category of the landmark, of which the world has one").required = true;
-  fields.angle("bin_deg", &LapConfig::bin_rad, {1.0, 180.0}, "one point of the charts in each such part of the lap");
+void OrbitConfig::describe(Fields<OrbitConfig>& fields) {
+  fields.text("around", &OrbitConfig::around, "category of the landmark, of which the world has one").required = true;
+  fields.angle("bin_deg", &OrbitConfig::bin_rad, {1.0, 180.0}, "one point of the charts in each such part of the lap");
 }
 
 void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
@@ -181,7 +180,7 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
   fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
   fields.group("seeds", &C::seeds, "which seeds");
-  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6}, "as the missions' setting of this name");
+  fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6}, "as the missions' setting of this name");
   fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
   fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
                 "share of good runs (of `trials`: of reached goals among the reachable ones that no fault took away) "
@@ -192,7 +191,7 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.list("places", &C::places,
               "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
               "before that looked at its landmark");
-  fields.group("lap", &C::lap, "of `lap`: the lap");
+  fields.group("orbit", &C::orbit, "of `lap`: the lap");
   fields.group(
       "worlds", &C::worlds,
       "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
@@ -226,11 +225,11 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
     throw ConfigError(root.find("baseline")->place,
                       "no variant is called \"" + config.baseline + "\"" + did_you_mean(config.baseline, names));
   const bool of_places = config.experiment == ExperimentKind::places;
-  const bool of_lap = config.experiment == ExperimentKind::lap;
-  if ((of_places || of_lap) && config.categories.empty())
+  const bool of_orbit = config.experiment == ExperimentKind::orbit;
+  if ((of_places || of_orbit) && config.categories.empty())
     throw ConfigError(root.place, "an experiment of places or of a lap must list its categories");
   if (of_places) check_places(config, root);
-  if (of_lap && !config.lap)
+  if (of_orbit && !config.orbit)
     throw ConfigError(root.place, "an experiment of a lap must say under lap what it goes round");
   if (const ConfigValue* worlds = root.find("worlds")) check_worlds(config.worlds, *worlds);
   if (config.detectors_as_given.kind != ConfigValue::Kind::null)

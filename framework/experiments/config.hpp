@@ -17,7 +17,7 @@ namespace cairn {
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
 // fit at given places of the drive, and along a lap round a landmark; what is recognised in random worlds,
 // and what other detectors recognise on the same grids; what comes of random missions in random worlds.
-enum class ExperimentKind { missions, maps, places, lap, recognition, curves, trials };
+enum class ExperimentKind { missions, maps, places, orbit, recognition, curves, trials };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
 
 struct SeedRange {
@@ -45,10 +45,10 @@ struct PlaceConfig {
 };
 
 // A lap round one landmark.
-struct LapConfig {
+struct OrbitConfig {
   std::string around;  // category of the landmark; the world has one of it
   double bin_rad = radians(15.0);
-  static void describe(Fields<LapConfig>& fields);
+  static void describe(Fields<OrbitConfig>& fields);
 };
 
 // A detector that is compared with others on the same grids.
@@ -64,13 +64,13 @@ struct ExperimentConfig {
   std::vector<ExperimentVariant> variants;  // after loading at least one
   std::string baseline;                     // a variant's name
   SeedRange seeds;
-  int withhold_every = 0;
+  int hold_out_every = 0;
   double tolerance_m = 0.10;    // a landmark further from the truth is false
   double at_least_ratio = 0.0;  // share of good runs that makes the experiment a success
   std::vector<std::string> overrides;
   std::vector<std::string> categories;  // columns of the table of places
   std::vector<PlaceConfig> places;
-  std::optional<LapConfig> lap;
+  std::optional<OrbitConfig> orbit;
   RandomWorldConfig worlds;
   TrialsConfig trials;
   ConfigValue detectors_as_given;

@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMostRunsAtATime = 8;
+constexpr std::size_t kMaxRunsAtATime = 8;
 
 struct Job {
   std::filesystem::path mission;
@@ -27,7 +27,7 @@ std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::
   const std::vector<std::filesystem::path>& missions = of_trials ? drawn : config.missions;
   for (const std::filesystem::path& mission : missions) {
     const bool is_log = !of_trials && !load_mission(mission, config.overrides).world;
-    const int seeds = is_log ? std::min(config.seeds.count, std::max(config.withhold_every, 1)) : config.seeds.count;
+    const int seeds = is_log ? std::min(config.seeds.count, std::max(config.hold_out_every, 1)) : config.seeds.count;
     for (const ExperimentVariant& variant : config.variants)
       for (int i = 0; i < seeds; ++i) {
         const std::int64_t seed = config.seeds.from + i;
@@ -55,7 +55,7 @@ std::string write_world(const ExperimentConfig& config, const Job& job, const st
 Mission mission_of(const ExperimentConfig& config, const Job& job) {
   std::vector<std::string> overrides = config.overrides;
   overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
-  if (config.withhold_every > 0) overrides.push_back("withhold_every=" + std::to_string(config.withhold_every));
+  if (config.hold_out_every > 0) overrides.push_back("hold_out_every=" + std::to_string(config.hold_out_every));
   if (config.experiment == ExperimentKind::trials)
     return load_mission(write_trial(config.trials, config.worlds, job.seed, job.out), overrides, job.seed);
   if (in_random_worlds(config.experiment))
@@ -69,8 +69,8 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
     if (job.seed != config.seeds.from) continue;
     const Mission mission = mission_of(config, job);
     if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
-    if (config.experiment == ExperimentKind::lap)
-      require_one(mission, config.lap->around, "the lap goes round", job.mission);
+    if (config.experiment == ExperimentKind::orbit)
+      require_one(mission, config.orbit->around, "the lap goes round", job.mission);
     MissionRunner(mission, library, {job.out, false, nullptr});
     for (const ComparedDetector& detector : config.detectors)
       MissionRunner(with_detector(mission, detector, library), library, {job.out, false, nullptr});
@@ -79,19 +79,19 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
 
 // What a run is measured by while it lasts.
 struct Listeners {
-  explicit Listeners(const Mission& mission) : withheld(mission.config.withhold_every, mission.config.seed) {}
+  explicit Listeners(const Mission& mission) : held_out(mission.config.hold_out_every, mission.config.seed) {}
   void subscribe_to(MissionRunner& runner) {
     runner.subscribe(report);
     runner.subscribe(known);
     runner.subscribe(path);
-    runner.subscribe(withheld);
+    runner.subscribe(held_out);
     runner.subscribe(trial);
   }
 
   RunReport report;
   FirstKnown known;
   TruePath path;
-  WithheldReadings withheld;
+  HeldOutReadings held_out;
   TrialRecord trial;
 };
 
@@ -103,8 +103,8 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
     row.worst_error_m = std::max(row.worst_error_m, matched.error_m);
   if (config.experiment == ExperimentKind::maps && runner.grid() != nullptr) {
     if (mission.world) row.quality = map_quality(*runner.grid(), *mission.world, listeners.path.places_m());
-    row.withheld = listeners.withheld.count();
-    row.withheld_log_likelihood = listeners.withheld.mean_log_likelihood(*runner.grid());
+    row.held_out = listeners.held_out.count();
+    row.held_out_log_likelihood = listeners.held_out.mean_log_likelihood(*runner.grid());
   }
   if (config.experiment == ExperimentKind::places)
     row.places = degrees_at_places(config, *mission.world, listeners.report.degrees(), row.result.steps);
@@ -115,8 +115,9 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
     row.trial =
         judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
   row.step_rad = mission.template_settings.step_rad;
-  if (config.experiment == ExperimentKind::lap)
-    row.lap = degrees_along_lap(config, *mission.world, runner.T_map_start().position(), listeners.report.degrees());
+  if (config.experiment == ExperimentKind::orbit)
+    row.orbit =
+        degrees_along_orbit(config, *mission.world, runner.T_map_start().position(), listeners.report.degrees());
 }
 
 ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
@@ -174,7 +175,7 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
       [&](std::size_t i) {
         if (!cancel.load()) rows[i] = run_job(config, library, cancel, jobs[i]);
       },
-      kMostRunsAtATime);
+      kMaxRunsAtATime);
   return rows;
 }
 

@@ -10,7 +10,7 @@
 #include "framework/experiments/config.hpp"
 #include "framework/experiments/map_quality.hpp"
 #include "framework/experiments/recognition/curves.hpp"
-#include "framework/experiments/recognition/lap.hpp"
+#include "framework/experiments/recognition/orbit.hpp"
 #include "framework/experiments/recognition/places.hpp"
 #include "framework/experiments/recognition/recognition.hpp"
 #include "framework/experiments/trials/trials.hpp"
@@ -29,10 +29,10 @@ struct ExperimentRow {
   TruthScore score;
   double worst_error_m = 0.0;
   std::optional<MapQuality> quality;  // where there is a true world
-  std::int64_t withheld = 0;
-  double withheld_log_likelihood = 0.0;  // mean, nat
+  std::int64_t held_out = 0;
+  double held_out_log_likelihood = 0.0;  // mean, nat
   std::vector<PlaceDegrees> places;      // one a place of the experiment
-  std::vector<LapSample> lap;            // of the experiment's lap
+  std::vector<OrbitSample> orbit;        // of the experiment's lap
   std::vector<Verdict> verdicts;         // of an experiment of recognition or of curves
   std::vector<DetectorSweep> sweeps;     // of an experiment of curves, one a detector
   std::optional<TrialVerdict> trial;     // of an experiment of trials

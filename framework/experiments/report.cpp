@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/experiments/recognition/curves_table.hpp"
-#include "framework/experiments/recognition/lap_table.hpp"
+#include "framework/experiments/recognition/orbit_table.hpp"
 #include "framework/experiments/recognition/places_table.hpp"
 #include "framework/experiments/recognition/recognition_table.hpp"
 #include "framework/experiments/trials/table.hpp"
@@ -68,16 +68,16 @@ ordered_json json_of_places(const ExperimentConfig& config, const ExperimentRow&
   return places;
 }
 
-ordered_json json_of_lap(const ExperimentConfig& config, const ExperimentRow& row) {
-  ordered_json lap = ordered_json::array();
-  for (const LapSample& sample : row.lap) {
+ordered_json json_of_orbit(const ExperimentConfig& config, const ExperimentRow& row) {
+  ordered_json orbit = ordered_json::array();
+  for (const OrbitSample& sample : row.orbit) {
     ordered_json point = {{"angle_deg", degrees(sample.angle_rad)}};
     for (std::size_t k = 0; k < config.categories.size(); ++k) point[config.categories[k]] = sample.categories[k];
     for (const auto& [orientation_deg, degree] : sample.templates)
       point[template_name(config, orientation_deg)] = degree;
-    lap.push_back(std::move(point));
+    orbit.push_back(std::move(point));
   }
-  return lap;
+  return orbit;
 }
 
 ordered_json json_of_verdicts(const ExperimentRow& row) {
@@ -202,20 +202,20 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
                        {"good", row.is_good()}};
   if (in_random_worlds(config.experiment)) json["verdicts"] = json_of_verdicts(row);
   if (config.experiment == ExperimentKind::curves) json["detectors"] = json_of_sweeps(row);
-  if (config.experiment == ExperimentKind::lap) json["lap"] = json_of_lap(config, row);
+  if (config.experiment == ExperimentKind::orbit) json["orbit"] = json_of_orbit(config, row);
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (row.trial) json["trial"] = json_of_trial(*row.trial);
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
     if (measure.is_known(row)) json[measure.name] = measure.of(row);
-  json["withheld"] = row.withheld;
+  json["held_out"] = row.held_out;
   return json;
 }
 
 }  // namespace
 
 bool RunMeasure::is_known(const ExperimentRow& row) const {
-  return row.result.outcome == MissionOutcome::done && (needs_truth ? row.quality.has_value() : row.withheld > 0);
+  return row.result.outcome == MissionOutcome::done && (needs_truth ? row.quality.has_value() : row.held_out > 0);
 }
 
 std::vector<double> known_values(const std::vector<const ExperimentRow*>& rows, const RunMeasure& measure) {
@@ -235,7 +235,7 @@ const std::vector<RunMeasure>& map_measures() {
       {"Brier score", [](const Row& row) { return row.quality->brier; }, true},
       {"ghost share", [](const Row& row) { return row.quality->ghost_ratio; }, true},
       {"missed share", [](const Row& row) { return row.quality->missed_ratio; }, true},
-      {"withheld log-likelihood", [](const Row& row) { return row.withheld_log_likelihood; }, false}};
+      {"withheld log-likelihood", [](const Row& row) { return row.held_out_log_likelihood; }, false}};
   return kMeasures;
 }
 
@@ -262,8 +262,8 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
       return maps_table(config, rows);
     case ExperimentKind::places:
       return places_table(config, rows);
-    case ExperimentKind::lap:
-      return lap_table(config, rows);
+    case ExperimentKind::orbit:
+      return orbit_table(config, rows);
     case ExperimentKind::recognition:
       return recognition_table(config, rows);
     case ExperimentKind::curves:

@@ -75,7 +75,7 @@ const std::vector<ConfigValue>& list_in(const ConfigValue& map, const std::strin
 }
 
 double number(const ConfigValue& value, const std::string& what) {
-  return config_detail::to_number(value, what, {-kMostCoordinate, kMostCoordinate}, "");
+  return config_detail::to_number(value, what, {-kMaxCoordinate, kMaxCoordinate}, "");
 }
 
 std::size_t vertex_index(const ConfigValue& edge, std::size_t position, std::size_t vertices) {

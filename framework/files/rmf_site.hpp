@@ -10,7 +10,7 @@
 
 namespace cairn::rmf {
 
-inline constexpr double kMostCoordinate = 1e6;  // pixels in the file, metres in the map
+inline constexpr double kMaxCoordinate = 1e6;  // pixels in the file, metres in the map
 
 struct Properties {
   std::vector<std::pair<std::string, ConfigValue>> entries;

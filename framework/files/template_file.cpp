@@ -151,9 +151,9 @@ std::vector<std::filesystem::path> template_files(const std::filesystem::path& f
   }
   if (error) throw ConfigError(place, "cannot be read: " + error.message());
   if (files.empty()) throw ConfigError(place, "no template in this folder; a template is a file *.yaml");
-  if (files.size() > kMostTemplateFiles)
+  if (files.size() > kMaxTemplateFiles)
     throw ConfigError(place, "holds " + std::to_string(files.size()) + " templates; at most " +
-                                 std::to_string(kMostTemplateFiles) + " categories can be told apart at a time");
+                                 std::to_string(kMaxTemplateFiles) + " categories can be told apart at a time");
   std::ranges::sort(files);
   return files;
 }

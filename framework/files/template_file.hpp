@@ -18,14 +18,14 @@ struct SourcePlace;
 // The same of a text; file_name stands in the places.
 [[nodiscard]] LandmarkShape parse_landmark_shape(const std::string& text, const std::string& file_name);
 // More categories in one folder are refused: their templates would be rendered for minutes.
-inline constexpr std::size_t kMostTemplateFiles = 500;
+inline constexpr std::size_t kMaxTemplateFiles = 500;
 struct TemplateFile {
   std::filesystem::path file;
   std::string outline;  // how it is given: "circle", "polygon", "parts" or "picture"
   LandmarkShape shape;
 };
 // Every *.yaml of a folder, sorted by category. Refuses an empty folder, one of more than
-// kMostTemplateFiles and a category named twice.
+// kMaxTemplateFiles and a category named twice.
 [[nodiscard]] std::vector<TemplateFile> load_template_files(const std::filesystem::path& folder);
 [[nodiscard]] std::vector<LandmarkShape> load_landmark_shapes(const std::filesystem::path& folder);  // the same
 // Throws ConfigError on what no category can be called.

@@ -50,7 +50,7 @@ bool is_finite(const Matching& matching) {
   return T_map_landmark.position().allFinite() && std::isfinite(T_map_landmark.theta_rad) && std::isfinite(degree);
 }
 
-bool hear(Landmark& landmark, const Matching& matching, double within_m) {
+bool add_evidence(Landmark& landmark, const Matching& matching, double within_m) {
   const std::vector<CategoryDegree> degrees = degrees_at(landmark.T_map_landmark.position(), matching, within_m);
   if (degrees.empty()) return false;
   count(landmark, degrees);

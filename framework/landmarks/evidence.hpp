@@ -16,7 +16,7 @@ namespace cairn {
 // are those of its best matching so far. The newest matching decides alone, because its map holds all that the earlier
 // ones saw: means over matchings, fast or slow, named the wrong category more often. Returns whether category, pose or
 // degree changed.
-bool hear(Landmark& landmark, const Matching& matching, double within_m);
+bool add_evidence(Landmark& landmark, const Matching& matching, double within_m);
 
 // Puts the evidence of one landmark to that of another.
 void add_evidence(Landmark& landmark, const Landmark& other);

@@ -7,8 +7,8 @@
 namespace cairn {
 namespace {
 
-constexpr double kRimRatio = 0.9;        // of the half-beam: beyond it an echo is a matter of loudness
-constexpr double kLeastIncidence = 0.5;  // cosine: rays that graze say little of where a face is
+constexpr double kRimRatio = 0.9;      // of the half-beam: beyond it an echo is a matter of loudness
+constexpr double kMinIncidence = 0.5;  // cosine: rays that graze say little of where a face is
 constexpr double kOnTop_m = 1e-3;
 
 double cross(const Point& a, const Point& b) {
@@ -102,7 +102,7 @@ std::optional<ExpectedEcho> ray_echo(const Contour& contour, const Pose2& T_cont
   const Point ray = T_contour_sensor.direction();
   const Crossing first = first_crossing(contour, T_contour_sensor.position(), ray);
   const double incidence = -first.normal.dot(ray);
-  if (!std::isfinite(first.range_m) || incidence < kLeastIncidence) return std::nullopt;
+  if (!std::isfinite(first.range_m) || incidence < kMinIncidence) return std::nullopt;
   const Point turned(-ray.y(), ray.x());
   return ExpectedEcho{first.range_m, first.normal / incidence, first.range_m * first.normal.dot(turned) / incidence};
 }

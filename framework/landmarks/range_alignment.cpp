@@ -51,7 +51,7 @@ Sum summed(const Pose2& T_map_robot, const Eigen::Vector3d& from_begin, int read
 std::optional<Alignment> align(const Pose2& T_map_robot, int readings,
                                const std::function<std::optional<RangeResidual>(int, const Pose2&)>& compare,
                                const AlignmentLimits& limits) {
-  if (readings < limits.least_readings) return std::nullopt;
+  if (readings < limits.min_readings) return std::nullopt;
   Pose2 T_map_now = T_map_robot;
   double change = 1.0;
   for (int i = 0; i < limits.iterations && change > kSettled; ++i) {
@@ -63,20 +63,20 @@ std::optional<Alignment> align(const Pose2& T_map_robot, int readings,
     T_map_now = T_map_now * shifted_by(step);
     change = step.norm();
     const Pose2 moved = inverse(T_map_robot) * T_map_now;
-    if (moved.position().norm() > limits.most_shift_m || std::abs(moved.theta_rad) > limits.most_turn_rad)
+    if (moved.position().norm() > limits.max_shift_m || std::abs(moved.theta_rad) > limits.max_turn_rad)
       return std::nullopt;
   }
   if (change > kStillMoves) return std::nullopt;
   const Sum sum = summed(T_map_now, Eigen::Vector3d::Zero(), readings, compare, kOutlier_sigmas);
   Alignment found{inverse(T_map_robot) * T_map_now, sum.information.inverse(), 0.0, sum.inliers, sum.outliers};
-  if (found.readings < limits.least_readings ||
-      found.readings < limits.least_inlier_ratio * (found.readings + found.outliers))
+  if (found.readings < limits.min_readings ||
+      found.readings < limits.min_inlier_ratio * (found.readings + found.outliers))
     return std::nullopt;
   found.rms_sigmas = std::sqrt(sum.squares / found.readings);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(found.covariance.topLeftCorner<2, 2>(),
                                                             Eigen::EigenvaluesOnly);
   const double strongest_m = std::sqrt(std::max(0.0, axes.eigenvalues()[0]));
-  if (found.rms_sigmas > limits.most_rms_sigmas || strongest_m > limits.strongest_deviation_m) return std::nullopt;
+  if (found.rms_sigmas > limits.max_rms_sigmas || strongest_m > limits.strongest_deviation_m) return std::nullopt;
   return found;
 }
 

@@ -26,11 +26,11 @@ struct Alignment {
 
 struct AlignmentLimits {
   int iterations = 8;
-  int least_readings = 5;
-  double least_inlier_ratio = 0.6;
-  double most_rms_sigmas = 1.5;
-  double most_shift_m = 0.5;
-  double most_turn_rad = radians(20.0);
+  int min_readings = 5;
+  double min_inlier_ratio = 0.6;
+  double max_rms_sigmas = 1.5;
+  double max_shift_m = 0.5;
+  double max_turn_rad = radians(20.0);
   double strongest_deviation_m = 0.1;  // in the direction that is known best; weaker says nothing
 };
 

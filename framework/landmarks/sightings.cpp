@@ -12,11 +12,11 @@ namespace {
 constexpr std::size_t kBatch = 15;  // readings that are looked at together
 constexpr double kKept_s = 4.0;
 constexpr double kKept_m = 1.0;
-constexpr std::size_t kLeastReadings = 8;  // of one landmark
-constexpr double kReach_m = 4.0;           // further away sonars hear landmarks seldom
-constexpr double kGate_m = 0.35;           // a reading further off than this is of something else
-constexpr double kInFront_m = 0.2;         // what stands so much nearer hides the rest
-constexpr double kApart_m = 0.3;           // two landmarks nearer to each other in range compete
+constexpr std::size_t kMinReadings = 8;  // of one landmark
+constexpr double kReach_m = 4.0;         // further away sonars hear landmarks seldom
+constexpr double kGate_m = 0.35;         // a reading further off than this is of something else
+constexpr double kInFront_m = 0.2;       // what stands so much nearer hides the rest
+constexpr double kApart_m = 0.3;         // two landmarks nearer to each other in range compete
 
 bool is_hidden(const OccupancyGrid& grid, const Pose2& T_map_sensor, double range_m) {
   const double step_m = 0.5 * grid.cell_m();
@@ -50,7 +50,7 @@ struct LandmarkSightings::Scene {
 std::span<const LandmarkSighting> LandmarkSightings::look(const Observation& observation, const PoseEstimate& pose,
                                                           const Pose2& T_odom_before, const LandmarkGraph& graph,
                                                           const OccupancyGrid& grid) {
-  told_.clear();
+  reported_.clear();
   anchor_landmarks(graph, pose);
   take(observation);
   if (window_.size() < kBatch) return {};
@@ -60,7 +60,7 @@ std::span<const LandmarkSighting> LandmarkSightings::look(const Observation& obs
   for (const FreshReading& reading : window_) assign(reading, scene, grid);
   window_.clear();
   for (auto& [id, anchor] : anchors_) find(id, anchor, scene);
-  return told_;
+  return reported_;
 }
 
 void LandmarkSightings::take(const Observation& observation) {
@@ -123,7 +123,7 @@ void LandmarkSightings::find(LandmarkId id, Anchor& anchor, const Scene& scene) 
   std::erase_if(anchor.readings, [&](const FreshReading& r) {
     return r.stamp_s < scene.stamp_s - kKept_s || r.driven_m < driven_m_ - kKept_m;
   });
-  if (anchor.readings.size() < kLeastReadings) return;
+  if (anchor.readings.size() < kMinReadings) return;
   const auto compare = [&](int i, const Pose2& T_map_robot) -> std::optional<RangeResidual> {
     const FreshReading& reading = anchor.readings[static_cast<std::size_t>(i)];
     const Pose2 T_map_sensor = scene.sensor_at(reading, T_map_robot);
@@ -156,7 +156,7 @@ void LandmarkSightings::tell(LandmarkId id, const Anchor& anchor, const Scene& s
   seen.covariance(0, 0) += anchor.variance_m2;
   seen.covariance(1, 1) += anchor.variance_m2;
   seen.covariance = (0.5 * (seen.covariance + seen.covariance.transpose())).eval();
-  told_.push_back(seen);
+  reported_.push_back(seen);
 }
 
 }  // namespace cairn

@@ -63,7 +63,7 @@ class LandmarkSightings {
   std::vector<LandmarkShape> shapes_;
   std::map<LandmarkId, Anchor> anchors_;
   std::vector<FreshReading> window_;
-  std::vector<LandmarkSighting> told_;
+  std::vector<LandmarkSighting> reported_;
   Pose2 T_odom_last_;
   bool begun_ = false;
   double driven_m_ = 0.0;

@@ -28,7 +28,7 @@ std::vector<Pose2> reversed(std::vector<Pose2> path) {
 }
 
 // The reachable cell nearest to the landmark, looking at it.
-std::optional<Pose2> standing_place(const DistanceField& space, const TravelField& reach, const Point& landmark) {
+std::optional<Pose2> approach_pose(const DistanceField& space, const TravelField& reach, const Point& landmark) {
   const int radius = static_cast<int>(std::ceil(kAccessReach_m / space.cell_m()));
   const Cell centre = space.cell_at(landmark);
   std::optional<Cell> best;
@@ -68,8 +68,8 @@ void absorb(Landmark& landmark, const Landmark& other) {
 
 }  // namespace
 
-void LandmarkKeeperConfig::describe(Fields<LandmarkKeeperConfig>& fields) {
-  using C = LandmarkKeeperConfig;
+void LandmarkTrackerConfig::describe(Fields<LandmarkTrackerConfig>& fields) {
+  using C = LandmarkTrackerConfig;
   fields.number("merge_m", &C::merge_m, {0.01, 10.0}, "m", "a detection this near to a landmark is that landmark");
   fields.integer("confirm_sightings", &C::confirm_sightings, {1.0, 1000.0},
                  "matchings that must find it before it counts as a landmark");
@@ -83,24 +83,24 @@ void LandmarkKeeperConfig::describe(Fields<LandmarkKeeperConfig>& fields) {
                 "free space kept round the robot that stands beside a landmark");
 }
 
-LandmarkKeeper::LandmarkKeeper(const LandmarkKeeperConfig& config, const RobotModel& robot,
-                               std::vector<LandmarkShape> shapes)
+LandmarkTracker::LandmarkTracker(const LandmarkTrackerConfig& config, const RobotModel& robot,
+                                 std::vector<LandmarkShape> shapes)
     : config_(config), robot_(robot), shapes_(std::move(shapes)) {}
 
-void LandmarkKeeper::go_on_from(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path) {
+void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path) {
   graph_ = std::move(graph);
   candidates_ = std::move(candidates);
   driven_path_ = std::move(driven_path);
 }
 
-std::vector<LandmarkKeeper::Change> LandmarkKeeper::fold(const Matching& matching) {
+std::vector<LandmarkTracker::Change> LandmarkTracker::update(const Matching& matching) {
   if (matching.detection) see(*matching.detection);
   std::vector<LandmarkId> changed;
   for (const auto& [id, landmark] : graph_.landmarks())
-    if (hear(*graph_.find(id), matching, config_.merge_m)) changed.push_back(id);
+    if (add_evidence(*graph_.find(id), matching, config_.merge_m)) changed.push_back(id);
   std::vector<LandmarkId> confirmed;
   for (const auto& [id, candidate] : candidates_.landmarks()) {
-    hear(*candidates_.find(id), matching, config_.merge_m);
+    add_evidence(*candidates_.find(id), matching, config_.merge_m);
     if (candidate.sightings >= config_.confirm_sightings) confirmed.push_back(id);
   }
   std::vector<Change> changes;
@@ -114,13 +114,13 @@ std::vector<LandmarkKeeper::Change> LandmarkKeeper::fold(const Matching& matchin
       merge_beside(known->id, changes);
     } else {
       landmark.id = 0;
-      changes.push_back({graph_.add(std::move(landmark)), News::found});
+      changes.push_back({graph_.add(std::move(landmark)), ChangeKind::found});
     }
   }
   return changes;
 }
 
-void LandmarkKeeper::see(const Detection& detection) {
+void LandmarkTracker::see(const Detection& detection) {
   const Point at_m = detection.T_map_landmark.position();
   if (const Landmark* known = graph_.nearest(at_m, config_.merge_m)) {
     ++graph_.find(known->id)->sightings;
@@ -132,7 +132,7 @@ void LandmarkKeeper::see(const Detection& detection) {
 }
 
 // A view that completes moves a landmark; two that come this near were one from the beginning. The older stays.
-void LandmarkKeeper::merge_beside(LandmarkId id, std::vector<Change>& changes) {
+void LandmarkTracker::merge_beside(LandmarkId id, std::vector<Change>& changes) {
   const Landmark* landmark = graph_.find(id);
   if (landmark == nullptr) return;  // merged already
   std::vector<LandmarkId> same;
@@ -146,19 +146,20 @@ void LandmarkKeeper::merge_beside(LandmarkId id, std::vector<Change>& changes) {
     graph_.retire(younger.id, "is " + label_of(older));
     absorb(older, younger);
     std::erase_if(changes, [&](const Change& change) { return change.landmark == younger.id; });
-    changes.push_back({younger.id, News::retired});
+    changes.push_back({younger.id, ChangeKind::retired});
   }
-  if (std::ranges::find(changes, kept, &Change::landmark) == changes.end()) changes.push_back({kept, News::changed});
+  if (std::ranges::find(changes, kept, &Change::landmark) == changes.end())
+    changes.push_back({kept, ChangeKind::changed});
 }
 
-std::vector<LandmarkKeeper::Change> LandmarkKeeper::retire_freed(const OccupancyGrid& grid) {
+std::vector<LandmarkTracker::Change> LandmarkTracker::retire_freed(const OccupancyGrid& grid) {
   const auto is_freed = [&](const Landmark& landmark) {
     const auto shape = std::ranges::find(shapes_, landmark.category, &LandmarkShape::category);
     return shape != shapes_.end() && freed_ratio(grid, shape->contour, landmark.T_map_landmark) >= config_.freed_ratio;
   };
   std::vector<Change> changes;
   for (const auto& [id, landmark] : graph_.landmarks())
-    if (is_freed(landmark)) changes.push_back({id, News::retired});
+    if (is_freed(landmark)) changes.push_back({id, ChangeKind::retired});
   for (const Change& change : changes) graph_.retire(change.landmark, "its place has been seen free");
   std::vector<LandmarkId> forgotten;
   for (const auto& [id, candidate] : candidates_.landmarks())
@@ -167,21 +168,21 @@ std::vector<LandmarkKeeper::Change> LandmarkKeeper::retire_freed(const Occupancy
   return changes;
 }
 
-void LandmarkKeeper::follow(const Pose2& T_map_robot) {
+void LandmarkTracker::record_pose(const Pose2& T_map_robot) {
   if (driven_path_.empty() || (driven_path_.back().position() - T_map_robot.position()).norm() >= kThinning_m)
     driven_path_.push_back(T_map_robot);
 }
 
-void LandmarkKeeper::find_access(const WorldView& world) {
+void LandmarkTracker::find_access(const WorldView& world) {
   const DistanceField space(world.grid, UnknownPolicy::avoid);
   // Distances run between cell centres: half a diagonal on either side makes the disc fit.
   const double clearance = robot_.radius_m + config_.access_margin_m + std::numbers::sqrt2 * world.grid.cell_m() / 2;
   const TravelField reach(space, world.pose.T_map_robot.position(), clearance);
   for (const auto& [id, landmark] : graph_.landmarks())
-    graph_.find(id)->access = standing_place(space, reach, landmark.T_map_landmark.position());
+    graph_.find(id)->access = approach_pose(space, reach, landmark.T_map_landmark.position());
 }
 
-void LandmarkKeeper::connect(const WorldView& world, const Plan& plan, std::uint64_t seed) {
+void LandmarkTracker::connect(const WorldView& world, const Plan& plan, std::uint64_t seed) {
   while (!graph_.routes().empty()) graph_.remove_route(graph_.routes().begin()->first);
   find_access(world);
   for (const auto& [id, landmark] : graph_.landmarks()) {
@@ -197,12 +198,12 @@ void LandmarkKeeper::connect(const WorldView& world, const Plan& plan, std::uint
   }
 }
 
-void LandmarkKeeper::join(const Landmark& from, const Landmark& to, const Plan& plan, std::uint64_t seed) {
+void LandmarkTracker::join(const Landmark& from, const Landmark& to, const Plan& plan, std::uint64_t seed) {
   if (!from.access || !to.access) return;
   PlanRequest request;
   request.from.pose = from.access;
   request.to.pose = to.access;
-  request.radius_m = robot_.radius_m + kMostRounding_m;
+  request.radius_m = robot_.radius_m + kMaxRounding_m;
   request.seed = seed;
   const PlanResult planned = plan(request);
   if (planned.outcome != PlanOutcome::solved) return;
@@ -222,7 +223,7 @@ void LandmarkKeeper::join(const Landmark& from, const Landmark& to, const Plan& 
 
 // The shortest stretch of the driven path between the two places, in the direction from -> to; ends
 // are replaced by the places themselves. Empty when the robot has not been at both.
-std::vector<Pose2> LandmarkKeeper::driven_between(const Pose2& from, const Pose2& to) const {
+std::vector<Pose2> LandmarkTracker::driven_between(const Pose2& from, const Pose2& to) const {
   const auto near = [](const Pose2& a, const Pose2& b) { return (a.position() - b.position()).norm() <= kVisit_m; };
   std::optional<std::size_t> last_from;
   std::optional<std::size_t> last_to;

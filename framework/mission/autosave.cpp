@@ -81,34 +81,34 @@ void Autosaver::write_copies() {
 
 void Autosaver::write(SavedMap& copy) {
   const Clock::time_point begin = Clock::now();
-  News news;
-  news.time_s = copy.progress ? copy.progress->time_s : 0.0;
+  Outcome outcome;
+  outcome.time_s = copy.progress ? copy.progress->time_s : 0.0;
   try {
     copy.clusters = Hierarchy(copy.graph, copy.clusters).tree();
     save_map(file_, copy);
-    news.saved = true;
+    outcome.saved = true;
   } catch (const std::exception& error) {
-    news.reason = error.what();
+    outcome.reason = error.what();
   }
   const std::scoped_lock lock(mutex_);
   const double took_s = seconds_since(taken_);
-  news.took_ms = 1e3 * took_s;
+  outcome.took_ms = 1e3 * took_s;
   longest_write_ = std::max(longest_write_, std::chrono::duration<double>(took_s));
   figures_.writing_s += seconds_since(begin);
-  note(std::move(news));
+  note(std::move(outcome));
 }
 
 // With the mutex held.
-void Autosaver::note(News news) {
-  ++(news.saved ? figures_.saved : figures_.failed);
-  if (news.saved) figures_.last_time_s = news.time_s;
-  if (figures_.failure.empty()) figures_.failure = news.reason;
-  news_ = std::move(news);
+void Autosaver::note(Outcome outcome) {
+  ++(outcome.saved ? figures_.saved : figures_.failed);
+  if (outcome.saved) figures_.last_time_s = outcome.time_s;
+  if (figures_.failure.empty()) figures_.failure = outcome.reason;
+  outcome_ = std::move(outcome);
 }
 
-std::optional<Autosaver::News> Autosaver::news() {
+std::optional<Autosaver::Outcome> Autosaver::last_outcome() {
   const std::scoped_lock lock(mutex_);
-  return std::exchange(news_, std::nullopt);
+  return std::exchange(outcome_, std::nullopt);
 }
 
 AutosaveFigures Autosaver::figures() const {

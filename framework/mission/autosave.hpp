@@ -52,21 +52,21 @@ class Autosaver {
   // Waits until nothing is being written. Nothing may be saved afterwards.
   void finish();
 
-  struct News {
+  struct Outcome {
     bool saved = false;
     double time_s = 0.0;   // of the mission, in the copy
     double took_ms = 0.0;  // from taking the copy to the file on the disk
     std::string reason{};  // why not
   };
   // What has come of the last copy, once.
-  [[nodiscard]] std::optional<News> news();
+  [[nodiscard]] std::optional<Outcome> last_outcome();
   [[nodiscard]] AutosaveFigures figures() const;
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
  private:
   void write_copies();
   void write(SavedMap& copy);
-  void note(News news);
+  void note(Outcome outcome);
 
   const std::filesystem::path file_;
   const std::chrono::duration<double> every_;
@@ -82,7 +82,7 @@ class Autosaver {
   bool writing_ = false;
   bool ending_ = false;
   std::chrono::duration<double> longest_write_{0.0};  // from taking a copy to the file on the disk
-  std::optional<News> news_;
+  std::optional<Outcome> outcome_;
   AutosaveFigures figures_;
   std::thread thread_;
 };

@@ -63,18 +63,19 @@ struct Autosaved {
 struct AutosaveFailed {
   std::string reason;
 };
-struct Said {
+struct Message {
   std::string sentence;
 };
 struct Bumped {};
 // The mission's clock stands from here on: the robot is stopped, readings still come.
 struct Paused {};
-struct WentOn {
+struct Resumed {
   double paused_s = 0.0;  // by the robot's clock
 };
 
-using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
-                           NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Said, Bumped, Paused, WentOn>;
+using Event =
+    std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
+                 NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Message, Bumped, Paused, Resumed>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

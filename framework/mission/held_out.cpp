@@ -65,19 +65,19 @@ double log_likelihood(const OccupancyGrid& grid, const Pose2& T_map_sensor, cons
   return std::log((1.0 - kAnythingRatio) * density_per_m + kAnythingRatio / (2.0 * reading.max_m));
 }
 
-void WithheldReadings::on(const Event& event, const MissionView& view) {
+void HeldOutReadings::on(const Event& event, const MissionView& view) {
   if (!std::holds_alternative<TickDone>(event) || view.world.observation == nullptr) return;
   for (const RangeReading& reading : view.world.observation->ranges) {
-    if (!withholding_.next()) continue;
+    if (!hold_out_.next()) continue;
     const bool measures = std::isfinite(reading.max_m) && reading.max_m > 0.0 && reading.half_beam_rad >= 0.0;
     if (!measures || !(reading.range_m >= reading.min_m)) continue;
     readings_.push_back({view.world.pose.T_map_robot * reading.T_robot_sensor, reading});
   }
 }
 
-double WithheldReadings::mean_log_likelihood(const OccupancyGrid& grid) const {
+double HeldOutReadings::mean_log_likelihood(const OccupancyGrid& grid) const {
   double sum = 0.0;
-  for (const Withheld& withheld : readings_) sum += log_likelihood(grid, withheld.T_map_sensor, withheld.reading);
+  for (const HeldOut& held_out : readings_) sum += log_likelihood(grid, held_out.T_map_sensor, held_out.reading);
   return readings_.empty() ? 0.0 : sum / static_cast<double>(readings_.size());
 }
 

@@ -11,9 +11,9 @@ namespace cairn {
 
 // Which readings of a run: every n-th, begun at one that the seed picks, so that n seeds in a row
 // withhold each reading once.
-class Withholding {
+class HoldOut {
  public:
-  Withholding(int every, std::int64_t seed) : every_(every), count_(every > 0 ? seed % every : 0) {}
+  HoldOut(int every, std::int64_t seed) : every_(every), count_(every > 0 ? seed % every : 0) {}
   // Whether the next reading of the run is withheld.
   bool next() { return every_ > 0 && ++count_ % every_ == 0; }
 
@@ -24,9 +24,9 @@ class Withholding {
 
 // Collects what a mission withholds. Readings that say nothing (NaN, nearer than min_m) are left out; as
 // for every map, a range of max_m or more is no echo.
-class WithheldReadings : public Listener {
+class HeldOutReadings : public Listener {
  public:
-  WithheldReadings(int every, std::int64_t seed) : withholding_(every, seed) {}
+  HeldOutReadings(int every, std::int64_t seed) : hold_out_(every, seed) {}
   void on(const Event& event, const MissionView& view) override;
 
   [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(readings_.size()); }
@@ -34,12 +34,12 @@ class WithheldReadings : public Listener {
   [[nodiscard]] double mean_log_likelihood(const OccupancyGrid& grid) const;
 
  private:
-  struct Withheld {
+  struct HeldOut {
     Pose2 T_map_sensor;
     RangeReading reading;
   };
-  Withholding withholding_;
-  std::vector<Withheld> readings_;
+  HoldOut hold_out_;
+  std::vector<HeldOut> readings_;
 };
 
 // Log of the chance (no echo) or of the density in 1/m (echo) that a map gives to a reading, nat.

@@ -19,12 +19,12 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
     : mission_(mission),
       options_(options),
       modules_(build_modules(mission_, library, options.resume)),
-      keeper_(mission_.config.landmarks, mission_.robot, mission_.shapes),
+      tracker_(mission_.config.landmarks, mission_.robot, mission_.shapes),
       sightings_(mission_.shapes),
-      hierarchies_(keeper_.graph(), options.resume != nullptr ? options.resume->clusters : ClusterTree{},
+      hierarchies_(tracker_.graph(), options.resume != nullptr ? options.resume->clusters : ClusterTree{},
                    {mission_.robot.max_v_mps, mission_.robot.max_w_radps, mission_.robot.radius_m}),
-      stop_layer_(mission_.config.stop_layer, mission_.robot),
-      withholding_(mission_.config.withhold_every, mission_.config.seed),
+      collision_monitor_(mission_.config.collision_monitor, mission_.robot),
+      hold_out_(mission_.config.hold_out_every, mission_.config.seed),
       autosaver_(options_.out / autosave_file_of(mission_.config),
                  options_.autosave ? mission_.config.autosave.every_s : 0.0) {
   budget_.cancel = options_.cancel;
@@ -39,9 +39,9 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
     planner_ = clock_.add("planner", config.planner.name);
     routes_ = clock_.add("routes", config.planner.name);
   }
-  plant_trees();
+  build_trees();
   drive_stage_ = clock_.add("drive", config.sensor.name);
-  if (options.resume != nullptr) go_on_from(*options.resume);
+  if (options.resume != nullptr) restore(*options.resume);
 }
 
 void MissionLoop::run() {
@@ -88,11 +88,11 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
 }
 
 MissionOutcome MissionLoop::loop() {
-  if (!not_restored_.empty()) tell(Said{not_restored_});
-  if (options_.control != nullptr) options_.control->tell(status());
+  if (!not_restored_.empty()) publish(Message{not_restored_});
+  if (options_.control != nullptr) options_.control->publish(status());
   if (step_ == mission_.steps.size() && drive_ != nullptr) return MissionOutcome::done;
   while (true) {
-    stand_by();
+    wait_while_paused();
     if (budget_.cancelled()) return ended(MissionOutcome::cancelled, "cancelled by the user");
     SensorStep step = in_stage(sensor_, [&] { return modules_.sensor->next(budget_); });
     if (step.state == SensorState::fault) return ended(MissionOutcome::sensor_fault, step.reason);
@@ -115,14 +115,14 @@ MissionOutcome MissionLoop::loop() {
 void MissionLoop::tick() {
   account_for(observation_);
   pose_ = localize();
-  keeper_.follow(pose_.T_map_robot);
+  tracker_.record_pose(pose_.T_map_robot);
   const CellChanges& changes = build_map();
   detect(changes);
-  stop_layer_.see(observation_);
-  heed_control();
+  collision_monitor_.see(observation_);
+  apply_control();
   behave();
   drive_on();
-  tell(TickDone{});
+  publish(TickDone{});
   if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   autosave();
 }
@@ -142,7 +142,7 @@ void MissionLoop::account_for(const Observation& observation) {
   result_.readings += static_cast<std::int64_t>(observation.ranges.size());
   if (observation.bumped && !bumped_) {
     ++result_.collisions;
-    tell(Bumped{});
+    publish(Bumped{});
   }
   bumped_ = observation.bumped;
   pace(observation.stamp_s);
@@ -151,7 +151,7 @@ void MissionLoop::account_for(const Observation& observation) {
 // With the first observation there is no telling where the odometry begins.
 std::span<const LandmarkSighting> MissionLoop::see_again() {
   if (!localized_ || !mission_.config.landmarks.correct_pose) return {};
-  return sightings_.look(observation_, pose_, T_odom_localized_, keeper_.graph(), *grid_);
+  return sightings_.look(observation_, pose_, T_odom_localized_, tracker_.graph(), *grid_);
 }
 
 PoseEstimate MissionLoop::localize() {
@@ -165,10 +165,10 @@ PoseEstimate MissionLoop::localize() {
 }
 
 const CellChanges& MissionLoop::build_map() {
-  const bool all = mission_.config.withhold_every == 0;
+  const bool all = mission_.config.hold_out_every == 0;
   if (!all) {
     for_map_ = observation_;
-    std::erase_if(for_map_.ranges, [&](const RangeReading&) { return withholding_.next(); });
+    std::erase_if(for_map_.ranges, [&](const RangeReading&) { return hold_out_.next(); });
   }
   const Observation& seen = all ? observation_ : for_map_;
   return in_stage(mapper_, [&]() -> const CellChanges& { return modules_.mapper->integrate(seen, pose_); });
@@ -183,14 +183,14 @@ void MissionLoop::detect(const CellChanges& changes) {
   });
   for (const Matching& matching : report.matchings) {
     ++result_.matchings;
-    tell(MatchingDone{matching});
+    publish(MatchingDone{matching});
     if (!is_finite(matching))
       throw ModuleFault("detector", clock_.module_of(detector_), "returned a detection that is not finite");
-    tell_changes(keeper_.fold(matching));
+    report_changes(tracker_.update(matching));
   }
   if (result_.time_s < last_freed_check_s_ + kFreedCheck_s) return;
   last_freed_check_s_ = result_.time_s;
-  tell_changes(keeper_.retire_freed(*grid_));
+  report_changes(tracker_.retire_freed(*grid_));
 }
 
 // What the earlier run has mapped is no news: it is shown with a budget that allows no matching, so that old evidence
@@ -206,39 +206,39 @@ void MissionLoop::show_grid_to_detector() {
   });
 }
 
-void MissionLoop::tell_changes(const std::vector<LandmarkKeeper::Change>& changes) {
-  for (const auto& [id, news] : changes) {
-    if (news == LandmarkKeeper::News::retired) {
-      const RetiredLandmark& retired = keeper_.graph().retired().at(id);
-      tell(LandmarkRetired{retired.landmark, retired.reason});
+void MissionLoop::report_changes(const std::vector<LandmarkTracker::Change>& changes) {
+  for (const auto& [id, kind] : changes) {
+    if (kind == LandmarkTracker::ChangeKind::retired) {
+      const RetiredLandmark& retired = tracker_.graph().retired().at(id);
+      publish(LandmarkRetired{retired.landmark, retired.reason});
     } else {
-      tell(LandmarkChanged{*keeper_.graph().find(id), news == LandmarkKeeper::News::found});
+      publish(LandmarkChanged{*tracker_.graph().find(id), kind == LandmarkTracker::ChangeKind::found});
     }
   }
 }
 
 void MissionLoop::drive_on() {
   if (drive_ == nullptr) return;
-  commanded_ = stop_layer_.limit(wanted_);
-  held_back_ratio_ = stop_layer_.held_back_ratio(wanted_, commanded_);
-  result_.stop_layer = stop_layer_.figures();
+  commanded_ = collision_monitor_.limit(wanted_);
+  speed_reduction_ratio_ = collision_monitor_.speed_reduction_ratio(wanted_, commanded_);
+  result_.collision_monitor = collision_monitor_.figures();
   in_stage(drive_stage_, [&] { drive_->command(commanded_); });
 }
 
 // A command holds until the next one: the robot stands while the host is at something that may take long, and is
 // ordered on at the end of the tick.
-void MissionLoop::stand_meanwhile() {
+void MissionLoop::stop_while_blocking() {
   if (drive_ != nullptr) in_stage(drive_stage_, [&] { drive_->command(Twist{}); });
 }
 
 void MissionLoop::connect_landmarks() {
-  if (!modules_.planner || grid_ == nullptr || keeper_.graph().landmarks().empty()) return;
-  stand_meanwhile();
+  if (!modules_.planner || grid_ == nullptr || tracker_.graph().landmarks().empty()) return;
+  stop_while_blocking();
   const WorldView world = view();
   const auto plan = [&](const PlanRequest& request) {
     return in_stage(routes_, [&] { return modules_.planner->plan(request, world, budget_); });
   };
-  keeper_.connect(world, plan, module_seed(mission_.config.seed, PluginKind::planner, 1));
+  tracker_.connect(world, plan, module_seed(mission_.config.seed, PluginKind::planner, 1));
 }
 
 MissionOutcome MissionLoop::at_end_of_data(const std::string& reason) {
@@ -260,14 +260,18 @@ void MissionLoop::stop() {
 }
 
 WorldView MissionLoop::view() const {
-  WorldView world{*grid_,          keeper_.graph(), mission_.robot,
-                  pose_,           result_.time_s,  begun_ ? &observation_ : nullptr,
-                  held_back_ratio_};
+  WorldView world{*grid_,
+                  tracker_.graph(),
+                  mission_.robot,
+                  pose_,
+                  result_.time_s,
+                  begun_ ? &observation_ : nullptr,
+                  speed_reduction_ratio_};
   world.T_map_start = T_map_first_start_;
   return world;
 }
 
-void MissionLoop::tell(const Event& event) {
+void MissionLoop::publish(const Event& event) {
   if (grid_ == nullptr) return;  // there is nothing to show yet
   const WorldView world = view();
   const MissionView seen{world, coarse_, commanded_};
@@ -303,18 +307,18 @@ PlanResult MissionLoop::plan(const PlanRequest& request) {
     none.reason = "the mission names no planner";
     return none;
   }
-  stand_meanwhile();
+  stop_while_blocking();
   WorldView world = view();
   hierarchies_.update();
   world.hierarchies = &hierarchies_;
   PlanResult result = in_stage(planner_, [&] { return modules_.planner->plan(request, world, budget_); });
-  tell(PlanDone{result});
+  publish(PlanDone{result});
   return result;
 }
 
 void MissionLoop::say(const std::string& sentence) {
   const StageClock::Visit visit(clock_, StageClock::kHost);
-  tell(Said{sentence});
+  publish(Message{sentence});
 }
 
 }  // namespace cairn

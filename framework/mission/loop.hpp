@@ -24,7 +24,7 @@
 
 namespace cairn {
 
-class MissionLoop : private Orders, private TreeHost {
+class MissionLoop : private BehaviourContext, private TreeHost {
  public:
   // Throws ConfigError, ModuleFault or StoreError.
   MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
@@ -44,7 +44,7 @@ class MissionLoop : private Orders, private TreeHost {
   [[nodiscard]] RunStatus last_status() const;
   [[nodiscard]] const OccupancyGrid* grid() const { return grid_is_lost_ ? nullptr : grid_; }
   [[nodiscard]] const CoarseGrid* coarse_grid() const { return grid_is_lost_ ? nullptr : coarse_; }
-  [[nodiscard]] const LandmarkKeeper& keeper() const { return keeper_; }
+  [[nodiscard]] const LandmarkTracker& tracker() const { return tracker_; }
   [[nodiscard]] std::vector<StageTime> times() const { return clock_.times(); }
   [[nodiscard]] const Pose2& T_map_start() const { return modules_.T_map_start; }
   [[nodiscard]] const std::vector<std::string>& listener_faults() const { return listener_faults_; }
@@ -59,30 +59,30 @@ class MissionLoop : private Orders, private TreeHost {
   std::span<const LandmarkSighting> see_again();
   const CellChanges& build_map();
   void detect(const CellChanges& changes);
-  void tell_changes(const std::vector<LandmarkKeeper::Change>& changes);
+  void report_changes(const std::vector<LandmarkTracker::Change>& changes);
   void pace(double stamp_s);
-  void stand_by();
-  void heed_control();
+  void wait_while_paused();
+  void apply_control();
   [[nodiscard]] bool is_pause_wanted() const;
   [[nodiscard]] std::optional<TimeLeft> time_left() const;
   void behave();
-  void plant_trees();
+  void build_trees();
   void begin_step(const std::string& name);
   void end_step(const TreeNode& step, const Status& status);
   void note_nodes();
   void drive_on();
-  void stand_meanwhile();
+  void stop_while_blocking();
   void connect_landmarks();
   MissionOutcome at_end_of_data(const std::string& reason);
   MissionOutcome ended(MissionOutcome outcome, std::string reason);
-  void go_on_from(const SavedMap& map);
+  void restore(const SavedMap& map);
   void restore_tree(const SavedMap& map);
   void show_grid_to_detector();
   [[nodiscard]] bool is_known_already(const Observation& observation);
   [[nodiscard]] MissionProgress progress() const;
   [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
   void autosave();
-  void tell_of_autosave();
+  void report_of_autosave();
   void finish();
   void write_last_map();
   void keep_finished_map(const std::string& name);
@@ -90,7 +90,7 @@ class MissionLoop : private Orders, private TreeHost {
   void halt_step();
   Status write_map(const std::string& file_name);
   [[nodiscard]] WorldView view() const;
-  void tell(const Event& event);
+  void publish(const Event& event);
 
   void drive(const Twist& wanted) override;
   PlanResult plan(const PlanRequest& request) override;
@@ -108,11 +108,11 @@ class MissionLoop : private Orders, private TreeHost {
   const Mission mission_;
   const RunOptions options_;
   MissionModules modules_;
-  LandmarkKeeper keeper_;
+  LandmarkTracker tracker_;
   LandmarkSightings sightings_;
   Hierarchies hierarchies_;  // of the keeper's graph, brought in line before it is used
   double last_freed_check_s_ = 0.0;
-  StopLayer stop_layer_;
+  CollisionMonitor collision_monitor_;
   std::vector<Listener*> listeners_;
   std::vector<std::string> listener_faults_;
   StageClock clock_;
@@ -135,7 +135,7 @@ class MissionLoop : private Orders, private TreeHost {
   const CoarseGrid* coarse_ = nullptr;   // of the detector
   bool grid_is_lost_ = false;            // its module was given up while it worked on it
   Observation observation_;
-  Withholding withholding_;
+  HoldOut hold_out_;
   Observation for_map_;  // without what is withheld
   PoseEstimate pose_;
   Pose2 T_odom_last_;
@@ -144,7 +144,7 @@ class MissionLoop : private Orders, private TreeHost {
   Twist commanded_;
   std::optional<Twist> ordered_;  // by the leaf that is ticked
   double begin_s_ = 0.0;
-  double held_back_ratio_ = 0.0;
+  double speed_reduction_ratio_ = 0.0;
   std::size_t step_ = 0;
   bool begun_ = false;
   bool localized_ = false;

@@ -32,28 +32,28 @@ void MissionLoop::pace(double stamp_s) {
   }
 }
 
-void MissionLoop::heed_control() {
+void MissionLoop::apply_control() {
   if (drive_ == nullptr || is_pause_wanted() == paused_) return;
   paused_ = !paused_;
   if (paused_) {
     paused_before_s_ = result_.paused_s;
-    tell(Paused{});
+    publish(Paused{});
   } else {
-    tell(WentOn{result_.paused_s - paused_before_s_});
+    publish(Resumed{result_.paused_s - paused_before_s_});
   }
 }
 
 // A log has no robot to stop: it is read on later.
-void MissionLoop::stand_by() {
+void MissionLoop::wait_while_paused() {
   if (drive_ != nullptr || !is_pause_wanted()) return;
   paused_ = true;
-  tell(Paused{});
+  publish(Paused{});
   while (is_pause_wanted() && !budget_.cancelled()) {
     options_.control->tick([this] { return status(); });
     std::this_thread::sleep_for(kLookEvery);
   }
   paused_ = false;
-  tell(WentOn{});
+  publish(Resumed{});
 }
 
 std::optional<TimeLeft> MissionLoop::time_left() const {
@@ -82,7 +82,7 @@ RunStatus MissionLoop::status() const {
   status.explored_ratio = grid_ == nullptr ? 0.0 : known_ratio(*grid_);
   status.T_map_robot = pose_.T_map_robot;
   status.distance_m = result_.distance_m;
-  status.landmarks = keeper_.graph().landmarks().size();
+  status.landmarks = tracker_.graph().landmarks().size();
   status.left = time_left();
   return status;
 }
@@ -99,7 +99,7 @@ RunStatus MissionLoop::last_status() const {
   if (!grid_is_lost_ && grid_ != nullptr) status.explored_ratio = known_ratio(*grid_);
   status.T_map_robot = pose_.T_map_robot;
   status.distance_m = result_.distance_m;
-  status.landmarks = keeper_.graph().landmarks().size();
+  status.landmarks = tracker_.graph().landmarks().size();
   status.outcome = name_of(result_.outcome);
   status.reason = result_.reason;
   status.map_file = result_.map_file;

@@ -33,9 +33,9 @@ bool is_of_a_finished_mission(const std::filesystem::path& map) {
 
 }  // namespace
 
-void MissionLoop::go_on_from(const SavedMap& map) {
+void MissionLoop::restore(const SavedMap& map) {
   const MissionProgress& progress = *map.progress;
-  keeper_.go_on_from(map.graph, progress.candidates, map.driven_path);
+  tracker_.restore(map.graph, progress.candidates, map.driven_path);
   result_.resumed_s = result_.time_s = last_freed_check_s_ = progress.time_s;
   result_.distance_m = progress.distance_m;
   result_.paused_s = paused_before(map);
@@ -98,38 +98,38 @@ MissionProgress MissionLoop::progress() const {
 // Nothing in here may change what the mission does next. The hierarchies are not brought in line: when they are
 // decides which ids their clusters get, and autosaves come when the wall clock says so.
 void MissionLoop::autosave() {
-  tell_of_autosave();
+  report_of_autosave();
   if (!autosaver_.is_due()) return;
   const Autosaver::Clock::time_point begin = Autosaver::Clock::now();
   autosaver_.save(map_so_far(hierarchies_.last_tree()), begin);
 }
 
 SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
-  SavedMap map = map_of_mission(mission_, *grid_, keeper_, std::move(clusters), progress());
+  SavedMap map = map_of_mission(mission_, *grid_, tracker_, std::move(clusters), progress());
   add_pauses(map, result_.paused_s);
   if (step_ < trees_.size() && step_begun_)
     add_tree(map, {tree_fingerprint(mission_.steps[step_]), tree_left_.value_or(trees_[step_].state())});
   return map;
 }
 
-void MissionLoop::tell_of_autosave() {
-  const auto news = autosaver_.news();
-  if (!news) return;
-  if (news->saved)
-    tell(Autosaved{autosaver_.file().filename().string(), news->time_s, news->took_ms});
+void MissionLoop::report_of_autosave() {
+  const auto outcome = autosaver_.last_outcome();
+  if (!outcome) return;
+  if (outcome->saved)
+    publish(Autosaved{autosaver_.file().filename().string(), outcome->time_s, outcome->took_ms});
   else if (!autosave_has_failed_)
-    tell(AutosaveFailed{news->reason});
-  autosave_has_failed_ = autosave_has_failed_ || !news->saved;
+    publish(AutosaveFailed{outcome->reason});
+  autosave_has_failed_ = autosave_has_failed_ || !outcome->saved;
 }
 
 // Whatever happened: the robot stops, and the map so far is saved.
 void MissionLoop::finish() {
   try {
-    stand_meanwhile();
+    stop_while_blocking();
   } catch (const ModuleFault&) {
     // It has failed already and is being left; there is no one else to tell.
   }
-  if (paused_) tell(WentOn{result_.paused_s - paused_before_s_});
+  if (paused_) publish(Resumed{result_.paused_s - paused_before_s_});
   if (step_begun_) halt_step();
   note_nodes();
   try {
@@ -146,13 +146,14 @@ void MissionLoop::keep_finished_map(const std::string& name) {
   const bool is_earlier = result_.map_file != name && !(options_.resume != nullptr && result_.resumed_s);
   if (result_.outcome == MissionOutcome::done || !is_earlier || !is_of_a_finished_mission(options_.out / name)) return;
   if (const auto kept = keep_earlier_autosave(options_.out / name))
-    tell(Said{"this mission did not end: the map of an earlier one that did is kept as " + kept->filename().string()});
+    publish(Message{"this mission did not end: the map of an earlier one that did is kept as " +
+                    kept->filename().string()});
 }
 
 // The autosave has done its work when a whole map has taken its place.
 void MissionLoop::write_last_map() {
   autosaver_.finish();
-  tell_of_autosave();
+  report_of_autosave();
   result_.autosave = autosaver_.figures();
   const std::string name = mission_.config.mission + ".cairn";
   keep_finished_map(name);
@@ -174,7 +175,7 @@ void MissionLoop::write_last_map() {
 // A step that could not save does not end the mission: where it drives matters too.
 Status MissionLoop::save(const std::string& file_name) {
   const StageClock::Visit visit(clock_, StageClock::kHost);
-  stand_meanwhile();
+  stop_while_blocking();
   // Autosaves would write over it, and take it away at the end.
   if (mission_.config.autosave.every_s > 0.0 && file_name == autosaver_.file().filename())
     return {Progress::failure, file_name + " is the name of the mission's autosaves"};
@@ -209,7 +210,7 @@ Status MissionLoop::answer(const PlanQuestion& question, const std::string& file
   const ClusterTree clusters = question.avoid.empty() && !question.explain ? ClusterTree{} : hierarchies_.tree();
   PlanTask task;
   try {
-    task = task_of(question, keeper_.graph(), clusters, pose_.T_map_robot);
+    task = task_of(question, tracker_.graph(), clusters, pose_.T_map_robot);
   } catch (const std::exception& error) {
     return {Progress::failure, error.what()};
   }
@@ -220,7 +221,7 @@ Status MissionLoop::answer(const PlanQuestion& question, const std::string& file
   const Status written = write({file_name,
                                 json_text_of({.question = question,
                                               .result = result,
-                                              .graph = keeper_.graph(),
+                                              .graph = tracker_.graph(),
                                               .clusters = clusters,
                                               .with_times = false}) +
                                     "\n",
@@ -240,7 +241,7 @@ Status MissionLoop::write_map(const std::string& file_name) {
     return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
   }
   result_.map_file = file_name;
-  tell(MapSaved{file_name});
+  publish(MapSaved{file_name});
   return {Progress::success, "saved " + file_name};
 }
 

@@ -4,7 +4,7 @@
 
 namespace cairn {
 
-void MissionLoop::plant_trees() {
+void MissionLoop::build_trees() {
   const std::vector<const TreeNode*> nodes = behaviours_of(mission_.steps);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     behaviours_[nodes[i]] = {modules_.behaviours[i].get(), clock_.add("behaviour", nodes[i]->choice.name)};
@@ -24,13 +24,13 @@ void MissionLoop::behave() {
 void MissionLoop::begin_step(const std::string& name) {
   step_begun_ = true;
   result_.steps.push_back({name, {}, result_.time_s, result_.time_s});
-  tell(StepStarted{static_cast<int>(step_), name});
+  publish(StepStarted{static_cast<int>(step_), name});
 }
 
 void MissionLoop::end_step(const TreeNode& step, const Status& status) {
   result_.steps.back().status = status;
   result_.steps.back().end_s = result_.time_s;
-  tell(StepEnded{static_cast<int>(step_), step.name, status});
+  publish(StepEnded{static_cast<int>(step_), step.name, status});
   step_begun_ = false;
   ++step_;
   const bool is_forgiven = step.kind == NodeKind::behaviour && save_failed_;
@@ -78,11 +78,11 @@ void MissionLoop::halt_leaf(const TreeNode& leaf) {
 }
 
 void MissionLoop::started(const TreeNode& node) {
-  tell(NodeStarted{node.path, node.name, node.kind});
+  publish(NodeStarted{node.path, node.name, node.kind});
 }
 
 void MissionLoop::ended(const TreeNode& node, const NodeReport& how) {
-  tell(NodeEnded{node.path, node.name, node.kind, how.status, how.is_halted});
+  publish(NodeEnded{node.path, node.name, node.kind, how.status, how.is_halted});
 }
 
 void MissionLoop::ran(const TreeNode& node, const NodeReport& how, double begun_s) {

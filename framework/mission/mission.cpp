@@ -81,7 +81,7 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
   fields.plugin("planner", &C::planner, "planner", "finds ways");
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
-  fields.group("stop_layer", &C::stop_layer, "what keeps the robot from driving into what it sees");
+  fields.group("collision_monitor", &C::collision_monitor, "what keeps the robot from driving into what it sees");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
   fields.number(
       "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
@@ -89,7 +89,7 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.file_name(
       "record", &C::record,
       "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
-  fields.integer("withhold_every", &C::withhold_every, {0.0, 1e6},
+  fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6},
                  "every n-th range reading is withheld from the map, so that an experiment can ask how well the "
                  "map foretells it; 0: none");
   fields.group("autosave", &C::autosave, "the map is saved while the mission runs, for `cairn run --resume`");

@@ -36,12 +36,12 @@ struct MissionConfig {
   PluginChoice map;
   PluginChoice detector;
   PluginChoice planner;
-  LandmarkKeeperConfig landmarks;
-  StopLayerConfig stop_layer;
+  LandmarkTrackerConfig landmarks;
+  CollisionMonitorConfig collision_monitor;
   double at_most_s = 36000.0;
   double watchdog_s = 30.0;
   std::string record;
-  int withhold_every = 0;
+  int hold_out_every = 0;
   AutosaveConfig autosave;
   ConfigValue steps;
   static void describe(Fields<MissionConfig>& fields);

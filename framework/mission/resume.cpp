@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kTreeProperty = "tree";
 constexpr const char* kPausedProperty = "paused_s";
-constexpr double kMostPaused_s = 1e8;
+constexpr double kMaxPaused_s = 1e8;
 
 std::string property(const SavedMap& map, const std::string& key) {
   const auto found = map.properties.find(key);
@@ -99,7 +99,7 @@ double paused_before(const SavedMap& map) {
   if (text.empty()) return 0.0;
   double paused_s = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), paused_s);
-  if (error != std::errc() || end != text.data() + text.size() || !(paused_s >= 0.0 && paused_s <= kMostPaused_s))
+  if (error != std::errc() || end != text.data() + text.size() || !(paused_s >= 0.0 && paused_s <= kMaxPaused_s))
     throw StoreError(fmt::format("cannot be gone on from: its property {} is {}, not a time in seconds",
                                  kPausedProperty, shown(text)));
   return paused_s;

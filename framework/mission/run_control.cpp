@@ -24,10 +24,10 @@ RunControl::RunControl(ControlFlags& flags, std::string mission) : flags_(flags)
 
 RunStatus RunControl::status(std::chrono::milliseconds at_most) {
   std::unique_lock lock(mutex_);
-  const std::uint64_t before = told_;
+  const std::uint64_t before = reported_;
   ++waiting_;
   changed_.wait_for(lock, at_most, [&] {
-    return told_ > before || last_.state == RunState::starting || last_.state == RunState::ended;
+    return reported_ > before || last_.state == RunState::starting || last_.state == RunState::ended;
   });
   --waiting_;
   return last_;
@@ -42,13 +42,13 @@ RunStatus RunControl::status_in(RunState wanted, std::chrono::milliseconds at_mo
 }
 
 void RunControl::tick(const std::function<RunStatus()>& look) {
-  if (waiting_.load(std::memory_order_relaxed) > 0) tell(look());
+  if (waiting_.load(std::memory_order_relaxed) > 0) publish(look());
 }
 
-void RunControl::tell(RunStatus status) {
+void RunControl::publish(RunStatus status) {
   const std::scoped_lock lock(mutex_);
   last_ = std::move(status);
-  ++told_;
+  ++reported_;
   changed_.notify_all();
 }
 

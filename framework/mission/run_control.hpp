@@ -59,14 +59,14 @@ class RunControl {
   // For the mission's thread, in every tick: cheap when nobody waits. look is called when somebody does.
   void tick(const std::function<RunStatus()>& look);
   // As the mission changes its state.
-  void tell(RunStatus status);
+  void publish(RunStatus status);
 
  private:
   ControlFlags& flags_;
   std::atomic<int> waiting_{0};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::uint64_t told_ = 0;
+  std::uint64_t reported_ = 0;
   RunStatus last_;
 };
 

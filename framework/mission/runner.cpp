@@ -57,7 +57,7 @@ MissionResult MissionRunner::run() {
     loop_->run();
   else
     watch();
-  if (control_ != nullptr) control_->tell(loop_->last_status());
+  if (control_ != nullptr) control_->publish(loop_->last_status());
   return loop_->result();
 }
 
@@ -88,10 +88,10 @@ const CoarseGrid* MissionRunner::coarse_grid() const {
   return loop_->coarse_grid();
 }
 const LandmarkGraph& MissionRunner::graph() const {
-  return loop_->keeper().graph();
+  return loop_->tracker().graph();
 }
 const std::vector<Pose2>& MissionRunner::driven_path() const {
-  return loop_->keeper().driven_path();
+  return loop_->tracker().driven_path();
 }
 std::vector<StageTime> MissionRunner::times() const {
   return loop_->times();

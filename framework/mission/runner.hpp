@@ -52,7 +52,7 @@ struct MissionResult {
   double paused_s = 0.0;                           // not in time_s
   double explored_ratio = 0.0;                     // of the map as it was last saved, or would have been
   std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
-  StopLayerFigures stop_layer{};
+  CollisionMonitorFigures collision_monitor{};
   AutosaveFigures autosave{};
   std::string map_file;  // name in the output folder; empty: could not be saved
 };

@@ -13,17 +13,17 @@ std::map<std::string, std::string> properties_of(const Mission& mission) {
   return properties;
 }
 
-SavedMap map_of_mission(const Mission& mission, const OccupancyGrid& grid, const LandmarkKeeper& keeper,
+SavedMap map_of_mission(const Mission& mission, const OccupancyGrid& grid, const LandmarkTracker& tracker,
                         ClusterTree clusters, MissionProgress progress) {
   SavedMap map;
   map.grid = grid;
-  map.graph = keeper.graph();
+  map.graph = tracker.graph();
   map.clusters = std::move(clusters);
   map.shapes = mission.shapes;
-  map.driven_path = keeper.driven_path();
+  map.driven_path = tracker.driven_path();
   map.properties = properties_of(mission);
   map.progress = std::move(progress);
-  map.progress->candidates = keeper.candidates();
+  map.progress->candidates = tracker.candidates();
   return map;
 }
 

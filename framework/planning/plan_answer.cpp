@@ -20,9 +20,9 @@ ordered_json json_of(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json();
 }
 
-ordered_json json_of(const std::vector<PlanPiece>& pieces) {
+ordered_json json_of(const std::vector<PathSegment>& segments) {
   ordered_json list = ordered_json::array();
-  for (const PlanPiece& piece : pieces)
+  for (const PathSegment& piece : segments)
     list.push_back(
         {{"origin", std::string(name_of(piece.origin))}, {"route", piece.route}, {"length_m", piece.length_m}});
   return list;
@@ -75,7 +75,7 @@ std::string json_text_of(const PlanAnswer& answer) {
                     {"reason", result.reason},
                     {"cost_m", result.cost_m},
                     {"length_m", result.length_m},
-                    {"least_length_m", json_of(result.least_length_m)},
+                    {"length_lower_bound_m", json_of(result.length_lower_bound_m)},
                     {"landmarks", labels(result.landmarks, "L")},
                     {"routes", result.routes},
                     {"path", std::move(path)},
@@ -83,7 +83,7 @@ std::string json_text_of(const PlanAnswer& answer) {
   if (answer.with_times) json["time_ms"] = json_of(result.time_ms);
   json["settled"] = result.settled;
   if (answer.question.alternatives > 0) json["alternatives"] = json_of(result.alternatives);
-  if (answer.question.explain) json["pieces"] = json_of(result.pieces);
+  if (answer.question.explain) json["segments"] = json_of(result.segments);
   if (result.explanation)
     json["explanation"] =
         json_of_explanation(*result.explanation, cost_kind_of(answer.question.cost), answer.graph, answer.clusters);

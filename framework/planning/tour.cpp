@@ -52,7 +52,7 @@ void append_leg(PlanResult& tour, const PlanResult& leg) {
   append(tour.routes, leg.routes);
   append(tour.blocked_routes, leg.blocked_routes);
   append_joined(tour.path, leg.path);
-  append(tour.pieces, leg.pieces);
+  append(tour.segments, leg.segments);
   tour.settled += leg.settled;
   tour.time_ms.graph_ms += leg.time_ms.graph_ms;
   tour.time_ms.route_ms += leg.time_ms.route_ms;
@@ -78,18 +78,18 @@ PlanResult plan_tour(const PlanCall& plan, PlanRequest request, std::span<const 
   // Where a stop is any one of several, the least of each leg says nothing of the whole.
   const bool adds_up = std::ranges::all_of(via, [](const Place& stop) { return stop.landmarks.size() <= 1; });
   PlanResult tour;
-  if (adds_up) tour.least_length_m = 0.0;
+  if (adds_up) tour.length_lower_bound_m = 0.0;
   for (std::size_t i = 0; i < stops.size(); ++i) {
     request.to = stops[i];
     const PlanResult leg = plan(request);
     tour.clearance_m = i == 0 ? leg.clearance_m : std::min(tour.clearance_m, leg.clearance_m);
     append_leg(tour, leg);
-    tour.least_length_m = sum_of(tour.least_length_m, leg.least_length_m);
+    tour.length_lower_bound_m = sum_of(tour.length_lower_bound_m, leg.length_lower_bound_m);
     const std::string number = std::to_string(i + 1) + " of " + std::to_string(stops.size());
     tour.reason += (i == 0 ? "leg " : "; leg ") + number + ": " + leg.reason;
     if (leg.outcome != PlanOutcome::solved) {
       tour.reason = "leg " + number + ": " + leg.reason;
-      tour.least_length_m.reset();
+      tour.length_lower_bound_m.reset();
       return tour;
     }
     request.from = arrived_at(stops[i], leg);

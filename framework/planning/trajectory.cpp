@@ -10,16 +10,16 @@
 namespace cairn {
 namespace {
 
-constexpr double kLeastStep_m = 1e-9;
-constexpr double kLeastTurn_rad = 1e-9;
-constexpr double kLeastPart_ratio = 1e-6;            // of a leg, to be a part of its own
-constexpr double kOffTrack_m = 0.005;                // how far an arc may miss the next pose
-constexpr double kMostOffChord_rad = radians(45.0);  // of an arc's ends
+constexpr double kMinStep_m = 1e-9;
+constexpr double kMinTurn_rad = 1e-9;
+constexpr double kMinPart_ratio = 1e-6;             // of a leg, to be a part of its own
+constexpr double kOffTrack_m = 0.005;               // how far an arc may miss the next pose
+constexpr double kMaxOffChord_rad = radians(45.0);  // of an arc's ends
 
 // Chord by arc, of an arc that turns by so much.
 double chord_ratio(double turn_rad) {
   const double half_rad = 0.5 * std::abs(turn_rad);
-  return half_rad < kLeastTurn_rad ? 1.0 : std::sin(half_rad) / half_rad;
+  return half_rad < kMinTurn_rad ? 1.0 : std::sin(half_rad) / half_rad;
 }
 
 // From one point of the path to the next.
@@ -52,7 +52,7 @@ Leg leg_between(const Pose2& from, const Pose2& to, bool turns_on_the_spot) {
   if (leg.backwards) along_rad += std::numbers::pi;
   const double before_rad = wrap_angle(along_rad - from.theta_rad);
   const double after_rad = wrap_angle(to.theta_rad - along_rad);
-  leg.is_arc = std::max(std::abs(before_rad), std::abs(after_rad)) <= kMostOffChord_rad &&
+  leg.is_arc = std::max(std::abs(before_rad), std::abs(after_rad)) <= kMaxOffChord_rad &&
                0.25 * leg.length_m * std::abs(before_rad - after_rad) <= kOffTrack_m;
   leg.heading_rad = along_rad;
   if (leg.is_arc || !turns_on_the_spot) {
@@ -73,7 +73,7 @@ class Drive {
     const Pose2 from = points_.back().pose;
     const double turn_rad = wrap_angle(heading_rad - from.theta_rad);
     const double way_rad = std::abs(turn_rad);
-    if (way_rad < kLeastTurn_rad) return;
+    if (way_rad < kMinTurn_rad) return;
     const double alpha = robot_.max_turn_acceleration_radps2;
     const double w = std::min(robot_.max_w_radps, std::sqrt(alpha * way_rad));
     const double ramp_rad = 0.5 * w * w / alpha;
@@ -82,7 +82,7 @@ class Drive {
       add_point(time_s, {from.x_m, from.y_m, theta_rad}, 0.0, std::copysign(w_radps, turn_rad));
     };
     add(w / alpha, ramp_rad, w);
-    if (way_rad - 2.0 * ramp_rad > kLeastTurn_rad) add((way_rad - 2.0 * ramp_rad) / w, way_rad - ramp_rad, w);
+    if (way_rad - 2.0 * ramp_rad > kMinTurn_rad) add((way_rad - 2.0 * ramp_rad) / w, way_rad - ramp_rad, w);
     add(w / alpha, way_rad, 0.0);
   }
 
@@ -140,10 +140,10 @@ class Drive {
       s_m = to_m;
       v = v_to;
     };
-    const double least_m = kLeastPart_ratio * leg.length_m;
+    const double min_m = kMinPart_ratio * leg.length_m;
     // However short, what brings it from rest is not left out: nothing else does.
-    if ((rise_m > least_m || v2_from <= 0.0) && leg.length_m - rise_m > least_m) add(rise_m, std::sqrt(peak2));
-    if (fall_m > least_m && leg.length_m - fall_m - s_m > least_m) add(leg.length_m - fall_m, std::sqrt(peak2));
+    if ((rise_m > min_m || v2_from <= 0.0) && leg.length_m - rise_m > min_m) add(rise_m, std::sqrt(peak2));
+    if (fall_m > min_m && leg.length_m - fall_m - s_m > min_m) add(leg.length_m - fall_m, std::sqrt(peak2));
     add(leg.length_m, std::sqrt(v2_to));
   }
 
@@ -179,7 +179,7 @@ std::vector<TrajectoryPoint> trajectory_of(const std::vector<Pose2>& path, const
   std::vector<Leg> legs;
   const Pose2* last = &path.front();
   for (const Pose2& pose : path) {
-    if ((pose.position() - last->position()).norm() <= kLeastStep_m) {
+    if ((pose.position() - last->position()).norm() <= kMinStep_m) {
       if (pose.position() == last->position()) last = &pose;  // it turns on the spot, then drives
       continue;
     }
@@ -187,7 +187,7 @@ std::vector<TrajectoryPoint> trajectory_of(const std::vector<Pose2>& path, const
     last = &pose;
   }
   const auto goes_on = [](const Leg& a, const Leg& b) {
-    return a.backwards == b.backwards && std::abs(wrap_angle(b.heading_rad - a.last_heading_rad())) < kLeastTurn_rad;
+    return a.backwards == b.backwards && std::abs(wrap_angle(b.heading_rad - a.last_heading_rad())) < kMinTurn_rad;
   };
   Drive drive(robot);
   drive.begin(path.front());

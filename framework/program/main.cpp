@@ -69,7 +69,7 @@ void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action
       ->allow_extra_args(false);
   sub->add_option("--robot", c.robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
   sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map or of the robot file")
-      ->check(number_within(0.0, kMostRadius_m));
+      ->check(number_within(0.0, kMaxRadius_m));
   sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time")->check(number_within(0.0, 1e9));
   sub->add_option("--seed", c.seed, "seed of the planner")->check(seed_range())->capture_default_str();
   sub->add_option("--picture", c.picture, "draw the route into this PNG file");
@@ -107,7 +107,7 @@ void add_map_lint(CLI::App& app, LintCommand& c, const CommonOptions& common, Ac
       "lint", "What is doubtful about a map's landmarks and routes; exit status 1 if anything but notes");
   lint->add_option("MAP", c.map, "saved map (*.cairn)")->required();
   lint->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map")
-      ->check(number_within(0.0, kMostRadius_m));
+      ->check(number_within(0.0, kMaxRadius_m));
   lint->add_option("--near-m", c.near_m, "landmarks of one category this near to each other are taken for one")
       ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
@@ -226,7 +226,7 @@ std::optional<std::string> unknown_option(const CLI::App& app) {
   return "unknown option " + shown(option) + did_you_mean(option, names) + "; " + called + " --help lists the options";
 }
 
-int told_of_parse_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+int parse_error_sentence(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::optional<std::string> unknown = unknown_command(app, argc, argv);
   if (unknown)
     *unknown += "; cairn --help lists the commands";
@@ -278,7 +278,7 @@ int main_of(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return told_of_parse_error(app, error, argc, argv);
+    return parse_error_sentence(app, error, argc, argv);
   }
   const int status = action();
   if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");

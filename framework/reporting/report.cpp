@@ -117,7 +117,7 @@ ordered_json json_of(const AutosaveFigures& autosave) {
           {"writing_s", rounded(autosave.writing_s)}};
 }
 
-ordered_json json_of(const StopLayerFigures& figures) {
+ordered_json json_of(const CollisionMonitorFigures& figures) {
   return {{"slowed_s", rounded(figures.slowed_s)},
           {"stopped_s", rounded(figures.stopped_s)},
           {"stale_s", rounded(figures.stale_s)}};
@@ -144,7 +144,7 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
           {"readings", result.readings},
           {"collisions", result.collisions},
           {"contacts", json_of(contacts)},
-          {"stop_layer", json_of(result.stop_layer)},
+          {"collision_monitor", json_of(result.collision_monitor)},
           {"distance_m", rounded(result.distance_m)},
           {"time_s", rounded(result.time_s)}};
 }
@@ -216,10 +216,10 @@ struct Sentence {
   std::string operator()(const AutosaveFailed& e) const {
     return "autosaving failed, the mission goes on: " + e.reason;
   }
-  std::string operator()(const Said& e) const { return e.sentence; }
+  std::string operator()(const Message& e) const { return e.sentence; }
   std::string operator()(const Bumped&) const { return "bumped into something"; }
   std::string operator()(const Paused&) const { return "paused"; }
-  std::string operator()(const WentOn&) const { return "goes on"; }
+  std::string operator()(const Resumed&) const { return "goes on"; }
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ constexpr double kStopped = 0.999;  // of the wanted speed is held back
 
 template <class Thing>
 bool add(std::vector<Thing>& things, Thing thing) {
-  if (things.size() >= kMostRunSpans) return false;
+  if (things.size() >= kMaxRunSpans) return false;
   things.push_back(thing);
   return true;
 }
@@ -16,15 +16,15 @@ bool add(std::vector<Thing>& things, Thing thing) {
 
 void RunTimeline::on(const Event& event, const MissionView& view) {
   const double time_s = view.world.time_s;
-  if (std::holds_alternative<TickDone>(event)) note_stop(view.world.held_back_ratio, time_s);
+  if (std::holds_alternative<TickDone>(event)) note_stop(view.world.speed_reduction_ratio, time_s);
   if (std::holds_alternative<Bumped>(event)) add(bumps_s_, time_s);
   if (std::holds_alternative<MapSaved>(event)) add(saves_s_, time_s);
-  if (const auto* on = std::get_if<WentOn>(&event)) add(pauses_, PauseSpan{time_s, on->paused_s});
+  if (const auto* on = std::get_if<Resumed>(&event)) add(pauses_, PauseSpan{time_s, on->paused_s});
 }
 
-void RunTimeline::note_stop(double held_back_ratio, double time_s) {
+void RunTimeline::note_stop(double speed_reduction_ratio, double time_s) {
   const bool was_stopped = is_stopped_;
-  is_stopped_ = held_back_ratio >= kStopped;
+  is_stopped_ = speed_reduction_ratio >= kStopped;
   if (!is_stopped_) return;
   if (was_stopped)
     stops_.back().end_s = time_s;

@@ -20,7 +20,7 @@ struct PauseSpan {
   double for_s = 0.0;
 };
 
-inline constexpr std::size_t kMostRunSpans = 10000;  // of each kind; what comes later is left out
+inline constexpr std::size_t kMaxRunSpans = 10000;  // of each kind; what comes later is left out
 
 class RunTimeline : public Listener {
  public:
@@ -33,7 +33,7 @@ class RunTimeline : public Listener {
   [[nodiscard]] const std::vector<double>& saves_s() const { return saves_s_; }  // of maps, by the mission itself
 
  private:
-  void note_stop(double held_back_ratio, double time_s);
+  void note_stop(double speed_reduction_ratio, double time_s);
 
   std::vector<PauseSpan> pauses_;
   std::vector<RunSpan> stops_;

@@ -33,22 +33,22 @@ double share_for(double way_m, double speed_mps, double deceleration_mps2, const
 
 }  // namespace
 
-void StopLayerConfig::describe(Fields<StopLayerConfig>& fields) {
-  fields.number("margin_m", &StopLayerConfig::margin_m, {0.01, 1.0}, "m",
+void CollisionMonitorConfig::describe(Fields<CollisionMonitorConfig>& fields) {
+  fields.number("margin_m", &CollisionMonitorConfig::margin_m, {0.01, 1.0}, "m",
                 "stop zone: kept between the footprint and anything seen");
-  fields.number("slow_m", &StopLayerConfig::slow_m, {0.02, 2.0}, "m",
+  fields.number("slow_m", &CollisionMonitorConfig::slow_m, {0.02, 2.0}, "m",
                 "slow zone: so far beyond the margin the robot goes at 0.4 of its top speed at most");
-  fields.number("stale_s", &StopLayerConfig::stale_s, {0.2, 10.0}, "s",
+  fields.number("stale_s", &CollisionMonitorConfig::stale_s, {0.2, 10.0}, "s",
                 "how long an echo counts; where no transducer has answered for so long, the robot creeps");
-  fields.number("blind_s", &StopLayerConfig::blind_s, {0.02, 1.0}, "s",
+  fields.number("blind_s", &CollisionMonitorConfig::blind_s, {0.02, 1.0}, "s",
                 "no driving after so long without any reading; without it, one and a half firing periods, or where the "
                 "robot's file tells none, one and a half times what lies between two readings, 1 s at most");
 }
 
-StopLayer::StopLayer(const StopLayerConfig& config, const RobotModel& robot)
+CollisionMonitor::CollisionMonitor(const CollisionMonitorConfig& config, const RobotModel& robot)
     : config_(config), robot_(robot), memory_(robot, config.stale_s), period_s_(robot.firing_period_s) {}
 
-void StopLayer::see(const Observation& observation) {
+void CollisionMonitor::see(const Observation& observation) {
   const double passed_s = observation.stamp_s - stamp_s_;
   const bool jumped_back = begun_ && passed_s <= 0.0;
   useless_ = jumped_back || !is_placed(observation);
@@ -69,7 +69,7 @@ void StopLayer::see(const Observation& observation) {
 
 // The second largest of the last few gaps: neither a reading that is missing nor a stamp that jitters changes it, and
 // of two sources that tell their readings one soon after the other it is the long one.
-void StopLayer::note_reading() {
+void CollisionMonitor::note_reading() {
   if (heard_ && robot_.firing_period_s <= 0.0) {
     if (gaps_s_.size() == kGaps) gaps_s_.erase(gaps_s_.begin());
     gaps_s_.push_back(stamp_s_ - last_reading_s_);
@@ -83,7 +83,7 @@ void StopLayer::note_reading() {
 
 // A bump says that, not where: when it begins, at the side that the robot was going to. As long as it lasts (somebody
 // leans on the robot from behind) the robot only creeps.
-void StopLayer::feel_bump(bool bumped) {
+void CollisionMonitor::feel_bump(bool bumped) {
   if (bumped && !bumped_ && allowed_.v_mps != 0.0) {
     const double side_rad = allowed_.v_mps > 0.0 ? 0.0 : std::numbers::pi;
     for (const double off_rad : {-kBumpSide_rad, 0.0, kBumpSide_rad})
@@ -93,13 +93,13 @@ void StopLayer::feel_bump(bool bumped) {
   if (bumped) driven_ = {};
 }
 
-bool StopLayer::is_stale() const {
+bool CollisionMonitor::is_stale() const {
   const double blind_s = config_.blind_s.value_or(kBlindPeriods * period_s_);
   return !begun_ || useless_ || stamp_s_ - last_reading_s_ > blind_s;
 }
 
 // Of the twist: 1 all of it, 0 nothing.
-double StopLayer::allowed_share(const Twist& twist, double margin_m) const {
+double CollisionMonitor::allowed_share(const Twist& twist, double margin_m) const {
   const double speed_mps = sweep_speed_mps(robot_, twist);
   if (speed_mps <= 0.0) return 1.0;
   const double braking_mps2 = robot_.max_acceleration_mps2;
@@ -113,7 +113,7 @@ double StopLayer::allowed_share(const Twist& twist, double margin_m) const {
   return share;
 }
 
-Twist StopLayer::within_limits(const Twist& wanted) const {
+Twist CollisionMonitor::within_limits(const Twist& wanted) const {
   Twist within{std::clamp(wanted.v_mps, -robot_.max_v_mps, robot_.max_v_mps),
                std::clamp(wanted.w_radps, -robot_.max_w_radps, robot_.max_w_radps)};
   if (robot_.kinematics == Kinematics::car && robot_.min_turning_radius_m > 0.0) {
@@ -124,27 +124,27 @@ Twist StopLayer::within_limits(const Twist& wanted) const {
 }
 
 // What the robot drives a tick later when it is told this.
-Twist StopLayer::next_towards(const Twist& twist) const {
+Twist CollisionMonitor::next_towards(const Twist& twist) const {
   return within_limits({approached(driven_.v_mps, twist.v_mps, robot_.max_acceleration_mps2 * tick_s_),
                         approached(driven_.w_radps, twist.w_radps, robot_.max_turn_acceleration_radps2 * tick_s_)});
 }
 
 // Slowing down keeps the curve: turn rate falls with the speed, except when a disc has only turning left.
-Twist StopLayer::cut(const Twist& clamped) const {
+Twist CollisionMonitor::cut(const Twist& clamped) const {
   const double speed_mps = sweep_speed_mps(robot_, clamped);
   if (speed_mps <= 0.0) return clamped;  // a disc that turns in place
   const double v_mps = std::abs(clamped.v_mps);
   const double slow_mps =
       std::max(kSlowRatio * robot_.max_v_mps, speed_mps * allowed_share(clamped, config_.margin_m + config_.slow_m));
-  double most_mps = std::min(speed_mps, slow_mps);
-  if (bumped_) most_mps = std::min(most_mps, kCreep_mps);
+  double max_mps = std::min(speed_mps, slow_mps);
+  if (bumped_) max_mps = std::min(max_mps, kCreep_mps);
   // It is not on the wanted arc yet. Down to a creep only, so that it can always turn away from where it stands.
   const Twist next = next_towards(clamped);
   const bool is_braking =
       clamped.v_mps != 0.0 ? next.v_mps * clamped.v_mps <= 0.0 : next.w_radps * clamped.w_radps <= 0.0;
   const double next_share = is_braking ? 1.0 : allowed_share(next, config_.margin_m);
-  if (next_share < 1.0) most_mps = std::min(most_mps, std::max(kCreep_mps, next_share * sweep_speed_mps(robot_, next)));
-  double share = std::min(most_mps / speed_mps, allowed_share(clamped, config_.margin_m));
+  if (next_share < 1.0) max_mps = std::min(max_mps, std::max(kCreep_mps, next_share * sweep_speed_mps(robot_, next)));
+  double share = std::min(max_mps / speed_mps, allowed_share(clamped, config_.margin_m));
   if (v_mps > kCreep_mps && !memory_.covers(clamped.v_mps > 0.0 ? 0.0 : std::numbers::pi))
     share = std::min(share, kCreep_mps / v_mps);
   if (share >= 1.0) return clamped;
@@ -152,13 +152,13 @@ Twist StopLayer::cut(const Twist& clamped) const {
   return {share * clamped.v_mps, share * clamped.w_radps};
 }
 
-Twist StopLayer::limit(const Twist& wanted) {
+Twist CollisionMonitor::limit(const Twist& wanted) {
   allowed_ = allowed_of(wanted);
   driven_ = next_towards(allowed_);
   return allowed_;
 }
 
-Twist StopLayer::allowed_of(const Twist& wanted) {
+Twist CollisionMonitor::allowed_of(const Twist& wanted) {
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) return {};
   const Twist clamped = within_limits(wanted);
   if (clamped == Twist{}) return {};
@@ -173,7 +173,7 @@ Twist StopLayer::allowed_of(const Twist& wanted) {
   return allowed;
 }
 
-double StopLayer::held_back_ratio(const Twist& wanted, const Twist& allowed) const {
+double CollisionMonitor::speed_reduction_ratio(const Twist& wanted, const Twist& allowed) const {
   const auto left_out = [](double whole, double part, double most) {
     return whole == 0.0 ? 0.0 : 1.0 - std::min(1.0, std::abs(part) / std::min(std::abs(whole), most));
   };

@@ -19,24 +19,24 @@
 
 namespace cairn {
 
-struct StopLayerConfig {
+struct CollisionMonitorConfig {
   double margin_m = 0.05;         // kept between the footprint and anything seen
   double slow_m = 0.1;            // beyond the margin: only slowly
   double stale_s = 1.0;           // how long an echo counts, and how long a transducer may be silent
   std::optional<double> blind_s;  // without any reading for so long, no driving; none: one and a half periods of them
-  static void describe(Fields<StopLayerConfig>& fields);
+  static void describe(Fields<CollisionMonitorConfig>& fields);
 };
 
 // How long it has interfered.
-struct StopLayerFigures {
+struct CollisionMonitorFigures {
   double slowed_s = 0.0;   // cut the speed, for what was seen or because nobody looked
   double stopped_s = 0.0;  // let nothing of it through, for what was seen
   double stale_s = 0.0;    // wanted to drive without fresh readings
 };
 
-class StopLayer {
+class CollisionMonitor {
  public:
-  StopLayer(const StopLayerConfig& config, const RobotModel& robot);
+  CollisionMonitor(const CollisionMonitorConfig& config, const RobotModel& robot);
 
   // Every observation, in order. One whose stamp is not later than the last one's, or whose stamp or odometry is no
   // number, is stale as a whole.
@@ -44,8 +44,8 @@ class StopLayer {
   // The wanted velocity, within the robot's limits and what the sensors allow. Once after each see().
   [[nodiscard]] Twist limit(const Twist& wanted);
   // Share of a wanted speed, or of a wanted turn in place, that an allowed one leaves out: 0 none, 1 all.
-  [[nodiscard]] double held_back_ratio(const Twist& wanted, const Twist& allowed) const;
-  [[nodiscard]] const StopLayerFigures& figures() const { return figures_; }
+  [[nodiscard]] double speed_reduction_ratio(const Twist& wanted, const Twist& allowed) const;
+  [[nodiscard]] const CollisionMonitorFigures& figures() const { return figures_; }
 
  private:
   [[nodiscard]] bool is_stale() const;
@@ -57,9 +57,9 @@ class StopLayer {
   [[nodiscard]] Twist cut(const Twist& clamped) const;
   [[nodiscard]] double allowed_share(const Twist& twist, double margin_m) const;
 
-  StopLayerConfig config_;
+  CollisionMonitorConfig config_;
   RobotModel robot_;
-  EchoMemory memory_;
+  RangeBuffer memory_;
   double tick_s_ = 0.0;  // between the last two observations
   double stamp_s_ = 0.0;
   double period_s_ = 0.0;       // of readings
@@ -71,7 +71,7 @@ class StopLayer {
   bool bumped_ = false;
   Twist allowed_;  // of the last tick
   Twist driven_;   // what it makes of the orders within its accelerations
-  StopLayerFigures figures_;
+  CollisionMonitorFigures figures_;
 };
 
 }  // namespace cairn

@@ -7,8 +7,8 @@ namespace cairn {
 namespace {
 
 constexpr int kArcPoints = 7;  // a 30 degree arc at 0.5 m: a point each 4.4 cm
-constexpr int kMostSensors = 4096;
-constexpr std::size_t kMostEchoes = 4;  // of one transducer
+constexpr int kMaxSensors = 4096;
+constexpr std::size_t kMaxEchoes = 4;  // of one transducer
 constexpr double kTouchKept_s = 5.0;
 // Of half a beam, in which another transducer would surely have heard it; the same one would have in all of it.
 constexpr double kSurelyInBeam = 0.6;
@@ -46,20 +46,20 @@ bool is_placed(const Observation& observation) {
 }
 
 bool says_something(const RangeReading& reading) {
-  return reading.sensor >= 0 && reading.sensor < kMostSensors && !std::isnan(reading.range_m) &&
+  return reading.sensor >= 0 && reading.sensor < kMaxSensors && !std::isnan(reading.range_m) &&
          is_finite(reading.T_robot_sensor) && std::isfinite(reading.half_beam_rad) && std::isfinite(reading.min_m);
 }
 
-EchoMemory::EchoMemory(const RobotModel& robot, double kept_s)
+RangeBuffer::RangeBuffer(const RobotModel& robot, double kept_s)
     : kept_s_(std::max(kept_s, 1.5 * round_of(robot))), round_s_(round_of(robot)) {}
 
-void EchoMemory::forget() {
+void RangeBuffer::forget() {
   transducers_.clear();
   touches_.clear();
   points_.clear();
 }
 
-void EchoMemory::see(const Observation& observation) {
+void RangeBuffer::see(const Observation& observation) {
   T_odom_robot_ = observation.T_odom_robot;
   stamp_s_ = observation.stamp_s;
   for (const RangeReading& reading : observation.ranges)
@@ -70,7 +70,7 @@ void EchoMemory::see(const Observation& observation) {
   show();
 }
 
-void EchoMemory::take(const RangeReading& reading) {
+void RangeBuffer::take(const RangeReading& reading) {
   const auto index = static_cast<std::size_t>(reading.sensor);
   if (index >= transducers_.size()) transducers_.resize(index + 1);
   Transducer& transducer = transducers_[index];
@@ -84,12 +84,12 @@ void EchoMemory::take(const RangeReading& reading) {
   if (!std::isfinite(seen.range_m)) return;
   clear_before(seen);
   echo.points_odom = arc_of(seen, T_odom_robot_ * seen.T_robot_sensor);
-  if (transducer.echoes.size() == kMostEchoes) transducer.echoes.erase(transducer.echoes.begin());
+  if (transducer.echoes.size() == kMaxEchoes) transducer.echoes.erase(transducer.echoes.begin());
   transducer.echoes.push_back(std::move(echo));
 }
 
 // Against the nearest that the last echo could be from here if it stood still.
-double EchoMemory::closing_mps(const Transducer& transducer, const RangeReading& reading) const {
+double RangeBuffer::closing_mps(const Transducer& transducer, const RangeReading& reading) const {
   if (transducer.echoes.empty() || transducer.echoes.back().points_odom.empty() || !std::isfinite(reading.range_m))
     return 0.0;
   const Echo& last = transducer.echoes.back();
@@ -104,7 +104,7 @@ double EchoMemory::closing_mps(const Transducer& transducer, const RangeReading&
   return speed_mps > kFastest_mps ? 0.0 : speed_mps;  // faster: something else has come into the beam
 }
 
-void EchoMemory::clear_before(const RangeReading& reading) {
+void RangeBuffer::clear_before(const RangeReading& reading) {
   const Pose2 T_sensor_odom = inverse(T_odom_robot_ * reading.T_robot_sensor);
   const double nearer_m = reading.range_m - kBehind_m;
   for (Transducer& transducer : transducers_) {
@@ -118,12 +118,12 @@ void EchoMemory::clear_before(const RangeReading& reading) {
   }
 }
 
-void EchoMemory::feel(const Point& at_robot) {
+void RangeBuffer::feel(const Point& at_robot) {
   touches_.push_back({stamp_s_, T_odom_robot_ * at_robot});
   show();
 }
 
-void EchoMemory::show() {
+void RangeBuffer::show() {
   points_.clear();
   const Pose2 T_robot_odom = inverse(T_odom_robot_);
   for (const Transducer& transducer : transducers_) {
@@ -137,7 +137,7 @@ void EchoMemory::show() {
   for (const Touch& touch : touches_) points_.push_back({T_robot_odom * touch.at_odom, 0.0, 0.0});
 }
 
-bool EchoMemory::covers(double direction_rad) const {
+bool RangeBuffer::covers(double direction_rad) const {
   return std::any_of(transducers_.begin(), transducers_.end(), [&](const Transducer& transducer) {
     return stamp_s_ - transducer.stamp_s <= kept_s_ &&
            std::abs(wrap_angle(transducer.axis_rad - direction_rad)) <= transducer.half_beam_rad + kBesideBeam_rad;

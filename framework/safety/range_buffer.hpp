@@ -25,10 +25,10 @@ struct SeenPoint {
 // Whether a reading is one, be it "no echo": of a transducer, from a place of the robot, and not a bad one.
 [[nodiscard]] bool says_something(const RangeReading& reading);
 
-class EchoMemory {
+class RangeBuffer {
  public:
   // kept_s: how long an echo counts.
-  EchoMemory(const RobotModel& robot, double kept_s);
+  RangeBuffer(const RobotModel& robot, double kept_s);
 
   // It must be placed; readings that say nothing are left out.
   void see(const Observation& observation);

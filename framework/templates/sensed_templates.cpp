@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "framework/modules/module_library.hpp"
-#include "framework/templates/landmark_lap.hpp"
+#include "framework/templates/landmark_orbit.hpp"
 #include "maps/base/in_parallel.hpp"
 
 namespace cairn {
@@ -21,7 +21,7 @@ struct Gradient {
 struct Studio {
   double cell_m;
   const SensedOptions& options;
-  LapCrew crew;
+  OrbitCrew crew;
 };
 
 Gradient sobel(const OccupancyGrid& grid, Cell c) {
@@ -52,7 +52,7 @@ std::vector<TemplateCell> band_of(const Contour& contour, double orientation_rad
 LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad) {
   const SensedOptions& options = studio.options;
   std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, studio.cell_m, options);
-  LapPlan plan;
+  OrbitPlan plan;
   plan.orientation_rad = orientation_rad;
   plan.standoffs_m.clear();
   for (const double gap_m : options.gaps_m) plan.standoffs_m.push_back(studio.crew.robot.radius_m + gap_m);
@@ -61,7 +61,7 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
   plan.seed = options.seed;
   // The template's cells, those that Sobel looks at beside them, and the spread of a cell.
   plan.needed_m = 0.5 * shape.contour.outer_diameter_m() + (options.edge_outside_cells + 3.0) * studio.cell_m;
-  const auto mapper = map_of_laps(studio.crew, shape.contour, plan);
+  const auto mapper = map_of_orbits(studio.crew, shape.contour, plan);
   if (std::abs(mapper->grid().cell_m() - studio.cell_m) > 1e-9) {
     throw std::invalid_argument("sensed templates for cells of " + std::to_string(studio.cell_m) +
                                 " m need a mapper with such cells, not " + std::to_string(mapper->grid().cell_m()));
@@ -72,7 +72,7 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
     cell.gradient_y = static_cast<std::int16_t>(gradient.y);
   }
   std::erase_if(cells, [&](const TemplateCell& cell) {
-    return std::hypot(cell.gradient_x, cell.gradient_y) < options.least_gradient;
+    return std::hypot(cell.gradient_x, cell.gradient_y) < options.min_gradient;
   });
   if (cells.empty())
     throw std::runtime_error("sensed templates: a lap round the " + shape.category +

@@ -210,8 +210,8 @@ std::filesystem::path template_cache_folder() {
 std::string rendering_key(double step_rad, double cell_m, const SensedOptions& options, const RobotModel& robot,
                           const PluginChoice& sensor, const PluginChoice& map, const ModuleLibrary& library) {
   KeyText key;
-  const auto& [sizes, gaps_m, speed_mps, inside, outside, least_gradient, seed] = options;
-  key.add(step_rad, cell_m, speed_mps, inside, outside, least_gradient, seed, gaps_m.size(), sizes.size());
+  const auto& [sizes, gaps_m, speed_mps, inside, outside, min_gradient, seed] = options;
+  key.add(step_rad, cell_m, speed_mps, inside, outside, min_gradient, seed, gaps_m.size(), sizes.size());
   for (const double size : sizes) key.add(size);
   for (const double gap_m : gaps_m) key.add(gap_m);
   add_robot(key, robot);

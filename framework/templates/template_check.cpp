@@ -24,7 +24,7 @@ double orientation_error(double a_rad, double b_rad, double period_rad) {
 }
 
 DetectionReport report_on(const OccupancyGrid& grid, const std::shared_ptr<const TemplateSet>& set,
-                          const PluginChoice& choice, const LapCrew& crew) {
+                          const PluginChoice& choice, const OrbitCrew& crew) {
   ModuleContext context{crew.robot};
   context.templates = set;
   context.modules = &crew.modules;
@@ -56,8 +56,9 @@ void take_answer(const DetectionReport& report, TemplateView& view, double perio
 }
 
 TemplateView view_of(const std::shared_ptr<const TemplateSet>& set, const CheckedDetector& detector,
-                     const LapCrew& crew, const LandmarkShape& shape, const LapPlan& plan, std::size_t orientations) {
-  const auto mapper = map_of_laps(crew, shape.contour, plan);
+                     const OrbitCrew& crew, const LandmarkShape& shape, const OrbitPlan& plan,
+                     std::size_t orientations) {
+  const auto mapper = map_of_orbits(crew, shape.contour, plan);
   const double period_rad = orientations > 1 ? static_cast<double>(orientations) * set->step_rad : 0.0;
   TemplateView view;
   view.shown = shape.category;
@@ -70,7 +71,7 @@ TemplateView view_of(const std::shared_ptr<const TemplateSet>& set, const Checke
 struct Task {
   const LandmarkShape* shape;
   std::size_t orientations;
-  LapPlan plan;
+  OrbitPlan plan;
 };
 
 std::vector<Task> tasks_for(const TemplateSet& set) {
@@ -173,17 +174,17 @@ bool TemplateCheck::has_mistakes() const {
 }
 
 double outline_difference_m(const Contour& a, const Contour& b) {
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   for (int turn_deg = 0; turn_deg < 360; ++turn_deg) {
     const double turn_rad = radians(turn_deg);
     const double there_m = distance_from(a, b, turn_rad);
-    if (there_m < least_m) least_m = std::min(least_m, std::max(there_m, distance_from(b, a, -turn_rad)));
+    if (there_m < min_m) min_m = std::min(min_m, std::max(there_m, distance_from(b, a, -turn_rad)));
   }
-  return least_m;
+  return min_m;
 }
 
 TemplateCheck check_templates(const std::shared_ptr<const TemplateSet>& set, const CheckedDetector& detector,
-                              const LapCrew& crew) {
+                              const OrbitCrew& crew) {
   TemplateCheck check;
   for (const LandmarkShape& shape : set->shapes) check.categories.push_back(shape.category);
   const std::vector<Task> tasks = tasks_for(*set);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "framework/modules/module_library.hpp"
-#include "framework/templates/landmark_lap.hpp"
+#include "framework/templates/landmark_orbit.hpp"
 #include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn {
@@ -43,7 +43,7 @@ struct CheckedDetector {
 
 // Throws what the modules throw. Time: a lap and its matchings for every view.
 [[nodiscard]] TemplateCheck check_templates(const std::shared_ptr<const TemplateSet>& set,
-                                            const CheckedDetector& detector, const LapCrew& crew);
+                                            const CheckedDetector& detector, const OrbitCrew& crew);
 
 // How far the outlines lie apart where they differ most, when one is laid upon the other as well as can be
 // (turned in whole degrees about their centres).

@@ -14,7 +14,7 @@ namespace cairn {
 // what the first call that failed, by its index, threw; after a failure no further call begins. Uses all cores,
 // but at most so many.
 template <class Work>
-void in_parallel(std::size_t count, const Work& work, std::size_t most_threads = 64) {
+void in_parallel(std::size_t count, const Work& work, std::size_t max_threads = 64) {
   std::vector<std::exception_ptr> faults(count);
   std::atomic<std::size_t> next = 0;
   const auto work_through = [&] {
@@ -29,7 +29,7 @@ void in_parallel(std::size_t count, const Work& work, std::size_t most_threads =
   };
   {
     std::vector<std::jthread> helpers;
-    const std::size_t threads = std::min<std::size_t>({std::thread::hardware_concurrency(), count, most_threads});
+    const std::size_t threads = std::min<std::size_t>({std::thread::hardware_concurrency(), count, max_threads});
     for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work_through);
     work_through();
   }

@@ -13,7 +13,7 @@
 
 namespace cairn {
 
-namespace in_order_detail {
+namespace ordered_parallel_map_detail {
 
 // Results that wait for earlier ones.
 template <class Result>
@@ -24,12 +24,12 @@ class Line {
     std::exception_ptr fault;  // in its place
   };
 
-  explicit Line(std::size_t most_waiting) : most_waiting_(most_waiting) {}
+  explicit Line(std::size_t max_waiting) : max_waiting_(max_waiting) {}
 
   // Waits until a job of this index would not be too far ahead. False: it is not wanted any more.
   bool wait_for_room(std::size_t index) {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [&] { return ended_ || index < next_ + most_waiting_; });
+    room_.wait(lock, [&] { return ended_ || index < next_ + max_waiting_; });
     return !ended_;
   }
 
@@ -74,7 +74,7 @@ class Line {
     room_.notify_all();
   }
 
-  std::size_t most_waiting_;
+  std::size_t max_waiting_;
   std::mutex mutex_;
   std::condition_variable room_;
   std::map<std::size_t, Done> done_;
@@ -84,7 +84,7 @@ class Line {
   std::exception_ptr fault_;
 };
 
-}  // namespace in_order_detail
+}  // namespace ordered_parallel_map_detail
 
 // Takes jobs until take() gives none, works on them on so many threads, and gives the results on in the order of the
 // jobs, each as soon as those before it are through: nothing waits for jobs to come. take() -> std::optional<Job> and
@@ -95,7 +95,7 @@ class Line {
 template <class Take, class Work, class Give, class Stop>
 void in_order(std::size_t threads, const Take& take, const Work& work, const Give& give, const Stop& stop) {
   using Job = typename decltype(take())::value_type;
-  using Line = in_order_detail::Line<decltype(work(std::declval<Job>()))>;
+  using Line = ordered_parallel_map_detail::Line<decltype(work(std::declval<Job>()))>;
   Line line(32 * threads);
   std::mutex taking;
   std::size_t next = 0;

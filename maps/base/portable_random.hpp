@@ -8,11 +8,11 @@
 
 namespace cairn {
 
-class Chance {
+class PortableRandom {
  public:
-  explicit Chance(std::uint64_t seed) : random_(seed) {}
+  explicit PortableRandom(std::uint64_t seed) : random_(seed) {}
   // Streams of one seed with different purposes are independent, and so are those of neighbouring seeds (splitmix64).
-  Chance(std::uint64_t seed, std::uint64_t purpose) : random_(mixed(mixed(seed) + purpose)) {}
+  PortableRandom(std::uint64_t seed, std::uint64_t purpose) : random_(mixed(mixed(seed) + purpose)) {}
   double share() { return static_cast<double>(random_() >> 11) * 0x1.0p-53; }  // [0, 1)
   double between(double low, double high) { return low + (high - low) * share(); }
   // One of low .. high, both included.

@@ -30,7 +30,7 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
-constexpr std::size_t kMostBytes = std::size_t{4} << 30;
+constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -63,9 +63,9 @@ void SourceText::fail_cut(std::size_t offset, const std::string& sentence) const
 }
 
 void SourceText::check_coordinate(std::size_t offset, double coordinate_m) const {
-  if (!(std::abs(coordinate_m) <= kMostCoordinate_m))
+  if (!(std::abs(coordinate_m) <= kMaxCoordinate_m))
     fail(offset, "the coordinate " + number_text(coordinate_m) + " is not allowed: it must be within " +
-                     number_text(kMostCoordinate_m) + " m");
+                     number_text(kMaxCoordinate_m) + " m");
 }
 
 bool may_never_open(const std::filesystem::path& file) {
@@ -87,7 +87,7 @@ std::string text_of_file(const std::filesystem::path& file) {
   // Block by block: what is no plain file has no size to ask for.
   while (in) {
     const std::size_t before = text.size();
-    if (before > kMostBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
+    if (before > kMaxBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
     text.resize(before + kBlock);
     in.read(text.data() + before, static_cast<std::streamsize>(kBlock));
     text.resize(before + static_cast<std::size_t>(in.gcount()));

@@ -20,7 +20,7 @@ class ExchangeError : public std::runtime_error {
 namespace exchange {
 
 // Room for every grid reference on Earth; squares and sums of what is far beyond would be no numbers any more.
-inline constexpr double kMostCoordinate_m = 1e9;
+inline constexpr double kMaxCoordinate_m = 1e9;
 
 // Refers to the text, which outlives it.
 class SourceText {
@@ -34,7 +34,7 @@ class SourceText {
   [[noreturn]] void fail(const std::string& sentence) const;
   // As fail(), for what is wrong where the file ends.
   [[noreturn]] void fail_cut(std::size_t offset, const std::string& sentence) const;
-  // Fails when a coordinate that stands there is beyond kMostCoordinate_m.
+  // Fails when a coordinate that stands there is beyond kMaxCoordinate_m.
   void check_coordinate(std::size_t offset, double coordinate_m) const;
 
  private:

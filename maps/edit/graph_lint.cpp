@@ -17,11 +17,11 @@ namespace {
 constexpr double kSamePlace_m = 1e-3;
 
 std::string labels_of(const LandmarkGraph& graph, const std::vector<LandmarkId>& ids) {
-  constexpr std::size_t kMostNamed = 5;
+  constexpr std::size_t kMaxNamed = 5;
   std::string text;
-  for (std::size_t i = 0; i < std::min(ids.size(), kMostNamed); ++i)
+  for (std::size_t i = 0; i < std::min(ids.size(), kMaxNamed); ++i)
     text += (i == 0 ? "" : ", ") + full_label(*graph.find(ids[i]));
-  if (ids.size() > kMostNamed) text += fmt::format(" and {} more", ids.size() - kMostNamed);
+  if (ids.size() > kMaxNamed) text += fmt::format(" and {} more", ids.size() - kMaxNamed);
   return text;
 }
 

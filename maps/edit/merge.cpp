@@ -171,23 +171,23 @@ class Merger {
   }
 
   void warn() {
-    const auto tell = [&](std::size_t count, const char* noun, const char* sentence) {
+    const auto report = [&](std::size_t count, const char* noun, const char* sentence) {
       exchange::warn_of(count, noun, sentence, merged_.warnings);
     };
-    tell(renamed_, "landmark", "the name is taken, so it got a suffix");
-    tell(names_lost_, "landmark", "one with a landmark of another name, which it keeps");
-    tell(annotations_lost_, "landmark", "what other tools keep with it is not taken over");
-    tell(closed_lost_, "route", "closed in one of the maps only; the first map counts");
-    tell(trajectories_lost_, "route",
-         "the trajectory ends elsewhere than where a robot stands at the joined landmark, so only the cost is kept");
-    tell(a_.progress || b_.progress ? 1 : 0, "mission",
-         "none goes on from a merged map: how far it had come is left away");
-    tell(b_.driven_path.empty() ? 0 : 1, "driven path", "the second map's is not taken over");
+    report(renamed_, "landmark", "the name is taken, so it got a suffix");
+    report(names_lost_, "landmark", "one with a landmark of another name, which it keeps");
+    report(annotations_lost_, "landmark", "what other tools keep with it is not taken over");
+    report(closed_lost_, "route", "closed in one of the maps only; the first map counts");
+    report(trajectories_lost_, "route",
+           "the trajectory ends elsewhere than where a robot stands at the joined landmark, so only the cost is kept");
+    report(a_.progress || b_.progress ? 1 : 0, "mission",
+           "none goes on from a merged map: how far it had come is left away");
+    report(b_.driven_path.empty() ? 0 : 1, "driven path", "the second map's is not taken over");
     const auto named = [](const SavedMap& map) {
       return static_cast<std::size_t>(
           std::ranges::count_if(map.clusters.clusters, [](const auto& entry) { return !entry.second.name.empty(); }));
     };
-    tell(named(a_) + named(b_), "cluster", "made anew, the name is lost");
+    report(named(a_) + named(b_), "cluster", "made anew, the name is lost");
   }
 
   const SavedMap& a_;

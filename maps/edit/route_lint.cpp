@@ -31,7 +31,7 @@ LegBlockages blockages_on_leg(const OccupancyGrid& grid, const Point& from, cons
   double occupied_at = 2.0;
   double unknown_at = 2.0;
   const Lattice lattice{grid.origin_m(), grid.cell_m()};
-  const double reach_m = std::max(radius_m, kLeastRadius_m);
+  const double reach_m = std::max(radius_m, kMinRadius_m);
   (void)any_cell_near(lattice, from, to, reach_m, [&](Cell cell) {
     const CellState state = grid.state(cell);
     if (state == CellState::free) return false;

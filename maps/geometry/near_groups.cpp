@@ -45,9 +45,9 @@ std::vector<Residents> squares_of(const std::vector<Resident>& residents) {
 }
 
 bool any_near(std::span<const ThingAt> things, Residents a, Residents b, double within_m) {
-  constexpr std::size_t kMostCompared = 64;  // of each square: more are a crowd anyway
-  for (const Resident& one : a.first(std::min(a.size(), kMostCompared)))
-    for (const Resident& other : b.first(std::min(b.size(), kMostCompared)))
+  constexpr std::size_t kMaxCompared = 64;  // of each square: more are a crowd anyway
+  for (const Resident& one : a.first(std::min(a.size(), kMaxCompared)))
+    for (const Resident& other : b.first(std::min(b.size(), kMaxCompared)))
       if ((things[one.index].at_m - things[other.index].at_m).norm() <= within_m) return true;
   return false;
 }

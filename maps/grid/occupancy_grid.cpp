@@ -29,8 +29,8 @@ int saturated_floor(double cells) {
 }
 
 int checked_clamp(double clamp_nat) {
-  constexpr double kLeast = 1.0 / kLogOddsPerNat;
-  if (!(clamp_nat >= kLeast && clamp_nat <= 127.0))
+  constexpr double kMin = 1.0 / kLogOddsPerNat;
+  if (!(clamp_nat >= kMin && clamp_nat <= 127.0))
     throw std::invalid_argument("OccupancyGrid: clamp_nat must be in [1/256, 127], got " + std::to_string(clamp_nat));
   return static_cast<int>(std::lround(clamp_nat * kLogOddsPerNat));
 }
@@ -48,9 +48,9 @@ void for_each_run(const CellBox& box, const Visit& visit) {
 }
 
 bool is_allowed(const CellBox& box) {
-  constexpr int kMost = OccupancyGrid::kLargestCellIndex;
-  constexpr CellBox kAllowed{{-kMost, -kMost}, {kMost, kMost}};
-  return intersected(kAllowed, box) == box && std::int64_t{box.width()} * box.height() <= OccupancyGrid::kMostCells;
+  constexpr int kMax = OccupancyGrid::kLargestCellIndex;
+  constexpr CellBox kAllowed{{-kMax, -kMax}, {kMax, kMax}};
+  return intersected(kAllowed, box) == box && std::int64_t{box.width()} * box.height() <= OccupancyGrid::kMaxCells;
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void OccupancyGrid::include(const CellBox& box) {
   if (!is_allowed(all))
     throw std::length_error("OccupancyGrid: the cells (" + std::to_string(all.min.x) + ", " +
                             std::to_string(all.min.y) + ") to (" + std::to_string(all.max.x) + ", " +
-                            std::to_string(all.max.y) + ") are too many, at most " + std::to_string(kMostCells) +
+                            std::to_string(all.max.y) + ") are too many, at most " + std::to_string(kMaxCells) +
                             " are possible, with indices up to " + std::to_string(kLargestCellIndex));
   bounds_ = all;
 }

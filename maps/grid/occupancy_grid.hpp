@@ -49,7 +49,7 @@ struct OccupancyThresholds {
 class OccupancyGrid {
  public:
   static constexpr int kLargestCellIndex = 1 << 17;  // 6.5 km at 0.05 m: beyond it something else is wrong
-  static constexpr std::int64_t kMostCells = std::int64_t{1} << 28;  // of bounds()
+  static constexpr std::int64_t kMaxCells = std::int64_t{1} << 28;  // of bounds()
   static constexpr int kTileSide = 64;
 
   // origin_m: lower left corner of cell (0, 0) in the map frame. clamp_nat bounds |L|. Throws

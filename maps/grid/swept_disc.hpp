@@ -26,7 +26,7 @@ struct GroundRules {
   }
 };
 
-inline constexpr double kLeastRadius_m = 1e-6;
+inline constexpr double kMinRadius_m = 1e-6;
 
 // Distance between a segment and a square, borders included; 0 when they meet.
 [[nodiscard]] double distance_to_square_m(const Point& from, const Point& to, const Point& square_centre,
@@ -73,7 +73,7 @@ template <class Found>
 template <class IsBlocked>
 [[nodiscard]] bool sweep_touches(const Lattice& lattice, const Point& from, const Point& to, double radius_m,
                                  IsBlocked is_blocked) {
-  const double reach_m = std::max(radius_m, kLeastRadius_m);
+  const double reach_m = std::max(radius_m, kMinRadius_m);
   return any_cell_near(lattice, from, to, reach_m, [&](Cell cell) {
     return is_blocked(cell) && distance_to_square_m(from, to, lattice.centre_of(cell), lattice.cell_m) < reach_m;
   });

@@ -109,7 +109,7 @@ void ClusterBuilder::build() {
   clustering_.clear();
   clustering_.usual_cost_ = usual_cost(network_);
   clustering_.leaf_.assign(network_.end(), kNoCluster);
-  clustering_.levels_ = std::min(clustering_.sizes_.levels_for(network_.landmarks()), clustering_.most_levels_);
+  clustering_.levels_ = std::min(clustering_.sizes_.levels_for(network_.landmarks()), clustering_.max_levels_);
   if (clustering_.levels_ == 0) return;
   std::vector<VertexIndex> all;
   for (VertexIndex v = 0; v < network_.end(); ++v)

@@ -65,7 +65,7 @@ std::size_t routes_cut(const Network& network, const Clustering& clustering, int
 }  // namespace
 
 std::vector<LevelQuality> cluster_quality(const Network& network, const Clustering& clustering,
-                                          std::int32_t most_for_diameter) {
+                                          std::int32_t max_for_diameter) {
   std::vector<LevelQuality> levels;
   for (int level = 1; level <= clustering.levels(); ++level) {
     LevelQuality quality;
@@ -79,7 +79,7 @@ std::vector<LevelQuality> cluster_quality(const Network& network, const Clusteri
     }
     const auto clusters = static_cast<double>(quality.clusters);
     quality.mean = static_cast<double>(network.landmarks()) / clusters;
-    if (quality.largest <= most_for_diameter) {
+    if (quality.largest <= max_for_diameter) {
       double sum = 0.0;
       for (const auto& landmarks : landmarks_of_level(network, clustering, level))
         sum += diameter_of(graph_among(landmarks, network));

@@ -21,8 +21,8 @@ struct LevelQuality {
 };
 
 // From level 1 up; nothing without levels. Diameters, in the network's costs, only of levels without a cluster above
-// `most_for_diameter` landmarks (every landmark of a cluster is searched from); pairs without a way inside count as 0.
+// `max_for_diameter` landmarks (every landmark of a cluster is searched from); pairs without a way inside count as 0.
 [[nodiscard]] std::vector<LevelQuality> cluster_quality(const Network& network, const Clustering& clustering,
-                                                        std::int32_t most_for_diameter = 128);
+                                                        std::int32_t max_for_diameter = 128);
 
 }  // namespace cairn

@@ -7,7 +7,7 @@
 namespace cairn {
 namespace {
 
-constexpr int kMostLevels = 32;
+constexpr int kMaxLevels = 32;
 constexpr ClusterId kHighestId = std::numeric_limits<ClusterId>::max() / 2;  // of a saved cluster; more are to follow
 
 // The chain of saved clusters from level 1 up; empty when it is broken.
@@ -16,7 +16,7 @@ std::vector<const Cluster*> chain_of(const ClusterTree& saved, ClusterId leaf) {
   for (ClusterId id = leaf; id != 0; id = chain.back()->parent) {
     const auto found = saved.clusters.find(id);
     const int level = static_cast<int>(chain.size()) + 1;
-    if (found == saved.clusters.end() || found->second.level != level || level > kMostLevels) return {};
+    if (found == saved.clusters.end() || found->second.level != level || level > kMaxLevels) return {};
     if (found->second.id != id || id < 0 || id > kHighestId) return {};
     chain.push_back(&found->second);
   }
@@ -169,7 +169,7 @@ void ClusterUpkeep::merge_if_small(ClusterIndex cluster) {
 void ClusterUpkeep::change_levels() {
   const std::size_t landmarks = network_.landmarks();
   const auto levels_for = [&](std::size_t n) {
-    return std::min(clustering_.sizes_.levels_for(n), clustering_.most_levels_);
+    return std::min(clustering_.sizes_.levels_for(n), clustering_.max_levels_);
   };
   // Not to and fro with every landmark that comes and goes.
   while (levels_for(landmarks - landmarks / 5) > clustering_.levels_) {
@@ -177,9 +177,9 @@ void ClusterUpkeep::change_levels() {
     levels_changed_ = true;
   }
   while (levels_for(landmarks + landmarks / 4) < clustering_.levels_) {
-    const int most_levels = clustering_.most_levels_;
+    const int max_levels = clustering_.max_levels_;
     clustering_.drop_level();
-    clustering_.most_levels_ = most_levels;
+    clustering_.max_levels_ = max_levels;
     levels_changed_ = true;
   }
 }

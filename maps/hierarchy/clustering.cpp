@@ -126,7 +126,7 @@ void Clustering::drop_level() {
     nodes_[cluster] = {};
     free_.push_back(cluster);
   }
-  most_levels_ = --levels_;
+  max_levels_ = --levels_;
 }
 
 Clustering::Upkeep Clustering::follow(const Network& network, std::span<const VertexIndex> vertices) {

@@ -89,7 +89,7 @@ class Clustering {
   std::vector<ClusterIndex> leaf_;  // of each vertex
   double usual_cost_ = 0.0;         // of a route, when the clusters were made
   // Levels above were not worth keeping once (drop_level()); they are not tried again.
-  int most_levels_ = std::numeric_limits<int>::max();
+  int max_levels_ = std::numeric_limits<int>::max();
   ClusterId next_id_ = 1;
 };
 

@@ -55,14 +55,16 @@ Groups renumbered(const Groups& groups) {
 }
 
 // The connected pieces of the groups.
-Groups pieces_of(const GroupingGraph& graph, const Groups& groups) {
-  Union pieces(graph.nodes());
+Groups components_of(const GroupingGraph& graph, const Groups& groups) {
+  Union components(graph.nodes());
   for (std::int32_t node = 0; node < graph.nodes(); ++node)
     for_each_edge(graph, node, [&](std::int32_t other, std::int32_t) {
-      if (groups[static_cast<std::size_t>(node)] == groups[static_cast<std::size_t>(other)]) pieces.join(node, other);
+      if (groups[static_cast<std::size_t>(node)] == groups[static_cast<std::size_t>(other)])
+        components.join(node, other);
     });
   Groups result(groups.size());
-  for (std::int32_t node = 0; node < graph.nodes(); ++node) result[static_cast<std::size_t>(node)] = pieces.find(node);
+  for (std::int32_t node = 0; node < graph.nodes(); ++node)
+    result[static_cast<std::size_t>(node)] = components.find(node);
   return renumbered(result);
 }
 
@@ -86,7 +88,7 @@ std::int64_t size_of(const GroupingGraph& graph, const std::vector<std::int32_t>
 class SmallOnes {
  public:
   SmallOnes(const GroupingGraph& graph, Groups groups, std::int32_t most)
-      : graph_(graph), groups_(std::move(groups)), members_(members_of(groups_)), most_(most) {
+      : graph_(graph), groups_(std::move(groups)), members_(members_of(groups_)), max_(most) {
     for (const auto& members : members_) sizes_.push_back(size_of(graph, members));
   }
 
@@ -95,7 +97,7 @@ class SmallOnes {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes_[a] < sizes_[b]; });
     for (const std::size_t group : order)
-      if (!members_[group].empty() && 4 * sizes_[group] < most_) join(group);
+      if (!members_[group].empty() && 4 * sizes_[group] < max_) join(group);
     return renumbered(groups_);
   }
 
@@ -105,7 +107,7 @@ class SmallOnes {
     for (const std::int32_t node : members_[group])
       for_each_edge(graph_, node, [&](std::int32_t other, std::int32_t weight) {
         const auto neighbour = static_cast<std::size_t>(groups_[static_cast<std::size_t>(other)]);
-        if (neighbour != group && sizes_[neighbour] + sizes_[group] <= most_) ties[neighbour] += weight;
+        if (neighbour != group && sizes_[neighbour] + sizes_[group] <= max_) ties[neighbour] += weight;
       });
     if (ties.empty()) return;
     const std::size_t to =
@@ -122,7 +124,7 @@ class SmallOnes {
   Groups groups_;
   std::vector<std::vector<std::int32_t>> members_;
   std::vector<std::int64_t> sizes_;
-  std::int64_t most_;
+  std::int64_t max_;
 };
 
 // The graph of some nodes alone.
@@ -173,7 +175,7 @@ void split(const GroupingGraph& graph, const std::vector<std::int32_t>& members,
            const Proposal& propose, Groups& groups, std::int32_t& next, int depth) {
   const GroupingGraph part = part_of(graph, members);
   const std::int32_t wanted = std::max(2, groups_for(size_of(graph, members), most));
-  const Groups inner = depth > 8 ? by_growth(part, most) : pieces_of(part, propose(part, wanted));
+  const Groups inner = depth > 8 ? by_growth(part, most) : components_of(part, propose(part, wanted));
   for (const auto& group : members_of(inner)) {
     std::vector<std::int32_t> nodes;
     for (const std::int32_t i : group) nodes.push_back(members[static_cast<std::size_t>(i)]);
@@ -215,7 +217,7 @@ std::vector<std::int32_t> propose_by_metis(const GroupingGraph& graph, std::int3
 std::vector<std::int32_t> connected_groups(const GroupingGraph& graph, std::int32_t most, const Proposal& propose) {
   const std::int64_t total = std::accumulate(graph.size.begin(), graph.size.end(), std::int64_t{0});
   if (total <= most) return connected_parts(graph);
-  Groups groups = pieces_of(graph, propose(graph, groups_for(total, most)));
+  Groups groups = components_of(graph, propose(graph, groups_for(total, most)));
   const auto members = members_of(groups);
   auto next = static_cast<std::int32_t>(members.size());
   for (const auto& nodes : members)
@@ -224,7 +226,7 @@ std::vector<std::int32_t> connected_groups(const GroupingGraph& graph, std::int3
 }
 
 std::vector<std::int32_t> connected_parts(const GroupingGraph& graph) {
-  return pieces_of(graph, Groups(graph.size.size(), 0));
+  return components_of(graph, Groups(graph.size.size(), 0));
 }
 
 }  // namespace cairn

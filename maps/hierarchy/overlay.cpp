@@ -11,8 +11,8 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMostInner = 65'535;    // numbers of inner vertices are 16 bits wide
-constexpr std::size_t kMostWays = 4'000'000;  // boundary x inner vertices of one cluster
+constexpr std::size_t kMaxInner = 65'535;    // numbers of inner vertices are 16 bits wide
+constexpr std::size_t kMaxWays = 4'000'000;  // boundary x inner vertices of one cluster
 
 std::size_t inner_count(const Clustering& clustering, const ClusterNode& node) {
   if (node.level == 1) return node.members.size();
@@ -59,7 +59,7 @@ bool Overlay::is_bounded(const Clustering& clustering, int level) {
     const ClusterNode& node = clustering.node(c);
     if (node.level != level) continue;
     const std::size_t inner = inner_count(clustering, node);
-    if (inner > kMostInner || inner * node.boundary.size() > kMostWays) return false;
+    if (inner > kMaxInner || inner * node.boundary.size() > kMaxWays) return false;
   }
   return true;
 }
@@ -78,7 +78,7 @@ void Overlay::list_inner(const Clustering& clustering, ClusterIndex cluster) {
     }
     passage.member_begin.push_back(static_cast<std::uint32_t>(passage.inner.size()));
   }
-  if (passage.inner.size() > kMostInner)
+  if (passage.inner.size() > kMaxInner)
     throw std::length_error("Overlay: cluster " + std::to_string(node.id) + " has too many inner vertices");
   for (const VertexIndex v : node.boundary)
     passage.at.push_back(static_cast<std::uint16_t>(inner_index(clustering, cluster, v)));

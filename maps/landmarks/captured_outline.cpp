@@ -10,7 +10,7 @@ namespace cairn {
 namespace {
 
 constexpr int kFine = 4;  // pixels a cell, for smooth sides
-constexpr int kLeastCells = 4;
+constexpr int kMinCells = 4;
 constexpr int kSpikeCells = 3;  // what is no wider than this is no part of an outline
 constexpr int kGapCells = 2;    // closed from both sides
 constexpr double kSmoothing_cells = 0.35;
@@ -64,7 +64,7 @@ CapturedOutline captured_outline(const OccupancyGrid& grid, const Point& at_m, d
   int cut = 0;
   const cv::Mat1b occupied = occupied_in(grid, box);
   for (const Trace& trace : traces_in(occupied)) {
-    if (cv::contourArea(trace) < kLeastCells * kFine * kFine) continue;
+    if (cv::contourArea(trace) < kMinCells * kFine * kFine) continue;
     Trace corners;
     cv::approxPolyDP(trace, corners, kSmoothing_cells * kFine, true);
     std::vector<Point> polygon;

@@ -54,7 +54,7 @@ struct Landmark {
 // robot measures, at a third of the bytes in a saved map. Imported ones stay as they are.
 inline constexpr double kTrajectorySteps = 1e5;  // a metre or radian
 // No place moves further: a route that is planned for a robot larger by this is free for the robot when rounded.
-inline constexpr double kMostRounding_m = 1e-5;
+inline constexpr double kMaxRounding_m = 1e-5;
 // Each number of each pose rounded to whole steps.
 [[nodiscard]] std::vector<Pose2> in_whole_steps(std::vector<Pose2> trajectory);
 
@@ -63,7 +63,7 @@ struct Route {
   LandmarkId from = 0;
   LandmarkId to = 0;
   double cost_m = 0.0;
-  std::vector<Pose2> trajectory;  // from access to access, to kMostRounding_m; empty when only the cost is known
+  std::vector<Pose2> trajectory;  // from access to access, to kMaxRounding_m; empty when only the cost is known
   bool driven = false;            // the robot has driven it; otherwise planned or imported
   bool closed = false;            // found blocked
   int level = 0;

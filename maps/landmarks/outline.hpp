@@ -16,8 +16,8 @@ namespace cairn {
 // of theirs is sharp enough to echo. Throws std::invalid_argument unless there is one finite bulge a corner.
 [[nodiscard]] std::vector<Point> with_arcs(std::span<const Point> corners_m, std::span<const double> bulges);
 
-inline constexpr int kMostPictureSide_px = 1024;
-inline constexpr std::size_t kMostPictureCorners = 2000;
+inline constexpr int kMaxPictureSide_px = 1024;
+inline constexpr std::size_t kMaxPictureCorners = 2000;
 
 // The outline of what stands in a PNG picture: every pixel that differs in brightness (below or above the
 // middle) from most of the picture's rim. Transparent counts as white. Several pieces become several

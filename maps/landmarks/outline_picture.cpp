@@ -28,10 +28,10 @@ cv::Mat1b grey_picture(const std::filesystem::path& file) {
   PngImage image;
   if (png_image_begin_read_from_file(&image, file.c_str()) == 0)
     throw std::invalid_argument(file.string() + " is no PNG picture: " + image.message);
-  if (image.width > kMostPictureSide_px || image.height > kMostPictureSide_px)
+  if (image.width > kMaxPictureSide_px || image.height > kMaxPictureSide_px)
     throw std::invalid_argument(file.string() + " has " + std::to_string(image.width) + " x " +
                                 std::to_string(image.height) + " pixels, at most " +
-                                std::to_string(kMostPictureSide_px) + " x " + std::to_string(kMostPictureSide_px) +
+                                std::to_string(kMaxPictureSide_px) + " x " + std::to_string(kMaxPictureSide_px) +
                                 " are read");
   image.format = PNG_FORMAT_GRAY;
   cv::Mat1b grey(static_cast<int>(image.height), static_cast<int>(image.width));
@@ -97,9 +97,9 @@ std::vector<std::vector<Point>> smoothed(const Traces& traces, double smoothing_
     for (const cv::Point& c : corners) outline.push_back(0.5 * pixel_m * Point(c.x, -c.y));
     count += corners.size();
   }
-  if (count > kMostPictureCorners)
+  if (count > kMaxPictureCorners)
     throw std::invalid_argument("the picture's outline is too ragged: it has " + std::to_string(count) +
-                                " corners, at most " + std::to_string(kMostPictureCorners) + " are taken");
+                                " corners, at most " + std::to_string(kMaxPictureCorners) + " are taken");
   return outlines;
 }
 

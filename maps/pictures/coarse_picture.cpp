@@ -13,7 +13,7 @@ namespace {
 
 using namespace pictures;
 
-constexpr double kLeastPxForValues = 26.0;
+constexpr double kMinPxForValues = 26.0;
 constexpr Colour kTrigger{211, 60, 75};
 constexpr Colour kRegion{239, 140, 0};
 constexpr double kBarPx = 300.0;
@@ -53,7 +53,7 @@ void draw_block(Canvas& canvas, const MapFrame& frame, const CoarsePicture& pict
   const double ol = picture.coarse->ol(coarse);
   const PixelBox box = block_of(frame, picture, coarse);
   canvas.fill_box(box, {colour_of_ol(ol)});
-  if (box.width() < kLeastPxForValues) return;
+  if (box.width() < kMinPxForValues) return;
   const Colour ink = ol > 170.0 ? kWhite : ol > 60.0 ? kInk : kFaintInk;
   canvas.text(box.centre(), std::to_string(std::lround(ol)), {ink, 10.5, Align::centre});
 }

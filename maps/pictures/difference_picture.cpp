@@ -24,9 +24,9 @@ constexpr Colour kNewFree{196, 232, 205};
 constexpr Colour kGoneFree{250, 212, 206};
 constexpr Colour kMoved{25, 118, 210};
 constexpr int kMarginCells = 3;
-constexpr int kMostCellsAcross = 2000;
+constexpr int kMaxCellsAcross = 2000;
 constexpr double kDotPx = 5.0;
-constexpr std::size_t kMostLabels = 60;
+constexpr std::size_t kMaxLabels = 60;
 
 // What a cell of the picture says, the less notable first.
 enum class Sign { unknown, free, wall, free_gone, free_new, wall_gone, wall_new };
@@ -54,7 +54,7 @@ class Cells {
   [[nodiscard]] const OccupancyGrid& lattice() const { return lattice_; }
   [[nodiscard]] CellBox box() const { return box_; }
   [[nodiscard]] CellImage image() const {
-    const int block = 1 + (std::max(box_.width(), box_.height()) - 1) / kMostCellsAcross;
+    const int block = 1 + (std::max(box_.width(), box_.height()) - 1) / kMaxCellsAcross;
     CellImage image{(box_.width() + block - 1) / block, (box_.height() + block - 1) / block, {}};
     for (int row = image.height - 1; row >= 0; --row)
       for (int column = 0; column < image.width; ++column) {
@@ -155,7 +155,7 @@ class Drawing {
       const Pixel centre = frame_.pixel_of(at(graph, id));
       canvas.fill_disc(centre, kDotPx + 1.5, {kWhite});
       canvas.fill_disc(centre, kDotPx, {colour});
-      if (!is_labelled || ++labels > kMostLabels) return;
+      if (!is_labelled || ++labels > kMaxLabels) return;
       const std::string label = label_of(*graph.find(id));
       const TextStyle style{colour, 12.5, Align::left, true};
       const PixelBox box = placer.place(centre, kDotPx + 2.0, {Canvas::text_width_px(label, style) + 6.0, 16.0});

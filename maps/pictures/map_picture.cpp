@@ -26,11 +26,11 @@ constexpr Stroke kMoverStroke{kGoal, 1.5, 0.6, 6.0};
 CellBox known_box(const OccupancyGrid& grid) {
   CellBox known;
   const CellBox bounds = grid.bounds();
-  const double surely_free = -std::min(kSurelyFreeNat, grid.clamp_nat() / 2.0) * kLogOddsPerNat;
+  const double conservatively_free = -std::min(kSurelyFreeNat, grid.clamp_nat() / 2.0) * kLogOddsPerNat;
   for (int y = bounds.min.y; y < bounds.max.y; ++y)
     for (int x = bounds.min.x; x < bounds.max.x; ++x) {
       const LogOdds value = grid.log_odds({x, y});
-      if (value < surely_free || OccupancyThresholds{}.state(value) == CellState::occupied)
+      if (value < conservatively_free || OccupancyThresholds{}.state(value) == CellState::occupied)
         known = united(known, {{x, y}, {x + 1, y + 1}});
     }
   return known.empty() ? bounds : known;

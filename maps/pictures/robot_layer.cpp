@@ -43,9 +43,9 @@ double front_of(const std::vector<Point>& polygon_m) {
 }  // namespace
 
 double RobotShape::reach_m() const {
-  double most_m = polygon_m.empty() ? radius_m : 0.0;
-  for (const Point& corner : polygon_m) most_m = std::max(most_m, corner.norm());
-  return most_m;
+  double max_m = polygon_m.empty() ? radius_m : 0.0;
+  for (const Point& corner : polygon_m) max_m = std::max(max_m, corner.norm());
+  return max_m;
 }
 
 std::vector<Pose2> spread_along(const std::vector<Pose2>& path, double apart_m) {

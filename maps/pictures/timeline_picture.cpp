@@ -21,9 +21,9 @@ constexpr double kTopPx = 76.0;
 constexpr double kIndentPx = 12.0;
 constexpr double kGapPx = 14.0;   // between labels and plot
 constexpr double kApartPx = 8.0;  // between marks and rows
-constexpr double kLeastBarPx = 2.0;
+constexpr double kMinBarPx = 2.0;
 constexpr double kAxisPx = 34.0;
-constexpr double kMostLabelPx = 380.0;
+constexpr double kMaxLabelPx = 380.0;
 constexpr double kTicksApartPx = 90.0;
 const TextStyle kLabel{kInk, 12.0};
 const TextStyle kSmall{kFaintInk, 11.0};
@@ -47,10 +47,10 @@ std::string cut_to(std::string text, double width_px) {
 
 // 1, 2 or 5 times a power of ten, so that the ticks have room.
 double tick_s(double span_s) {
-  const double least_s = span_s * kTicksApartPx / kPlotPx;
-  const double power = std::pow(10.0, std::floor(std::log10(least_s)));
+  const double min_s = span_s * kTicksApartPx / kPlotPx;
+  const double power = std::pow(10.0, std::floor(std::log10(min_s)));
   for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= least_s) return factor * power;
+    if (factor * power >= min_s) return factor * power;
   return 10.0 * power;
 }
 
@@ -61,7 +61,7 @@ class Page {
       label_px_ = std::max(label_px_, Canvas::text_width_px(marks.label, kLabel));
     for (const TimelineRow& row : timeline.rows)
       label_px_ = std::max(label_px_, indent_px(row) + Canvas::text_width_px(row.label, kLabel));
-    label_px_ = std::ceil(std::min(label_px_, kMostLabelPx));
+    label_px_ = std::ceil(std::min(label_px_, kMaxLabelPx));
     left_px_ = kPageMarginPx + label_px_ + kGapPx;
     rows_top_px_ = kTopPx + (timeline.marks.empty() ? 0.0 : marks_px() + kApartPx);
     bottom_px_ = rows_top_px_ + kRowPx * static_cast<double>(timeline.rows.size());
@@ -139,15 +139,15 @@ class Page {
       const PixelBox box = bar_box(bar.begin_s, bar.end_s, y);
       canvas.fill_box(box, {colour_of(bar.kind)});
       // A white edge keeps one round apart from the next.
-      if (box.width() > 2.0 * kLeastBarPx)
+      if (box.width() > 2.0 * kMinBarPx)
         canvas.line(std::array{Pixel(box.max.x() - 0.5, box.min.y()), Pixel(box.max.x() - 0.5, box.max.y())},
                     {kWhite, 1.0});
     }
   }
 
   [[nodiscard]] PixelBox bar_box(double begin_s, double end_s, double y_px) const {
-    const double begin_px = std::min(x_px(begin_s), left_px_ + kPlotPx - kLeastBarPx);
-    const double end_px = std::max(x_px(end_s), begin_px + kLeastBarPx);
+    const double begin_px = std::min(x_px(begin_s), left_px_ + kPlotPx - kMinBarPx);
+    const double end_px = std::max(x_px(end_s), begin_px + kMinBarPx);
     return {{begin_px, y_px - kBarPx / 2.0}, {end_px, y_px + kBarPx / 2.0}};
   }
 
@@ -167,9 +167,9 @@ class Page {
 }  // namespace
 
 void write_timeline_picture(const std::filesystem::path& file, const Timeline& timeline) {
-  if (timeline.rows.size() > kMostTimelineRows)
+  if (timeline.rows.size() > kMaxTimelineRows)
     throw std::runtime_error(file.string() + ": the timeline has " + std::to_string(timeline.rows.size()) +
-                             " rows; a picture holds at most " + std::to_string(kMostTimelineRows));
+                             " rows; a picture holds at most " + std::to_string(kMaxTimelineRows));
   Page(timeline).draw(file);
 }
 

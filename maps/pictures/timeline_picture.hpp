@@ -41,7 +41,7 @@ struct Timeline {
   std::vector<TimelineRow> rows{};
 };
 
-inline constexpr std::size_t kMostTimelineRows = 80;
+inline constexpr std::size_t kMaxTimelineRows = 80;
 
 // What lies outside the time is cut off. Throws std::runtime_error with the file and the reason: too many rows, or the
 // file cannot be written.

@@ -19,7 +19,7 @@ constexpr double kGapPx = 46.0;  // between columns
 constexpr double kInsidePx = 12.0;
 constexpr double kTopPx = 76.0;
 constexpr double kBarPx = 5.0;
-constexpr std::size_t kMostLetters = 44;
+constexpr std::size_t kMaxLetters = 44;
 const TextStyle kTitle{kInk, 13.0, Align::left, true};
 const TextStyle kDetail{kFaintInk, 11.0};
 
@@ -29,7 +29,7 @@ Colour colour_of(BoxKind kind) {
 }
 
 std::string cut(const std::string& text) {
-  return text.size() <= kMostLetters ? text : text.substr(0, kMostLetters - 3) + "...";
+  return text.size() <= kMaxLetters ? text : text.substr(0, kMaxLetters - 3) + "...";
 }
 
 struct Placed {
@@ -104,9 +104,9 @@ std::size_t rows_of(const TreeBox& box) {
 
 void write_tree_picture(const std::filesystem::path& file, const TreeBox& root, const std::string& title,
                         const std::string& subtitle) {
-  if (const std::size_t rows = rows_of(root); rows > kMostPictureRows)
+  if (const std::size_t rows = rows_of(root); rows > kMaxPictureRows)
     throw std::runtime_error(file.string() + ": the tree has " + std::to_string(rows) +
-                             " rows; a picture holds at most " + std::to_string(kMostPictureRows));
+                             " rows; a picture holds at most " + std::to_string(kMaxPictureRows));
   Layout layout;
   layout.place(root, 0);
   const double words_px = kPageMarginPx + std::max(Canvas::text_width_px(title, {kInk, 20.0, Align::left, true}),

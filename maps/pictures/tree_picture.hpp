@@ -17,7 +17,7 @@ struct TreeBox {
   std::vector<TreeBox> children{};
 };
 
-inline constexpr std::size_t kMostPictureRows = 400;  // boxes without children
+inline constexpr std::size_t kMaxPictureRows = 400;  // boxes without children
 
 // Throws std::runtime_error with the file and the reason: the tree has too many rows, or the file cannot be written.
 void write_tree_picture(const std::filesystem::path& file, const TreeBox& root, const std::string& title,

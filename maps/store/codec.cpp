@@ -10,7 +10,7 @@ namespace cairn::store {
 namespace {
 
 constexpr int kCompressionLevel = 6;
-constexpr std::size_t kMostRawBytesPerPacked = 1100;  // deflate's limit is 1032 : 1
+constexpr std::size_t kMaxRawBytesPerPacked = 1100;  // deflate's limit is 1032 : 1
 
 const Bytef* bytes_of(std::string_view text) {
   return reinterpret_cast<const Bytef*>(text.data());
@@ -29,7 +29,7 @@ std::string compressed(const std::string& raw) {
 
 std::string decompressed(const std::string& packed, std::size_t raw_size) {
   // Checked before the memory is asked for: a small file must not claim gigabytes.
-  if (raw_size > (packed.size() + 1) * kMostRawBytesPerPacked)
+  if (raw_size > (packed.size() + 1) * kMaxRawBytesPerPacked)
     throw StoreError(std::to_string(packed.size()) + " bytes cannot unpack to " + std::to_string(raw_size));
   std::string raw(raw_size, '\0');
   uLongf size = raw_size;

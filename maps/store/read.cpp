@@ -14,7 +14,7 @@ constexpr std::size_t kPoseBytes = 3 * sizeof(double);  // before version 5
 
 // A grid beyond these would only exhaust the memory of whoever works with it.
 constexpr std::int64_t kMaxCellIndex = OccupancyGrid::kLargestCellIndex;
-constexpr std::int64_t kMaxCells = OccupancyGrid::kMostCells;
+constexpr std::int64_t kMaxCells = OccupancyGrid::kMaxCells;
 constexpr double kMinCellM = 1e-6;  // below it places overflow the indices of their cells
 constexpr double kMaxCellM = 1000.0;
 constexpr double kMaxClampNat = 127.0;

@@ -12,7 +12,7 @@ namespace cairn {
 namespace store {
 namespace {
 
-constexpr std::int64_t kMostProbes = 500'000;
+constexpr std::int64_t kMaxProbes = 500'000;
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -109,7 +109,7 @@ class Copying {
   }
 
   void probe_numbers() {
-    std::int64_t most = most_number();
+    std::int64_t most = max_number();
     std::optional<std::int64_t> first_lost;
     const auto close = [&](std::int64_t last) {
       if (first_lost) lose("rows " + std::to_string(*first_lost) + " to " + std::to_string(last) + " cannot be read");
@@ -124,12 +124,12 @@ class Copying {
     close(most);
   }
 
-  std::int64_t most_number() {
+  std::int64_t max_number() {
     std::int64_t most = 0;
     Statement copied(to_, "SELECT ifnull(max(" + key() + "), 0) FROM " + table_->name);
     if (copied.step()) most = copied.integer(0);
     // The last ones may be lost, and then their numbers are not known: about as many as there were.
-    return std::min(std::max(most, 2 * rows_saved()), kMostProbes);
+    return std::min(std::max(most, 2 * rows_saved()), kMaxProbes);
   }
 
   // As its checksum tells; 0 when that is lost, too.
@@ -137,7 +137,7 @@ class Copying {
     try {
       Statement rows(from_, "SELECT row_count FROM checksums WHERE table_name = ?");
       rows.bind_text(table_->name);
-      return rows.step() ? std::clamp<std::int64_t>(rows.integer(0), 0, kMostProbes) : 0;
+      return rows.step() ? std::clamp<std::int64_t>(rows.integer(0), 0, kMaxProbes) : 0;
     } catch (const StoreError&) {
       return 0;
     }
@@ -151,7 +151,7 @@ class Copying {
     };
     const std::int64_t x_begin = index(0) >> 6, y_begin = index(1) >> 6;
     const std::int64_t x_end = (index(2) + 63) >> 6, y_end = (index(3) + 63) >> 6;
-    if ((x_end - x_begin) * (y_end - y_begin) > kMostProbes) return lose("a part of its rows cannot be read");
+    if ((x_end - x_begin) * (y_end - y_begin) > kMaxProbes) return lose("a part of its rows cannot be read");
     const TileMetres tiles{{grid.real(5), grid.real(6)}, OccupancyGrid::kTileSide * grid.real(4)};
     for (std::int64_t y = y_begin; y < y_end; ++y)
       for (std::int64_t x = x_begin; x < x_end; ++x) {

@@ -14,14 +14,14 @@ namespace {
 constexpr char kDoubles = 0;
 constexpr char kSteps = 1;
 constexpr std::size_t kPoseBytes = 3 * sizeof(double);
-constexpr double kMostSteps = 9e15;  // below 2^53, so that each number of steps is a double of its own
+constexpr double kMaxSteps = 9e15;  // below 2^53, so that each number of steps is a double of its own
 constexpr std::array kParts{&Pose2::x_m, &Pose2::y_m, &Pose2::theta_rad};
 
 using Steps = std::array<std::int64_t, 3>;
 
 std::optional<std::int64_t> whole_steps(double value) {
   const double steps = std::round(value * kTrajectorySteps);
-  if (!(std::abs(steps) <= kMostSteps)) return std::nullopt;
+  if (!(std::abs(steps) <= kMaxSteps)) return std::nullopt;
   const auto whole = static_cast<std::int64_t>(steps);
   // Bit by bit, since -0.0 == 0.0.
   const double back = static_cast<double>(whole) / kTrajectorySteps;
@@ -70,7 +70,7 @@ std::vector<Pose2> unpacked_steps(const std::string& packed, std::size_t poses) 
   for (Pose2& pose : trajectory)
     for (std::size_t part = 0; part < kParts.size(); ++part) {
       steps[part] += take_number(packed, at);
-      if (std::abs(static_cast<double>(steps[part])) > kMostSteps) throw StoreError("one of its numbers is too large");
+      if (std::abs(static_cast<double>(steps[part])) > kMaxSteps) throw StoreError("one of its numbers is too large");
       pose.*kParts[part] = static_cast<double>(steps[part]) / kTrajectorySteps;
     }
   if (at != packed.size()) throw StoreError("more bytes follow its poses");

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "planners/hybrid/pieces.hpp"
+#include "planners/hybrid/segments.hpp"
 
 namespace cairn {
 namespace {
@@ -17,15 +17,15 @@ std::vector<Point> points_on(const std::vector<Pose2>& path) {
 }  // namespace
 
 PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget, const StartPlace& start,
-                  const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PlanPiece> parts) {
+                  const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PathSegment> parts) {
   if (start.escape) {
-    parts.push_back({PlanPiece::Origin::escape, 0, 0.0});
+    parts.push_back({PathSegment::Origin::escape, 0, 0.0});
     route.front().part = static_cast<int>(parts.size()) - 1;
     route.insert(route.begin(), {start.pose.position(), 0});
   }
   if (rules.shortcut) {
     const std::size_t keep = start.escape ? 2 : 1;
-    const double disc_m = rules.radius_m + kLeastRadius_m;
+    const double disc_m = rules.radius_m + kMinRadius_m;
     route = tightened(*start.space, straightened(*start.space, route, disc_m, keep, budget), disc_m, keep, budget);
   }
   const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
@@ -41,7 +41,7 @@ PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Bud
   result.cost_m = result.length_m;
   result.clearance_m = clearance_along(*start.space, points, rules.robot_m);
   result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
-  result.pieces = pieces_of(route, parts);
+  result.segments = segments_of(route, parts);
   return result;
 }
 
@@ -63,17 +63,17 @@ PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const
     return refused_plan({PlanOutcome::out_of_budget, "the route planner's path touches something and was refused"});
   }
   PlanResult result = planned;
-  const auto origin = planned.path.size() == 2 ? PlanPiece::Origin::straight : PlanPiece::Origin::planned;
-  result.pieces.clear();
-  if (planned.path.size() > 1) result.pieces.push_back({origin, 0, planned.length_m});
+  const auto origin = planned.path.size() == 2 ? PathSegment::Origin::straight : PathSegment::Origin::planned;
+  result.segments.clear();
+  if (planned.path.size() > 1) result.segments.push_back({origin, 0, planned.length_m});
   if (start.escape) {
     const double escape_m = (start.escape->to - start.pose.position()).norm();
     result.path.insert(result.path.begin(),
                        poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front());
-    result.pieces.insert(result.pieces.begin(), {PlanPiece::Origin::escape, 0, escape_m});
+    result.segments.insert(result.segments.begin(), {PathSegment::Origin::escape, 0, escape_m});
     result.length_m += escape_m;
     result.cost_m += escape_m;
-    result.least_length_m.reset();
+    result.length_lower_bound_m.reset();
   }
   result.clearance_m = clearance_along(*start.space, points_on(result.path), rules.robot_m);
   result.landmarks.clear();

@@ -20,7 +20,7 @@ struct AnswerRules {
 // refuses it. Corners that the budget leaves no time for stay.
 [[nodiscard]] PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,
                                 const StartPlace& start, const GoalPlace& goal, std::vector<PartedPoint> route,
-                                std::vector<PlanPiece> parts);
+                                std::vector<PathSegment> parts);
 
 // Of a walk that is complete, along its symbolic path.
 [[nodiscard]] PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,

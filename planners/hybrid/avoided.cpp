@@ -12,7 +12,7 @@ void add_points(const Place& end, const LandmarkGraph& graph, const DiscSpace& s
   if (end.pose) points.push_back(end.pose->position());
   for (const LandmarkId id : end.landmarks)
     if (const Landmark* const landmark = graph.find(id))
-      if (const auto stand = standing_place(space, *landmark, radius_m)) points.push_back(stand->position());
+      if (const auto stand = approach_pose(space, *landmark, radius_m)) points.push_back(stand->position());
 }
 
 std::vector<Cell> cells_under(const OccupancyGrid& grid, const Point& p_map, double radius_m) {
@@ -35,7 +35,7 @@ std::optional<OccupancyGrid> with_avoided_blocked(const WorldView& world, const 
   std::optional<OccupancyGrid> blocked;
   for (const LandmarkId id : request.avoid) {
     const Landmark* const landmark = world.graph.find(id);
-    const auto stand = landmark != nullptr ? standing_place(space, *landmark, radius_m) : std::nullopt;
+    const auto stand = landmark != nullptr ? approach_pose(space, *landmark, radius_m) : std::nullopt;
     if (!stand) continue;
     const std::vector<Cell> cells = cells_under(world.grid, stand->position(), radius_m);
     const auto touches_end = [&](Cell cell) {
@@ -58,7 +58,7 @@ WorldView with_grid(const OccupancyGrid& grid, const WorldView& world) {
           world.pose,
           world.time_s,
           world.observation,
-          world.held_back_ratio,
+          world.speed_reduction_ratio,
           world.hierarchies,
           &grid == &world.grid ? world.grid_version : 0};
 }

@@ -10,7 +10,7 @@
 namespace cairn {
 
 // The world's grid with an obstacle at each avoided landmark: the cells that a disc standing there would cover
-// (standing_place() in `space`, the world's own). So whatever plans, cuts or checks on this grid keeps out. Where one
+// (approach_pose() in `space`, the world's own). So whatever plans, cuts or checks on this grid keeps out. Where one
 // of the request's ends would touch the obstacle, there is none: the robot has to stand there. None when nothing is
 // to be blocked. The request's poses must be finite.
 [[nodiscard]] std::optional<OccupancyGrid> with_avoided_blocked(const WorldView& world, const PlanRequest& request,

@@ -41,7 +41,7 @@ void HybridPlanner::prepare(const WorldView& world, double radius_m) const {
   route_->prepare(world, radius_m);
   if (!is_for_discs(config_.route)) return;
   const auto space = usual_.spaces.space_of(world.grid, {unknown_, {}}, world.grid_version);
-  (void)usual_.routes.routes_of(space, disc_m + kLeastRadius_m);
+  (void)usual_.routes.routes_of(space, disc_m + kMinRadius_m);
 }
 
 // Landmark legs are joined and smoothed for a disc that turns on the spot.
@@ -60,11 +60,11 @@ PlanResult HybridPlanner::plan_without_landmarks(const PlanRequest& request, con
                         !is_larger_than(world.grid, request.radius_m);
   if (!request.avoid.empty() && has_ends) {
     const auto space = usual_.spaces.space_of(world.grid, {unknown_, {}}, world.grid_version);
-    avoiding = with_avoided_blocked(world, request, *space, request.radius_m + kLeastRadius_m);
+    avoiding = with_avoided_blocked(world, request, *space, request.radius_m + kMinRadius_m);
   }
   PlanResult result = route_->plan(request, avoiding ? with_grid(*avoiding, world) : world, budget);
   if (avoiding && result.outcome != PlanOutcome::solved) result.reason += kAvoidedCount;
-  if (result.outcome == PlanOutcome::solved) result.pieces = {{PlanPiece::Origin::planned, 0, result.length_m}};
+  if (result.outcome == PlanOutcome::solved) result.segments = {{PathSegment::Origin::planned, 0, result.length_m}};
   result.reason = "directly, since landmark legs are for a disc that turns on the spot; " + result.reason;
   return result;
 }

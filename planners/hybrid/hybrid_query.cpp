@@ -8,9 +8,9 @@
 #include "planners/hybrid/answers.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/legs.hpp"
-#include "planners/hybrid/open_ways.hpp"
-#include "planners/hybrid/pieces.hpp"
-#include "planners/hybrid/stored_way.hpp"
+#include "planners/hybrid/open_routes.hpp"
+#include "planners/hybrid/segments.hpp"
+#include "planners/hybrid/stored_route.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
 
 namespace cairn {
@@ -45,7 +45,7 @@ class Query {
     if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused_plan(*refusal);
     // Before the ground is known as a whole, which on a large map takes longer than the answer.
     if (is_large(world_.grid) && tools_.usual.spaces.empty())
-      if (auto answer = stored_way(tools_, legs_, answers_, request_, world_, budget_)) return *std::move(answer);
+      if (auto answer = stored_route(tools_, legs_, answers_, request_, world_, budget_)) return *std::move(answer);
     const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
     if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused_plan(*refusal);
     const auto& start = std::get<StartPlace>(usual);
@@ -54,7 +54,7 @@ class Query {
     result.settled = settled_;
     result.alternatives = alternatives_;
     result.explanation = explanation_;
-    tell_blocked(start, result);
+    report_blocked(start, result);
     result.time_ms.graph_ms = graph_ms_;
     result.time_ms.route_ms = route_ms_;
     return result;
@@ -63,7 +63,7 @@ class Query {
  private:
   PlanResult answer_of_graph() const {
     PlanResult result = tools_.graph.plan(request_, world_, budget_);
-    if (result.outcome == PlanOutcome::solved) result.pieces = pieces_of_graph(result, world_.graph);
+    if (result.outcome == PlanOutcome::solved) result.segments = segments_of_graph(result, world_.graph);
     return result;
   }
 
@@ -78,7 +78,7 @@ class Query {
   }
 
   // A route that only what is avoided blocks is not blocked today.
-  void tell_blocked(const StartPlace& start, PlanResult& result) {
+  void report_blocked(const StartPlace& start, PlanResult& result) {
     for (const RouteId id : blocked_) {
       const bool is_blocked =
           !avoided_grid_ ||
@@ -89,7 +89,7 @@ class Query {
   }
 
   // With a hair more than is re-checked, so that rounding cannot tell them apart.
-  double disc_m() const { return ends_.radius_m + kLeastRadius_m; }
+  double disc_m() const { return ends_.radius_m + kMinRadius_m; }
 
   // The robot's world as it is planned in: with the ground under the robot known, and the robot no
   // longer where a leg begins.
@@ -122,7 +122,7 @@ class Query {
     // What only a graph with routes needs.
     const double direct_m = world_.graph.routes().empty()
                                 ? 0.0
-                                : routes->least_length_m(start.leave_from, nearest.pose.position(), budget_);
+                                : routes->length_lower_bound_m(start.leave_from, nearest.pose.position(), budget_);
     std::optional<PlanResult> over = over_graph(search, planned, start, goals, direct_m);
     PlanResult result = over ? std::move(*over) : direct(planned, start, goals);
     if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
@@ -148,7 +148,7 @@ class Query {
       const GoalPlace& goal = goals[symbolic.path->goal];
       const Walk walk = walk_along(planned, start, *symbolic.path, goal);
       if (walk.stopped) return stopped_plan(*walk.stopped);
-      if (walk.mile_failed) return std::nullopt;
+      if (walk.access_leg_failed) return std::nullopt;
       if (!walk.blocked)
         return over_landmarks(answers_, planned_grid(start), budget_, start, goal, *symbolic.path, walk);
       blocked_.insert(*walk.blocked);

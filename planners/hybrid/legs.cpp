@@ -21,7 +21,7 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
   const Point from = walk.route.back().at;
   if (from == to) return Step::done;
   if (space_.fits_along(from, to, rules_.disc_m)) {
-    walk.add_part(PlanPiece::Origin::straight, leg);
+    walk.add_part(PathSegment::Origin::straight, leg);
     walk.go_on_to(to);
     walk.cost_m += (to - from).norm();
     return Step::done;
@@ -39,27 +39,27 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
   if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return Step::failed;
   // Another planner's word is not enough: it may leave its start with less.
   if (!is_passable(planned.path) || planned.path.back().position() != to) return Step::failed;
-  walk.add_part(PlanPiece::Origin::planned, leg);
+  walk.add_part(PathSegment::Origin::planned, leg);
   for (std::size_t i = 1; i < planned.path.size(); ++i) walk.go_on_to(planned.path[i].position());
   walk.cost_m += planned.length_m;
   return Step::done;
 }
 
-void Walker::take_mile(const Point& to, Walk& walk) const {
-  if (go_to(to, 0, walk, std::numeric_limits<double>::infinity()) == Step::failed) walk.mile_failed = true;
+void Walker::take_access_leg(const Point& to, Walk& walk) const {
+  if (go_to(to, 0, walk, std::numeric_limits<double>::infinity()) == Step::failed) walk.access_leg_failed = true;
 }
 
 void Walker::take_leg(const Route& leg, Walk& walk) const {
   if (is_passable(leg.trajectory)) {
-    take_mile(leg.trajectory.front().position(), walk);
+    take_access_leg(leg.trajectory.front().position(), walk);
     if (!walk.complete()) return;
-    walk.add_part(PlanPiece::Origin::stored, leg.id);
+    walk.add_part(PathSegment::Origin::stored, leg.id);
     for (const Pose2& pose : leg.trajectory) walk.go_on_to(pose.position());
     walk.cost_m += leg.cost_m;
     ++walk.stored_legs;
     return;
   }
-  const auto stand = standing_place(space_, *world_.graph.find(leg.to), rules_.disc_m);
+  const auto stand = approach_pose(space_, *world_.graph.find(leg.to), rules_.disc_m);
   const Point from = walk.route.back().at;
   const double straight_m = stand ? (stand->position() - from).norm() : 0.0;
   const double at_most_m = rules_.detour_ratio * std::max(leg.cost_m, straight_m);
@@ -73,21 +73,21 @@ Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal
   // A leg without a passable trajectory begins where its landmark is stood at.
   const Route& first = *world_.graph.find_route(path.routes.front());
   if (!is_passable(first.trajectory)) {
-    const auto stand = standing_place(space_, *world_.graph.find(first.from), rules_.disc_m);
-    if (stand) take_mile(stand->position(), walk);
+    const auto stand = approach_pose(space_, *world_.graph.find(first.from), rules_.disc_m);
+    if (stand) take_access_leg(stand->position(), walk);
   }
   for (const RouteId id : path.routes) {
     if (walk.complete()) walk.stopped = stopped();
     if (!walk.complete()) return walk;
     take_leg(*world_.graph.find_route(id), walk);
   }
-  if (walk.complete()) take_mile(goal.position(), walk);
+  if (walk.complete()) take_access_leg(goal.position(), walk);
   return walk;
 }
 
 Walk Walker::walk_alone(const Route& leg) const {
   Walk walk;
-  const auto stand = standing_place(space_, *world_.graph.find(leg.from), rules_.disc_m);
+  const auto stand = approach_pose(space_, *world_.graph.find(leg.from), rules_.disc_m);
   walk.stopped = stopped();
   if (!stand) walk.blocked = leg.id;
   if (!walk.complete()) return walk;

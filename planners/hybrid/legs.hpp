@@ -20,16 +20,16 @@ struct LegRules {
 
 struct Walk {
   std::vector<PartedPoint> route;  // from StartPlace::leave_from to the goal
-  std::vector<PlanPiece> parts;    // of the route, without their lengths
+  std::vector<PathSegment> parts;  // of the route, without their lengths
   double cost_m = 0.0;             // stored costs, or lengths where there was none to use
   int stored_legs = 0;
   int planned_legs = 0;
   std::optional<RouteId> blocked;      // the route that is not passable today; the walk ends there
-  bool mile_failed = false;            // no way to the first or from the last landmark
+  bool access_leg_failed = false;      // no way to the first or from the last landmark
   std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
 
-  [[nodiscard]] bool complete() const { return !blocked && !mile_failed && !stopped; }
-  void add_part(PlanPiece::Origin origin, RouteId of) { parts.push_back({origin, of, 0.0}); }
+  [[nodiscard]] bool complete() const { return !blocked && !access_leg_failed && !stopped; }
+  void add_part(PathSegment::Origin origin, RouteId of) { parts.push_back({origin, of, 0.0}); }
   void go_on_to(const Point& to) { route.push_back({to, static_cast<int>(parts.size()) - 1}); }
 };
 
@@ -51,7 +51,7 @@ class Walker {
   [[nodiscard]] Step go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const;
   [[nodiscard]] bool is_passable(const std::vector<Pose2>& trajectory) const;
   void take_leg(const Route& leg, Walk& walk) const;
-  void take_mile(const Point& to, Walk& walk) const;
+  void take_access_leg(const Point& to, Walk& walk) const;
   [[nodiscard]] std::optional<PlanOutcome> stopped() const;
 
   const WorldView& world_;

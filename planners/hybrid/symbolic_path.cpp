@@ -36,7 +36,7 @@ class Joiner {
     for (const auto& [id, landmark] : graph.landmarks()) {
       if (budget_.exhausted()) return;  // which the search then says
       if (graph.routes_from(id).empty() && graph.routes_to(id).empty()) continue;
-      const auto stand = standing_place(space, landmark, query_.radius_m, reached);
+      const auto stand = approach_pose(space, landmark, query_.radius_m, reached);
       if (stand) end.add(id, travel.cost_m(space.field().cell_at(stand->position())), goal);
     }
   }

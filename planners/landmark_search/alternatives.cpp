@@ -8,7 +8,7 @@ namespace {
 
 class Yen {
  public:
-  Yen(const Hierarchy& hierarchy, const WayQuery& query, HierarchySearch& search, const Budget& budget)
+  Yen(const Hierarchy& hierarchy, const RouteQuery& query, HierarchySearch& search, const Budget& budget)
       : hierarchy_(hierarchy), query_(query), search_(search), budget_(budget) {}
 
   std::vector<Way> after(const Way& best, int count) {
@@ -43,7 +43,7 @@ class Yen {
 
   // The ways that leave this one at each of its landmarks, or begin elsewhere.
   void leave(const Way& way) {
-    WayQuery query = query_;
+    RouteQuery query = query_;
     begins_at_.insert(way.vertices.front());
     std::erase_if(query.from, [&](const SearchEnd& end) { return begins_at_.contains(end.vertex); });
     if (!query.from.empty()) add(way, 0, 0.0, search_.find(hierarchy_, query, budget_));
@@ -66,7 +66,7 @@ class Yen {
   }
 
   // How the ways taken so far that begin like this one go on after `length` routes, or that they end there.
-  void close_taken(const Way& way, std::size_t length, WayQuery& query) const {
+  void close_taken(const Way& way, std::size_t length, RouteQuery& query) const {
     const auto end = way.routes.begin() + static_cast<std::ptrdiff_t>(length);
     for (const Way& other : taken_) {
       if (other.routes.size() < length || other.vertices.front() != way.vertices.front() ||
@@ -92,7 +92,7 @@ class Yen {
   }
 
   const Hierarchy& hierarchy_;
-  const WayQuery& query_;
+  const RouteQuery& query_;
   HierarchySearch& search_;
   const Budget& budget_;
   std::vector<Way> taken_, candidates_;
@@ -102,7 +102,7 @@ class Yen {
 
 }  // namespace
 
-std::vector<Way> alternatives_to(const Way& best, int count, const Hierarchy& hierarchy, const WayQuery& query,
+std::vector<Way> alternatives_to(const Way& best, int count, const Hierarchy& hierarchy, const RouteQuery& query,
                                  HierarchySearch& search, const Budget& budget) {
   return Yen(hierarchy, query, search, budget).after(best, count);
 }

@@ -10,6 +10,6 @@ namespace cairn {
 // Up to `count` ways after `best`, which answers the query, by rising cost; fewer when there are no more or the
 // budget ends. Ways that take another of several parallel routes count as others. One search a landmark of each way.
 [[nodiscard]] std::vector<Way> alternatives_to(const Way& best, int count, const Hierarchy& hierarchy,
-                                               const WayQuery& query, HierarchySearch& search, const Budget& budget);
+                                               const RouteQuery& query, HierarchySearch& search, const Budget& budget);
 
 }  // namespace cairn

@@ -18,14 +18,14 @@ std::vector<std::vector<ClusterId>> clusters_along(const Way& way, const Cluster
 
 }  // namespace
 
-PlanExplanation explanation_of(const Way& way, const WayQuery& query, const PlanRequest& request,
+PlanExplanation explanation_of(const Way& way, const RouteQuery& query, const PlanRequest& request,
                                const LandmarkGraph& graph, const Hierarchy& hierarchy, const RouteCost& cost,
                                HierarchySearch& search, const Budget& budget) {
   PlanExplanation explanation;
   explanation.settled_of_level = way.settled_of_level;
   explanation.clusters = clusters_along(way, hierarchy.clustering());
   if (way.cost < kNoWay) explanation.cost = way.cost;
-  WayQuery open = query;
+  RouteQuery open = query;
   open.costs.clear();  // which held what the request closes
   for (const RouteId id : request.closed)
     if (const Route* const route = graph.find_route(id)) open.costs[id] = cost(*route);

@@ -7,7 +7,7 @@
 namespace cairn {
 
 // Searches a second time, with every closed route open, to say what the closed ones cost.
-[[nodiscard]] PlanExplanation explanation_of(const Way& way, const WayQuery& query, const PlanRequest& request,
+[[nodiscard]] PlanExplanation explanation_of(const Way& way, const RouteQuery& query, const PlanRequest& request,
                                              const LandmarkGraph& graph, const Hierarchy& hierarchy,
                                              const RouteCost& cost, HierarchySearch& search, const Budget& budget);
 

@@ -34,7 +34,7 @@ void remove_loops(Way& way) {
 
 }  // namespace
 
-Way HierarchySearch::find(const Hierarchy& hierarchy, const WayQuery& query, const Budget& budget) {
+Way HierarchySearch::find(const Hierarchy& hierarchy, const RouteQuery& query, const Budget& budget) {
   Way way;
   way.settled_of_level.assign(static_cast<std::size_t>(hierarchy.levels()) + 1, 0);
   begin(hierarchy, query);
@@ -45,7 +45,7 @@ Way HierarchySearch::find(const Hierarchy& hierarchy, const WayQuery& query, con
   return way;
 }
 
-void HierarchySearch::begin(const Hierarchy& hierarchy, const WayQuery& query) {
+void HierarchySearch::begin(const Hierarchy& hierarchy, const RouteQuery& query) {
   hierarchy_ = &hierarchy;
   query_ = &query;
   best_ = kNoWay;

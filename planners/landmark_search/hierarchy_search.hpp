@@ -19,7 +19,7 @@ struct SearchEnd {
   double cost = 0.0;  // of getting to it first, or on from it; not negative
 };
 
-struct WayQuery {
+struct RouteQuery {
   std::vector<SearchEnd> from, to;          // any one of each
   std::unordered_set<VertexIndex> avoided;  // not passed; a way may begin or end there
   // Routes that cost something else in this query; kNoWay: not to be taken.
@@ -40,7 +40,7 @@ struct Way {
 class HierarchySearch {
  public:
   // O(k log k) in the vertices settled. Equal queries give equal ways. budget.iterations: settled vertices.
-  [[nodiscard]] Way find(const Hierarchy& hierarchy, const WayQuery& query, const Budget& budget);
+  [[nodiscard]] Way find(const Hierarchy& hierarchy, const RouteQuery& query, const Budget& budget);
 
  private:
   using NodeIndex = std::uint32_t;
@@ -65,7 +65,7 @@ class HierarchySearch {
   };
   using Queue = std::vector<std::pair<double, NodeIndex>>;
 
-  void begin(const Hierarchy& hierarchy, const WayQuery& query);
+  void begin(const Hierarchy& hierarchy, const RouteQuery& query);
   void look_into_clusters_of(VertexIndex v);
   void look_into_clusters_with(RouteId route);
   void run(const Budget& budget, Way& way);
@@ -84,7 +84,7 @@ class HierarchySearch {
   [[nodiscard]] double cost_of(const Arc& arc) const;
 
   const Hierarchy* hierarchy_ = nullptr;
-  const WayQuery* query_ = nullptr;
+  const RouteQuery* query_ = nullptr;
   std::vector<std::uint32_t> opened_;  // by cluster: the query in which it is looked into
   std::uint32_t query_number_ = 0;
   std::vector<NodeIndex> slots_;  // open addressing by vertex; kNone: empty

@@ -48,8 +48,8 @@ std::vector<SearchEnd> ends_of(const Place& place, const Network& network) {
   return ends;
 }
 
-WayQuery query_of(const PlanRequest& request, const Network& network) {
-  WayQuery query;
+RouteQuery query_of(const PlanRequest& request, const Network& network) {
+  RouteQuery query;
   query.from = ends_of(request.from, network);
   query.to = ends_of(request.to, network);
   for (const LandmarkId id : request.avoid)
@@ -75,7 +75,7 @@ PlanResult search_graph(const PlanRequest& request, const WorldView& world, Hier
 
   const Searched searched(request, world);
   const Network& network = searched.hierarchy().network();
-  const WayQuery query = query_of(request, network);
+  const RouteQuery query = query_of(request, network);
   const Way way = search.find(searched.hierarchy(), query, budget);
   if (way.stopped) return stopped_search(budget);
   result.settled = way.settled;

@@ -127,7 +127,7 @@ void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
   const EndRules rules = poses ? poses->ends : end_rules_of(config_, radius_m);
   if (is_larger_than(world.grid, rules.radius_m)) return;
   const auto space = caches_.spaces.space_of(world.grid, rules.ground, world.grid_version);
-  (void)caches_.routes.routes_of(space, rules.radius_m + kLeastRadius_m);
+  (void)caches_.routes.routes_of(space, rules.radius_m + kMinRadius_m);
   const bool on_outer = config_.kinematics == MotionKind::differential &&
                         config_.algorithm == Algorithm::any_angle_rrt_star &&
                         !is_larger_than(world.grid, poses->outer_radius_m());

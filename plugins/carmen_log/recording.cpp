@@ -12,7 +12,7 @@ namespace {
 
 using log_common::LogLine;
 
-constexpr int kMostSensors = 1000000;
+constexpr int kMaxSensors = 1000000;
 constexpr std::size_t kValue = 2;  // PARAM name value
 constexpr std::string_view kSensor = "cairn_sensor_";
 
@@ -37,7 +37,7 @@ std::array<double, kCount> numbers_in(std::string_view text, const SourcePlace& 
 int whole_number(std::string_view text, const SourcePlace& place) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || number < 0 || number >= kMostSensors)
+  if (error != std::errc{} || end != text.data() + text.size() || number < 0 || number >= kMaxSensors)
     throw ConfigError(place, "the number of a sensor must be whole and less than 1000000, not " + shown(text));
   return number;
 }
@@ -104,7 +104,7 @@ std::vector<RangeReading> Recording::readings_of(std::string_view sensors, const
       const auto sensor = sensors_.find(key);
       if (sensor == sensors_.end())
         throw ConfigError(place, "no PARAM cairn_sensor_" + std::to_string(key) + " so far");
-      if (readings.size() == static_cast<std::size_t>(kMostSensors)) throw ConfigError(place, "too many sensors");
+      if (readings.size() == static_cast<std::size_t>(kMaxSensors)) throw ConfigError(place, "too many sensors");
       readings.push_back(sensor->second);
     }
   }

@@ -16,7 +16,7 @@ constexpr double kMetres_per_unit = 0.001;
 constexpr double kSeconds_per_unit = 0.001;
 constexpr std::size_t kLeftWord = 2;
 constexpr std::size_t kRightWord = 6;
-constexpr double kMostTicks = 1e12;  // differences of what is beyond lose whole ticks
+constexpr double kMaxTicks = 1e12;  // differences of what is beyond lose whole ticks
 
 class Reader {
  public:
@@ -48,7 +48,7 @@ class Reader {
 
 double ticks_in(const LogLine& line, std::size_t word, const std::string& what) {
   const double ticks = line.finite(word, what);
-  if (std::abs(ticks) > kMostTicks)
+  if (std::abs(ticks) > kMaxTicks)
     throw ConfigError(line.place(word), "the " + what + " are beyond 1e12: " + shown(line.word(word)));
   return ticks;
 }

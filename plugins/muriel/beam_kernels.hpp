@@ -57,7 +57,7 @@ struct TargetList {
 
 // What one reading says of each cell, kBlock_cells entries a block, and two lists of blocks.
 struct KernelCells {
-  float* news;  // lambda0 - 1
+  float* evidence;  // lambda0 - 1
   float* range_m;
   float* off;           // bearing / half_beam
   std::int32_t* near;   // where the echo is near
@@ -73,8 +73,8 @@ struct ListLengths {
 
 // The best targets of each sector among the known blocks: alpha p before the echo, alpha p N(D; r, delta) anywhere.
 struct SectorTargets {
-  float blocking[kMostSectors];
-  float density_per_m[kMostSectors];
+  float blocking[kMaxSectors];
+  float density_per_m[kMaxSectors];
 };
 
 // How news becomes a change: round(weight of the cell's count * 256 ln(1 + weight news)), quanta.
@@ -103,7 +103,7 @@ struct Kernels {
   // The echo, or its absence, in the near blocks' news.
   void (*compare_blocks)(const KernelReading& reading, int near, const KernelCells& cells);
   // Whether any of `count` cells gets an increment that does not round to 0.
-  bool (*says_something)(const float* news, const KernelScale& scale, int count);
+  bool (*says_something)(const float* evidence, const KernelScale& scale, int count);
   // Changes the blocks' cells and counts the reading in their logs.
   void (*apply_blocks)(const KernelScale& scale, const KernelLog& log, const Block* blocks, int count,
                        const KernelCells& cells);

@@ -15,7 +15,7 @@ CAIRN_INLINE void list_if(bool condition, int block, std::int32_t* list, int& le
 
 enum class Width { ray, narrow, wide };
 
-constexpr float kLeastAhead_m = 1e-6F;  // nearer to the sensor's own line than that, bearings mean nothing
+constexpr float kMinAhead_m = 1e-6F;  // nearer to the sensor's own line than that, bearings mean nothing
 
 template <Width width>
 CAIRN_INLINE ListLengths place(const KernelReading& r, const Block* blocks, int count, const KernelCells& out) {
@@ -28,7 +28,7 @@ CAIRN_INLINE ListLengths place(const KernelReading& r, const Block* blocks, int 
   for (int b = 0; b < count; ++b) {
     const Block& block = blocks[b];
     const Floats ahead = all(r.ahead_x * block.dx_m + r.ahead_y * block.dy_m) + ahead_of_lanes;
-    const Floats along = larger(ahead, all(width == Width::ray ? 0.0F : kLeastAhead_m));
+    const Floats along = larger(ahead, all(width == Width::ray ? 0.0F : kMinAhead_m));
     Floats range = along;
     Floats alpha = alpha_max;
     Floats off{};
@@ -43,14 +43,14 @@ CAIRN_INLINE ListLengths place(const KernelReading& r, const Block* blocks, int 
       off = (width == Width::narrow ? atan_narrow(tangent, tangent2) : atan_wide(tangent, tangent2)) * r.per_half_beam;
       const Floats off2 = off * off;
       // On the axis behind the sensor the tangent is as small as before it.
-      inside = (tangent2 <= r.widest_tangent2) & (ahead >= -kLeastAhead_m);
+      inside = (tangent2 <= r.widest_tangent2) & (ahead >= -kMinAhead_m);
       alpha -= alpha * off2;
     }
     inside &= range <= r.reach_m;
     alpha = where(inside, alpha * larger(1.0F - range * r.per_alpha_range, Floats{}));
     store(out.off + b * kBlock_cells, off);
     store(out.range_m + b * kBlock_cells, range);
-    store(out.news + b * kBlock_cells, -alpha);
+    store(out.evidence + b * kBlock_cells, -alpha);
     list_if(any((range > r.near_m) & inside), b, out.near, lengths.near);
     list_if(any(load<Shorts>(block.cells) >= believed_from), b, out.known, lengths.known);
   }
@@ -92,7 +92,7 @@ void find_targets(const KernelReading& reading, const Block* blocks, int known, 
     const int at = c.known[i] * kBlock_cells;
     const Ints log_odds = widened(load<Shorts>(blocks[c.known[i]].cells));
     const Floats p = 1.0F / (1.0F + exp_of(larger(to_floats(log_odds) * (-1.0F / 256.0F), all(-80.0F))));
-    const Floats answer = where(log_odds >= r.believed_from, -p * load<Floats>(c.news + at));
+    const Floats answer = where(log_odds >= r.believed_from, -p * load<Floats>(c.evidence + at));
     const auto range = load<Floats>(c.range_m + at);
     const Floats per_delta = 1.0F / (r.delta_m + r.delta_per_m * range);
     const Floats z = (r.range_m - range) * per_delta;
@@ -119,17 +119,17 @@ void compare_blocks(const KernelReading& reading, int near, const KernelCells& c
     const Floats z = smaller(larger((r.range_m - range) * per_delta, all(-12.0F)), all(12.0F));
     const Floats bell = exp_of(-0.5F * z * z);
     const Floats hit = bell * per_delta * hit_scale;
-    store(cells.news + at, load<Floats>(cells.news + at) * (normal_integral(z, bell) - hit));
+    store(cells.evidence + at, load<Floats>(cells.evidence + at) * (normal_integral(z, bell) - hit));
   }
 }
 
-CAIRN_INLINE Floats increment_of(const Floats& news, float weight) {
-  return quanta_of_ln(1.0F + weight * news);
+CAIRN_INLINE Floats increment_of(const Floats& evidence, float weight) {
+  return quanta_of_ln(1.0F + weight * evidence);
 }
 
-bool says_something(const float* news, const KernelScale& scale, int count) {
+bool says_something(const float* evidence, const KernelScale& scale, int count) {
   for (int i = 0; i < count; i += kBlock_cells) {
-    const Floats increment = increment_of(load<Floats>(news + i), scale.weight);
+    const Floats increment = increment_of(load<Floats>(evidence + i), scale.weight);
     if (any((increment >= 0.5F) | (increment <= -0.5F))) return true;
   }
   return false;
@@ -162,7 +162,7 @@ CAIRN_INLINE void apply(const KernelScale& by, const KernelLog& log, const Block
   const Shorts lowest = -highest;
   for (int b = 0; b < count; ++b) {
     const Block& block = blocks[b];
-    Floats change = increment_of(load<Floats>(cells.news + b * kBlock_cells), weight);
+    Floats change = increment_of(load<Floats>(cells.evidence + b * kBlock_cells), weight);
     if constexpr (has_log)
       change = logged<two_planes>(log, load<Floats>(cells.off + b * kBlock_cells), weight_of_count, block.log, change);
     const Shorts before = load<Shorts>(block.cells);

@@ -12,7 +12,7 @@ void Config::describe(Fields<Config>& fields) {
   fields.flag("specular", &Config::specular, "whether a reading counts less the more likely the map makes it specular");
   fields.number("specular_prior", &Config::specular_prior, {0.0, 0.99}, "", "share of specular readings, s0");
   fields.number("specular_per_m", &Config::specular_per_m, {0.001, 100.0}, "1/m", "density g of specular ranges");
-  fields.integer("specular_sectors", &Config::specular_sectors, {1, kMostSectors},
+  fields.integer("specular_sectors", &Config::specular_sectors, {1, kMaxSectors},
                  "angular sectors of a beam; only the best target of each counts");
   fields.number("believed_p", &Config::believed_p, {0.5, 0.99}, "",
                 "from this probability on a cell is believed to be a target that should have answered");
@@ -20,9 +20,9 @@ void Config::describe(Fields<Config>& fields) {
                 {{"off", LogPolicy::off}, {"paper", LogPolicy::paper}, {"counted", LogPolicy::counted}},
                 "independence log of a cell: off; paper: one reading from each bearing; counted: log_readings from "
                 "each, the later the less");
-  fields.integer("log_bearings", &Config::log_bearings, {4, kMostBearings},
+  fields.integer("log_bearings", &Config::log_bearings, {4, kMaxBearings},
                  "directions to a cell that its log tells apart");
-  fields.integer("log_readings", &Config::log_readings, {1, kMostReadings},
+  fields.integer("log_readings", &Config::log_readings, {1, kMaxReadings},
                  "counted: readings from one bearing that a cell takes");
   fields.number("log_fall", &Config::log_fall, {0.0, 1.0}, "", "counted: weight of a reading against the one before");
 }

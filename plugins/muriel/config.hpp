@@ -6,7 +6,7 @@
 
 namespace cairn::muriel {
 
-inline constexpr int kMostSectors = 32;
+inline constexpr int kMaxSectors = 32;
 
 enum class LogPolicy { off, paper, counted };
 

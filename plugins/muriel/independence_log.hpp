@@ -14,10 +14,10 @@
 
 namespace cairn::muriel {
 
-inline constexpr int kMostBearings = 32;
-inline constexpr int kMostReadings = 3;  // what 2 bits count
+inline constexpr int kMaxBearings = 32;
+inline constexpr int kMaxReadings = 3;  // what 2 bits count
 inline constexpr int kBucketsInPlane = 8;
-inline constexpr int kPlanes = kMostBearings / kBucketsInPlane;
+inline constexpr int kPlanes = kMaxBearings / kBucketsInPlane;
 
 class IndependenceLog {
  public:
@@ -26,12 +26,12 @@ class IndependenceLog {
 
   [[nodiscard]] int count(Cell cell, int bucket) const {
     const Tile* const tile = tiles_.find(sonar_model::tile_holding(cell));
-    return tile == nullptr ? 0 : ((*tile)[place_of(cell, bucket)] >> shift_of(bucket)) & kMostReadings;
+    return tile == nullptr ? 0 : ((*tile)[place_of(cell, bucket)] >> shift_of(bucket)) & kMaxReadings;
   }
-  // count: 0 to kMostReadings. Grows where needed, and so does tile().
+  // count: 0 to kMaxReadings. Grows where needed, and so does tile().
   void set_count(Cell cell, int bucket, int count) {
     std::uint16_t& counts = tiles_.at(sonar_model::tile_holding(cell))[place_of(cell, bucket)];
-    counts = static_cast<std::uint16_t>((counts & ~(kMostReadings << shift_of(bucket))) | (count << shift_of(bucket)));
+    counts = static_cast<std::uint16_t>((counts & ~(kMaxReadings << shift_of(bucket))) | (count << shift_of(bucket)));
   }
   [[nodiscard]] Tile& tile(Cell tile) { return tiles_.at(tile); }
   [[nodiscard]] std::size_t bytes() const { return tiles_.bytes(); }
@@ -50,7 +50,7 @@ class IndependenceLog {
 [[nodiscard]] int bucket_of(double direction_rad, int bearings);
 
 // What the n-th reading from one bearing weighs, n counting from 0, under the policy of the settings.
-using Weights = std::array<double, kMostReadings + 1>;
+using Weights = std::array<double, kMaxReadings + 1>;
 [[nodiscard]] Weights weights_of(const Config& config);
 
 }  // namespace cairn::muriel

@@ -14,7 +14,7 @@ namespace cairn::muriel {
 namespace {
 
 constexpr int kTileSide = OccupancyGrid::kTileSide;
-// The kernels' series are good up to here, and the beam crosses at most kMostEdges edges of 32 buckets.
+// The kernels' series are good up to here, and the beam crosses at most kMaxEdges edges of 32 buckets.
 constexpr double kWidestHalfBeam_rad = 0.25 * std::numbers::pi;
 
 // So many range errors before the echo, Phi is 1 and phi 0 to a tenth of a quantum.
@@ -37,8 +37,8 @@ const CellChanges& Muriel::integrate(const Observation& observation, const PoseE
   changes_.spans.clear();
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges)
-    if (const auto news = placed(config_, reading, pose.T_map_robot)) integrate_reading(*news);
-  standing_room_.take(grid_, pose.T_map_robot, changes_.spans);
+    if (const auto evidence = placed(config_, reading, pose.T_map_robot)) integrate_reading(*evidence);
+  cleared_footprint_.take(grid_, pose.T_map_robot, changes_.spans);
   join_rows();
   return changes_;
 }
@@ -179,7 +179,7 @@ void Muriel::make_room() {
   integers_.resize(2 * cells + 2 * (blocks + 1));
   float* const floats = floats_.data();
   std::int32_t* const integers = integers_.data();
-  cells_.news = floats;
+  cells_.evidence = floats;
   cells_.range_m = floats + cells;
   cells_.off = floats + 2 * cells;
   cells_.blockers = {floats + 3 * cells, integers};
@@ -206,7 +206,7 @@ void Muriel::open_unseen(const KernelScale& scale, int first_plane) {
   for (const Run& run : runs_) {
     if (run.is_seen) continue;
     const int at = run.first_block * kBlock_cells;
-    if (!kernels_.says_something(cells_.news + at, scale, run.blocks * kBlock_cells)) continue;
+    if (!kernels_.says_something(cells_.evidence + at, scale, run.blocks * kBlock_cells)) continue;
     const Cell tile = sonar_model::tile_holding(run.first);
     const std::size_t place = sonar_model::place_in_tile(run.first);
     LogOdds* cells = grid_.cells_of_tile_for_writing(tile) + place;

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "framework/contracts/mapper.hpp"
-#include "plugins/common/sonar_model/standing_room.hpp"
+#include "plugins/common/sonar_model/cleared_footprint.hpp"
 #include "plugins/muriel/beam_kernels.hpp"
 #include "plugins/muriel/independence_log.hpp"
 #include "plugins/muriel/reading_model.hpp"
@@ -36,7 +36,7 @@ class Muriel final : public Mapper {
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
   // Whose room is free where it stands.
-  void clear_under(const RobotModel& robot) { standing_room_ = sonar_model::StandingRoom(robot); }
+  void clear_under(const RobotModel& robot) { cleared_footprint_ = sonar_model::ClearedFootprint(robot); }
   // What it was read from is not known: the log begins empty.
   void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
 
@@ -76,7 +76,7 @@ class Muriel final : public Mapper {
   OccupancyGrid grid_;
   IndependenceLog log_;
   CellChanges changes_;  // of the latest call
-  sonar_model::StandingRoom standing_room_;
+  sonar_model::ClearedFootprint cleared_footprint_;
 
   // Of one reading; kept for their memory.
   std::vector<CellSpan> spans_;

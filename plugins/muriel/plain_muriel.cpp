@@ -69,8 +69,8 @@ const CellChanges& PlainMuriel::integrate(const Observation& observation, const 
   changes_.spans.clear();
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges)
-    if (const auto news = placed(config_, reading, pose.T_map_robot))
-      integrate_plainly(config_, *news, grid_, log_, spans_, changes_.spans);
+    if (const auto evidence = placed(config_, reading, pose.T_map_robot))
+      integrate_plainly(config_, *evidence, grid_, log_, spans_, changes_.spans);
   sonar_model::tidy(changes_.spans);
   return changes_;
 }

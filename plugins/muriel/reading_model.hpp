@@ -50,8 +50,8 @@ class KnownTargets {
   static void raise(double& best, double value) { best = std::max(best, value); }
 
   int sectors_;
-  std::array<double, kMostSectors> blocking_{};       // alpha p of the best target before the echo
-  std::array<double, kMostSectors> density_per_m_{};  // alpha p N(D; r, delta) of the best target anywhere
+  std::array<double, kMaxSectors> blocking_{};       // alpha p of the best target before the echo
+  std::array<double, kMaxSectors> density_per_m_{};  // alpha p N(D; r, delta) of the best target anywhere
 };
 
 }  // namespace cairn::muriel

@@ -7,14 +7,14 @@ void Config::describe(Fields<Config>& fields) {
                 "standard deviation of the start position, in x and in y");
   fields.angle("start_heading_deg", &Config::start_heading_rad, {0.0, 180.0},
                "standard deviation of the start heading");
-  fields.number("least_distance_ratio", &Config::least_distance_ratio, {0.0, 1.0}, "",
+  fields.number("min_distance_ratio", &Config::min_distance_ratio, {0.0, 1.0}, "",
                 "least odometry error, of the distance driven and independent from metre to metre, along and across");
-  fields.angle("least_heading_deg_per_m", &Config::least_heading_rad_per_m, {0.0, 45.0},
+  fields.angle("min_heading_deg_per_m", &Config::min_heading_rad_per_m, {0.0, 45.0},
                "least odometry error of the heading, each metre");
   fields.number("turn_as_distance_m_per_rad", &Config::turn_as_distance_m_per_rad, {0.0, 10.0}, "m/rad",
                 "driven distance that a turn in place counts as for the heading error of the odometry");
   fields.flag("use_compass", &Config::use_compass, "false: odometry and landmarks only");
-  fields.angle("least_compass_noise_deg", &Config::least_compass_noise_rad, {0.01, 90.0},
+  fields.angle("min_compass_noise_deg", &Config::min_compass_noise_rad, {0.01, 90.0},
                "least standard deviation of one compass reading");
   fields.number("local_bias_ratio", &Config::local_bias_ratio, {0.0, 1.0}, "",
                 "standard deviation of the compass's local bias over the bound that the robot's file gives");

@@ -10,12 +10,12 @@ struct Config {
   double start_position_m = 0.01;
   double start_heading_rad = radians(0.5);
   // Odometry: least errors, whatever the robot's file says, and what its file does not say.
-  double least_distance_ratio = 0.002;
-  double least_heading_rad_per_m = radians(0.1);
+  double min_distance_ratio = 0.002;
+  double min_heading_rad_per_m = radians(0.1);
   double turn_as_distance_m_per_rad = 0.1;
   // Compass.
   bool use_compass = true;
-  double least_compass_noise_rad = radians(0.5);
+  double min_compass_noise_rad = radians(0.5);
   double local_bias_ratio = 0.63;
   double compass_gate_sigmas = 4.0;
   double compass_drift_sigmas = 4.5;

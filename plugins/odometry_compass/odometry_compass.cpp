@@ -33,9 +33,9 @@ bool is_usable(const Eigen::Matrix3d& c) {
 
 MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
   MotionNoise noise;
-  noise.along_ratio = std::max(config.least_distance_ratio, robot.odometry_error.distance_ratio);
-  noise.across_ratio = config.least_distance_ratio;
-  noise.heading_rad_per_m = std::max(config.least_heading_rad_per_m, robot.odometry_error.heading_rad_per_m);
+  noise.along_ratio = std::max(config.min_distance_ratio, robot.odometry_error.distance_ratio);
+  noise.across_ratio = config.min_distance_ratio;
+  noise.heading_rad_per_m = std::max(config.min_heading_rad_per_m, robot.odometry_error.heading_rad_per_m);
   noise.turn_as_distance_m_per_rad = config.turn_as_distance_m_per_rad;
   noise.bias_rad = config.local_bias_ratio * robot.compass_error.local_bias_rad;
   // The bias is a smooth function of the place, not of the way: over short ways it changes less than a Gauss-Markov
@@ -56,8 +56,8 @@ WallFinderRules wall_rules_of(const MotionNoise& noise, double compass_noise_rad
 OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start)
     : config_(config),
       motion_noise_(motion_noise_of(config, robot)),
-      compass_noise_rad_(std::max(config.least_compass_noise_rad, robot.compass_error.noise_rad)),
-      most_bias_rad_(robot.compass_error.local_bias_rad),
+      compass_noise_rad_(std::max(config.min_compass_noise_rad, robot.compass_error.noise_rad)),
+      max_bias_rad_(robot.compass_error.local_bias_rad),
       about_half_track_m_(robot.kinematics == Kinematics::differential ? robot.radius_m : 0.0),
       filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
                             motion_noise_.bias_rad}),
@@ -116,7 +116,7 @@ void OdometryCompass::follow_compass(double compass_rad, double stamp_s) {
   }
   (void)filter_.correct_heading(compass_rad, compass_noise_rad_, gate);
   if (slips) follow_slip(wrap_angle(filter_.estimate().T_map_robot.theta_rad - before_rad));
-  if (config_.bound_bias) filter_.bound_bias(most_bias_rad_);
+  if (config_.bound_bias) filter_.bound_bias(max_bias_rad_);
 }
 
 // The compass itself has turned, and it and the odometry have parted by more than a wheel that slips could make them.
@@ -158,7 +158,7 @@ int OdometryCompass::follow_walls(const Observation& observation) {
   wall_finder_.take(observation);
   if (!wall_finder_.is_due()) return 0;
   int used = 0;
-  std::array<ExpectedWall, PoseFilter::kMostWalls> expected;
+  std::array<ExpectedWall, PoseFilter::kMaxWalls> expected;
   const std::span<ExpectedWall> all(expected.data(), static_cast<std::size_t>(filter_.walls()));
   for (int wall = 0; wall < filter_.walls(); ++wall) expected[static_cast<std::size_t>(wall)] = filter_.expected(wall);
   for (const ExpectedWall& wall : all) {

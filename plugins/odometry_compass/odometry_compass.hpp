@@ -48,7 +48,7 @@ class OdometryCompass final : public Localizer {
   Config config_;
   MotionNoise motion_noise_;
   double compass_noise_rad_;
-  double most_bias_rad_;
+  double max_bias_rad_;
   double about_half_track_m_;  // of a differential robot; 0: of another
   PoseFilter filter_;
   WallFinder wall_finder_;

@@ -106,8 +106,8 @@ void PoseFilter::slide(double along_m, double deviation_m) {
   covariance_.topLeftCorner<2, 2>() += squared(deviation_m) * ahead * ahead.transpose();
 }
 
-void PoseFilter::bound_bias(double most_rad) {
-  const double beyond_rad = std::abs(state_[kBias]) - most_rad;
+void PoseFilter::bound_bias(double max_rad) {
+  const double beyond_rad = std::abs(state_[kBias]) - max_rad;
   const double variance = covariance_(kBias, kBias);
   if (!(beyond_rad > 0.0) || !(variance > 0.0)) return;
   const double sigma = std::sqrt(variance);
@@ -176,7 +176,7 @@ bool PoseFilter::correct(const Eigen::Matrix<double, kRows, 1>& innovation, cons
   const Eigen::Matrix<double, kRows, kRows> s_inverse = spread<kRows>(h, noise).inverse();
   const double off = innovation.dot(s_inverse * innovation);
   if (!(off <= squared(gate_sigmas))) return false;
-  using Gain = Eigen::Matrix<double, Eigen::Dynamic, kRows, kRows == 1 ? Eigen::ColMajor : 0, kMostStates, kRows>;
+  using Gain = Eigen::Matrix<double, Eigen::Dynamic, kRows, kRows == 1 ? Eigen::ColMajor : 0, kMaxStates, kRows>;
   Gain with = covariance_.leftCols<kPoseStates>() * h.pose.transpose();
   if (h.wall_state >= 0) with.noalias() += covariance_.middleCols<2>(h.wall_state) * h.wall.transpose();
   const Gain gain = with * s_inverse;
@@ -268,7 +268,7 @@ PoseFilter::WallUse PoseFilter::meet(const SeenWall& seen, double gate_sigmas) {
     stretch(which, seen);
     return WallUse::known;
   }
-  if (!seen.is_surely_straight || (walls_ == kMostWalls && !forget_one())) return WallUse::refused;
+  if (!seen.is_surely_straight || (walls_ == kMaxWalls && !forget_one())) return WallUse::refused;
   add(seen);
   return WallUse::added;
 }
@@ -290,7 +290,7 @@ void PoseFilter::add(const SeenWall& seen) {
   Eigen::Matrix<double, 2, kPoseStates> g = Eigen::Matrix<double, 2, kPoseStates>::Zero();
   g(0, kTheta) = 1.0;
   g.block<1, 2>(1, 0) = normal.transpose();
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStates> with = g * covariance_.topRows<kPoseStates>();
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMaxStates> with = g * covariance_.topRows<kPoseStates>();
   const Eigen::Matrix2d own = with.leftCols<kPoseStates>() * g.transpose() + seen.covariance;
   state_.conservativeResize(at + 2);
   covariance_.conservativeResize(at + 2, at + 2);

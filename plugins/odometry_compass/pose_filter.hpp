@@ -27,7 +27,7 @@ struct MotionNoise {
 
 class PoseFilter {
  public:
-  static constexpr int kMostWalls = 48;
+  static constexpr int kMaxWalls = 48;
 
   struct Start {
     double position_m = 0.0;
@@ -52,7 +52,7 @@ class PoseFilter {
   void slide(double along_m, double deviation_m);
   // Brings a compass bias that is beyond that bound back within it, and all that goes together with it: the moments of
   // the distribution cut off there (Simon 2010, section 2.4). Nothing is done within the bounds.
-  void bound_bias(double most_rad);
+  void bound_bias(double max_rad);
   // Landmark position in robot coordinates; the same gate rule on the Mahalanobis distance.
   bool correct_position(const Point& p_map, const Point& p_robot, const Eigen::Matrix2d& noise, double gate_sigmas);
   // Landmark position and orientation in robot coordinates, whose errors may go together.
@@ -77,9 +77,9 @@ class PoseFilter {
   static constexpr int kTheta = 2;
   static constexpr int kScale = 3;
   static constexpr int kBias = 4;
-  static constexpr int kMostStates = kPoseStates + 2 * kMostWalls;
-  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostStates, 1>;
-  using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStates, kMostStates>;
+  static constexpr int kMaxStates = kPoseStates + 2 * kMaxWalls;
+  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
+  using Covariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
   // What a measurement of kRows numbers depends on: the pose states and, where there is one, a wall.
   template <int kRows>
   struct Slope {
@@ -108,7 +108,7 @@ class PoseFilter {
 
   State state_;
   Covariance covariance_;
-  std::array<Wall, kMostWalls> wall_;
+  std::array<Wall, kMaxWalls> wall_;
   int walls_ = 0;
 };
 

@@ -15,7 +15,7 @@ constexpr double kBeamRatio = 1.0;  // of the half-beam in which walls answer
 constexpr double kBeside_m = 1.0;   // beyond the ends of a known wall
 constexpr double kGate_m = 0.07;
 constexpr double kWidestGate_m = 0.3;
-constexpr int kLeastAgain = 4;  // echoes of a known wall
+constexpr int kMinAgain = 4;  // echoes of a known wall
 constexpr double kHeld_rad = radians(10.0);
 constexpr double kSteadied_rad = radians(1.0);
 constexpr double kCommon_rad = radians(0.5);
@@ -54,9 +54,9 @@ struct WallFinder::Demands {
 };
 
 WallFinder::WallFinder(const WallFinderRules& rules) : rules_(rules), votes_(kDirections * kDistances) {
-  echoes_.reserve(kMostEchoes);
-  chosen_.reserve(kMostEchoes);
-  offs_m_.reserve(kMostEchoes);
+  echoes_.reserve(kMaxEchoes);
+  chosen_.reserve(kMaxEchoes);
+  offs_m_.reserve(kMaxEchoes);
 }
 
 void WallFinder::take(const Observation& observation) {
@@ -70,9 +70,9 @@ void WallFinder::take(const Observation& observation) {
   stamp_s_ = observation.stamp_s;
   for (const RangeReading& range : observation.ranges) {
     const bool is_echo = range.half_beam_rad > 0.0 && std::isfinite(range.range_m) && range.range_m >= range.min_m &&
-                         range.range_m <= std::min(range.max_m, rules_.most_range_m);
+                         range.range_m <= std::min(range.max_m, rules_.max_range_m);
     if (!is_echo) continue;
-    if (static_cast<int>(echoes_.size()) == kMostEchoes) echoes_.erase(echoes_.begin());
+    if (static_cast<int>(echoes_.size()) == kMaxEchoes) echoes_.erase(echoes_.begin());
     const Pose2 T_odom_sensor = T_odom_robot_ * range.T_robot_sensor;
     echoes_.push_back(
         {T_odom_sensor.position(), T_odom_sensor.theta_rad, range.half_beam_rad, range.range_m, driven_m_, stamp_s_});
@@ -136,13 +136,13 @@ std::optional<SeenWall> WallFinder::look_for(const ExpectedWall& wall, std::span
     chosen_.push_back(static_cast<int>(i));
     offs_m_.push_back(*off);
   }
-  if (static_cast<int>(chosen_.size()) < kLeastAgain) return std::nullopt;
+  if (static_cast<int>(chosen_.size()) < kMinAgain) return std::nullopt;
   std::nth_element(offs_m_.begin(), offs_m_.begin() + static_cast<std::ptrdiff_t>(offs_m_.size() / 2), offs_m_.end());
   Line line{wrap_angle(T_odom_robot_.theta_rad + wall.bearing_rad), wall.distance_m + offs_m_[offs_m_.size() / 2]};
   // A short look says little of the direction, which then stays as it was.
   const double hold = rules_.range_noise_m * rules_.range_noise_m / (kHeld_rad * kHeld_rad);
   const double expected_rad = line.normal_rad;
-  const std::optional<Fit> found = fit(line, {kLeastAgain, 0.0, hold, expected_rad});
+  const std::optional<Fit> found = fit(line, {kMinAgain, 0.0, hold, expected_rad});
   if (!found || found->echoes < 0.6 * static_cast<double>(chosen_.size())) return std::nullopt;
   const SeenWall again = seen(*found);
   std::erase_if(echoes_, [&](const Echo& echo) { return speaks_for(echo, found->line, rules_.inlier_m); });
@@ -156,7 +156,7 @@ std::optional<SeenWall> WallFinder::find() {
   for (int peak = 0; peak < kPeaks; ++peak) {
     const std::optional<Line> winner = strongest();
     if (!winner) return std::nullopt;
-    const std::optional<Fit> found = fit(*winner, {rules_.least_echoes, rules_.least_span_m, 0.0, 0.0});
+    const std::optional<Fit> found = fit(*winner, {rules_.min_echoes, rules_.min_span_m, 0.0, 0.0});
     if (!found || found->rms_m > kPointRatio * point_rms_m(found->line)) continue;
     const SeenWall wall = seen(*found);
     std::erase_if(echoes_, [&](const Echo& echo) { return speaks_for(echo, found->line, rules_.inlier_m); });
@@ -166,7 +166,7 @@ std::optional<SeenWall> WallFinder::find() {
 }
 
 bool WallFinder::count_votes() {
-  if (static_cast<int>(echoes_.size()) < rules_.least_echoes) return false;
+  if (static_cast<int>(echoes_.size()) < rules_.min_echoes) return false;
   std::fill(votes_.begin(), votes_.end(), std::uint16_t{0});
   const Point here_m = T_odom_robot_.position();
   for (const Echo& echo : echoes_) {
@@ -191,7 +191,7 @@ bool WallFinder::count_votes() {
 // And takes the votes about it away, so that the next one is another.
 std::optional<WallFinder::Line> WallFinder::strongest() {
   const auto best = std::max_element(votes_.begin(), votes_.end());
-  if (*best < rules_.least_echoes) return std::nullopt;
+  if (*best < rules_.min_echoes) return std::nullopt;
   const int at = static_cast<int>(best - votes_.begin());
   for (int i = -3; i <= 3; ++i)
     for (int k = -3; k <= 3; ++k) {
@@ -244,7 +244,7 @@ std::optional<WallFinder::Fit> WallFinder::fit(Line line, const Demands& demands
     line.normal_rad = wrap_angle(line.normal_rad + step[0]);
     line.distance_m += step[1];
   }
-  if (found.rms_m > rules_.most_rms_m) return std::nullopt;
+  if (found.rms_m > rules_.max_rms_m) return std::nullopt;
   return found;
 }
 

@@ -21,14 +21,14 @@ namespace cairn::odometry_compass {
 struct WallFinderRules {
   double memory_m = 2.0;  // of driven way, during which echoes are kept
   double memory_s = 15.0;
-  int least_echoes = 8;
-  double least_span_m = 0.2;  // of the places it was seen from, along the wall
+  int min_echoes = 8;
+  double min_span_m = 0.2;  // of the places it was seen from, along the wall
   double inlier_m = 0.05;
-  double most_rms_m = 0.02;
+  double max_rms_m = 0.02;
   double range_noise_m = 0.015;  // of an echo's range, with what the odometry adds in between
   double heading_noise_rad_per_m = radians(2.0);
   double compass_noise_rad = 0.0;  // 0: there is none
-  double most_range_m = 4.5;
+  double max_range_m = 4.5;
 };
 
 class WallFinder {
@@ -72,7 +72,7 @@ class WallFinder {
   [[nodiscard]] double point_rms_m(const Line& line) const;
   [[nodiscard]] SeenWall seen(const Fit& fit) const;
 
-  static constexpr int kMostEchoes = 256;
+  static constexpr int kMaxEchoes = 256;
   static constexpr int kDirections = 120;
   static constexpr int kDistances = 144;
 

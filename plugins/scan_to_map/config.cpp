@@ -11,14 +11,14 @@ void Config::describe(Fields<Config>& fields) {
                 "than landmarks, as of a laser that measures some surfaces too near");
   fields.number("pair_m", &Config::pair_m, {0.001, 100.0}, "m", "farther from its line than this, an echo is left out");
   fields.integer("iterations", &Config::iterations, {1, 1000}, "most steps of one correction");
-  fields.integer("least_pairs", &Config::least_pairs, {3, 100000}, "with fewer echoes on lines, odometry alone");
+  fields.integer("min_pairs", &Config::min_pairs, {3, 100000}, "with fewer echoes on lines, odometry alone");
   fields.number("beams_per_pair", &Config::beams_per_pair, {1.0, 100000.0}, "",
                 "so many echoes of a scan count as one independent one: their errors are alike");
   fields.angle("widest_half_beam_deg", &Config::widest_half_beam_rad, {0.0, 90.0},
                "readings of wider beams are left out: their echoes are no points");
-  fields.number("least_distance_ratio", &Config::least_distance_ratio, {0.0001, 1.0}, "",
+  fields.number("min_distance_ratio", &Config::min_distance_ratio, {0.0001, 1.0}, "",
                 "least odometry error, of the distance driven, along and across");
-  fields.angle("least_heading_deg_per_m", &Config::least_heading_rad_per_m, {0.01, 90.0},
+  fields.angle("min_heading_deg_per_m", &Config::min_heading_rad_per_m, {0.01, 90.0},
                "least odometry error of the heading, each metre");
   fields.number("turn_as_distance_m_per_rad", &Config::turn_as_distance_m_per_rad, {0.0, 10.0}, "m/rad",
                 "driven distance that a turn in place counts as for the errors of the odometry");

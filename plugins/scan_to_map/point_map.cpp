@@ -25,11 +25,11 @@ void PointMap::add(const Point& point_m) {
   const Key key = key_of(column, row);
   auto at = cells_.find(key);
   if (at == cells_.end()) {
-    if (cells_.size() >= kMostCells) return;
+    if (cells_.size() >= kMaxCells) return;
     at = cells_.emplace(key, Points{}).first;
   }
   Points& points = at->second;
-  if (points.count >= kMostPoints) return;
+  if (points.count >= kMaxPoints) return;
   const Point middle_m = cell_m_ * Point(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   const Point offset_m = point_m - middle_m;
   ++points.count;
@@ -55,12 +55,12 @@ void PointMap::fit(Points& points, const Point& middle_m) {
   points.line = {middle_m + mean_m, {-std::sin(along_rad), std::cos(along_rad)}};
 }
 
-std::optional<Line> PointMap::nearest_line(const Point& point_m, double most_m) const {
+std::optional<Line> PointMap::nearest_line(const Point& point_m, double max_m) const {
   if (!is_place(point_m)) return std::nullopt;
   const auto column = static_cast<std::int64_t>(std::floor(point_m.x() / cell_m_));
   const auto row = static_cast<std::int64_t>(std::floor(point_m.y() / cell_m_));
   const Line* nearest = nullptr;
-  double nearest_m2 = most_m * most_m;
+  double nearest_m2 = max_m * max_m;
   for (std::int64_t dy = -1; dy <= 1; ++dy) {
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
       const auto at = cells_.find(key_of(column + dx, row + dy));

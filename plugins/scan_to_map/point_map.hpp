@@ -18,17 +18,17 @@ class PointMap {
  public:
   explicit PointMap(double cell_m) : cell_m_(cell_m) {}
 
-  // A cell takes kMostPoints and then stands fast, so that the map cannot creep; what is beyond
+  // A cell takes kMaxPoints and then stands fast, so that the map cannot creep; what is beyond
   // kFarthest_m, or would be one cell too many, is left out. Allocates for new cells only.
   void add(const Point& point_m);
   // The line through the nearest cell that has one, among the cell of the point and its eight
-  // neighbours; nothing when there is none within most_m of the line's middle.
-  [[nodiscard]] std::optional<Line> nearest_line(const Point& point_m, double most_m) const;
+  // neighbours; nothing when there is none within max_m of the line's middle.
+  [[nodiscard]] std::optional<Line> nearest_line(const Point& point_m, double max_m) const;
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
 
-  static constexpr int kMostPoints = 200;
+  static constexpr int kMaxPoints = 200;
   static constexpr double kFarthest_m = 1e5;
-  static constexpr std::size_t kMostCells = 4'000'000;
+  static constexpr std::size_t kMaxCells = 4'000'000;
 
  private:
   struct Points {

@@ -9,7 +9,7 @@ namespace {
 
 // Further out than any robot gets.
 constexpr double kFarthest_m = 1e6;
-constexpr double kMostDeviations = 6.0;  // a correction further off than this from odometry is no correction
+constexpr double kMaxDeviations = 6.0;  // a correction further off than this from odometry is no correction
 
 bool is_usable(const Pose2& pose) {
   return std::abs(pose.x_m) <= kFarthest_m && std::abs(pose.y_m) <= kFarthest_m && std::isfinite(pose.theta_rad);
@@ -27,8 +27,8 @@ Eigen::Vector3d between(const Pose2& from, const Pose2& to) {
 
 ScanToMap::ScanToMap(const Config& config, const RobotModel& robot, const Pose2& T_map_start)
     : config_(config),
-      distance_ratio_(std::max(config.least_distance_ratio, robot.odometry_error.distance_ratio)),
-      heading_rad_per_m_(std::max(config.least_heading_rad_per_m, robot.odometry_error.heading_rad_per_m)),
+      distance_ratio_(std::max(config.min_distance_ratio, robot.odometry_error.distance_ratio)),
+      heading_rad_per_m_(std::max(config.min_heading_rad_per_m, robot.odometry_error.heading_rad_per_m)),
       T_map_robot_(T_map_start),
       map_(config.cell_m) {}
 
@@ -89,14 +89,14 @@ ScanToMap::Normal ScanToMap::compare(const Pose2& T_map_robot) const {
 
 bool ScanToMap::correct() {
   constexpr double kStill_m = 1e-6;
-  constexpr double kLeastVariance = 1e-12;  // a robot that stands still may still be put right
-  const Eigen::Matrix3d predicted = covariance_ + kLeastVariance * Eigen::Matrix3d::Identity();
+  constexpr double kMinVariance = 1e-12;  // a robot that stands still may still be put right
+  const Eigen::Matrix3d predicted = covariance_ + kMinVariance * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d held = predicted.inverse();
   Pose2 T_map_robot = T_map_robot_;
   Eigen::Matrix3d information = held;
   for (int i = 0; i < config_.iterations; ++i) {
     const Normal seen = compare(T_map_robot);
-    if (seen.pairs < config_.least_pairs) return true;
+    if (seen.pairs < config_.min_pairs) return true;
     const Eigen::Vector3d off = between(T_map_robot_, T_map_robot);
     information = held + seen.information;
     const Eigen::Vector3d step = -information.inverse() * (held * off + seen.gradient);
@@ -106,7 +106,7 @@ bool ScanToMap::correct() {
     if (step.cwiseAbs().maxCoeff() < kStill_m) break;
   }
   const Eigen::Vector3d off = between(T_map_robot_, T_map_robot);
-  if (!(off.dot(held * off) <= squared(kMostDeviations)) || !is_usable(T_map_robot)) return false;
+  if (!(off.dot(held * off) <= squared(kMaxDeviations)) || !is_usable(T_map_robot)) return false;
   const Eigen::Matrix3d corrected = information.inverse();
   T_map_robot_ = T_map_robot;
   covariance_ = 0.5 * (corrected + corrected.transpose());

@@ -9,7 +9,7 @@
 //   readings of wide beams (sonars),    left out
 //   no echoes, bad readings
 //   fewer echoes on lines than          odometry alone
-//   least_pairs
+//   min_pairs
 //   a correction that odometry rules    odometry alone, and the echoes do not join the map
 //   out
 // The compass and landmark sightings are not used. The covariance holds the start's uncertainty and the

@@ -81,14 +81,14 @@ Faults::Faults(std::vector<FaultConfig> scheduled, const std::optional<RandomFau
   }
 }
 
-void Faults::Chance::wait() {
+void Faults::PortableRandom::wait() {
   next_s -= std::log(1.0 - noise.uniform()) * 3600.0 / per_hour;
 }
 
 void Faults::advance(double time_s) {
   for (; !to_come_.empty() && to_come_.front().at_s <= time_s; to_come_.erase(to_come_.begin()))
     begin(to_come_.front());
-  for (Chance& chance : chances_)
+  for (PortableRandom& chance : chances_)
     for (; chance.next_s <= time_s; chance.wait())
       if (auto fault = random_fault(chance.kind, chance.noise)) {
         fault->at_s = chance.next_s;
@@ -172,7 +172,7 @@ double Faults::compass_jump_rad() const {
   return jump_rad;
 }
 
-std::optional<RangeReading> Faults::told(RangeReading reading) {
+std::optional<RangeReading> Faults::reported(RangeReading reading) {
   std::optional<double>& last_m = last_m_[static_cast<std::size_t>(reading.sensor)];
   for (FaultConfig& fault : at_work_) {
     if (fault.silent) return std::nullopt;

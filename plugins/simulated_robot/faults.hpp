@@ -33,10 +33,10 @@ class Faults {
   [[nodiscard]] std::optional<Twist> slipping(const Twist& turned) const;
   [[nodiscard]] double compass_jump_rad() const;
   // What is told of a reading; nothing when it is not told at all. To be asked of every one, in their order.
-  [[nodiscard]] std::optional<RangeReading> told(RangeReading reading);
+  [[nodiscard]] std::optional<RangeReading> reported(RangeReading reading);
 
  private:
-  struct Chance {
+  struct PortableRandom {
     std::size_t kind;
     double per_hour;
     NoiseStream noise;
@@ -55,7 +55,7 @@ class Faults {
   std::vector<FaultConfig> to_come_;  // in order of time
   std::vector<FaultConfig> at_work_;
   std::vector<KidnapConfig> kidnaps_;  // that are due
-  std::vector<Chance> chances_;
+  std::vector<PortableRandom> chances_;
   std::vector<std::optional<double>> last_m_;  // told by each transducer
 };
 

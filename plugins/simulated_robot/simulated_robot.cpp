@@ -190,7 +190,7 @@ void SimulatedRobot::use_battery() {
 
 // A reading that is not told is taken all the same, so that those that follow are what they would have been.
 void SimulatedRobot::fire_into(std::vector<RangeReading>& ranges, int sonar) {
-  if (const std::optional<RangeReading> reading = faults_.told(fire(sonar))) ranges.push_back(*reading);
+  if (const std::optional<RangeReading> reading = faults_.reported(fire(sonar))) ranges.push_back(*reading);
 }
 
 RangeReading SimulatedRobot::fire(int sonar) {

@@ -18,11 +18,11 @@ struct SonarEcho::Ear {
   Point at_m;
   double axis_rad;
   double best_m;  // shortest audible way so far, or the reach
-  bool heard = false;
+  bool echo_range = false;
 
-  void hear(double way_m) {
+  void add_echo(double way_m) {
     best_m = way_m;
-    heard = true;
+    echo_range = true;
   }
 };
 
@@ -73,11 +73,11 @@ std::optional<double> SonarEcho::first_echo(const Pose2& T_map_sonar, double rea
     const RayHit hit = scene_.cast(ear.at_m, T_map_sonar.direction(), reach_m);
     return std::isinf(hit.distance_m) ? std::nullopt : std::optional(hit.distance_m);
   }
-  hear_faces(ear);
-  hear_round_faces(ear);
-  hear_vertices(ear);
-  for (const Ray& ray : rays_) hear_ray(ray, ear);
-  return ear.heard ? std::optional(ear.best_m) : std::nullopt;
+  add_face_echoes(ear);
+  add_round_face_echoes(ear);
+  add_vertex_echoes(ear);
+  for (const Ray& ray : rays_) add_ray(ray, ear);
+  return ear.echo_range ? std::optional(ear.best_m) : std::nullopt;
 }
 
 void SonarEcho::consider(const Point& target_m, double target_db, Ear& ear) const {
@@ -86,10 +86,10 @@ void SonarEcho::consider(const Point& target_m, double target_db, Ear& ear) cons
   if (range_m >= ear.best_m) return;
   const double off_axis_rad = std::abs(wrap_angle(std::atan2(way.y(), way.x()) - ear.axis_rad));
   if (target_db + 2.0 * gain_db(off_axis_rad) + loss_db(range_m) < config_.threshold_db) return;
-  if (scene_.sees(ear.at_m, target_m)) ear.hear(range_m);
+  if (scene_.sees(ear.at_m, target_m)) ear.add_echo(range_m);
 }
 
-void SonarEcho::hear_faces(Ear& ear) const {
+void SonarEcho::add_face_echoes(Ear& ear) const {
   for (const Face& face : scene_.faces()) {
     const double height_m = (ear.at_m - face.a_m).dot(face.normal);
     if (std::abs(height_m) >= ear.best_m) continue;
@@ -99,7 +99,7 @@ void SonarEcho::hear_faces(Ear& ear) const {
   }
 }
 
-void SonarEcho::hear_round_faces(Ear& ear) const {
+void SonarEcho::add_round_face_echoes(Ear& ear) const {
   for (const RoundFace& face : scene_.round_faces()) {
     const Point way = face.centre_m - ear.at_m;
     const double range_m = way.norm() - face.radius_m;
@@ -108,7 +108,7 @@ void SonarEcho::hear_round_faces(Ear& ear) const {
   }
 }
 
-void SonarEcho::hear_vertices(Ear& ear) const {
+void SonarEcho::add_vertex_echoes(Ear& ear) const {
   for (const Vertex& vertex : scene_.vertices()) {
     if ((vertex.at_m - ear.at_m).squaredNorm() >= ear.best_m * ear.best_m) continue;
     const VertexLook look = vertex.look_from(ear.at_m);
@@ -117,7 +117,7 @@ void SonarEcho::hear_vertices(Ear& ear) const {
   }
 }
 
-void SonarEcho::hear_ray(const Ray& ray, Ear& ear) const {
+void SonarEcho::add_ray(const Ray& ray, Ear& ear) const {
   Point from_m = ear.at_m;
   const double bearing_rad = ear.axis_rad + ray.offset_rad;
   Point direction(std::cos(bearing_rad), std::sin(bearing_rad));
@@ -135,7 +135,7 @@ void SonarEcho::hear_ray(const Ray& ray, Ear& ear) const {
       const double target_db = hit.rough                  ? config_.rough_db + 20.0 * std::log10(std::max(cosine, 1e-6))
                                : hit.round_radius_m > 0.0 ? round_db(way_m, hit.round_radius_m, false)
                                                           : 0.0;
-      if (level_db + target_db + loss_db(way_m) >= config_.threshold_db) ear.hear(way_m);
+      if (level_db + target_db + loss_db(way_m) >= config_.threshold_db) ear.add_echo(way_m);
       return;
     }
     from_m += hit.distance_m * direction + kLift_m * hit.normal;

@@ -34,10 +34,10 @@ class SonarEcho {
   [[nodiscard]] double gain_db(double off_axis_rad) const;
   [[nodiscard]] double loss_db(double range_m) const;
   [[nodiscard]] double round_db(double range_m, double radius_m, bool rough) const;
-  void hear_faces(Ear& ear) const;
-  void hear_round_faces(Ear& ear) const;
-  void hear_vertices(Ear& ear) const;
-  void hear_ray(const Ray& ray, Ear& ear) const;
+  void add_face_echoes(Ear& ear) const;
+  void add_round_face_echoes(Ear& ear) const;
+  void add_vertex_echoes(Ear& ear) const;
+  void add_ray(const Ray& ray, Ear& ear) const;
   void consider(const Point& target_m, double target_db, Ear& ear) const;
 
   EchoConfig config_;

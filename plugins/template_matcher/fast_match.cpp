@@ -9,7 +9,7 @@ namespace cairn::template_matcher {
 namespace {
 
 constexpr std::uint16_t kOutside = std::numeric_limits<std::uint16_t>::max();
-constexpr std::size_t kMostLayouts = 16;  // a whole set of templates each
+constexpr std::size_t kMaxLayouts = 16;   // a whole set of templates each
 constexpr int kLargestProjection = 1443;  // of a gradient with both parts within +-1020
 
 std::size_t rounded_up(std::size_t count, std::size_t step) {
@@ -40,9 +40,9 @@ std::uint16_t wanted(const TemplateCell& cell, int shift) {
 // The finest unit in which no template's sum of shortfalls can reach kOutside, and the maps of blocks fit bytes.
 int finest_shift(std::span<const LandmarkTemplate> templates) {
   for (const LandmarkTemplate& t : templates) {
-    if (t.cells.size() <= FastMatcher::kMostCells) continue;
+    if (t.cells.size() <= FastMatcher::kMaxCells) continue;
     throw std::invalid_argument("a template of category \"" + t.category + "\" has " + std::to_string(t.cells.size()) +
-                                " cells, more than " + std::to_string(FastMatcher::kMostCells) +
+                                " cells, more than " + std::to_string(FastMatcher::kMaxCells) +
                                 "; larger cells would do");
   }
   for (int shift = 3;; ++shift) {
@@ -124,9 +124,9 @@ FastMatcher::Layout FastMatcher::layout_for(std::size_t width, std::size_t heigh
 // Regions have few different widths: soon every layout is there.
 void FastMatcher::choose_layout(std::size_t width, std::size_t height) {
   const auto known = layouts_.find(width);
-  const std::size_t least_size = (height + 2) * width + 4 * kPlacesPerPiece;
-  if (known == layouts_.end() || known->second.place_maps.map_size < least_size) {
-    if (layouts_.size() >= kMostLayouts) layouts_.clear();
+  const std::size_t min_size = (height + 2) * width + 4 * kPlacesPerPiece;
+  if (known == layouts_.end() || known->second.place_maps.map_size < min_size) {
+    if (layouts_.size() >= kMaxLayouts) layouts_.clear();
     layouts_.insert_or_assign(width, layout_for(width, std::max(height, width)));
   }
   layout_ = &layouts_.at(width);
@@ -245,8 +245,8 @@ std::size_t FastMatcher::first_place_of(std::size_t block) const {
 void FastMatcher::bound_piece(const Search& search, std::size_t place) {
   const std::size_t first = place / kPlacesPerPiece * kPlacesPerPiece;
   if (place_start_[place] == kOutside || place_sums_[place] != kOutside) return;
-  sum_piece_shortfalls(place_maps_.first, layout_->place_cells[search.index], place_limit(search), place_start_.data(),
-                       first, place_sums_.data() + first);
+  sum_segment_shortfalls(place_maps_.first, layout_->place_cells[search.index], place_limit(search),
+                         place_start_.data(), first, place_sums_.data() + first);
 }
 
 // Computes a place, and its neighbours with it where most of them are wanted too.

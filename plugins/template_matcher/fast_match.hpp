@@ -20,9 +20,9 @@ namespace cairn::template_matcher {
 // Keeps its memory from one call to the next; not thread-safe.
 class FastMatcher {
  public:
-  // Throws std::invalid_argument for a template of more than kMostCells cells.
+  // Throws std::invalid_argument for a template of more than kMaxCells cells.
   explicit FastMatcher(std::span<const LandmarkTemplate> templates);
-  static constexpr std::size_t kMostCells = 20000;
+  static constexpr std::size_t kMaxCells = 20000;
 
   // Where to search from now on. The field must outlive the searches. Field and region as for
   // match_exhaustively().

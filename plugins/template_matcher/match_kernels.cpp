@@ -280,8 +280,8 @@ void sum_block_shortfalls(const std::uint8_t* maps, std::span<const BoundCell> c
   HWY_DYNAMIC_DISPATCH(SumBlockShortfalls)(maps, cells, limit, start, count, sums);
 }
 
-void sum_piece_shortfalls(const std::uint16_t* maps, std::span<const BoundCell> cells, std::uint16_t limit,
-                          const std::uint16_t* start, std::size_t place, std::uint16_t* sums) {
+void sum_segment_shortfalls(const std::uint16_t* maps, std::span<const BoundCell> cells, std::uint16_t limit,
+                            const std::uint16_t* start, std::size_t place, std::uint16_t* sums) {
   HWY_DYNAMIC_DISPATCH(SumPieceShortfalls)(maps, cells, limit, start, place, sums);
 }
 

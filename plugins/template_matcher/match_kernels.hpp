@@ -14,7 +14,7 @@ namespace cairn::template_matcher {
 inline constexpr int kDirections = 16;
 // sum_block_shortfalls() works on at most this many at once; arrays are padded to whole groups.
 inline constexpr std::size_t kPlacesPerGroup = 128;
-inline constexpr std::size_t kPlacesPerPiece = 32;       // of sum_piece_shortfalls()
+inline constexpr std::size_t kPlacesPerPiece = 32;       // of sum_segment_shortfalls()
 inline constexpr std::size_t kPlacesPerExactPiece = 16;  // of sum_distances()
 
 // Unit vector k in 1/16384, rounded towards zero: never longer than 1.
@@ -72,8 +72,8 @@ void sum_block_shortfalls(const std::uint8_t* maps, std::span<const BoundCell> c
                           const std::uint16_t* start, std::size_t count, std::uint16_t* sums);
 
 // The same for kPlacesPerPiece places from `place` on.
-void sum_piece_shortfalls(const std::uint16_t* maps, std::span<const BoundCell> cells, std::uint16_t limit,
-                          const std::uint16_t* start, std::size_t place, std::uint16_t* sums);
+void sum_segment_shortfalls(const std::uint16_t* maps, std::span<const BoundCell> cells, std::uint16_t limit,
+                            const std::uint16_t* start, std::size_t place, std::uint16_t* sums);
 
 // The places, rising, whose sums are below the limit; returns how many. count: a multiple of kPlacesPerPiece.
 std::size_t collect_below(const std::uint16_t* sums, std::size_t count, std::uint16_t limit, std::uint32_t* places);

@@ -7,14 +7,14 @@
 namespace cairn::template_matcher {
 
 bool Trigger::fires(Cell coarse, double ol) {
-  if (rule_ == TriggerRule::every_update) return ol > least_ol_ && !covered_.contains(coarse);
+  if (rule_ == TriggerRule::every_update) return ol > min_ol_ && !covered_.contains(coarse);
   if (rule_ == TriggerRule::since_update) {
     const auto [before, is_first] = reference_.try_emplace(coarse, Reference{kUnknownOl});
     const double rise = ol - before->second.ol;
     before->second.ol = ol;
-    return ol > least_ol_ && rise > tau_var_;
+    return ol > min_ol_ && rise > tau_var_;
   }
-  if (ol <= least_ol_) return false;
+  if (ol <= min_ol_) return false;
   const auto last = reference_.find(coarse);
   if (last == reference_.end()) return true;
   const double rise = ol - last->second.ol;

@@ -22,7 +22,7 @@ class Trigger {
  public:
   explicit Trigger(const Config& config)
       : rule_(config.trigger),
-        least_ol_(rule_ == TriggerRule::every_update ? config.tau_grow : config.tau_trigger),
+        min_ol_(rule_ == TriggerRule::every_update ? config.tau_grow : config.tau_trigger),
         tau_var_(config.tau_var),
         tau_again_(config.tau_again) {}
 
@@ -40,7 +40,7 @@ class Trigger {
   };
 
   TriggerRule rule_;
-  double least_ol_;
+  double min_ol_;
   double tau_var_;
   double tau_again_;
   std::map<Cell, Reference> reference_;  // OL2 at the last matching or, by the second rule, update

@@ -77,10 +77,10 @@ Status BehaviourHost::tick(Behaviour& behaviour) {
                         {T_map_robot, 1e-4 * Eigen::Matrix3d::Identity()},
                         time_s,
                         sees ? &seen : nullptr,
-                        held_back_ratio_};
+                        speed_reduction_ratio_};
   const Status status = behaviour.tick(world, *this);
   record_ += text_of(status) + "\n";
-  held_back_ratio_ = holds_back && wanted_.v_mps != 0.0 ? 1.0 : 0.0;
+  speed_reduction_ratio_ = holds_back && wanted_.v_mps != 0.0 ? 1.0 : 0.0;
   if (!holds_back && is_finite(T_map_robot)) {
     const double v_mps = std::clamp(wanted_.v_mps, -robot.max_v_mps, robot.max_v_mps);
     const double w_radps = std::clamp(wanted_.w_radps, -robot.max_w_radps, robot.max_w_radps);

@@ -8,7 +8,7 @@
 
 namespace cairn::conformance {
 
-class BehaviourHost : public Orders {
+class BehaviourHost : public BehaviourContext {
  public:
   BehaviourHost();
 
@@ -43,7 +43,7 @@ class BehaviourHost : public Orders {
  private:
   OccupancyGrid room_;
   Twist wanted_;
-  double held_back_ratio_ = 0.0;
+  double speed_reduction_ratio_ = 0.0;
   std::string record_;
   std::string fault_;
 };

@@ -2,7 +2,7 @@
 //
 //   namespace cairn::conformance {
 //   INSTANTIATE_TEST_SUITE_P(MyDetector, DetectorConformance,
-//                            testing::Values(module<cairn::Detector>(FOLDER, "my_detector", "{least_size_m: 0.2}")));
+//                            testing::Values(module<cairn::Detector>(FOLDER, "my_detector", "{min_size_m: 0.2}")));
 //   }
 //
 // The detector gets ideal templates of a circle, a square and a triangle, and grids with one of them drawn.

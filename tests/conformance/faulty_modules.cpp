@@ -322,7 +322,7 @@ INSTANTIATE_TEST_SUITE_P(Faulty, PlannerConformance,
 class WrappedBehaviour : public Behaviour {
  public:
   explicit WrappedBehaviour(std::shared_ptr<Behaviour> inner) : inner_(std::move(inner)) {}
-  Status tick(const WorldView& world, Orders& orders) override { return inner_->tick(world, orders); }
+  Status tick(const WorldView& world, BehaviourContext& orders) override { return inner_->tick(world, orders); }
   void halt() override { inner_->halt(); }
 
  protected:
@@ -332,17 +332,17 @@ class WrappedBehaviour : public Behaviour {
 class LateBehaviour : public WrappedBehaviour {
  public:
   using WrappedBehaviour::WrappedBehaviour;
-  Status tick(const WorldView& world, Orders& orders) override {
-    orders_ = &orders;
+  Status tick(const WorldView& world, BehaviourContext& orders) override {
+    context_ = &orders;
     return inner_->tick(world, orders);
   }
   void halt() override {
-    if (orders_ != nullptr) orders_->drive(Twist{});
+    if (context_ != nullptr) context_->drive(Twist{});
     inner_->halt();
   }
 
  private:
-  Orders* orders_ = nullptr;
+  BehaviourContext* context_ = nullptr;
 };
 
 class ForgetfulBehaviour : public WrappedBehaviour {
@@ -354,7 +354,7 @@ class ForgetfulBehaviour : public WrappedBehaviour {
 class NanBehaviour : public WrappedBehaviour {
  public:
   using WrappedBehaviour::WrappedBehaviour;
-  Status tick(const WorldView& world, Orders& orders) override {
+  Status tick(const WorldView& world, BehaviourContext& orders) override {
     orders.drive({0.0 * kInfinity, 0.0});
     return inner_->tick(world, orders);
   }

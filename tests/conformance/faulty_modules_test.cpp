@@ -64,7 +64,7 @@ TEST(FaultyModules, SensorsFail) {
   faulty.expect_failure("StampsNeverGoBack", "time goes back");
   faulty.expect_failure("AnEndIsFinalAndSaysWhy", "ends and goes on");
   faulty.expect_failure("ObservationsKeepTheirContract", "no echo as 10 km");
-  faulty.expect_failure("ADriveStopsWhenItIsTold", "does not stop");
+  faulty.expect_failure("ADriveStopsWhenAsked", "does not stop");
 }
 
 TEST(FaultyModules, DetectorsFail) {

@@ -38,9 +38,9 @@ double distance_along(const Pose2& T_map_sensor) {
 }
 
 // Forward or turning on the spot, in even steps.
-class Lap {
+class Orbit {
  public:
-  explicit Lap(const RobotModel& robot) : robot_(robot) { observe(0.0); }
+  explicit Orbit(const RobotModel& robot) : robot_(robot) { observe(0.0); }
 
   void forward(double distance_m) {
     for (int i = 0; i < std::lround(distance_m / kStep_m); ++i) {
@@ -123,12 +123,12 @@ Observation seen_in_room(const Pose2& T_map_robot, double stamp_s, const RobotMo
 }
 
 std::vector<DriveStep> drive_through_room(const RobotModel& robot) {
-  Lap lap(robot);
+  Orbit orbit(robot);
   for (const double side_m : {4.0, 3.0, 4.0, 3.0}) {
-    lap.forward(side_m);
-    lap.turn(radians(90.0));
+    orbit.forward(side_m);
+    orbit.turn(radians(90.0));
   }
-  return lap.steps();
+  return orbit.steps();
 }
 
 TemplateSet three_templates() {

@@ -107,14 +107,14 @@ std::string PlannerWorld::drawing(const std::vector<Pose2>& path) const {
 
 double distance_to_occupied_m(const OccupancyGrid& grid, const std::vector<Pose2>& path) {
   constexpr int kNear_cells = 10;
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   walk(path, [&](const Point& p) {
     const Cell here = grid.cell_at(p);
     for (int y = here.y - kNear_cells; y <= here.y + kNear_cells; ++y)
       for (int x = here.x - kNear_cells; x <= here.x + kNear_cells; ++x)
-        if (grid.state({x, y}) == CellState::occupied) least_m = std::min(least_m, distance_to_cell_m(grid, {x, y}, p));
+        if (grid.state({x, y}) == CellState::occupied) min_m = std::min(min_m, distance_to_cell_m(grid, {x, y}, p));
   });
-  return least_m;
+  return min_m;
 }
 
 double length_of(const std::vector<Pose2>& path) {

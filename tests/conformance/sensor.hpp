@@ -17,10 +17,10 @@ namespace cairn::conformance {
 
 class SensorConformance : public Conformance<Sensor> {
  protected:
-  static constexpr int kMost = 400;  // observations looked at
+  static constexpr int kMax = 400;  // observations looked at
 
   // Up to `most` steps, the last one the first that is no observation. A source that moves goes in a circle.
-  static std::vector<SensorStep> steps_of(Sensor& sensor, int most = kMost) {
+  static std::vector<SensorStep> steps_of(Sensor& sensor, int most = kMax) {
     std::vector<SensorStep> steps;
     if (sensor.drive() != nullptr) sensor.drive()->command({0.2, 0.3});
     while (static_cast<int>(steps.size()) < most) {
@@ -143,7 +143,7 @@ TEST_P(SensorConformance, AUsedUpBudgetEndsACallPromptlyAndLosesNothing) {
   EXPECT_NE(after.state, SensorState::fault) << "a cancelled call is no fault of the source: " << after.reason;
 }
 
-TEST_P(SensorConformance, ADriveStopsWhenItIsTold) {
+TEST_P(SensorConformance, ADriveStopsWhenAsked) {
   const auto sensor = make();
   Drive* const drive = sensor->drive();
   if (drive == nullptr) return;  // a source that does not move

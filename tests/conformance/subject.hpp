@@ -1,6 +1,6 @@
 // What a conformance suite is run on: a module of one kind, made as the host makes it.
 //
-//   module<cairn::Detector>(PLUGIN_FOLDER, "my_detector", "{least_size_m: 0.2}")
+//   module<cairn::Detector>(PLUGIN_FOLDER, "my_detector", "{min_size_m: 0.2}")
 //
 // loads every module of the folder, as the host does, when the first test makes an object. By default an
 // object is made with the robot, world and start of fixtures.hpp and, for a detector, with the ideal templates

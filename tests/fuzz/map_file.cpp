@@ -119,9 +119,9 @@ std::string packed(const std::string& raw) {
 }
 
 std::string unpacked(const std::string& packed_bytes) {
-  constexpr std::size_t kMost = 1 << 16;
-  std::string raw(kMost, '\0');
-  uLongf size = kMost;
+  constexpr std::size_t kMax = 1 << 16;
+  std::string raw(kMax, '\0');
+  uLongf size = kMax;
   if (uncompress(reinterpret_cast<Bytef*>(raw.data()), &size, reinterpret_cast<const Bytef*>(packed_bytes.data()),
                  packed_bytes.size()) != Z_OK)
     return {};

@@ -12,7 +12,7 @@
 namespace cairn::fuzz {
 namespace {
 
-constexpr std::int64_t kMostPixels = 1 << 10;  // a header alone can ask for more than a fuzzer's share of memory
+constexpr std::int64_t kMaxPixels = 1 << 10;  // a header alone can ask for more than a fuzzer's share of memory
 
 std::vector<LogOdds> cells_of(const OccupancyGrid& grid) {
   const CellBox box = grid.bounds();
@@ -35,7 +35,7 @@ void read_map_server(Input input) {
   const std::size_t end = bytes.find('\0');
   if (end == std::string_view::npos) return;
   try {
-    const GreyPicture picture = parse_grey_picture(bytes.substr(end + 1), "fuzzed", kMostPixels);
+    const GreyPicture picture = parse_grey_picture(bytes.substr(end + 1), "fuzzed", kMaxPixels);
     const MapServerFile file = parse_map_server_yaml(std::string(bytes.substr(0, end)), "fuzzed.yaml");
     const OccupancyGrid grid = grid_of(picture, file.settings, "fuzzed").grid;
     const CellBox box = grid.bounds();
@@ -50,7 +50,7 @@ void read_map_server(Input input) {
 void read_picture(Input input) {
   GreyPicture picture;
   try {
-    picture = parse_grey_picture(text_of(input), "fuzzed", kMostPixels);
+    picture = parse_grey_picture(text_of(input), "fuzzed", kMaxPixels);
   } catch (const ExchangeError&) {
     return;
   }

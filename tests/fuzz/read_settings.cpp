@@ -58,7 +58,7 @@ const std::vector<LandmarkShape>& shapes() {
 }
 
 void check(const TreeNode& node, std::size_t depth) {
-  promise(depth <= kMostTreeDepth, "a tree is not too deep");
+  promise(depth <= kMaxTreeDepth, "a tree is not too deep");
   promise(is_leaf(node.kind) == node.children.empty(), "leafs and nothing else have no children");
   promise(node.kind != NodeKind::parallel || (node.succeed_at >= 1 && node.succeed_at <= node.children.size()),
           "a parallel can succeed");
@@ -96,7 +96,7 @@ void read_mission(Input input) {
     const Mission mission = load_mission(file, overrides);
     check(mission.robot);
     if (mission.world) check(*mission.world);
-    promise(count_nodes(mission.steps) <= kMostTreeNodes, "a tree is not too large");
+    promise(count_nodes(mission.steps) <= kMaxTreeNodes, "a tree is not too large");
     for (const TreeNode& step : mission.steps) check(step, 1);
     promise(mission.config.mission.find_first_of(std::string_view("/\0", 2)) == std::string::npos,
             "a mission's name stays in the output folder");

@@ -113,7 +113,7 @@ class NanDetector : public Detector {
 
 class HangingBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, Orders& orders) override {
+  Status tick(const WorldView&, BehaviourContext& orders) override {
     orders.drive({0.1, 0.0});
     hang();
     orders.say("back again");
@@ -125,7 +125,7 @@ class HangingBehaviour : public Behaviour {
 // Comes back after it was given up.
 class LateBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, Orders&) override {
+  Status tick(const WorldView&, BehaviourContext&) override {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     return {Progress::success, "late, but here"};
   }
@@ -134,7 +134,7 @@ class LateBehaviour : public Behaviour {
 
 class NanBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, Orders& orders) override {
+  Status tick(const WorldView&, BehaviourContext& orders) override {
     orders.drive({std::numeric_limits<double>::quiet_NaN(), 0.0});
     return {};
   }
@@ -143,13 +143,13 @@ class NanBehaviour : public Behaviour {
 
 class FailingBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, Orders&) override { return {Progress::failure, "does not feel like it"}; }
+  Status tick(const WorldView&, BehaviourContext&) override { return {Progress::failure, "does not feel like it"}; }
   void halt() override {}
 };
 
 class EndlessBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, Orders&) override { return {Progress::running, "going on"}; }
+  Status tick(const WorldView&, BehaviourContext&) override { return {Progress::running, "going on"}; }
   void halt() override {}
 };
 

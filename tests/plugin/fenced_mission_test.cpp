@@ -136,8 +136,8 @@ TEST_F(HangingMission, ABehaviourThatNeverReturnsIsGivenUpAndTheMapIsSaved) {
 
 class CountingListener : public Listener {
  public:
-  void on(const Event&, const MissionView&) override { ++told; }
-  std::atomic<int> told = 0;
+  void on(const Event&, const MissionView&) override { ++reported; }
+  std::atomic<int> reported = 0;
 };
 
 TEST_F(HangingMission, WhatComesBackAfterItWasGivenUpTouchesNothingMore) {
@@ -147,9 +147,9 @@ TEST_F(HangingMission, WhatComesBackAfterItWasGivenUpTouchesNothingMore) {
   const MissionResult result = runner.run();
   EXPECT_EQ(result.reason, "module late has not returned from stage behaviour for 200 ms and was given up");
   EXPECT_EQ(result.nodes.at(0).status.progress, Progress::failure);
-  const int told = listener.told;
+  const int reported = listener.reported;
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
-  EXPECT_EQ(listener.told, told);
+  EXPECT_EQ(listener.reported, reported);
 }
 
 TEST_F(HangingMission, TheMapOfAMapperThatNeverReturnsIsLeftAlone) {

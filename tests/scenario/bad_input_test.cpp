@@ -178,7 +178,7 @@ TEST_F(BadMission, WithoutAStepNothingIsRun) {
   EXPECT_EQ(std::filesystem::last_write_time(folder_ / "out" / "bad.cairn"), saved);
 }
 
-TEST_F(BadMission, AWrongParameterIsToldWhereItWasGivenAndWhereItIsUsed) {
+TEST_F(BadMission, AWrongParameterIsReportedWhereItWasGivenAndWhereItIsUsed) {
   write_text(folder_ / "sub.yaml", "parameters: {for_s: }\nsteps:\n  - wait: $for_s\n");
   const Finished finished = run("wait: {for_s: 1}", "mission: {file: sub.yaml, with: {for_s: soon}}");
   EXPECT_EQ(finished.exit_status, 2);
@@ -226,10 +226,10 @@ class BadWorlds : public testing::Test {
 };
 
 TEST_F(BadWorlds, MoreLandmarksAtLeastThanAtMostAreRefused) {
-  expect_refused("most_landmarks: 2, least_landmarks: 5", "46",
-                 "least_landmarks must be at most most_landmarks, found 5 and 2");
-  expect_refused("least_landmarks: 7", "27", "found 7 and 6");
-  expect_refused("most_landmarks: 0", "26", "found 1 and 0");
+  expect_refused("max_landmarks: 2, min_landmarks: 5", "46",
+                 "min_landmarks must be at most max_landmarks, found 5 and 2");
+  expect_refused("min_landmarks: 7", "27", "found 7 and 6");
+  expect_refused("max_landmarks: 0", "26", "found 1 and 0");
 }
 
 TEST_F(BadWorlds, RoomsThatCannotBeAreRefused) {
@@ -261,23 +261,23 @@ TEST(BadCommand, APlanWithoutPlacesIsWrongUsage) {
 }
 
 TEST(BadCommand, AMisspeltOptionIsNamedWithTheNearest) {
-  const auto told = [](const std::vector<std::string>& arguments) {
+  const auto reported = [](const std::vector<std::string>& arguments) {
     const Finished finished = run_cairn(arguments);
     EXPECT_EQ(finished.exit_status, 2);
     return finished.err;
   };
-  EXPECT_EQ(told({"plan", "a.cairn", "--form=1,1", "--to", "2,2"}),
+  EXPECT_EQ(reported({"plan", "a.cairn", "--form=1,1", "--to", "2,2"}),
             "cairn: unknown option \"--form\" (did you mean \"--from\"?); cairn plan --help lists the options\n");
-  EXPECT_EQ(told({"map", "info", "a.cairn", "--jsn"}),
+  EXPECT_EQ(reported({"map", "info", "a.cairn", "--jsn"}),
             "cairn: unknown option \"--jsn\" (did you mean \"--json\"?); cairn map info --help lists the options\n");
-  EXPECT_THAT(told({"plan", "a.cairn", "1,1"}), HasSubstr("1,1"));
+  EXPECT_THAT(reported({"plan", "a.cairn", "1,1"}), HasSubstr("1,1"));
 }
 
 TEST(BadCommand, AnswersThatCannotBeWrittenAreNotDone) {
-  const std::filesystem::path told = fresh_folder("full") / "told.txt";
-  const std::string command = "'" CAIRN_BINARY_DIR "/bin/cairn' plugins > /dev/full 2> '" + told.string() + "'";
+  const std::filesystem::path reported = fresh_folder("full") / "told.txt";
+  const std::string command = "'" CAIRN_BINARY_DIR "/bin/cairn' plugins > /dev/full 2> '" + reported.string() + "'";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
-  EXPECT_EQ(text_of_file(told), "cairn: standard output cannot be written\n");
+  EXPECT_EQ(text_of_file(reported), "cairn: standard output cannot be written\n");
 }
 
 TEST(BadCommand, SeedsThatNoNumberHoldsAreRefused) {
@@ -322,7 +322,7 @@ TEST(BadCommand, AnUnknownModuleNamesTheNearestOne) {
   EXPECT_THAT(finished.err, HasSubstr("did you mean \"hybrid\"?"));
 }
 
-TEST(BadPlugin, ALibraryThatIsNoModuleIsToldAndTheOthersStayUsable) {
+TEST(BadPlugin, ALibraryThatIsNoModuleIsReportedAndTheOthersStayUsable) {
   const Finished finished =
       run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/not_a_module"});
   EXPECT_EQ(finished.exit_status, 1);
@@ -357,7 +357,7 @@ TEST(BadPlugin, AStrippedModuleIsStillOne) {
                     HasSubstr("the name \"bayes\" is taken")));
 }
 
-TEST(BadPlugin, AModuleCutShortIsTold) {
+TEST(BadPlugin, AModuleCutShortIsReported) {
   const auto folder = fresh_folder("cut_short");
   const std::filesystem::path module = folder / "bayes_map.so";
   std::filesystem::copy_file(std::string(CAIRN_BINARY_DIR) + "/lib/cairn/bayes_map.so", module);
@@ -367,7 +367,7 @@ TEST(BadPlugin, AModuleCutShortIsTold) {
   }
 }
 
-TEST(BadPlugin, AnotherAbiStampIsToldWithBothSides) {
+TEST(BadPlugin, AnotherAbiStampIsReportedWithBothSides) {
   const Finished finished =
       run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/wrong_stamp"});
   EXPECT_THAT(finished.err, AllOf(HasSubstr("wrong_stamp.so: was built with another ABI"), HasSubstr("gcc 99.0")));

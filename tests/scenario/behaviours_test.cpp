@@ -75,7 +75,7 @@ TEST(Behaviours, DockStopsAtItsDistanceInTruth) {
   }
 }
 
-TEST(Behaviours, DockFacesAwayWhenToldTo) {
+TEST(Behaviours, DockFacesAwayWhenAskedTo) {
   const Ran ran = run(fresh_folder("dock_away"),
                       "  - search: square\n"
                       "  - dock: {landmark: nearest square, side_deg: 0, distance_m: 0.25, facing: away}\n",
@@ -105,7 +105,7 @@ TEST(Behaviours, InspectRaisesTheDegreeAndWhatItMappedMakesATemplate) {
   ASSERT_EQ(std::ranges::count(answers, '\n'), 2);
   const json first = json::parse(answers.substr(0, answers.find('\n')));
   EXPECT_EQ(first["outcome"], "solved");
-  EXPECT_TRUE(first.contains("alternatives") && first.contains("pieces")) << first.dump();
+  EXPECT_TRUE(first.contains("alternatives") && first.contains("segments")) << first.dump();
   EXPECT_FALSE(first.contains("time_ms")) << "times differ from run to run";
 
   // The same once more, into the same folder: the same bytes, and nothing is left of the first run.
@@ -141,7 +141,7 @@ TEST(Behaviours, ABatteryThatIsLowSendsTheRobotHome) {
   EXPECT_EQ(reason_of(ran.report, "return_home"), "home at (1.00, 2.00)");
 }
 
-TEST(Behaviours, WrongSettingsAreToldWithTheirPlaceAndTheNearestName) {
+TEST(Behaviours, WrongSettingsAreReportedWithTheirPlaceAndTheNearestName) {
   const auto folder = fresh_folder("wrong_behaviours");
   const std::string file = mission_in(folder,
                                       "  - search: sqare\n  - inspect: {landmark: L1, gain: much}\n"
@@ -153,7 +153,7 @@ TEST(Behaviours, WrongSettingsAreToldWithTheirPlaceAndTheNearestName) {
                                .string();
   const Finished finished = run_cairn({"mission", "check", file});
   EXPECT_EQ(finished.exit_status, 2);
-  for (const char* told :
+  for (const char* reported :
        {":12:13: search: the mission has no template of category \"sqare\" (did you mean \"square\"?)",
         ":13:35: gain must be a number", ":14:26: unknown key \"ordr\" in plugin tour (did you mean \"order\"?)",
         ":15:22: rounds must be forever or a number",
@@ -163,7 +163,7 @@ TEST(Behaviours, WrongSettingsAreToldWithTheirPlaceAndTheNearestName) {
         ":20:10: text: there is no {batery} (did you mean \"battery\"?)",
         ":21:20: battery_above: ratio must be a number",
         ":22:5: unknown behaviour plugin \"ptrol\" (did you mean \"patrol\"?)"})
-    EXPECT_THAT(finished.err + finished.out, HasSubstr(told));
+    EXPECT_THAT(finished.err + finished.out, HasSubstr(reported));
 }
 
 // Somebody who has walked on leaves a ghost in the map; the way round it once ended where the robot stood, for ever: it

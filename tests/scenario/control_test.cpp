@@ -56,7 +56,7 @@ class Control : public testing::Test {
  protected:
   Control() : folder_(fresh_folder("control")), out_(folder_ / "out") {}
   ~Control() override { fs::remove_all(folder_); }
-  [[nodiscard]] Finished tell(const std::string& command) const {
+  [[nodiscard]] Finished report(const std::string& command) const {
     return run_cairn({"mission", command, out_.string()});
   }
   [[nodiscard]] std::vector<std::string> run_of(const fs::path& mission, std::vector<std::string> more = {}) const {
@@ -80,7 +80,7 @@ TEST_F(Control, PauseResumeStatusAndCancelReachARunningMission) {
   ASSERT_EQ(::stat((out_ / "control.sock").c_str(), &socket), 0);
   EXPECT_EQ(socket.st_mode & 0777U, 0600U) << "others may not control it";
 
-  const Finished paused = tell("pause");
+  const Finished paused = report("pause");
   EXPECT_EQ(paused.exit_status, 0) << paused.err;
   EXPECT_THAT(paused.out, HasSubstr("mission held is paused at "));
   const json first = status_in(out_, "paused");
@@ -88,9 +88,9 @@ TEST_F(Control, PauseResumeStatusAndCancelReachARunningMission) {
   EXPECT_EQ(first["time_s"], second["time_s"]) << "the clock stands";
   EXPECT_GT(second["paused_s"], first["paused_s"]) << "while readings still come";
 
-  EXPECT_THAT(tell("resume").out, HasSubstr("mission held goes on at "));
+  EXPECT_THAT(report("resume").out, HasSubstr("mission held goes on at "));
   (void)status_in(out_, "running", second["time_s"].get<double>() + 0.1);
-  const Finished cancelled = tell("cancel");
+  const Finished cancelled = report("cancel");
   EXPECT_EQ(cancelled.exit_status, 0) << cancelled.err;
   EXPECT_THAT(cancelled.out, HasSubstr("mission held has ended: cancelled, saved held.cairn"));
   EXPECT_EQ(run.exit_status(), 1);
@@ -115,21 +115,21 @@ TEST_F(Control, SignalsPauseAndLetGoOn) {
   EXPECT_EQ(run.exit_status(), 1);
 }
 
-TEST_F(Control, ToldWhereNothingRunsItSaysSo) {
+TEST_F(Control, ReportedWhereNothingRunsItSaysSo) {
   const Finished nowhere = run_cairn({"mission", "pause", (folder_ / "no").string()});
   EXPECT_EQ(nowhere.exit_status, 2);
   EXPECT_THAT(nowhere.err, HasSubstr("there is no such folder"));
   fs::create_directories(out_);
-  EXPECT_EQ(tell("cancel").exit_status, 2);
-  EXPECT_THAT(tell("cancel").err, HasSubstr("no mission runs in this folder"));
-  EXPECT_THAT(tell("status").err, HasSubstr("no mission runs in this folder, and none has ended here"));
+  EXPECT_EQ(report("cancel").exit_status, 2);
+  EXPECT_THAT(report("cancel").err, HasSubstr("no mission runs in this folder"));
+  EXPECT_THAT(report("status").err, HasSubstr("no mission runs in this folder, and none has ended here"));
   const Finished misspelt = run_cairn({"mission", "paus", out_.string()});
   EXPECT_EQ(misspelt.exit_status, 2);
   EXPECT_THAT(misspelt.err, HasSubstr("did you mean \"pause\"?"));
   ASSERT_EQ(run_cairn(run_of(mission_in(folder_, "[wait: 1]"))).exit_status, 0);
   EXPECT_EQ(status_of(out_)["state"], "ended");
   EXPECT_EQ(status_of(out_)["outcome"], "done");
-  EXPECT_EQ(tell("pause").exit_status, 2);
+  EXPECT_EQ(report("pause").exit_status, 2);
 }
 
 std::string answer_to(const fs::path& socket_file, const std::string& text) {
@@ -155,7 +155,7 @@ TEST_F(Control, WhatIsNoCommandIsRefusedAndTheMissionGoesOn) {
   const json long_one = json::parse(answer_to(out_ / "control.sock", std::string(100000, 'x')));
   EXPECT_THAT(long_one["error"].get<std::string>(), HasSubstr("one line of at most 256 bytes"));
   EXPECT_EQ(json::parse(answer_to(out_ / "control.sock", "status\n"))["state"], "running");
-  EXPECT_EQ(tell("cancel").exit_status, 0);
+  EXPECT_EQ(report("cancel").exit_status, 0);
   EXPECT_EQ(run.exit_status(), 1);
 }
 
@@ -172,7 +172,7 @@ TEST_F(Control, NobodyWaitsForTheAnswerToAnother) {
   EXPECT_EQ(json::parse(answer_to(out_ / "control.sock", "status\n"))["state"], "running");
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1900));
   ::close(silent);
-  EXPECT_EQ(tell("cancel").exit_status, 0);
+  EXPECT_EQ(report("cancel").exit_status, 0);
   EXPECT_EQ(run.exit_status(), 1);
 }
 
@@ -190,7 +190,7 @@ TEST_F(Control, AMissionThatWasKilledGoesOnInTheRoundThatWasUnderWay) {
   ASSERT_FALSE(killed.has_ended);
   const fs::path map = out_ / "held.autosave.cairn";
   EXPECT_EQ(status_of(out_)["state"], "cut_short");
-  const Finished pause = tell("pause");
+  const Finished pause = report("pause");
   EXPECT_EQ(pause.exit_status, 2);
   EXPECT_THAT(pause.err, HasSubstr("was cut short; cairn run --resume " + map.string()));
   const json state = json::parse(load_map(map).properties.at("tree_state"));

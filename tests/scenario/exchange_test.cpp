@@ -43,13 +43,13 @@ class Exchange : public testing::Test {
 
 TEST_F(Exchange, ImportSaysWhatCameIn) {
   write_text(file("roads.graph"), "node 17 1 2\nnode 4 4 6\nnode 0 0 0\nedge 17 4 5");
-  const json told = done({"import", file("roads.graph"), "-o", file("g.cairn")});
-  EXPECT_EQ(told, (json{{"map", file("g.cairn")},
-                        {"landmarks", 3},
-                        {"routes", 1},
-                        {"warnings",
-                         {file("roads.graph") + ": the last line has no line end: the file may have been cut",
-                          file("roads.graph") + ": node 0 is landmark L18: ids of landmarks begin at 1"}}}));
+  const json reported = done({"import", file("roads.graph"), "-o", file("g.cairn")});
+  EXPECT_EQ(reported, (json{{"map", file("g.cairn")},
+                            {"landmarks", 3},
+                            {"routes", 1},
+                            {"warnings",
+                             {file("roads.graph") + ": the last line has no line end: the file may have been cut",
+                              file("roads.graph") + ": node 0 is landmark L18: ids of landmarks begin at 1"}}}));
   EXPECT_EQ(graph().find(17)->T_map_landmark.position(), Point(1.0, 2.0));
 }
 

@@ -43,7 +43,7 @@ std::filesystem::path small_experiment(const std::filesystem::path& folder, cons
                                         "map: {plugin: bayes}\nsteps:\n  - drive: [[3.2, 1.9]]\n");
   write_text(
       folder / "maps.yaml",
-      "experiment: maps\nmissions: [drive.yaml]\nseeds: {from: 5, count: 2}\nwithhold_every: 5\nbaseline: " + baseline +
+      "experiment: maps\nmissions: [drive.yaml]\nseeds: {from: 5, count: 2}\nhold_out_every: 5\nbaseline: " + baseline +
           "\nvariants:\n  - {name: textbook, set: [map.clamp_nat=100]}\n  - {name: clamped, set: "
           "[map.clamp_nat=3]}\n");
   return folder / "maps.yaml";
@@ -61,7 +61,7 @@ TEST(Experiment, OfMapsJudgesEveryVariantOnEverySeed) {
     EXPECT_EQ(row["outcome"], "done") << row;
     EXPECT_GT(row["log loss"], 0.0);
     EXPECT_LT(row["log loss"], 3.0);
-    EXPECT_GT(row["withheld"], 10);
+    EXPECT_GT(row["held_out"], 10);
     EXPECT_LT(row["withheld log-likelihood"], 0.0);
   }
   EXPECT_EQ(rows[0]["variant"], "textbook");
@@ -90,7 +90,7 @@ std::filesystem::path two_places(const std::filesystem::path& folder, const std:
   return folder / "places.yaml";
 }
 
-TEST(Experiment, OfPlacesTellsTheDegreesThere) {
+TEST(Experiment, OfPlacesReportsTheDegreesThere) {
   const auto folder = fresh_folder("experiment_places");
   const std::vector<std::string> command{"experiment", two_places(folder, "square").string(), "--out",
                                          (folder / "out").string(), "--json"};
@@ -108,25 +108,25 @@ TEST(Experiment, OfPlacesTellsTheDegreesThere) {
 }
 
 TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
-  const auto folder = fresh_folder("experiment_lap");
+  const auto folder = fresh_folder("experiment_orbit");
   (void)two_places(folder, "square");
   write_text(folder / "lap.yaml",
-             "experiment: lap\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\ncategories: [circle, square]\n"
+             "experiment: orbit\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\ncategories: [circle, square]\n"
              "lap: {around: square, bin_deg: 45}\nset: [detector.degrees=each_template]\n");
   const Finished finished =
       run_cairn({"experiment", (folder / "lap.yaml").string(), "--out", (folder / "out").string(), "--json"});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
-  const auto lap = nlohmann::json::parse(finished.out)["rows"][0]["lap"];
-  ASSERT_GT(lap.size(), 3U);
-  for (const auto& sample : lap) {
+  const auto orbit = nlohmann::json::parse(finished.out)["rows"][0]["orbit"];
+  ASSERT_GT(orbit.size(), 3U);
+  for (const auto& sample : orbit) {
     double best = 0.0;
     for (const auto& [key, degree] : sample.items())
       if (key.starts_with("square ")) best = std::max(best, degree.get<double>());
     EXPECT_DOUBLE_EQ(best, sample["square"]) << "the best template makes the category's degree: " << sample;
     EXPECT_TRUE(sample.contains("square 75 deg")) << "however bad it is";
   }
-  EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_categories.png"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "out/lap_templates.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/orbit_categories.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/orbit_templates.png"));
 }
 
 // Evidence, landmarks and drive: nothing depends on how much a matching reports.
@@ -152,7 +152,7 @@ TEST(Experiment, OfRecognitionLeavesAWorldThatRunsAgain) {
   write_text(
       folder / "recognition.yaml",
       "experiment: recognition\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\n"
-      "worlds: {start_m: [1.1, 1.2], most_landmarks: 2, start_gap_m: 0.5}\nset: [\"steps=[{wait: {for_s: 1}}]\"]\n");
+      "worlds: {start_m: [1.1, 1.2], max_landmarks: 2, start_gap_m: 0.5}\nset: [\"steps=[{wait: {for_s: 1}}]\"]\n");
   const Finished finished =
       run_cairn({"experiment", (folder / "recognition.yaml").string(), "--out", (folder / "out").string(), "--json"});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
@@ -171,7 +171,7 @@ std::filesystem::path small_curves(const std::filesystem::path& folder, const st
   (void)two_places(folder, "square");
   write_text(folder / "curves.yaml",
              "experiment: curves\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\ntolerance_m: 0.3\n"
-             "worlds: {start_m: [1.1, 1.2], least_landmarks: 1, most_landmarks: 1, most_distractors: 0, "
+             "worlds: {start_m: [1.1, 1.2], min_landmarks: 1, max_landmarks: 1, max_distractors: 0, "
              "smallest_room_m: [3.5, 3.5], largest_room_m: [3.5, 3.5], gap_m: 0.8}\n"
              "set: [\"steps=[{explore: {until_known_ratio: 0.95, at_most_s: 300}}]\"]\n"
              "detectors:\n" +
@@ -208,7 +208,7 @@ TEST(Experiment, OfCurvesRunsEveryDetectorOnTheSameGrid) {
   EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
 }
 
-TEST(Experiment, OfCurvesTellsWhatIsWrongWithADetector) {
+TEST(Experiment, OfCurvesReportsWhatIsWrongWithADetector) {
   const auto folder = fresh_folder("experiment_curves_fault");
   const auto error_of = [&](const std::string& detectors) {
     const Finished finished =
@@ -261,7 +261,7 @@ TEST(Experiment, TwoVariantsOfOneNameAreRefused) {
   EXPECT_THAT(finished.err, HasSubstr("two variants are called \"textbook\""));
 }
 
-TEST(Experiment, AFaultInTheLastVariantIsToldBeforeAnythingRuns) {
+TEST(Experiment, AFaultInTheLastVariantIsReportedBeforeAnythingRuns) {
   const auto folder = fresh_folder("experiment_fault");
   const std::filesystem::path file = small_experiment(folder, "textbook");
   std::string text = text_of_file(file);

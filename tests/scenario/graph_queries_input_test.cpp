@@ -93,11 +93,11 @@ TEST_F(GraphQuestions, WrongTypesAreRefused) {
 }
 
 TEST_F(GraphQuestions, ATourHasNoAlternatives) {
-  const std::string told = "alternatives are known from place to place, not for a tour\n";
-  EXPECT_EQ(refused_key(R"("via": ["hall"], "alternatives": 1)"), "q.jsonl:1:61: " + told);
+  const std::string reported = "alternatives are known from place to place, not for a tour\n";
+  EXPECT_EQ(refused_key(R"("via": ["hall"], "alternatives": 1)"), "q.jsonl:1:61: " + reported);
   const Finished finished = run({"--from", "L1", "--to", "L2", "--via", "hall", "--alternatives", "1"});
   EXPECT_EQ(finished.exit_status, 2);
-  EXPECT_EQ(finished.err, "cairn: " + told);
+  EXPECT_EQ(finished.err, "cairn: " + reported);
 }
 
 TEST_F(GraphQuestions, ACutLineSaysWhereAndEarlierAnswersStay) {
@@ -145,22 +145,23 @@ TEST_F(GraphQuestions, WhatTheMapDoesNotHoldIsAnUnknownPlace) {
 }
 
 TEST_F(GraphQuestions, WhatIsAPlaceOnNoMapIsWrongUsage) {
-  const auto told = [&](const std::vector<std::string>& arguments) {
+  const auto reported = [&](const std::vector<std::string>& arguments) {
     const Finished finished = run(arguments);
     EXPECT_EQ(finished.exit_status, 2) << finished.out;
     EXPECT_EQ(finished.out, "");
     return finished.err;
   };
   const std::string place = "; a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`\n";
-  EXPECT_EQ(told({"--from", "0.6", "--to", "1,1"}), "cairn: place \"0.6\" is one number" + place);
-  EXPECT_EQ(told({"--from", "L1", "--to", "1"}), "cairn: place \"1\" is one number (did you mean \"L1\"?)" + place);
-  EXPECT_EQ(told({"--from", "L1", "--to", "nan,1"}), "cairn: place \"nan,1\" has a number that is not finite" + place);
-  EXPECT_EQ(told({"--from", "L1", "--to", "L2", "--via", "1;2", "--json"}),
+  EXPECT_EQ(reported({"--from", "0.6", "--to", "1,1"}), "cairn: place \"0.6\" is one number" + place);
+  EXPECT_EQ(reported({"--from", "L1", "--to", "1"}), "cairn: place \"1\" is one number (did you mean \"L1\"?)" + place);
+  EXPECT_EQ(reported({"--from", "L1", "--to", "nan,1"}),
+            "cairn: place \"nan,1\" has a number that is not finite" + place);
+  EXPECT_EQ(reported({"--from", "L1", "--to", "L2", "--via", "1;2", "--json"}),
             "cairn: place \"1;2\" is not made of numbers alone" + place);
-  EXPECT_EQ(told({"--from", "L1", "--to", "L2", "--avoid", "1,2"}),
+  EXPECT_EQ(reported({"--from", "L1", "--to", "L2", "--avoid", "1,2"}),
             "cairn: \"1,2\": only landmarks and clusters can be avoided\n");
   for (const std::string route : {"L1", "R", "1.5", "99999999999999999999999"})
-    EXPECT_EQ(told({"--from", "L1", "--to", "L2", "--close", route}),
+    EXPECT_EQ(reported({"--from", "L1", "--to", "L2", "--close", route}),
               "cairn: route \"" + route + "\": a route is named by its number, as 12 or R12\n");
 }
 
@@ -194,14 +195,14 @@ TEST_F(GraphQuestions, WrongOptionsAreWrongUsage) {
 
 TEST_F(GraphQuestions, FlatSearchRefusesWhatItDoesNotKnow) {
   const std::vector<std::string> ends{"--from", "L1", "--to", "L2", "--planner", "flat_search"};
-  const auto told = [&](const std::vector<std::string>& more) {
+  const auto reported = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = ends;
     arguments.insert(arguments.end(), more.begin(), more.end());
     return unknown(arguments);
   };
-  EXPECT_EQ(told({"--explain"}), "flat_search does not know an explanation; landmark_search does");
-  EXPECT_EQ(told({"--alternatives", "2"}), "flat_search does not know alternatives; landmark_search does");
-  EXPECT_EQ(told({"--cost", "time"}), "flat_search does not know other costs than length; landmark_search does");
+  EXPECT_EQ(reported({"--explain"}), "flat_search does not know an explanation; landmark_search does");
+  EXPECT_EQ(reported({"--alternatives", "2"}), "flat_search does not know alternatives; landmark_search does");
+  EXPECT_EQ(reported({"--cost", "time"}), "flat_search does not know other costs than length; landmark_search does");
 }
 
 }  // namespace

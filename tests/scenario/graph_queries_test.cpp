@@ -157,7 +157,7 @@ TEST_F(GraphQueries, AlternativesComeTheCheapestFirstAsManyAsThereAre) {
   EXPECT_THAT(run({"--from", "L1", "--to", "L3", "--alternatives", "1"}).out, HasSubstr("  or 22.00 m: L1 L2 L3\n"));
 }
 
-TEST_F(GraphQueries, CostByTimeIsToldInSecondsAndTheSumInMetres) {
+TEST_F(GraphQueries, CostByTimeIsReportedInSecondsAndTheSumInMetres) {
   // The short way stands on a slow route.
   write_text(file("in.geojson"), R"({"type": "FeatureCollection", "crs": {"type": "name", "properties":
       {"name": "urn:ogc:def:crs:EPSG::3857"}}, "features": [
@@ -249,7 +249,7 @@ TEST_F(GraphQueries, OptionsHoldForTheLinesThatDoNotSayThemselves) {
   EXPECT_FALSE(all[1].contains("explanation"));
 }
 
-TEST_F(GraphQueries, OverManyLandmarksTheExplanationTellsClustersAndLevels) {
+TEST_F(GraphQueries, OverManyLandmarksTheExplanationReportsClustersAndLevels) {
   import(city(20, 3));
   const json answer = from_to("L1", "L400", {"--explain"});
   const json& explanation = answer["explanation"];

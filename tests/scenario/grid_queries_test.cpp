@@ -164,12 +164,12 @@ TEST_F(GridQueries, WhoAsksLineByLineIsAnsweredLineByLine) {
 
 TEST_F(GridQueries, AnswersSayWhatThePathIsMadeOfWhenAsked) {
   const json plain = json::parse(run({"--from", "1.5,1.5", "--to", "30.5,20.5", "--json"}).out, nullptr, false);
-  EXPECT_TRUE(plain.contains("least_length_m"));
-  EXPECT_FALSE(plain.contains("pieces"));
+  EXPECT_TRUE(plain.contains("length_lower_bound_m"));
+  EXPECT_FALSE(plain.contains("segments"));
   const json explained =
       json::parse(run({"--from", "1.5,1.5", "--to", "30.5,20.5", "--json", "--explain"}).out, nullptr, false);
-  ASSERT_TRUE(explained["pieces"].is_array());
-  for (const json& piece : explained["pieces"]) {
+  ASSERT_TRUE(explained["segments"].is_array());
+  for (const json& piece : explained["segments"]) {
     EXPECT_TRUE(piece["origin"].is_string());
     EXPECT_TRUE(piece["route"].is_number_integer());
     EXPECT_GE(piece["length_m"], 0.0);

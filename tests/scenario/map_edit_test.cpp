@@ -23,11 +23,11 @@ class MapEdit : public MapFiles {
 };
 
 TEST_F(MapEdit, MergeLaysTheSecondMapIntoTheFrameOfTheFirst) {
-  const json told =
+  const json reported =
       done({"merge", file("a.cairn"), file("b.cairn"), "--transform", "0.2, 0.05,0", "-o", file("m.cairn")});
-  EXPECT_EQ(told["size_cells"], (json{8, 3}));
-  EXPECT_EQ(told["joined_landmarks"], 1);
-  EXPECT_EQ(told["landmarks"], 1);
+  EXPECT_EQ(reported["size_cells"], (json{8, 3}));
+  EXPECT_EQ(reported["joined_landmarks"], 1);
+  EXPECT_EQ(reported["landmarks"], 1);
   const SavedMap merged = map("m.cairn");
   EXPECT_EQ(merged.grid.state({4, 1}), CellState::free);
   EXPECT_EQ(merged.grid.state({7, 2}), CellState::occupied);
@@ -73,24 +73,24 @@ TEST_F(MapEdit, RoutesAreClosedAndOpened) {
             "cairn: route \"L1\": a route is named by its number, as 12 or R12\n");
 }
 
-TEST_F(MapEdit, CropTellsWhatItDrops) {
-  const json told = done({"crop", file("a.cairn"), "--box", "0.05,0,0.0,0.05", "-o", file("c.cairn")});
-  EXPECT_EQ(told["size_cells"], (json{1, 1}));
-  EXPECT_EQ(told["landmarks_dropped"], 1);
-  EXPECT_EQ(told["warnings"], (json{"1 landmark outside: dropped"}));
+TEST_F(MapEdit, CropReportsWhatItDrops) {
+  const json reported = done({"crop", file("a.cairn"), "--box", "0.05,0,0.0,0.05", "-o", file("c.cairn")});
+  EXPECT_EQ(reported["size_cells"], (json{1, 1}));
+  EXPECT_EQ(reported["landmarks_dropped"], 1);
+  EXPECT_EQ(reported["warnings"], (json{"1 landmark outside: dropped"}));
 }
 
 TEST_F(MapEdit, DiffSaysSameOrDifferentByItsExitStatus) {
   EXPECT_EQ(done({"diff", file("a.cairn"), file("a.cairn")})["outcome"], "same");
-  const json told = done({"diff", file("a.cairn"), file("b.cairn"), "--picture", file("d.png")}, 1);
-  EXPECT_EQ(told["outcome"], "different");
+  const json reported = done({"diff", file("a.cairn"), file("b.cairn"), "--picture", file("d.png")}, 1);
+  EXPECT_EQ(reported["outcome"], "different");
   // One row of b lies on a's lowest but unknown, one above.
-  EXPECT_EQ(told["cells"]["free_to_occupied"], 1);
-  EXPECT_EQ(told["cells"]["occupied_to_free"], 2);
-  EXPECT_EQ(told["cells"]["occupied_to_unknown"], 4);
-  EXPECT_EQ(told["cells"]["unknown_to_occupied"], 1);
-  EXPECT_EQ(told["cells"]["other_state"], 8);
-  EXPECT_EQ(told["landmarks"]["moved"][0]["b"]["id"], "L1");
+  EXPECT_EQ(reported["cells"]["free_to_occupied"], 1);
+  EXPECT_EQ(reported["cells"]["occupied_to_free"], 2);
+  EXPECT_EQ(reported["cells"]["occupied_to_unknown"], 4);
+  EXPECT_EQ(reported["cells"]["unknown_to_occupied"], 1);
+  EXPECT_EQ(reported["cells"]["other_state"], 8);
+  EXPECT_EQ(reported["landmarks"]["moved"][0]["b"]["id"], "L1");
   EXPECT_EQ(text_of_file(file("d.png")).substr(1, 3), "PNG");
 }
 

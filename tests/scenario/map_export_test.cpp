@@ -24,9 +24,9 @@ class MapExport : public MapFiles {
 TEST_F(MapExport, AGridGoesOutToMapServerAndComesBack) {
   const OccupancyGrid grid = map("m.cairn").grid;
   for (const char* const mode : {"trinary", "scale", "raw"}) {
-    const json told = done({"export", file("m.cairn"), "-o", file("out.yaml"), "--mode", mode});
-    EXPECT_EQ(told["file"], file("out.yaml"));
-    EXPECT_EQ(told["warnings"],
+    const json reported = done({"export", file("m.cairn"), "-o", file("out.yaml"), "--mode", mode});
+    EXPECT_EQ(reported["file"], file("out.yaml"));
+    EXPECT_EQ(reported["warnings"],
               (json{file("out.yaml") + ": 1 landmark, 0 routes: not written, the file holds the grid only"}));
     done({"import", file("out.yaml"), "-o", file("again.cairn")});
     EXPECT_TRUE(map("again.cairn").grid == grid) << mode;
@@ -90,9 +90,9 @@ TEST_F(MapExport, AnOpenRmfGraphComesInAndGoesOut) {
   write_text(file("0.yaml"),
              "building_name: lab\nlevels:\n  L1:\n    vertices: [[0, 0, {name: dock, is_charger: true}], [3, 4]]\n"
              "    lanes: [[0, 1, {speed_limit: 0.5}], [1, 0]]\ndoors: {}\nlifts: {}\n");
-  const json told = done({"import", file("0.yaml"), "-o", file("g.cairn")});
-  EXPECT_EQ(told["landmarks"], 2);
-  EXPECT_EQ(told["routes"], 2);
+  const json reported = done({"import", file("0.yaml"), "-o", file("g.cairn")});
+  EXPECT_EQ(reported["landmarks"], 2);
+  EXPECT_EQ(reported["routes"], 2);
   EXPECT_EQ(done({"export", file("g.cairn"), "-o", file("out.nav.yaml")})["warnings"], json::array());
   EXPECT_TRUE(text_of_file(file("out.nav.yaml")).starts_with("building_name: lab\nlevels:\n  L1:\n"));
   done({"import", file("out.nav.yaml"), "-o", file("again.cairn")});

@@ -36,7 +36,7 @@ TEST(MissionCommand, EveryShippedMissionOfTheSimulatorIsFine) {
                                   HasSubstr("patrol_or_wait.yaml: fine, 3 steps, ")));
 }
 
-TEST(MissionCommand, CheckTellsAllErrorsOfTheTreeAndOfTheModules) {
+TEST(MissionCommand, CheckReportsAllErrorsOfTheTreeAndOfTheModules) {
   const auto folder = fresh_folder("mission_check");
   const std::filesystem::path file = mission_in(folder,
                                                 "  - retry: {times: 0, do: wait}\n"
@@ -66,7 +66,7 @@ TEST(MissionCommand, CheckTellsAllErrorsOfTheTreeAndOfTheModules) {
   }
 }
 
-TEST(MissionCommand, CheckTellsWhatCannotBeReadAtAll) {
+TEST(MissionCommand, CheckReportsWhatCannotBeReadAtAll) {
   const Finished finished = run_cairn({"mission", "check", config("missions/ofice.yaml")});
   EXPECT_EQ(finished.exit_status, 2);
   EXPECT_THAT(finished.err, HasSubstr("no such file (did you mean \"office.yaml\"?)"));
@@ -96,7 +96,7 @@ TEST(MissionCommand, ShowPrintsAndDrawsTheTreeWithItsSubMissions) {
   EXPECT_EQ(wait["place"], (folder / "sub.yaml").string() + ":3:5");
 }
 
-TEST(MissionCommand, ATreeRunsAndIsToldAsItGoes) {
+TEST(MissionCommand, ATreeRunsAndIsReportedAsItGoes) {
   const auto folder = fresh_folder("mission_tree");
   const std::filesystem::path file = mission_in(folder,
                                                 "  - fallback: [{landmark_known: square}, {mission: sub.yaml}]\n"

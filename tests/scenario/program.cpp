@@ -53,7 +53,7 @@ template <class OnOutput>
 void drain(const Pipe& out, const Pipe& err, Finished& finished, OnOutput on_output) {
   pollfd ends[2] = {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
   std::string* texts[2] = {&finished.out, &finished.err};
-  bool told = false;
+  bool reported = false;
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
     poll(ends, 2, -1);
     for (int i = 0; i < 2; ++i) {
@@ -66,8 +66,8 @@ void drain(const Pipe& out, const Pipe& err, Finished& finished, OnOutput on_out
         close(ends[i].fd);
         ends[i].fd = -1;
       }
-      if (i == 0 && count > 0 && !told) {
-        told = true;
+      if (i == 0 && count > 0 && !reported) {
+        reported = true;
         on_output();
       }
     }
@@ -75,8 +75,8 @@ void drain(const Pipe& out, const Pipe& err, Finished& finished, OnOutput on_out
 }
 
 void meet(const Circumstances& circumstances) {
-  if (circumstances.most_file_bytes) {
-    const rlimit limit{*circumstances.most_file_bytes, *circumstances.most_file_bytes};
+  if (circumstances.max_file_bytes) {
+    const rlimit limit{*circumstances.max_file_bytes, *circumstances.max_file_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
   constexpr uid_t kNobody = 65534;

@@ -20,8 +20,8 @@ Finished run_cairn(const std::vector<std::string>& arguments);
 
 // What a run meets.
 struct Circumstances {
-  std::optional<std::uint64_t> most_file_bytes{};  // no file can grow beyond: like a disk that is full
-  bool as_nobody = false;                          // when the tests run as root, whom no folder is read-only to
+  std::optional<std::uint64_t> max_file_bytes{};  // no file can grow beyond: like a disk that is full
+  bool as_nobody = false;                         // when the tests run as root, whom no folder is read-only to
 };
 Finished run_cairn(const std::vector<std::string>& arguments, const Circumstances& circumstances);
 

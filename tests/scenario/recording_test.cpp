@@ -50,7 +50,7 @@ TEST(Recording, ChangesNothingOfTheRunItself) {
     EXPECT_TRUE(text_of_file(with / file) == text_of_file(without / file)) << file << " differs";
 }
 
-TEST(Recording, AFileThatCannotBeWrittenIsToldBeforeTheRun) {
+TEST(Recording, AFileThatCannotBeWrittenIsReportedBeforeTheRun) {
   const auto out = fresh_folder("recording_nowhere");
   std::filesystem::create_directories(out / "a.log");
   const Finished run = run_cairn(

@@ -86,10 +86,10 @@ void kill_and_go_on(const fs::path& mission, const fs::path& out, double delay_s
   kills.ended_before += killed.has_ended ? 1 : 0;
   if (!fs::exists(file)) file = out / "office.cairn";  // the mission had saved its map
   const std::chrono::duration<double> age = fs::file_time_type::clock::now() - fs::last_write_time(file);
-  std::string told;
-  for (const Killed::Line& line : killed.lines) told += line.text + "\n";
+  std::string reported;
+  for (const Killed::Line& line : killed.lines) reported += line.text + "\n";
   SavedMap map;
-  ASSERT_NO_THROW(map = load_map(file)) << (killed.has_ended ? "it had ended by itself: " : "") << told;
+  ASSERT_NO_THROW(map = load_map(file)) << (killed.has_ended ? "it had ended by itself: " : "") << reported;
   ++kills.files;
   expect_all_up_to_the_last_autosave(killed, age.count(), map, kills);
   const Finished resumed = run_mission(mission, out, {"--resume", file.string()});

@@ -63,7 +63,7 @@ TEST(TemplatePreview, DrawsEveryTemplate) {
   EXPECT_THAT(unknown.err, HasSubstr("template preview: sensed templates need --robot FILE"));
 }
 
-TEST(TemplateCheck, TellsThePapersShapesApart) {
+TEST(TemplateCheck, DistinguishesThePapersShapes) {
   const Finished finished = check(config("templates"), {"--json"});
   EXPECT_EQ(finished.exit_status, 0) << finished.err;
   const json report = json::parse(finished.out);

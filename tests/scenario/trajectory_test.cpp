@@ -74,9 +74,9 @@ void expect_rests_at_both_ends(const std::vector<Row>& rows, const Pose2& start,
   EXPECT_EQ(rows.front().time_s, 0.0);
 }
 
-// most_off_rad: where the curvature jumps it changes over the neighbouring steps, so that speeds and headings differ
+// max_off_rad: where the curvature jumps it changes over the neighbouring steps, so that speeds and headings differ
 // for a moment by this much.
-void expect_within(const std::vector<Row>& rows, const RobotModel& robot, double most_off_rad) {
+void expect_within(const std::vector<Row>& rows, const RobotModel& robot, double max_off_rad) {
   for (const Row& row : rows) {
     EXPECT_LE(std::abs(row.v_mps), robot.max_v_mps + kRounding) << row.time_s;
     EXPECT_LE(std::abs(row.w_radps), robot.max_w_radps + kRounding) << row.time_s;
@@ -93,7 +93,7 @@ void expect_within(const std::vector<Row>& rows, const RobotModel& robot, double
     const double way_m = 0.5 * std::abs(rows[i].v_mps + rows[i - 1].v_mps) * dt_s;
     EXPECT_NEAR((rows[i].pose.position() - rows[i - 1].pose.position()).norm(), way_m, 2e-3) << rows[i].time_s;
     const double turn_rad = 0.5 * (rows[i].w_radps + rows[i - 1].w_radps) * dt_s;
-    EXPECT_NEAR(wrap_angle(rows[i].pose.theta_rad - rows[i - 1].pose.theta_rad - turn_rad), 0.0, most_off_rad)
+    EXPECT_NEAR(wrap_angle(rows[i].pose.theta_rad - rows[i - 1].pose.theta_rad - turn_rad), 0.0, max_off_rad)
         << rows[i].time_s;
   }
 }

@@ -21,8 +21,8 @@ std::vector<std::string> short_look(const std::filesystem::path& out, const std:
           "--set",      "seeds.from=" + from,
           "--set",      "seeds.count=" + count,
           "--set",      "trials.explore_at_most_s=120",
-          "--set",      "trials.least_goals=2",
-          "--set",      "trials.most_goals=2",
+          "--set",      "trials.min_goals=2",
+          "--set",      "trials.max_goals=2",
           "--set",      "trials.goal_at_most_s=120",
           "--set",      "trials.faults_per_hour.silent=60",
           "--out",      out.string(),
@@ -69,16 +69,16 @@ Finished with(const std::string& name, const std::string& text) {
   return run_cairn({"experiment", (folder / "trials.yaml").string(), "--out", (folder / "out").string()});
 }
 
-TEST(Trials, BadFilesAreToldWithTheirPlace) {
+TEST(Trials, BadFilesAreReportedWithTheirPlace) {
   const std::string config = source_folder() + "/config";
   const std::string robots = "  robots: [" + config + "/robots/pioneer1.yaml]\n  templates: " + config + "/templates\n";
-  Finished bad = with("trials_bad", "experiment: trials\ntrials:\n" + robots + "  most_goal: 3\n");
+  Finished bad = with("trials_bad", "experiment: trials\ntrials:\n" + robots + "  max_goal: 3\n");
   EXPECT_EQ(bad.exit_status, 2);
   EXPECT_THAT(bad.err, HasSubstr("trials.yaml:5:3: "));
-  EXPECT_THAT(bad.err, HasSubstr("most_goals"));
-  bad = with("trials_bad", "experiment: trials\ntrials:\n" + robots + "  least_goals: 9\n");
+  EXPECT_THAT(bad.err, HasSubstr("max_goals"));
+  bad = with("trials_bad", "experiment: trials\ntrials:\n" + robots + "  min_goals: 9\n");
   EXPECT_EQ(bad.exit_status, 2);
-  EXPECT_THAT(bad.err, HasSubstr("trials.yaml:5:16: least_goals must be at most most_goals, found 9 and 6"));
+  EXPECT_THAT(bad.err, HasSubstr("trials.yaml:5:16: min_goals must be at most max_goals, found 9 and 6"));
   bad = with("trials_bad", "experiment: trials\nmissions: [a.yaml]\ntrials:\n" + robots);
   EXPECT_EQ(bad.exit_status, 2);
   EXPECT_THAT(bad.err, HasSubstr("trials.yaml:2:11: an experiment of trials draws its missions and lists none"));

@@ -7,11 +7,11 @@ void TrialsConfig::describe(Fields<TrialsConfig>& fields) {
   fields.files("robots", &C::robots, "robot files; each mission takes one of them").required = true;
   fields.file("templates", &C::templates, "folder of the templates that landmarks are drawn from and recognised by")
       .required = true;
-  fields.number("most_specular_ratio", &C::most_specular_ratio, {0.0, 1.0}, "",
+  fields.number("max_specular_ratio", &C::max_specular_ratio, {0.0, 1.0}, "",
                 "each world's share of smooth surfaces is drawn from 0 to this");
   fields.number("explore_at_most_s", &C::explore_at_most_s, {0.0, 1e6}, "s", "exploring, which comes first");
-  fields.integer("least_goals", &C::least_goals, {1.0, 100.0}, "at least so many goals before the way home");
-  fields.integer("most_goals", &C::most_goals, {1.0, 100.0}, "at most so many");
+  fields.integer("min_goals", &C::min_goals, {1.0, 100.0}, "at least so many goals before the way home");
+  fields.integer("max_goals", &C::max_goals, {1.0, 100.0}, "at most so many");
   fields.number("goal_at_most_s", &C::goal_at_most_s, {10.0, 1e6}, "s",
                 "for each goal, and as much to look for its landmark before");
   fields.number("anywhere_ratio", &C::anywhere_ratio, {0.0, 1.0}, "",
@@ -27,11 +27,11 @@ void TrialsConfig::describe(Fields<TrialsConfig>& fields) {
   fields.number("fast_mps", &C::fast_mps, {0.0, 10.0}, "m/s", "a contact faster than this is a fast one");
   fields.number("longest_stand_s", &C::longest_stand_s, {1.0, 1e6}, "s",
                 "neither moving nor turning nor waiting on purpose for longer is a hang");
-  fields.integer("most_fast_contacts", &C::most_fast_contacts, {0.0, 1e6},
+  fields.integer("max_fast_contacts", &C::max_fast_contacts, {0.0, 1e6},
                  "limit: fast contacts with what could be seen, over all missions");
-  fields.integer("most_stop_ticks", &C::most_stop_ticks, {1.0, 1000.0},
+  fields.integer("max_stop_ticks", &C::max_stop_ticks, {1.0, 1000.0},
                  "limit: the tick without readings, from 1, in which the robot is ordered to stand at the latest");
-  fields.number("most_wall_s", &C::most_wall_s, {0.1, 1e6}, "s",
+  fields.number("max_wall_s", &C::max_wall_s, {0.1, 1e6}, "s",
                 "limit: wall clock of a mission; told as a hang, decides nothing in the mission");
 }
 

@@ -13,10 +13,10 @@ struct TrialsConfig {
   // What is drawn.
   std::vector<std::filesystem::path> robots;
   std::filesystem::path templates;
-  double most_specular_ratio = 0.0;
+  double max_specular_ratio = 0.0;
   double explore_at_most_s = 400.0;
-  int least_goals = 3;
-  int most_goals = 6;
+  int min_goals = 3;
+  int max_goals = 6;
   double goal_at_most_s = 900.0;
   double anywhere_ratio = 0.1;
   FaultRates faults_per_hour;
@@ -28,9 +28,9 @@ struct TrialsConfig {
   double fast_mps = 0.05;
   double longest_stand_s = 120.0;
   // Limits.
-  int most_fast_contacts = 0;
-  int most_stop_ticks = 2;
-  double most_wall_s = 300.0;
+  int max_fast_contacts = 0;
+  int max_stop_ticks = 2;
+  double max_wall_s = 300.0;
   static void describe(Fields<TrialsConfig>& fields);
 };
 

@@ -45,7 +45,7 @@ class Drawing {
   Point place() { return chance_.share() < config_.anywhere_ratio ? anywhere() : with_room(); }
   [[nodiscard]] bool is_clear_of_traffic(const Point& p_m) const;
   std::string fault_lines();
-  std::string fault(const std::string& kind, Chance& chance);
+  std::string fault(const std::string& kind, PortableRandom& chance);
   std::string go_to_place();
   std::string go_to_landmark();
   std::string places();
@@ -57,7 +57,7 @@ class Drawing {
   const World& world_;
   TrueSpace space_;
   std::uint64_t seed_;
-  Chance chance_;
+  PortableRandom chance_;
 };
 
 Point Drawing::anywhere() {
@@ -88,7 +88,7 @@ std::string Drawing::start() {
 }
 
 // The settings of a fault but for its time.
-std::string Drawing::fault(const std::string& kind, Chance& chance) {
+std::string Drawing::fault(const std::string& kind, PortableRandom& chance) {
   const int sonars = static_cast<int>(robot_.sonars.size());
   const std::string lasting = fmt::format("for_s: {:g}, ", config_.fault_for_s);
   if (kind == "dead") return fmt::format("{}dead: [{}]", lasting, chance.whole(0, sonars - 1));
@@ -118,7 +118,7 @@ std::string Drawing::fault_lines() {
     const auto& [kind, per_hour] = kinds[i];
     const bool needs_sonars = i < 2;
     if (per_hour <= 0.0 || (needs_sonars && robot_.sonars.empty())) continue;
-    Chance chance(seed_, kFirstFault + i);
+    PortableRandom chance(seed_, kFirstFault + i);
     for (double at_s = chance.wait(per_hour / 3600.0); at_s < kFaultsFor_s; at_s += chance.wait(per_hour / 3600.0))
       text += fmt::format("    - {{at_s: {:.2f}, {}}}\n", at_s, fault(kind, chance));
   }
@@ -127,7 +127,7 @@ std::string Drawing::fault_lines() {
 
 std::string Drawing::sensor() {
   std::string text = "  plugin: simulated_robot\n";
-  Chance chance(seed_, kBattery);
+  PortableRandom chance(seed_, kBattery);
   const bool empties = chance.share() < config_.battery_ratio;
   const double lasts_s = chance.between(300.0, 1200.0);
   if (empties) text += fmt::format("  battery: {{standing_s: {:.0f}, driving_s: {:.0f}}}\n", 2.0 * lasts_s, lasts_s);
@@ -178,34 +178,34 @@ std::string Drawing::step() {
     case 0:
       return "sequence: [{" + goal() + "}, {wait: 2}]";
     case 1:
-      return "always: {retry: {times: 2, do: {" + goal() + "}}}";
+      return "force_success: {retry: {times: 2, do: {" + goal() + "}}}";
     case 2:
-      return fmt::format("always: {{timeout: {{after_s: {:g}, do: {{{}}}}}}}", after_s, goal());
+      return fmt::format("force_success: {{timeout: {{after_s: {:g}, do: {{{}}}}}}}", after_s, goal());
     case 3:
-      return fmt::format("always: {{retry: {{times: 2, do: {{timeout: {{after_s: {:g}, do: {{{}}}}}}}}}}}", after_s,
-                         goal());
+      return fmt::format("force_success: {{retry: {{times: 2, do: {{timeout: {{after_s: {:g}, do: {{{}}}}}}}}}}}",
+                         after_s, goal());
     case 4: {
       const std::string first = goal();
-      return "always: {fallback: [{" + first + "}, {" + go_to_place() + "}, {wait: 5}]}";
+      return "force_success: {fallback: [{" + first + "}, {" + go_to_place() + "}, {wait: 5}]}";
     }
     case 5:
-      return "always: {reactive_sequence: [{time_before: 3000}, {" + goal() + "}]}";
+      return "force_success: {reactive_sequence: [{time_before: 3000}, {" + goal() + "}]}";
     case 6: {
       const std::string first = go_to_place();
-      return "always: {repeat: {times: 2, do: [{" + first + "}, {" + go_to_place() + "}]}}";
+      return "force_success: {repeat: {times: 2, do: [{" + first + "}, {" + go_to_place() + "}]}}";
     }
     case 7:
-      return fmt::format("always: {{timeout: {{after_s: {:g}, do: {{patrol: {{rounds: 2, {}}}}}}}}}",
+      return fmt::format("force_success: {{timeout: {{after_s: {:g}, do: {{patrol: {{rounds: 2, {}}}}}}}}}",
                          3.0 * config_.goal_at_most_s, places());
     default:
-      return "always: {" + goal() + "}";
+      return "force_success: {" + goal() + "}";
   }
 }
 
 std::string Drawing::steps() {
   std::string text =
       fmt::format("  - always: {{explore: {{until_known_ratio: 0.97, at_most_s: {:g}}}}}\n", config_.explore_at_most_s);
-  const int goals = chance_.whole(config_.least_goals, std::max(config_.least_goals, config_.most_goals));
+  const int goals = chance_.whole(config_.min_goals, std::max(config_.min_goals, config_.max_goals));
   for (int i = 0; i < goals; ++i) {
     text += "  - " + step() + "\n";
     if (chance_.share() < 0.2) text += fmt::format("  - wait: {:.1f}\n", chance_.between(1.0, 20.0));

@@ -18,7 +18,7 @@ struct Thing {
   double angle_deg = 0.0;
 };
 
-Thing landmark(const RandomWorldConfig& config, const std::vector<LandmarkShape>& shapes, Chance& chance) {
+Thing landmark(const RandomWorldConfig& config, const std::vector<LandmarkShape>& shapes, PortableRandom& chance) {
   const LandmarkShape& shape = shapes[static_cast<std::size_t>(chance.whole(0, static_cast<int>(shapes.size()) - 1))];
   const double scale = 1.0 + config.size_tolerance_ratio * chance.between(-1.0, 1.0);
   return {fmt::format("template: {}, scale: {:.3f}", shape.category, scale),
@@ -28,7 +28,7 @@ Thing landmark(const RandomWorldConfig& config, const std::vector<LandmarkShape>
 }
 
 // What stands about in rooms: a pole, a shelf, an angle of two shelves.
-Thing distractor(Chance& chance) {
+Thing distractor(PortableRandom& chance) {
   const int kind = chance.whole(0, 2);
   const double long_m = chance.between(0.75, 1.0);
   const double thin_m = chance.between(0.15, 0.3);
@@ -48,7 +48,8 @@ Thing distractor(Chance& chance) {
 }
 
 // Whether all things found a place.
-bool place_all(const RandomWorldConfig& config, const Point& room_m, std::vector<Thing>& things, Chance& chance) {
+bool place_all(const RandomWorldConfig& config, const Point& room_m, std::vector<Thing>& things,
+               PortableRandom& chance) {
   constexpr int kTries = 200;
   for (std::size_t i = 0; i < things.size(); ++i) {
     Thing& thing = things[i];
@@ -74,7 +75,7 @@ double distance_to_way(const Point& p, const Point& a, const Point& b) {
 
 // A line of the world file, or none where no way is free.
 std::string mover(const RandomWorldConfig& config, const Point& room_m, const std::vector<Thing>& things, int number,
-                  Chance& chance) {
+                  PortableRandom& chance) {
   constexpr int kTries = 200;
   constexpr double kDiameter_m = 0.4;
   constexpr double kClear_m = 0.1;
@@ -113,8 +114,8 @@ struct Annex {
   double for_s;
 };
 
-std::vector<Annex> annexes(const RandomWorldConfig& config, Point& size_m, Chance& chance) {
-  std::vector<Annex> rooms(static_cast<std::size_t>(chance.whole(0, config.most_doors)));
+std::vector<Annex> annexes(const RandomWorldConfig& config, Point& size_m, PortableRandom& chance) {
+  std::vector<Annex> rooms(static_cast<std::size_t>(chance.whole(0, config.max_doors)));
   for (Annex& room : rooms) {
     room.west_m = size_m.x();
     room.width_m = std::min(1.0, 0.5 * size_m.y());
@@ -138,9 +139,9 @@ std::string doors_text(const std::vector<Annex>& rooms) {
 }
 
 std::string movers_text(const RandomWorldConfig& config, const Point& room_m, const std::vector<Thing>& things,
-                        Chance& chance) {
+                        PortableRandom& chance) {
   std::string text;
-  const int count = chance.whole(0, config.most_movers);
+  const int count = chance.whole(0, config.max_movers);
   for (int i = 1; i <= count; ++i) text += mover(config, room_m, things, i, chance);
   return text.empty() ? text : "movers:\n" + text;
 }
@@ -150,7 +151,7 @@ std::string wall(const Point& from_m, const Point& to_m, const std::string& surf
                      to_m.x(), to_m.y(), surface);
 }
 
-std::string surface(double specular_ratio, Chance& chance) {
+std::string surface(double specular_ratio, PortableRandom& chance) {
   return chance.share() < specular_ratio ? "smooth" : "rough";
 }
 
@@ -162,35 +163,35 @@ void RandomWorldConfig::describe(Fields<RandomWorldConfig>& fields) {
   fields.point("smallest_room_m", &C::smallest_room_m, "m", "least length and width of the room", kRoom_m);
   fields.point("largest_room_m", &C::largest_room_m, "m",
                "greatest length and width; a room that is too full is made larger all the same", kRoom_m);
-  fields.integer("least_landmarks", &C::least_landmarks, {0.0, 100.0}, "at least so many landmarks");
-  fields.integer("most_landmarks", &C::most_landmarks, {0.0, 100.0}, "at most so many landmarks");
-  fields.integer("most_distractors", &C::most_distractors, {0.0, 100.0},
+  fields.integer("min_landmarks", &C::min_landmarks, {0.0, 100.0}, "at least so many landmarks");
+  fields.integer("max_landmarks", &C::max_landmarks, {0.0, 100.0}, "at most so many landmarks");
+  fields.integer("max_distractors", &C::max_distractors, {0.0, 100.0},
                  "at most so many poles, shelves and angles that no template describes");
   fields.number("size_tolerance_ratio", &C::size_tolerance_ratio, {0.0, 0.5}, "",
                 "landmarks are larger or smaller than their template by up to this share");
   fields.number("gap_m", &C::gap_m, {0.3, 10.0}, "m", "free space between things, and between them and the walls");
   fields.point("start_m", &C::start_m, "m", "where the mission's robot begins; kept free", {0.0, kRoom_m.max});
   fields.number("start_gap_m", &C::start_gap_m, {0.1, 10.0}, "m", "free space round it");
-  fields.integer("most_movers", &C::most_movers, {0.0, 20.0}, "at most so many people that go there and back");
-  fields.integer("most_doors", &C::most_doors, {0.0, 5.0},
+  fields.integer("max_movers", &C::max_movers, {0.0, 20.0}, "at most so many people that go there and back");
+  fields.integer("max_doors", &C::max_doors, {0.0, 5.0},
                  "at most so many doors that open and close, each to one more room in the east");
 }
 
 std::string random_world_yaml(const RandomWorldConfig& config, const std::vector<LandmarkShape>& shapes,
                               double specular_ratio, std::uint64_t seed) {
   if (shapes.empty()) throw std::invalid_argument("a random world needs templates to take its landmarks from");
-  Chance chance(seed);
-  Chance surfaces(~seed);
+  PortableRandom chance(seed);
+  PortableRandom surfaces(~seed);
   Point room_m{chance.between(config.smallest_room_m.x(), config.largest_room_m.x()), 0.0};
   room_m.y() = chance.between(config.smallest_room_m.y(), config.largest_room_m.y());
   std::vector<Thing> things;
-  const int landmarks = chance.whole(config.least_landmarks, std::max(config.least_landmarks, config.most_landmarks));
+  const int landmarks = chance.whole(config.min_landmarks, std::max(config.min_landmarks, config.max_landmarks));
   for (int i = 0; i < landmarks; ++i) things.push_back(landmark(config, shapes, chance));
-  const int distractors = chance.whole(0, config.most_distractors);
+  const int distractors = chance.whole(0, config.max_distractors);
   for (int i = 0; i < distractors; ++i) things.push_back(distractor(chance));
   while (!place_all(config, room_m, things, chance)) room_m += Point(0.25, 0.25);
-  Chance moving(seed ^ 0x6d6f76696e670000ULL);  // streams of their own: without them the rest stays as it is
-  Chance opening(seed ^ 0x646f6f7273000000ULL);
+  PortableRandom moving(seed ^ 0x6d6f76696e670000ULL);  // streams of their own: without them the rest stays as it is
+  PortableRandom opening(seed ^ 0x646f6f7273000000ULL);
   const Point first_room_m = room_m;
   const std::vector<Annex> rooms = annexes(config, room_m, opening);
   const double x = room_m.x();

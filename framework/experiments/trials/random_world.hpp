@@ -14,15 +14,15 @@ namespace cairn {
 struct RandomWorldConfig {
   Point smallest_room_m{5.0, 4.5};
   Point largest_room_m{8.0, 6.0};
-  int least_landmarks = 1;
-  int most_landmarks = 6;
-  int most_distractors = 2;
+  int min_landmarks = 1;
+  int max_landmarks = 6;
+  int max_distractors = 2;
   double size_tolerance_ratio = 0.1;
   double gap_m = 1.2;
   Point start_m{0.6, 0.6};
   double start_gap_m = 0.5;
-  int most_movers = 0;
-  int most_doors = 0;
+  int max_movers = 0;
+  int max_doors = 0;
   static void describe(Fields<RandomWorldConfig>& fields);
 };
 

@@ -45,7 +45,7 @@ std::string share_text(const Interval& share, std::int64_t of) {
   return fmt::format("{} of {}", text_of(share, 4), of);
 }
 
-const std::vector<Figure>& figures_told() {
+const std::vector<Figure>& reported_figures() {
   using F = TrialFigures;
   static const std::vector<Figure> kFigures{
       {"missions", [](const F& f) { return whole(f.missions); }},
@@ -79,7 +79,7 @@ std::string figures_text(const ExperimentConfig& config, const std::vector<Trial
     rule += "---:|";
   }
   text += "\n" + rule + "\n";
-  for (const Figure& figure : figures_told()) {
+  for (const Figure& figure : reported_figures()) {
     text += std::string("| ") + figure.name + " |";
     for (const TrialFigures& figures : all) text += " " + figure.text(figures) + " |";
     text += "\n";
@@ -104,7 +104,7 @@ std::string events_text(const TrialsConfig& config, const Rows& rows) {
     if (row->trial->hangs(config))
       add(*row, "hang", row->trial->stand.begin_s, fmt::format("stood for {:.0f} s", row->trial->stand.for_s));
     if (is_crash(*row)) add(*row, std::string(name_of(row->result.outcome)), row->result.time_s, row->result.reason);
-    if (row->trial->silences.worst_stop_ticks > config.most_stop_ticks)
+    if (row->trial->silences.worst_stop_ticks > config.max_stop_ticks)
       add(*row, "late stop", 0.0, fmt::format("in tick {}", row->trial->silences.worst_stop_ticks));
   }
   return lines.empty() ? "" : "| seed | time s | what | |\n|---:|---:|---|---|\n" + lines + "\n";
@@ -178,11 +178,11 @@ std::vector<std::string> broken_limits(const ExperimentConfig& config, const std
         f.reached_fairly.value >= config.at_least_ratio || f.unfaulted == 0,
         fmt::format("{:.4f} of the goals reached, asked for are {:g}", f.reached_fairly.value, config.at_least_ratio));
     check(
-        f.fast_contacts <= trials.most_fast_contacts,
-        fmt::format("{} fast contacts that could be seen, allowed are {}", f.fast_contacts, trials.most_fast_contacts));
-    check(f.worst_stop_ticks <= trials.most_stop_ticks,
+        f.fast_contacts <= trials.max_fast_contacts,
+        fmt::format("{} fast contacts that could be seen, allowed are {}", f.fast_contacts, trials.max_fast_contacts));
+    check(f.worst_stop_ticks <= trials.max_stop_ticks,
           fmt::format("ordered to stand in tick {} without readings, allowed is {}", f.worst_stop_ticks,
-                      trials.most_stop_ticks));
+                      trials.max_stop_ticks));
     check(f.hangs == 0, fmt::format("{} hangs", f.hangs));
     check(f.faults == 0, fmt::format("{} missions ended by a fault of a module or sensor", f.faults));
     check(f.without_outcome == 0, fmt::format("{} missions ended without a reason", f.without_outcome));
@@ -193,9 +193,9 @@ std::vector<std::string> broken_limits(const ExperimentConfig& config, const std
 std::vector<std::string> too_long(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   std::vector<std::string> seeds;
   for (const ExperimentRow& row : rows)
-    if (row.wall_s > config.trials.most_wall_s)
+    if (row.wall_s > config.trials.max_wall_s)
       seeds.push_back(fmt::format("{}: seed {} took {:.0f} s of wall clock, allowed are {:g}: a hang", row.variant,
-                                  row.seed, row.wall_s, config.trials.most_wall_s));
+                                  row.seed, row.wall_s, config.trials.max_wall_s));
   return seeds;
 }
 

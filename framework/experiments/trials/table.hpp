@@ -41,7 +41,7 @@ struct TrialFigures {
 // A sentence for each limit that a variant has not kept; none of the wall clock.
 [[nodiscard]] std::vector<std::string> broken_limits(const ExperimentConfig& config,
                                                      const std::vector<ExperimentRow>& rows);
-// Seeds that took longer than trials.most_wall_s, as a sentence each.
+// Seeds that took longer than trials.max_wall_s, as a sentence each.
 [[nodiscard]] std::vector<std::string> too_long(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
 
 // Markdown.

@@ -39,9 +39,9 @@ std::filesystem::path write_trial(const TrialsConfig& config, const RandomWorldC
   std::filesystem::create_directories(folder);
   const auto number = static_cast<std::uint64_t>(seed);
   constexpr std::uint64_t kTrial = 100;  // beside the mission's own streams
-  Chance chance(number, kTrial);
+  PortableRandom chance(number, kTrial);
   const std::vector<LandmarkShape> shapes = load_landmark_shapes(config.templates);
-  const double specular_ratio = chance.between(0.0, config.most_specular_ratio);
+  const double specular_ratio = chance.between(0.0, config.max_specular_ratio);
   const int robot = chance.whole(0, static_cast<int>(config.robots.size()) - 1);
   MissionFiles files;
   files.robot = std::filesystem::absolute(config.robots[static_cast<std::size_t>(robot)]).lexically_normal();

@@ -12,7 +12,7 @@
 
 namespace cairn {
 
-inline constexpr double kMostRadius_m = 10.0;  // of a robot that a plan is for
+inline constexpr double kMaxRadius_m = 10.0;  // of a robot that a plan is for
 
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitNotSolved = 1;
@@ -97,7 +97,7 @@ struct ExchangeCommand {
 int map_import(const ExchangeCommand& command, const CommonOptions& common);
 int map_export(const ExchangeCommand& command, const CommonOptions& common);
 
-inline constexpr double kMostCoordinate = 1e6;  // of a box or a transform, in metres or degrees
+inline constexpr double kMaxCoordinate = 1e6;  // of a box or a transform, in metres or degrees
 
 struct MergeCommand {
   std::filesystem::path a;

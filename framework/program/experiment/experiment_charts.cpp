@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "framework/experiments/recognition/curves_table.hpp"
-#include "framework/experiments/recognition/lap_table.hpp"
+#include "framework/experiments/recognition/orbit_table.hpp"
 #include "framework/experiments/recognition/recognition_table.hpp"
 #include "framework/experiments/report.hpp"
 #include "framework/program/run/pictures.hpp"
@@ -46,13 +46,13 @@ std::string file_name_of(const std::string& title) {
   return name;
 }
 
-Chart lap_chart(const ExperimentConfig& config, const std::vector<LapSeries>& all, const std::string& title) {
+Chart orbit_chart(const ExperimentConfig& config, const std::vector<OrbitSeries>& all, const std::string& title) {
   Chart chart;
   chart.title = title;
-  chart.x_label = "how far round the " + config.lap->around + ", deg";
+  chart.x_label = "how far round the " + config.orbit->around + ", deg";
   chart.y_label = "degree";
-  const double bin_deg = degrees(config.lap->bin_rad);
-  for (const LapSeries& of : all) {
+  const double bin_deg = degrees(config.orbit->bin_rad);
+  for (const OrbitSeries& of : all) {
     Series series{of.name, {}, SeriesStyle::lines_and_points, {}};
     for (std::size_t b = 0; b < of.bins.size(); ++b) {
       if (!of.bins[b]) continue;
@@ -97,19 +97,20 @@ std::vector<NamedChart> map_charts(const ExperimentConfig& config, const std::ve
   return charts;
 }
 
-std::vector<NamedChart> lap_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+std::vector<NamedChart> orbit_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   std::vector<NamedChart> charts;
   for (const std::string& mission : missions_of(rows))
     for (const ExperimentVariant& variant : config.variants) {
       const auto of_variant = rows_of(rows, mission, variant.name);
       const bool alone = of_variant.size() == rows.size();
-      const std::string name = alone ? "lap" : mission + " " + variant.name;
+      const std::string name = alone ? "orbit" : mission + " " + variant.name;
       charts.push_back({file_name_of(name + " categories"),
-                        lap_chart(config, lap_categories(config, of_variant), "Best degree of each category")});
-      const std::vector<LapSeries> templates = lap_templates(config, of_variant);
+                        orbit_chart(config, orbit_categories(config, of_variant), "Best degree of each category")});
+      const std::vector<OrbitSeries> templates = orbit_templates(config, of_variant);
       if (!templates.empty())
-        charts.push_back({file_name_of(name + " templates"),
-                          lap_chart(config, templates, "Best degree of each template of the " + config.lap->around)});
+        charts.push_back(
+            {file_name_of(name + " templates"),
+             orbit_chart(config, templates, "Best degree of each template of the " + config.orbit->around)});
     }
   return charts;
 }
@@ -156,7 +157,7 @@ std::vector<std::string> write_charts(const ExperimentConfig& config, const std:
                                       const std::filesystem::path& out) {
   std::vector<NamedChart> charts;
   if (config.experiment == ExperimentKind::maps) charts = map_charts(config, rows);
-  if (config.experiment == ExperimentKind::lap) charts = lap_charts(config, rows);
+  if (config.experiment == ExperimentKind::orbit) charts = orbit_charts(config, rows);
   if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
   std::vector<std::string> missing;
   if (config.experiment == ExperimentKind::places) missing = write_place_maps(config, rows, out);

@@ -35,10 +35,10 @@ int set_closed(const CloseCommand& command, bool closed, const CommonOptions& co
   }
   if (!list.empty()) save_map(command.map, map);
   const char* now = closed ? "closed" : "open";
-  tell_people(list.empty() ? std::string("nothing to do: already ") + now
-                           : exchange::counted(list.size(), "route") + " " + now + ": " + changed,
-              {}, common);
-  if (common.json) tell_json({{"map", command.map.string()}, {"changed", list}, {"closed", closed}});
+  print_text(list.empty() ? std::string("nothing to do: already ") + now
+                          : exchange::counted(list.size(), "route") + " " + now + ": " + changed,
+             {}, common);
+  if (common.json) print_json({{"map", command.map.string()}, {"changed", list}, {"closed", closed}});
   return kExitDone;
 }
 

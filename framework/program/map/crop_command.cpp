@@ -11,7 +11,7 @@
 namespace cairn {
 
 int map_crop(const CropCommand& command, const CommonOptions& common) {
-  const std::vector<double> box = number_list(command.box, "x0,y0,x1,y1", "map crop: --box", kMostCoordinate);
+  const std::vector<double> box = number_list(command.box, "x0,y0,x1,y1", "map crop: --box", kMaxCoordinate);
   const SavedMap map = load_map(command.map);
   CroppedMap cropped;
   try {
@@ -30,17 +30,17 @@ int map_crop(const CropCommand& command, const CommonOptions& common) {
   if (cropped.routes_dropped > 0)
     warnings.push_back(exchange::counted(cropped.routes_dropped, "route") + " to the outside or through it: dropped");
   warnings.insert(warnings.end(), cropped.warnings.begin(), cropped.warnings.end());
-  tell_people(fmt::format("wrote {}: {} x {} cells, {}, {}", command.out.string(), cells.width(), cells.height(),
-                          exchange::counted(landmarks, "landmark"), exchange::counted(routes, "route")),
-              warnings, common);
+  print_text(fmt::format("wrote {}: {} x {} cells, {}, {}", command.out.string(), cells.width(), cells.height(),
+                         exchange::counted(landmarks, "landmark"), exchange::counted(routes, "route")),
+             warnings, common);
   if (common.json)
-    tell_json({{"map", command.out.string()},
-               {"size_cells", {cells.width(), cells.height()}},
-               {"landmarks", landmarks},
-               {"routes", routes},
-               {"landmarks_dropped", cropped.landmarks_dropped},
-               {"routes_dropped", cropped.routes_dropped},
-               {"warnings", warnings}});
+    print_json({{"map", command.out.string()},
+                {"size_cells", {cells.width(), cells.height()}},
+                {"landmarks", landmarks},
+                {"routes", routes},
+                {"landmarks_dropped", cropped.landmarks_dropped},
+                {"routes_dropped", cropped.routes_dropped},
+                {"warnings", warnings}});
   return kExitDone;
 }
 

@@ -126,7 +126,7 @@ int map_diff(const DiffCommand& command, const CommonOptions& common) {
   if (common.json) {
     ordered_json json = json_of(difference, a, b);
     if (!command.picture.empty()) json["picture"] = command.picture.string();
-    tell_json(json);
+    print_json(json);
   } else {
     std::cout << command.a.string() << " and " << command.b.string() << ": "
               << (difference.is_same() ? "the same grid, landmarks and routes" : "different") << "\n";

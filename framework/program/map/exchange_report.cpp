@@ -23,12 +23,12 @@ std::vector<std::string> about(const std::filesystem::path& file, std::vector<st
   return warnings;
 }
 
-void tell_people(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common) {
+void print_text(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common) {
   (common.json ? std::cerr : std::cout) << line << "\n";
   for (const std::string& warning : warnings) std::cerr << "  " << warning << "\n";
 }
 
-void tell_json(const nlohmann::ordered_json& json) {
+void print_json(const nlohmann::ordered_json& json) {
   std::cout << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
 }
 

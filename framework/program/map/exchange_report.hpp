@@ -16,7 +16,7 @@ namespace cairn {
 // Warnings with the file that they are about in front.
 [[nodiscard]] std::vector<std::string> about(const std::filesystem::path& file, std::vector<std::string> warnings);
 // The line and the warnings; with --json on standard error, where warnings go anyway.
-void tell_people(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common);
-void tell_json(const nlohmann::ordered_json& json);
+void print_text(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common);
+void print_json(const nlohmann::ordered_json& json);
 
 }  // namespace cairn

@@ -147,12 +147,12 @@ int map_export(const ExchangeCommand& command, const CommonOptions& common) {
   written.warnings = about(command.to, std::move(written.warnings));
   std::string names = command.to.string();
   for (std::size_t i = 1; i < written.files.size(); ++i) names += " and " + written.files[i].string();
-  tell_people("wrote " + names, written.warnings, common);
+  print_text("wrote " + names, written.warnings, common);
   if (common.json)
-    tell_json({{"file", command.to.string()},
-               {"landmarks", map.graph.landmarks().size()},
-               {"routes", map.graph.routes().size()},
-               {"warnings", written.warnings}});
+    print_json({{"file", command.to.string()},
+                {"landmarks", map.graph.landmarks().size()},
+                {"routes", map.graph.routes().size()},
+                {"warnings", written.warnings}});
   return kExitDone;
 }
 

@@ -26,16 +26,16 @@ ordered_json json_of(const LintFinding& finding, const LandmarkGraph& graph) {
 }
 
 void print(const std::vector<LintFinding>& findings) {
-  constexpr int kMostOfAKind = 20;
+  constexpr int kMaxOfAKind = 20;
   std::map<std::string, int> of_kind;
   for (const LintFinding& finding : findings) {
-    if (++of_kind[finding.kind] > kMostOfAKind) continue;
+    if (++of_kind[finding.kind] > kMaxOfAKind) continue;
     std::cout << fmt::format("{:<7} {} at ({:.2f}, {:.2f}): {}\n        {}\n", name_of(finding.severity), finding.kind,
                              finding.at_m.x(), finding.at_m.y(), finding.sentence, finding.advice);
   }
   for (const auto& [kind, times] : of_kind)
-    if (times > kMostOfAKind)
-      std::cout << fmt::format("... and {} more of the kind {}; --json lists all\n", times - kMostOfAKind, kind);
+    if (times > kMaxOfAKind)
+      std::cout << fmt::format("... and {} more of the kind {}; --json lists all\n", times - kMaxOfAKind, kind);
 }
 
 std::string counted(std::int64_t number, const std::string& noun) {

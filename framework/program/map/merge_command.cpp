@@ -12,7 +12,7 @@ namespace cairn {
 
 int map_merge(const MergeCommand& command, const CommonOptions& common) {
   const std::vector<double> transform =
-      number_list(command.transform, "x,y,deg", "map merge: --transform", kMostCoordinate);
+      number_list(command.transform, "x,y,deg", "map merge: --transform", kMaxCoordinate);
   std::error_code error;
   if (std::filesystem::equivalent(command.a, command.b, error))
     throw std::runtime_error("map merge: " + command.a.string() + " and " + command.b.string() +
@@ -31,19 +31,19 @@ int map_merge(const MergeCommand& command, const CommonOptions& common) {
   const std::size_t landmarks = merged.map.graph.landmarks().size();
   const std::size_t routes = merged.map.graph.routes().size();
   const CellBox box = merged.map.grid.bounds();
-  tell_people(fmt::format("wrote {}: {} x {} cells, {}, {}; {} and {} of the second map are also in the first",
-                          command.out.string(), box.width(), box.height(), exchange::counted(landmarks, "landmark"),
-                          exchange::counted(routes, "route"), exchange::counted(merged.joined_landmarks, "landmark"),
-                          exchange::counted(merged.joined_routes, "route")),
-              merged.warnings, common);
+  print_text(fmt::format("wrote {}: {} x {} cells, {}, {}; {} and {} of the second map are also in the first",
+                         command.out.string(), box.width(), box.height(), exchange::counted(landmarks, "landmark"),
+                         exchange::counted(routes, "route"), exchange::counted(merged.joined_landmarks, "landmark"),
+                         exchange::counted(merged.joined_routes, "route")),
+             merged.warnings, common);
   if (common.json)
-    tell_json({{"map", command.out.string()},
-               {"size_cells", {box.width(), box.height()}},
-               {"landmarks", landmarks},
-               {"routes", routes},
-               {"joined_landmarks", merged.joined_landmarks},
-               {"joined_routes", merged.joined_routes},
-               {"warnings", merged.warnings}});
+    print_json({{"map", command.out.string()},
+                {"size_cells", {box.width(), box.height()}},
+                {"landmarks", landmarks},
+                {"routes", routes},
+                {"joined_landmarks", merged.joined_landmarks},
+                {"joined_routes", merged.joined_routes},
+                {"warnings", merged.warnings}});
   return kExitDone;
 }
 

@@ -58,7 +58,8 @@ int map_check(const MapCommand& command, const CommonOptions& common) {
   try {
     if (!fault.empty()) losses = salvage_map(command.map).losses;
   } catch (const StoreError& error) {  // no saved map at all, or nothing left of one
-    if (common.json) tell_json({{"file", command.map.string()}, {"outcome", "not_readable"}, {"reason", error.what()}});
+    if (common.json)
+      print_json({{"file", command.map.string()}, {"outcome", "not_readable"}, {"reason", error.what()}});
     throw;
   }
   if (common.json) {
@@ -68,7 +69,7 @@ int map_check(const MapCommand& command, const CommonOptions& common) {
       report["reason"] = fault;
       report["lost"] = json_of(losses);
     }
-    tell_json(report);
+    print_json(report);
   } else if (fault.empty()) {
     std::cout << command.map.string() << ": sound"
               << (unproven.empty() ? "" : ", but a repair has kept values that are not proven, in: " + unproven)
@@ -96,11 +97,11 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
       salvaged.losses.empty() ? "nothing was lost" : "saved without the above", salvaged.map.graph.landmarks().size(),
       salvaged.map.graph.routes().size(), 100.0 * known_ratio(salvaged.map.grid));
   if (common.json)
-    tell_json({{"file", command.map.string()},
-               {"map", command.repaired.string()},
-               {"outcome", is_sound ? "sound" : "repaired"},
-               {"lost", json_of(salvaged.losses)},
-               {"kept", json_of_kept(salvaged.map)}});
+    print_json({{"file", command.map.string()},
+                {"map", command.repaired.string()},
+                {"outcome", is_sound ? "sound" : "repaired"},
+                {"lost", json_of(salvaged.losses)},
+                {"kept", json_of_kept(salvaged.map)}});
   return kExitDone;
 }
 

@@ -54,7 +54,7 @@ std::string left_text(const ordered_json& status) {
   const auto most = status.find("eta_at_most_s");
   if (eta == status.end() || most == status.end()) return "";
   left.about_s = number_in(status, "eta_s");
-  if (most->is_number()) left.most_s = most->get<double>();
+  if (most->is_number()) left.max_s = most->get<double>();
   if (const auto without = status.find("eta_without"); without != status.end() && without->is_array())
     for (const ordered_json& what : *without)
       if (what.is_string()) left.without.push_back(what.get<std::string>());
@@ -119,7 +119,7 @@ ordered_json parsed(const std::filesystem::path& folder, const std::string& line
 }
 
 // What has come of the command, and whether it is what was wanted.
-std::pair<std::string, bool> told(const std::string& command, const ordered_json& answer) {
+std::pair<std::string, bool> reported(const std::string& command, const ordered_json& answer) {
   const std::string mission = "mission " + text_in(answer, "mission");
   const std::string state = text_in(answer, "state");
   const std::string outcome = text_in(answer, "outcome");
@@ -143,7 +143,7 @@ int mission_control(const MissionControlCommand& command, const CommonOptions& c
   if (reached.reached == Reached::left_behind) throw std::runtime_error(cut_short_text(command.out));
   if (reached.reached == Reached::nobody) fail_nobody(command.out);
   const ordered_json answer = parsed(command.out, reached.line);
-  const auto [text, is_done] = told(command.command, answer);
+  const auto [text, is_done] = reported(command.command, answer);
   (common.json ? std::cerr : std::cout) << text << "\n";
   if (common.json) std::cout << answer.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
   return is_done ? kExitDone : kExitNotSolved;

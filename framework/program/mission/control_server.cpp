@@ -25,7 +25,7 @@ constexpr seconds kAskWithin(2);
 constexpr seconds kTickWithin(10);  // a planner may be at work
 constexpr seconds kEndWithin(60);   // the map is saved
 constexpr seconds kLineWithin(2);
-constexpr std::size_t kMostAnswers = 16;  // at once
+constexpr std::size_t kMaxAnswers = 16;  // at once
 constexpr std::chrono::milliseconds kNoneLeftFor(100);
 
 double rounded(double value) {
@@ -58,7 +58,7 @@ ordered_json json_of(const RunStatus& status) {
           {"landmarks", status.landmarks},
           {"eta_s", is_known && status.left ? ordered_json(rounded(left.about_s)) : ordered_json(nullptr)},
           {"eta_without", status.left ? left.without : std::vector<std::string>{}},
-          {"eta_at_most_s", number_or_null(left.most_s)},
+          {"eta_at_most_s", number_or_null(left.max_s)},
           {"outcome", status.outcome},
           {"reason", status.reason},
           {"map", status.map_file}};
@@ -133,7 +133,7 @@ void ControlServer::serve() {
 
 void ControlServer::take(Descriptor connection) {
   std::erase_if(answers_, [](const Answer& given) { return given.is_given.load(); });
-  if (answers_.size() >= kMostAnswers) {
+  if (answers_.size() >= kMaxAnswers) {
     write_line(connection.get(), refusal("too many commands at once; ask again"));
     return;
   }
@@ -155,9 +155,9 @@ void ControlServer::answer(int connection) {
     write_line(connection, refusal("only the user who runs the mission may control it"));
     return;
   }
-  const std::optional<std::string> command = read_line(connection, kMostCommandBytes, kLineWithin);
+  const std::optional<std::string> command = read_line(connection, kMaxCommandBytes, kLineWithin);
   write_line(connection, command ? answer_to(*command, control_)
-                                 : refusal("a command is one line of at most " + std::to_string(kMostCommandBytes) +
+                                 : refusal("a command is one line of at most " + std::to_string(kMaxCommandBytes) +
                                            " bytes, sent within 2 s"));
 }
 

@@ -16,7 +16,7 @@ namespace cairn {
 namespace {
 
 constexpr std::chrono::seconds kAnswerWithin(90);  // longer than a mission takes to stop
-constexpr std::size_t kMostAnswerBytes = 1U << 20U;
+constexpr std::size_t kMaxAnswerBytes = 1U << 20U;
 
 std::string text_of_error(int error) {
   return std::strerror(error);
@@ -81,11 +81,11 @@ void remove_socket(const std::filesystem::path& folder) {
   std::filesystem::remove(folder / kControlSocket, error);
 }
 
-std::optional<std::string> read_line(int socket, std::size_t most_bytes, std::chrono::milliseconds at_most) {
+std::optional<std::string> read_line(int socket, std::size_t max_bytes, std::chrono::milliseconds at_most) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point until = Clock::now() + at_most;
   std::string text;
-  while (text.size() <= most_bytes) {
+  while (text.size() <= max_bytes) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
     pollfd ready{socket, POLLIN, 0};
     const int count = left.count() <= 0 ? 0 : ::poll(&ready, 1, static_cast<int>(left.count()));
@@ -97,7 +97,7 @@ std::optional<std::string> read_line(int socket, std::size_t most_bytes, std::ch
     if (got < 0) return std::nullopt;
     if (got == 0) return text;
     text.append(buffer, static_cast<std::size_t>(got));
-    if (const std::size_t end = text.find('\n'); end != std::string::npos && end <= most_bytes) {
+    if (const std::size_t end = text.find('\n'); end != std::string::npos && end <= max_bytes) {
       text.resize(end);
       return text;
     }
@@ -125,7 +125,7 @@ ControlAnswer ask_mission(const std::filesystem::path& folder, const std::string
     fail(folder, errno == EACCES ? "only the user who runs the mission may control it" : text_of_error(errno));
   }
   std::optional<std::string> line;
-  if (write_line(made.get(), command)) line = read_line(made.get(), kMostAnswerBytes, kAnswerWithin);
+  if (write_line(made.get(), command)) line = read_line(made.get(), kMaxAnswerBytes, kAnswerWithin);
   if (!line || line->empty()) fail(folder, "the mission does not answer");
   return {Reached::answered, *line};
 }

@@ -12,7 +12,7 @@
 namespace cairn {
 
 inline constexpr const char* kControlSocket = "control.sock";
-inline constexpr std::size_t kMostCommandBytes = 256;
+inline constexpr std::size_t kMaxCommandBytes = 256;
 
 // Closed with its owner.
 class Descriptor {
@@ -33,7 +33,7 @@ class Descriptor {
 void remove_socket(const std::filesystem::path& folder);
 
 // Up to the first line end, or the end of what comes; nothing when it is longer than that, or slower.
-[[nodiscard]] std::optional<std::string> read_line(int socket, std::size_t most_bytes,
+[[nodiscard]] std::optional<std::string> read_line(int socket, std::size_t max_bytes,
                                                    std::chrono::milliseconds at_most);
 // False when the other end has gone.
 bool write_line(int socket, std::string line);

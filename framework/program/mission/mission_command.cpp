@@ -42,7 +42,7 @@ BoxKind box_kind_of(NodeKind kind) {
   if (kind == NodeKind::behaviour) return BoxKind::action;
   if (is_condition(kind)) return BoxKind::question;
   const bool wraps = kind == NodeKind::repeat || kind == NodeKind::retry || kind == NodeKind::timeout ||
-                     kind == NodeKind::inverse || kind == NodeKind::always;
+                     kind == NodeKind::inverse || kind == NodeKind::force_success;
   return wraps ? BoxKind::wrapper : BoxKind::branch;
 }
 

@@ -73,7 +73,7 @@ bool LineReader::next(std::string& line) {
       return true;
     }
     const std::size_t length = read_.size() - begin_;
-    if (length > kMostBytes) throw ConfigError({file_, number_ + 1, 1}, "a line of more than 1 MiB");
+    if (length > kMaxBytes) throw ConfigError({file_, number_ + 1, 1}, "a line of more than 1 MiB");
     at_end_ = !read_more();
     searched = begin_ + std::min(length, read_.size() - begin_);
   }

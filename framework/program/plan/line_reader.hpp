@@ -9,7 +9,7 @@ namespace cairn {
 
 class LineReader {
  public:
-  static constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of a line
+  static constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  // of a line
 
   // "-" is standard input. Throws ConfigError when the file cannot be opened.
   explicit LineReader(const std::string& file);

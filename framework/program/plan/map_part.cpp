@@ -49,9 +49,8 @@ bool costs_are_lengths(const LandmarkGraph& graph) {
       return (pose.position() - from).norm() + (to - pose.position()).norm();
     };
     return route.cost_m >= kRounding * (to - from).norm() &&
-           std::all_of(route.trajectory.begin(), route.trajectory.end(), [&](const Pose2& pose) {
-             return route.cost_m >= kRounding * by_way_of(pose) - kMostRounding_m;
-           });
+           std::all_of(route.trajectory.begin(), route.trajectory.end(),
+                       [&](const Pose2& pose) { return route.cost_m >= kRounding * by_way_of(pose) - kMaxRounding_m; });
   });
 }
 
@@ -69,11 +68,11 @@ CellBox part_for(const MapEnds& ends, double length_m, double around_m, const Oc
   return intersected(box, whole);
 }
 
-double least_outside_m(const MapEnds& ends, const CellBox& part, double around_m, const OccupancyGrid& lattice,
-                       const CellBox& whole) {
+double min_outside_m(const MapEnds& ends, const CellBox& part, double around_m, const OccupancyGrid& lattice,
+                     const CellBox& whole) {
   const Point low = lattice.origin_m() + lattice.cell_m() * Point(part.min.x, part.min.y);
   const Point high = lattice.origin_m() + lattice.cell_m() * Point(part.max.x, part.max.y);
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   for (const int axis : {0, 1}) {
     const double along_m = ends.to[1 - axis] - ends.from[1 - axis];
     const auto by = [&](bool open, double a_m, double b_m) {
@@ -81,13 +80,13 @@ double least_outside_m(const MapEnds& ends, const CellBox& part, double around_m
       const double off_a_m = a_m - around_m;
       const double off_b_m = b_m - around_m;
       const bool inside = off_a_m > 0.0 && off_b_m > 0.0;
-      least_m = std::min(least_m, inside ? by_way_of_m(off_a_m, off_b_m, along_m) : 0.0);
+      min_m = std::min(min_m, inside ? by_way_of_m(off_a_m, off_b_m, along_m) : 0.0);
     };
     const auto coordinate = [axis](Cell cell) { return axis == 0 ? cell.x : cell.y; };
     by(coordinate(part.min) > coordinate(whole.min), ends.from[axis] - low[axis], ends.to[axis] - low[axis]);
     by(coordinate(part.max) < coordinate(whole.max), high[axis] - ends.from[axis], high[axis] - ends.to[axis]);
   }
-  return least_m;
+  return min_m;
 }
 
 }  // namespace cairn

@@ -29,7 +29,7 @@ struct MapEnds {
 
 // No way that comes within `around_m` of the rim of `part` is shorter, where the map goes on behind it; +inf where it
 // does not.
-[[nodiscard]] double least_outside_m(const MapEnds& ends, const CellBox& part, double around_m,
-                                     const OccupancyGrid& lattice, const CellBox& whole);
+[[nodiscard]] double min_outside_m(const MapEnds& ends, const CellBox& part, double around_m,
+                                   const OccupancyGrid& lattice, const CellBox& whole);
 
 }  // namespace cairn

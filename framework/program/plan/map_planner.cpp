@@ -127,8 +127,8 @@ std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request, B
     const bool is_clear_of_all = result.clearance_m + robot_.radius_m >= kAround_m / 2;
     if (result.outcome != PlanOutcome::solved || is_clear_of_all) return std::nullopt;
     length_m = std::max(result.cost_m, result.length_m);
-    if (length_m <= least_outside_m({result.path.front().position(), result.path.back().position()}, box, kAround_m / 2,
-                                    map_.grid, whole))
+    if (length_m <= min_outside_m({result.path.front().position(), result.path.back().position()}, box, kAround_m / 2,
+                                  map_.grid, whole))
       return result;
   }
   return std::nullopt;

@@ -37,7 +37,7 @@ std::string json_line_of(const PlanQuery& query, const PlanResult& result, const
 
 std::string text_for_people(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {
   std::ostringstream text;
-  tell_people(text, query, result, planner.map(), clusters_for(planner, result));
+  print_text(text, query, result, planner.map(), clusters_for(planner, result));
   if (const auto trajectory = trajectory_for(planner, query, result); !trajectory.empty())
     text << fmt::format("  driven in {:.1f} s\n", trajectory.back().time_s);
   return text.str();

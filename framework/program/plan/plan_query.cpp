@@ -7,8 +7,8 @@
 namespace cairn {
 namespace {
 
-void tell_explanation(std::ostream& out, const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
-                      const ClusterTree& clusters) {
+void report_explanation(std::ostream& out, const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
+                        const ClusterTree& clusters) {
   const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no way";
   out << fmt::format("  by {}: {}; settled", name_of(kind), cost);
   for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level) {
@@ -32,23 +32,24 @@ void tell_explanation(std::ostream& out, const PlanExplanation& explanation, Cos
 }
 
 // What the path is made of, in its order.
-void tell_pieces(std::ostream& out, const PlanResult& result) {
-  if (result.pieces.empty()) return;
+void report_segments(std::ostream& out, const PlanResult& result) {
+  if (result.segments.empty()) return;
   const char* between = "  made of";
-  for (const PlanPiece& piece : result.pieces) {
+  for (const PathSegment& piece : result.segments) {
     out << between << ' ' << name_of(piece.origin);
     if (piece.route != 0) out << " R" << piece.route;
     out << fmt::format(" {:.2f} m", piece.length_m);
     between = ",";
   }
-  if (result.least_length_m) out << fmt::format("; no path can be shorter than {:.2f} m", *result.least_length_m);
+  if (result.length_lower_bound_m)
+    out << fmt::format("; no path can be shorter than {:.2f} m", *result.length_lower_bound_m);
   out << "\n";
 }
 
 }  // namespace
 
-void tell_people(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
-                 const ClusterTree& clusters) {
+void print_text(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
+                const ClusterTree& clusters) {
   out << fmt::format("{} -> {}: {}", query.question.from, query.question.to, name_of(result.outcome));
   const bool on_grid = !map.grid.bounds().empty();
   if (result.outcome == PlanOutcome::solved)
@@ -69,8 +70,9 @@ void tell_people(std::ostream& out, const PlanQuery& query, const PlanResult& re
     list(other.landmarks);
     out << "\n";
   }
-  if (query.question.explain) tell_pieces(out, result);
-  if (result.explanation) tell_explanation(out, *result.explanation, cost_kind_of(query.question.cost), map, clusters);
+  if (query.question.explain) report_segments(out, result);
+  if (result.explanation)
+    report_explanation(out, *result.explanation, cost_kind_of(query.question.cost), map, clusters);
 }
 
 }  // namespace cairn

@@ -23,7 +23,7 @@ struct PlanQuery {
 [[nodiscard]] PlanQuery query_of_line(const std::string& line, const std::string& file, int number,
                                       const PlanQuestion& defaults);
 
-void tell_people(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
-                 const ClusterTree& clusters);
+void print_text(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
+                const ClusterTree& clusters);
 
 }  // namespace cairn

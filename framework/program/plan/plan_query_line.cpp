@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMostAlternatives = 1000;
+constexpr int kMaxAlternatives = 1000;
 constexpr const char* kExpected = "expected one JSON object {\"id\", \"from\", \"to\"} a line";
 
 // Where a key and its value begin, from 1.
@@ -108,8 +108,8 @@ bool flag_of(const json& value, const std::string& key, const SourcePlace& place
 }
 
 int alternatives_of(const json& value, const SourcePlace& place) {
-  if (!value.is_number_unsigned() || value > kMostAlternatives)
-    throw ConfigError(place, fmt::format("\"alternatives\" must be a whole number of 0 to {}", kMostAlternatives));
+  if (!value.is_number_unsigned() || value > kMaxAlternatives)
+    throw ConfigError(place, fmt::format("\"alternatives\" must be a whole number of 0 to {}", kMaxAlternatives));
   return value;
 }
 

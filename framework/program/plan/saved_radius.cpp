@@ -13,7 +13,7 @@ double saved_radius_m(const SavedMap& map, const std::filesystem::path& file) {
   double radius_m = -1.0;
   const std::string& text = found->second;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), radius_m).ptr;
-  if (end != text.data() + text.size() || !(radius_m >= 0.0 && radius_m <= kMostRadius_m))
+  if (end != text.data() + text.size() || !(radius_m >= 0.0 && radius_m <= kMaxRadius_m))
     throw StoreError(file.string() + ": robot_radius_m must be a number of 0 to 10 m, is \"" + text + "\"");
   return radius_m;
 }

@@ -7,9 +7,9 @@
 namespace cairn {
 namespace {
 
-constexpr double kRedraw_s = 2.0;      // of mission time
-constexpr double kTellEvery_s = 60.0;  // the same, where nothing can be drawn over
-constexpr std::size_t kMostColumns = 110;
+constexpr double kRedraw_s = 2.0;        // of mission time
+constexpr double kReportEvery_s = 60.0;  // the same, where nothing can be drawn over
+constexpr std::size_t kMaxColumns = 110;
 
 std::string ended_text(const std::string& which, const std::string& name, const Status& status, bool is_halted) {
   const char* const how = is_halted ? "halted" : status.progress == Progress::success ? "done" : "failed";
@@ -28,45 +28,47 @@ std::string progress_text(const RunStatus& status) {
 
 void ProgressLine::on(const Event& event, const MissionView& view) {
   const double time_s = view.world.time_s;
-  if (std::holds_alternative<TickDone>(event) && std::abs(time_s - drawn_at_s_) >= (live_ ? kRedraw_s : kTellEvery_s)) {
+  if (std::holds_alternative<TickDone>(event) &&
+      std::abs(time_s - drawn_at_s_) >= (live_ ? kRedraw_s : kReportEvery_s)) {
     drawn_at_s_ = time_s;
     if (live_)
       draw();
     else
-      tell(time_s, progress_text(status_()));
+      report(time_s, progress_text(status_()));
   }
   if (const auto* e = std::get_if<LandmarkChanged>(&event); e != nullptr && e->is_new)
-    tell(time_s,
-         fmt::format("found {}: {} at ({:.2f}, {:.2f}), degree {:.2f}", label_of(e->landmark), e->landmark.category,
-                     e->landmark.T_map_landmark.x_m, e->landmark.T_map_landmark.y_m, e->landmark.degree));
-  tell_nodes(event, time_s);
+    report(time_s,
+           fmt::format("found {}: {} at ({:.2f}, {:.2f}), degree {:.2f}", label_of(e->landmark), e->landmark.category,
+                       e->landmark.T_map_landmark.x_m, e->landmark.T_map_landmark.y_m, e->landmark.degree));
+  report_nodes(event, time_s);
   if (const auto* e = std::get_if<Autosaved>(&event)) {
-    tell(time_s, fmt::format("autosaved {}: all up to {:.3f} s, in {:.0f} ms", e->file_name, e->time_s, e->took_ms));
+    report(time_s, fmt::format("autosaved {}: all up to {:.3f} s, in {:.0f} ms", e->file_name, e->time_s, e->took_ms));
     out_ << std::flush;
   }
   if (const auto* e = std::get_if<AutosaveFailed>(&event))
-    tell(time_s, "autosaving failed, the mission goes on: " + e->reason);
-  if (const auto* e = std::get_if<Said>(&event)) tell(time_s, e->sentence);
-  if (std::holds_alternative<Bumped>(event)) tell(time_s, "bumped into something: stopped");
+    report(time_s, "autosaving failed, the mission goes on: " + e->reason);
+  if (const auto* e = std::get_if<Message>(&event)) report(time_s, e->sentence);
+  if (std::holds_alternative<Bumped>(event)) report(time_s, "bumped into something: stopped");
   if (std::holds_alternative<Paused>(event)) {
-    tell(time_s, "paused: `cairn mission resume` or SIGUSR2 lets it go on");
+    report(time_s, "paused: `cairn mission resume` or SIGUSR2 lets it go on");
     out_ << std::flush;
   }
-  if (const auto* e = std::get_if<WentOn>(&event)) tell(time_s, fmt::format("goes on after {:.1f} s", e->paused_s));
+  if (const auto* e = std::get_if<Resumed>(&event)) report(time_s, fmt::format("goes on after {:.1f} s", e->paused_s));
 }
 
 // What control nodes and conditions make of it stands in the report.
-void ProgressLine::tell_nodes(const Event& event, double time_s) {
-  if (const auto* e = std::get_if<StepStarted>(&event)) tell(time_s, fmt::format("step {}: {}", e->index + 1, e->name));
+void ProgressLine::report_nodes(const Event& event, double time_s) {
+  if (const auto* e = std::get_if<StepStarted>(&event))
+    report(time_s, fmt::format("step {}: {}", e->index + 1, e->name));
   if (const auto* e = std::get_if<StepEnded>(&event))
-    tell(time_s, ended_text(std::to_string(e->index + 1), e->name, e->status, false));
+    report(time_s, ended_text(std::to_string(e->index + 1), e->name, e->status, false));
   if (const auto* e = std::get_if<NodeStarted>(&event); e != nullptr && e->kind == NodeKind::behaviour)
-    tell(time_s, fmt::format("step {}: {}", e->path, e->name));
+    report(time_s, fmt::format("step {}: {}", e->path, e->name));
   if (const auto* e = std::get_if<NodeEnded>(&event); e != nullptr && e->kind == NodeKind::behaviour)
-    tell(time_s, ended_text(e->path, e->name, e->status, e->is_halted));
+    report(time_s, ended_text(e->path, e->name, e->status, e->is_halted));
 }
 
-void ProgressLine::tell(double time_s, const std::string& sentence) {
+void ProgressLine::report(double time_s, const std::string& sentence) {
   clear();
   out_ << fmt::format("{:7.1f} s  {}\n", time_s, sentence);
 }
@@ -74,7 +76,7 @@ void ProgressLine::tell(double time_s, const std::string& sentence) {
 void ProgressLine::draw() {
   const RunStatus status = status_();
   std::string line = fmt::format("{:7.1f} s  {}", status.time_s, progress_text(status));
-  if (line.size() > kMostColumns) line = line.substr(0, kMostColumns - 3) + "...";
+  if (line.size() > kMaxColumns) line = line.substr(0, kMaxColumns - 3) + "...";
   clear();
   out_ << line << std::flush;
   drawn_ = line.size();

@@ -25,8 +25,8 @@ class ProgressLine : public Listener {
   void on(const Event& event, const MissionView& view) override;
 
  private:
-  void tell(double time_s, const std::string& sentence);
-  void tell_nodes(const Event& event, double time_s);
+  void report(double time_s, const std::string& sentence);
+  void report_nodes(const Event& event, double time_s);
   void clear();
   void draw();
 

@@ -21,14 +21,14 @@ std::string label_of(const NodeReport& node) {
 }
 
 // The deepest level at which the rows still fit.
-std::size_t deepest_shown(const std::vector<NodeReport>& nodes, std::size_t most_rows) {
+std::size_t deepest_shown(const std::vector<NodeReport>& nodes, std::size_t max_rows) {
   std::map<std::size_t, std::size_t> count;
   for (const NodeReport& node : nodes) ++count[depth_of(node)];
   std::size_t rows = 0;
   std::size_t deepest = 0;
   for (const auto& [depth, of_depth] : count) {
     rows += of_depth;
-    if (rows > most_rows) break;
+    if (rows > max_rows) break;
     deepest = depth;
   }
   return deepest;
@@ -38,7 +38,7 @@ std::vector<TimelineRow> rows_of(const MissionResult& result, std::size_t deepes
   std::vector<TimelineRow> rows;
   std::map<std::string, std::size_t> row_of;
   for (const NodeReport& node : result.nodes) {
-    if (depth_of(node) > deepest || rows.size() >= kMostTimelineRows) continue;
+    if (depth_of(node) > deepest || rows.size() >= kMaxTimelineRows) continue;
     row_of[node.path] = rows.size();
     rows.push_back({label_of(node), depth_of(node), {}});
   }
@@ -69,7 +69,7 @@ Timeline timeline_of(const Mission& mission, const MissionResult& result, const 
   timeline.title = mission.config.mission + ", seed " + std::to_string(mission.config.seed);
   timeline.begin_s = result.resumed_s.value_or(0.0);
   timeline.end_s = result.time_s;
-  const std::size_t deepest = deepest_shown(result.nodes, kMostTimelineRows);
+  const std::size_t deepest = deepest_shown(result.nodes, kMaxTimelineRows);
   timeline.rows = rows_of(result, deepest);
   timeline.subtitle = fmt::format("{} after {:.1f} s of the mission's clock", name_of(result.outcome), result.time_s);
   if (timeline.rows.size() < result.nodes.size())

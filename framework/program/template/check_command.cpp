@@ -15,14 +15,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kMostCoarseCells = 5;
+constexpr int kMaxCoarseCells = 5;
 
 // As coarse as missions have it, and as the smallest landmark allows.
 PluginChoice detector_for(const TemplateSet& set, const std::string& degrees) {
   PluginChoice choice{"template_matcher", {}};
   choice.config.kind = ConfigValue::Kind::map;
   const int most = static_cast<int>(std::floor(set.smallest_diameter_m() / set.cell_m + 1e-9));
-  apply_override(choice.config, fmt::format("coarse_cells={}", std::clamp(most, 1, kMostCoarseCells)));
+  apply_override(choice.config, fmt::format("coarse_cells={}", std::clamp(most, 1, kMaxCoarseCells)));
   apply_override(choice.config, "degrees=" + degrees);
   return choice;
 }
@@ -96,7 +96,7 @@ int template_check(const TemplateCommand& command, const CommonOptions& common) 
   const auto set = std::make_shared<const TemplateSet>(
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); }));
   const CheckedDetector detector{detector_for(*set, "above_threshold"), detector_for(*set, "all")};
-  const LapCrew crew{mission.robot, mission.config.sensor, mission.config.map, library};
+  const OrbitCrew crew{mission.robot, mission.config.sensor, mission.config.map, library};
   const TemplateCheck check =
       fenced("template check", detector.quick.name, [&] { return check_templates(set, detector, crew); });
   if (common.json)

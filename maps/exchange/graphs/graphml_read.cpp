@@ -120,7 +120,7 @@ class Reader {
       const Point middle(geometry.attribute("x").as_double() + 0.5 * geometry.attribute("width").as_double(),
                          -geometry.attribute("y").as_double() - 0.5 * geometry.attribute("height").as_double());
       const bool is_placed = geometry.attribute("x") && geometry.attribute("y") &&
-                             middle.cwiseAbs().maxCoeff() <= exchange::kMostCoordinate_m;
+                             middle.cwiseAbs().maxCoeff() <= exchange::kMaxCoordinate_m;
       const std::string_view label = shape.child("y:NodeLabel").child_value();
       exchange::check_text(source_, label, offset_of(shape));
       return {is_placed ? std::optional(middle) : std::nullopt, exchange::trimmed(label)};

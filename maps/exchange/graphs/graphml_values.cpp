@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMostLevel = 1'000'000.0;
-constexpr double kMostExact = static_cast<double>(kMaxFileId);
+constexpr double kMaxLevel = 1'000'000.0;
+constexpr double kMaxExact = static_cast<double>(kMaxFileId);
 
 }  // namespace
 
@@ -86,7 +86,7 @@ int GraphmlValues::take_level() {
   const std::optional<GraphmlValue> value = take({"level"});
   if (!value) return 0;
   const double level = number(*value);
-  if (level != std::floor(level) || std::abs(level) > kMostLevel)
+  if (level != std::floor(level) || std::abs(level) > kMaxLevel)
     source_.fail(value->offset,
                  "level " + number_text(level) + " is no floor: it must be a whole number of -1000000 to 1000000");
   return static_cast<int>(level);
@@ -109,7 +109,7 @@ std::string GraphmlValues::take_annotations() {
     } else if (value.type == "double" || value.type == "float") {
       all[name] = number(value);
     } else if (const bool is_whole = value.type == "int" || value.type == "long";
-               is_whole && std::abs(number(value)) <= kMostExact) {
+               is_whole && std::abs(number(value)) <= kMaxExact) {
       all[name] = static_cast<std::int64_t>(number(value));
     } else {
       all[name] = std::string(value.text);

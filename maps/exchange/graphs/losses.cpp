@@ -15,19 +15,19 @@ class Warnings {
   template <class IsLost>
   void of_landmarks(bool holds, const char* what, IsLost is_lost) {
     if (holds) return;
-    tell(std::ranges::count_if(graph_.landmarks(), [&](const auto& entry) { return is_lost(entry.second); }),
-         "landmark", what);
+    report(std::ranges::count_if(graph_.landmarks(), [&](const auto& entry) { return is_lost(entry.second); }),
+           "landmark", what);
   }
   template <class IsLost>
   void of_routes(bool holds, const char* what, IsLost is_lost) {
     if (holds) return;
-    tell(std::ranges::count_if(graph_.routes(), [&](const auto& entry) { return is_lost(entry.second); }), "route",
-         what);
+    report(std::ranges::count_if(graph_.routes(), [&](const auto& entry) { return is_lost(entry.second); }), "route",
+           what);
   }
   [[nodiscard]] std::vector<std::string> take() { return std::move(warnings_); }
 
  private:
-  void tell(std::ptrdiff_t count, const char* noun, const char* what) {
+  void report(std::ptrdiff_t count, const char* noun, const char* what) {
     warn_of(static_cast<std::size_t>(count), noun, what, warnings_);
   }
 
@@ -64,11 +64,12 @@ std::vector<std::string> warnings_of_loss(const LandmarkGraph& graph, const Hold
                      [](auto& r) { return r.speed_limit_mps.has_value(); });
   warnings.of_routes(format.annotations, "what other tools keep with it is not written",
                      [](auto& r) { return !r.annotations.empty(); });
-  std::vector<std::string> told = warnings.take();
+  std::vector<std::string> reported = warnings.take();
   if (!format.route_ids && !routes_are_numbered_in_order(graph))
-    told.emplace_back("routes are numbered anew, from 1 in their order");
-  if (!graph.retired().empty()) told.push_back(counted(graph.retired().size(), "retired landmark") + ": not written");
-  return told;
+    reported.emplace_back("routes are numbered anew, from 1 in their order");
+  if (!graph.retired().empty())
+    reported.push_back(counted(graph.retired().size(), "retired landmark") + ": not written");
+  return reported;
 }
 
 }  // namespace cairn::exchange

@@ -294,7 +294,7 @@ class Reader {
   }
 
   void warn(ImportedGraph& imported, const exchange::NodeIds& nodes, const exchange::EdgeIds& edges) const {
-    const auto tell = [&](std::size_t count, const char* noun, const std::string& sentence) {
+    const auto report = [&](std::size_t count, const char* noun, const std::string& sentence) {
       exchange::warn_of(count, noun, sentence, imported.warnings);
     };
     if (crs_.empty()) {
@@ -306,13 +306,13 @@ class Reader {
     if (nodes.has_zero())
       imported.warnings.push_back("node 0 is landmark L" + std::to_string(nodes.landmark_of(0)) +
                                   ": ids of landmarks begin at 1; an export writes 0 again");
-    tell(edges.renumbered(), "edge", "id 0 or an id that an earlier edge has, a new id is given");
-    tell(counts_.unset_costs, "edge", "no cost (absent or 0), the straight length is taken");
-    tell(counts_.not_overridable_unset, "edge", "no cost and not overridable, nav2 refuses to search such a graph");
-    tell(counts_.heights, "node", "the third coordinate is kept, but not used");
-    tell(counts_.bent_lines, "edge", "the line has more than two points: kept, but not used as the path, as in nav2");
-    tell(counts_.other_frames, "feature", "the frame is not \"map\"; coordinates are taken as they are");
-    tell(counts_.singular_operations, "feature", "nav2 reads \"operations\", not \"operation\"");
+    report(edges.renumbered(), "edge", "id 0 or an id that an earlier edge has, a new id is given");
+    report(counts_.unset_costs, "edge", "no cost (absent or 0), the straight length is taken");
+    report(counts_.not_overridable_unset, "edge", "no cost and not overridable, nav2 refuses to search such a graph");
+    report(counts_.heights, "node", "the third coordinate is kept, but not used");
+    report(counts_.bent_lines, "edge", "the line has more than two points: kept, but not used as the path, as in nav2");
+    report(counts_.other_frames, "feature", "the frame is not \"map\"; coordinates are taken as they are");
+    report(counts_.singular_operations, "feature", "nav2 reads \"operations\", not \"operation\"");
     if (edges_.empty()) imported.warnings.emplace_back("there is no edge: nav2 refuses such a graph");
     exchange::warn_of_shared_names(imported.graph, imported.warnings);
   }

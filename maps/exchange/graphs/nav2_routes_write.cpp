@@ -189,13 +189,13 @@ class Writer {
     holds.category = holds.annotations = holds.speed_limit = holds.route_ids = true;
     holds.trajectory = true;
     exported_.warnings = exchange::warnings_of_loss(graph_, holds);
-    const auto tell = [&](std::size_t count, const char* noun, const char* sentence) {
+    const auto report = [&](std::size_t count, const char* noun, const char* sentence) {
       exchange::warn_of(count, noun, sentence, exported_.warnings);
     };
-    tell(renumbered_, "edge", "the id is a node's, so it got one above all others: nav2 wants them unique");
-    tell(too_large_, "feature", "the id is above 65535, which nav2's messages cannot name");
-    tell(free_, "edge", "cost 0 means \"not set\" to nav2");
-    tell(others_, "feature", "what other formats keep with it is not written");
+    report(renumbered_, "edge", "the id is a node's, so it got one above all others: nav2 wants them unique");
+    report(too_large_, "feature", "the id is above 65535, which nav2's messages cannot name");
+    report(free_, "edge", "cost 0 means \"not set\" to nav2");
+    report(others_, "feature", "what other formats keep with it is not written");
     if (graph_.routes().empty()) exported_.warnings.emplace_back("there is no edge: nav2 refuses such a graph");
   }
 

@@ -135,13 +135,13 @@ class Writer {
     exchange::Holds holds;
     holds.category = holds.level = holds.annotations = holds.speed_limit = true;
     exported_.warnings = exchange::warnings_of_loss(graph_, holds);
-    const auto tell = [&](std::size_t count, const char* noun, const char* sentence) {
+    const auto report = [&](std::size_t count, const char* noun, const char* sentence) {
       exchange::warn_of(count, noun, sentence, exported_.warnings);
     };
-    tell(categories_lost_, "landmark", "the category is not written");
-    tell(costs_lost_, "route", "the cost is not written; to Open-RMF a lane is straight");
-    tell(between_floors_, "route", "it leads to another floor, and so is left out: lanes stay on theirs");
-    tell(others_, "landmark or route", "what other formats keep with it is not written");
+    report(categories_lost_, "landmark", "the category is not written");
+    report(costs_lost_, "route", "the cost is not written; to Open-RMF a lane is straight");
+    report(between_floors_, "route", "it leads to another floor, and so is left out: lanes stay on theirs");
+    report(others_, "landmark or route", "what other formats keep with it is not written");
   }
 
   const LandmarkGraph& graph_;

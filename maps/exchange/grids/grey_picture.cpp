@@ -24,10 +24,10 @@ void PictureSource::fail(const std::string& sentence) const {
 }
 
 GreyPicture PictureSource::sized(std::int64_t width, std::int64_t height) const {
-  constexpr std::int64_t kMostSide = OccupancyGrid::kLargestCellIndex;
-  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide || width * height > most_pixels)
+  constexpr std::int64_t kMaxSide = OccupancyGrid::kLargestCellIndex;
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide || width * height > max_pixels)
     fail("the picture has " + std::to_string(width) + " x " + std::to_string(height) + " pixels, possible are 1 to " +
-         std::to_string(kMostSide) + " a side and " + std::to_string(most_pixels) + " in all");
+         std::to_string(kMaxSide) + " a side and " + std::to_string(max_pixels) + " in all");
   return {static_cast<int>(width), static_cast<int>(height), {}, {}};
 }
 
@@ -57,8 +57,8 @@ GreyPicture read_png(const PictureSource& source) {
 
 }  // namespace exchange
 
-GreyPicture parse_grey_picture(std::string_view bytes, const std::string& file_name, std::int64_t most_pixels) {
-  const exchange::PictureSource source{bytes, file_name, most_pixels};
+GreyPicture parse_grey_picture(std::string_view bytes, const std::string& file_name, std::int64_t max_pixels) {
+  const exchange::PictureSource source{bytes, file_name, max_pixels};
   if (bytes.starts_with("P2") || bytes.starts_with("P5")) return exchange::read_pgm(source);
   if (bytes.starts_with("\x89PNG")) return exchange::read_png(source);
   if (bytes.starts_with("BM")) return exchange::read_bmp(source);

@@ -21,6 +21,6 @@ struct GreyPicture {
 // depths are scaled to 0 ... 255. Throws ExchangeError on anything else, with line and column in a PGM's text; a
 // picture of more pixels is refused by its header, before memory is asked for.
 [[nodiscard]] GreyPicture parse_grey_picture(std::string_view bytes, const std::string& file_name,
-                                             std::int64_t most_pixels = OccupancyGrid::kMostCells);
+                                             std::int64_t max_pixels = OccupancyGrid::kMaxCells);
 
 }  // namespace cairn

@@ -53,9 +53,9 @@ class Numbers {
 
 GreyPicture read_pgm(const PictureSource& source) {
   Numbers numbers(source);
-  constexpr unsigned kMostSide = OccupancyGrid::kLargestCellIndex;
-  const unsigned width = numbers.next("the width", 1, kMostSide);
-  const unsigned height = numbers.next("the height", 1, kMostSide);
+  constexpr unsigned kMaxSide = OccupancyGrid::kLargestCellIndex;
+  const unsigned width = numbers.next("the width", 1, kMaxSide);
+  const unsigned height = numbers.next("the height", 1, kMaxSide);
   GreyPicture picture = source.sized(width, height);
   const unsigned white = numbers.next("the value of white", 1, 65535);
   const std::size_t count = std::size_t{width} * height;

@@ -11,7 +11,7 @@ namespace cairn::exchange {
 struct PictureSource {
   std::string_view bytes;
   const std::string& file;
-  std::int64_t most_pixels = 0;
+  std::int64_t max_pixels = 0;
 
   [[noreturn]] void fail(const std::string& sentence) const;  // "file: sentence"
   // A picture of that size without content. Fails on sizes that are refused.

@@ -46,13 +46,13 @@ GreyPicture grid_picture_of(const OccupancyGrid& grid, double px_per_cell) {
   if (!(px_per_cell > 0.0) || !std::isfinite(px_per_cell))
     throw std::invalid_argument("a scale must be a finite number above 0, is " + exchange::number_text(px_per_cell));
   GreyPicture picture{side_of(box.width(), px_per_cell), side_of(box.height(), px_per_cell), {}, {}};
-  if (picture.width > kMostGridPictureSide || picture.height > kMostGridPictureSide ||
-      std::int64_t{picture.width} * picture.height > kMostGridPicturePixels)
+  if (picture.width > kMaxGridPictureSide || picture.height > kMaxGridPictureSide ||
+      std::int64_t{picture.width} * picture.height > kMaxGridPicturePixels)
     throw std::invalid_argument("a scale of " + exchange::number_text(px_per_cell) + " makes " +
                                 std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels of " +
                                 std::to_string(box.width()) + " x " + std::to_string(box.height()) +
-                                " cells, possible are " + std::to_string(kMostGridPictureSide) + " a side and " +
-                                std::to_string(kMostGridPicturePixels) + " in all");
+                                " cells, possible are " + std::to_string(kMaxGridPictureSide) + " a side and " +
+                                std::to_string(kMaxGridPicturePixels) + " in all");
   const std::vector<Cover> across = covers_of(box.width(), picture.width, px_per_cell);
   const std::vector<Cover> down = covers_of(box.height(), picture.height, px_per_cell);
   const auto width = static_cast<std::size_t>(box.width());

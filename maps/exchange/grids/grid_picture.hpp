@@ -5,8 +5,8 @@
 
 namespace cairn {
 
-inline constexpr std::int64_t kMostGridPicturePixels = std::int64_t{1} << 26;  // 8192 x 8192
-inline constexpr int kMostGridPictureSide = 1 << 16;
+inline constexpr std::int64_t kMaxGridPicturePixels = std::int64_t{1} << 26;  // 8192 x 8192
+inline constexpr int kMaxGridPictureSide = 1 << 16;
 
 // The cells of grid.bounds(), y up: white free, black occupied, grey 128 unknown, between them by probability. A pixel
 // is the mean of what it covers of the cells; the last column and the lowest row may reach beyond the grid. px_per_cell

@@ -58,12 +58,12 @@ Line value_of(const SourceText& source, const Line& line, std::size_t key_length
 }
 
 int side_of(const SourceText& source, const Line& value, std::string_view key) {
-  constexpr int kMost = OccupancyGrid::kLargestCellIndex;
+  constexpr int kMax = OccupancyGrid::kLargestCellIndex;
   int side = 0;
   const auto [end, error] = std::from_chars(value.text.data(), value.text.data() + value.text.size(), side);
-  if (error != std::errc{} || end != value.text.data() + value.text.size() || side < 1 || side > kMost)
+  if (error != std::errc{} || end != value.text.data() + value.text.size() || side < 1 || side > kMax)
     source.fail(value.offset,
-                std::string(key) + " " + shown(value.text) + " is no whole number of 1 to " + std::to_string(kMost));
+                std::string(key) + " " + shown(value.text) + " is no whole number of 1 to " + std::to_string(kMax));
   return side;
 }
 
@@ -104,9 +104,9 @@ Header header_of(const SourceText& source, Lines& lines) {
     for (const auto& [key, is_there] : {std::pair{"type", header.has_type}, std::pair{"height", header.height > 0},
                                         std::pair{"width", header.width > 0}})
       if (!is_there) source.fail(line.offset, std::string("no ") + key + " stands before the map");
-    if (std::int64_t{header.width} * header.height > OccupancyGrid::kMostCells)
+    if (std::int64_t{header.width} * header.height > OccupancyGrid::kMaxCells)
       source.fail(line.offset, std::to_string(header.width) + " x " + std::to_string(header.height) +
-                                   " cells are too many, at most " + std::to_string(OccupancyGrid::kMostCells) +
+                                   " cells are too many, at most " + std::to_string(OccupancyGrid::kMaxCells) +
                                    " are possible");
     return header;
   }

@@ -179,11 +179,11 @@ void Canvas::line(std::span<const Pixel> points, const Stroke& stroke) {
   if (points.size() < 2) return;
   paint(view_of(samples_, width_px_, height_px_), box_of(points), stroke.width_px, {stroke.colour, stroke.opacity},
         [&](cv::Mat& mask, const cv::Rect& part) {
-          std::vector<std::vector<cv::Point>> pieces;
-          if (stroke.dash_px <= 0.0) pieces.push_back(fixed_points(points, part));
+          std::vector<std::vector<cv::Point>> segments;
+          if (stroke.dash_px <= 0.0) segments.push_back(fixed_points(points, part));
           if (stroke.dash_px > 0.0)
-            for (const auto& dash : dashes_of(points, stroke.dash_px)) pieces.push_back(fixed_points(dash, part));
-          cv::polylines(mask, pieces, false, cv::Scalar(255), thickness_of(stroke.width_px), cv::LINE_AA, kShift);
+            for (const auto& dash : dashes_of(points, stroke.dash_px)) segments.push_back(fixed_points(dash, part));
+          cv::polylines(mask, segments, false, cv::Scalar(255), thickness_of(stroke.width_px), cv::LINE_AA, kShift);
         });
 }
 

@@ -11,11 +11,11 @@ namespace cairn::pictures {
 namespace {
 
 constexpr double kLongerSidePx = 930.0;
-constexpr int kLeastPageWidthPx = 560;
+constexpr int kMinPageWidthPx = 560;
 constexpr double kTopPx = 62.0;
 constexpr double kLeftPx = 48.0;
 constexpr double kTickRoomPx = 22.0;
-constexpr double kLeastTickDistancePx = 70.0;
+constexpr double kMinTickDistancePx = 70.0;
 constexpr int kMaxImageSide = 2000;
 
 // 1, 2 or 5 times a power of ten, at least this large.
@@ -39,7 +39,7 @@ double mean_ol(const OccupancyGrid& grid, const CellBox& block) {
 }
 
 void draw_ticks(Canvas& canvas, const MapFrame& frame, bool along_x) {
-  const double step_m = round_at_least(kLeastTickDistancePx / frame.px_per_m);
+  const double step_m = round_at_least(kMinTickDistancePx / frame.px_per_m);
   const Point max_m = frame.point_at({frame.box.max.x(), frame.box.min.y()});
   const int axis = along_x ? 0 : 1;
   const TextStyle style{kFaintInk, 11.0, along_x ? Align::centre : Align::right};
@@ -114,7 +114,7 @@ void draw_scale_bar(Canvas& canvas, const MapFrame& frame, const Pixel& right_en
 }
 
 int page_width_px(const MapFrame& frame) {
-  return std::max(kLeastPageWidthPx, static_cast<int>(std::ceil(frame.box.max.x() + kPageMarginPx)));
+  return std::max(kMinPageWidthPx, static_cast<int>(std::ceil(frame.box.max.x() + kPageMarginPx)));
 }
 
 double below_frame_px(const MapFrame& frame) {

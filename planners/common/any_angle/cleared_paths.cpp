@@ -37,9 +37,9 @@ std::optional<Point> beside_nearest_corner(const DiscSpace& space, const Point& 
 
 // Goes on to a point, past corners that the straight way grazes.
 void go_past_corners(const DiscSpace& space, const Point& to, int depth, std::vector<Point>& route) {
-  constexpr int kMostDepth = 40;
+  constexpr int kMaxDepth = 40;
   const Point from = route.back();
-  if (depth < kMostDepth && !space.fits_along(from, to, kPointRadius_m)) {
+  if (depth < kMaxDepth && !space.fits_along(from, to, kPointRadius_m)) {
     if (const std::optional<Point> beside = beside_nearest_corner(space, from, to)) {
       go_past_corners(space, *beside, depth + 1, route);
       go_past_corners(space, to, depth + 1, route);
@@ -122,7 +122,7 @@ std::vector<Point> off_corners(const DiscSpace& space, const std::vector<Point>&
 
 std::vector<Point> pushed_clear(const DiscSpace& space, const std::vector<Point>& path, double radius_m,
                                 const Budget& budget) {
-  constexpr int kMostJoints = 32;
+  constexpr int kMaxJoints = 32;
   int joints = 0;
   std::vector<Point> route{path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -133,7 +133,7 @@ std::vector<Point> pushed_clear(const DiscSpace& space, const std::vector<Point>
       const std::optional<Point> place = place_near(space, wanted, radius_m);
       if (!place) return {};
       if (!space.fits_along(route.back(), *place, radius_m)) {
-        if (++joints > kMostJoints) return {};
+        if (++joints > kMaxJoints) return {};
         const Point middle = 0.5 * (route.back() + *place);
         const std::optional<Point> joint = joint_near(space, middle, route.back(), *place, radius_m);
         if (!joint) return {};

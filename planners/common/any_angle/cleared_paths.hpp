@@ -8,7 +8,7 @@
 
 namespace cairn {
 
-inline constexpr double kPointRadius_m = 2.0 * kLeastRadius_m;  // a disc of so little is a point
+inline constexpr double kPointRadius_m = 2.0 * kMinRadius_m;  // a disc of so little is a point
 
 // A shortest path of a point, which turns at corners of what is blocked and grazes others, moved off them by a few
 // micrometres, so that a point's disc fits.

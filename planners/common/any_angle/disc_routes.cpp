@@ -12,9 +12,9 @@
 namespace cairn {
 namespace {
 
-constexpr int kMostParts = 4;  // of a cell's side, at first
+constexpr int kMaxParts = 4;  // of a cell's side, at first
 constexpr int kFinerParts = 4;
-constexpr std::int64_t kMostCells = 8'000'000;  // of a lattice finer than the grid
+constexpr std::int64_t kMaxCells = 8'000'000;  // of a lattice finer than the grid
 // A route so much longer than any must be may have missed a passage that only a finer lattice shows.
 constexpr double kDoubtfulRatio = 1.05;
 
@@ -24,13 +24,13 @@ std::int64_t cells_of(const CellBox& box) {
 
 int first_parts(const DiscSpace& space, double radius_m) {
   const double cells = space.cell_m() / radius_m;
-  int parts = std::clamp(static_cast<int>(std::ceil(2.0 * cells)), 1, kMostParts);
-  while (parts > 1 && cells_of(space.field().box()) * parts * parts > kMostCells) --parts;
+  int parts = std::clamp(static_cast<int>(std::ceil(2.0 * cells)), 1, kMaxParts);
+  while (parts > 1 && cells_of(space.field().box()) * parts * parts > kMaxCells) --parts;
   return parts;
 }
 
 bool is_doubtful(const DiscRoute& found) {
-  return found.route.empty() || length_of(found.route) > kDoubtfulRatio * found.least_length_m;
+  return found.route.empty() || length_of(found.route) > kDoubtfulRatio * found.length_lower_bound_m;
 }
 
 template <class IsOpen>
@@ -69,8 +69,8 @@ std::vector<Point> to_map(const DiscSpace& space, std::vector<Point> points) {
 }
 
 // A cell near an end from which the mesh's paths may begin, for each part of the mesh that is in sight.
-std::vector<Point> gates_of(const DiscSpace& space, const CellMesh& mesh, const Point& end, double radius_m,
-                            int reach) {
+std::vector<Point> entry_points(const DiscSpace& space, const CellMesh& mesh, const Point& end, double radius_m,
+                                int reach) {
   const Cell at = space.field().cell_at(end);
   if (mesh.rectangle_of(at) != CellMesh::kNone) return {end};
   std::vector<Cell> near;
@@ -79,16 +79,16 @@ std::vector<Point> gates_of(const DiscSpace& space, const CellMesh& mesh, const 
       if (mesh.rectangle_of({x, y}) != CellMesh::kNone) near.push_back({x, y});
   const auto away = [&](Cell c) { return (space.field().centre_of(c) - end).squaredNorm(); };
   std::stable_sort(near.begin(), near.end(), [&](Cell a, Cell b) { return away(a) < away(b); });
-  std::vector<Point> gates;
+  std::vector<Point> entry_points;
   std::vector<CellMesh::Index> parts;
   for (const Cell cell : near) {
     const CellMesh::Index part = mesh.part_of(mesh.rectangle_of(cell));
     if (std::find(parts.begin(), parts.end(), part) != parts.end()) continue;
     if (!space.fits_along(end, space.field().centre_of(cell), radius_m)) continue;
     parts.push_back(part);
-    gates.push_back(space.field().centre_of(cell));
+    entry_points.push_back(space.field().centre_of(cell));
   }
-  return gates;
+  return entry_points;
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ DiscRoutes::Meshes DiscRoutes::meshes_of(int parts) const {
 const DiscRoutes::Meshes* DiscRoutes::finer(const Budget& budget) const {
   const int parts = parts_ * kFinerParts;
   const std::int64_t cells = cells_of(space_->field().box()) * parts * parts;
-  if (is_point_ || cells > kMostCells) return nullptr;
+  if (is_point_ || cells > kMaxCells) return nullptr;
   constexpr std::chrono::milliseconds kLookEvery{1};
   std::shared_future<Meshes> made;
   {
@@ -147,14 +147,14 @@ bool DiscRoutes::may_reach(const Point& from, const Point& to) const {
   return part(from) != CellMesh::kNone && part(from) == part(to);
 }
 
-double DiscRoutes::least_length_m(const Point& from, const Point& to, const Budget& budget) const {
+double DiscRoutes::length_lower_bound_m(const Point& from, const Point& to, const Budget& budget) const {
   if (!may_reach(from, to)) return std::numeric_limits<double>::infinity();
   const DiscSpace& space = *coarse_.space;
   const auto stop = [&budget] { return budget.exhausted(); };
   return shortest_path(coarse_.may, to_lattice(space, from), to_lattice(space, to), stop).length * space.cell_m();
 }
 
-std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, double most_m,
+std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, double max_m,
                                             const Budget& budget) const {
   constexpr int kAskEvery = 4096;
   const CellMesh& mesh = coarse_.may;
@@ -162,7 +162,7 @@ std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, 
   const CellMesh::Index start = mesh.rectangle_of(field.cell_at(from));
   std::vector<Cell> cells;
   if (start == CellMesh::kNone) return cells;
-  const auto least_m = [&](const CellBox& cells_of_box) {  // from point to box to point
+  const auto min_m = [&](const CellBox& cells_of_box) {  // from point to box to point
     const FieldBox box = box_of(field, cells_of_box);
     const auto off_m = [&box](const Point& p) { return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).norm(); };
     return off_m(from) + off_m(to);
@@ -170,11 +170,11 @@ std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, 
   int asked = 0;
   for (CellMesh::Index i = 0; i < mesh.rectangles(); ++i) {
     const CellBox& r = mesh.rectangle(i);
-    if (mesh.part_of(i) != mesh.part_of(start) || least_m(r) > most_m) continue;
+    if (mesh.part_of(i) != mesh.part_of(start) || min_m(r) > max_m) continue;
     for (int y = r.min.y; y < r.max.y; ++y)
       for (int x = r.min.x; x < r.max.x; ++x) {
         if (++asked % kAskEvery == 0 && budget.exhausted()) return {};
-        if (least_m({{x, y}, {x + 1, y + 1}}) <= most_m) cells.push_back({x, y});
+        if (min_m({{x, y}, {x + 1, y + 1}}) <= max_m) cells.push_back({x, y});
       }
   }
   return cells;
@@ -189,18 +189,18 @@ DiscRoute DiscRoutes::route_on(const Meshes& meshes, const Point& from, const Po
   answer.interrupted = least.interrupted;
   answer.impossible = least.points.empty() && !least.interrupted;
   if (least.points.empty()) return answer;
-  answer.least_length_m = least.length * space.cell_m();
-  std::vector<Point> least_path = to_map(space, least.points);
-  least_path.front() = from;
-  least_path.back() = to;
+  answer.length_lower_bound_m = least.length * space.cell_m();
+  std::vector<Point> min_path = to_map(space, least.points);
+  min_path.front() = from;
+  min_path.back() = to;
   if (!meshes.surely) {
-    answer.route = off_corners(space, least_path);
+    answer.route = off_corners(space, min_path);
     return answer;
   }
   const int reach = 2 * std::max(1, static_cast<int>(std::lround(space_->cell_m() / space.cell_m()))) + 1;
   double best_m = std::numeric_limits<double>::infinity();
-  for (const Point& first : gates_of(space, *meshes.surely, from, radius_m_, reach))
-    for (const Point& last : gates_of(space, *meshes.surely, to, radius_m_, reach)) {
+  for (const Point& first : entry_points(space, *meshes.surely, from, radius_m_, reach))
+    for (const Point& last : entry_points(space, *meshes.surely, to, radius_m_, reach)) {
       const MeshPath path = shortest_path(*meshes.surely, to_lattice(space, first), to_lattice(space, last), stop);
       answer.expanded += path.expanded;
       answer.interrupted = answer.interrupted || path.interrupted;
@@ -214,7 +214,7 @@ DiscRoute DiscRoutes::route_on(const Meshes& meshes, const Point& from, const Po
     }
   if (!answer.route.empty()) answer.route = shortest_of(space, answer.route, budget);
   if (answer.interrupted || !is_doubtful(answer)) return answer;
-  const std::vector<Point> pushed = shortest_of(space, pushed_clear(space, least_path, radius_m_, budget), budget);
+  const std::vector<Point> pushed = shortest_of(space, pushed_clear(space, min_path, radius_m_, budget), budget);
   if (!pushed.empty() && (answer.route.empty() || length_of(pushed) < length_of(answer.route))) answer.route = pushed;
   return answer;
 }
@@ -233,7 +233,7 @@ DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& bu
   }
   if (space_->fits_along(from, to, radius_m_)) {
     answer.route = {from, to};
-    answer.least_length_m = (to - from).norm();
+    answer.length_lower_bound_m = (to - from).norm();
     return answer;
   }
   answer = route_on(coarse_, from, to, budget);
@@ -242,7 +242,7 @@ DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& bu
   if (fine == nullptr) return answer;
   DiscRoute better = route_on(*fine, from, to, budget);
   better.expanded += answer.expanded;
-  better.least_length_m = std::max(better.least_length_m, answer.least_length_m);
+  better.length_lower_bound_m = std::max(better.length_lower_bound_m, answer.length_lower_bound_m);
   if (answer.route.empty()) return better;
   if (better.route.empty() || length_of(better.route) >= length_of(answer.route)) better.route = answer.route;
   better.interrupted = false;

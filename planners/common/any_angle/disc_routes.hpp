@@ -21,10 +21,10 @@ namespace cairn {
 [[nodiscard]] bool has_time_for(const Budget& budget, std::int64_t cells);
 
 struct DiscRoute {
-  std::vector<Point> route;     // corner points, ends included; empty: none found
-  double least_length_m = 0.0;  // no route is shorter
-  bool impossible = false;      // proven
-  bool interrupted = false;     // by the budget
+  std::vector<Point> route;           // corner points, ends included; empty: none found
+  double length_lower_bound_m = 0.0;  // no route is shorter
+  bool impossible = false;            // proven
+  bool interrupted = false;           // by the budget
   std::int64_t expanded = 0;
 };
 
@@ -40,10 +40,10 @@ class DiscRoutes {
   // False is a proof that there is no route, at once.
   [[nodiscard]] bool may_reach(const Point& from, const Point& to) const;
   // No route is shorter; +inf when there is none. Less than nothing is known when the budget ends: 0.
-  [[nodiscard]] double least_length_m(const Point& from, const Point& to, const Budget& budget) const;
-  // The lattice's cells that routes between two points may pass, of those not longer than most_m. O(cells); none when
+  [[nodiscard]] double length_lower_bound_m(const Point& from, const Point& to, const Budget& budget) const;
+  // The lattice's cells that routes between two points may pass, of those not longer than max_m. O(cells); none when
   // the budget ends it.
-  [[nodiscard]] std::vector<Cell> cells_between(const Point& from, const Point& to, double most_m,
+  [[nodiscard]] std::vector<Cell> cells_between(const Point& from, const Point& to, double max_m,
                                                 const Budget& budget = {}) const;
   [[nodiscard]] const std::shared_ptr<const DiscSpace>& lattice() const { return coarse_.space; }
 

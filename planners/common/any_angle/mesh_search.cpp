@@ -11,8 +11,8 @@ namespace {
 using Index = CellMesh::Index;
 using Side = CellMesh::Side;
 
-constexpr double kSnap = 1e-9;       // cells: as near to a lattice line as rounding can tell
-constexpr double kLeastPart = 1e-9;  // cells: a shorter interval is a point that its neighbours cover
+constexpr double kSnap = 1e-9;     // cells: as near to a lattice line as rounding can tell
+constexpr double kMinPart = 1e-9;  // cells: a shorter interval is a point that its neighbours cover
 constexpr int kAskEvery = 64;
 
 // > 0: c lies to the left of the ray from a through b.
@@ -175,7 +175,7 @@ class Search {
 
   void add_part(Index from, const CellMesh::Portal& portal, std::int32_t root, const Point& left, const Point& right) {
     if (allowed_[static_cast<std::size_t>(portal.block)] == 0) return;
-    if ((left - right).cwiseAbs().maxCoeff() < kLeastPart) return;
+    if ((left - right).cwiseAbs().maxCoeff() < kMinPart) return;
     const Root& r = roots_[static_cast<std::size_t>(root)];
     found_.push_back({r.length + length_through(r.at, portal.side, left, right, to_), root, from, portal.to,
                       portal.side, left, right});

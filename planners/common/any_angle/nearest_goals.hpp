@@ -10,7 +10,7 @@ namespace cairn {
 
 struct RankedGoal {
   GoalPlace place;
-  double least_length_m = 0.0;  // no way there is shorter; 0 where it was not asked for
+  double length_lower_bound_m = 0.0;  // no way there is shorter; 0 where it was not asked for
 };
 
 // By how long a way to them must be at least, equal ones as they come. Of a single goal it is not asked.

@@ -28,15 +28,15 @@ class PartQueue {
   [[nodiscard]] bool is_empty() const { return first_ == end_; }
   // False when it is full.
   bool push(const Part& part) {
-    if (end_ - first_ == kMost) return false;
-    parts_[end_++ % kMost] = part;
+    if (end_ - first_ == kMax) return false;
+    parts_[end_++ % kMax] = part;
     return true;
   }
-  Part pop() { return parts_[first_++ % kMost]; }
+  Part pop() { return parts_[first_++ % kMax]; }
 
  private:
-  static constexpr std::size_t kMost = 128;
-  std::array<Part, kMost> parts_;
+  static constexpr std::size_t kMax = 128;
+  std::array<Part, kMax> parts_;
   std::size_t first_ = 0;
   std::size_t end_ = 0;
 };
@@ -117,7 +117,7 @@ bool DiscSpace::nothing_blocks() const {
 bool DiscSpace::fits_along(const Point& from, const Point& to, double radius_m) const {
   if (!contains(from) || !contains(to)) return false;
   const double length_m = (to - from).norm();
-  const double reach_m = std::max(radius_m, kLeastRadius_m);
+  const double reach_m = std::max(radius_m, kMinRadius_m);
   const Point direction = length_m > 0.0 ? Point((to - from) / length_m) : Point(0.0, 0.0);
   const auto at = [&](double s_m) { return s_m < length_m ? Point(from + s_m * direction) : to; };
   const auto touches = [&](const Part& part) {
@@ -131,8 +131,8 @@ bool DiscSpace::fits_along(const Point& from, const Point& to, double radius_m) 
     const Part part = parts.pop();
     const double middle_m = 0.5 * (part.begin_m + part.end_m);
     const Bounds bounds = bounds_at(at(middle_m));
-    if (bounds.most_m < reach_m && !nothing_blocks()) return false;
-    double known_m = bounds.least_m - reach_m;
+    if (bounds.max_m < reach_m && !nothing_blocks()) return false;
+    double known_m = bounds.min_m - reach_m;
     if (2.0 * known_m < std::min(lattice_.cell_m, part.end_m - part.begin_m) || known_m < 0.0) {  // too near to tell
       known_m = 2.0 * lattice_.cell_m;
       const Part near{std::max(part.begin_m, middle_m - known_m), std::min(part.end_m, middle_m + known_m)};

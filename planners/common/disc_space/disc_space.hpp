@@ -50,8 +50,8 @@ class DiscSpace {
 
   // What the distance to the nearest blocked square is at least and at most, for a point of the box.
   struct Bounds {
-    double least_m;
-    double most_m;
+    double min_m;
+    double max_m;
   };
   [[nodiscard]] Bounds bounds_at(const Point& p_map) const;
   [[nodiscard]] bool nothing_blocks() const;

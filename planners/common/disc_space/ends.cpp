@@ -9,11 +9,11 @@ namespace {
 Refusal start_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& at, double radius_m) {
   return {PlanOutcome::start_blocked, "the start " + text_of(at) +
                                           " is blocked: " + why_blocked(grid, space, at, radius_m) +
-                                          nearest_free_text(space, at, radius_m + kLeastRadius_m)};
+                                          nearest_free_text(space, at, radius_m + kMinRadius_m)};
 }
 
 std::optional<OccupancyGrid> with_ground_covered(const Pose2& pose, const OccupancyGrid& grid, const EndRules& rules) {
-  if (!rules.covering) return with_ground_under(grid, rules.ground, pose.position(), rules.radius_m + kLeastRadius_m);
+  if (!rules.covering) return with_ground_under(grid, rules.ground, pose.position(), rules.radius_m + kMinRadius_m);
   return with_ground_under(grid, rules.ground, pose.position(), rules.covering->reach_m,
                            [&](Cell cell) { return rules.covering->covers(pose, cell); });
 }
@@ -27,7 +27,7 @@ std::variant<StartPlace, Refusal> start_at_pose(const Pose2& pose, const WorldVi
   const OccupancyGrid& grid = start.grid_of(world);
   start.space = spaces.space_of(grid, rules.ground, start.patched_grid ? 0 : world.grid_version);
   start.leave_from = at;
-  if (start.space->fits(at, rules.radius_m + kLeastRadius_m)) return start;
+  if (start.space->fits(at, rules.radius_m + kMinRadius_m)) return start;
   start.escape = escape_from(grid, *start.space, at, rules.radius_m, rules.start_tolerance_m);
   if (!start.escape) return start_blocked(grid, *start.space, at, rules.radius_m);
   start.leave_from = start.escape->to;
@@ -110,7 +110,7 @@ std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& 
   if (place.pose) return start_at_pose(*place.pose, world, rules, spaces);
   const auto space = spaces.space_of(world.grid, rules.ground, world.grid_version);
   for (const LandmarkId id : place.landmarks) {
-    const std::optional<Pose2> stand = standing_place(*space, *world.graph.find(id), rules.radius_m + kLeastRadius_m);
+    const std::optional<Pose2> stand = approach_pose(*space, *world.graph.find(id), rules.radius_m + kMinRadius_m);
     if (!stand) continue;
     auto start = start_at_pose(*stand, world, rules, spaces);
     if (auto* found = std::get_if<StartPlace>(&start)) found->landmark = id;
@@ -126,7 +126,7 @@ std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const
                                                        const MayReach& may_reach) {
   if (const auto refusal = refusal_of_place(place, world.graph, "goal")) return *refusal;
   const DiscSpace& space = *start.space;
-  const double radius_m = rules.radius_m + kLeastRadius_m;
+  const double radius_m = rules.radius_m + kMinRadius_m;
   if (place.pose) {
     const Point at = place.pose->position();
     if (!space.fits(at, radius_m))
@@ -141,9 +141,9 @@ std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const
   std::vector<Point> out_of_reach;
   for (const LandmarkId id : place.landmarks) {
     const Landmark& landmark = *world.graph.find(id);
-    if (const auto stand = standing_place(space, landmark, radius_m, may_reach)) {
+    if (const auto stand = approach_pose(space, landmark, radius_m, may_reach)) {
       goals.push_back({*stand, std::nullopt, id, note_on(*stand, landmark)});
-    } else if (const auto anywhere = standing_place(space, landmark, radius_m)) {
+    } else if (const auto anywhere = approach_pose(space, landmark, radius_m)) {
       out_of_reach.push_back(anywhere->position());
     }
   }

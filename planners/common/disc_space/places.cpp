@@ -67,8 +67,8 @@ std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, 
   return best;
 }
 
-std::optional<Pose2> standing_place(const DiscSpace& space, const Landmark& landmark, double radius_m,
-                                    const std::function<bool(const Point&)>& accept) {
+std::optional<Pose2> approach_pose(const DiscSpace& space, const Landmark& landmark, double radius_m,
+                                   const std::function<bool(const Point&)>& accept) {
   const Point centre = landmark.T_map_landmark.position();
   const Point wanted = landmark.access ? landmark.access->position() : centre;
   if (landmark.access && space.fits(wanted, radius_m) && (!accept || accept(wanted))) return landmark.access;
@@ -139,9 +139,9 @@ std::optional<Escape> escape_from(const OccupancyGrid& grid, const DiscSpace& sp
   const double occupied_m = distance_to_state_m(grid, space.rules(), start, radius_m, CellState::occupied);
   if (occupied_m <= 0.0) return std::nullopt;
   // A hair less than the start keeps, so that the start itself passes the check.
-  Escape escape{start, std::min(occupied_m, radius_m) - kLeastRadius_m};
+  Escape escape{start, std::min(occupied_m, radius_m) - kMinRadius_m};
   const std::optional<Point> to =
-      nearest_fit(space, start, radius_m + kLeastRadius_m, tolerance_m, [&](const Point& place) {
+      nearest_fit(space, start, radius_m + kMinRadius_m, tolerance_m, [&](const Point& place) {
         return escape_is_free(grid, space.rules(), start, {place, escape.keep_m});
       });
   if (!to) return std::nullopt;

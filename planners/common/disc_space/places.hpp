@@ -20,8 +20,8 @@ inline constexpr double kStandNear_m = 1.5;  // a landmark without an access: ho
 // Where a robot stands to be at a landmark: its access where the disc fits, else the nearest place that
 // fits (and that `accept` agrees to) round the access or, without one, round the landmark. The heading
 // of another place than the access looks at the landmark.
-[[nodiscard]] std::optional<Pose2> standing_place(const DiscSpace& space, const Landmark& landmark, double radius_m,
-                                                  const std::function<bool(const Point&)>& accept = {});
+[[nodiscard]] std::optional<Pose2> approach_pose(const DiscSpace& space, const Landmark& landmark, double radius_m,
+                                                 const std::function<bool(const Point&)>& accept = {});
 
 // Why the disc cannot stand there, as the end of a sentence: "an occupied cell is 0.12 m from its centre".
 [[nodiscard]] std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& p_map,

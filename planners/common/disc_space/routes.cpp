@@ -5,10 +5,10 @@
 namespace cairn {
 namespace {
 
-constexpr int kMostRounds = 6;             // each about halves the turns that are left
-constexpr double kLeastGain_ratio = 1e-3;  // of a round, else it is the last one
+constexpr int kMaxRounds = 6;            // each about halves the turns that are left
+constexpr double kMinGain_ratio = 1e-3;  // of a round, else it is the last one
 constexpr double kFinest_cells = 1.0 / 16.0;
-constexpr double kMostWork_cells = 1e5;  // of checked segments, end to end
+constexpr double kMaxWork_cells = 1e5;  // of checked segments, end to end
 
 int across_parts(int a, int b) {
   return a == b ? a : kSeveralParts;
@@ -33,7 +33,7 @@ class CornerCutter {
   CornerCutter(const DiscSpace& space, double radius_m, const Budget& budget)
       : space_(space), radius_m_(radius_m), budget_(budget), finest_m_(kFinest_cells * space.cell_m()) {}
 
-  [[nodiscard]] bool may_go_on() const { return work_cells_ < kMostWork_cells && !budget_.exhausted(); }
+  [[nodiscard]] bool may_go_on() const { return work_cells_ < kMaxWork_cells && !budget_.exhausted(); }
   [[nodiscard]] std::vector<PartedPoint> cut_all(std::vector<PartedPoint> route, std::size_t keep) {
     std::vector<PartedPoint> cut(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
     for (std::size_t i = keep; i + 1 < route.size(); ++i) {
@@ -159,12 +159,12 @@ std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<Par
   if (route.size() <= keep + 1) return route;
   CornerCutter cutter(space, radius_m, budget);
   std::vector<PartedPoint> best = route;
-  for (int i = 0; i < kMostRounds && cutter.may_go_on(); ++i) {
+  for (int i = 0; i < kMaxRounds && cutter.may_go_on(); ++i) {
     std::vector<PartedPoint> cut = cutter.cut_all(best, keep);
     const double before_m = length_of(best);
     const double gain_m = before_m - length_of(cut);
     if (gain_m > 0.0) best = std::move(cut);
-    if (gain_m < kLeastGain_ratio * before_m) break;
+    if (gain_m < kMinGain_ratio * before_m) break;
   }
   return best;
 }

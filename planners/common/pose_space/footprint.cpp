@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kStripsPerWidth = 2.0;  // along the longer side of the cover; each strip gets a disc
-constexpr double kMostStrips = 8.0;
+constexpr double kMaxStrips = 8.0;
 constexpr double kFurthest_m = 1000.0;  // work grows with size: beyond it something else is wrong
 
 double cross(const Point& a, const Point& b) {
@@ -93,7 +93,7 @@ std::vector<Footprint::Disc> cover_of(const std::vector<Point>& corners) {
   }
   const Point size = high - low;
   const int axis = size.x() >= size.y() ? 0 : 1;
-  const double strips = std::min(std::ceil(kStripsPerWidth * size[axis] / size[1 - axis]), kMostStrips);
+  const double strips = std::min(std::ceil(kStripsPerWidth * size[axis] / size[1 - axis]), kMaxStrips);
   std::vector<Footprint::Disc> cover;
   for (double k = 0.0; k < strips; k += 1.0)
     cover.push_back(disc_round_strip(corners, axis, low[axis] + size[axis] * (k / strips),

@@ -120,12 +120,12 @@ double Motion::extent_m() const {
   return sum_m;
 }
 
-double Motion::least_radius_m() const {
-  double least_m = std::numeric_limits<double>::infinity();
+double Motion::min_radius_m() const {
+  double min_m = std::numeric_limits<double>::infinity();
   for (const MotionElement& element : elements_)
     if (!element.is_turn_on_the_spot() && element.turn_rad != 0.0)
-      least_m = std::min(least_m, std::abs(element.signed_radius_m()));
-  return least_m;
+      min_m = std::min(min_m, std::abs(element.signed_radius_m()));
+  return min_m;
 }
 
 Pose2 Motion::pose_at(double s_m) const {

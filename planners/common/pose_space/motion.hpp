@@ -61,7 +61,7 @@ class Motion {
   [[nodiscard]] double spot_turn_rad() const;   // of those on the spot
   [[nodiscard]] int reversals() const;          // changes between forwards and backwards
   [[nodiscard]] double extent_m() const;        // the s of the end
-  [[nodiscard]] double least_radius_m() const;  // of its arcs; infinite without one
+  [[nodiscard]] double min_radius_m() const;    // of its arcs; infinite without one
   [[nodiscard]] Pose2 pose_at(double s_m) const;
   [[nodiscard]] Motion first_part(double s_m) const;
 

@@ -27,10 +27,10 @@ double between_segments_m(const Point& a, const Point& b, const Point& c, const 
 }
 
 double from_rim_m(const Corners& corners, const Point& p) {
-  double least_m = from_segment_m(p, corners.back(), corners.front());
+  double min_m = from_segment_m(p, corners.back(), corners.front());
   for (std::size_t i = 1; i < corners.size(); ++i)
-    least_m = std::min(least_m, from_segment_m(p, corners[i - 1], corners[i]));
-  return least_m;
+    min_m = std::min(min_m, from_segment_m(p, corners[i - 1], corners[i]));
+  return min_m;
 }
 
 // By the number of times that the rim goes round the point.
@@ -108,7 +108,7 @@ class Looker {
 };
 
 // How far the fastest point of the outline moves on the element at most.
-double most_moved_m(const Footprint& footprint, const MotionElement& element) {
+double max_moved_m(const Footprint& footprint, const MotionElement& element) {
   if (element.turn_rad == 0.0) return std::abs(element.length_m);
   const Point hub(0.0, element.length_m / element.turn_rad);
   double arm_m = hub.norm();
@@ -125,10 +125,10 @@ struct Piece {
 std::optional<Touch> first_touch_on(const Looker& looker, const Motion& motion, const Piece& piece, double slack_m) {
   const double middle_m = 0.5 * (piece.from_m + piece.to_m);
   const Pose2 pose = motion.pose_at(middle_m);
-  const double grown_m = 0.5 * piece.moved_m + kLeastRadius_m;
+  const double grown_m = 0.5 * piece.moved_m + kMinRadius_m;
   const auto cell = looker.blocked_near(pose, grown_m);
   if (!cell) return std::nullopt;
-  if (grown_m <= slack_m + kLeastRadius_m) return Touch{middle_m, pose, *cell};
+  if (grown_m <= slack_m + kMinRadius_m) return Touch{middle_m, pose, *cell};
   const double half_m = 0.5 * piece.moved_m;
   if (auto touch = first_touch_on(looker, motion, {piece.from_m, middle_m, half_m}, slack_m)) return touch;
   return first_touch_on(looker, motion, {middle_m, piece.to_m, half_m}, slack_m);
@@ -142,15 +142,15 @@ std::optional<Touch> first_touch(const OccupancyGrid& grid, const GroundRules& r
     throw std::invalid_argument("first_touch: slack_m must be positive, got " + std::to_string(slack_m));
   if (!motion.is_finite()) return Touch{0.0, motion.start(), {}};
   const Looker looker(grid, rules, footprint);
-  if (const auto cell = looker.blocked_near(motion.start(), kLeastRadius_m)) return Touch{0.0, motion.start(), *cell};
+  if (const auto cell = looker.blocked_near(motion.start(), kMinRadius_m)) return Touch{0.0, motion.start(), *cell};
   double s_m = 0.0;
   for (const MotionElement& element : motion.elements()) {
     const double extent_m = motion.extent_of(element);
-    const double moved_m = most_moved_m(footprint, element);
+    const double moved_m = max_moved_m(footprint, element);
     // Longer pieces than the outline would only have more cells to look at.
-    const double pieces = std::ceil(moved_m / (footprint.circumscribed_m() + grid.cell_m()));
-    for (double k = 0.0; k < pieces; k += 1.0) {
-      const Piece piece{s_m + extent_m * (k / pieces), s_m + extent_m * ((k + 1.0) / pieces), moved_m / pieces};
+    const double segments = std::ceil(moved_m / (footprint.circumscribed_m() + grid.cell_m()));
+    for (double k = 0.0; k < segments; k += 1.0) {
+      const Piece piece{s_m + extent_m * (k / segments), s_m + extent_m * ((k + 1.0) / segments), moved_m / segments};
       if (auto touch = first_touch_on(looker, motion, piece, slack_m)) return touch;
     }
     s_m += extent_m;

@@ -19,7 +19,7 @@ struct Touch {
   Cell cell;  // that is touched there
 };
 
-// Nothing that touches passes (nearer than kLeastRadius_m, as in swept_disc.hpp). Everything passes that
+// Nothing that touches passes (nearer than kMinRadius_m, as in swept_disc.hpp). Everything passes that
 // keeps planning_margin_m(slack_m) away. slack_m > 0, or std::invalid_argument.
 // Work: about one look at the cells under the outline for every 2 slack_m moved beside an obstacle, far
 // fewer elsewhere.
@@ -32,7 +32,7 @@ struct Touch {
 }
 // The margin to plan with, so that what was planned passes: a hair more than the re-check's doubt.
 [[nodiscard]] inline double planning_margin_m(double slack_m) {
-  return slack_m + 2.0 * kLeastRadius_m;
+  return slack_m + 2.0 * kMinRadius_m;
 }
 
 }  // namespace cairn

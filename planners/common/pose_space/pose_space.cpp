@@ -120,16 +120,16 @@ struct PoseSpace::Way {
 PoseSpace::PoseSpace(const DiscSpace& space, Footprint footprint, double margin_m)
     : space_(&space),
       footprint_(std::move(footprint)),
-      margin_m_(std::max(margin_m, kLeastRadius_m)),
+      margin_m_(std::max(margin_m, kMinRadius_m)),
       bend_slack_m_(std::min(kLongestBend_m, 0.02 * space.cell_m())) {}
 
 // How far every point of the outline may move before it can touch anything; 0 or less: not known.
 double PoseSpace::clear_m(const Pose2& pose) const {
   const Frame T_map_robot(pose);
-  double least_m = to_rim_m(*space_, pose.position());
+  double min_m = to_rim_m(*space_, pose.position());
   for (const Footprint::Disc& disc : footprint_.cover())
-    least_m = std::min(least_m, at_least_m(*space_, T_map_robot(disc.centre)) - disc.radius_m - margin_m_);
-  return least_m;
+    min_m = std::min(min_m, at_least_m(*space_, T_map_robot(disc.centre)) - disc.radius_m - margin_m_);
+  return min_m;
 }
 
 bool PoseSpace::touches(const Pose2& pose) const {
@@ -151,7 +151,7 @@ bool PoseSpace::fits(const Pose2& pose) const {
 }
 
 // From a pose that fits.
-bool PoseSpace::piece_fits(const Way& way, double from, double to) const {
+bool PoseSpace::segment_fits(const Way& way, double from, double to) const {
   const Pose2 first = way.pose_at(from);
   const Pose2 last = way.pose_at(to);
   if (!space_->contains(last.position())) return false;
@@ -178,7 +178,7 @@ double PoseSpace::share_reached(const Way& way) const {
     double step = clear_m(way.pose_at(at)) / way.displaced_m;
     if (step < way.exact_step) {
       step = way.exact_step;
-      if (!piece_fits(way, at, std::min(at + step, 1.0))) return at;
+      if (!segment_fits(way, at, std::min(at + step, 1.0))) return at;
     }
     at += step;
   }
@@ -197,7 +197,7 @@ double PoseSpace::share_refined(const Way& way, double good) const {
   const double start = good;
   while ((bad - good) * way.displaced_m > 0.01 * space_->cell_m()) {
     const double middle = 0.5 * (good + bad);
-    (piece_fits(way, start, middle) ? good : bad) = middle;
+    (segment_fits(way, start, middle) ? good : bad) = middle;
   }
   return good;
 }

@@ -13,8 +13,8 @@ namespace cairn {
 
 class PoseSpace {
  public:
-  // Nothing blocked may come nearer to the outline than margin_m; kLeastRadius_m at least.
-  PoseSpace(const DiscSpace& space, Footprint footprint, double margin_m = kLeastRadius_m);
+  // Nothing blocked may come nearer to the outline than margin_m; kMinRadius_m at least.
+  PoseSpace(const DiscSpace& space, Footprint footprint, double margin_m = kMinRadius_m);
 
   [[nodiscard]] const DiscSpace& ground() const { return *space_; }
   [[nodiscard]] const Footprint& footprint() const { return footprint_; }
@@ -32,7 +32,7 @@ class PoseSpace {
 
   [[nodiscard]] double clear_m(const Pose2& pose) const;
   [[nodiscard]] bool touches(const Pose2& pose) const;
-  [[nodiscard]] bool piece_fits(const Way& way, double from, double to) const;
+  [[nodiscard]] bool segment_fits(const Way& way, double from, double to) const;
   [[nodiscard]] double share_reached(const Way& way) const;
   [[nodiscard]] double share_refined(const Way& way, double good) const;
 

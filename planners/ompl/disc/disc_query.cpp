@@ -65,7 +65,7 @@ DiscQuery::DiscQuery(const OmplTools& tools, const PlanRequest& request, const W
 
 // Planned with a hair more than is re-checked, so that rounding cannot tell them apart.
 double DiscQuery::radius_m() const {
-  return rules_.radius_m + kLeastRadius_m;
+  return rules_.radius_m + kMinRadius_m;
 }
 
 PlanResult DiscQuery::answer() const {
@@ -123,7 +123,7 @@ FoundRoute DiscQuery::find(const StartPlace& start, const GoalPlace& goal, const
 FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                    const Point& to) const {
   DiscRoute grid = routes.route(from, to, budget_);
-  FoundRoute found{std::move(grid.route), false, grid.interrupted, grid.impossible, grid.least_length_m, ""};
+  FoundRoute found{std::move(grid.route), false, grid.interrupted, grid.impossible, grid.length_lower_bound_m, ""};
   if (found.interrupted && !found.route.empty()) found.interrupted = false;  // it is a route all the same
   if (found.impossible || found.interrupted) return found;
   found.how = "the shortest way over the grid";
@@ -169,7 +169,7 @@ std::vector<Point> DiscQuery::shortened(const DiscRoutes& routes, const TravelCo
 
 void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const TravelCost& cost) const {
   const OmplConfig& config = tools_.config;
-  if (cost.is_length() && length_of(found.route) <= config.good_enough_ratio * *found.least_length_m) return;
+  if (cost.is_length() && length_of(found.route) <= config.good_enough_ratio * *found.length_lower_bound_m) return;
   const bool timed = config.improve_iterations == 0;
   if (timed && budget_.deadline == Budget::Clock::time_point::max()) return;
   const std::int64_t iterations =
@@ -178,7 +178,7 @@ void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const Trave
   const Point from = found.route.front();
   const Point to = found.route.back();
   const double known = cost_of(cost, found.route);
-  const SampledCells samples{routes.lattice(), routes.cells_between(from, to, known / cost.least_per_m(), budget_)};
+  const SampledCells samples{routes.lattice(), routes.cells_between(from, to, known / cost.min_per_m(), budget_)};
   if (samples.cells.empty()) return;
   const DiscProblem problem{routes.space(), radius_m(), from, to, samples, cost, request_.seed};
   const auto info = space_information(problem);
@@ -233,7 +233,7 @@ PlanResult DiscQuery::result_of(const StartPlace& start, const GoalPlace& goal, 
   result.outcome = found.exact ? PlanOutcome::solved : PlanOutcome::approximate;
   result.length_m = length_of(route);
   result.cost_m = cost.is_in_metres() ? cost_of(cost, route) : result.length_m;
-  if (found.exact && !start.escape) result.least_length_m = found.least_length_m;
+  if (found.exact && !start.escape) result.length_lower_bound_m = found.length_lower_bound_m;
   result.clearance_m = clearance_along(*start.space, route, request_.radius_m);
   result.path = poses_along(route, start.pose.theta_rad, found.exact ? goal.heading_rad : std::nullopt);
   if (start.landmark != 0) result.landmarks.push_back(start.landmark);

@@ -23,7 +23,7 @@ struct FoundRoute {
   bool exact = false;        // otherwise it ends short of the goal
   bool interrupted = false;
   bool impossible = false;  // proven
-  std::optional<double> least_length_m;
+  std::optional<double> length_lower_bound_m;
   std::string how;
 };
 

@@ -90,7 +90,7 @@ class CellSampler : public ob::StateSampler {
 class InformedCellSampler : public ob::InformedSampler {
  public:
   static constexpr unsigned kTries = 200;
-  static constexpr std::size_t kMostCounted = 100'000;  // cells, for a measure: of more, every so many
+  static constexpr std::size_t kMaxCounted = 100'000;  // cells, for a measure: of more, every so many
 
   InformedCellSampler(const ob::ProblemDefinitionPtr& definition, const DiscProblem& problem, std::uint64_t seed)
       : InformedSampler(definition, kTries), problem_(problem), draw_(problem.samples, seed) {}
@@ -101,7 +101,7 @@ class InformedCellSampler : public ob::InformedSampler {
   bool sampleUniform(ob::State* state, const ob::Cost& from, const ob::Cost& below) override {
     for (unsigned i = 0; i < kTries; ++i) {
       const Point p = draw_.point();
-      const double least = least_through(p);
+      const double least = min_through(p);
       if (least < from.value() || least >= below.value()) continue;
       set_point(state, p);
       return true;
@@ -111,17 +111,17 @@ class InformedCellSampler : public ob::InformedSampler {
   [[nodiscard]] bool hasInformedMeasure() const override { return true; }
   [[nodiscard]] double getInformedMeasure(const ob::Cost& below) const override {
     const SampledCells& samples = problem_.samples;
-    const std::size_t stride = 1 + samples.cells.size() / kMostCounted;
+    const std::size_t stride = 1 + samples.cells.size() / kMaxCounted;
     std::size_t inside = 0;
     for (std::size_t i = 0; i < samples.cells.size(); i += stride)
-      inside += least_through(samples.lattice->field().centre_of(samples.cells[i])) < below.value() ? 1U : 0U;
+      inside += min_through(samples.lattice->field().centre_of(samples.cells[i])) < below.value() ? 1U : 0U;
     const double cell_m = samples.lattice->cell_m();
     return static_cast<double>(inside * stride) * cell_m * cell_m;
   }
 
  private:
-  [[nodiscard]] double least_through(const Point& p) const {
-    return problem_.cost.least_per_m() * ((p - problem_.from).norm() + (problem_.to - p).norm());
+  [[nodiscard]] double min_through(const Point& p) const {
+    return problem_.cost.min_per_m() * ((p - problem_.from).norm() + (problem_.to - p).norm());
   }
 
   const DiscProblem& problem_;
@@ -134,7 +134,7 @@ class TravelObjective : public ob::OptimizationObjective {
       : OptimizationObjective(info), problem_(problem) {
     description_ = "travel cost";
     setCostToGoHeuristic([&problem](const ob::State* state, const ob::Goal*) {
-      return ob::Cost(problem.cost.least_per_m() * (problem.to - point_of(state)).norm());
+      return ob::Cost(problem.cost.min_per_m() * (problem.to - point_of(state)).norm());
     });
   }
 
@@ -143,7 +143,7 @@ class TravelObjective : public ob::OptimizationObjective {
     return ob::Cost(problem_.cost.between(point_of(from), point_of(to)));
   }
   [[nodiscard]] ob::Cost motionCostHeuristic(const ob::State* from, const ob::State* to) const override {
-    return ob::Cost(problem_.cost.least_per_m() * (point_of(to) - point_of(from)).norm());
+    return ob::Cost(problem_.cost.min_per_m() * (point_of(to) - point_of(from)).norm());
   }
   [[nodiscard]] ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& definition,
                                                                  unsigned) const override {
@@ -207,13 +207,13 @@ ob::ProblemDefinitionPtr definition_of(const DiscProblem& problem, const ob::Spa
 }
 
 void add_route(KnownStates& states, const std::vector<Point>& route) {
-  constexpr double kMostSteps = 40.0;
+  constexpr double kMaxSteps = 40.0;
   double length_m = 0.0;
   for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i] - route[i - 1]).norm();
   for (std::size_t i = 0; i < route.size(); ++i) {
     const Point before = route[i == 0 ? 0 : i - 1];
     const int steps =
-        std::max(1, static_cast<int>(std::ceil((route[i] - before).norm() / std::max(length_m / kMostSteps, 1e-9))));
+        std::max(1, static_cast<int>(std::ceil((route[i] - before).norm() / std::max(length_m / kMaxSteps, 1e-9))));
     for (int k = i == 0 ? steps : 1; k <= steps; ++k) {
       set_point(states.add(), k == steps ? route[i] : Point(before + (route[i] - before) * k / steps));
     }

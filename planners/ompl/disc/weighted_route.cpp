@@ -13,7 +13,7 @@ std::vector<Point> weighted_route(const DiscRoutes& routes, const TravelCost& co
   const DistanceField& field = space.field();
   // Between two such cells' centres, straight walls leave the disc through.
   const double centres_m = routes.radius_m() + 0.5 * space.cell_m() + 1e-6;
-  const auto weight = [&](Cell cell) { return cost.per_m_at(field.centre_of(cell)) / cost.least_per_m(); };
+  const auto weight = [&](Cell cell) { return cost.per_m_at(field.centre_of(cell)) / cost.min_per_m(); };
   int settled = 0;
   bool interrupted = false;
   const auto enough = [&](Cell cell) {

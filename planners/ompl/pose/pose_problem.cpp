@@ -17,9 +17,9 @@ namespace ob = ompl::base;
 constexpr std::uint64_t kInformed = 0x1000;  // apart from the numbers of the plain samplers
 constexpr double kTurnStep = 0.2;            // radians between the points by which an arc is counted
 
-double least_through(const PoseProblem& problem, const Point& p) {
+double min_through(const PoseProblem& problem, const Point& p) {
   const Point to = problem.goals.front().position();
-  return problem.cost.least_per_m() * ((p - problem.from.position()).norm() + (to - p).norm());
+  return problem.cost.min_per_m() * ((p - problem.from.position()).norm() + (to - p).norm());
 }
 
 // Poses that a cheaper way may pass.
@@ -38,7 +38,7 @@ class InformedPoseSampler : public ob::InformedSampler {
   bool sampleUniform(ob::State* state, const ob::Cost& from, const ob::Cost& below) override {
     for (unsigned i = 0; i < kTries; ++i) {
       sampler_.sampleUniform(state);
-      const double least = least_through(problem_, pose_of(state).position());
+      const double least = min_through(problem_, pose_of(state).position());
       if (least >= from.value() && least < below.value()) return true;
     }
     return false;
@@ -58,7 +58,7 @@ class MotionObjective : public ob::OptimizationObjective {
     description_ = "cost of motions";
     setCostToGoHeuristic([&problem](const ob::State* state, const ob::Goal*) {
       const Point to = problem.goals.front().position();
-      return ob::Cost(problem.cost.least_per_m() * (to - pose_of(state).position()).norm());
+      return ob::Cost(problem.cost.min_per_m() * (to - pose_of(state).position()).norm());
     });
   }
 
@@ -68,7 +68,7 @@ class MotionObjective : public ob::OptimizationObjective {
     return ob::Cost(cost_of(problem_, motion_between(*si_->getStateSpace(), from, to)));
   }
   [[nodiscard]] ob::Cost motionCostHeuristic(const ob::State* from, const ob::State* to) const override {
-    return ob::Cost(problem_.cost.least_per_m() * (pose_of(to).position() - pose_of(from).position()).norm());
+    return ob::Cost(problem_.cost.min_per_m() * (pose_of(to).position() - pose_of(from).position()).norm());
   }
   [[nodiscard]] ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& definition,
                                                                  unsigned) const override {

@@ -87,7 +87,7 @@ PlanResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, 
                         cost_rules_of(tools_.config, request_, world_.robot, setup_.ends.radius_m));
   const PoseProblem problem{setup_.kinematics,        lattice_poses, start.pose, goals, draw, cost,
                             world_.robot.max_w_radps, request_.seed};
-  const FoundWay found = find(problem, start);
+  const FoundPath found = find(problem, start);
   if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped_plan(stop_outcome(budget_));
   if (!found.exact || found.states.empty())
     return refused_plan(
@@ -95,7 +95,7 @@ PlanResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, 
                                          std::to_string(std::min(tools_.config.iterations, budget_.iterations)) +
                                          " iterations; whether there is one for such a robot is not known"});
   PlanResult result = result_of(problem, setup_, world_, start, goal, found);
-  result.least_length_m = guide.least_length_m;
+  result.length_lower_bound_m = guide.length_lower_bound_m;
   return result;
 }
 
@@ -120,10 +120,10 @@ std::vector<Pose2> PoseQuery::goal_poses(const GoalPlace& goal, const std::vecto
   return fitting;
 }
 
-FoundWay PoseQuery::find(const PoseProblem& problem, const StartPlace& start) const {
+FoundPath PoseQuery::find(const PoseProblem& problem, const StartPlace& start) const {
   if (are_alike(problem.from, problem.goals.front(), 1e-9)) return {{problem.from}, true, false, "already there"};
   if (tools_.config.algorithm != Algorithm::any_angle_rrt_star) return find_by_search(problem);
-  FoundWay found;
+  FoundPath found;
   if (setup_.kinematics.kind == MotionKind::differential) found = find_along_route(problem, start);
   if (!found.exact) found = find_by_search(problem);
   if (found.exact) improve(found, problem);
@@ -131,7 +131,7 @@ FoundWay PoseQuery::find(const PoseProblem& problem, const StartPlace& start) co
 }
 
 // Along the shortest route of the disc that holds the outline: there it can turn anywhere.
-FoundWay PoseQuery::find_along_route(const PoseProblem& problem, const StartPlace& start) const {
+FoundPath PoseQuery::find_along_route(const PoseProblem& problem, const StartPlace& start) const {
   const double radius_m = setup_.outer_radius_m();
   const Point from = problem.from.position();
   const Point to = problem.goals.front().position();
@@ -139,7 +139,7 @@ FoundWay PoseQuery::find_along_route(const PoseProblem& problem, const StartPlac
   const auto routes = tools_.caches.outer_routes.routes_of(start.space, radius_m);
   const DiscRoute route = routes->route(from, to, budget_);
   if (route.route.empty()) return {};
-  FoundWay found{{problem.from}, true, false, "the shortest way over the grid on which it can turn anywhere"};
+  FoundPath found{{problem.from}, true, false, "the shortest way over the grid on which it can turn anywhere"};
   for (std::size_t i = 1; i + 1 < route.route.size(); ++i) {
     const Point step = route.route[i] - route.route[i - 1];
     found.states.push_back({route.route[i].x(), route.route[i].y(), std::atan2(step.y(), step.x())});
@@ -156,7 +156,7 @@ bool PoseQuery::fits_along(const PoseProblem& problem, const std::vector<Pose2>&
   return true;
 }
 
-FoundWay PoseQuery::find_by_search(const PoseProblem& problem) const {
+FoundPath PoseQuery::find_by_search(const PoseProblem& problem) const {
   const OmplConfig& config = tools_.config;
   const auto info = kinematic_information(setup_.kinematics, problem.poses, problem.draw, request_.seed);
   const auto definition = definition_of(problem, info);
@@ -174,14 +174,14 @@ FoundWay PoseQuery::find_by_search(const PoseProblem& problem) const {
     SeededRrtConnect planner(info);
     answer = search_by(planner, definition, rules, budget_);
   }
-  FoundWay found{{}, answer.exact, answer.interrupted, "found by sampling"};
+  FoundPath found{{}, answer.exact, answer.interrupted, "found by sampling"};
   if (answer.path) found.states = poses_of(*answer.path);
   // What a planner puts together is not always what it checked.
   found.exact = found.exact && fits_along(problem, found.states);
   return found;
 }
 
-void PoseQuery::improve(FoundWay& found, const PoseProblem& problem) const {
+void PoseQuery::improve(FoundPath& found, const PoseProblem& problem) const {
   const OmplConfig& config = tools_.config;
   const bool timed = config.improve_iterations == 0;
   if (found.states.size() < 2 || (timed && budget_.deadline == Budget::Clock::time_point::max())) return;

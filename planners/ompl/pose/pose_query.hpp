@@ -19,10 +19,10 @@ class PoseQuery {
                                      const PoseSpace& poses) const;
   [[nodiscard]] std::vector<Pose2> goal_poses(const GoalPlace& goal, const std::vector<Point>& guide,
                                               const PoseSpace& poses) const;
-  [[nodiscard]] FoundWay find(const PoseProblem& problem, const StartPlace& start) const;
-  [[nodiscard]] FoundWay find_along_route(const PoseProblem& problem, const StartPlace& start) const;
-  [[nodiscard]] FoundWay find_by_search(const PoseProblem& problem) const;
-  void improve(FoundWay& found, const PoseProblem& problem) const;
+  [[nodiscard]] FoundPath find(const PoseProblem& problem, const StartPlace& start) const;
+  [[nodiscard]] FoundPath find_along_route(const PoseProblem& problem, const StartPlace& start) const;
+  [[nodiscard]] FoundPath find_by_search(const PoseProblem& problem) const;
+  void improve(FoundPath& found, const PoseProblem& problem) const;
   [[nodiscard]] std::optional<Refusal> blocked(const Pose2& pose, const std::string& end, PlanOutcome outcome,
                                                const PoseSpace& poses) const;
   [[nodiscard]] bool fits_along(const PoseProblem& problem, const std::vector<Pose2>& states) const;

@@ -6,7 +6,7 @@
 
 namespace cairn {
 
-struct FoundWay {
+struct FoundPath {
   std::vector<Pose2> states;
   bool exact = false;
   bool interrupted = false;
@@ -15,6 +15,6 @@ struct FoundWay {
 
 // The re-check is straight from the grid, over the whole of every motion; throws std::logic_error when it refuses.
 [[nodiscard]] PlanResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
-                                   const StartPlace& start, const GoalPlace& goal, const FoundWay& found);
+                                   const StartPlace& start, const GoalPlace& goal, const FoundPath& found);
 
 }  // namespace cairn

@@ -22,7 +22,7 @@ KinematicRules kinematics_of(const OmplConfig& config, const RobotModel& robot) 
 
 // The ground from which the robot that stands there keeps less than it is planned to keep.
 Covering covering_of(const Footprint& footprint, double margin_m, const Lattice& lattice) {
-  const double reach_m = margin_m + kLeastRadius_m;
+  const double reach_m = margin_m + kMinRadius_m;
   const auto covers = [=](const Pose2& T_map_robot, Cell cell) {
     const Point at = T_map_robot.position();
     if (footprint.is_disc())

@@ -13,7 +13,7 @@ struct PoseSetup {
   PoseSetup(const OmplConfig& config, double radius_m, const RobotModel& robot, const OccupancyGrid& grid);
 
   // Of the discs whose routes are looked for: one that gets wherever the robot does, and one in which it can turn.
-  [[nodiscard]] double inner_radius_m() const { return ends.radius_m + kLeastRadius_m; }
+  [[nodiscard]] double inner_radius_m() const { return ends.radius_m + kMinRadius_m; }
   [[nodiscard]] double outer_radius_m() const { return footprint.circumscribed_m() + margin_m; }
 
   Footprint footprint;

@@ -37,10 +37,10 @@ class TravelCost {
   }
   // Straight, both ways the same; by room and unknown ground to a cell's accuracy.
   [[nodiscard]] double between(const Point& from, const Point& to) const;
-  // What a metre counts there, at least least_per_m().
+  // What a metre counts there, at least min_per_m().
   [[nodiscard]] double per_m_at(const Point& p_map) const;
   // No metre counts less.
-  [[nodiscard]] double least_per_m() const { return base_; }
+  [[nodiscard]] double min_per_m() const { return base_; }
 
  private:
   const OccupancyGrid& grid_;

@@ -17,7 +17,7 @@ const CellChanges& BayesMap::integrate(const Observation& observation, const Pos
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
   const std::size_t beams = changes_.spans.size();
-  standing_room_.take(grid_, pose.T_map_robot, changes_.spans);
+  cleared_footprint_.take(grid_, pose.T_map_robot, changes_.spans);
   const bool is_one_beam = observation.ranges.size() <= 1 && changes_.spans.size() == beams;
   if (!is_one_beam) sonar_model::tidy(changes_.spans);
   return changes_;

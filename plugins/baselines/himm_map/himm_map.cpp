@@ -30,7 +30,7 @@ using sonar_model::Meaning;
 HimmMap::HimmMap(const Config& config)
     : config_(config),
       log_odds_of_certainty_(log_odds_table(config.certainty_max)),
-      free_certainty_(surest_of(log_odds_of_certainty_, sonar_model::StandingRoom::kFree)),
+      free_certainty_(surest_of(log_odds_of_certainty_, sonar_model::ClearedFootprint::kFree)),
       grid_(config.cell_m, kRoomForEveryCertainty_nat) {}
 
 void HimmMap::begin_with(const OccupancyGrid& grid) {
@@ -51,7 +51,8 @@ const CellChanges& HimmMap::integrate(const Observation& observation, const Pose
   changes_.spans.clear();
   if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
-  for (const Cell cell : standing_room_.unknown_under(grid_, pose.T_map_robot)) set_certainty(cell, free_certainty_);
+  for (const Cell cell : cleared_footprint_.unknown_under(grid_, pose.T_map_robot))
+    set_certainty(cell, free_certainty_);
   sonar_model::tidy(changes_.spans);
   return changes_;
 }

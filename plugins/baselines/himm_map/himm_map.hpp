@@ -1,9 +1,9 @@
 // Mapper for comparison: histogrammic in-motion mapping (Borenstein and Koren, 1991).
 //
-// But for those where the robot stands (standing_room.hpp) only cells on the acoustic axis learn anything: the one at
-// the echo's range gains `increment`, those before it lose `decrement`, certainties end at 0 and certainty_max. Without
-// an echo all lose, up to range_m. A cell's certainty c stands in OG1 as P = (c + 0.5) / (certainty_max + 1), a cell
-// never on an axis as unknown. What a reading means stands in sonar_model/reading.hpp.
+// But for those where the robot stands (cleared_footprint.hpp) only cells on the acoustic axis learn anything: the one
+// at the echo's range gains `increment`, those before it lose `decrement`, certainties end at 0 and certainty_max.
+// Without an echo all lose, up to range_m. A cell's certainty c stands in OG1 as P = (c + 0.5) / (certainty_max + 1), a
+// cell never on an axis as unknown. What a reading means stands in sonar_model/reading.hpp.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 #include "framework/contracts/mapper.hpp"
 #include "plugins/baselines/himm_map/config.hpp"
-#include "plugins/common/sonar_model/standing_room.hpp"
+#include "plugins/common/sonar_model/cleared_footprint.hpp"
 #include "plugins/common/sonar_model/tile_map.hpp"
 
 namespace cairn::himm_map {
@@ -26,7 +26,7 @@ class HimmMap final : public Mapper {
   // Certainties as its values say; a cell that was in the middle of the scale is one never seen.
   void begin_with(const OccupancyGrid& grid);
   // Whose room is free where it stands.
-  void clear_under(const RobotModel& robot) { standing_room_ = sonar_model::StandingRoom(robot); }
+  void clear_under(const RobotModel& robot) { cleared_footprint_ = sonar_model::ClearedFootprint(robot); }
   [[nodiscard]] int certainty(Cell cell) const;
 
  private:
@@ -40,7 +40,7 @@ class HimmMap final : public Mapper {
   OccupancyGrid grid_;
   sonar_model::TileMap<std::array<std::uint8_t, sonar_model::kCellsInTile>> certainties_;
   CellChanges changes_;  // of the latest call
-  sonar_model::StandingRoom standing_room_;
+  sonar_model::ClearedFootprint cleared_footprint_;
   std::vector<CellSpan> spans_;  // kept for its memory only
 };
 

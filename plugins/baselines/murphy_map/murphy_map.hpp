@@ -14,7 +14,7 @@
 
 #include "framework/contracts/mapper.hpp"
 #include "plugins/baselines/murphy_map/config.hpp"
-#include "plugins/common/sonar_model/standing_room.hpp"
+#include "plugins/common/sonar_model/cleared_footprint.hpp"
 
 namespace cairn::murphy_map {
 
@@ -30,7 +30,7 @@ class MurphyMap final : public Mapper {
   [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
   void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
   // Whose room is free where it stands.
-  void clear_under(const RobotModel& robot) { standing_room_ = sonar_model::StandingRoom(robot); }
+  void clear_under(const RobotModel& robot) { cleared_footprint_ = sonar_model::ClearedFootprint(robot); }
 
  private:
   void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);
@@ -38,7 +38,7 @@ class MurphyMap final : public Mapper {
   Config config_;
   OccupancyGrid grid_;
   CellChanges changes_;  // of the latest call
-  sonar_model::StandingRoom standing_room_;
+  sonar_model::ClearedFootprint cleared_footprint_;
   std::vector<CellSpan> spans_;  // kept for its memory only
 };
 

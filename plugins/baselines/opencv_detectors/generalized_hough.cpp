@@ -12,7 +12,7 @@ namespace {
 
 // Pairs kept for each of Guil's 360 directions, and memory reserved at once. Rooms of 8 x 6 m have fewer than
 // half as many; of a building that has more, the last rows are not seen.
-constexpr int kMostPairs = 2000;
+constexpr int kMaxPairs = 2000;
 
 struct EdgePicture {
   cv::Mat edges;
@@ -65,7 +65,7 @@ cv::Ptr<cv::GeneralizedHoughGuil> hough_of(const EdgePicture& shape, const Hough
   hough->setScaleStep(0.01);
   hough->setScaleThresh(1);
   hough->setPosThresh(1);
-  hough->setMaxBufferSize(kMostPairs);
+  hough->setMaxBufferSize(kMaxPairs);
   hough->setTemplate(shape.edges, shape.x, shape.y);
   return hough;
 }
@@ -91,7 +91,7 @@ std::vector<Vote> votes_on(cv::GeneralizedHoughGuil& hough, const EdgePicture& p
 
 struct GeneralizedHough::Voting {
   cv::Ptr<cv::GeneralizedHoughGuil> hough;
-  double most_votes = 0.0;
+  double max_votes = 0.0;
 };
 
 GeneralizedHough::GeneralizedHough(const HoughConfig& config, std::shared_ptr<const TemplateSet> templates)
@@ -101,9 +101,8 @@ GeneralizedHough::GeneralizedHough(const HoughConfig& config, std::shared_ptr<co
     const EdgePicture picture = edge_picture(gradients_of(shape, 2 * reach()), config);
     Voting& voting = votings_.emplace_back();
     voting.hough = hough_of(picture, config);
-    for (const Vote& vote : votes_on(*voting.hough, picture))
-      voting.most_votes = std::max(voting.most_votes, vote.votes);
-    if (voting.most_votes <= 0.0)
+    for (const Vote& vote : votes_on(*voting.hough, picture)) voting.max_votes = std::max(voting.max_votes, vote.votes);
+    if (voting.max_votes <= 0.0)
       throw std::invalid_argument("a template of category \"" + shape.category + "\" gets no votes on its own picture");
   }
 }
@@ -118,7 +117,7 @@ std::optional<std::vector<Candidate>> GeneralizedHough::search(const OccupancyGr
   for (std::size_t i = 0; i < votings_.size(); ++i) {
     if (budget.exhausted()) return std::nullopt;
     for (const Vote& vote : votes_on(*votings_[i].hough, picture)) {
-      const double degree = std::min(1.0, vote.votes / votings_[i].most_votes);
+      const double degree = std::min(1.0, vote.votes / votings_[i].max_votes);
       const Point at_m = grid.centre_of(box.min) + set().cell_m * vote.at;
       if (degree <= tau_match() || !centres.contains(grid.cell_at(at_m))) continue;
       candidates.push_back({at_m, i, set().templates[i].orientation_rad, degree});

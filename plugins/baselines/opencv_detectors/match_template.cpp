@@ -7,7 +7,7 @@
 namespace cairn::opencv_detectors {
 namespace {
 
-constexpr double kMostByRounding = 1.001;
+constexpr double kMaxByRounding = 1.001;
 
 // As matchTemplate takes it: OL as bytes, gradients as floats.
 cv::Mat picture_of(const Gradients& gradients, Picture picture) {
@@ -61,7 +61,7 @@ std::optional<std::vector<Candidate>> MatchTemplate::search(const OccupancyGrid&
     cv::Mat degrees;
     cv::matchTemplate(part, patches_[i].picture, degrees, cv::TM_CCOEFF_NORMED, patches_[i].mask);
     // Even ground has no variance to divide by.
-    degrees.setTo(0.0, (degrees != degrees) | (degrees > kMostByRounding));
+    degrees.setTo(0.0, (degrees != degrees) | (degrees > kMaxByRounding));
     add_peaks(degrees, i, grid, centres.min, candidates);
   }
   return candidates;

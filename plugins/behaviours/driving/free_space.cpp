@@ -16,7 +16,7 @@ constexpr double kTroubleRadius_m = 0.3;
 constexpr double kForbidden = 1e6;  // the step weight of cells that may not be crossed
 constexpr double kOutOfReach_m = 1e4;
 constexpr float kDearest = 1e5F;  // the start may lie where nothing may be crossed
-constexpr double kLongestWayOut_m = 0.8;
+constexpr double kLongestEscape_m = 0.8;
 constexpr std::size_t kLongestShortcut_cells = 60;
 constexpr int kStraightFirst[8] = {1, 3, 4, 6, 0, 2, 5, 7};  // of kNeighbours
 
@@ -51,8 +51,8 @@ CellLayer<float> FreeSpace::weights(const std::vector<TroubleSpot>& troubles) co
   for (int y = box().min.y; y < box().max.y; ++y) {
     for (int x = box().min.x; x < box().max.x; ++x) {
       const Cell c{x, y};
-      if (states_.at(c) != CellState::free || field_.distance_m(c) < least_m_) continue;
-      const double missing_m = std::max(0.0, least_m_ + kPreferredRoom_m - field_.distance_m(c));
+      if (states_.at(c) != CellState::free || field_.distance_m(c) < min_m_) continue;
+      const double missing_m = std::max(0.0, min_m_ + kPreferredRoom_m - field_.distance_m(c));
       double weight = 1.0 + kTightCost * missing_m / kPreferredRoom_m;
       for (const TroubleSpot& spot : troubles)
         if ((centre_of(c) - spot.at_m).norm() < kTroubleRadius_m) weight += kTroubleCost;
@@ -63,12 +63,12 @@ CellLayer<float> FreeSpace::weights(const std::vector<TroubleSpot>& troubles) co
 }
 
 // Breadth first over cells that are not occupied, to the first one with enough room.
-std::vector<Point> FreeSpace::find_way_out() const {
+std::vector<Point> FreeSpace::find_escape_path() const {
   std::vector<Point> way{robot_.position};
   const Cell start = cell_at(robot_.position);
   if (!box().contains(start) || weights_.at(start) < kForbidden) return way;
 
-  const int reach = static_cast<int>(kLongestWayOut_m / cell_m());
+  const int reach = static_cast<int>(kLongestEscape_m / cell_m());
   const CellBox near = intersected(box(), CellBox{start, start + Cell{1, 1}}.grown(reach));
   CellLayer<std::int8_t> came_from(near, -1, -1);
   CellGroup queue{start};
@@ -90,25 +90,25 @@ std::vector<Point> FreeSpace::find_way_out() const {
   return way;
 }
 
-TravelField FreeSpace::travel_from_way_out() const {
+TravelField FreeSpace::travel_from_escape() const {
   // Only what can be crossed, so that the search never leaves it.
   OccupancyGrid crossable(field_.cell_m(), 4.0, field_.origin_m());
   for (int y = box().min.y; y < box().max.y; ++y)
     for (int x = box().min.x; x < box().max.x; ++x)
       if (weights_.at({x, y}) < kForbidden) crossable.set_log_odds({x, y}, log_odds_of(0.01));
   const DistanceField field(crossable, UnknownPolicy::avoid);
-  return TravelField(field, way_out_.back(), 0.0, [this](Cell c) { return std::min(weights_.at(c), kDearest); });
+  return TravelField(field, escape_path_.back(), 0.0, [this](Cell c) { return std::min(weights_.at(c), kDearest); });
 }
 
 FreeSpace::FreeSpace(const OccupancyGrid& grid, const RobotSpace& robot, const std::vector<Pose2>& trace,
                      const std::vector<TroubleSpot>& troubles)
     : robot_(robot),
-      least_m_(robot.radius_m + robot.clearance_m),
+      min_m_(robot.radius_m + robot.clearance_m),
       field_(grid, UnknownPolicy::allow),
       states_(known_states(grid, field_, robot.radius_m, trace)),
       weights_(weights(troubles)),
-      way_out_(find_way_out()),
-      travel_(travel_from_way_out()) {}
+      escape_path_(find_escape_path()),
+      travel_(travel_from_escape()) {}
 
 bool FreeSpace::reaches(Cell cell) const {
   return cost_m(cell) < kOutOfReach_m;
@@ -116,12 +116,12 @@ bool FreeSpace::reaches(Cell cell) const {
 
 double FreeSpace::cost_m(Cell cell) const {
   const double cost = travel_.cost_m(cell);
-  return cost < kOutOfReach_m && weights_.at(cell) < kForbidden ? cost + length_of(way_out_)
+  return cost < kOutOfReach_m && weights_.at(cell) < kForbidden ? cost + length_of(escape_path_)
                                                                 : std::numeric_limits<double>::infinity();
 }
 
 double FreeSpace::line_cost(const Point& from, const Point& to) const {
-  if (!segment_is_clear(field_, from, to, least_m_)) return std::numeric_limits<double>::infinity();
+  if (!segment_is_clear(field_, from, to, min_m_)) return std::numeric_limits<double>::infinity();
   const double length_m = (to - from).norm();
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / (0.5 * cell_m()))));
   double sum = 0.0;
@@ -151,7 +151,7 @@ std::vector<Point> FreeSpace::straightened(const std::vector<Cell>& cells) const
 
 std::vector<Point> FreeSpace::path_to(Cell cell) const {
   if (!reaches(cell)) return {};
-  std::vector<Point> path = way_out_;
+  std::vector<Point> path = escape_path_;
   const std::vector<Point> rest = straightened(travel_.path_to(cell));
   // The first cell is the one that the way out ends in.
   path.insert(path.end(), rest.begin() + (rest.size() > 1 ? 1 : 0), rest.end());

@@ -41,7 +41,7 @@ class FreeSpace {
   [[nodiscard]] CellState state(Cell cell) const { return states_.at(cell); }
   // To the nearest occupied cell, between centres.
   [[nodiscard]] double distance_m(Cell cell) const { return field_.distance_m(cell); }
-  [[nodiscard]] double least_distance_m() const { return least_m_; }
+  [[nodiscard]] double min_distance_m() const { return min_m_; }
   [[nodiscard]] double radius_m() const { return robot_.radius_m; }
 
   [[nodiscard]] bool reaches(Cell cell) const;
@@ -51,7 +51,7 @@ class FreeSpace {
   [[nodiscard]] std::vector<Point> path_to(Cell cell) const;
   // From the robot to the first cell with enough room: only the robot when it stands in one, or when
   // there is none near.
-  [[nodiscard]] const std::vector<Point>& way_out() const { return way_out_; }
+  [[nodiscard]] const std::vector<Point>& escape_path() const { return escape_path_; }
   // Known free and clear all along.
   [[nodiscard]] bool line_is_open(const Point& from, const Point& to) const;
   // Nothing occupied between the point and the cell (the cell itself and what touches it aside).
@@ -61,17 +61,17 @@ class FreeSpace {
   [[nodiscard]] static CellLayer<CellState> known_states(const OccupancyGrid& grid, const DistanceField& field,
                                                          double radius_m, const std::vector<Pose2>& trace);
   [[nodiscard]] CellLayer<float> weights(const std::vector<TroubleSpot>& troubles) const;
-  [[nodiscard]] std::vector<Point> find_way_out() const;
-  [[nodiscard]] TravelField travel_from_way_out() const;
+  [[nodiscard]] std::vector<Point> find_escape_path() const;
+  [[nodiscard]] TravelField travel_from_escape() const;
   [[nodiscard]] double line_cost(const Point& from, const Point& to) const;
   [[nodiscard]] std::vector<Point> straightened(const std::vector<Cell>& cells) const;
 
   RobotSpace robot_;
-  double least_m_;
+  double min_m_;
   DistanceField field_;
   CellLayer<CellState> states_;
   CellLayer<float> weights_;
-  std::vector<Point> way_out_;
+  std::vector<Point> escape_path_;
   TravelField travel_;
 };
 

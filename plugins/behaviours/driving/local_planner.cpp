@@ -39,10 +39,10 @@ constexpr double kExplained_m = 0.1;
 constexpr double kSurelyInBeam = 0.6;       // of half a beam
 constexpr double kThin_rad = radians(1.0);  // half a beam of no width
 constexpr int kArcPoints = 5;
-constexpr int kMostSensors = 4096;
+constexpr int kMaxSensors = 4096;
 constexpr double kLongestTick_s = 0.5;
 
-double braking_way_m(double v_mps, const LocalLimits& limits) {
+double braking_distance_m(double v_mps, const LocalLimits& limits) {
   return v_mps * v_mps / (2.0 * kBraking * limits.acceleration_mps2) + kReaction_s * v_mps;
 }
 
@@ -54,7 +54,7 @@ Point arc_end(const Twist& twist, double time_s) {
 }
 
 struct Window {
-  double least_v_mps, most_v_mps, least_w_radps, most_w_radps;
+  double min_v_mps, max_v_mps, min_w_radps, max_w_radps;
 };
 
 Window window_about(const Twist& now, const LocalLimits& limits) {
@@ -81,30 +81,30 @@ double score(const Twist& twist, double way_m, const LocalWish& wish, const Loca
          kPreference * difference;
 }
 
-LocalStep best_with(double clearance_m, double most_v_mps, const Twist& now, const LocalWish& wish,
+LocalStep best_with(double clearance_m, double max_v_mps, const Twist& now, const LocalWish& wish,
                     const std::vector<Point>& obstacles, const LocalLimits& limits) {
   const double reach_m = limits.radius_m + clearance_m;
   const double to_aim_m = wish.aim.norm();
   const auto is_free = [&](const Twist& twist, double way_m) {
-    return way_m >= std::min(braking_way_m(twist.v_mps, limits) + kBeyond_m, std::max(to_aim_m, 0.02));
+    return way_m >= std::min(braking_distance_m(twist.v_mps, limits) + kBeyond_m, std::max(to_aim_m, 0.02));
   };
-  const double share = std::min(1.0, most_v_mps / std::max(1e-9, wish.preferred.v_mps));
+  const double share = std::min(1.0, max_v_mps / std::max(1e-9, wish.preferred.v_mps));
   const Twist preferred{share * wish.preferred.v_mps, share * wish.preferred.w_radps};
-  if (is_free(preferred, free_way_m(preferred, obstacles, reach_m))) return {preferred, false};
+  if (is_free(preferred, free_distance_m(preferred, obstacles, reach_m))) return {preferred, false};
 
   const Window window = window_about(now, limits);
   LocalStep best{{}, true};
   double best_score = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < kSpeeds; ++i) {
-    const double fastest = std::min({window.most_v_mps, most_v_mps, std::max(wish.preferred.v_mps, kSlowest_mps)});
-    const double slowest = std::min(window.least_v_mps, fastest);
+    const double fastest = std::min({window.max_v_mps, max_v_mps, std::max(wish.preferred.v_mps, kSlowest_mps)});
+    const double slowest = std::min(window.min_v_mps, fastest);
     const double v_mps = slowest + (fastest - slowest) * i / (kSpeeds - 1);
     for (int k = 0; k < kTurnRates; ++k) {
-      const double w_radps = window.least_w_radps + (window.most_w_radps - window.least_w_radps) * k / (kTurnRates - 1);
+      const double w_radps = window.min_w_radps + (window.max_w_radps - window.min_w_radps) * k / (kTurnRates - 1);
       const Twist twist{v_mps, w_radps};
       if (!can_steer(twist, limits)) continue;
-      const double way_m = free_way_m(twist, obstacles, reach_m);
-      if (way_m < braking_way_m(v_mps, limits)) continue;
+      const double way_m = free_distance_m(twist, obstacles, reach_m);
+      if (way_m < braking_distance_m(v_mps, limits)) continue;
       const double value = score(twist, way_m, wish, limits);
       if (value <= best_score) continue;
       best_score = value;
@@ -127,7 +127,7 @@ LocalLimits local_limits(const RobotModel& robot, double speed_mps) {
   return limits;
 }
 
-double free_way_m(const Twist& twist, const std::vector<Point>& obstacles, double reach_m) {
+double free_distance_m(const Twist& twist, const std::vector<Point>& obstacles, double reach_m) {
   const double sign = twist.v_mps < 0.0 ? -1.0 : 1.0;
   const double curvature = twist.w_radps / twist.v_mps;
   const Point soon = arc_end(twist, kSoon_m / std::abs(twist.v_mps));
@@ -172,8 +172,8 @@ Twist approached(const Twist& now, const Twist& target, double passed_s, const L
   Twist next{towards(now.v_mps, target.v_mps, limits.acceleration_mps2 * passed_s),
              towards(now.w_radps, target.w_radps, limits.turn_acceleration_radps2 * passed_s)};
   if (limits.min_turning_radius_m > 0.0) {
-    const double most_radps = std::abs(next.v_mps) / limits.min_turning_radius_m;
-    next.w_radps = std::clamp(next.w_radps, -most_radps, most_radps);
+    const double max_radps = std::abs(next.v_mps) / limits.min_turning_radius_m;
+    next.w_radps = std::clamp(next.w_radps, -max_radps, max_radps);
   }
   return next;
 }
@@ -193,8 +193,8 @@ void LocalPlanner::gather_cells(const WorldView& world, const NearEchoes& near_e
   }
 }
 
-void LocalPlanner::hear(const RangeReading& reading, const WorldView& world) {
-  if (reading.sensor < 0 || reading.sensor >= kMostSensors || std::isnan(reading.range_m)) return;
+void LocalPlanner::add(const RangeReading& reading, const WorldView& world) {
+  if (reading.sensor < 0 || reading.sensor >= kMaxSensors || std::isnan(reading.range_m)) return;
   const auto index = static_cast<std::size_t>(reading.sensor);
   if (index >= echoes_.size()) echoes_.resize(index + 1);
   Echo& echo = echoes_[index];
@@ -239,7 +239,7 @@ void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, co
   last_s_ = world.time_s;
   if (world.time_s - gathered_s_ >= kGatherEvery_s) gather_cells(world, near_echoes, doubted);
   if (world.observation != nullptr)
-    for (const RangeReading& reading : world.observation->ranges) hear(reading, world);
+    for (const RangeReading& reading : world.observation->ranges) add(reading, world);
   std::vector<Point> there_map;
   for (const Point& p : cells_map_)
     if (live_echo_at(p, world.time_s) != Live::seen_through) there_map.push_back(p);
@@ -255,7 +255,7 @@ void LocalPlanner::see(const WorldView& world, const NearEchoes& near_echoes, co
 
 // What was ordered, less what the stop layer has taken away.
 Twist LocalPlanner::now(const WorldView& world) const {
-  const double share = 1.0 - std::clamp(world.held_back_ratio, 0.0, 1.0);
+  const double share = 1.0 - std::clamp(world.speed_reduction_ratio, 0.0, 1.0);
   return {share * last_ordered_.v_mps, last_ordered_.w_radps};
 }
 

@@ -29,7 +29,7 @@ struct LocalLimits {
 // Metres of the arc of a twist (backwards for v < 0) that a disc about the robot's origin can go before its centre is
 // within reach_m of an obstacle (robot frame); +inf when it never is. An obstacle that is within reach already only
 // counts while the disc comes nearer to it. v must not be 0.
-[[nodiscard]] double free_way_m(const Twist& twist, const std::vector<Point>& obstacles, double reach_m);
+[[nodiscard]] double free_distance_m(const Twist& twist, const std::vector<Point>& obstacles, double reach_m);
 
 struct LocalWish {
   Twist preferred;      // by the path follower
@@ -77,7 +77,7 @@ class LocalPlanner {
   };
   [[nodiscard]] static bool is_explained(const Echo& echo, const std::vector<Point>& there_map);
   void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& doubted);
-  void hear(const RangeReading& reading, const WorldView& world);
+  void add(const RangeReading& reading, const WorldView& world);
   [[nodiscard]] Twist now(const WorldView& world) const;
 
   std::vector<Point> cells_map_;

@@ -14,7 +14,7 @@ constexpr int kSolid = 160;  // two hits
 constexpr int kPassed = -50;
 constexpr int kSurelyFree = -280;  // six echoes from behind it
 constexpr LogOdds kStoodThere = -400;
-constexpr double kMost_nat = 1.6;  // four hits
+constexpr double kMax_nat = 1.6;  // four hits
 constexpr double kMoved_m = 0.02;
 constexpr double kTurned_rad = radians(3.0);
 constexpr int kRays = 5;  // over the middle half of the beam
@@ -24,17 +24,17 @@ bool has_moved(const Pose2& a, const Pose2& b) {
          std::abs(wrap_angle(a.theta_rad - b.theta_rad)) >= kTurned_rad;
 }
 
-constexpr int kMostSensors = 4096;  // an index beyond it is an error of the source, not a transducer
+constexpr int kMaxSensors = 4096;  // an index beyond it is an error of the source, not a transducer
 
 bool is_usable(const RangeReading& reading) {
   return reading.range_m > reading.min_m && reading.range_m > 0.0 && reading.range_m <= kNear_m &&
          reading.half_beam_rad >= 0.0 && reading.half_beam_rad <= std::numbers::pi && reading.sensor >= 0 &&
-         reading.sensor < kMostSensors;
+         reading.sensor < kMaxSensors;
 }
 
 }  // namespace
 
-NearEchoes::NearEchoes(const OccupancyGrid& map) : votes_(map.cell_m(), kMost_nat, map.origin_m()) {}
+NearEchoes::NearEchoes(const OccupancyGrid& map) : votes_(map.cell_m(), kMax_nat, map.origin_m()) {}
 
 void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
   for (const RangeReading& reading : observation.ranges) {
@@ -74,18 +74,18 @@ void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
 void NearEchoes::stand_at(const Point& p_map, double radius_m) {
   if (!votes_.can_include(p_map, radius_m + votes_.cell_m())) return;
   const Cell centre = votes_.cell_at(p_map);
-  const double most_cells = radius_m / votes_.cell_m() + 0.5;
-  const int reach = static_cast<int>(most_cells);
+  const double max_cells = radius_m / votes_.cell_m() + 0.5;
+  const int reach = static_cast<int>(max_cells);
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx)
-      if (dx * dx + dy * dy <= most_cells * most_cells) votes_.set_log_odds(centre + Cell{dx, dy}, kStoodThere);
+      if (dx * dx + dy * dy <= max_cells * max_cells) votes_.set_log_odds(centre + Cell{dx, dy}, kStoodThere);
 }
 
 bool NearEchoes::is_solid(Cell cell) const {
   return votes_.log_odds(cell) >= kSolid;
 }
 
-bool NearEchoes::is_surely_free(Cell cell) const {
+bool NearEchoes::is_conservatively_free(Cell cell) const {
   return votes_.log_odds(cell) <= kSurelyFree;
 }
 

@@ -24,10 +24,10 @@ class NearEchoes {
   void stand_at(const Point& p_map, double radius_m);
 
   [[nodiscard]] bool is_solid(Cell cell) const;
-  [[nodiscard]] bool is_surely_free(Cell cell) const;
+  [[nodiscard]] bool is_conservatively_free(Cell cell) const;
   // What the map says where the votes do not know better.
   [[nodiscard]] bool is_occupied(const OccupancyGrid& map, Cell cell) const {
-    return is_solid(cell) || (map.state(cell) == CellState::occupied && !is_surely_free(cell));
+    return is_solid(cell) || (map.state(cell) == CellState::occupied && !is_conservatively_free(cell));
   }
   // A copy of this part of the map with the votes applied.
   [[nodiscard]] OccupancyGrid applied_to(const OccupancyGrid& map, const CellBox& part) const;

@@ -17,25 +17,25 @@ constexpr double kRoomToDrive_m2 = 0.2;  // what is seen of a room through its d
 constexpr double kSame_m = 0.5;
 
 // Free cells with room for the robot that it does not get to, in connected groups.
-std::vector<CellGroup> places_behind(const FreeSpace& space, double least_m2,
+std::vector<CellGroup> places_behind(const FreeSpace& space, double min_m2,
                                      const std::function<bool(Cell)>& is_wanted) {
   std::vector<Cell> behind;
   const CellBox box = space.box();
   for (int y = box.min.y; y < box.max.y; ++y) {
     for (int x = box.min.x; x < box.max.x; ++x) {
       const Cell c{x, y};
-      const bool is_roomy = space.state(c) == CellState::free && space.distance_m(c) >= space.least_distance_m();
+      const bool is_roomy = space.state(c) == CellState::free && space.distance_m(c) >= space.min_distance_m();
       if (is_roomy && !space.reaches(c) && is_wanted(c)) behind.push_back(c);
     }
   }
   std::vector<CellGroup> groups = grouped(behind, 1);
   const double cell_m2 = space.cell_m() * space.cell_m();
-  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < least_m2; });
+  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < min_m2; });
   return groups;
 }
 
-std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& squeezed, double least_m2) {
-  return places_behind(space, least_m2, [&](Cell c) { return squeezed.reaches(c); });
+std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& squeezed, double min_m2) {
+  return places_behind(space, min_m2, [&](Cell c) { return squeezed.reaches(c); });
 }
 
 // Where the slimmer robot's way to a place leaves what the robot itself can reach.

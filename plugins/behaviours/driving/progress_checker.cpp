@@ -5,11 +5,11 @@
 
 namespace cairn::behaviours {
 namespace {
-constexpr double kHeldBackRatio = 0.7;
+constexpr double kSpeedReductionRatio = 0.7;
 constexpr double kStandingRatio = 0.1;  // of the wanted speed
 }  // namespace
 
-bool HeldBackWatch::is_stuck(const WorldView& world, const Twist& wanted) {
+bool ProgressChecker::is_stuck(const WorldView& world, const Twist& wanted) {
   const Pose2& pose = world.pose.T_map_robot;
   const double passed_s = last_s_ < 0.0 ? 0.0 : world.time_s - last_s_;
   const double moved_m = (pose.position() - T_map_last_.position()).norm();
@@ -21,7 +21,7 @@ bool HeldBackWatch::is_stuck(const WorldView& world, const Twist& wanted) {
 
   const bool stands = goes_ahead ? moved_m < kStandingRatio * wanted.v_mps * passed_s
                                  : turned_rad < kStandingRatio * std::abs(wanted.w_radps) * passed_s;
-  if (world.held_back_ratio > kHeldBackRatio || stands) {
+  if (world.speed_reduction_ratio > kSpeedReductionRatio || stands) {
     stuck_s_ += passed_s;
   } else {
     stuck_s_ = std::max(0.0, stuck_s_ - 2.0 * passed_s);

@@ -5,11 +5,11 @@
 
 namespace cairn::behaviours {
 
-class HeldBackWatch {
+class ProgressChecker {
  public:
-  explicit HeldBackWatch(double patience_s = 2.5) : patience_s_(patience_s) {}
+  explicit ProgressChecker(double patience_s = 2.5) : patience_s_(patience_s) {}
 
-  void restart() { *this = HeldBackWatch(patience_s_); }
+  void restart() { *this = ProgressChecker(patience_s_); }
   // Told every tick what was wanted in the tick before, forwards or a turn in place; true when the robot has not got
   // on for the patience, or at once when it has bumped into something while it wanted to go ahead.
   [[nodiscard]] bool is_stuck(const WorldView& world, const Twist& wanted);

@@ -12,17 +12,17 @@ void RecentEchoes::see(const WorldView& world) {
     later_.emplace(world.grid);
     since_s_ = world.time_s;
   }
-  hear(world);
+  add(world);
 }
 
 void RecentEchoes::forget(const WorldView& world) {
   now_.emplace(world.grid);
   later_.emplace(world.grid);
   since_s_ = world.time_s;
-  hear(world);
+  add(world);
 }
 
-void RecentEchoes::hear(const WorldView& world) {
+void RecentEchoes::add(const WorldView& world) {
   const Pose2& pose = world.pose.T_map_robot;
   for (NearEchoes* echoes : {&*now_, &*later_}) {
     if (world.observation != nullptr) echoes->see(*world.observation, pose);

@@ -18,7 +18,7 @@ class RecentEchoes {
   [[nodiscard]] const NearEchoes& now() const { return *now_; }
 
  private:
-  void hear(const WorldView& world);
+  void add(const WorldView& world);
 
   std::optional<NearEchoes> now_;
   std::optional<NearEchoes> later_;  // will be now_

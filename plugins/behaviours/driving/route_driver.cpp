@@ -12,9 +12,9 @@ constexpr double kOwnPlansApart_s = 3.0;  // they cost more
 constexpr double kBlockedAhead_m = 1.0;
 constexpr double kAsideAtMost_s = 30.0;  // a car may circle round where it wants to stand
 constexpr double kToLookAtMost_s = 120.0;
-constexpr double kWayOutTolerance_m = 0.02;
+constexpr double kEscapeTolerance_m = 0.02;
 constexpr double kTrace_m = 0.1;
-constexpr std::size_t kMostTrace = 400;
+constexpr std::size_t kMaxTrace = 400;
 // What is doubted is gone near at a speed at which touching it would do no harm.
 constexpr double kDoubtNear_m = 0.25;
 constexpr double kDoubtful_mps = 0.05;
@@ -30,7 +30,7 @@ void RouteDriver::restart() {
   *this = RouteDriver(settings_, seed_);
 }
 
-Status RouteDriver::tick(const Place& goal, const WorldView& world, Orders& orders) {
+Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourContext& orders) {
   goal_ = goal;
   remember(world);
   switch (mode_) {
@@ -54,7 +54,7 @@ void RouteDriver::remember(const WorldView& world) {
   const Pose2& pose = world.pose.T_map_robot;
   echoes_.see(world);
   if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTrace_m) trace_.push_back(pose);
-  if (trace_.size() > kMostTrace) trace_.erase(trace_.begin());
+  if (trace_.size() > kMaxTrace) trace_.erase(trace_.begin());
   for (std::vector<TroubleSpot>* spots : {&troubles_, &shut_})
     std::erase_if(*spots, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   std::erase_if(closed_until_s_, [&](const auto& closed) { return closed.second < world.time_s; });
@@ -69,7 +69,7 @@ void RouteDriver::set_mode(Mode mode, double time_s) {
 }
 
 // Something has turned up on the path: another one, if there is.
-void RouteDriver::plan_past(const WorldView& world, Orders& orders) {
+void RouteDriver::plan_past(const WorldView& world, BehaviourContext& orders) {
   if (own_trust_) {
     if (world.time_s - planned_s_ < kOwnPlansApart_s) return;
     planned_s_ = world.time_s;
@@ -80,16 +80,16 @@ void RouteDriver::plan_past(const WorldView& world, Orders& orders) {
   if (result.outcome == PlanOutcome::solved) take_route(result, world);
 }
 
-Status RouteDriver::travel(const WorldView& world, Orders& orders) {
+Status RouteDriver::travel(const WorldView& world, BehaviourContext& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   const bool is_late = world.time_s - mode_since_s_ > (leg_ == Leg::aside ? kAsideAtMost_s : kToLookAtMost_s);
   if ((leg_ == Leg::aside || leg_ == Leg::to_look) && is_late) return begin_look_from_here(world, orders);
   if (watch_.is_stuck(world, preferred_))
-    return leg_ == Leg::aside ? begin_look_from_here(world, orders) : held_back(world, orders);
+    return leg_ == Leg::aside ? begin_look_from_here(world, orders) : progress_checker(world, orders);
   // One cell less than the planner's disc, so that the two never disagree about the same map.
   const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
   const bool blocked =
-      leg_ != Leg::way_out && is_blocked(world, path_, follow_state_.along_m, kBlockedAhead_m, margin_m);
+      leg_ != Leg::escape_path && is_blocked(world, path_, follow_state_.along_m, kBlockedAhead_m, margin_m);
   if (blocked && world.time_s - planned_s_ >= kPlansApart_s) {
     if (leg_ == Leg::to_look || leg_ == Leg::aside) return begin_look_from_here(world, orders);
     plan_past(world, orders);
@@ -99,14 +99,14 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
     return (p - pose.position()).norm() < kDoubtNear_m + world.robot.radius_m;
   });
   if (doubts_here) limits.speed_mps = std::min(limits.speed_mps, kDoubtful_mps);
-  limits.arrive_m = leg_ == Leg::way_out ? kWayOutTolerance_m : settings_.tolerance_m;
+  limits.arrive_m = leg_ == Leg::escape_path ? kEscapeTolerance_m : settings_.tolerance_m;
   const FollowStep step = follow(pose, path_, follow_state_, limits);
   follow_state_ = step.state;
   if (step.arrived) return arrive(world, orders);
   preferred_ = step.wanted;
   const Point aim = point_along(path_, step.state.along_m + limits.lookahead_m);
-  orders.drive(leg_ == Leg::way_out ? local_.approach(preferred_, world)
-                                    : local_.steer(preferred_, aim, limits.speed_mps, world));
+  orders.drive(leg_ == Leg::escape_path ? local_.approach(preferred_, world)
+                                        : local_.steer(preferred_, aim, limits.speed_mps, world));
   if (local_.is_blocked()) {
     if (!said_wait_) orders.say("waits: something is in the way at " + described(pose.position()));
     said_wait_ = true;
@@ -116,8 +116,8 @@ Status RouteDriver::travel(const WorldView& world, Orders& orders) {
   return {Progress::running, "under way", step.left_m / limits.speed_mps};
 }
 
-Status RouteDriver::arrive(const WorldView& world, Orders& orders) {
-  if (leg_ == Leg::way_out) {
+Status RouteDriver::arrive(const WorldView& world, BehaviourContext& orders) {
+  if (leg_ == Leg::escape_path) {
     set_mode(Mode::plan, world.time_s);
     return {Progress::running, "has made room"};
   }
@@ -126,7 +126,7 @@ Status RouteDriver::arrive(const WorldView& world, Orders& orders) {
   return face(world, orders);
 }
 
-Status RouteDriver::face(const WorldView& world, Orders& orders) {
+Status RouteDriver::face(const WorldView& world, BehaviourContext& orders) {
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
   const double error_rad =
       goal_.pose && goal_.heading_matters ? wrap_angle(goal_.pose->theta_rad - world.pose.T_map_robot.theta_rad) : 0.0;

@@ -20,10 +20,10 @@
 #include "framework/contracts/behaviour.hpp"
 #include "plugins/behaviours/driving/free_space.hpp"
 #include "plugins/behaviours/driving/local_planner.hpp"
+#include "plugins/behaviours/driving/lookout_route.hpp"
 #include "plugins/behaviours/driving/path_follower.hpp"
 #include "plugins/behaviours/driving/progress_checker.hpp"
 #include "plugins/behaviours/driving/recent_echoes.hpp"
-#include "plugins/behaviours/driving/way_to_look.hpp"
 
 namespace cairn::behaviours {
 
@@ -54,7 +54,7 @@ class RouteDriver {
   // Success: the robot is at the goal, and faces the goal's heading if that matters (a landmark is not faced: see
   // goal_landmark()). Failure: the reason says where and why. The goal must stay the same until then; another one needs
   // a restart() before. Landmarks of the goal must be known to the graph.
-  Status tick(const Place& goal, const WorldView& world, Orders& orders);
+  Status tick(const Place& goal, const WorldView& world, BehaviourContext& orders);
   // Forgets everything but its settings.
   void restart();
 
@@ -66,7 +66,7 @@ class RouteDriver {
   static constexpr double kBesideGoal_m = 0.5;  // from the robot's rim
 
   enum class Mode { plan, travel, back_up, turn, look, face };
-  enum class Leg { route, way_out, to_look, aside };  // what the path is
+  enum class Leg { route, escape_path, to_look, aside };  // what the path is
   // What of the map counts: all of it; not specks; not specks, and what is unknown is taken to be free; besides, what
   // leaves less room than the robot needs may be the width of the sonars' beams.
   enum class Trust { all, no_specks, only_solid, squeezed };
@@ -83,33 +83,33 @@ class RouteDriver {
 
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
-  Status plan(const WorldView& world, Orders& orders);
-  [[nodiscard]] PlanResult ask_planner(const WorldView& world, Orders& orders);
+  Status plan(const WorldView& world, BehaviourContext& orders);
+  [[nodiscard]] PlanResult ask_planner(const WorldView& world, BehaviourContext& orders);
   void take_path(const std::vector<Point>& path, Leg leg);
   void take_route(const PlanResult& result, const WorldView& world);
   [[nodiscard]] std::optional<Point> goal_point(const WorldView& world) const;
   [[nodiscard]] bool plan_by_own_eyes(const WorldView& world, Trust trust);
-  Status no_plan(const PlanResult& result, const WorldView& world, Orders& orders);
-  [[nodiscard]] bool begin_way_out(const WorldView& world);
+  Status no_plan(const PlanResult& result, const WorldView& world, BehaviourContext& orders);
+  [[nodiscard]] bool begin_escape(const WorldView& world);
   [[nodiscard]] bool begin_look(PlanOutcome outcome, const WorldView& world);
   [[nodiscard]] bool begin_look_at_goal(const Point& goal, const WorldView& world);
-  void go_to_look(const WayToLook& way);
+  void go_to_look(const LookoutRoute& way);
 
-  Status travel(const WorldView& world, Orders& orders);
-  Status arrive(const WorldView& world, Orders& orders);
-  Status held_back(const WorldView& world, Orders& orders);
+  Status travel(const WorldView& world, BehaviourContext& orders);
+  Status arrive(const WorldView& world, BehaviourContext& orders);
+  Status progress_checker(const WorldView& world, BehaviourContext& orders);
   [[nodiscard]] std::optional<Point> nearest_ahead(const WorldView& world) const;
   [[nodiscard]] bool begin_aside(const WorldView& world);
-  Status back_up(const WorldView& world, Orders& orders);
-  Status turn(const WorldView& world, Orders& orders);
-  void plan_past(const WorldView& world, Orders& orders);
+  Status back_up(const WorldView& world, BehaviourContext& orders);
+  Status turn(const WorldView& world, BehaviourContext& orders);
+  void plan_past(const WorldView& world, BehaviourContext& orders);
   [[nodiscard]] bool has_opened(const WorldView& world);
   [[nodiscard]] std::vector<Cell> seen_through() const;
   [[nodiscard]] bool is_seen_through(Cell cell) const;
-  Status begin_look_from_here(const WorldView& world, Orders& orders);
-  Status look(const WorldView& world, Orders& orders);
-  Status face(const WorldView& world, Orders& orders);
-  void close_route_here(const WorldView& world, Orders& orders);
+  Status begin_look_from_here(const WorldView& world, BehaviourContext& orders);
+  Status look(const WorldView& world, BehaviourContext& orders);
+  Status face(const WorldView& world, BehaviourContext& orders);
+  void close_route_here(const WorldView& world, BehaviourContext& orders);
   [[nodiscard]] Status give_up(const WorldView& world) const;
   [[nodiscard]] FreeSpace space_now(const WorldView& world, double clearance_m, Trust trust) const;
   [[nodiscard]] std::vector<Cell> doubtful_cells(const OccupancyGrid& map) const;
@@ -129,8 +129,8 @@ class RouteDriver {
   std::vector<Point> path_;
   FollowState follow_state_;
   LandmarkId goal_landmark_ = 0;
-  std::optional<Point> route_end_;  // of the last plan that was solved
-  std::vector<PlanPiece> pieces_;   // of the path, when it is the planner's
+  std::optional<Point> route_end_;     // of the last plan that was solved
+  std::vector<PathSegment> segments_;  // of the path, when it is the planner's
   std::map<RouteId, double> closed_until_s_;
 
   RecentEchoes echoes_;
@@ -140,11 +140,11 @@ class RouteDriver {
   CellSet doubted_;                    // left out of account on the way by its own eyes
   std::vector<Point> doubted_places_;  // the occupied ones
   LocalPlanner local_;
-  HeldBackWatch watch_;
+  ProgressChecker watch_;
   Twist preferred_;  // of the last tick
   double planned_s_ = -1e9;
   int plans_ = 0;
-  int ways_out_ = 0;
+  int escape_paths_ = 0;
   int looks_ = 0;
   int unknown_ways_ = 0;
   int squeezes_ = 0;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "plugins/behaviours/driving/lookout_route.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
 #include "plugins/behaviours/driving/speckles.hpp"
-#include "plugins/behaviours/driving/way_to_look.hpp"
 #include "plugins/behaviours/errands/place_name.hpp"
 
 namespace cairn::behaviours {
@@ -14,24 +14,24 @@ namespace {
 // door leaves, then nothing.
 constexpr double kRooms_m[] = {0.12, 0.06, 0.0};
 constexpr double kPlansApart_s = 1.0;
-constexpr int kMostPlans = 200;
-constexpr int kMostWaysOut = 4;
-constexpr double kWayOutClearance_m = 0.1;
+constexpr int kMaxPlans = 200;
+constexpr int kMaxEscapes = 4;
+constexpr double kEscapeClearance_m = 0.1;
 constexpr double kSpaceAround_m = 12.0;
 constexpr double kSpaceClearance_m = 0.08;
 constexpr double kTightClearance_m = 0.03;
 constexpr double kAroundGoal_m = 1.0;
-constexpr int kMostAcross_cells = 1000;
+constexpr int kMaxAcross_cells = 1000;
 constexpr double kShutAround_m = 0.3;
 constexpr double kFree = 0.1;  // probability of what is taken to be free
-constexpr int kMostLooks = 12;
+constexpr int kMaxLooks = 12;
 constexpr int kLooksBeforeAgain = 6;  // then at the same places once more
 constexpr double kAroundLook_m = 0.7;
-constexpr int kMostUnknownWays = 20;
+constexpr int kMaxUnknownWays = 20;
 // An opening of twice this is tried, slowly: sonars draw openings narrower than they are.
 constexpr double kSqueezedRadius_m = 0.16;
 constexpr int kLooksBeforeSqueezing = 2;
-constexpr int kMostSqueezes = 3;
+constexpr int kMaxNarrowGapTries = 3;
 constexpr double kStandOff_m = 0.8;  // from what is looked at
 constexpr double kStandOffNearer_m = 0.5;
 constexpr double kBesideApart_m = 0.3;
@@ -81,7 +81,7 @@ void take_unknown_for_free(OccupancyGrid& map, const Point& goal) {
   const CellBox known = map.bounds();
   CellBox box = CellBox{to, to + Cell{1, 1}}.grown(around);
   box = known.empty() ? box : united(known, box);
-  if (box.width() > kMostAcross_cells || box.height() > kMostAcross_cells) return;
+  if (box.width() > kMaxAcross_cells || box.height() > kMaxAcross_cells) return;
   const LogOdds free = log_odds_of(kFree);
   for (int y = box.min.y; y < box.max.y; ++y)
     for (int x = box.min.x; x < box.max.x; ++x)
@@ -102,13 +102,13 @@ void occupy_around(const Point& p, OccupancyGrid& map) {
 // echoes.
 std::vector<Cell> RouteDriver::doubtful_cells(const OccupancyGrid& map) const {
   std::vector<Cell> cells = seen_through();
-  const std::vector<Cell> specks = specks_of(map, map.bounds());
-  cells.insert(cells.end(), specks.begin(), specks.end());
+  const std::vector<Cell> speckles = speckles_of(map, map.bounds());
+  cells.insert(cells.end(), speckles.begin(), speckles.end());
   const int around = static_cast<int>(kAroundLook_m / map.cell_m());
   for (const Point& seen : looked_at_) {
     const Cell at = map.cell_at(seen);
     const CellBox box = CellBox{at, at + Cell{1, 1}}.grown(around);
-    const std::vector<Cell> islands = specks_of(map, box, box.width() * box.height(), box.width() * box.height());
+    const std::vector<Cell> islands = speckles_of(map, box, box.width() * box.height(), box.width() * box.height());
     cells.insert(cells.end(), islands.begin(), islands.end());
   }
   return cells;
@@ -170,7 +170,7 @@ bool RouteDriver::is_blocked(const WorldView& world, const std::vector<Point>& p
 
 // With as much room as there is a way for; stored routes that were found blocked are left closed while there is
 // another.
-PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
+PlanResult RouteDriver::ask_planner(const WorldView& world, BehaviourContext& orders) {
   PlanRequest request;
   request.from.pose = world.pose.T_map_robot;
   request.to = goal_;
@@ -195,7 +195,7 @@ PlanResult RouteDriver::ask_planner(const WorldView& world, Orders& orders) {
 
 void RouteDriver::take_path(const std::vector<Point>& path, Leg leg) {
   path_ = path;
-  pieces_.clear();
+  segments_.clear();
   leg_ = leg;
   own_trust_.reset();
   follow_state_ = {0.0, follow_state_.turning};
@@ -208,7 +208,7 @@ void RouteDriver::take_route(const PlanResult& result, const WorldView& world) {
   const double cell_m = world.grid.cell_m();
   if (goal_.pose && !path_.empty() && (path_.back() - goal_.pose->position()).norm() < cell_m)
     path_.back() = goal_.pose->position();
-  pieces_ = result.pieces;
+  segments_ = result.segments;
   if (!path_.empty()) route_end_ = path_.back();
   const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
     return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
@@ -216,9 +216,9 @@ void RouteDriver::take_route(const PlanResult& result, const WorldView& world) {
   goal_landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
 }
 
-Status RouteDriver::plan(const WorldView& world, Orders& orders) {
+Status RouteDriver::plan(const WorldView& world, BehaviourContext& orders) {
   if (world.time_s - planned_s_ < kPlansApart_s) return {Progress::running, "waiting to plan again"};
-  if (plans_ >= kMostPlans) return give_up(world);
+  if (plans_ >= kMaxPlans) return give_up(world);
   // The planner knows nothing of what has held the robot back there: from the second time on, a way round that.
   if (round_ >= 2 && round_ % 2 == 0 && plan_by_own_eyes(world, Trust::all)) {
     set_mode(Mode::travel, world.time_s);
@@ -263,21 +263,21 @@ bool RouteDriver::plan_by_own_eyes(const WorldView& world, Trust trust) {
   return false;
 }
 
-Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Orders& orders) {
+Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, BehaviourContext& orders) {
   const std::string why = std::string(name_of(result.outcome)) + ": " + result.reason;
   const bool is_final = result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled;
-  if (!is_final && result.outcome == PlanOutcome::start_blocked && begin_way_out(world)) {
+  if (!is_final && result.outcome == PlanOutcome::start_blocked && begin_escape(world)) {
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "making room"};
   }
-  const bool may_explore = unknown_ways_ < kMostUnknownWays;
+  const bool may_explore = unknown_ways_ < kMaxUnknownWays;
   if (!is_final && (plan_by_own_eyes(world, Trust::all) || plan_by_own_eyes(world, Trust::no_specks) ||
                     (may_explore && plan_by_own_eyes(world, Trust::only_solid)))) {
     ++unknown_ways_;
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "under way by what it sees itself"};
   }
-  if (!is_final && looks_ >= kLooksBeforeSqueezing && squeezes_ < kMostSqueezes &&
+  if (!is_final && looks_ >= kLooksBeforeSqueezing && squeezes_ < kMaxNarrowGapTries &&
       plan_by_own_eyes(world, Trust::squeezed)) {
     ++squeezes_;
     set_mode(Mode::travel, world.time_s);
@@ -292,27 +292,28 @@ Status RouteDriver::no_plan(const PlanResult& result, const WorldView& world, Or
 }
 
 // Too near to something to plan: a little further from it first.
-bool RouteDriver::begin_way_out(const WorldView& world) {
-  if (ways_out_ >= kMostWaysOut) return false;
-  ++ways_out_;
-  std::vector<Point> path = space_now(world, kWayOutClearance_m, Trust::all).way_out();
-  if (path.size() < 2) path = space_now(world, kTightClearance_m, Trust::all).way_out();
+bool RouteDriver::begin_escape(const WorldView& world) {
+  if (escape_paths_ >= kMaxEscapes) return false;
+  ++escape_paths_;
+  std::vector<Point> path = space_now(world, kEscapeClearance_m, Trust::all).escape_path();
+  if (path.size() < 2) path = space_now(world, kTightClearance_m, Trust::all).escape_path();
   if (path.size() < 2) return false;
-  take_path(path, Leg::way_out);
-  tried_ = "made room " + std::to_string(ways_out_) + " times";
+  take_path(path, Leg::escape_path);
+  tried_ = "made room " + std::to_string(escape_paths_) + " times";
   return true;
 }
 
 // Where the goal itself is blocked, from beside it: nothing else has to do with that.
 bool RouteDriver::begin_look(PlanOutcome outcome, const WorldView& world) {
   const std::optional<Point> goal = goal_point(world);
-  if (!goal || looks_ >= kMostLooks) return false;
+  if (!goal || looks_ >= kMaxLooks) return false;
   if (outcome == PlanOutcome::goal_blocked && (goal_.pose || route_end_) && begin_look_at_goal(*goal, world))
     return true;
   if (outcome == PlanOutcome::goal_blocked && !beside_goal_.empty()) return false;
   const double stand_off_m = looks_ < kLooksBeforeAgain ? kStandOff_m : kStandOffNearer_m;
-  const std::optional<WayToLook> way = way_to_look(space_now(world, kTightClearance_m, Trust::all), world.grid,
-                                                   world.pose.T_map_robot.position(), *goal, looked_at_, stand_off_m);
+  const std::optional<LookoutRoute> way =
+      lookout_route(space_now(world, kTightClearance_m, Trust::all), world.grid, world.pose.T_map_robot.position(),
+                    *goal, looked_at_, stand_off_m);
   if (!way) return false;
   go_to_look(*way);
   looked_at_.push_back(way->at);
@@ -338,7 +339,7 @@ bool RouteDriver::begin_look_at_goal(const Point& goal, const WorldView& world) 
   return false;
 }
 
-void RouteDriver::go_to_look(const WayToLook& way) {
+void RouteDriver::go_to_look(const LookoutRoute& way) {
   if (++looks_ == kLooksBeforeAgain + 1) looked_at_.clear();
   take_path(way.path, Leg::to_look);
   tried_ = "looked " + std::to_string(looks_) + " times whether the way is free again, last at " + described(way.at);

@@ -10,7 +10,7 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr int kMostHoldUps = 40;
+constexpr int kMaxBlockages = 40;
 constexpr double kTroubleFor_s = 60.0;
 constexpr double kShutFor_s = 200.0;  // long enough to try the other gaps of a wall that sonars leak through
 constexpr double kBackUp_mps = 0.04;  // few robots see well behind: what it touches it shall not push
@@ -29,24 +29,24 @@ constexpr double kSweep_s = 4.0;
 constexpr double kSamePlace_m = 0.8;
 constexpr double kAround_m = 0.5;
 constexpr double kAhead_rad = radians(60.0);
-constexpr double kLeastAside_m = 0.8;  // from what is in the way, less what the way costs
-constexpr double kMostAside_m = 2.5;
+constexpr double kMinAside_m = 0.8;  // from what is in the way, less what the way costs
+constexpr double kMaxAside_m = 2.5;
 constexpr double kWayForRoom = 0.3;
 constexpr double kAsideClearance_m = 0.08;
-constexpr double kMakeWayFor_s = 8.0;
+constexpr double kYieldFor_s = 8.0;
 
 // Waiting for what moves by itself comes before what costs a detour: rounds 2, 4, 6 against 3, 5.
 bool looks_in(int round) {
   return round % 2 == 0;
 }
-bool makes_way(int round) {
+bool yields(int round) {
   return round >= 3 && !looks_in(round);
 }
 
 }  // namespace
 
 // The ladder; waiting for patience_s was its first rung.
-Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
+Status RouteDriver::progress_checker(const WorldView& world, BehaviourContext& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   if ((pose.position() - held_at_).norm() > kSamePlace_m) round_ = 0;
   held_at_ = pose.position();
@@ -55,14 +55,14 @@ Status RouteDriver::held_back(const WorldView& world, Orders& orders) {
   stop_doubting();
   ++round_;
   ++hold_ups_;
-  if (round_ > settings_.rounds || hold_ups_ > kMostHoldUps) return give_up(world);
+  if (round_ > settings_.rounds || hold_ups_ > kMaxBlockages) return give_up(world);
   const std::string where = "held back at " + described(held_at_) +
                             (held_by_ ? " by what is at " + described(*held_by_) : "") + " (" + std::to_string(round_) +
                             " of " + std::to_string(settings_.rounds) + "): ";
   troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kTroubleFor_s});
   if (own_trust_ >= Trust::only_solid && held_by_) shut_.push_back({*held_by_, world.time_s + kShutFor_s});
   if (round_ >= 2) close_route_here(world, orders);
-  if (makes_way(round_) && begin_aside(world)) {
+  if (yields(round_) && begin_aside(world)) {
     orders.say(where + "makes way");
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "making way"};
@@ -91,13 +91,13 @@ bool RouteDriver::begin_aside(const WorldView& world) {
   const Point from = held_by_.value_or(world.pose.T_map_robot * Point{world.robot.radius_m, 0.0});
   const FreeSpace space = space_now(world, kAsideClearance_m, Trust::all);
   const Cell here = space.cell_at(world.pose.T_map_robot.position());
-  const int reach = static_cast<int>(kMostAside_m / space.cell_m());
+  const int reach = static_cast<int>(kMaxAside_m / space.cell_m());
   std::optional<Cell> best;
-  double best_m = kLeastAside_m;
+  double best_m = kMinAside_m;
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const Cell c = here + Cell{dx, dy};
-      if (!space.reaches(c) || space.cost_m(c) > kMostAside_m) continue;
+      if (!space.reaches(c) || space.cost_m(c) > kMaxAside_m) continue;
       const double away_m = (space.centre_of(c) - from).norm() - kWayForRoom * space.cost_m(c);
       if (away_m <= best_m) continue;
       best_m = away_m;
@@ -108,14 +108,14 @@ bool RouteDriver::begin_aside(const WorldView& world) {
   const std::vector<Point> path = space.path_to(*best);
   if (path.size() < 2) return false;
   take_path(path, Leg::aside);
-  look_ = {.at = from, .at_least_s = kMakeWayFor_s, .is_live = true, .through = {}};
+  look_ = {.at = from, .at_least_s = kYieldFor_s, .is_live = true, .through = {}};
   tried_ = "made way";
   return true;
 }
 
-void RouteDriver::close_route_here(const WorldView& world, Orders& orders) {
+void RouteDriver::close_route_here(const WorldView& world, BehaviourContext& orders) {
   double end_m = 0.0;
-  for (const PlanPiece& piece : pieces_) {
+  for (const PathSegment& piece : segments_) {
     end_m += piece.length_m;
     if (end_m < follow_state_.along_m || piece.route == 0) continue;
     closed_until_s_[piece.route] = world.time_s + kClosedFor_s;
@@ -124,7 +124,7 @@ void RouteDriver::close_route_here(const WorldView& world, Orders& orders) {
   }
 }
 
-Status RouteDriver::back_up(const WorldView& world, Orders& orders) {
+Status RouteDriver::back_up(const WorldView& world, BehaviourContext& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   const int farther = std::min(round_, kFarthestBackUp);
   const std::vector<Point> behind{pose.position(), pose * Point{-kBackUp_m, 0.0}};
@@ -145,7 +145,7 @@ Status RouteDriver::back_up(const WorldView& world, Orders& orders) {
   return turn(world, orders);
 }
 
-Status RouteDriver::turn(const WorldView& world, Orders& orders) {
+Status RouteDriver::turn(const WorldView& world, BehaviourContext& orders) {
   const double theta_rad = world.pose.T_map_robot.theta_rad;
   turn_left_rad_ -= std::abs(wrap_angle(theta_rad - last_theta_rad_));
   last_theta_rad_ = theta_rad;
@@ -159,7 +159,7 @@ Status RouteDriver::turn(const WorldView& world, Orders& orders) {
 }
 
 // What the near echoes have said of what holds it back is of before; and once more when that has gone.
-Status RouteDriver::begin_look_from_here(const WorldView& world, Orders& orders) {
+Status RouteDriver::begin_look_from_here(const WorldView& world, BehaviourContext& orders) {
   if (look_.is_live) echoes_.forget(world);
   const Point here = world.pose.T_map_robot.position();
   if (look_.is_goal && (here - look_.at).norm() < world.robot.radius_m + kBesideGoal_m + settings_.tolerance_m)
@@ -169,7 +169,7 @@ Status RouteDriver::begin_look_from_here(const WorldView& world, Orders& orders)
 }
 
 // Faces what was in the way until it is gone, or for long enough.
-Status RouteDriver::look(const WorldView& world, Orders& orders) {
+Status RouteDriver::look(const WorldView& world, BehaviourContext& orders) {
   const double waited_s = world.time_s - mode_since_s_;
   // Readings from one pose say the same again and again: it sweeps.
   const double aside_rad = kSweep_rad * std::sin(2.0 * std::numbers::pi * waited_s / kSweep_s);

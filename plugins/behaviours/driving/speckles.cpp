@@ -13,9 +13,9 @@ bool is_at_rim(Cell c, const CellBox& box) {
 
 }  // namespace
 
-std::vector<Cell> specks_of(const OccupancyGrid& grid, const CellBox& box, int most_occupied, int most_cells) {
+std::vector<Cell> speckles_of(const OccupancyGrid& grid, const CellBox& box, int max_occupied, int max_cells) {
   CellLayer<std::uint8_t> seen(box, 0, 1);
-  std::vector<Cell> specks;
+  std::vector<Cell> speckles;
   std::vector<Cell> group;
   for (int y = box.min.y; y < box.max.y; ++y) {
     for (int x = box.min.x; x < box.max.x; ++x) {
@@ -35,12 +35,12 @@ std::vector<Cell> specks_of(const OccupancyGrid& grid, const CellBox& box, int m
           group.push_back(next);
         }
       }
-      if (!is_open && occupied <= most_occupied && static_cast<int>(group.size()) <= most_cells)
-        specks.insert(specks.end(), group.begin(), group.end());
+      if (!is_open && occupied <= max_occupied && static_cast<int>(group.size()) <= max_cells)
+        speckles.insert(speckles.end(), group.begin(), group.end());
     }
   }
-  std::sort(specks.begin(), specks.end());
-  return specks;
+  std::sort(speckles.begin(), speckles.end());
+  return speckles;
 }
 
 }  // namespace cairn::behaviours

@@ -8,8 +8,8 @@
 namespace cairn::behaviours {
 
 // The cells of those groups (8 neighbours) of unknown and occupied cells in the box which hold few occupied cells
-// (at most most_occupied) and few at all (at most most_cells); groups that touch the box's rim are none. In order.
-[[nodiscard]] std::vector<Cell> specks_of(const OccupancyGrid& grid, const CellBox& box, int most_occupied = 4,
-                                          int most_cells = 80);
+// (at most max_occupied) and few at all (at most max_cells); groups that touch the box's rim are none. In order.
+[[nodiscard]] std::vector<Cell> speckles_of(const OccupancyGrid& grid, const CellBox& box, int max_occupied = 4,
+                                            int max_cells = 80);
 
 }  // namespace cairn::behaviours

@@ -18,17 +18,17 @@ constexpr double kRunUps_m[] = {0.5, 0.35, 0.25, 0.15};  // from the standing pl
 constexpr double kStraight_rad = radians(20.0);          // a transducer that looks further aside does not look ahead
 constexpr double kSame_rad = radians(1.0);
 constexpr std::size_t kEchoes = 7;
-constexpr std::size_t kLeastEchoes = 3;
+constexpr std::size_t kMinEchoes = 3;
 // Along the axis from the landmark's centre: what echoes nearer than this, or behind, is not the landmark.
 constexpr double kPast_m = 0.05;
 constexpr double kBefore_m = 0.25;  // an echo from so far before the mapped outline is of something else
 constexpr double kBeside_m = 0.3;   // so far beside the axis is not before the side
-constexpr int kMostAgain = 3;
+constexpr int kMaxAgain = 3;
 constexpr double kSettle_s = 1.0;  // stands for a full round of echoes before it believes that it is there
 constexpr double kSlowest_mps = 0.02;
 constexpr double kGain_per_s = 0.8;
 constexpr double kTurnFirst_rad = radians(12.0);
-constexpr double kMostCorrection_rad = radians(20.0);
+constexpr double kMaxCorrection_rad = radians(20.0);
 constexpr double kCorrection_rad_per_m = 2.5;
 constexpr double kFaced_rad = radians(3.0);
 constexpr double kRoomToTurn_m = 0.02;
@@ -38,9 +38,9 @@ const std::vector<std::string> kSides{"front", "left", "back", "right"};
 // From the robot's centre to the end of its footprint, ahead or behind.
 double extent_m(const RobotModel& robot, bool ahead) {
   if (robot.polygon_m.empty()) return robot.radius_m;
-  double most_m = 0.0;
-  for (const Point& p : robot.polygon_m) most_m = std::max(most_m, ahead ? p.x() : -p.x());
-  return most_m;
+  double max_m = 0.0;
+  for (const Point& p : robot.polygon_m) max_m = std::max(max_m, ahead ? p.x() : -p.x());
+  return max_m;
 }
 
 bool is_free_about(const OccupancyGrid& grid, const Point& p, double radius_m) {
@@ -135,7 +135,7 @@ double Dock::wanted_m(const RobotModel& robot) const {
   return config_.distance_m + extent_m(robot, config_.facing == DockConfig::Facing::landmark);
 }
 
-Status Dock::tick(const WorldView& world, Orders& orders) {
+Status Dock::tick(const WorldView& world, BehaviourContext& orders) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
     return {Progress::failure, "time is up on the way to " + where(world)};
@@ -153,7 +153,7 @@ Status Dock::tick(const WorldView& world, Orders& orders) {
   return turn(world, orders, *landmark);
 }
 
-Status Dock::begin(const WorldView& world, Orders& orders) {
+Status Dock::begin(const WorldView& world, BehaviourContext& orders) {
   const ChosenLandmark chosen = choose_landmark(name_, world, orders);
   if (!chosen.unknown.empty()) return {Progress::failure, chosen.unknown};
   landmark_ = chosen.id;
@@ -189,7 +189,7 @@ bool Dock::choose_stand(const WorldView& world, const Landmark& landmark) {
   return false;
 }
 
-Status Dock::drive(const WorldView& world, Orders& orders) {
+Status Dock::drive(const WorldView& world, BehaviourContext& orders) {
   const Status status = driver_.tick(stand_, world, orders);
   if (status.progress == Progress::running)
     return {Progress::running, status.reason + ", to " + where(world), status.left_s};
@@ -202,7 +202,7 @@ Status Dock::drive(const WorldView& world, Orders& orders) {
 
 // What has been seen meanwhile has moved the landmark on the map.
 Status Dock::go_again(const WorldView& world, const Landmark& landmark) {
-  if (++again_ > kMostAgain || !choose_stand(world, landmark))
+  if (++again_ > kMaxAgain || !choose_stand(world, landmark))
     return {Progress::failure, "cannot get before " + where(world) + ": the landmark moves on the map"};
   driver_.restart();
   echoes_m_.clear();
@@ -236,13 +236,13 @@ void Dock::see(const WorldView& world, const Axis& line, double mapped_m) {
 }
 
 double Dock::outline_m(double mapped_m) const {
-  if (echoes_m_.size() < kLeastEchoes) return mapped_m;
+  if (echoes_m_.size() < kMinEchoes) return mapped_m;
   std::vector<double> sorted(echoes_m_.begin(), echoes_m_.end());
   std::ranges::sort(sorted);
   return sorted[sorted.size() / 2];
 }
 
-Status Dock::approach(const WorldView& world, Orders& orders, const Landmark& landmark) {
+Status Dock::approach(const WorldView& world, BehaviourContext& orders, const Landmark& landmark) {
   const Axis line = axis(landmark);
   const Pose2& pose = world.pose.T_map_robot;
   const double mapped_m = outline_distance_m(world.grid, line.centre, line.outward_rad).value_or(kUsualOutline_m);
@@ -261,7 +261,7 @@ Status Dock::approach(const WorldView& world, Orders& orders, const Landmark& la
   const double left_m = line.along_m(pose.position()) - outline_m(mapped_m) - wanted_m(world.robot);
   gap_m_ = left_m + config_.distance_m;
   const double correction_rad =
-      std::clamp(kCorrection_rad_per_m * line.aside_m(pose.position()), -kMostCorrection_rad, kMostCorrection_rad);
+      std::clamp(kCorrection_rad_per_m * line.aside_m(pose.position()), -kMaxCorrection_rad, kMaxCorrection_rad);
   // Looking inward, who stands to the left of the axis (seen outward) has it on the left.
   const bool is_there = std::abs(left_m) <= 0.5 * config_.dock_tolerance_m;
   const double heading_rad = line.outward_rad + std::numbers::pi + (left_m > 0.1 ? correction_rad : 0.0);
@@ -274,16 +274,16 @@ Status Dock::approach(const WorldView& world, Orders& orders, const Landmark& la
     return turn(world, orders, landmark);
   }
   still_since_s_ = -1.0;
-  const double most_mps = std::min(config_.approach_mps, world.robot.max_v_mps);
-  const double most_radps = std::min(radians(40.0), world.robot.max_w_radps);
-  const double v_mps = std::clamp(std::abs(left_m) * kGain_per_s, std::min(kSlowest_mps, most_mps), most_mps);
+  const double max_mps = std::min(config_.approach_mps, world.robot.max_v_mps);
+  const double max_radps = std::min(radians(40.0), world.robot.max_w_radps);
+  const double v_mps = std::clamp(std::abs(left_m) * kGain_per_s, std::min(kSlowest_mps, max_mps), max_mps);
   if (!is_there && std::abs(error_rad) <= kTurnFirst_rad) wanted_.v_mps = left_m > 0.0 ? v_mps : -v_mps;
-  wanted_.w_radps = std::clamp(1.5 * error_rad, -most_radps, most_radps);
+  wanted_.w_radps = std::clamp(1.5 * error_rad, -max_radps, max_radps);
   orders.drive(wanted_);
   return {Progress::running, metres(gap_m_) + " before " + where(world)};
 }
 
-Status Dock::turn(const WorldView& world, Orders& orders, const Landmark& landmark) {
+Status Dock::turn(const WorldView& world, BehaviourContext& orders, const Landmark& landmark) {
   const double final_rad =
       axis(landmark).outward_rad + (config_.facing == DockConfig::Facing::away ? 0.0 : std::numbers::pi);
   const double error_rad = wrap_angle(final_rad - world.pose.T_map_robot.theta_rad);
@@ -293,7 +293,7 @@ Status Dock::turn(const WorldView& world, Orders& orders, const Landmark& landma
     return {Progress::running, "turning at " + where(world)};
   }
   return {Progress::success, "docked at " + where(world) + ", " + metres(gap_m_) + " from it by " +
-                                 (echoes_m_.size() < kLeastEchoes ? "the map" : "its echoes")};
+                                 (echoes_m_.size() < kMinEchoes ? "the map" : "its echoes")};
 }
 
 }  // namespace cairn::behaviours

@@ -40,7 +40,7 @@ class Dock : public Behaviour {
  public:
   // Throws ConfigError on both or neither of side and side_deg, and a side that is none.
   Dock(const DockConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override;
 
  private:
@@ -55,12 +55,12 @@ class Dock : public Behaviour {
     [[nodiscard]] double aside_m(const Point& p) const;  // to the left of who looks outward
   };
   [[nodiscard]] Axis axis(const Landmark& landmark) const;
-  Status begin(const WorldView& world, Orders& orders);
+  Status begin(const WorldView& world, BehaviourContext& orders);
   [[nodiscard]] bool choose_stand(const WorldView& world, const Landmark& landmark);
-  Status drive(const WorldView& world, Orders& orders);
-  Status approach(const WorldView& world, Orders& orders, const Landmark& landmark);
+  Status drive(const WorldView& world, BehaviourContext& orders);
+  Status approach(const WorldView& world, BehaviourContext& orders, const Landmark& landmark);
   Status go_again(const WorldView& world, const Landmark& landmark);
-  Status turn(const WorldView& world, Orders& orders, const Landmark& landmark);
+  Status turn(const WorldView& world, BehaviourContext& orders, const Landmark& landmark);
   void see(const WorldView& world, const Axis& axis, double mapped_m);
   [[nodiscard]] double outline_m(double mapped_m) const;
   [[nodiscard]] double wanted_m(const RobotModel& robot) const;
@@ -71,7 +71,7 @@ class Dock : public Behaviour {
   std::string name_;
   double side_rad_ = 0.0;
   RouteDriver driver_;
-  HeldBackWatch watch_;
+  ProgressChecker watch_;
   Mode mode_ = Mode::drive;
   std::optional<double> begun_s_;
   LandmarkId landmark_ = 0;

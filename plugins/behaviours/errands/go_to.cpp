@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kFace_rad = radians(3.0);
 constexpr double kFaceAtMost_s = 15.0;
-constexpr std::size_t kMostNamed = 12;
+constexpr std::size_t kMaxNamed = 12;
 const std::string kNearest = "nearest ";
 
 std::string list_of(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  return text + (names.size() > kMostNamed ? ", ..." : "");
+  for (std::size_t i = 0; i < std::min(names.size(), kMaxNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return text + (names.size() > kMaxNamed ? ", ..." : "");
 }
 
 std::string known_landmarks(const LandmarkGraph& graph) {
@@ -74,7 +74,7 @@ void GoTo::halt() {
   *this = GoTo(config_, seed_);
 }
 
-Status GoTo::tick(const WorldView& world, Orders& orders) {
+Status GoTo::tick(const WorldView& world, BehaviourContext& orders) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
     return {Progress::failure, "time is up on the way to " + destination(world)};
@@ -91,7 +91,7 @@ Place GoTo::goal_of(const NamedLandmarks& named) const {
   return goal;
 }
 
-Status GoTo::drive_there(const WorldView& world, Orders& orders) {
+Status GoTo::drive_there(const WorldView& world, BehaviourContext& orders) {
   if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
   if (!goal_) {
     driver_.restart();
@@ -109,7 +109,7 @@ Status GoTo::drive_there(const WorldView& world, Orders& orders) {
   return face(world, orders);
 }
 
-Status GoTo::face(const WorldView& world, Orders& orders) {
+Status GoTo::face(const WorldView& world, BehaviourContext& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   const Landmark* landmark = world.graph.find(driver_.goal_landmark());
   double error_rad = 0.0;

@@ -34,12 +34,12 @@ class GoTo : public Behaviour {
   // Throws ConfigError unless exactly one of landmark and at_m is given.
   GoTo(const GoToConfig& config, std::uint64_t seed);
 
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override;
 
  private:
-  Status drive_there(const WorldView& world, Orders& orders);
-  Status face(const WorldView& world, Orders& orders);
+  Status drive_there(const WorldView& world, BehaviourContext& orders);
+  Status face(const WorldView& world, BehaviourContext& orders);
   [[nodiscard]] Place goal_of(const NamedLandmarks& named) const;
   [[nodiscard]] std::string destination(const WorldView& world) const;
 

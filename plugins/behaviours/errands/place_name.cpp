@@ -57,7 +57,7 @@ std::string described(const Point& at_m) {
   return text;
 }
 
-LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& world, Orders& orders) {
+LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& world, BehaviourContext& orders) {
   if (ids.size() == 1) return ids.front();
   PlanRequest request;
   request.from.pose = world.pose.T_map_robot;
@@ -73,7 +73,7 @@ LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& worl
   return *std::ranges::min_element(ids, {}, distance_m);
 }
 
-ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, Orders& orders) {
+ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, BehaviourContext& orders) {
   const NamedLandmarks named = landmarks_named(name, world.graph);
   if (!named.unknown.empty()) return {0, named.unknown};
   return {cheapest_of(named.ids, world, orders), ""};

@@ -69,7 +69,7 @@ CaptureTemplate::CaptureTemplate(const CaptureTemplateConfig& config)
   check_category(category_, config.name.place);
 }
 
-Status CaptureTemplate::tick(const WorldView& world, Orders& orders) {
+Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& orders) {
   const FoundPlace found = find_place(at_, world.graph);
   if (!found.unknown.empty()) return {Progress::failure, found.unknown};
   Point at;
@@ -125,7 +125,7 @@ PlanQuery::PlanQuery(const PlanQueryConfig& config)
     throw ConfigError(config.to.place, "plan_query: alternatives are known from place to place, not for a tour");
 }
 
-Status PlanQuery::tick(const WorldView&, Orders& orders) {
+Status PlanQuery::tick(const WorldView&, BehaviourContext& orders) {
   const Status status = orders.answer(question_, file_name_);
   return {status.progress, question_.from + " -> " + question_.to + ": " + status.reason};
 }
@@ -161,17 +161,17 @@ Log::Log(const LogConfig& config) {
           place, "text: there is no {" + name + "}" + did_you_mean(name, kNames) +
                      "; there are {area}, {battery}, {distance}, {explored}, {landmarks}, {nearest}, {place} and "
                      "{time}");
-    pieces_.push_back({plain, false});
-    pieces_.push_back({name, true});
+    segments_.push_back({plain, false});
+    segments_.push_back({name, true});
     plain.clear();
     i = end;
   }
-  pieces_.push_back({plain, false});
+  segments_.push_back({plain, false});
 }
 
-Status Log::tick(const WorldView& world, Orders& orders) {
+Status Log::tick(const WorldView& world, BehaviourContext& orders) {
   std::string line;
-  for (const Piece& piece : pieces_) line += piece.is_name ? value_of(piece.text, world) : piece.text;
+  for (const Piece& piece : segments_) line += piece.is_name ? value_of(piece.text, world) : piece.text;
   orders.say(line);
   return {Progress::success, line.empty() ? "said nothing" : line};
 }

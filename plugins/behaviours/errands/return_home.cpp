@@ -24,7 +24,7 @@ void ReturnHome::halt() {
   *this = ReturnHome(config_, seed_);
 }
 
-Status ReturnHome::tick(const WorldView& world, Orders& orders) {
+Status ReturnHome::tick(const WorldView& world, BehaviourContext& orders) {
   const std::string home = to_.empty() ? "home at " + described(world.T_map_start.position()) : "home at " + to_;
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up on the way " + home};

@@ -67,7 +67,7 @@ std::string Search::in_round() const {
 }
 
 // What it does while it does not explore.
-std::optional<Status> Search::between(const WorldView& world, Orders& orders) {
+std::optional<Status> Search::between(const WorldView& world, BehaviourContext& orders) {
   if (waits_since_s_ && world.time_s - *waits_since_s_ < kPause_s) {
     orders.drive({});
     return Status{Progress::running, "waiting before it looks at all once more"};
@@ -86,7 +86,8 @@ std::optional<Status> Search::between(const WorldView& world, Orders& orders) {
   return std::nullopt;
 }
 
-Status Search::nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders) {
+Status Search::nothing_left(const std::string& found, const std::string& why, const WorldView& world,
+                            BehaviourContext& orders) {
   const std::string so_far = found + in_round() + ": " + why;
   const std::optional<Point> place = explore_.room_out_of_reach(world, been_at_);
   if (place) {
@@ -105,7 +106,7 @@ Status Search::nothing_left(const std::string& found, const std::string& why, co
   return {Progress::running, "looks at all once more"};
 }
 
-Status Search::tick(const WorldView& world, Orders& orders) {
+Status Search::tick(const WorldView& world, BehaviourContext& orders) {
   const std::vector<LandmarkId> found = world.graph.of_category(category_);
   if (found.size() >= static_cast<std::size_t>(config_.until))
     return {Progress::success, "found " + category_ + ": " + labels_of(found, world.graph)};

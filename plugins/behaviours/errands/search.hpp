@@ -27,13 +27,14 @@ class Search : public Behaviour {
   // categories: that the mission can find, where that is known. Throws ConfigError on another one, with the nearest.
   Search(const SearchConfig& config, std::uint64_t seed, const std::vector<std::string>& categories);
   // Success names the landmarks; failure when all has been explored so many rounds, or time is up, without them.
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override;
 
  private:
   [[nodiscard]] std::string in_round() const;
-  [[nodiscard]] std::optional<Status> between(const WorldView& world, Orders& orders);
-  Status nothing_left(const std::string& found, const std::string& why, const WorldView& world, Orders& orders);
+  [[nodiscard]] std::optional<Status> between(const WorldView& world, BehaviourContext& orders);
+  Status nothing_left(const std::string& found, const std::string& why, const WorldView& world,
+                      BehaviourContext& orders);
 
   SearchConfig config_;
   std::string category_;

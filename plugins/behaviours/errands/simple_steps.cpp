@@ -16,9 +16,9 @@ double corner_at(const Point& before, const Point& corner, const Point& after) {
   return std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
 }
 
-std::vector<Point> scattered(std::vector<Point> points_m, double most_m, std::uint64_t seed) {
+std::vector<Point> scattered(std::vector<Point> points_m, double max_m, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  const auto offset_m = [&] { return most_m * (static_cast<double>(random() >> 11) * 0x1.0p-52 - 1.0); };
+  const auto offset_m = [&] { return max_m * (static_cast<double>(random() >> 11) * 0x1.0p-52 - 1.0); };
   for (Point& p_m : points_m) {
     const double x_m = offset_m();  // in this order on every compiler
     p_m += Point(x_m, offset_m());
@@ -61,7 +61,7 @@ void DriveTo::begin_stretch(const Point& from) {
   follow_state_ = {};
 }
 
-Status DriveTo::tick(const WorldView& world, Orders& orders) {
+Status DriveTo::tick(const WorldView& world, BehaviourContext& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   if (!begun_ && !points_m_.empty()) begin_stretch(pose.position());
   begun_ = true;
@@ -99,7 +99,7 @@ void WaitConfig::describe(Fields<WaitConfig>& fields) {
   fields.shorthand("for_s");
 }
 
-Status Wait::tick(const WorldView& world, Orders&) {
+Status Wait::tick(const WorldView& world, BehaviourContext&) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ < config_.for_s)
     return {Progress::running, "waiting", config_.for_s - (world.time_s - *begun_s_)};
@@ -115,7 +115,7 @@ void SaveConfig::describe(Fields<SaveConfig>& fields) {
 // Maps are saved into the output folder.
 Save::Save(const SaveConfig& config) : file_name_(file_name_of(config.file, "map.cairn", ".cairn")) {}
 
-Status Save::tick(const WorldView&, Orders& orders) {
+Status Save::tick(const WorldView&, BehaviourContext& orders) {
   return orders.save(file_name_);
 }
 

@@ -27,7 +27,7 @@ class DriveTo : public Behaviour {
  public:
   // The seed decides where scattered points go.
   DriveTo(const DriveConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override;
 
  private:
@@ -42,7 +42,7 @@ class DriveTo : public Behaviour {
   std::vector<Point> stretch_;  // points that are driven through without stopping to turn
   FollowState follow_state_;
   Twist wanted_;
-  HeldBackWatch watch_;
+  ProgressChecker watch_;
 };
 
 struct WaitConfig {
@@ -53,7 +53,7 @@ struct WaitConfig {
 class Wait : public Behaviour {
  public:
   explicit Wait(const WaitConfig& config) : config_(config) {}
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override { begun_s_.reset(); }
 
  private:
@@ -70,7 +70,7 @@ class Save : public Behaviour {
  public:
   // Throws ConfigError on anything but a plain file name.
   explicit Save(const SaveConfig& config);
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override {}
 
  private:

@@ -33,7 +33,7 @@ void Tour::halt() {
   *this = Tour(config_, seed_);
 }
 
-Status Tour::tick(const WorldView& world, Orders& orders) {
+Status Tour::tick(const WorldView& world, BehaviourContext& orders) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up: " + visits_.summary()};
   return visits_.tick(world, orders);
@@ -58,18 +58,18 @@ void Patrol::halt() {
   *this = Patrol(config_, seed_);
 }
 
-std::vector<PlaceName> Patrol::all_landmarks(const LandmarkGraph& graph, Orders& orders) const {
+std::vector<PlaceName> Patrol::all_landmarks(const LandmarkGraph& graph, BehaviourContext& orders) const {
   std::vector<PlaceName> places;
   for (const auto& [id, landmark] : graph.landmarks())
-    if (places.size() < kMostPlaces) places.push_back({"L" + std::to_string(id), std::nullopt});
+    if (places.size() < kMaxPlaces) places.push_back({"L" + std::to_string(id), std::nullopt});
   const std::size_t all = graph.landmarks().size();
   if (all > places.size())
-    orders.say("a round has " + std::to_string(kMostPlaces) + " places at most: " +
-               std::to_string(all - places.size()) + " of " + std::to_string(all) + " landmarks are left out of it");
+    orders.say("a round has " + std::to_string(kMaxPlaces) + " places at most: " + std::to_string(all - places.size()) +
+               " of " + std::to_string(all) + " landmarks are left out of it");
   return places;
 }
 
-Status Patrol::begin_round(const WorldView& world, Orders& orders) {
+Status Patrol::begin_round(const WorldView& world, BehaviourContext& orders) {
   const bool chooses_itself = places_.empty();
   std::vector<PlaceName> places = chooses_itself ? all_landmarks(world.graph, orders) : places_;
   if (places.empty()) return {Progress::failure, "there is nothing to patrol: the map holds no landmark"};
@@ -80,7 +80,7 @@ Status Patrol::begin_round(const WorldView& world, Orders& orders) {
 }
 
 // The next round begins with the next tick: no tick is without end.
-Status Patrol::tick(const WorldView& world, Orders& orders) {
+Status Patrol::tick(const WorldView& world, BehaviourContext& orders) {
   if (!round_) return begin_round(world, orders);
   const Status status = round_->tick(world, orders);
   const std::string number = "round " + std::to_string(rounds_done_ + 1);

@@ -95,7 +95,7 @@ double cost_of(const std::vector<std::size_t>& order, const std::vector<std::vec
 
 std::vector<std::size_t> shortest_order(const std::vector<std::vector<double>>& cost) {
   if (cost.size() < 2) return {};
-  if (cost.size() - 1 <= kMostExactPlaces) return best_order(cost);
+  if (cost.size() - 1 <= kMaxExactPlaces) return best_order(cost);
   std::vector<std::size_t> order = by_insertion(cost);
   improve(order, cost);
   return order;

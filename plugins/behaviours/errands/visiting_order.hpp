@@ -6,10 +6,10 @@
 
 namespace cairn::behaviours {
 
-inline constexpr std::size_t kMostExactPlaces = 11;
+inline constexpr std::size_t kMaxExactPlaces = 11;
 
 // cost[i][j]: from i to j, 0 is the start, the places are 1 to n; finite, 0 on the diagonal. The order of all places,
-// each once. The best one up to kMostExactPlaces of them (Held, Karp: A dynamic programming approach to sequencing
+// each once. The best one up to kMaxExactPlaces of them (Held, Karp: A dynamic programming approach to sequencing
 // problems, 1962; O(n^2 2^n)); beyond that by cheapest insertion and 2-opt (O(n^3)), which is often, not always, best.
 // Equal costs: the lower number first.
 [[nodiscard]] std::vector<std::size_t> shortest_order(const std::vector<std::vector<double>>& cost);

@@ -14,7 +14,7 @@ constexpr double kChoiceEvery_s = 2.5;
 constexpr double kChoiceAtLeastApart_s = 0.5;
 constexpr double kLookAround_radps = radians(45.0);
 constexpr double kBlockedAhead_m = 0.8;
-constexpr double kOnLap_m = 0.5;         // from its first lookout
+constexpr double kOnOrbit_m = 0.5;       // from its first lookout
 constexpr double kTrustedRange_m = 3.0;  // beyond it a sonar's beam is wider than a door
 constexpr double kFace_rad = radians(8.0);
 constexpr double kFaceDwell_s = 0.6;  // one round of the sonars, about
@@ -25,7 +25,7 @@ constexpr double kBackOff_m = 0.15;
 constexpr double kBackOffAtMost_s = 5.0;
 constexpr double kTroubleFor_s = 60.0;
 constexpr double kFailedAgain_m = 0.4;
-constexpr int kMostStuckInARow = 8;
+constexpr int kMaxStuckInARow = 8;
 constexpr double kMoved_m = 0.1;      // less is no exploring
 constexpr double kGettingOn_m = 0.5;  // driven between two hold-ups, they are not "in a row"
 
@@ -36,7 +36,7 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
       limits_(follow_limits(world.robot, config.speed_mps)),
       begun_s_(world.time_s),
       near_echoes_(world.grid) {
-  settings_.lap = {config.lap_distance_m, config.look_closer_m, config.largest_object_m};
+  settings_.orbit = {config.orbit_distance_m, config.look_closer_m, config.largest_object_m};
   settings_.smallest_frontier_m = config.smallest_frontier_m;
   settings_.gain_m = config.gain_m;
   double farthest_m = 0.0;
@@ -44,7 +44,7 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
   settings_.gain_range_m = std::min(farthest_m, kTrustedRange_m);
 }
 
-Status Exploration::tick(const WorldView& world, Orders& orders) {
+Status Exploration::tick(const WorldView& world, BehaviourContext& orders) {
   if (world.time_s - last_tick_s_ > kAway_s) begin_here(world);
   last_tick_s_ = world.time_s;
   remember(world);
@@ -94,13 +94,13 @@ void Exploration::set_mode(Mode mode, double time_s) {
   watch_.restart();
 }
 
-void Exploration::drive(const Twist& wanted, const WorldView& world, Orders& orders) {
+void Exploration::drive(const Twist& wanted, const WorldView& world, BehaviourContext& orders) {
   wanted_ = wanted;
   orders.drive(local_.approach(wanted, world));
 }
 
 // One turn on the spot, before the first choice: it costs no distance and opens the map all round.
-Status Exploration::look_around(const WorldView& world, Orders& orders) {
+Status Exploration::look_around(const WorldView& world, BehaviourContext& orders) {
   const bool held = world.time_s - mode_since_s_ > 3.0 * 2.0 * std::numbers::pi / kLookAround_radps;
   if (turned_rad_ >= 2.0 * std::numbers::pi || held) {
     looked_around_at_m_ = driven_m_;
@@ -131,11 +131,12 @@ bool Exploration::is_blocked(const WorldView& world) const {
 }
 
 // Round the object, no longer on the way to it.
-bool Exploration::is_on_lap(const WorldView& world) const {
-  return (world.pose.T_map_robot.position() - task_->lookout).norm() < kOnLap_m || follow_state_.along_m > task_->way_m;
+bool Exploration::is_on_orbit(const WorldView& world) const {
+  return (world.pose.T_map_robot.position() - task_->lookout).norm() < kOnOrbit_m ||
+         follow_state_.along_m > task_->way_m;
 }
 
-Status Exploration::travel(const WorldView& world, Orders& orders) {
+Status Exploration::travel(const WorldView& world, BehaviourContext& orders) {
   if (watch_.is_stuck(world, wanted_)) return get_unstuck(world, orders);
   const bool blocked = is_blocked(world);
   if (needs_choice(world) || (blocked && world.time_s - chosen_s_ >= kChoiceAtLeastApart_s)) {
@@ -145,8 +146,8 @@ Status Exploration::travel(const WorldView& world, Orders& orders) {
     return {Progress::running, "something has turned up on the path"};
   }
   FollowLimits limits = limits_;
-  if (task_->kind == TaskKind::lap && is_on_lap(world))
-    limits.speed_mps = std::min(limits.speed_mps, config_.lap_speed_mps);
+  if (task_->kind == TaskKind::orbit && is_on_orbit(world))
+    limits.speed_mps = std::min(limits.speed_mps, config_.orbit_speed_mps);
   const FollowStep step = follow(world.pose.T_map_robot, task_->path, follow_state_, limits);
   follow_state_ = step.state;
   const Point aim = point_along(task_->path, step.state.along_m + limits.lookahead_m);
@@ -174,7 +175,7 @@ void Exploration::arrive(const WorldView& world) {
 }
 
 // Turns the sonars to what is still unknown; what they cannot settle from here is given up.
-Status Exploration::face(const WorldView& world, Orders& orders) {
+Status Exploration::face(const WorldView& world, BehaviourContext& orders) {
   const double error_rad = heading_error(world.pose.T_map_robot, task_->about);
   const bool has_time = world.time_s - mode_since_s_ < kFaceAtMost_s;
   const double dwell_s = task_->kind == TaskKind::opening ? kOpeningDwell_s : kFaceDwell_s;
@@ -189,11 +190,11 @@ Status Exploration::face(const WorldView& world, Orders& orders) {
   return {Progress::running, "facing what is still unknown"};
 }
 
-Status Exploration::get_unstuck(const WorldView& world, Orders& orders) {
+Status Exploration::get_unstuck(const WorldView& world, BehaviourContext& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   stuck_in_a_row_ = driven_m_ - driven_when_stuck_m_ < kGettingOn_m ? stuck_in_a_row_ + 1 : 1;
   driven_when_stuck_m_ = driven_m_;
-  if (stuck_in_a_row_ > kMostStuckInARow) return cannot_get_away();
+  if (stuck_in_a_row_ > kMaxStuckInARow) return cannot_get_away();
   memory_.troubles.push_back({pose * Point{world.robot.radius_m, 0.0}, world.time_s + kTroubleFor_s});
   if (task_) {
     const bool again = std::any_of(failed_lookouts_.begin(), failed_lookouts_.end(),
@@ -207,7 +208,7 @@ Status Exploration::get_unstuck(const WorldView& world, Orders& orders) {
   return back_off(world, orders);
 }
 
-Status Exploration::back_off(const WorldView& world, Orders& orders) {
+Status Exploration::back_off(const WorldView& world, BehaviourContext& orders) {
   const Pose2& pose = world.pose.T_map_robot;
   const std::vector<Point> behind{pose.position(), pose * Point{-kBackOff_m, 0.0}};
   const bool is_over = (pose.position() - backed_from_).norm() >= kBackOff_m ||
@@ -222,7 +223,7 @@ Status Exploration::back_off(const WorldView& world, Orders& orders) {
 }
 
 // Once more round before the end: what seems to shut the robot in may be noise.
-Status Exploration::nothing_left(const WorldView& world, Orders& orders) {
+Status Exploration::nothing_left(const WorldView& world, BehaviourContext& orders) {
   const bool can_turn = limits_.min_turning_radius_m <= 0.0;
   if (!can_turn || driven_m_ - looked_around_at_m_ < kMoved_m) return finished(world);
   // And what it remembers of near echoes may be of somebody who has gone on.
@@ -243,7 +244,7 @@ Status Exploration::finished(const WorldView& world) const {
   if (can_move) return {Progress::success, "nothing left to explore: " + summary(world)};
   char text[128];
   std::snprintf(text, sizeof text, "cannot move: no known free place with %.2f m of room is in reach of (%.2f, %.2f)",
-                space.least_distance_m(), last_pose_.x_m, last_pose_.y_m);
+                space.min_distance_m(), last_pose_.x_m, last_pose_.y_m);
   return {Progress::failure, text};
 }
 

@@ -18,7 +18,7 @@ class Exploration {
  public:
   Exploration(const ExploreConfig& config, const WorldView& world);
 
-  Status tick(const WorldView& world, Orders& orders);
+  Status tick(const WorldView& world, BehaviourContext& orders);
   // As openings.hpp, on the map as it sees it.
   [[nodiscard]] std::optional<Point> room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const;
 
@@ -27,15 +27,15 @@ class Exploration {
 
   enum class Mode { look_around, travel, face, back_off };
 
-  Status look_around(const WorldView& world, Orders& orders);
-  Status travel(const WorldView& world, Orders& orders);
-  Status face(const WorldView& world, Orders& orders);
-  Status back_off(const WorldView& world, Orders& orders);
+  Status look_around(const WorldView& world, BehaviourContext& orders);
+  Status travel(const WorldView& world, BehaviourContext& orders);
+  Status face(const WorldView& world, BehaviourContext& orders);
+  Status back_off(const WorldView& world, BehaviourContext& orders);
 
   void begin_here(const WorldView& world);
   void remember(const WorldView& world);
   void set_mode(Mode mode, double time_s);
-  void drive(const Twist& wanted, const WorldView& world, Orders& orders);
+  void drive(const Twist& wanted, const WorldView& world, BehaviourContext& orders);
   // Which part of the map is searched, and how much room is kept.
   struct Search {
     double within_m = 8.0;
@@ -47,15 +47,15 @@ class Exploration {
   [[nodiscard]] bool leads_on(const WorldView& world, const Search& tight) const;
   [[nodiscard]] bool choose_by(const Search& search, const WorldView& world, const std::optional<ExploreTask>& before);
   [[nodiscard]] bool is_blocked(const WorldView& world) const;
-  [[nodiscard]] bool is_on_lap(const WorldView& world) const;
+  [[nodiscard]] bool is_on_orbit(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
-  [[nodiscard]] bool choose(const WorldView& world, Orders& orders);
+  [[nodiscard]] bool choose(const WorldView& world, BehaviourContext& orders);
   [[nodiscard]] bool choose_again(const WorldView& world, const std::optional<ExploreTask>& before);
   [[nodiscard]] bool choose_opening(const WorldView& world);
   [[nodiscard]] bool is_to_be_faced() const;
-  Status nothing_left(const WorldView& world, Orders& orders);
+  Status nothing_left(const WorldView& world, BehaviourContext& orders);
   void arrive(const WorldView& world);
-  Status get_unstuck(const WorldView& world, Orders& orders);
+  Status get_unstuck(const WorldView& world, BehaviourContext& orders);
   [[nodiscard]] Status finished(const WorldView& world) const;
   [[nodiscard]] Status cannot_get_away() const;
   [[nodiscard]] std::string summary(const WorldView& world) const;
@@ -82,7 +82,7 @@ class Exploration {
   std::optional<ExploreTask> task_;
   FollowState follow_state_;
   Twist wanted_;  // of the last tick
-  HeldBackWatch watch_;
+  ProgressChecker watch_;
   std::vector<Point> failed_lookouts_;
   NearEchoes near_echoes_;
   LocalPlanner local_;

@@ -21,8 +21,8 @@ FreeSpace Exploration::space_now(const WorldView& world, const Search& search) c
   const Point position = world.pose.T_map_robot.position();
   const Cell here = world.grid.cell_at(position);
   const CellBox all = world.grid.bounds();
-  const double most_cells = 1.0 + std::max(all.width(), all.height());
-  const int reach = static_cast<int>(std::min(search.within_m / world.grid.cell_m(), most_cells));
+  const double max_cells = 1.0 + std::max(all.width(), all.height());
+  const int reach = static_cast<int>(std::min(search.within_m / world.grid.cell_m(), max_cells));
   const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
   return FreeSpace(near_echoes_.applied_to(world.grid, part), {position, world.robot.radius_m, search.clearance_m},
                    memory_.trace, memory_.troubles);
@@ -45,7 +45,8 @@ bool Exploration::choose_by(const Search& search, const WorldView& world, const 
 bool Exploration::choose_again(const WorldView& world, const std::optional<ExploreTask>& before) {
   if (!config_.second_look || config_.look_closer_m <= 0.0) return false;
   const Search search{kEverywhere_m, config_.clearance_m};
-  return look_again(space_now(world, search), world.graph, settings_.lap, memory_) && choose_by(search, world, before);
+  return look_again(space_now(world, search), world.graph, settings_.orbit, memory_) &&
+         choose_by(search, world, before);
 }
 
 bool Exploration::choose_opening(const WorldView& world) {
@@ -74,7 +75,7 @@ bool Exploration::leads_on(const WorldView& world, const Search& tight) const {
   return tighter_leads_on(space_now(world, {tight.within_m, config_.clearance_m}), space_now(world, tight));
 }
 
-bool Exploration::choose(const WorldView& world, Orders& orders) {
+bool Exploration::choose(const WorldView& world, BehaviourContext& orders) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
   chosen_s_ = world.time_s;
   follow_state_ = {0.0, follow_state_.turning};
@@ -87,7 +88,7 @@ bool Exploration::choose(const WorldView& world, Orders& orders) {
                      (is_shut_in(world) && choose_by(tight, world, before)) || choose_again(world, before) ||
                      choose_opening(world) || (leads_on(world, tight) && choose_by(tight, world, before));
   if (!found) return false;
-  if (task_->kind == TaskKind::lap && (task_->about - said_about_).norm() > config_.lap_distance_m) {
+  if (task_->kind == TaskKind::orbit && (task_->about - said_about_).norm() > config_.orbit_distance_m) {
     said_about_ = task_->about;
     orders.say(sentence_of(*task_));
   }

@@ -23,7 +23,7 @@ Explore::Explore(const ExploreConfig& config) : config_(config) {}
 
 Explore::~Explore() = default;
 
-Status Explore::tick(const WorldView& world, Orders& orders) {
+Status Explore::tick(const WorldView& world, BehaviourContext& orders) {
   if (!run_) {
     run_ = std::make_unique<Exploration>(config_, world);
     progress_.emplace(world, config_.look_closer_m > 0.0 ? config_.look_closer_m : kPassed_m);

@@ -20,13 +20,13 @@ struct ExploreConfig {
   double at_most_s = 900.0;
   double clearance_m = 0.1;
   double look_closer_m = 0.9;
-  double lap_distance_m = 0.55;
+  double orbit_distance_m = 0.55;
   double largest_object_m = 1.5;
   bool second_look = true;
   double smallest_frontier_m = 0.3;
   double gain_m = 0.0;
   double speed_mps = 0.2;
-  double lap_speed_mps = 0.1;
+  double orbit_speed_mps = 0.1;
 
   static void describe(Fields<ExploreConfig>& fields);
   // All but when it ends: of a config that derives from it.
@@ -37,7 +37,7 @@ struct ExploreConfig {
                   "kept between the robot's edge and everything occupied");
     fields.number("look_closer_m", &C::look_closer_m, {0.0, 5.0}, "m",
                   "every edge is passed within this distance and every free-standing object circled; 0: neither");
-    fields.number("lap_distance_m", &C::lap_distance_m, {0.1, 5.0}, "m",
+    fields.number("orbit_distance_m", &C::orbit_distance_m, {0.1, 5.0}, "m",
                   "from the edge of an object to the robot's centre on a lap");
     fields.number("largest_object_m", &C::largest_object_m, {0.1, 20.0}, "m", "what is longer is a wall: no laps");
     fields.flag("second_look", &C::second_look,
@@ -47,7 +47,7 @@ struct ExploreConfig {
                   "a frontier may be so much further off for each time that the unknown area in sight from there is e "
                   "times as large (1 / lambda of Gonzalez-Banos and Latombe 2002); 0: the nearest frontier first");
     fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
-    fields.number("lap_speed_mps", &C::lap_speed_mps, {0.01, 5.0}, "m/s",
+    fields.number("orbit_speed_mps", &C::orbit_speed_mps, {0.01, 5.0}, "m/s",
                   "the same on a lap: slower means more readings, and no more error of the odometry");
   }
 };
@@ -59,7 +59,7 @@ class Explore : public Behaviour {
   explicit Explore(const ExploreConfig& config);
   ~Explore() override;
 
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override;
   // Where it did not get to, as openings.hpp; none before the first tick. done: rooms to leave out. Ticked after its
   // end it explores on from where the robot is then.

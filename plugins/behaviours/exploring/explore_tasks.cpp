@@ -12,18 +12,18 @@ namespace cairn::behaviours {
 namespace {
 
 // What a task may cost more than the next one and still come first, in metres of way.
-constexpr double kLapBonus_m = 1.5;             // an object is circled when the robot first comes near
+constexpr double kOrbitBonus_m = 1.5;           // an object is circled when the robot first comes near
 constexpr double kFrontierBonus_m_per_m = 0.3;  // of the frontier's length
-constexpr double kMostFrontierBonus_m = 0.8;
-constexpr int kLeastLap_sectors = 2;
-constexpr double kLapFrom_m = 1.5;
-constexpr double kMostWayForLaps_m = 1.0;  // for each open sector
-constexpr double kIsLandmark_m = 0.4;      // an object this near to a landmark's centre is that landmark
+constexpr double kMaxFrontierBonus_m = 0.8;
+constexpr int kMinLap_sectors = 2;
+constexpr double kOrbitFrom_m = 1.5;
+constexpr double kMaxDetourForOrbits_m = 1.0;  // for each open sector
+constexpr double kIsLandmark_m = 0.4;          // an object this near to a landmark's centre is that landmark
 constexpr double kStayBonus_m = 0.8;
-constexpr double kSame_m = 0.8;                    // tasks this near are the same one, grown or shrunk
-constexpr double kMostWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
+constexpr double kSame_m = 0.8;                   // tasks this near are the same one, grown or shrunk
+constexpr double kMaxWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
 constexpr double kSmallEdge_m = 0.6;
-constexpr double kLeastEdge_m = 0.3;
+constexpr double kMinEdge_m = 0.3;
 // Things are looked at from a little nearer than needed, so that arriving is seeing.
 constexpr double kViewRatio = 0.85;
 
@@ -38,9 +38,9 @@ Point middle_of(const FreeSpace& space, const CellGroup& cells) {
   return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
 }
 
-std::vector<CellGroup> groups_of(const std::vector<Cell>& cells, double least_cells) {
+std::vector<CellGroup> groups_of(const std::vector<Cell>& cells, double min_cells) {
   std::vector<CellGroup> groups = grouped(cells, 1);
-  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) < least_cells; });
+  std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) < min_cells; });
   return groups;
 }
 
@@ -66,7 +66,7 @@ struct Worth {
   double view_m = 1.0;         // looked at from within this distance
   double bonus_m_per_m = 0.0;  // of the group's length
   double small_m = 0.0;        // shorter groups are worth ...
-  double most_m_per_m = 0.0;   // ... no longer way for each of their metres
+  double max_m_per_m = 0.0;    // ... no longer way for each of their metres
   double gain_m = 0.0;         // > 0: the area that would be seen counts instead of the length
   double gain_range_m = 0.0;
 };
@@ -83,20 +83,20 @@ void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& wort
     task.targets = std::move(groups[i]);
     task.lookout = space.centre_of(*stands[i]);
     task.cost_m = space.cost_m(*stands[i]);
-    if (size_m < worth.small_m && task.cost_m > worth.most_m_per_m * size_m) continue;
+    if (size_m < worth.small_m && task.cost_m > worth.max_m_per_m * size_m) continue;
     const double bonus_m = worth.gain_m > 0.0
                                ? worth_of_area_m(new_area_m2(space, task.lookout, worth.gain_range_m), worth.gain_m)
-                               : std::min(kMostFrontierBonus_m, worth.bonus_m_per_m * size_m);
+                               : std::min(kMaxFrontierBonus_m, worth.bonus_m_per_m * size_m);
     offer(best, std::move(task), bonus_m, previous);
   }
 }
 
 // An object that the robot has not been near to yet is an edge to look at: from afar a piece of wall looks the same.
 // And a small rest of a lap is worth a small detour only.
-bool is_worth_a_lap(const Lap& lap, double cost_m) {
-  const int open = lap.count(SectorState::open);
-  if (lap.count(SectorState::covered) == 0 && cost_m > kLapFrom_m) return false;
-  return open >= kLeastLap_sectors && cost_m <= kMostWayForLaps_m * open;
+bool is_worth_a_orbit(const Orbit& orbit, double cost_m) {
+  const int open = orbit.count(SectorState::open);
+  if (orbit.count(SectorState::covered) == 0 && cost_m > kOrbitFrom_m) return false;
+  return open >= kMinLap_sectors && cost_m <= kMaxDetourForOrbits_m * open;
 }
 
 const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centre) {
@@ -105,28 +105,28 @@ const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centr
   return found == memory.second_looks.end() ? nullptr : &*found;
 }
 
-void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
-                const LapSettings& settings, const ExploreMemory& memory) {
+void offer_orbits(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
+                  const OrbitSettings& settings, const ExploreMemory& memory) {
   for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
     // No lap begins nearer than this.
-    const double least_m =
+    const double min_m =
         (middle_of(space, object) - T_map_robot.position()).norm() - settings.largest_object_m - settings.look_closer_m;
-    if (least_m - kLapBonus_m - kStayBonus_m >= best.score_m) continue;
+    if (min_m - kOrbitBonus_m - kStayBonus_m >= best.score_m) continue;
     const SecondLook* again = second_look_at(memory, middle_of(space, object));
     const auto trace = std::span(memory.trace).subspan(again == nullptr ? 0 : again->trace_from);
-    const Lap lap = lap_round(space, object, trace, memory.given_up_lookouts, settings);
-    if (!lap.is_round_trip() || lap.count(SectorState::open) == 0) continue;
-    LapRoute route = lap_route(space, lap, T_map_robot);
+    const Orbit orbit = orbit_round(space, object, trace, memory.given_up_lookouts, settings);
+    if (!orbit.is_round_trip() || orbit.count(SectorState::open) == 0) continue;
+    OrbitRoute route = orbit_route(space, orbit, T_map_robot);
     ExploreTask task;
-    task.kind = TaskKind::lap;
-    task.about = lap.centre;
+    task.kind = TaskKind::orbit;
+    task.about = orbit.centre;
     task.lookout = space.centre_of(route.first);
     task.path = std::move(route.path);
     task.way_m = route.way_m;
     task.cost_m = route.cost_m;
     const bool is_at_it = previous != nullptr && is_about_the_same(*previous, task);
-    if (!is_at_it && again == nullptr && !is_worth_a_lap(lap, task.cost_m)) continue;
-    offer(best, std::move(task), kLapBonus_m, previous);
+    if (!is_at_it && again == nullptr && !is_worth_a_orbit(orbit, task.cost_m)) continue;
+    offer(best, std::move(task), kOrbitBonus_m, previous);
   }
 }
 
@@ -135,11 +135,11 @@ void offer_laps(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, 
 std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot, bool frontiers_wanted,
                                      const ExploreTask* previous, const TaskSettings& settings, ExploreMemory& memory) {
   Choice best;
-  const double look_closer_m = settings.lap.look_closer_m;
+  const double look_closer_m = settings.orbit.look_closer_m;
   if (look_closer_m > 0.0) {
     const std::vector<Cell> left = unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges);
-    const Worth worth{TaskKind::edge, kViewRatio * look_closer_m, 0.0, kSmallEdge_m, kMostWayForEdges_m_per_m};
-    offer_groups(best, groups_of(left, kLeastEdge_m / space.cell_m()), worth, space, previous);
+    const Worth worth{TaskKind::edge, kViewRatio * look_closer_m, 0.0, kSmallEdge_m, kMaxWayForEdges_m_per_m};
+    offer_groups(best, groups_of(left, kMinEdge_m / space.cell_m()), worth, space, previous);
   }
   if (frontiers_wanted) {
     const Sight& sight = settings.frontier_sight;
@@ -151,19 +151,19 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
     worth.gain_range_m = settings.gain_range_m;
     offer_groups(best, std::move(groups), worth, space, previous);
   }
-  if (look_closer_m > 0.0) offer_laps(best, space, T_map_robot, previous, settings.lap, memory);
+  if (look_closer_m > 0.0) offer_orbits(best, space, T_map_robot, previous, settings.orbit, memory);
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
   if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
   return std::move(best.task);
 }
 
-bool look_again(const FreeSpace& space, const LandmarkGraph& known, const LapSettings& settings,
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const OrbitSettings& settings,
                 ExploreMemory& memory) {
   bool found = false;
   for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
     const Point centre = middle_of(space, object);
     if (known.nearest(centre, kIsLandmark_m) != nullptr || second_look_at(memory, centre) != nullptr) continue;
-    if (!lap_round(space, object, memory.trace, {}, settings).is_round_trip()) continue;
+    if (!orbit_round(space, object, memory.trace, {}, settings).is_round_trip()) continue;
     memory.second_looks.push_back({centre, memory.trace.size()});
     found = true;
   }
@@ -184,7 +184,7 @@ std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace&
 }
 
 void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory) {
-  if (task.kind == TaskKind::lap) {
+  if (task.kind == TaskKind::orbit) {
     memory.given_up_lookouts.push_back(task.lookout);
     return;
   }
@@ -193,7 +193,7 @@ void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings
     return;
   }
   const bool is_frontier_task = task.kind == TaskKind::frontier;
-  const double reach_m = 1.3 * (is_frontier_task ? settings.frontier_sight.within_m : settings.lap.look_closer_m);
+  const double reach_m = 1.3 * (is_frontier_task ? settings.frontier_sight.within_m : settings.orbit.look_closer_m);
   CellSet& set = is_frontier_task ? memory.seen_frontiers : memory.seen_edges;
   for (const Cell cell : task.targets) {
     if ((space.centre_of(cell) - task.lookout).norm() > reach_m) continue;
@@ -217,7 +217,7 @@ bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid) {
 std::string sentence_of(const ExploreTask& task) {
   const auto what = [&] {
     switch (task.kind) {
-      case TaskKind::lap:
+      case TaskKind::orbit:
         return "going round the object";
       case TaskKind::frontier:
         return "going to the frontier";

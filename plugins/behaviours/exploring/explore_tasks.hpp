@@ -12,7 +12,7 @@
 namespace cairn::behaviours {
 
 struct TaskSettings {
-  LapSettings lap;  // lap.look_closer_m 0: no laps and no edges
+  OrbitSettings orbit;  // lap.look_closer_m 0: no laps and no edges
   double smallest_frontier_m = 0.3;
   Sight frontier_sight{1.0, radians(60.0)};  // a frontier is looked at from within it
   double gain_m = 0.0;                       // what e times the new area is worth; 0: the nearest frontier first
@@ -36,7 +36,7 @@ struct ExploreMemory {
   std::vector<TroubleSpot> troubles;
 };
 
-enum class TaskKind { lap, frontier, edge, opening };
+enum class TaskKind { orbit, frontier, edge, opening };
 
 struct ExploreTask {
   TaskKind kind = TaskKind::frontier;
@@ -55,7 +55,8 @@ struct ExploreTask {
 
 // For when nothing else is left: notes that a free-standing object which is no known landmark is to be
 // circled once more, since a second lap often shows what the first did not. False when there is none.
-bool look_again(const FreeSpace& space, const LandmarkGraph& known, const LapSettings& settings, ExploreMemory& memory);
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const OrbitSettings& settings,
+                ExploreMemory& memory);
 
 // For when nothing else is left either: an opening that looks too narrow, to be looked at head on.
 [[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,

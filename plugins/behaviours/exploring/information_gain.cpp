@@ -8,7 +8,7 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr int kRays = 72;
-constexpr double kLeastArea_m2 = 0.01;
+constexpr double kMinArea_m2 = 0.01;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ double new_area_m2(const FreeSpace& space, const Point& viewpoint, double range_
 }
 
 double worth_of_area_m(double area_m2, double worth_m) {
-  return worth_m * std::log(std::max(area_m2, kLeastArea_m2));
+  return worth_m * std::log(std::max(area_m2, kMinArea_m2));
 }
 
 }  // namespace cairn::behaviours

@@ -17,7 +17,7 @@ constexpr double kIsLandmark_m = 0.4;
 constexpr int kUsualOutline_cells = 3;  // of a landmark that the map does not show
 constexpr double kChoiceEvery_s = 2.5;
 constexpr double kTrace_m = 0.1;
-constexpr int kLeastCovered = 4;  // sectors: less is no lap
+constexpr int kMinCovered = 4;  // sectors: less is no lap
 constexpr double kBackOff_mps = 0.1;
 constexpr double kBackOff_s = 1.5;
 constexpr double kAheadOfStop_m = 0.4;
@@ -48,7 +48,7 @@ void InspectConfig::describe(Fields<InspectConfig>& fields) {
   fields.number("distance_m", &C::distance_m, {0.1, 5.0}, "m", "from its edge to the robot's centre on a lap");
   fields.integer("rounds_at_most", &C::rounds_at_most, {1.0, 100.0}, "laps, whatever the degree does");
   fields.number("gain", &C::gain, {0.0, 1.0}, "", "no lap more when the degree has not risen by more than this in one");
-  fields.number("lap_speed_mps", &C::lap_speed_mps, {0.01, 5.0}, "m/s", "top speed on a lap");
+  fields.number("orbit_speed_mps", &C::orbit_speed_mps, {0.01, 5.0}, "m/s", "top speed on a lap");
   fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed on the way there");
   fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "waited for what is in the way to go");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "when it is up, it ends with what it has seen");
@@ -66,21 +66,21 @@ void Inspect::halt() {
   *this = Inspect(config_, seed_);
 }
 
-Status Inspect::tick(const WorldView& world, Orders& orders) {
+Status Inspect::tick(const WorldView& world, BehaviourContext& orders) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (landmark_ == 0) return begin(world, orders);
   const Landmark* const landmark = world.graph.find(landmark_);
   if (landmark == nullptr) return {Progress::failure, lost(landmark_, world.graph)};
   remember(world);
   if (world.time_s - *begun_s_ >= config_.at_most_s) {
-    if (laps_ > 0) return finish(*landmark, "time is up");
+    if (orbits_ > 0) return finish(*landmark, "time is up");
     return {Progress::failure, "time is up before a lap round " + described(*landmark) + " was done"};
   }
   switch (mode_) {
     case Mode::drive:
       return drive(world, orders, *landmark);
-    case Mode::lap:
-      return lap(world, orders, *landmark);
+    case Mode::orbit:
+      return orbit(world, orders, *landmark);
     case Mode::back_off:
       break;
   }
@@ -95,7 +95,7 @@ void Inspect::remember(const WorldView& world) {
   if (trace_.empty() || (trace_.back().position() - pose.position()).norm() >= kTrace_m) trace_.push_back(pose);
 }
 
-Status Inspect::begin(const WorldView& world, Orders& orders) {
+Status Inspect::begin(const WorldView& world, BehaviourContext& orders) {
   const ChosenLandmark chosen = choose_landmark(name_, world, orders);
   if (!chosen.unknown.empty()) return {Progress::failure, chosen.unknown};
   landmark_ = chosen.id;
@@ -103,7 +103,7 @@ Status Inspect::begin(const WorldView& world, Orders& orders) {
   return {Progress::running, "going to " + described(*world.graph.find(landmark_))};
 }
 
-Status Inspect::drive(const WorldView& world, Orders& orders, const Landmark& landmark) {
+Status Inspect::drive(const WorldView& world, BehaviourContext& orders, const Landmark& landmark) {
   const bool is_near = (landmark.T_map_landmark.position() - world.pose.T_map_robot.position()).norm() <= kNear_m &&
                        choose_way(world, landmark);
   Status status{Progress::success, ""};
@@ -116,8 +116,8 @@ Status Inspect::drive(const WorldView& world, Orders& orders, const Landmark& la
     return {Progress::running, status.reason + ", to " + described(landmark), status.left_s};
   if (status.progress == Progress::failure)
     return {Progress::failure, "cannot get to " + described(landmark) + ": " + status.reason};
-  mode_ = Mode::lap;
-  lap_begins_ = trace_.size();
+  mode_ = Mode::orbit;
+  orbit_begins_ = trace_.size();
   watch_.restart();
   return {Progress::running, "at " + described(landmark)};
 }
@@ -132,17 +132,17 @@ bool Inspect::choose_way(const WorldView& world, const Landmark& landmark) {
   const CellBox part = united(CellBox{here, here + Cell{1, 1}}, CellBox{there, there + Cell{1, 1}}).grown(reach);
   const FreeSpace space(near_echoes_->applied_to(world.grid, part),
                         {pose.position(), world.robot.radius_m, kClearance_m}, trace_);
-  const LapSettings settings{config_.distance_m, config_.distance_m + kLookCloser_m, kLargestObject_m};
-  const auto of_lap = std::span(trace_).subspan(std::min(lap_begins_, trace_.size()));
-  const Lap round = lap_round(space, object_at(space, centre), of_lap, avoid_, settings);
+  const OrbitSettings settings{config_.distance_m, config_.distance_m + kLookCloser_m, kLargestObject_m};
+  const auto of_orbit = std::span(trace_).subspan(std::min(orbit_begins_, trace_.size()));
+  const Orbit round = orbit_round(space, object_at(space, centre), of_orbit, avoid_, settings);
   covered_ = round.count(SectorState::covered);
   if (round.count(SectorState::open) == 0) return false;
-  path_ = lap_route(space, round, pose).path;
+  path_ = orbit_route(space, round, pose).path;
   follow_state_ = {0.0, follow_state_.turning};
   return !path_.empty();
 }
 
-Status Inspect::lap(const WorldView& world, Orders& orders, const Landmark& landmark) {
+Status Inspect::orbit(const WorldView& world, BehaviourContext& orders, const Landmark& landmark) {
   const Pose2& pose = world.pose.T_map_robot;
   if (watch_.is_stuck(world, wanted_)) {
     avoid_.push_back(pose * Point(kAheadOfStop_m, 0.0));
@@ -151,12 +151,12 @@ Status Inspect::lap(const WorldView& world, Orders& orders, const Landmark& land
     wanted_ = {};
     return back_off(world, orders);
   }
-  FollowLimits limits = follow_limits(world.robot, config_.lap_speed_mps);
+  FollowLimits limits = follow_limits(world.robot, config_.orbit_speed_mps);
   FollowStep step = follow(pose, path_, follow_state_, limits);
   if (path_.empty() || step.arrived || world.time_s - chosen_s_ >= kChoiceEvery_s) {
     const bool was_there = step.arrived && !path_.empty();
     const Point end = was_there ? path_.back() : Point(1e9, 1e9);
-    if (!choose_way(world, landmark)) return end_lap(landmark, orders);
+    if (!choose_way(world, landmark)) return end_orbit(landmark, orders);
     // Arrived, and the sector still counts as open: it cannot be seen from there.
     if (was_there && (path_.back() - end).norm() < kTrace_m) avoid_.push_back(end);
     step = follow(pose, path_, follow_state_, limits);
@@ -164,10 +164,10 @@ Status Inspect::lap(const WorldView& world, Orders& orders, const Landmark& land
   follow_state_ = step.state;
   wanted_ = step.wanted;
   orders.drive(wanted_);
-  return {Progress::running, "going round " + described(landmark) + ", lap " + std::to_string(laps_ + 1)};
+  return {Progress::running, "going round " + described(landmark) + ", lap " + std::to_string(orbits_ + 1)};
 }
 
-Status Inspect::back_off(const WorldView& world, Orders& orders) {
+Status Inspect::back_off(const WorldView& world, BehaviourContext& orders) {
   const bool is_over =
       world.time_s - backing_since_s_ > kBackOff_s ||
       path_is_blocked(world.grid, {world.pose.T_map_robot.position(), world.pose.T_map_robot * Point(-0.2, 0.0)}, 0.1,
@@ -176,36 +176,36 @@ Status Inspect::back_off(const WorldView& world, Orders& orders) {
     orders.drive({-kBackOff_mps, 0.0});
     return {Progress::running, "backing off"};
   }
-  mode_ = Mode::lap;
+  mode_ = Mode::orbit;
   path_.clear();
   watch_.restart();
   return {Progress::running, "has backed off"};
 }
 
-Status Inspect::end_lap(const Landmark& landmark, Orders& orders) {
+Status Inspect::end_orbit(const Landmark& landmark, BehaviourContext& orders) {
   wanted_ = {};
   path_.clear();
-  if (covered_ < kLeastCovered) {
-    if (laps_ > 0) return finish(landmark, "it cannot be circled once more");
+  if (covered_ < kMinCovered) {
+    if (orbits_ > 0) return finish(landmark, "it cannot be circled once more");
     return {Progress::failure, described(landmark) + " cannot be circled: no free way leads round it"};
   }
-  ++laps_;
+  ++orbits_;
   const double risen = landmark.degree - degree_at_lap_;
   char text[96];
-  std::snprintf(text, sizeof text, "lap %d: degree %.3f -> %.3f", laps_, degree_at_lap_, landmark.degree);
+  std::snprintf(text, sizeof text, "lap %d: degree %.3f -> %.3f", orbits_, degree_at_lap_, landmark.degree);
   orders.say(std::string(text) + " of " + described(landmark));
   degree_at_lap_ = landmark.degree;
-  lap_begins_ = trace_.size();
+  orbit_begins_ = trace_.size();
   avoid_.clear();
   if (risen <= config_.gain) return finish(landmark, "it rises no more");
-  if (laps_ >= config_.rounds_at_most) return finish(landmark, "that was the last lap");
+  if (orbits_ >= config_.rounds_at_most) return finish(landmark, "that was the last lap");
   return {Progress::running, "next lap"};
 }
 
 Status Inspect::finish(const Landmark& landmark, const std::string& why) const {
   char text[96];
-  std::snprintf(text, sizeof text, "degree %.3f -> %.3f in %d %s", degree_before_, landmark.degree, laps_,
-                laps_ == 1 ? "lap" : "laps");
+  std::snprintf(text, sizeof text, "degree %.3f -> %.3f in %d %s", degree_before_, landmark.degree, orbits_,
+                orbits_ == 1 ? "lap" : "laps");
   return {Progress::success, described(landmark) + ": " + text + ", " + why};
 }
 

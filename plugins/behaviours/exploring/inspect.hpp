@@ -22,7 +22,7 @@ struct InspectConfig : RouteSettings {
   double distance_m = 0.6;
   int rounds_at_most = 3;
   double gain = 0.01;
-  double lap_speed_mps = 0.1;
+  double orbit_speed_mps = 0.1;
   double at_most_s = 900.0;
   static void describe(Fields<InspectConfig>& fields);
 };
@@ -30,17 +30,17 @@ struct InspectConfig : RouteSettings {
 class Inspect : public Behaviour {
  public:
   Inspect(const InspectConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, Orders& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& orders) override;
   void halt() override;
 
  private:
-  enum class Mode { drive, lap, back_off };
+  enum class Mode { drive, orbit, back_off };
 
-  Status begin(const WorldView& world, Orders& orders);
-  Status drive(const WorldView& world, Orders& orders, const Landmark& landmark);
-  Status lap(const WorldView& world, Orders& orders, const Landmark& landmark);
-  Status back_off(const WorldView& world, Orders& orders);
-  Status end_lap(const Landmark& landmark, Orders& orders);
+  Status begin(const WorldView& world, BehaviourContext& orders);
+  Status drive(const WorldView& world, BehaviourContext& orders, const Landmark& landmark);
+  Status orbit(const WorldView& world, BehaviourContext& orders, const Landmark& landmark);
+  Status back_off(const WorldView& world, BehaviourContext& orders);
+  Status end_orbit(const Landmark& landmark, BehaviourContext& orders);
   Status finish(const Landmark& landmark, const std::string& why) const;
   void remember(const WorldView& world);
   // False when nothing of the lap is left.
@@ -50,16 +50,16 @@ class Inspect : public Behaviour {
   std::uint64_t seed_;
   std::string name_;
   RouteDriver driver_;
-  HeldBackWatch watch_;
+  ProgressChecker watch_;
   Mode mode_ = Mode::drive;
   std::optional<double> begun_s_;
   LandmarkId landmark_ = 0;
   double degree_before_ = 0.0;
   double degree_at_lap_ = 0.0;             // when the lap began
-  int laps_ = 0;                           // done
+  int orbits_ = 0;                         // done
   int covered_ = 0;                        // sectors of this lap
   std::vector<Pose2> trace_;               // of this lap
-  std::size_t lap_begins_ = 0;             // in the trace
+  std::size_t orbit_begins_ = 0;           // in the trace
   std::optional<NearEchoes> near_echoes_;  // from the first tick on
   std::vector<Point> avoid_;
   std::vector<Point> path_;

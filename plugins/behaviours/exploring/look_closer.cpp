@@ -11,19 +11,19 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr int kGap_cells = 2;  // sonar leaves holes in outlines; steps over them hold an object together
-constexpr std::size_t kLeastObject_cells = 4;
-constexpr int kMostHidden = 7;  // of kLapSectors; behind a wall half of them are
-constexpr int kLeastRoom = 9;   // sectors that can be stood in
+constexpr std::size_t kMinObject_cells = 4;
+constexpr int kMaxHidden = 7;  // of kOrbitSectors; behind a wall half of them are
+constexpr int kMinRoom = 9;    // sectors that can be stood in
 constexpr double kAvoid_m = 0.25;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 double sector_angle(int sector) {
-  return kFullTurn * sector / kLapSectors;
+  return kFullTurn * sector / kOrbitSectors;
 }
 
 int sector_of(const Point& from_centre) {
   const double turns = std::atan2(from_centre.y(), from_centre.x()) / kFullTurn;
-  return ((static_cast<int>(std::lround(turns * kLapSectors)) % kLapSectors) + kLapSectors) % kLapSectors;
+  return ((static_cast<int>(std::lround(turns * kOrbitSectors)) % kOrbitSectors) + kOrbitSectors) % kOrbitSectors;
 }
 
 struct NearestCell {
@@ -45,39 +45,39 @@ bool is_near_any(const Point& p, const std::vector<Point>& points, double within
 }
 
 // Distances to the object to try, the wanted one first, then further and nearer by turns.
-std::vector<double> tried_distances(const FreeSpace& space, const LapSettings& settings) {
+std::vector<double> tried_distances(const FreeSpace& space, const OrbitSettings& settings) {
   const double step_m = space.cell_m();
-  const double wanted_m = std::max(settings.distance_m, space.least_distance_m());
-  const double most_m = std::max(wanted_m, settings.look_closer_m - step_m);
+  const double wanted_m = std::max(settings.distance_m, space.min_distance_m());
+  const double max_m = std::max(wanted_m, settings.look_closer_m - step_m);
   std::vector<double> distances{wanted_m};
   for (int i = 1; i * step_m < 1.0; ++i) {
-    if (wanted_m - i * step_m >= space.least_distance_m()) distances.push_back(wanted_m - i * step_m);
-    if (wanted_m + i * step_m <= most_m) distances.push_back(wanted_m + i * step_m);
+    if (wanted_m - i * step_m >= space.min_distance_m()) distances.push_back(wanted_m - i * step_m);
+    if (wanted_m + i * step_m <= max_m) distances.push_back(wanted_m + i * step_m);
   }
   return distances;
 }
 
 // The point of a ray from the centre that is this far from the object, from outside.
-Point point_on_ray(const FreeSpace& space, const CellGroup& object, const Lap& lap, int sector, double distance_m) {
+Point point_on_ray(const FreeSpace& space, const CellGroup& object, const Orbit& orbit, int sector, double distance_m) {
   const Point direction{std::cos(sector_angle(sector)), std::sin(sector_angle(sector))};
-  double r_m = lap.radius_m + distance_m;
+  double r_m = orbit.radius_m + distance_m;
   while (r_m > 0.0) {
-    const double now_m = nearest_cell(space, object, lap.centre + direction * r_m).distance_m;
+    const double now_m = nearest_cell(space, object, orbit.centre + direction * r_m).distance_m;
     if (now_m <= distance_m + 0.25 * space.cell_m()) break;
     r_m -= std::max(0.5 * (now_m - distance_m), 0.25 * space.cell_m());
   }
-  return lap.centre + direction * r_m;
+  return orbit.centre + direction * r_m;
 }
 
-Sector look_along(const FreeSpace& space, const CellGroup& object, const Lap& lap, int sector,
-                  const std::vector<Point>& avoid, const LapSettings& settings) {
+Sector look_along(const FreeSpace& space, const CellGroup& object, const Orbit& orbit, int sector,
+                  const std::vector<Point>& avoid, const OrbitSettings& settings) {
   Sector result;
   for (const double distance_m : tried_distances(space, settings)) {
-    const Point p = point_on_ray(space, object, lap, sector, distance_m);
+    const Point p = point_on_ray(space, object, orbit, sector, distance_m);
     const Cell cell = space.cell_at(p);
     if (space.reaches(cell) && !is_near_any(p, avoid, kAvoid_m) && space.sees(p, nearest_cell(space, object, p).cell))
       return {SectorState::open, cell};
-    if (space.state(cell) != CellState::unknown && space.distance_m(cell) < space.least_distance_m())
+    if (space.state(cell) != CellState::unknown && space.distance_m(cell) < space.min_distance_m())
       result.state = SectorState::blocked;
     if (is_near_any(p, avoid, kAvoid_m)) result.state = SectorState::blocked;
   }
@@ -85,10 +85,10 @@ Sector look_along(const FreeSpace& space, const CellGroup& object, const Lap& la
 }
 
 // Whether the robot can come near at all: most of what looks like an object in a noisy map is out of reach.
-bool is_near_reach(const FreeSpace& space, const Lap& lap, const LapSettings& settings) {
-  const double reach_m = lap.radius_m + settings.look_closer_m;
-  const Cell low = space.cell_at(lap.centre - Point{reach_m, reach_m});
-  const Cell high = space.cell_at(lap.centre + Point{reach_m, reach_m});
+bool is_near_reach(const FreeSpace& space, const Orbit& orbit, const OrbitSettings& settings) {
+  const double reach_m = orbit.radius_m + settings.look_closer_m;
+  const Cell low = space.cell_at(orbit.centre - Point{reach_m, reach_m});
+  const Cell high = space.cell_at(orbit.centre + Point{reach_m, reach_m});
   for (int y = low.y; y <= high.y; y += 3)
     for (int x = low.x; x <= high.x; x += 3)
       if (space.reaches({x, y})) return true;
@@ -96,12 +96,12 @@ bool is_near_reach(const FreeSpace& space, const Lap& lap, const LapSettings& se
 }
 
 void mark_covered(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace, double look_closer_m,
-                  Lap& lap) {
+                  Orbit& orbit) {
   for (const Pose2& pose : trace) {
     const Point p = pose.position();
-    const Point from_centre = p - lap.centre;
-    if (from_centre.norm() > lap.radius_m + look_closer_m) continue;
-    Sector& sector = lap.sectors[static_cast<std::size_t>(sector_of(from_centre))];
+    const Point from_centre = p - orbit.centre;
+    if (from_centre.norm() > orbit.radius_m + look_closer_m) continue;
+    Sector& sector = orbit.sectors[static_cast<std::size_t>(sector_of(from_centre))];
     if (sector.state == SectorState::covered) continue;
     const NearestCell nearest = nearest_cell(space, object, p);
     if (nearest.distance_m <= look_closer_m && space.sees(p, nearest.cell)) sector.state = SectorState::covered;
@@ -131,14 +131,13 @@ std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells,
   return left;
 }
 
-int Lap::count(SectorState state) const {
+int Orbit::count(SectorState state) const {
   return static_cast<int>(
       std::count_if(sectors.begin(), sectors.end(), [state](const Sector& s) { return s.state == state; }));
 }
 
-bool Lap::is_round_trip() const {
-  return count(SectorState::hidden) <= kMostHidden &&
-         count(SectorState::open) + count(SectorState::covered) >= kLeastRoom;
+bool Orbit::is_round_trip() const {
+  return count(SectorState::hidden) <= kMaxHidden && count(SectorState::open) + count(SectorState::covered) >= kMinRoom;
 }
 
 std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_object_m) {
@@ -152,38 +151,38 @@ std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_ob
   std::erase_if(groups, [&](const CellGroup& group) {
     CellBox extent;
     for (const Cell c : group) extent = united(extent, {c, c + Cell{1, 1}});
-    return group.size() < kLeastObject_cells ||
+    return group.size() < kMinObject_cells ||
            std::max(extent.width(), extent.height()) * space.cell_m() > largest_object_m;
   });
   return groups;
 }
 
-Lap lap_round(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
-              const std::vector<Point>& avoid, const LapSettings& settings) {
-  Lap lap;
+Orbit orbit_round(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
+                  const std::vector<Point>& avoid, const OrbitSettings& settings) {
+  Orbit orbit;
   CellBox extent;
   for (const Cell c : object) extent = united(extent, {c, c + Cell{1, 1}});
-  lap.centre = 0.5 * (space.centre_of(extent.min) + space.centre_of(extent.max - Cell{1, 1}));
-  for (const Cell c : object) lap.radius_m = std::max(lap.radius_m, (space.centre_of(c) - lap.centre).norm());
+  orbit.centre = 0.5 * (space.centre_of(extent.min) + space.centre_of(extent.max - Cell{1, 1}));
+  for (const Cell c : object) orbit.radius_m = std::max(orbit.radius_m, (space.centre_of(c) - orbit.centre).norm());
 
-  lap.sectors.resize(kLapSectors);
-  if (!is_near_reach(space, lap, settings)) return lap;
-  mark_covered(space, object, trace, settings.look_closer_m, lap);
-  for (int i = 0; i < kLapSectors; ++i) {
-    Sector& sector = lap.sectors[static_cast<std::size_t>(i)];
-    if (sector.state != SectorState::covered) sector = look_along(space, object, lap, i, avoid, settings);
+  orbit.sectors.resize(kOrbitSectors);
+  if (!is_near_reach(space, orbit, settings)) return orbit;
+  mark_covered(space, object, trace, settings.look_closer_m, orbit);
+  for (int i = 0; i < kOrbitSectors; ++i) {
+    Sector& sector = orbit.sectors[static_cast<std::size_t>(i)];
+    if (sector.state != SectorState::covered) sector = look_along(space, object, orbit, i, avoid, settings);
   }
-  return lap;
+  return orbit;
 }
 
-LapRoute lap_route(const FreeSpace& space, const Lap& lap, const Pose2& T_map_robot) {
+OrbitRoute orbit_route(const FreeSpace& space, const Orbit& orbit, const Pose2& T_map_robot) {
   const auto sector = [&](int i) -> const Sector& {
-    return lap.sectors[static_cast<std::size_t>(((i % kLapSectors) + kLapSectors) % kLapSectors)];
+    return orbit.sectors[static_cast<std::size_t>(((i % kOrbitSectors) + kOrbitSectors) % kOrbitSectors)];
   };
-  LapRoute route;
+  OrbitRoute route;
   route.cost_m = std::numeric_limits<double>::infinity();
   int first = -1;
-  for (int i = 0; i < kLapSectors; ++i) {
+  for (int i = 0; i < kOrbitSectors; ++i) {
     if (sector(i).state != SectorState::open || space.cost_m(sector(i).lookout) >= route.cost_m) continue;
     first = i;
     route.cost_m = space.cost_m(sector(i).lookout);
@@ -195,7 +194,7 @@ LapRoute lap_route(const FreeSpace& space, const Lap& lap, const Pose2& T_map_ro
 
   const auto run = [&](int step) {
     int length = 0;
-    while (length < kLapSectors - 1 && sector(first + step * (length + 1)).state == SectorState::open) ++length;
+    while (length < kOrbitSectors - 1 && sector(first + step * (length + 1)).state == SectorState::open) ++length;
     return length;
   };
   // Anticlockwise round the centre is this way; does the robot look along it already?

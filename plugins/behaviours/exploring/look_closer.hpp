@@ -23,7 +23,7 @@ struct Sight {
 [[nodiscard]] std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells,
                                        const std::vector<Pose2>& trace, const Sight& sight, CellSet& seen);
 
-struct LapSettings {
+struct OrbitSettings {
   double distance_m = 0.55;       // from the object's edge to the robot's centre
   double look_closer_m = 0.9;     // a robot within this distance sees the side it is on
   double largest_object_m = 1.5;  // what is longer is a wall
@@ -41,12 +41,12 @@ struct Sector {
   Cell lookout;  // of open sectors
 };
 
-inline constexpr int kLapSectors = 24;  // anticlockwise from the x axis
+inline constexpr int kOrbitSectors = 24;  // anticlockwise from the x axis
 
-struct Lap {
+struct Orbit {
   Point centre{0.0, 0.0};
   double radius_m = 0.0;        // of the object
-  std::vector<Sector> sectors;  // kLapSectors
+  std::vector<Sector> sectors;  // kOrbitSectors
 
   [[nodiscard]] int count(SectorState state) const;  // 0 when the object was out of reach
   // A thing that stands free, as far as can be told: nearly all the way round is known.
@@ -57,17 +57,17 @@ struct Lap {
 [[nodiscard]] std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_object_m);
 
 // avoid: lookouts within 0.25 m of these are no lookouts.
-[[nodiscard]] Lap lap_round(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
-                            const std::vector<Point>& avoid, const LapSettings& settings);
+[[nodiscard]] Orbit orbit_round(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
+                                const std::vector<Point>& avoid, const OrbitSettings& settings);
 
 // The lap's cheapest open sector, and the way on through the open sectors next to it, in the direction
 // with more of them (towards the robot's heading when equal). Empty when no sector is open.
-struct LapRoute {
+struct OrbitRoute {
   Cell first;
   double cost_m = 0.0;
   double way_m = 0.0;  // of the path, to the first sector
   std::vector<Point> path;
 };
-[[nodiscard]] LapRoute lap_route(const FreeSpace& space, const Lap& lap, const Pose2& T_map_robot);
+[[nodiscard]] OrbitRoute orbit_route(const FreeSpace& space, const Orbit& orbit, const Pose2& T_map_robot);
 
 }  // namespace cairn::behaviours

@@ -20,8 +20,8 @@ std::string joined(const std::vector<std::string>& texts) {
 std::vector<PlaceName> to_place_names(const ConfigValue& value, const std::string& key) {
   std::vector<PlaceName> places;
   for (const ConfigValue& item : config_detail::to_list(value, key)) places.push_back(to_place_name(item, key));
-  if (places.empty() || places.size() > kMostPlaces)
-    throw ConfigError(value.place, key + " must be a list of 1 to " + std::to_string(kMostPlaces) + " places, found " +
+  if (places.empty() || places.size() > kMaxPlaces)
+    throw ConfigError(value.place, key + " must be a list of 1 to " + std::to_string(kMaxPlaces) + " places, found " +
                                        (places.empty() ? "an empty list" : std::to_string(places.size())));
   return places;
 }
@@ -35,7 +35,7 @@ Visits::Visits(const VisitSettings& settings, std::uint64_t seed, std::vector<Pl
   for (PlaceName& name : places) stops_.push_back({std::move(name), std::nullopt});
 }
 
-Status Visits::tick(const WorldView& world, Orders& orders) {
+Status Visits::tick(const WorldView& world, BehaviourContext& orders) {
   if (!ordered_) return find_order(world, orders);
   if (waiting_since_s_) return wait(world);
   return drive(world, orders);
@@ -50,7 +50,7 @@ Place Visits::place_of(const Stop& stop, const LandmarkGraph& graph) const {
   return find_place(stop.name, graph).place;
 }
 
-Status Visits::find_order(const WorldView& world, Orders& orders) {
+Status Visits::find_order(const WorldView& world, BehaviourContext& orders) {
   const std::size_t all = stops_.size() + 1;
   if (cost_m_.empty()) cost_m_.assign(all, std::vector<double>(all, 0.0));
   if (from_ + 1 < all) {
@@ -68,7 +68,7 @@ Status Visits::find_order(const WorldView& world, Orders& orders) {
 }
 
 // Ways count the same in both directions.
-void Visits::ask_next_way(const WorldView& world, Orders& orders) {
+void Visits::ask_next_way(const WorldView& world, BehaviourContext& orders) {
   PlanRequest request;
   request.radius_m = world.robot.radius_m;
   request.seed = seed_;
@@ -99,7 +99,7 @@ bool Visits::resolve(const WorldView& world) {
   return false;
 }
 
-Status Visits::drive(const WorldView& world, Orders& orders) {
+Status Visits::drive(const WorldView& world, BehaviourContext& orders) {
   if (goal_ && names_retired(*goal_, world.graph)) {
     goal_.reset();
     driver_.restart();

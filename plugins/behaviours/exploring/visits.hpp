@@ -11,7 +11,7 @@
 
 namespace cairn::behaviours {
 
-inline constexpr std::size_t kMostPlaces = 50;
+inline constexpr std::size_t kMaxPlaces = 50;
 
 // What a behaviour says of its driving whose own settings leave no room for all of describe_route().
 template <class Config>
@@ -43,7 +43,7 @@ struct VisitSettings : RouteSettings {
   }
 };
 
-// Throws ConfigError unless it is a list of 1 to kMostPlaces places.
+// Throws ConfigError unless it is a list of 1 to kMaxPlaces places.
 [[nodiscard]] std::vector<PlaceName> to_place_names(const ConfigValue& value, const std::string& key);
 
 // Of a place that is unknown when it is its turn: as `skip` says, or left out because nobody has asked for just that.
@@ -56,7 +56,7 @@ class Visits {
 
   // Success when every place was visited or left out, but not all left out; failure with the place and why. `shortest`
   // asks the planner for one way a tick, n (n + 1) / 2 in all, while the robot stands.
-  Status tick(const WorldView& world, Orders& orders);
+  Status tick(const WorldView& world, BehaviourContext& orders);
 
   [[nodiscard]] std::size_t visited() const { return visited_.size(); }
   [[nodiscard]] std::size_t left_out() const { return left_out_.size(); }
@@ -68,9 +68,9 @@ class Visits {
     PlaceName name;
     std::optional<LandmarkId> chosen;  // of several landmarks, when the order was found
   };
-  Status find_order(const WorldView& world, Orders& orders);
-  void ask_next_way(const WorldView& world, Orders& orders);
-  Status drive(const WorldView& world, Orders& orders);
+  Status find_order(const WorldView& world, BehaviourContext& orders);
+  void ask_next_way(const WorldView& world, BehaviourContext& orders);
+  Status drive(const WorldView& world, BehaviourContext& orders);
   Status wait(const WorldView& world);
   Status leave_out(const std::string& why, bool may_be_left_out);
   [[nodiscard]] bool resolve(const WorldView& world);

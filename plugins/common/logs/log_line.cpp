@@ -58,9 +58,9 @@ double LogLine::metres(std::size_t i, std::string_view what) const {
 }
 
 double LogLine::heading(std::size_t i) const {
-  constexpr double kMost_rad = 1e6;  // an unwrapped heading counts turns; beyond that it is no heading
+  constexpr double kMax_rad = 1e6;  // an unwrapped heading counts turns; beyond that it is no heading
   const double value = finite(i, "heading");
-  if (std::abs(value) > kMost_rad) throw ConfigError(place(i), "the heading is no angle: " + shown(words_[i]));
+  if (std::abs(value) > kMax_rad) throw ConfigError(place(i), "the heading is no angle: " + shown(words_[i]));
   return value;
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kKindsNamed = 8;
 constexpr std::size_t kLongestKind = 32;
 constexpr std::size_t kFewestToJudge = 10;
-constexpr double kLeastChangingRatio = 0.1;
+constexpr double kMinChangingRatio = 0.1;
 
 std::string counted(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -76,7 +76,7 @@ void ScanLog::finish() {
   for (std::size_t i = 1; i < scans_.size(); ++i)
     if (scans_[i].stamp_s != scans_[i - 1].stamp_s) ++changes;
   const bool unusable = scans_.size() >= kFewestToJudge &&
-                        static_cast<double>(changes) < kLeastChangingRatio * static_cast<double>(scans_.size());
+                        static_cast<double>(changes) < kMinChangingRatio * static_cast<double>(scans_.size());
   if (!unusable) {
     bridge_jumps();
     return;

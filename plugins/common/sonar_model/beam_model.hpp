@@ -17,7 +17,7 @@ struct BeamModel {
   double delta_per_m = 0.015;
   double false_echo_per_m = 1.0;
 
-  // Chance that a target at this range and bearing echoes; a ray (half_beam 0) has no bearing.
+  // PortableRandom that a target at this range and bearing echoes; a ray (half_beam 0) has no bearing.
   [[nodiscard]] double alpha(double range_m, double bearing_rad, double half_beam_rad) const;
   [[nodiscard]] double delta(double range_m) const { return delta_m + delta_per_m * range_m; }
   [[nodiscard]] double lambda_of_echo(double alpha, double range_m, double echo_m) const;

@@ -38,7 +38,7 @@ void count_queries(benchmark::State& state, const Hierarchy& hierarchy) {
   std::uniform_int_distribution<VertexIndex> any(0, hierarchy.network().end() - 1);
   std::vector<double> us, settled;
   for (int i = 0; i < 2000; ++i) {
-    const WayQuery query{{{any(random)}}, {{any(random)}}, {}, {}};
+    const RouteQuery query{{{any(random)}}, {{any(random)}}, {}, {}};
     const auto begin = std::chrono::steady_clock::now();
     const Way way = search.find(hierarchy, query, {});
     us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());

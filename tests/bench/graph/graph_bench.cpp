@@ -115,7 +115,7 @@ void query(benchmark::State& state) {
   Timings ours, dijkstra, astar;
   const auto find = [&](const std::pair<LandmarkId, LandmarkId>& pair) {
     const Network& network = site.hierarchy.network();
-    const WayQuery query{{{network.vertex_of(pair.first)}}, {{network.vertex_of(pair.second)}}, {}, {}};
+    const RouteQuery query{{{network.vertex_of(pair.first)}}, {{network.vertex_of(pair.second)}}, {}, {}};
     const Way way = search.find(site.hierarchy, query, {});
     benchmark::DoNotOptimize(way.routes.data());
     return way.settled;

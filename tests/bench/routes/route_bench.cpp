@@ -34,13 +34,13 @@ PlainCells office_floor() {
 }
 
 std::vector<StraightMotion> random_motions(const DiscSpace& space, const std::vector<Cell>& places, std::size_t count,
-                                           double most_m) {
+                                           double max_m) {
   std::mt19937_64 random(2);
   std::vector<StraightMotion> motions;
   while (motions.size() < count) {
     const Point a = space.field().centre_of(places[random() % places.size()]);
     const Point b = space.field().centre_of(places[random() % places.size()]);
-    if ((b - a).norm() <= most_m && space.fits(a, kRadius_m) && space.fits(b, kRadius_m)) motions.emplace_back(a, b);
+    if ((b - a).norm() <= max_m && space.fits(a, kRadius_m) && space.fits(b, kRadius_m)) motions.emplace_back(a, b);
   }
   return motions;
 }

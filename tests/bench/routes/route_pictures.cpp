@@ -92,18 +92,18 @@ std::vector<Point> points_of(const PlainCells& cells, const PlainPath& path) {
 }
 
 // The instance on which the two differ most, of those tried.
-Comparison most_telling(const PlainCells& cells, const GridRouter& router, const std::filesystem::path& map) {
+Comparison max_telling(const PlainCells& cells, const GridRouter& router, const std::filesystem::path& map) {
   PlainSearches plain(cells);
   Comparison best;
-  double most_m = -1.0;
+  double max_m = -1.0;
   for (const MovingAiInstance& instance : moving_ai_instances(scenario_of(map), cells.height, kTried, 1)) {
     if (instance.optimum < kLong_cells || instance.optimum > kTooLong_cells) continue;
     const PlanResult result = router.plan(cells.centre_m(instance.from), cells.centre_m(instance.to));
     if (result.outcome != PlanOutcome::solved) continue;
     const std::vector<Point> lazy = points_of(cells, plain.lazy_theta_star(instance.from, instance.to));
     const double gain_m = length_of_m(lazy) - result.length_m;
-    if (gain_m <= most_m) continue;
-    most_m = gain_m;
+    if (gain_m <= max_m) continue;
+    max_m = gain_m;
     best = {instance, cairn::points_of(result), lazy, plain.a_star(instance.from, instance.to).length};
   }
   return best;
@@ -113,7 +113,7 @@ void draw_moving_ai(const std::string& set, const std::string& name, const std::
   const auto map = data_folder() / "movingai" / set / (name + ".map.gz");
   const PlainCells cells = moving_ai_cells(map);
   const GridRouter router(grid_of(cells), 0.0);
-  const Comparison shown = most_telling(cells, router, map);
+  const Comparison shown = max_telling(cells, router, map);
   Extent extent;
   for (const auto* path : {&shown.ours, &shown.lazy})
     for (const Point& p : *path) extent.include(p, 12.0);

@@ -175,7 +175,7 @@ int run(const std::filesystem::path& folder, const Site& site) {
   map.properties["robot_radius_m"] = std::to_string(kRadius_m);
   map.grid = grid_of(cells, false, site.seed);
   {
-    const DiscRoutes routes(std::make_shared<const DiscSpace>(map.grid, GroundRules{}), kRadius_m + kMostRounding_m);
+    const DiscRoutes routes(std::make_shared<const DiscSpace>(map.grid, GroundRules{}), kRadius_m + kMaxRounding_m);
     map.graph = Landmarks(routes, largest_part(cells), site).graph();
   }
   std::printf("%zu landmarks, %zu routes\n\n", map.graph.landmarks().size(), map.graph.routes().size());

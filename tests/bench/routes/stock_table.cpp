@@ -23,7 +23,7 @@ namespace {
 constexpr double kRadius_m = 0.25;
 constexpr double kEnough_ratio = 1.01;
 constexpr std::size_t kMotions = 2000;
-constexpr double kLeastTime_s = 0.2;
+constexpr double kMinTime_s = 0.2;
 
 struct Settings {
   std::string table;
@@ -89,7 +89,7 @@ double seconds_of(const std::function<void()>& work) {
 double rate_of(std::size_t count, const std::function<void()>& round) {
   std::size_t done = 0;
   double took_s = 0.0;
-  while (took_s < kLeastTime_s) {
+  while (took_s < kMinTime_s) {
     took_s += seconds_of(round);
     done += count;
   }

@@ -14,11 +14,11 @@ namespace cairn {
 namespace {
 
 using testing_tree::letter_of;
-using testing_tree::ScriptedLeafs;
+using testing_tree::ScriptedLeaves;
 
-using Chance = std::mt19937_64;
+using PortableRandom = std::mt19937_64;
 
-int pick(Chance& chance, int below) {
+int pick(PortableRandom& chance, int below) {
   return static_cast<int>(chance() % static_cast<std::uint64_t>(below));
 }
 
@@ -49,13 +49,13 @@ class Oracle {
 
 class Leaf : public Oracle {
  public:
-  Leaf(const TreeNode& node, ScriptedLeafs& leafs) : node_(node), leafs_(leafs) {}
-  char step(double) override { return letter_of(leafs_.tick_leaf(node_).status.progress); }
-  void halted() override { leafs_.halt_leaf(node_); }
+  Leaf(const TreeNode& node, ScriptedLeaves& leaves) : node_(node), leaves_(leaves) {}
+  char step(double) override { return letter_of(leaves_.tick_leaf(node_).status.progress); }
+  void halted() override { leaves_.halt_leaf(node_); }
 
  private:
   const TreeNode& node_;
-  ScriptedLeafs& leafs_;
+  ScriptedLeaves& leaves_;
 };
 
 // Sequence and fallback, with and without memory: they go on after one letter and leave with the other.
@@ -151,7 +151,7 @@ class Changed : public Oracle {
   char failure_;
 };
 
-std::unique_ptr<Oracle> own_of(const TreeNode& node, ScriptedLeafs& leafs) {
+std::unique_ptr<Oracle> own_of(const TreeNode& node, ScriptedLeaves& leaves) {
   switch (node.kind) {
     case NodeKind::sequence:
       return std::make_unique<InOrder>('S', true);
@@ -171,20 +171,20 @@ std::unique_ptr<Oracle> own_of(const TreeNode& node, ScriptedLeafs& leafs) {
       return std::make_unique<InTime>(node.after_s);
     case NodeKind::inverse:
       return std::make_unique<Changed>('F', 'S');
-    case NodeKind::always:
+    case NodeKind::force_success:
       return std::make_unique<Changed>('S', 'S');
     default:
-      return std::make_unique<Leaf>(node, leafs);
+      return std::make_unique<Leaf>(node, leaves);
   }
 }
 
-std::unique_ptr<Oracle> oracle_of(const TreeNode& node, ScriptedLeafs& leafs) {
-  std::unique_ptr<Oracle> oracle = own_of(node, leafs);
-  for (const TreeNode& child : node.children) oracle->kids.push_back(oracle_of(child, leafs));
+std::unique_ptr<Oracle> oracle_of(const TreeNode& node, ScriptedLeaves& leaves) {
+  std::unique_ptr<Oracle> oracle = own_of(node, leaves);
+  for (const TreeNode& child : node.children) oracle->kids.push_back(oracle_of(child, leaves));
   return oracle;
 }
 
-TreeNode random_tree(Chance& chance, int depth, std::map<std::string, std::string>& scripts) {
+TreeNode random_tree(PortableRandom& chance, int depth, std::map<std::string, std::string>& scripts) {
   TreeNode node;
   if (depth == 0 || pick(chance, 4) == 0) {
     node.name = "l" + std::to_string(scripts.size());
@@ -203,14 +203,14 @@ TreeNode random_tree(Chance& chance, int depth, std::map<std::string, std::strin
   return node;
 }
 
-TEST(RandomTrees, TickAndHaltTheirLeafsAsTheOracleDoes) {
+TEST(RandomTrees, TickAndHaltTheirLeavesAsTheOracleDoes) {
   int ended = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
-    Chance chance(seed);
+    PortableRandom chance(seed);
     std::map<std::string, std::string> scripts;
     const TreeNode root = random_tree(chance, 4, scripts);
-    ScriptedLeafs of_runner(scripts);
-    ScriptedLeafs of_oracle(scripts);
+    ScriptedLeaves of_runner(scripts);
+    ScriptedLeaves of_oracle(scripts);
     TreeRunner runner(root, of_runner);
     const std::unique_ptr<Oracle> oracle = oracle_of(root, of_oracle);
     for (int tick = 0; tick < 40; ++tick) {
@@ -233,7 +233,7 @@ void number(TreeNode& node, const std::string& path) {
 }
 
 // Without halts of leafs that have not been ticked: what is gone on with has fresh leafs.
-std::string without_halts_of_fresh_leafs(const std::string& log) {
+std::string without_halts_of_fresh_leaves(const std::string& log) {
   std::istringstream words(log);
   std::set<std::string> ticked;
   std::string left;
@@ -248,25 +248,25 @@ std::string without_halts_of_fresh_leafs(const std::string& log) {
 TEST(RandomTrees, GoOnFromTheirSavedStateAsTheUninterruptedTreeDoes) {
   int under_way = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
-    Chance chance(seed);
+    PortableRandom chance(seed);
     std::map<std::string, std::string> scripts;
     TreeNode root = random_tree(chance, 4, scripts);
     number(root, "1");
-    ScriptedLeafs leafs(scripts);
-    TreeRunner runner(root, leafs);
+    ScriptedLeaves leaves(scripts);
+    TreeRunner runner(root, leaves);
     const int killed_at = 1 + pick(chance, 20);
     for (int tick = 0; tick < killed_at; ++tick) (void)runner.tick(tick);
     const TreeState saved = runner.state();
     ASSERT_EQ(tree_state_of(text_of(saved)), saved) << "seed " << seed;
     under_way += saved.running.size() > 1 ? 1 : 0;
-    ScriptedLeafs fresh = leafs;
-    leafs.log = fresh.log = "";
+    ScriptedLeaves fresh = leaves;
+    leaves.log = fresh.log = "";
     TreeRunner restored(root, fresh);
     restored.restore(saved, killed_at - 1);
     for (int tick = killed_at; tick < killed_at + 20; ++tick) {
       ASSERT_EQ(letter_of(runner.tick(tick).progress), letter_of(restored.tick(tick).progress))
           << "seed " << seed << ", killed at " << killed_at << ", tick " << tick;
-      ASSERT_EQ(without_halts_of_fresh_leafs(leafs.log), without_halts_of_fresh_leafs(fresh.log))
+      ASSERT_EQ(without_halts_of_fresh_leaves(leaves.log), without_halts_of_fresh_leaves(fresh.log))
           << "seed " << seed << ", killed at " << killed_at << ", tick " << tick;
       ASSERT_EQ(runner.state(), restored.state()) << "seed " << seed << ", tick " << tick;
     }

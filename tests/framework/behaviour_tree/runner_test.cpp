@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing_tree::letter_of;
-using testing_tree::ScriptedLeafs;
+using testing_tree::ScriptedLeaves;
 using testing_tree::steps_of;
 
 constexpr double kTick_s = 1.0;
@@ -29,22 +29,22 @@ struct Ran {
   std::string log;
 };
 
-Ran run(const TreeNode& root, ScriptedLeafs& leafs, int ticks) {
-  TreeRunner runner(root, leafs);
+Ran run(const TreeNode& root, ScriptedLeaves& leaves, int ticks) {
+  TreeRunner runner(root, leaves);
   Ran ran;
   for (int i = 0; i < ticks; ++i) {
-    if (i > 0) leafs.log += " | ";
+    if (i > 0) leaves.log += " | ";
     ran.outcomes += letter_of(runner.tick(i * kTick_s).progress);
   }
-  ran.log = leafs.log;
+  ran.log = leaves.log;
   return ran;
 }
 
 void expect(const std::vector<Case>& cases) {
   for (const Case& c : cases) {
     const std::vector<TreeNode> steps = steps_of(c.yaml);
-    ScriptedLeafs leafs(c.scripts);
-    const Ran ran = run(steps.front(), leafs, c.ticks);
+    ScriptedLeaves leaves(c.scripts);
+    const Ran ran = run(steps.front(), leaves, c.ticks);
     EXPECT_EQ(ran.outcomes, c.outcomes) << c.what;
     EXPECT_EQ(ran.log, c.log) << c.what;
   }
@@ -148,13 +148,13 @@ TEST(TreeRunner, TimeoutHaltsItsChildWhenTheTimeIsUp) {
           {"the time begins anew", tree, {{"a", "R"}}, 6, "RRFRRF", "a | a | !a | a | a | !a"}});
 }
 
-TEST(TreeRunner, NotAndAlwaysChangeWhatTheirChildEndsWith) {
+TEST(TreeRunner, NotAndForceSuccessChangeWhatTheirChildEndsWith) {
   expect({{"not", "[not: a]", {{"a", "RSF"}}, 3, "RFS", "a | a | a"},
-          {"always", "[always: a]", {{"a", "RSF"}}, 3, "RSS", "a | a | a"},
+          {"force_success", "[force_success: a]", {{"a", "RSF"}}, 3, "RSS", "a | a | a"},
           {"a list is a sequence", "[not: [a, b]]", {{"a", "S"}, {"b", "F"}}, 1, "S", "a b"}});
 }
 
-TEST(TreeRunner, AForgivenFailureIsToldAndTheTreeGoesOn) {
+TEST(TreeRunner, AForgivenFailureIsReportedAndTheTreeGoesOn) {
   expect({{"in a sequence", "[sequence: [a, b]]", {{"a", "X"}, {"b", "S"}}, 1, "S", "a b"},
           {"as the root", "[a]", {{"a", "X"}}, 1, "F", "a"}});
 }
@@ -164,39 +164,39 @@ TEST(TreeRunner, HaltGoesThroughTheTreeInReverseOrder) {
   const auto steps = steps_of(
       "[parallel: [{sequence: [a, b]}, {retry: {times: 2, do: {fallback: [c, d]}}}, {not: {timeout: "
       "{after_s: 9, do: e}}}, f]]");
-  ScriptedLeafs leafs({{"a", "S"}, {"b", "R"}, {"c", "F"}, {"d", "R"}, {"e", "R"}, {"f", "S"}});
-  TreeRunner runner(steps.front(), leafs);
+  ScriptedLeaves leaves({{"a", "S"}, {"b", "R"}, {"c", "F"}, {"d", "R"}, {"e", "R"}, {"f", "S"}});
+  TreeRunner runner(steps.front(), leaves);
   EXPECT_EQ(runner.tick(0.0).progress, Progress::running);
-  EXPECT_EQ(leafs.log, "a b c d e f");
-  leafs.log.clear();
+  EXPECT_EQ(leaves.log, "a b c d e f");
+  leaves.log.clear();
   runner.halt(1.0, "enough");
-  EXPECT_EQ(leafs.log, "!e !d !b");
+  EXPECT_EQ(leaves.log, "!e !d !b");
   runner.halt(2.0, "enough");
-  EXPECT_EQ(leafs.log, "!e !d !b") << "once";
+  EXPECT_EQ(leaves.log, "!e !d !b") << "once";
   EXPECT_FALSE(runner.is_running());
-  leafs.log.clear();
+  leaves.log.clear();
   EXPECT_EQ(runner.tick(3.0).progress, Progress::running);
-  EXPECT_EQ(leafs.log, "a b c d e f") << "afresh";
+  EXPECT_EQ(leaves.log, "a b c d e f") << "afresh";
 }
 
 TEST(TreeRunner, AHaltThatThrowsLeavesTheOthersToBeHalted) {
   const auto steps = steps_of("[sequence: [{parallel: [a, {parallel: [b, c]}]}]]");
-  ScriptedLeafs leafs({{"a", "R"}, {"b", "R"}, {"c", "R"}});
-  leafs.throws_in_halt = "c";
-  TreeRunner runner(steps.front(), leafs);
+  ScriptedLeaves leaves({{"a", "R"}, {"b", "R"}, {"c", "R"}});
+  leaves.throws_in_halt = "c";
+  TreeRunner runner(steps.front(), leaves);
   (void)runner.tick(0.0);
-  leafs.log.clear();
+  leaves.log.clear();
   EXPECT_THROW(runner.halt(1.0, "enough"), std::runtime_error);
   ASSERT_TRUE(runner.is_running());
   runner.halt(1.0, "enough");
-  EXPECT_EQ(leafs.log, "!c !b !a");
+  EXPECT_EQ(leaves.log, "!c !b !a");
 }
 
 TEST(TreeRunner, TheVelocityIsThatOfTheLeafThatGoesOn) {
   const auto wanted = [](const std::string& yaml, std::map<std::string, std::string> scripts) {
     const auto steps = steps_of(yaml);
-    ScriptedLeafs leafs(std::move(scripts));
-    TreeRunner runner(steps.front(), leafs);
+    ScriptedLeaves leaves(std::move(scripts));
+    TreeRunner runner(steps.front(), leaves);
     (void)runner.tick(0.0);
     return runner.wanted() ? runner.wanted()->v_mps : 0.0;
   };
@@ -212,12 +212,12 @@ TEST(TreeRunner, TheVelocityIsThatOfTheLeafThatGoesOn) {
 
 TEST(TreeRunner, TwoChildrenOfAParallelThatBothDriveAreAFailureThatNamesThem) {
   const auto steps = steps_of("[fallback: [{parallel: [{sequence: [a, b]}, c, d]}, e]]");
-  ScriptedLeafs leafs({{"a", "S"}, {"b", "r"}, {"c", "Rr"}, {"d", "R"}, {"e", "r"}});
-  TreeRunner runner(steps.front(), leafs);
+  ScriptedLeaves leaves({{"a", "S"}, {"b", "r"}, {"c", "Rr"}, {"d", "R"}, {"e", "r"}});
+  TreeRunner runner(steps.front(), leaves);
   EXPECT_EQ(runner.tick(0.0).progress, Progress::running);
-  leafs.log.clear();
+  leaves.log.clear();
   EXPECT_EQ(runner.tick(1.0).progress, Progress::running) << "the fallback goes on with e";
-  EXPECT_EQ(leafs.log, "b c !d !c !b e");
+  EXPECT_EQ(leaves.log, "b c !d !c !b e");
   EXPECT_EQ(runner.wanted()->v_mps, 'e');
   EXPECT_EQ(runner.reports().at(1).status.reason, "b (1/1/1/2) and c (1/1/2) drive at the same time");
 }
@@ -225,8 +225,8 @@ TEST(TreeRunner, TwoChildrenOfAParallelThatBothDriveAreAFailureThatNamesThem) {
 TEST(TreeRunner, AReasonSaysWhichChildFailed) {
   const auto reason = [](const std::string& yaml, int ticks) {
     const auto steps = steps_of(yaml);
-    ScriptedLeafs leafs({{"a", "F"}, {"b", "F"}, {"r", "R"}, {"s", "S"}});
-    TreeRunner runner(steps.front(), leafs);
+    ScriptedLeaves leaves({{"a", "F"}, {"b", "F"}, {"r", "R"}, {"s", "S"}});
+    TreeRunner runner(steps.front(), leaves);
     Status status;
     for (int i = 0; i < ticks; ++i) status = runner.tick(i * kTick_s);
     EXPECT_EQ(status.progress, Progress::failure);
@@ -242,28 +242,28 @@ TEST(TreeRunner, AReasonSaysWhichChildFailed) {
 }
 
 // A condition below a reactive node is asked in every tick; it is told when its answer changes.
-TEST(TreeRunner, NodesThatBeginAndEndInOneTickAreToldWhenTheirOutcomeChanges) {
+TEST(TreeRunner, NodesThatBeginAndEndInOneTickAreReportedWhenTheirOutcomeChanges) {
   const auto steps = steps_of("[reactive_sequence: [{not: {landmark_known: x}}, {timeout: {after_s: 99, do: a}}]]");
-  class Leafs : public ScriptedLeafs {
+  class Leafs : public ScriptedLeaves {
    public:
-    using ScriptedLeafs::ScriptedLeafs;
+    using ScriptedLeaves::ScriptedLeaves;
     LeafTick tick_leaf(const TreeNode& leaf) override {
-      if (leaf.kind != NodeKind::landmark_known) return ScriptedLeafs::tick_leaf(leaf);
+      if (leaf.kind != NodeKind::landmark_known) return ScriptedLeaves::tick_leaf(leaf);
       return {{++asked_ < 4 ? Progress::failure : Progress::success, ""}};
     }
 
    private:
     int asked_ = 0;
-  } leafs(std::map<std::string, std::string>{{"a", "R"}});
-  TreeRunner runner(steps.front(), leafs);
+  } leaves(std::map<std::string, std::string>{{"a", "R"}});
+  TreeRunner runner(steps.front(), leaves);
   for (int i = 0; i < 4; ++i) (void)runner.tick(i * kTick_s);
-  EXPECT_EQ(leafs.told, "+1/1 +1/1/1 F1/1/1 S1/1 +1/2 +1/2/1 +1/1 +1/1/1 S1/1/1 F1/1 H1/2/1 H1/2 ");
+  EXPECT_EQ(leaves.reported, "+1/1 +1/1/1 F1/1/1 S1/1 +1/2 +1/2/1 +1/1 +1/1/1 S1/1/1 F1/1 H1/2/1 H1/2 ");
 }
 
 TEST(TreeRunner, ReportsHoldWhatHasComeOfEachNodeThatWasTicked) {
   const auto steps = steps_of("[fallback: [{retry: {times: 2, do: a}}, b, c]]");
-  ScriptedLeafs leafs({{"a", "RF"}, {"b", "R"}, {"c", "S"}});
-  TreeRunner runner(steps.front(), leafs);
+  ScriptedLeaves leaves({{"a", "RF"}, {"b", "R"}, {"c", "S"}});
+  TreeRunner runner(steps.front(), leaves);
   for (int i = 0; i < 4; ++i) (void)runner.tick(i * kTick_s);
   runner.halt(9.0, "enough");
   const std::vector<NodeReport> reports = runner.reports();
@@ -285,11 +285,11 @@ TEST(TreeRunner, ReportsHoldWhatHasComeOfEachNodeThatWasTicked) {
 
 TEST(TreeRunner, WhatIsAbandonedIsNotHalted) {
   const auto steps = steps_of("[sequence: [a]]");
-  ScriptedLeafs leafs(std::map<std::string, std::string>{{"a", "R"}});
-  TreeRunner runner(steps.front(), leafs);
+  ScriptedLeaves leaves(std::map<std::string, std::string>{{"a", "R"}});
+  TreeRunner runner(steps.front(), leaves);
   (void)runner.tick(0.0);
   runner.abandon(1.0, "given up");
-  EXPECT_EQ(leafs.log, "a");
+  EXPECT_EQ(leaves.log, "a");
   EXPECT_FALSE(runner.is_running());
   EXPECT_EQ(runner.reports().at(1).status.reason, "given up");
 }

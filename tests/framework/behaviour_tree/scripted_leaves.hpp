@@ -18,9 +18,9 @@ inline std::vector<TreeNode> steps_of(const std::string& yaml) {
 
 // A script: what the leaf answers in its first, second, ... tick; the last letter again and again. R running, S
 // success, F failure; small letters drive. After an end it goes on in the script, after halt() too.
-class ScriptedLeafs : public TreeHost {
+class ScriptedLeaves : public TreeHost {
  public:
-  explicit ScriptedLeafs(std::map<std::string, std::string> scripts) : scripts_(std::move(scripts)) {}
+  explicit ScriptedLeaves(std::map<std::string, std::string> scripts) : scripts_(std::move(scripts)) {}
 
   LeafTick tick_leaf(const TreeNode& leaf) override {
     log += (log.empty() || log.ends_with("| ") ? "" : " ") + leaf.name;
@@ -40,13 +40,13 @@ class ScriptedLeafs : public TreeHost {
     log += (log.empty() || log.ends_with("| ") ? "!" : " !") + leaf.name;
     if (leaf.name == throws_in_halt) throw std::runtime_error("halt of " + leaf.name);
   }
-  void started(const TreeNode& node) override { told += "+" + node.path + " "; }
+  void started(const TreeNode& node) override { reported += "+" + node.path + " "; }
   void ended(const TreeNode& node, const NodeReport& how) override {
-    told += (how.is_halted ? "H" : how.status.progress == Progress::success ? "S" : "F") + node.path + " ";
+    reported += (how.is_halted ? "H" : how.status.progress == Progress::success ? "S" : "F") + node.path + " ";
   }
 
-  std::string log;   // leafs in the order in which they were ticked, !leaf halted
-  std::string told;  // +path started, Spath, Fpath and Hpath ended
+  std::string log;       // leafs in the order in which they were ticked, !leaf halted
+  std::string reported;  // +path started, Spath, Fpath and Hpath ended
   std::string throws_in_halt;
 
  private:

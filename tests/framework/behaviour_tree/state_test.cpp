@@ -11,7 +11,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing_tree::letter_of;
-using testing_tree::ScriptedLeafs;
+using testing_tree::ScriptedLeaves;
 using testing_tree::steps_of;
 
 std::string refusal_of(const std::string& text) {
@@ -23,7 +23,7 @@ std::string refusal_of(const std::string& text) {
   return "taken";
 }
 
-TEST(TreeState, TellsWhatIsWrongWithAText) {
+TEST(TreeState, ReportsWhatIsWrongWithAText) {
   const std::string rest = "\"next\":0,\"rounds\":0,\"begun_s\":0,\"failures\":\"\",\"outcomes\":[]}]}";
   const auto node = [](const std::string& members) { return "{\"running\":[{" + members + "}]}"; };
   EXPECT_EQ(refusal_of("{\"running\":[{\"path\":\"1\"," + rest), "taken");
@@ -42,8 +42,8 @@ TEST(TreeState, TellsWhatIsWrongWithAText) {
 
 std::string misfit_of(const std::string& yaml, const TreeState& state) {
   const std::vector<TreeNode> steps = steps_of(yaml);
-  ScriptedLeafs leafs({});
-  TreeRunner runner(steps.front(), leafs);
+  ScriptedLeaves leaves({});
+  TreeRunner runner(steps.front(), leaves);
   try {
     runner.restore(state, 10.0);
   } catch (const std::invalid_argument& error) {
@@ -70,10 +70,10 @@ TEST(TreeState, IsTakenByTheTreeThatItIsOfOnly) {
 
 TEST(TreeState, GoesOnInTheRoundThatWasUnderWay) {
   const std::vector<TreeNode> steps = steps_of("[repeat: {times: 3, do: [a, {timeout: {after_s: 5, do: b}}]}]");
-  ScriptedLeafs before({{"a", "S"}, {"b", "SRRRRRRRR"}});
+  ScriptedLeaves before({{"a", "S"}, {"b", "SRRRRRRRR"}});
   TreeRunner killed(steps.front(), before);
   for (int i = 0; i < 4; ++i) (void)killed.tick(i);  // round 2: b runs since 1 s
-  ScriptedLeafs after({{"a", "S"}, {"b", "R"}});
+  ScriptedLeaves after({{"a", "S"}, {"b", "R"}});
   TreeRunner restored(steps.front(), after);
   restored.restore(killed.state(), 3.0);
   EXPECT_EQ(letter_of(restored.tick(4.0).progress), 'R');
@@ -84,20 +84,20 @@ TEST(TreeState, GoesOnInTheRoundThatWasUnderWay) {
 }
 
 // Leafs that tell how long they still take.
-class TimedLeafs : public ScriptedLeafs {
+class TimedLeaves : public ScriptedLeaves {
  public:
-  using ScriptedLeafs::ScriptedLeafs;
+  using ScriptedLeaves::ScriptedLeaves;
   LeafTick tick_leaf(const TreeNode& leaf) override {
-    LeafTick tick = ScriptedLeafs::tick_leaf(leaf);
+    LeafTick tick = ScriptedLeaves::tick_leaf(leaf);
     if (leaf.name == "b") tick.status.left_s = 7.0;
     return tick;
   }
 };
 
-TEST(TimeLeft, AddsWhatLeafsTellAndWhatRoundsHaveTaken) {
+TEST(TimeLeft, AddsWhatLeavesReportAndWhatRoundsHaveTaken) {
   const std::vector<TreeNode> steps = steps_of("[{repeat: {times: 4, do: [a, b]}}]");
-  TimedLeafs leafs({{"a", "RS"}, {"b", "RRSR"}});
-  TreeRunner runner(steps.front(), leafs);
+  TimedLeaves leaves({{"a", "RS"}, {"b", "RRSR"}});
+  TreeRunner runner(steps.front(), leaves);
   NodeTimes times;
   TimeLeft left = runner.time_left(0.0, times);
   EXPECT_THAT(left.without, ElementsAre("a", "b"));
@@ -115,12 +115,12 @@ TEST(TimeLeft, AddsWhatLeafsTellAndWhatRoundsHaveTaken) {
 
 TEST(TimeLeft, IsCutByTimeoutsAndSaysWhatItLeavesOut) {
   const std::vector<TreeNode> steps = steps_of("[{timeout: {after_s: 60, do: [{sequence: [b, c]}]}}]");
-  TimedLeafs leafs({{"b", "R"}, {"c", "R"}});
-  TreeRunner runner(steps.front(), leafs);
+  TimedLeaves leaves({{"b", "R"}, {"c", "R"}});
+  TreeRunner runner(steps.front(), leaves);
   (void)runner.tick(0.0);
   (void)runner.tick(58.0);
   const TimeLeft left = runner.time_left(58.0, {});
-  EXPECT_DOUBLE_EQ(left.most_s, 2.0);
+  EXPECT_DOUBLE_EQ(left.max_s, 2.0);
   EXPECT_DOUBLE_EQ(left.about_s, 2.0);
   EXPECT_THAT(left.without, ElementsAre("c"));
   EXPECT_EQ(text_of(left), "about 2 s left without c");

@@ -72,7 +72,7 @@ TEST_F(MissionTreeFiles, EveryNodeIsReadWithItsSettingsAndPath) {
                  "    succeed_when: any\n"
                  "    do: [wait: 3, {reactive_sequence: [{not: {time_after: 9}}, {explored: {at_least_ratio: 0.5}}]}]\n"
                  "- retry: {times: 3, do: [{timeout: {after_s: 60, do: {goto: nearest square}}}, wait]}\n"
-                 "- repeat: {times: forever, do: {always: {reactive_fallback: [{at_place: {at_m: [1, 2]}}, "
+                 "- repeat: {times: forever, do: {force_success: {reactive_fallback: [{at_place: {at_m: [1, 2]}}, "
                  "{landmark_known: L3}]}}}\n"),
             "1        parallel \"both\"        succeed_when: any\n"
             "1/1        wait                 3\n"
@@ -101,7 +101,7 @@ TEST_F(MissionTreeFiles, EveryNodeIsReadWithItsSettingsAndPath) {
   EXPECT_EQ(behaviours[2], &tree.steps[1].children[0]);
 }
 
-TEST_F(MissionTreeFiles, WhatIsWrongIsToldWithItsPlace) {
+TEST_F(MissionTreeFiles, WhatIsWrongIsReportedWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"wait: 1", "main.yaml:1:1: steps: expected a list of at least one step, found a map"},
       {"[]", "main.yaml:1:1: steps: expected a list of at least one step, found an empty list"},
@@ -135,7 +135,7 @@ TEST_F(MissionTreeFiles, WhatIsWrongIsToldWithItsPlace) {
       {"- timeout: {after_s: -1, do: wait}", "main.yaml:1:22: after_s must be a number from 0.001"},
       {"- timeout: {after_s: soon, do: wait}", "main.yaml:1:22: after_s must be a number from 0.001"},
       {"- not:", "main.yaml:1:3: not needs one node, found nothing"},
-      {"- always: []", "main.yaml:1:11: always needs one node, found an empty list"},
+      {"- force_success: []", "main.yaml:1:11: force_success needs one node, found an empty list"},
       {"- landmark_known:", "main.yaml:1:3: landmark_known lacks the key \"landmark\""},
       {"- landmark_known: ''", "main.yaml:1:19: landmark_known needs a landmark or category, found an empty text"},
       {"- landmark_known: nearest", "main.yaml:1:19: landmark_known: \"nearest\" names no category"},
@@ -155,7 +155,7 @@ TEST_F(MissionTreeFiles, WhatIsWrongIsToldWithItsPlace) {
   }
 }
 
-TEST_F(MissionTreeFiles, SeveralErrorsAreToldAtOnce) {
+TEST_F(MissionTreeFiles, SeveralErrorsAreReportedAtOnce) {
   EXPECT_THAT(errors("- fallback:\n    - retry: {times: 0, do: wait}\n    - not: []\n- sequence: []\n- wait: $a\n"),
               ElementsAre(HasSubstr("5:9: unknown parameter"), HasSubstr("2:22: times"), HasSubstr("3:12: not needs"),
                           HasSubstr("4:13: sequence needs")));
@@ -166,12 +166,13 @@ TEST_F(MissionTreeFiles, NodesThatAreNeverReachedAreErrors) {
       {"- repeat: {times: forever, do: wait}\n- save: a",
        "main.yaml:2:3: \"save\" is never reached: \"repeat\" before "
        "it (line 1) never succeeds"},
-      {"- fallback:\n    - always: a\n    - b",
-       "main.yaml:3:7: \"b\" is never reached: \"always\" before it (line 2) "
+      {"- fallback:\n    - force_success: a\n    - b",
+       "main.yaml:3:7: \"b\" is never reached: \"force_success\" before it (line 2) "
        "never fails"},
       {"- reactive_fallback:\n    - retry: {times: forever, do: a}\n    - b", "3:7: \"b\" is never reached"},
-      {"- sequence:\n    - not: {always: a}\n    - b", "3:7: \"b\" is never reached"},
-      {"- fallback:\n    - not: {repeat: {times: forever, do: {always: a}}}\n    - b", "3:7: \"b\" is never reached"},
+      {"- sequence:\n    - not: {force_success: a}\n    - b", "3:7: \"b\" is never reached"},
+      {"- fallback:\n    - not: {repeat: {times: forever, do: {force_success: a}}}\n    - b",
+       "3:7: \"b\" is never reached"},
       {"- sequence:\n    - timeout: {after_s: 1, do: {repeat: {times: forever, do: a}}}\n    - b",
        "3:7: \"b\" is never reached"},
       {"- sequence:\n    - parallel: {succeed_when: 2, do: [a, b, {repeat: {times: forever, do: c}}]}\n    - "
@@ -184,9 +185,9 @@ TEST_F(MissionTreeFiles, NodesThatAreNeverReachedAreErrors) {
     EXPECT_THAT(found.front(), HasSubstr(expected)) << steps;
   }
   for (const std::string fine :
-       {"[{repeat: {times: forever, do: a}}]", "[{fallback: [{always: a}]}]",
+       {"[{repeat: {times: forever, do: a}}]", "[{fallback: [{force_success: a}]}]",
         "[{fallback: [{repeat: {times: forever, do: a}}, b]}]", "[{sequence: [{retry: {times: forever, do: a}}, b]}]",
-        "[{fallback: [{timeout: {after_s: 1, do: {always: a}}}, b]}]"})
+        "[{fallback: [{timeout: {after_s: 1, do: {force_success: a}}}, b]}]"})
     EXPECT_THAT(errors(fine), IsEmpty()) << fine;
 }
 

@@ -72,7 +72,7 @@ TEST(ConfigFile, AliasesAreCopies) {
 }
 
 // yaml-cpp takes the end of the text for the end of a quote.
-TEST(ConfigFile, AQuoteThatIsNeverClosedIsToldWhereItIsOpened) {
+TEST(ConfigFile, AQuoteThatIsNeverClosedIsReportedWhereItIsOpened) {
   const std::string sentence = ": the quote that is opened here is never closed";
   EXPECT_EQ(parse_error("steps:\n  - log: \"abc\n  - goto: home\n  - save: a.cairn\n"), "m.yaml:2:10" + sentence);
   EXPECT_EQ(parse_error("mission: 'office\nsteps: []\n"), "m.yaml:1:10" + sentence);
@@ -193,8 +193,8 @@ std::string garbage(std::mt19937_64& random) {
       "\\",          "\\x",  "@",   "`",   "\r",  "key: ", "- a: 1\n", "\xc3\xa9", "\xef\xbb\xbf",
       "%YAML 1.2\n", "\x04", "\xff"};
   std::string text;
-  const auto pieces = 1 + random() % 16;
-  for (std::uint64_t i = 0; i < pieces; ++i) text += kPieces[random() % std::size(kPieces)];
+  const auto segments = 1 + random() % 16;
+  for (std::uint64_t i = 0; i < segments; ++i) text += kPieces[random() % std::size(kPieces)];
   return text;
 }
 

@@ -48,15 +48,15 @@ TEST(ExperimentReport, RunsThatDidNotEndWellAreLeftOutAndCounted) {
   EXPECT_THAT(table, HasSubstr("| -0.1000 |")) << "of the one seed that both have, which has no interval";
 }
 
-TEST(ExperimentReport, WithoutATrueWorldOnlyWithheldReadingsCount) {
+TEST(ExperimentReport, WithoutATrueWorldOnlyHeldOutReadingsCount) {
   ExperimentConfig config = maps_of_two();
-  config.withhold_every = 5;
+  config.hold_out_every = 5;
   std::vector<ExperimentRow> rows{row_of("plain", 1, 0.0), row_of("better", 1, 0.0)};
   for (ExperimentRow& row : rows) {
     row.quality.reset();
-    row.withheld = 3;
+    row.held_out = 3;
   }
-  rows[1].withheld_log_likelihood = -1.5;
+  rows[1].held_out_log_likelihood = -1.5;
   const std::string table = table_of(config, rows);
   EXPECT_THAT(table, HasSubstr("| variant | withheld log-likelihood |"));
   EXPECT_THAT(table, HasSubstr("| better | -1.5000"));

@@ -32,7 +32,7 @@ TEST(FaultRates, EachKindHasItsOwnAndNoneStrikesUnasked) {
   EXPECT_EQ(none.dead + none.stuck + none.slip + none.compass_jump + none.silent + none.kidnap, 0.0);
 }
 
-TEST(FaultRates, WhatIsNoRateIsToldWithItsPlace) {
+TEST(FaultRates, WhatIsNoRateIsReportedWithItsPlace) {
   EXPECT_EQ(error_of("{silent: -1}"), "m.yaml:1:10: silent must be a number from 0 to 3600 1/h, found \"-1\"");
   EXPECT_EQ(error_of("{kidnapp: 1}"),
             "m.yaml:1:2: unknown key \"kidnapp\" in per_hour (did you mean \"kidnap\"?); known: dead, stuck, slip, "

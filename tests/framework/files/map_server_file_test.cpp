@@ -84,7 +84,7 @@ TEST(MapServerFile, WrongValuesAreRefusedWithTheirPlace) {
   EXPECT_EQ(refusal(Keys{}.with("image", "\"\"")), "folder/map.yaml:2:8: expected a path, found an empty text");
 }
 
-TEST(MapServerFile, TellsWhenTheResolutionMayHaveBeenRounded) {
+TEST(MapServerFile, ReportsWhenTheResolutionMayHaveBeenRounded) {
   EXPECT_EQ(parse(Keys{}.with("resolution", "0.013")).warnings,
             std::vector<std::string>{"folder/map.yaml:6:13: resolution 0.013: map_server saves three decimals only, "
                                      "so it may be up to 3.8 % off"});

@@ -66,7 +66,7 @@ TEST(RmfNavGraph, VerticesAreLandmarksAndLanesAreRoutes) {
   EXPECT_EQ(graph.find_route(4)->from, 3);
 }
 
-TEST(RmfNavGraph, FloorsOfOneNameAreToldApart) {
+TEST(RmfNavGraph, FloorsOfOneNameAreDistinguished) {
   LandmarkGraph graph;
   for (const int level : {0, 1, 2}) {
     Landmark landmark;
@@ -107,7 +107,7 @@ lifts: {lift1: {position: [1, 2, 0.5], dims: [2.0, 3]}}
   EXPECT_EQ(again.properties, once.properties);
 }
 
-TEST(RmfNavGraph, TellsWhatItCannotHold) {
+TEST(RmfNavGraph, ReportsWhatItCannotHold) {
   LandmarkGraph graph;
   for (int i = 0; i < 3; ++i) {
     Landmark landmark;
@@ -147,7 +147,7 @@ TEST(RmfNavGraph, FaultsAreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal("levels: {L1: {vertices: [[1]], lanes: []}}"), HasSubstr("a vertex must be [x, y, {...}]"));
 }
 
-TEST(RmfNavGraph, ASlipInAPropertyIsKeptAndTold) {
+TEST(RmfNavGraph, ASlipInAPropertyIsKeptAndReported) {
   EXPECT_THAT(read(changed(kNav, "is_charger", "is_chargr")).warnings,
               ElementsAre("nav.yaml:5:29: the property \"is_chargr\" (did you mean \"is_charger\"?) is kept as it is"));
 }
@@ -195,7 +195,7 @@ TEST(RmfBuilding, PixelsBecomeMetresAndLevelsLieOverEachOther) {
   EXPECT_EQ(read(written.text).graph, graph);
 }
 
-TEST(RmfBuilding, WhatCannotBePlacedIsRefusedOrTold) {
+TEST(RmfBuilding, WhatCannotBePlacedIsRefusedOrReported) {
   EXPECT_EQ(refusal(changed(kBuilding, "reference_image", "wgs84")),
             "nav.yaml:2:20: the coordinate system wgs84 is not of metres: a map needs metres");
   EXPECT_THAT(refusal(changed(kBuilding, "reference_image", "cartesian_meter")), HasSubstr("did you mean"));

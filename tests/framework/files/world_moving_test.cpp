@@ -111,7 +111,7 @@ TEST(WorldMoving, SaysWhatIsWrongWithAMover) {
               HasSubstr("w.yaml:2:48: polygon_m: "));
 }
 
-TEST(WorldMoving, TwoOfANameAreNotToldApart) {
+TEST(WorldMoving, TwoOfANameAreNotDistinguished) {
   EXPECT_EQ(error_in("doors: [{name: ann, from_m: [1, 1], to_m: [2, 1], closed_s: []}]\n"
                      "movers: [{name: ann, circle_diameter_m: 0.4, path_m: [[1, 1], [2, 1]]}]\n"),
             "w.yaml:3:17: two doors or movers are called \"ann\"");

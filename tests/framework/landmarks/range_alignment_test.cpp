@@ -78,8 +78,8 @@ TEST_F(RangeAlignmentTest, SaysNothingBeyondItsLimits) {
   const Pose2 truth{0.3, -0.2, radians(20.0)};
   measure(truth);
   EXPECT_TRUE(aligned(truth * Pose2{0.2, 0.0, 0.0}));
-  EXPECT_FALSE(aligned(truth * Pose2{0.2, 0.0, 0.0}, {.most_shift_m = 0.1})) << "too far";
-  EXPECT_FALSE(aligned(truth * Pose2{0.0, 0.0, radians(8.0)}, {.most_turn_rad = radians(5.0)})) << "turned too far";
+  EXPECT_FALSE(aligned(truth * Pose2{0.2, 0.0, 0.0}, {.max_shift_m = 0.1})) << "too far";
+  EXPECT_FALSE(aligned(truth * Pose2{0.0, 0.0, radians(8.0)}, {.max_turn_rad = radians(5.0)})) << "turned too far";
   measure(truth, 12);
   EXPECT_FALSE(aligned(truth)) << "half of the readings are of something else";
   EXPECT_FALSE(align(truth, 4, [&](int i, const Pose2& at) { return std::optional(residual(i, at)); })) << "too few";

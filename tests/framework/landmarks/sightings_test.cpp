@@ -52,8 +52,8 @@ class LandmarkSightingsTest : public testing::Test {
       seen.ranges.push_back(reading);
     }
     pose_.T_map_robot = believed;
-    const auto told = sightings_.look(seen, pose_, seen.T_odom_robot, graph_, grid_);
-    return {told.begin(), told.end()};
+    const auto reported = sightings_.look(seen, pose_, seen.T_odom_robot, graph_, grid_);
+    return {reported.begin(), reported.end()};
   }
   static Pose2 measured(const LandmarkSighting& seen) { return seen.T_map_landmark * inverse(seen.T_robot_landmark); }
 
@@ -69,19 +69,19 @@ class LandmarkSightingsTest : public testing::Test {
   std::normal_distribution<double> normal_;
 };
 
-TEST_F(LandmarkSightingsTest, TellHowFarOffTheRobotIs) {
+TEST_F(LandmarkSightingsTest, ReportHowFarOffTheRobotIs) {
   const LandmarkId id = put("circle", {3.0, 1.0, 0.0});
-  const auto told = look({1.5, 1.0, 0.0}, {1.42, 1.0, 0.0});
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].landmark, id);
-  EXPECT_NEAR(measured(told[0]).x_m, 1.5, 0.03);
+  const auto reported = look({1.5, 1.0, 0.0}, {1.42, 1.0, 0.0});
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_EQ(reported[0].landmark, id);
+  EXPECT_NEAR(measured(reported[0]).x_m, 1.5, 0.03);
 }
 
 TEST_F(LandmarkSightingsTest, AreLongWhereOneSideSaysNothing) {
   put("square", {3.0, 1.0, 0.0});
-  const auto told = look({1.5, 1.0, 0.0}, {1.5, 1.0, 0.0}, radians(15.0), radians(3.0));
-  ASSERT_EQ(told.size(), 1U);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(told[0].covariance.topLeftCorner<2, 2>());
+  const auto reported = look({1.5, 1.0, 0.0}, {1.5, 1.0, 0.0}, radians(15.0), radians(3.0));
+  ASSERT_EQ(reported.size(), 1U);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(reported[0].covariance.topLeftCorner<2, 2>());
   EXPECT_LT(std::sqrt(axes.eigenvalues()[0]), 0.05);
   EXPECT_GT(std::sqrt(axes.eigenvalues()[1]), 0.3);
   EXPECT_GT(std::abs(axes.eigenvectors().col(1).y()), 0.95) << "along the face";
@@ -90,9 +90,9 @@ TEST_F(LandmarkSightingsTest, AreLongWhereOneSideSaysNothing) {
 TEST_F(LandmarkSightingsTest, HoldAgainstAPersonInFront) {
   put("circle", {3.0, 1.0, 0.0});
   in_front_ = true;
-  const auto told = look({1.5, 1.0, 0.0}, {1.42, 1.0, 0.0});
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_NEAR(measured(told[0]).x_m, 1.5, 0.03);
+  const auto reported = look({1.5, 1.0, 0.0}, {1.42, 1.0, 0.0});
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_NEAR(measured(reported[0]).x_m, 1.5, 0.03);
 }
 
 TEST_F(LandmarkSightingsTest, AreNoneOfWhatIsTooFarOffOrHiddenOrInDoubt) {
@@ -121,21 +121,21 @@ TEST_F(LandmarkSightingsTest, CountFromWhereTheLandmarkWasWhenItBecameKnown) {
   graph_.find(1)->T_map_landmark.x_m += 0.1;  // refined by a robot that has drifted
   (void)sightings_.look({}, pose_, {}, graph_, grid_);
   graph_.find(1)->T_map_landmark = before;  // for the simulated readings
-  auto told = look({1.5, 1.0, 0.0}, {1.45, 1.0, 0.0});
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].T_map_landmark, before);
+  auto reported = look({1.5, 1.0, 0.0}, {1.45, 1.0, 0.0});
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_EQ(reported[0].T_map_landmark, before);
   pose_.covariance /= 100.0;
   graph_.find(1)->T_map_landmark.x_m += 0.02;  // by one that knows where it is
-  told = look({1.5, 1.0, 0.0}, {1.45, 1.0, 0.0});
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_NEAR(told[0].T_map_landmark.x_m, 3.02, 1e-12);
+  reported = look({1.5, 1.0, 0.0}, {1.45, 1.0, 0.0});
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_NEAR(reported[0].T_map_landmark.x_m, 3.02, 1e-12);
 }
 
 TEST_F(LandmarkSightingsTest, WorkForTheRaysOfALaser) {
   put("square", {3.0, 1.0, 0.3});
-  const auto told = look({1.5, 1.0, 0.0}, {1.45, 1.03, 0.02}, 0.0, radians(8.0));
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_NEAR((inverse(told[0].T_robot_landmark)).position().norm(),
+  const auto reported = look({1.5, 1.0, 0.0}, {1.45, 1.03, 0.02}, 0.0, radians(8.0));
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_NEAR((inverse(reported[0].T_robot_landmark)).position().norm(),
               (Pose2{1.5, 1.0, 0.0}.position() - Point(3.0, 1.0)).norm(), 0.03);
 }
 

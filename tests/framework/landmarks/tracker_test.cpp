@@ -41,50 +41,51 @@ OccupancyGrid floor_with_two_blocks() {
   return grid;
 }
 
-using News = LandmarkKeeper::News;
-using Changes = std::vector<std::pair<LandmarkId, News>>;
+using ChangeKind = LandmarkTracker::ChangeKind;
+using Changes = std::vector<std::pair<LandmarkId, ChangeKind>>;
 
-class LandmarkKeeperTest : public testing::Test {
+class LandmarkTrackerTest : public testing::Test {
  protected:
   RobotModel robot_;
-  LandmarkKeeper keeper_{
+  LandmarkTracker tracker_{
       {.confirm_sightings = 1}, robot_, {{"square", Contour::polygon({{0, 0}, {0.4, 0}, {0.4, 0.4}, {0, 0.4}})}}};
   OccupancyGrid grid_ = floor_with_two_blocks();
 
-  Changes fold(const Matching& matching) {
+  Changes update(const Matching& matching) {
     Changes changes;
-    for (const auto& [id, news] : keeper_.fold(matching)) changes.emplace_back(id, news);
+    for (const auto& [id, kind] : tracker_.update(matching)) changes.emplace_back(id, kind);
     return changes;
   }
 
   void connect() {
     PoseEstimate pose;
     pose.T_map_robot = {3.0, 1.0, 0.0};
-    const LandmarkGraph graph = keeper_.graph();
+    const LandmarkGraph graph = tracker_.graph();
     const WorldView world{grid_, graph, robot_, pose, 0.0, nullptr, 0.0};
-    keeper_.connect(
+    tracker_.connect(
         world, [&](const PlanRequest& request) { return StraightPlanner{}.plan(request, world, {}); }, 1);
   }
 };
 
-TEST_F(LandmarkKeeperTest, ADetectionNearALandmarkIsThatLandmark) {
-  EXPECT_EQ(fold(detection_at(1.5, 2.0, "square", 0.6)), (Changes{{1, News::found}}));
-  EXPECT_EQ(fold(detection_at(1.6, 2.1, "square", 0.5)), Changes{}) << "no better";
-  EXPECT_EQ(keeper_.graph().landmarks().size(), 1U);
-  EXPECT_EQ(keeper_.graph().find(1)->sightings, 2);
-  EXPECT_DOUBLE_EQ(keeper_.graph().find(1)->T_map_landmark.x_m, 1.5);
+TEST_F(LandmarkTrackerTest, ADetectionNearALandmarkIsThatLandmark) {
+  EXPECT_EQ(update(detection_at(1.5, 2.0, "square", 0.6)), (Changes{{1, ChangeKind::found}}));
+  EXPECT_EQ(update(detection_at(1.6, 2.1, "square", 0.5)), Changes{}) << "no better";
+  EXPECT_EQ(tracker_.graph().landmarks().size(), 1U);
+  EXPECT_EQ(tracker_.graph().find(1)->sightings, 2);
+  EXPECT_DOUBLE_EQ(tracker_.graph().find(1)->T_map_landmark.x_m, 1.5);
 }
 
-TEST_F(LandmarkKeeperTest, ABetterDegreeCorrectsThePlaceButKeepsTheId) {
-  fold(detection_at(1.5, 2.0, "square", 0.6));
-  EXPECT_EQ(fold(detection_at(1.55, 2.0, "square", 0.8)), (Changes{{1, News::changed}}));
-  EXPECT_DOUBLE_EQ(keeper_.graph().find(1)->T_map_landmark.x_m, 1.55);
+TEST_F(LandmarkTrackerTest, ABetterDegreeCorrectsThePlaceButKeepsTheId) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
+  EXPECT_EQ(update(detection_at(1.55, 2.0, "square", 0.8)), (Changes{{1, ChangeKind::changed}}));
+  EXPECT_DOUBLE_EQ(tracker_.graph().find(1)->T_map_landmark.x_m, 1.55);
 }
 
-TEST_F(LandmarkKeeperTest, TheNewestMatchingCorrectsAnEarlyCategoryEvenWithAWorseDegree) {
-  fold(detection_at(1.5, 2.0, "triangle", 0.7));
-  EXPECT_EQ(fold(matching_at(1.55, 2.0, {{"square", 0.66}, {"triangle", 0.62}}, false)), (Changes{{1, News::changed}}));
-  const Landmark& landmark = *keeper_.graph().find(1);
+TEST_F(LandmarkTrackerTest, TheNewestMatchingCorrectsAnEarlyCategoryEvenWithAWorseDegree) {
+  update(detection_at(1.5, 2.0, "triangle", 0.7));
+  EXPECT_EQ(update(matching_at(1.55, 2.0, {{"square", 0.66}, {"triangle", 0.62}}, false)),
+            (Changes{{1, ChangeKind::changed}}));
+  const Landmark& landmark = *tracker_.graph().find(1);
   EXPECT_EQ(landmark.category, "square");
   EXPECT_DOUBLE_EQ(landmark.degree, 0.66);
   EXPECT_DOUBLE_EQ(landmark.T_map_landmark.x_m, 1.55);
@@ -97,70 +98,71 @@ TEST_F(LandmarkKeeperTest, TheNewestMatchingCorrectsAnEarlyCategoryEvenWithAWors
   EXPECT_DOUBLE_EQ(landmark.evidence[1].last_degree, 0.62);
 }
 
-TEST_F(LandmarkKeeperTest, WhatDoesNotFitIsNoEvidenceHoweverItIsReported) {
-  fold(detection_at(1.5, 2.0, "triangle", 0.7));
+TEST_F(LandmarkTrackerTest, WhatDoesNotFitIsNoEvidenceHoweverItIsReported) {
+  update(detection_at(1.5, 2.0, "triangle", 0.7));
   Matching matching = matching_at(1.55, 2.0, {{"square", 0.5}}, false);
   matching.degrees[0].fits = false;
-  EXPECT_EQ(fold(matching), Changes{});
-  EXPECT_EQ(keeper_.graph().find(1)->category, "triangle");
-  EXPECT_EQ(keeper_.graph().find(1)->evidence.size(), 1U);
+  EXPECT_EQ(update(matching), Changes{});
+  EXPECT_EQ(tracker_.graph().find(1)->category, "triangle");
+  EXPECT_EQ(tracker_.graph().find(1)->evidence.size(), 1U);
 }
 
-TEST_F(LandmarkKeeperTest, ADetectionFarAwayIsANewLandmark) {
-  fold(detection_at(1.5, 2.0, "square", 0.6));
-  EXPECT_EQ(fold(detection_at(4.5, 2.0, "square", 0.6)), (Changes{{2, News::found}}));
-  EXPECT_EQ(keeper_.graph().landmarks().size(), 2U);
+TEST_F(LandmarkTrackerTest, ADetectionFarAwayIsANewLandmark) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
+  EXPECT_EQ(update(detection_at(4.5, 2.0, "square", 0.6)), (Changes{{2, ChangeKind::found}}));
+  EXPECT_EQ(tracker_.graph().landmarks().size(), 2U);
 }
 
-TEST_F(LandmarkKeeperTest, WhatIsSeenTooSeldomIsNoLandmark) {
-  keeper_ = LandmarkKeeper({.confirm_sightings = 3}, robot_, {});
-  EXPECT_EQ(fold(detection_at(1.5, 2.0, "square", 0.6)), Changes{});
-  EXPECT_EQ(fold(detection_at(1.55, 2.0, "circle", 0.7)), Changes{});
-  EXPECT_EQ(fold(detection_at(4.5, 2.0, "square", 0.6)), Changes{}) << "another place, its first sighting";
-  EXPECT_EQ(fold(matching_at(1.5, 2.0, {{"circle", 0.6}}, false)), Changes{}) << "undecided";
-  EXPECT_TRUE(keeper_.graph().landmarks().empty());
-  EXPECT_EQ(fold(detection_at(1.5, 2.0, "circle", 0.65)), (Changes{{1, News::found}}));
-  ASSERT_EQ(keeper_.graph().landmarks().size(), 1U);
-  const Landmark& landmark = *keeper_.graph().find(1);
+TEST_F(LandmarkTrackerTest, WhatIsSeenTooSeldomIsNoLandmark) {
+  tracker_ = LandmarkTracker({.confirm_sightings = 3}, robot_, {});
+  EXPECT_EQ(update(detection_at(1.5, 2.0, "square", 0.6)), Changes{});
+  EXPECT_EQ(update(detection_at(1.55, 2.0, "circle", 0.7)), Changes{});
+  EXPECT_EQ(update(detection_at(4.5, 2.0, "square", 0.6)), Changes{}) << "another place, its first sighting";
+  EXPECT_EQ(update(matching_at(1.5, 2.0, {{"circle", 0.6}}, false)), Changes{}) << "undecided";
+  EXPECT_TRUE(tracker_.graph().landmarks().empty());
+  EXPECT_EQ(update(detection_at(1.5, 2.0, "circle", 0.65)), (Changes{{1, ChangeKind::found}}));
+  ASSERT_EQ(tracker_.graph().landmarks().size(), 1U);
+  const Landmark& landmark = *tracker_.graph().find(1);
   EXPECT_EQ(landmark.category, "circle");
   EXPECT_DOUBLE_EQ(landmark.degree, 0.7) << "its best";
   EXPECT_DOUBLE_EQ(landmark.T_map_landmark.x_m, 1.55);
   EXPECT_EQ(landmark.sightings, 3);
 }
 
-TEST_F(LandmarkKeeperTest, LandmarksThatProveToBeOneAreMergedIntoTheOlder) {
-  fold(detection_at(1.5, 2.0, "square", 0.6));
-  fold(detection_at(1.95, 2.0, "square", 0.65));
-  ASSERT_EQ(keeper_.graph().landmarks().size(), 2U);
+TEST_F(LandmarkTrackerTest, LandmarksThatProveToBeOneAreMergedIntoTheOlder) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
+  update(detection_at(1.95, 2.0, "square", 0.65));
+  ASSERT_EQ(tracker_.graph().landmarks().size(), 2U);
   // Nearer to the second, which it moves towards the first.
-  EXPECT_EQ(fold(detection_at(1.78, 2.0, "square", 0.7)), (Changes{{2, News::retired}, {1, News::changed}}));
-  ASSERT_EQ(keeper_.graph().landmarks().size(), 1U);
-  const Landmark& landmark = *keeper_.graph().find(1);
+  EXPECT_EQ(update(detection_at(1.78, 2.0, "square", 0.7)),
+            (Changes{{2, ChangeKind::retired}, {1, ChangeKind::changed}}));
+  ASSERT_EQ(tracker_.graph().landmarks().size(), 1U);
+  const Landmark& landmark = *tracker_.graph().find(1);
   EXPECT_DOUBLE_EQ(landmark.T_map_landmark.x_m, 1.78);
   EXPECT_EQ(landmark.sightings, 3);
-  EXPECT_EQ(keeper_.graph().retired().at(2).reason, "is L1");
+  EXPECT_EQ(tracker_.graph().retired().at(2).reason, "is L1");
 }
 
-TEST_F(LandmarkKeeperTest, ALandmarkWhosePlaceIsSeenFreeIsRetiredWithItsHistory) {
-  fold(detection_at(1.5, 2.0, "square", 0.6));
-  fold(detection_at(4.5, 2.0, "square", 0.6));
-  EXPECT_EQ(keeper_.retire_freed(grid_).size(), 0U);
+TEST_F(LandmarkTrackerTest, ALandmarkWhosePlaceIsSeenFreeIsRetiredWithItsHistory) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
+  update(detection_at(4.5, 2.0, "square", 0.6));
+  EXPECT_EQ(tracker_.retire_freed(grid_).size(), 0U);
   for (int y = 18; y < 22; ++y)
     for (int x = 13; x < 17; ++x) grid_.set_log_odds({x, y}, x == 13 ? 0 : -1000);
-  EXPECT_EQ(keeper_.retire_freed(grid_).size(), 0U) << "three quarters are not enough";
+  EXPECT_EQ(tracker_.retire_freed(grid_).size(), 0U) << "three quarters are not enough";
   grid_.set_log_odds({13, 18}, -1000);
-  const std::vector<LandmarkKeeper::Change> changes = keeper_.retire_freed(grid_);
+  const std::vector<LandmarkTracker::Change> changes = tracker_.retire_freed(grid_);
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_EQ(changes[0].landmark, 1);
-  EXPECT_EQ(keeper_.graph().landmarks().size(), 1U);
-  EXPECT_EQ(keeper_.graph().retired().at(1).reason, "its place has been seen free");
-  EXPECT_EQ(keeper_.graph().retired().at(1).landmark.evidence.size(), 1U);
+  EXPECT_EQ(tracker_.graph().landmarks().size(), 1U);
+  EXPECT_EQ(tracker_.graph().retired().at(1).reason, "its place has been seen free");
+  EXPECT_EQ(tracker_.graph().retired().at(1).landmark.evidence.size(), 1U);
 }
 
-TEST_F(LandmarkKeeperTest, ConnectFindsStandingPlacesThatFitTheRobotAndLookAtTheLandmark) {
-  fold(detection_at(1.5, 2.0, "square", 0.6));
+TEST_F(LandmarkTrackerTest, ConnectFindsStandingPlacesThatFitTheRobotAndLookAtTheLandmark) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
   connect();
-  const Landmark& landmark = *keeper_.graph().find(1);
+  const Landmark& landmark = *tracker_.graph().find(1);
   ASSERT_TRUE(landmark.access);
   const Point to_landmark = landmark.T_map_landmark.position() - landmark.access->position();
   EXPECT_GE(to_landmark.norm(), 0.2 + robot_.radius_m);
@@ -168,26 +170,26 @@ TEST_F(LandmarkKeeperTest, ConnectFindsStandingPlacesThatFitTheRobotAndLookAtThe
   EXPECT_NEAR(to_landmark.normalized().dot(landmark.access->direction()), 1.0, 1e-9);
 }
 
-TEST_F(LandmarkKeeperTest, PlannedRoutesJoinBothWays) {
-  fold(detection_at(1.5, 2.0, "square", 0.6));
-  fold(detection_at(4.5, 2.0, "circle", 0.6));
+TEST_F(LandmarkTrackerTest, PlannedRoutesJoinBothWays) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
+  update(detection_at(4.5, 2.0, "circle", 0.6));
   connect();
-  ASSERT_NE(keeper_.graph().route_between(1, 2), nullptr);
-  ASSERT_NE(keeper_.graph().route_between(2, 1), nullptr);
-  EXPECT_FALSE(keeper_.graph().route_between(1, 2)->driven);
-  EXPECT_EQ(keeper_.graph().routes().size(), 2U);
+  ASSERT_NE(tracker_.graph().route_between(1, 2), nullptr);
+  ASSERT_NE(tracker_.graph().route_between(2, 1), nullptr);
+  EXPECT_FALSE(tracker_.graph().route_between(1, 2)->driven);
+  EXPECT_EQ(tracker_.graph().routes().size(), 2U);
 }
 
-TEST_F(LandmarkKeeperTest, AWayThatTheRobotDroveIsPreferredToAPlannedOne) {
-  fold(detection_at(1.5, 2.0, "square", 0.6));
-  fold(detection_at(4.5, 2.0, "circle", 0.6));
+TEST_F(LandmarkTrackerTest, AWayThatTheRobotDroveIsPreferredToAPlannedOne) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
+  update(detection_at(4.5, 2.0, "circle", 0.6));
   connect();
-  const Pose2 from = *keeper_.graph().find(1)->access;
-  const Pose2 to = *keeper_.graph().find(2)->access;
+  const Pose2 from = *tracker_.graph().find(1)->access;
+  const Pose2 to = *tracker_.graph().find(2)->access;
   for (double s = 0.0; s <= 1.0; s += 0.01)
-    keeper_.follow({from.x_m + s * (to.x_m - from.x_m), from.y_m + s * (to.y_m - from.y_m), 0.0});
+    tracker_.record_pose({from.x_m + s * (to.x_m - from.x_m), from.y_m + s * (to.y_m - from.y_m), 0.0});
   connect();
-  const Route& route = *keeper_.graph().route_between(1, 2);
+  const Route& route = *tracker_.graph().route_between(1, 2);
   EXPECT_TRUE(route.driven);
   EXPECT_GT(route.trajectory.size(), 20U);
   EXPECT_EQ(route.trajectory, in_whole_steps(route.trajectory));

@@ -23,17 +23,17 @@ OccupancyGrid wall_at_two_metres() {
   return grid;
 }
 
-TEST(Withholding, SeedsInARowWithholdEachReadingOnce) {
+TEST(HoldOut, SeedsInARowHoldOutEachReadingOnce) {
   std::vector<int> times(20, 0);
   for (std::int64_t seed = 7; seed < 12; ++seed) {
-    Withholding withholding(5, seed);
+    HoldOut withholding(5, seed);
     for (int& count : times) count += withholding.next() ? 1 : 0;
   }
   EXPECT_EQ(times, std::vector<int>(20, 1));
 }
 
-TEST(Withholding, ZeroWithholdsNothing) {
-  Withholding withholding(0, 3);
+TEST(HoldOut, ZeroHoldsOutNothing) {
+  HoldOut withholding(0, 3);
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(withholding.next());
 }
 
@@ -61,7 +61,7 @@ TEST(LogLikelihood, ChancesAddUpToOne) {
   }
 }
 
-TEST(WithheldReadings, LeavesOutWhatSaysNothing) {
+TEST(HeldOutReadings, LeavesOutWhatSaysNothing) {
   Observation observation;
   for (const double range_m : {1.0, kInfinity, -kInfinity, std::nan(""), 9.0, 2.0})
     observation.ranges.push_back(reading_of(range_m));
@@ -69,10 +69,10 @@ TEST(WithheldReadings, LeavesOutWhatSaysNothing) {
   const LandmarkGraph graph;
   const RobotModel robot;
   const WorldView world{grid, graph, robot, {}, 0.0, &observation, 0.0};
-  WithheldReadings withheld(1, 1);
-  withheld.on(TickDone{}, {world});
-  EXPECT_EQ(withheld.count(), 4);
-  EXPECT_NEAR(withheld.mean_log_likelihood(grid),
+  HeldOutReadings held_out(1, 1);
+  held_out.on(TickDone{}, {world});
+  EXPECT_EQ(held_out.count(), 4);
+  EXPECT_NEAR(held_out.mean_log_likelihood(grid),
               (log_likelihood(grid, {}, reading_of(1.0)) + 2.0 * log_likelihood(grid, {}, reading_of(kInfinity)) +
                log_likelihood(grid, {}, reading_of(2.0))) /
                   4.0,

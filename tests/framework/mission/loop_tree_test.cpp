@@ -26,7 +26,7 @@ struct ScriptConfig {
 class Scripted : public Behaviour {
  public:
   explicit Scripted(ScriptConfig config) : config_(std::move(config)) {}
-  Status tick(const WorldView&, Orders& orders) override {
+  Status tick(const WorldView&, BehaviourContext& orders) override {
     const char letter = config_.script[std::min(at_++, config_.script.size() - 1)];
     if (letter == 'r') orders.drive({0.1, 0.0});
     if (letter == 'N') return orders.save("no_such_folder/map.cairn");
@@ -114,7 +114,7 @@ TEST_F(MissionOfTrees, ConditionsSeeTheMissionsClock) {
 }
 
 TEST_F(MissionOfTrees, ATimeoutHaltsByTheMissionsClock) {
-  const MissionResult result = run("[{always: {timeout: {after_s: 0.5, do: {script: R}}}}]");
+  const MissionResult result = run("[{force_success: {timeout: {after_s: 0.5, do: {script: R}}}}]");
   EXPECT_EQ(result.outcome, MissionOutcome::done);
   EXPECT_NEAR(result.time_s, 0.5, 0.05);
   EXPECT_THAT(outcomes(result), ElementsAre("1 always success", "1/1 timeout failure", "1/1/1 script halted"));
@@ -149,7 +149,7 @@ TEST_F(MissionOfTrees, EveryoneIsHaltedThoughOneThrowsAtIt) {
   EXPECT_THAT(outcomes(result), ElementsAre("1 parallel halted", "1/1 script halted", "1/2 script halted"));
 }
 
-TEST_F(MissionOfTrees, TheReportTellsOfEveryNode) {
+TEST_F(MissionOfTrees, TheReportReportsOfEveryNode) {
   RunReport report;
   const MissionResult result = run("[{name: a, reactive_sequence: [{time_before: 50}, {script: RRRS}]}]", &report);
   const auto json = nlohmann::json::parse(report.report_json(mission_of("[wait]"), result, {}, {}));

@@ -98,11 +98,11 @@ TEST(NodeRuns, AreNoMoreThanTheirMostAndSayHowManyAreLeftOut) {
   TreeNode node;
   node.path = "1";
   NodeRuns runs;
-  for (std::size_t i = 0; i < kMostNodeRuns + 7; ++i) {
+  for (std::size_t i = 0; i < kMaxNodeRuns + 7; ++i) {
     const double begun_s = 2.0 * static_cast<double>(i);
     runs.add(node, report_of(begun_s + 1.0, Progress::success), begun_s);
   }
-  EXPECT_EQ(runs.runs().size(), kMostNodeRuns);
+  EXPECT_EQ(runs.runs().size(), kMaxNodeRuns);
   EXPECT_EQ(runs.left_out(), 7);
 }
 

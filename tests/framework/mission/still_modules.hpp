@@ -78,7 +78,7 @@ class Detector : public cairn::Detector {
 
 class Behaviour : public cairn::Behaviour {
  public:
-  Status tick(const WorldView&, Orders& orders) override {
+  Status tick(const WorldView&, BehaviourContext& orders) override {
     orders.drive({0.1, 0.0});
     return {};
   }

@@ -42,7 +42,7 @@ struct Row {
     leg.cost_m = 10.0 * std::abs(to - from);
     leg.length_m = std::abs(to - from);
     leg.clearance_m = to;
-    if (knows_least) leg.least_length_m = 0.5 * leg.length_m;
+    if (knows_least) leg.length_lower_bound_m = 0.5 * leg.length_m;
     leg.path = {Pose2{from, 0.0, 0.0}, Pose2{to, 0.0, 0.0}};
     leg.routes = {static_cast<RouteId>(asked.size())};
     leg.blocked_routes = {static_cast<RouteId>(100 + asked.size())};
@@ -111,12 +111,12 @@ TEST(Tour, PassesItsStopsInTheirOrderAndAddsUp) {
 
 TEST(Tour, TheLeastLengthsAddUpBetweenSinglePlacesOnly) {
   Row row;
-  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6})}).least_length_m);
+  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6})}).length_lower_bound_m);
   row.knows_least = true;
-  EXPECT_EQ(row.tour(from_to(at({1}), at({4})), {at({6})}).least_length_m, 3.5);
-  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6, 2})}).least_length_m);
+  EXPECT_EQ(row.tour(from_to(at({1}), at({4})), {at({6})}).length_lower_bound_m, 3.5);
+  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6, 2})}).length_lower_bound_m);
   row.unreachable = 4;
-  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6})}).least_length_m);
+  EXPECT_FALSE(row.tour(from_to(at({1}), at({4})), {at({6})}).length_lower_bound_m);
 }
 
 TEST(Tour, GoesOnFromTheOneOfSeveralThatWasReached) {

@@ -39,7 +39,7 @@ TEST(PoseErrors, SamplesOnceASecondAndCountsEverySighting) {
   EXPECT_EQ(errors.figures()->refused, 101);
 }
 
-TEST(PoseErrors, TellsTheMedianTheTailTheWorstAndTheLast) {
+TEST(PoseErrors, ReportsTheMedianTheTailTheWorstAndTheLast) {
   PoseErrors errors;
   for (int i = 0; i <= 100; ++i) note(errors, i, 0.01 * ((37 * i) % 101), 0.001 * i);  // 0 to 1 m, in disorder
   const PoseErrorFigures figures = *errors.figures();

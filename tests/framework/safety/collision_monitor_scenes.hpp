@@ -46,9 +46,9 @@ inline Observation observation(double stamp_s, const Seen& seen = {}, const Pose
 }
 
 // Standing, with these ranges for two ticks.
-inline StopLayer layer_that_sees(const Seen& seen, const RobotModel& robot = a_robot(),
-                                 const StopLayerConfig& config = {}) {
-  StopLayer layer(config, robot);
+inline CollisionMonitor layer_that_sees(const Seen& seen, const RobotModel& robot = a_robot(),
+                                        const CollisionMonitorConfig& config = {}) {
+  CollisionMonitor layer(config, robot);
   layer.see(observation(1.0, seen));
   layer.see(observation(1.0 + kTick_s, seen));
   return layer;

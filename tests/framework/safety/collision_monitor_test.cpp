@@ -11,19 +11,19 @@
 namespace cairn {
 namespace {
 
-TEST(StopLayer, LetsTheRobotGoWhenNothingIsNear) {
-  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0});
+TEST(CollisionMonitor, LetsTheRobotGoWhenNothingIsNear) {
+  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
   EXPECT_EQ(layer.limit({0.3, 0.1}), (Twist{0.3, 0.1}));
   EXPECT_EQ(layer.figures().slowed_s, 0.0);
 }
 
-TEST(StopLayer, StopsBeforeAnEchoThatIsAsNearAsTheMargin) {
-  StopLayer layer = layer_that_sees({.ahead_m = a_robot().radius_m + 0.05 - 0.1});
+TEST(CollisionMonitor, StopsBeforeAnEchoThatIsAsNearAsTheMargin) {
+  CollisionMonitor layer = layer_that_sees({.ahead_m = a_robot().radius_m + 0.05 - 0.1});
   EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.0);
   EXPECT_NEAR(layer.figures().stopped_s, kTick_s, 1e-9);
 }
 
-TEST(StopLayer, AlwaysLeavesRoomToReactAndToBrake) {
+TEST(CollisionMonitor, AlwaysLeavesRoomToReactAndToBrake) {
   const RobotModel robot = a_robot();
   for (double range = 0.2; range < 2.0; range += 0.05) {
     const double v = layer_that_sees({.ahead_m = range}).limit({robot.max_v_mps, 0.0}).v_mps;
@@ -35,7 +35,7 @@ TEST(StopLayer, AlwaysLeavesRoomToReactAndToBrake) {
   }
 }
 
-TEST(StopLayer, TheReactionLastsUntilTheTransducerFiresAgain) {
+TEST(CollisionMonitor, TheReactionLastsUntilTheTransducerFiresAgain) {
   RobotModel robot = a_robot();
   robot.sonars.resize(7);
   const double at_once = layer_that_sees({.ahead_m = 0.35}).limit({0.4, 0.0}).v_mps;
@@ -46,24 +46,24 @@ TEST(StopLayer, TheReactionLastsUntilTheTransducerFiresAgain) {
   EXPECT_LE(in_turn * 8 * kTick_s + in_turn * in_turn / (2.0 * robot.max_acceleration_mps2), way + 1e-9);
 }
 
-TEST(StopLayer, GoesSlowlyWhereSomethingIsNear) {
+TEST(CollisionMonitor, GoesSlowlyWhereSomethingIsNear) {
   const RobotModel robot = a_robot();
-  StopLayer towards = layer_that_sees({.ahead_m = 0.26});
+  CollisionMonitor towards = layer_that_sees({.ahead_m = 0.26});
   EXPECT_NEAR(towards.limit({0.4, 0.0}).v_mps, 0.4 * robot.max_v_mps, 1e-9);
   EXPECT_GT(towards.figures().slowed_s, 0.0);
   EXPECT_EQ(towards.limit({0.1, 0.0}).v_mps, 0.1) << "slow already";
 }
 
-TEST(StopLayer, WhatIsBesideTheRobotAlreadyMayBePassedAlong) {
+TEST(CollisionMonitor, WhatIsBesideTheRobotAlreadyMayBePassedAlong) {
   // Farther than the margin and nearer than the slow zone, as in every narrow door.
-  StopLayer layer = layer_that_sees({.ahead_m = 3.0, .left_m = a_robot().radius_m});
+  CollisionMonitor layer = layer_that_sees({.ahead_m = 3.0, .left_m = a_robot().radius_m});
   EXPECT_EQ(layer.limit({0.4, 0.0}).v_mps, 0.4);
 }
 
-TEST(StopLayer, LooksAlongTheArcNotOnlyStraightAhead) {
+TEST(CollisionMonitor, LooksAlongTheArcNotOnlyStraightAhead) {
   // Something to the left ahead: in the way of a left turn, not of a right one.
   const auto allowed = [](const Twist& wanted) {
-    StopLayer layer({.slow_m = 0.02}, a_robot());
+    CollisionMonitor layer({.slow_m = 0.02}, a_robot());
     for (const double stamp_s : {1.0, 1.04}) {
       Observation o = observation(stamp_s);
       o.ranges.push_back(reading(0.25, radians(70.0), 3));
@@ -92,11 +92,11 @@ Observation before_a_wall(double stamp_s, const Pose2& pose, double wall_m) {
 }
 
 // The wanted arc clears the wall, the one on which the robot gets there does not.
-TEST(StopLayer, BrakesForTheArcThatTheRobotIsOnBeforeItHasTurned) {
+TEST(CollisionMonitor, BrakesForTheArcThatTheRobotIsOnBeforeItHasTurned) {
   RobotModel robot = a_robot();
   robot.max_acceleration_mps2 = 0.2;
   robot.max_turn_acceleration_radps2 = radians(20.0);
-  StopLayer layer({.slow_m = 0.02, .blind_s = std::nullopt}, robot);
+  CollisionMonitor layer({.slow_m = 0.02, .blind_s = std::nullopt}, robot);
   const double wall_m = 1.6;
   const auto towards = [](double from, double to, double most) { return from + std::clamp(to - from, -most, most); };
   Pose2 pose;
@@ -123,8 +123,8 @@ RobotModel a_car() {
   return robot;
 }
 
-TEST(StopLayer, ACarsArcIsNoTighterThanItsTurningCircle) {
-  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0}, a_car());
+TEST(CollisionMonitor, ACarsArcIsNoTighterThanItsTurningCircle) {
+  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0}, a_car());
   EXPECT_EQ(layer.limit({0.3, 1.5}), (Twist{0.3, 0.5}));
   EXPECT_EQ(layer.limit({-0.3, 1.5}), (Twist{-0.3, 0.5}));
   EXPECT_EQ(layer.limit({0.0, 1.5}), Twist{}) << "no car turns in place";
@@ -139,30 +139,30 @@ TEST(StopLayer, ACarsArcIsNoTighterThanItsTurningCircle) {
   EXPECT_LT(allowed_mps(a_car()), 0.35);
 }
 
-TEST(StopLayer, SlowingDownKeepsTheArc) {
-  StopLayer layer = layer_that_sees({.ahead_m = 0.3});
+TEST(CollisionMonitor, SlowingDownKeepsTheArc) {
+  CollisionMonitor layer = layer_that_sees({.ahead_m = 0.3});
   const Twist allowed = layer.limit({0.4, 0.2});
   ASSERT_GT(allowed.v_mps, 0.0);
   EXPECT_NEAR(allowed.w_radps / allowed.v_mps, 0.5, 1e-9);
 }
 
-TEST(StopLayer, WatchesItsBackToo) {
-  StopLayer layer = layer_that_sees({.ahead_m = 3.0, .behind_m = 0.17});
+TEST(CollisionMonitor, WatchesItsBackToo) {
+  CollisionMonitor layer = layer_that_sees({.ahead_m = 3.0, .behind_m = 0.17});
   EXPECT_EQ(layer.limit({-0.3, 0.0}).v_mps, 0.0);
   EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.3);
 }
 
-TEST(StopLayer, ADiscMayAlwaysTurnInPlaceAndBackAway) {
-  StopLayer layer = layer_that_sees({.ahead_m = 0.12});
+TEST(CollisionMonitor, ADiscMayAlwaysTurnInPlaceAndBackAway) {
+  CollisionMonitor layer = layer_that_sees({.ahead_m = 0.12});
   EXPECT_EQ(layer.limit({0.0, 1.0}), (Twist{0.0, 1.0}));
   EXPECT_EQ(layer.limit({-0.2, 0.0}), (Twist{-0.2, 0.0}));
 }
 
-TEST(StopLayer, APolygonDoesNotTurnItsCornersIntoWhatItSees) {
+TEST(CollisionMonitor, APolygonDoesNotTurnItsCornersIntoWhatItSees) {
   RobotModel robot = a_robot();
   robot.polygon_m = {{-0.4, -0.15}, {0.4, -0.15}, {0.4, 0.15}, {-0.4, 0.15}};
   robot.radius_m = 0.43;
-  StopLayer layer({}, robot);
+  CollisionMonitor layer({}, robot);
   for (const double stamp_s : {1.0, 1.04}) {
     Observation o = observation(stamp_s);
     o.ranges.push_back(reading(0.27, radians(50.0), 3));  // beside the front left corner
@@ -179,8 +179,8 @@ RobotModel a_long_box() {
   return robot;
 }
 
-TEST(StopLayer, APolygonThatIsTouchedCreepsWhenItTurnsInPlaceToo) {
-  StopLayer layer = layer_that_sees({3.0, 3.0, 3.0}, a_long_box());
+TEST(CollisionMonitor, APolygonThatIsTouchedCreepsWhenItTurnsInPlaceToo) {
+  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0}, a_long_box());
   Observation bump = observation(1.08, {3.0, 3.0, 3.0});
   bump.bumped = true;
   layer.see(bump);
@@ -188,9 +188,9 @@ TEST(StopLayer, APolygonThatIsTouchedCreepsWhenItTurnsInPlaceToo) {
   EXPECT_NEAR(w_radps * std::hypot(0.4, 0.15), 0.04, 1e-9) << "its fastest corner";
 }
 
-TEST(StopLayer, APolygonTurnsSlowlyInTheSlowZone) {
+TEST(CollisionMonitor, APolygonTurnsSlowlyInTheSlowZone) {
   RobotModel robot = a_long_box();
-  StopLayer layer({.slow_m = 0.2}, robot);
+  CollisionMonitor layer({.slow_m = 0.2}, robot);
   for (const double stamp_s : {1.0, 1.04}) {
     Observation o = observation(stamp_s);
     o.ranges.push_back(reading(0.5, radians(40.0), 3));  // the front left corner comes within 0.1 m of it
@@ -201,50 +201,51 @@ TEST(StopLayer, APolygonTurnsSlowlyInTheSlowZone) {
   EXPECT_EQ(layer.limit({0.0, 0.3}).w_radps, 0.3) << "slow already";
 }
 
-TEST(StopLayer, TellsHowMuchOfATurnInPlaceItLeavesOut) {
-  const StopLayer layer({}, a_robot());
-  EXPECT_EQ(layer.held_back_ratio({0.0, 0.5}, {}), 1.0);
-  EXPECT_EQ(layer.held_back_ratio({0.0, -0.5}, {0.0, -0.25}), 0.5);
-  EXPECT_EQ(layer.held_back_ratio({0.0, 0.5}, {0.0, 0.5}), 0.0);
-  EXPECT_EQ(layer.held_back_ratio({0.0, 9.0}, {0.0, a_robot().max_w_radps}), 0.0) << "its own limit holds nothing back";
-  EXPECT_EQ(layer.held_back_ratio({0.2, 0.5}, {0.0, 0.5}), 1.0);
-  EXPECT_EQ(layer.held_back_ratio({}, {}), 0.0);
+TEST(CollisionMonitor, ReportsHowMuchOfATurnInPlaceItLeavesOut) {
+  const CollisionMonitor layer({}, a_robot());
+  EXPECT_EQ(layer.speed_reduction_ratio({0.0, 0.5}, {}), 1.0);
+  EXPECT_EQ(layer.speed_reduction_ratio({0.0, -0.5}, {0.0, -0.25}), 0.5);
+  EXPECT_EQ(layer.speed_reduction_ratio({0.0, 0.5}, {0.0, 0.5}), 0.0);
+  EXPECT_EQ(layer.speed_reduction_ratio({0.0, 9.0}, {0.0, a_robot().max_w_radps}), 0.0)
+      << "its own limit holds nothing back";
+  EXPECT_EQ(layer.speed_reduction_ratio({0.2, 0.5}, {0.0, 0.5}), 1.0);
+  EXPECT_EQ(layer.speed_reduction_ratio({}, {}), 0.0);
 }
 
-TEST(StopLayer, AnEchoBesideTheRobotDoesNotHoldItBack) {
+TEST(CollisionMonitor, AnEchoBesideTheRobotDoesNotHoldItBack) {
   EXPECT_EQ(layer_that_sees({.ahead_m = 3.0, .left_m = 0.5}).limit({0.3, 0.0}).v_mps, 0.3);
 }
 
-TEST(StopLayer, KeepsToTheRobotsLimitsAndRefusesWhatIsNoNumber) {
+TEST(CollisionMonitor, KeepsToTheRobotsLimitsAndRefusesWhatIsNoNumber) {
   const RobotModel robot = a_robot();
-  StopLayer layer = layer_that_sees({4.0, 4.0, 4.0});
+  CollisionMonitor layer = layer_that_sees({4.0, 4.0, 4.0});
   EXPECT_EQ(layer.limit({9.0, -9.0}), (Twist{robot.max_v_mps, -robot.max_w_radps}));
   EXPECT_EQ(layer.limit({std::numeric_limits<double>::quiet_NaN(), 0.0}), Twist{});
 }
 
-StopLayerConfig loaded(const std::map<std::string, std::string>& settings) {
+CollisionMonitorConfig loaded(const std::map<std::string, std::string>& settings) {
   std::string text;
   for (const auto& [key, value] : settings) text += key + ": " + value + "\n";
-  return load_config<StopLayerConfig>(parse_config_text(text, "mission.yaml"), "stop_layer");
+  return load_config<CollisionMonitorConfig>(parse_config_text(text, "mission.yaml"), "collision_monitor");
 }
 
 // The laxest that each setting may be, alone and all together.
-TEST(StopLayer, NoLegalSettingSwitchesItOff) {
+TEST(CollisionMonitor, NoLegalSettingSwitchesItOff) {
   const std::map<std::string, std::string> laxest{
       {"margin_m", "0.01"}, {"slow_m", "0.02"}, {"stale_s", "0.2"}, {"blind_s", "1"}};
   std::vector<std::map<std::string, std::string>> all{laxest};
   for (const auto& setting : laxest) all.push_back({setting});
   for (const auto& settings : all) {
-    const StopLayerConfig config = loaded(settings);
-    StopLayer wall = layer_that_sees({.ahead_m = 0.13}, a_robot(), config);
+    const CollisionMonitorConfig config = loaded(settings);
+    CollisionMonitor wall = layer_that_sees({.ahead_m = 0.13}, a_robot(), config);
     EXPECT_EQ(wall.limit({0.4, 0.0}).v_mps, 0.0);
-    StopLayer blind = layer_that_sees({3.0, 3.0, 3.0}, a_robot(), config);
+    CollisionMonitor blind = layer_that_sees({3.0, 3.0, 3.0}, a_robot(), config);
     for (double stamp_s = 1.08; stamp_s < 2.1; stamp_s += kTick_s) blind.see(without_readings(stamp_s));
     EXPECT_EQ(blind.limit({0.4, 0.0}), Twist{});
   }
 }
 
-TEST(StopLayer, SettingsThatWouldSwitchItOffAreRefused) {
+TEST(CollisionMonitor, SettingsThatWouldSwitchItOffAreRefused) {
   for (const auto& [key, text] : std::vector<std::pair<std::string, std::string>>{{"margin_m", "0"},
                                                                                   {"slow_m", "0"},
                                                                                   {"stale_s", "0"},
@@ -255,11 +256,11 @@ TEST(StopLayer, SettingsThatWouldSwitchItOffAreRefused) {
 }
 
 // Whatever is wanted, in whatever surroundings: it never speeds up, turns round or leaves the arc.
-TEST(StopLayer, OnlyEverTakesAway) {
+TEST(CollisionMonitor, OnlyEverTakesAway) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 2000; ++i) {
-    StopLayer layer = layer_that_sees({1.1 + any(random), 1.1 + any(random), 1.1 + any(random)});
+    CollisionMonitor layer = layer_that_sees({1.1 + any(random), 1.1 + any(random), 1.1 + any(random)});
     const Twist wanted{0.4 * any(random), 1.5 * any(random)};
     const Twist allowed = layer.limit(wanted);
     EXPECT_LE(std::abs(allowed.v_mps), std::abs(wanted.v_mps) + 1e-12);

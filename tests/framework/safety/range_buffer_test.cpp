@@ -26,20 +26,20 @@ Observation echo(double stamp_s, double range_m, const Pose2& T_odom_robot = {},
   return observation;
 }
 
-double nearest_m(const EchoMemory& memory) {
+double nearest_m(const RangeBuffer& memory) {
   double nearest = kInfinity;
   for (const SeenPoint& seen : memory.points()) nearest = std::min(nearest, seen.at.norm());
   return nearest;
 }
 
-double fastest_mps(const EchoMemory& memory) {
+double fastest_mps(const RangeBuffer& memory) {
   double fastest = 0.0;
   for (const SeenPoint& seen : memory.points()) fastest = std::max(fastest, seen.closing_mps);
   return fastest;
 }
 
-TEST(EchoMemory, KeepsAnEchoOnItsWholeArcForAWhile) {
-  EchoMemory memory(a_robot(), 1.0);
+TEST(RangeBuffer, KeepsAnEchoOnItsWholeArcForAWhile) {
+  RangeBuffer memory(a_robot(), 1.0);
   memory.see(echo(1.0, 0.8));
   ASSERT_FALSE(memory.points().empty());
   double widest_rad = 0.0;
@@ -54,15 +54,15 @@ TEST(EchoMemory, KeepsAnEchoOnItsWholeArcForAWhile) {
   EXPECT_TRUE(memory.points().empty());
 }
 
-TEST(EchoMemory, AnEchoFromBehindTakesItAway) {
-  EchoMemory memory(a_robot(), 1.0);
+TEST(RangeBuffer, AnEchoFromBehindTakesItAway) {
+  RangeBuffer memory(a_robot(), 1.0);
   memory.see(echo(1.0, 0.8));
   memory.see(echo(1.1, 2.0));
   EXPECT_NEAR(nearest_m(memory), 2.0, 1e-9);
 }
 
-TEST(EchoMemory, WhatHasLeftTheBeamStaysWhereItWas) {
-  EchoMemory memory(a_robot(), 1.0);
+TEST(RangeBuffer, WhatHasLeftTheBeamStaysWhereItWas) {
+  RangeBuffer memory(a_robot(), 1.0);
   memory.see(echo(1.0, 0.5));
   memory.see(echo(1.2, 3.0, {0.0, 0.0, radians(90.0)}));  // turned away
   EXPECT_NEAR(nearest_m(memory), 0.5, 1e-9);
@@ -70,25 +70,25 @@ TEST(EchoMemory, WhatHasLeftTheBeamStaysWhereItWas) {
     EXPECT_TRUE(seen.at.norm() > 1.0 || seen.at.y() < -0.4) << "to the right now";
 }
 
-TEST(EchoMemory, TellsHowFastItComesNearerBeyondItsOwnMotion) {
-  EchoMemory towards_a_wall(a_robot(), 1.0);
+TEST(RangeBuffer, ReportsHowFastItComesNearerBeyondItsOwnMotion) {
+  RangeBuffer towards_a_wall(a_robot(), 1.0);
   towards_a_wall.see(echo(1.0, 1.0));
   towards_a_wall.see(echo(1.2, 0.92, {0.08, 0.0, 0.0}));
   EXPECT_EQ(fastest_mps(towards_a_wall), 0.0);
 
-  EchoMemory somebody_comes(a_robot(), 1.0);
+  RangeBuffer somebody_comes(a_robot(), 1.0);
   somebody_comes.see(echo(1.0, 1.0));
   somebody_comes.see(echo(1.2, 0.88));
   EXPECT_NEAR(fastest_mps(somebody_comes), 0.6, 1e-6);
 
-  EchoMemory something_else(a_robot(), 1.0);
+  RangeBuffer something_else(a_robot(), 1.0);
   something_else.see(echo(1.0, 4.0));
   something_else.see(echo(1.2, 1.0));
   EXPECT_EQ(fastest_mps(something_else), 0.0) << "nothing runs at 15 m/s: it has come into the beam from the side";
 }
 
-TEST(EchoMemory, CoversWhereATransducerHasAnsweredLately) {
-  EchoMemory memory(a_robot(), 1.0);
+TEST(RangeBuffer, CoversWhereATransducerHasAnsweredLately) {
+  RangeBuffer memory(a_robot(), 1.0);
   memory.see(echo(1.0, kInfinity));
   EXPECT_TRUE(memory.covers(0.0));
   EXPECT_TRUE(memory.covers(radians(20.0)));
@@ -99,8 +99,8 @@ TEST(EchoMemory, CoversWhereATransducerHasAnsweredLately) {
   EXPECT_FALSE(memory.covers(0.0));
 }
 
-TEST(EchoMemory, BadReadingsAreNone) {
-  EchoMemory memory(a_robot(), 1.0);
+TEST(RangeBuffer, BadReadingsAreNone) {
+  RangeBuffer memory(a_robot(), 1.0);
   memory.see(echo(1.0, std::numeric_limits<double>::quiet_NaN()));
   memory.see(echo(1.1, 0.5, {}, 0.0, -1));
   memory.see(echo(1.2, 0.5, {}, 0.0, 1 << 30));
@@ -109,8 +109,8 @@ TEST(EchoMemory, BadReadingsAreNone) {
   EXPECT_FALSE(memory.covers(0.0));
 }
 
-TEST(EchoMemory, WhatWasFeltIsNotHeardAway) {
-  EchoMemory memory(a_robot(), 1.0);
+TEST(RangeBuffer, WhatWasFeltIsNotHeardAway) {
+  RangeBuffer memory(a_robot(), 1.0);
   memory.see(echo(1.0, 3.0));
   memory.feel({0.2, 0.0});
   memory.see(echo(1.1, 3.0));

@@ -14,7 +14,7 @@
 #include "framework/files/robot_file.hpp"
 #include "framework/files/template_file.hpp"
 #include "framework/modules/module_library.hpp"
-#include "framework/templates/landmark_lap.hpp"
+#include "framework/templates/landmark_orbit.hpp"
 
 namespace cairn {
 namespace {
@@ -39,18 +39,18 @@ const RobotModel& robot() {
   return model;
 }
 
-class LapWith : public ::testing::TestWithParam<std::string> {};
+class OrbitWith : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(LapWith, ReadingsThatDoNotComeNearChangeNothingThere) {
+TEST_P(OrbitWith, ReadingsThatDoNotComeNearChangeNothingThere) {
   const PluginChoice sensor = plain("simulated_robot");
   const PluginChoice map = plain(GetParam());
-  const LapCrew crew{robot(), sensor, map, modules()};
+  const OrbitCrew crew{robot(), sensor, map, modules()};
   const Contour box = Contour::polygon({{0, 0}, {0.9, 0}, {0.9, 0.45}, {0, 0.45}});
-  LapPlan plan;
+  OrbitPlan plan;
   plan.orientation_rad = radians(30.0);
-  const auto whole = map_of_laps(crew, box, plan);
+  const auto whole = map_of_orbits(crew, box, plan);
   plan.needed_m = 0.8;
-  const auto part = map_of_laps(crew, box, plan);
+  const auto part = map_of_orbits(crew, box, plan);
   int occupied = 0;
   for (int y = -16; y <= 16; ++y) {
     for (int x = -16; x <= 16; ++x) {
@@ -62,7 +62,7 @@ TEST_P(LapWith, ReadingsThatDoNotComeNearChangeNothingThere) {
   EXPECT_GT(occupied, 5) << "some of the outline is there; HIMM sees little of it";
 }
 
-INSTANTIATE_TEST_SUITE_P(ShippedMaps, LapWith, ::testing::Values("bayes", "muriel", "murphy", "himm"),
+INSTANTIATE_TEST_SUITE_P(ShippedMaps, OrbitWith, ::testing::Values("bayes", "muriel", "murphy", "himm"),
                          [](const auto& named) { return named.param; });
 
 class Cache : public ::testing::Test {

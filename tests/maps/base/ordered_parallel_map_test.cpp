@@ -138,16 +138,16 @@ TEST(InOrder, AFaultWakesWhoWaitsForAJob) {
 TEST(InOrder, FewJobsAreUnderWayAtOnce) {
   std::atomic<int> taken = 0;
   int given = 0;
-  int most_ahead = 0;
+  int max_ahead = 0;
   in_order(
       4, counting_to(600, taken), [](int job) { return job; },
       [&](int, bool) {
         ++given;
-        most_ahead = std::max(most_ahead, taken - given);
+        max_ahead = std::max(max_ahead, taken - given);
         for (int i = 0; i < 3; ++i) std::this_thread::yield();
       },
       kNothing);
-  EXPECT_LE(most_ahead, 4 * 32 + 1);
+  EXPECT_LE(max_ahead, 4 * 32 + 1);
 }
 
 }  // namespace

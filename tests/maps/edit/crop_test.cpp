@@ -91,7 +91,7 @@ TEST(MapCrop, TheWholeBoxGivesTheMapBack) {
   EXPECT_EQ(whole.driven_path, map.driven_path);
 }
 
-TEST(MapCrop, TellsWhatItForgets) {
+TEST(MapCrop, ReportsWhatItForgets) {
   SavedMap map;
   Landmark landmark;
   landmark.access = Pose2{5, 0, 0};

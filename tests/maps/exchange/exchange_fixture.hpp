@@ -46,7 +46,7 @@ inline double random_number(std::mt19937_64& random) {
 }
 
 inline double random_coordinate(std::mt19937_64& random) {
-  return std::remainder(random_number(random), 2.0 * exchange::kMostCoordinate_m);
+  return std::remainder(random_number(random), 2.0 * exchange::kMaxCoordinate_m);
 }
 
 inline std::string random_name(std::mt19937_64& random) {

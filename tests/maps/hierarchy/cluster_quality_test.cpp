@@ -15,9 +15,9 @@ std::vector<std::int32_t> fours(const GroupingGraph& graph, std::int32_t) {
   return groups;
 }
 
-std::vector<LevelQuality> quality(const LandmarkGraph& graph, std::int32_t most_for_diameter = 128) {
+std::vector<LevelQuality> quality(const LandmarkGraph& graph, std::int32_t max_for_diameter = 128) {
   const Network network(graph, cost_by_length);
-  return cluster_quality(network, Clustering(network, {4, 8, 2}, fours), most_for_diameter);
+  return cluster_quality(network, Clustering(network, {4, 8, 2}, fours), max_for_diameter);
 }
 
 TEST(ClusterQuality, OfALineInTwoFours) {

@@ -47,7 +47,7 @@ struct Run {
   ClusterSizes sizes;
   std::size_t begin = 0;  // landmarks
   int steps = 0;
-  int most_changes = 1;  // of one step
+  int max_changes = 1;  // of one step
   double growth = 0.5;
   int check_every = 1;
 };
@@ -61,7 +61,7 @@ void expect_laws_hold(const Run& run, std::uint64_t seed) {
   IdsSeen ids;
   ASSERT_FALSE(ids.is_given_twice(hierarchy.tree()));
   for (int step = 1; step <= run.steps; ++step) {
-    const int changes = 1 + static_cast<int>(changer.number_below(static_cast<std::size_t>(run.most_changes)));
+    const int changes = 1 + static_cast<int>(changer.number_below(static_cast<std::size_t>(run.max_changes)));
     hierarchy.update(graph, changer.batch(changes, run.growth));
     ASSERT_FALSE(ids.is_given_twice(hierarchy.tree())) << "seed " << seed << ", step " << step;
     if (step % run.check_every == 0) {
@@ -81,8 +81,8 @@ TEST(Hierarchy, KeepsItsLawsThroughThousandsOfSingleChanges) {
 
 TEST(Hierarchy, KeepsItsLawsThroughBatchesOfChanges) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    expect_laws_hold({.sizes = kSmall, .begin = 150, .steps = 40, .most_changes = 40}, seed);
-    expect_laws_hold({.sizes = kMiddle, .begin = 300, .steps = 40, .most_changes = 80, .growth = 0.3}, seed);
+    expect_laws_hold({.sizes = kSmall, .begin = 150, .steps = 40, .max_changes = 40}, seed);
+    expect_laws_hold({.sizes = kMiddle, .begin = 300, .steps = 40, .max_changes = 80, .growth = 0.3}, seed);
   }
 }
 
@@ -94,15 +94,15 @@ TEST(Hierarchy, GrowsFromNothingAndShrinksBackToNothing) {
   LandmarkGraph graph;
   GraphChanger changer(graph, 5);
   Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
-  int most_levels = 0;
+  int max_levels = 0;
   while (graph.landmarks().size() < 2000) {
     hierarchy.update(graph, changer.batch(20, 0.95));
-    most_levels = std::max(most_levels, hierarchy.levels());
+    max_levels = std::max(max_levels, hierarchy.levels());
     if (changer.number_below(15) == 0) {
       ASSERT_EQ(broken(hierarchy, graph), "") << graph.landmarks().size();
     }
   }
-  EXPECT_GE(most_levels, 7);
+  EXPECT_GE(max_levels, 7);
   while (!graph.landmarks().empty()) {
     GraphChanges changes;
     for (int i = 0; i < 20 && !graph.landmarks().empty(); ++i) {

@@ -10,7 +10,7 @@ using testing::HasSubstr;
 class Charts : public Pictures {};
 
 Chart degrees_chart() {
-  return {"Lap round a square",
+  return {"Orbit round a square",
           "time (s)",
           "degree",
           {{"square", {{0, 0.1}, {1, 0.5}, {2, kNan}, {3, 0.75}}, SeriesStyle::lines_and_points, {}},

@@ -76,7 +76,7 @@ TEST_F(TimelinePictures, OfAMissionWithoutTimeOrRowsAreDrawnToo) {
 }
 
 TEST_F(TimelinePictures, RefuseMoreRowsThanAPictureHolds) {
-  EXPECT_THROW(write_timeline_picture(file(), of(std::vector<TimelineRow>(kMostTimelineRows + 1))), std::runtime_error);
+  EXPECT_THROW(write_timeline_picture(file(), of(std::vector<TimelineRow>(kMaxTimelineRows + 1))), std::runtime_error);
 }
 
 }  // namespace

@@ -282,11 +282,11 @@ TEST_F(MapStore, SaversOfOneFileTakeTurns) {
 
 // Until it has seen the file change that often; 0 when every map was one of the two, whole.
 int read_while_it_changes(const fs::path& file, const std::vector<SavedMap>& maps) {
-  constexpr int kMostLoads = 100'000;  // a writer that has stopped
+  constexpr int kMaxLoads = 100'000;  // a writer that has stopped
   int changes = 0;
   std::string last;
   for (int loads = 0; changes < 6; ++loads) {
-    if (loads == kMostLoads) return 2;
+    if (loads == kMaxLoads) return 2;
     const SavedMap whole = load_map(file);
     const SavedMap& saved = maps[whole.properties.at("seed") == "8"];
     expect_equal(whole, saved);

@@ -91,7 +91,7 @@ TEST_F(MapSalvage, DropsTheRoutesOfALostLandmarkAndMakesClustersAnew) {
   EXPECT_THAT(salvage_map(file("repaired.cairn")).losses, IsEmpty());
 }
 
-TEST_F(MapSalvage, SaysThatAnEditedValueCannotBeTold) {
+TEST_F(MapSalvage, SaysThatAnEditedValueCannotBeReported) {
   EXPECT_THAT(after("UPDATE landmarks SET x_m = 7 WHERE id = 3").losses,
               Contains(loss_in("landmarks", "does not match its checksum")));
 }
@@ -179,15 +179,15 @@ TEST_F(MapSalvage, SaysThatWhatHasNoChecksumIsNotProven) {
 
 TEST_F(MapSalvage, OfATruncatedFile) {
   const std::string sound = bytes_of(file("sound.cairn"));
-  std::size_t most_kept = 0;
+  std::size_t max_kept = 0;
   for (const std::size_t tenths : {9, 7, 5, 3}) {
     write_bytes(file(), sound.substr(0, sound.size() * tenths / 10));
     const SalvagedMap salvaged = salvage_map(file());
     EXPECT_THAT(salvaged.losses, testing::Not(IsEmpty()));
-    most_kept = std::max(most_kept, salvaged.map.graph.landmarks().size());
+    max_kept = std::max(max_kept, salvaged.map.graph.landmarks().size());
     save_map(file("repaired.cairn"), salvaged.map);
   }
-  EXPECT_EQ(most_kept, 600U);
+  EXPECT_EQ(max_kept, 600U);
 }
 
 // The definitions of the tables lie behind the first pages of content.

@@ -10,7 +10,7 @@ namespace {
 using test::Hybrid;
 using test::kRadius_m;
 
-TEST_F(Hybrid, AnApproximateAnswerIsToldAsItIsAlsoFromATightStart) {
+TEST_F(Hybrid, AnApproximateAnswerIsReportedAsItIsAlsoFromATightStart) {
   OmplConfig few;
   few.algorithm = Algorithm::rrt;
   few.iterations = 3;
@@ -30,8 +30,8 @@ TEST_F(Hybrid, AnApproximateAnswerIsToldAsItIsAlsoFromATightStart) {
       EXPECT_NE(result.path.back().position(), world.places['D']);
       EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9) << result.reason;
       EXPECT_THAT(result.reason, ::testing::HasSubstr("short of the goal"));
-      EXPECT_FALSE(result.least_length_m);
-      expect_pieces_add_up(result);
+      EXPECT_FALSE(result.length_lower_bound_m);
+      expect_segments_add_up(result);
     }
   EXPECT_GT(approximate, 4);
 }

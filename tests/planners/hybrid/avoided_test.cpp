@@ -38,7 +38,7 @@ class Avoided : public Hybrid {
   std::vector<RouteId> round;
 };
 
-TEST_F(Avoided, TheDirectWayKeepsOffWhereOneWouldStand) {
+TEST_F(Avoided, TheDirectPathAvoidsApproachPoses) {
   const LandmarkId u = landmark('U');
   PlanRequest direct = request('A', 'B');
   EXPECT_LT(distance_to('U', plan(direct)), kRadius_m);

@@ -207,8 +207,8 @@ TEST_F(Hybrid, TheRoutersPolicyOnUnknownSpaceHoldsForStoredRoutesToo) {
 TEST_F(Hybrid, TheRoutersMarginHoldsForStoredRoutesAndCutCornersToo) {
   route(landmark('M'), landmark('N'), "MUN");  // 0.15 m from the wall
   const auto stored = [](const PlanResult& result) {
-    return std::any_of(result.pieces.begin(), result.pieces.end(),
-                       [](const PlanPiece& piece) { return piece.origin == PlanPiece::Origin::stored; });
+    return std::any_of(result.segments.begin(), result.segments.end(),
+                       [](const PathSegment& piece) { return piece.origin == PathSegment::Origin::stored; });
   };
   EXPECT_TRUE(stored(plan(request('M', 'N'))));
   const auto with_margin = [&](double margin_m) {

@@ -92,12 +92,12 @@ class Hybrid : public ::testing::Test {
     EXPECT_GE(distance_by_brute_force(world.grid, result.path, false, 0.01), kRadius_m - 1e-9)
         << drawing_of(world.grid, result.path);
     EXPECT_NEAR(result.length_m, length_of(result.path), 1e-9);
-    expect_pieces_add_up(result);
+    expect_segments_add_up(result);
   }
-  static void expect_pieces_add_up(const PlanResult& result) {
-    double pieces_m = 0.0;
-    for (const PlanPiece& piece : result.pieces) pieces_m += piece.length_m;
-    EXPECT_NEAR(pieces_m, result.length_m, 1e-9);
+  static void expect_segments_add_up(const PlanResult& result) {
+    double segments_m = 0.0;
+    for (const PathSegment& piece : result.segments) segments_m += piece.length_m;
+    EXPECT_NEAR(segments_m, result.length_m, 1e-9);
   }
 };
 

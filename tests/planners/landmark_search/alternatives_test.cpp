@@ -22,7 +22,7 @@ constexpr ClusterSizes kSmall{2, 2, 4};
 std::vector<Way> ways(const LandmarkGraph& graph, const Question& question, int count) {
   const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
   HierarchySearch search;
-  const WayQuery query = query_of(question, hierarchy.network());
+  const RouteQuery query = query_of(question, hierarchy.network());
   const Way best = search.find(hierarchy, query, {});
   if (!(best.cost < kNoWay)) return {};
   std::vector<Way> all = alternatives_to(best, count, hierarchy, query, search, {});
@@ -74,12 +74,12 @@ TEST(Alternatives, AreTheNextCheapestOfAllWays) {
 }
 
 TEST(Alternatives, AreTheNextCheapestFromAnyStartToAnyGoal) {
-  expect_all_ways({.most_ends = 3}, 500);
-  expect_all_ways({.most_ends = 3, .end_costs = true}, 500);
+  expect_all_ways({.max_ends = 3}, 500);
+  expect_all_ways({.max_ends = 3, .end_costs = true}, 500);
 }
 
 TEST(Alternatives, HeedWhatTheQueryAvoidsClosesAndOpens) {
-  expect_all_ways({.most_ends = 2, .end_costs = true, .most_avoided = 2, .most_costs = 3}, 1000);
+  expect_all_ways({.max_ends = 2, .end_costs = true, .max_avoided = 2, .max_costs = 3}, 1000);
 }
 
 TEST(Alternatives, TakeAnotherOfSeveralParallelRoutes) {
@@ -112,7 +112,7 @@ TEST(Alternatives, EndWithTheBudget) {
   const LandmarkGraph graph = drawn_graph("1<>2 2<>3 3<>4 1<>3 2<>4 1<>4");
   const Hierarchy hierarchy(graph);
   HierarchySearch search;
-  const WayQuery query = query_of(Question{{{1, 0.0}}, {{4, 0.0}}, {}, {}}, hierarchy.network());
+  const RouteQuery query = query_of(Question{{{1, 0.0}}, {{4, 0.0}}, {}, {}}, hierarchy.network());
   const Way best = search.find(hierarchy, query, {});
   EXPECT_EQ(alternatives_to(best, 3, hierarchy, query, search, {}).size(), 3U);
   Budget over;

@@ -22,7 +22,7 @@ PlanRequest request(LandmarkId from, LandmarkId to) {
   return request;
 }
 
-TEST(Explain, OnlyWhoAsksIsTold) {
+TEST(Explain, OnlyWhoAsksIsAnswered) {
   EXPECT_FALSE(line_of(2).plan(LandmarkSearch(), test::request({1}, {2})).explanation);
   EXPECT_TRUE(line_of(2).plan(LandmarkSearch(), request(1, 2)).explanation);
 }

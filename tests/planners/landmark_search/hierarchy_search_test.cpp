@@ -50,27 +50,27 @@ TEST(HierarchySearch, FindsTheCheapestWayFromLandmarkToLandmark) {
 }
 
 TEST(HierarchySearch, FindsTheBestOfSeveralEndsWithTheirCosts) {
-  expect_cheapest_on_random_graphs({.most_ends = 5}, 30, 30);
-  expect_cheapest_on_random_graphs({.most_ends = 5, .end_costs = true}, 30, 30);
+  expect_cheapest_on_random_graphs({.max_ends = 5}, 30, 30);
+  expect_cheapest_on_random_graphs({.max_ends = 5, .end_costs = true}, 30, 30);
 }
 
 TEST(HierarchySearch, KeepsOffWhatIsToBeAvoided) {
-  expect_cheapest_on_random_graphs({.most_avoided = 6}, 30, 60);
-  expect_cheapest_on_random_graphs({.most_ends = 4, .end_costs = true, .most_avoided = 6}, 30, 60);
+  expect_cheapest_on_random_graphs({.max_avoided = 6}, 30, 60);
+  expect_cheapest_on_random_graphs({.max_ends = 4, .end_costs = true, .max_avoided = 6}, 30, 60);
 }
 
 TEST(HierarchySearch, HeedsRoutesThatCostSomethingElseThisTime) {
-  expect_cheapest_on_random_graphs({.most_costs = 6}, 30, 60);
-  expect_cheapest_on_random_graphs({.most_costs = 60}, 30, 30);
+  expect_cheapest_on_random_graphs({.max_costs = 6}, 30, 60);
+  expect_cheapest_on_random_graphs({.max_costs = 60}, 30, 30);
 }
 
 TEST(HierarchySearch, HeedsAllThatAtOnce) {
-  expect_cheapest_on_random_graphs({.most_ends = 4, .end_costs = true, .most_avoided = 5, .most_costs = 9}, 30, 60);
+  expect_cheapest_on_random_graphs({.max_ends = 4, .end_costs = true, .max_avoided = 5, .max_costs = 9}, 30, 60);
 }
 
 TEST(HierarchySearch, StaysExactWhileTheGraphChanges) {
   HierarchySearch search;
-  const Variety variety{.most_ends = 3, .end_costs = true, .most_avoided = 2, .most_costs = 2};
+  const Variety variety{.max_ends = 3, .end_costs = true, .max_avoided = 2, .max_costs = 2};
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     LandmarkGraph graph;
     GraphChanger changer(graph, seed);
@@ -85,8 +85,8 @@ TEST(HierarchySearch, StaysExactWhileTheGraphChanges) {
     }
     const Hierarchy anew(graph, {}, cost_by_length, kSmall);
     for (int i = 0; i < 100; ++i) {
-      const WayQuery query = query_of(random_question(graph, {}, random), hierarchy.network());
-      WayQuery same = query;
+      const RouteQuery query = query_of(random_question(graph, {}, random), hierarchy.network());
+      RouteQuery same = query;
       for (auto* ends : {&same.from, &same.to})
         for (SearchEnd& end : *ends) end.vertex = anew.network().vertex_of(hierarchy.network().landmark_of(end.vertex));
       EXPECT_TRUE(same_cost(search.find(hierarchy, query, {}).cost, search.find(anew, same, {}).cost));
@@ -162,7 +162,7 @@ TEST(HierarchySearch, WaysInAPlaceWhereNothingCostsAnythingPassNoLandmarkTwice) 
   std::mt19937_64 random(12);
   const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
   for (int i = 0; i < 300; ++i)
-    expect_cheapest(random_question(graph, {.most_ends = 2}, random), hierarchy, graph, search, std::to_string(i));
+    expect_cheapest(random_question(graph, {.max_ends = 2}, random), hierarchy, graph, search, std::to_string(i));
 }
 
 TEST(HierarchySearch, EqualQueriesGiveEqualWays) {
@@ -171,8 +171,8 @@ TEST(HierarchySearch, EqualQueriesGiveEqualWays) {
   HierarchySearch used;
   std::mt19937_64 random(21);
   for (int i = 0; i < 100; ++i) {
-    const WayQuery query =
-        query_of(random_question(graph, {.most_ends = 3, .most_avoided = 2}, random), hierarchy.network());
+    const RouteQuery query =
+        query_of(random_question(graph, {.max_ends = 3, .max_avoided = 2}, random), hierarchy.network());
     const Way first = used.find(hierarchy, query, {});
     const Way second = HierarchySearch().find(hierarchy, query, {});
     EXPECT_EQ(first.vertices, second.vertices);
@@ -207,7 +207,7 @@ TEST(HierarchySearch, StopsWhenItsBudgetIsUsedUp) {
   HierarchySearch search;
   int cut = 0;
   for (int i = 0; i < 50; ++i) {
-    const WayQuery query = query_of(random_question(graph, {}, random), hierarchy.network());
+    const RouteQuery query = query_of(random_question(graph, {}, random), hierarchy.network());
     const Way whole = search.find(hierarchy, query, {});
     Budget budget;
     budget.iterations = whole.settled;

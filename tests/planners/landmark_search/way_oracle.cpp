@@ -57,8 +57,8 @@ bool same_cost(double a, double b) {
   return a == b || std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(a));
 }
 
-WayQuery query_of(const Question& question, const Network& network) {
-  WayQuery query;
+RouteQuery query_of(const Question& question, const Network& network) {
+  RouteQuery query;
   for (const auto& [id, cost] : question.from) query.from.push_back({network.vertex_of(id), cost});
   for (const auto& [id, cost] : question.to) query.to.push_back({network.vertex_of(id), cost});
   for (const LandmarkId id : question.avoided) query.avoided.insert(network.vertex_of(id));
@@ -71,8 +71,8 @@ Question random_question(const LandmarkGraph& graph, const Variety& variety, std
   const auto below = [&](int end) { return static_cast<int>(random() % static_cast<std::uint64_t>(end)); };
   const auto end_cost = [&] { return variety.end_costs ? static_cast<double>(below(30)) : 0.0; };
   for (auto* ends : {&question.from, &question.to})
-    for (int i = below(variety.most_ends); i >= 0; --i) (*ends)[any_key(graph.landmarks(), random)] = end_cost();
-  for (int i = below(variety.most_avoided + 1); i > 0; --i) switch (below(4)) {
+    for (int i = below(variety.max_ends); i >= 0; --i) (*ends)[any_key(graph.landmarks(), random)] = end_cost();
+  for (int i = below(variety.max_avoided + 1); i > 0; --i) switch (below(4)) {
       case 0:
         question.avoided.insert(any_key(question.from, random));
         break;
@@ -83,7 +83,7 @@ Question random_question(const LandmarkGraph& graph, const Variety& variety, std
         question.avoided.insert(any_key(graph.landmarks(), random));
     }
   if (graph.routes().empty()) return question;
-  for (int i = below(variety.most_costs + 1); i > 0; --i)
+  for (int i = below(variety.max_costs + 1); i > 0; --i)
     question.costs[any_key(graph.routes(), random)] = below(2) == 0 ? kNoWay : static_cast<double>(below(5));
   return question;
 }

@@ -11,20 +11,20 @@
 
 namespace cairn::test {
 
-// A WayQuery in the words of the graph.
+// A RouteQuery in the words of the graph.
 struct Question {
   std::map<LandmarkId, double> from, to;
   std::set<LandmarkId> avoided;
   std::map<RouteId, double> costs;
 };
-[[nodiscard]] WayQuery query_of(const Question& question, const Network& network);
+[[nodiscard]] RouteQuery query_of(const Question& question, const Network& network);
 
 // What varies in a random question besides its ends.
 struct Variety {
-  int most_ends = 1;  // on each side
+  int max_ends = 1;  // on each side
   bool end_costs = false;
-  int most_avoided = 0;  // ends among them
-  int most_costs = 0;    // of routes, also closed and opened ones
+  int max_avoided = 0;  // ends among them
+  int max_costs = 0;    // of routes, also closed and opened ones
 };
 [[nodiscard]] Question random_question(const LandmarkGraph& graph, const Variety& variety, std::mt19937_64& random);
 

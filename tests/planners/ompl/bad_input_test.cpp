@@ -35,7 +35,7 @@ class BadInput : public ::testing::TestWithParam<std::string> {
   }
 };
 
-TEST_P(BadInput, PlacesThatAreNoneAreTold) {
+TEST_P(BadInput, PlacesThatAreNoneAreReported) {
   const auto world = test::drawn_world(test::kOffice);
   for (const double odd : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (const bool at_start : {true, false}) {
@@ -105,7 +105,7 @@ TEST(BadSettings, ParametersOfTheDefaultAlgorithmAreCheckedBeforeAnythingIsImpro
   EXPECT_EQ(error_of("parameters: {goal_bias: 0.1}"), "no error");
 }
 
-TEST(BadSettings, WhatDoesNotGoTogetherIsTold) {
+TEST(BadSettings, WhatDoesNotGoTogetherIsReported) {
   EXPECT_THAT(error_of("kinematics: dubins"), HasSubstr("needs turning_radius_m"));
   EXPECT_THAT(error_of("{kinematics: reeds_shepp, turning_radius_m: 0}"), HasSubstr("needs turning_radius_m"));
   RobotModel car;

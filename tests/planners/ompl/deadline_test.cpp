@@ -18,7 +18,7 @@ using test::Overrun;
 using test::overrun_of;
 
 constexpr int kRuns = 3;
-constexpr int kMostRuns = 30;  // the least overshoot is judged: a run may be disturbed, a habit shows in all
+constexpr int kMaxRuns = 30;  // the least overshoot is judged: a run may be disturbed, a habit shows in all
 constexpr auto kPromised = test::kSlowdown * std::chrono::milliseconds(10);
 
 // 200 x 200 cells: corridors two metres wide, one after another, with a post in the middle of each.
@@ -75,12 +75,12 @@ TEST_P(InTime, ADeadlineHolds) {
   warm_up(planner);
   for (const auto given : {std::chrono::milliseconds(5), std::chrono::milliseconds(60)}) {
     auto least = Clock::duration::max();
-    for (int run = 0; run < kMostRuns && (run < kRuns || least > kPromised); ++run) {
+    for (int run = 0; run < kMaxRuns && (run < kRuns || least > kPromised); ++run) {
       Budget budget;
       budget.deadline = Clock::now() + given;
       const Overrun run_of = overrun_of(
           budget.deadline, [&] { return plan(planner, budget, 10 + run); }, [] {});
-      if (run_of.late <= test::kMostLate) least = std::min(least, run_of.over + run_of.late);
+      if (run_of.late <= test::kMaxLate) least = std::min(least, run_of.over + run_of.late);
       const PlanResult& result = run_of.result;
       EXPECT_TRUE(result.outcome == PlanOutcome::solved || result.outcome == PlanOutcome::out_of_budget)
           << name_of(result.outcome) << ": " << result.reason;
@@ -94,7 +94,7 @@ TEST_P(InTime, ACancelHolds) {
   const OmplPlanner planner = this->planner();
   warm_up(planner);
   auto least = Clock::duration::max();
-  for (int run = 0; run < kMostRuns && (run < kRuns || least > kPromised); ++run) {
+  for (int run = 0; run < kMaxRuns && (run < kRuns || least > kPromised); ++run) {
     std::atomic<bool> cancel{false};
     Budget budget;
     budget.cancel = &cancel;

@@ -67,7 +67,7 @@ TEST_P(WorkingPlanner, FindsPathsOfWhichEveryMotionFitsAndKeepsTheTurningRadius)
       EXPECT_TRUE(motions[i].ends_at(path[i + 1], kMotionEnd));
       EXPECT_FALSE(first_touch(search.world.grid, {}, search.poses.footprint(), motions[i], 0.005)) << "seed " << seed;
       if (GetParam().kind != MotionKind::differential) {
-        EXPECT_GE(motions[i].least_radius_m(), search.rules.turning_radius_m * (1.0 - 1e-12));
+        EXPECT_GE(motions[i].min_radius_m(), search.rules.turning_radius_m * (1.0 - 1e-12));
       }
     }
   }

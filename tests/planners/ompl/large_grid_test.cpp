@@ -54,7 +54,7 @@ test::DrawnWorld hall_with_a_narrow_door() {
 
 // The least of several: a run may be disturbed, a habit shows in all.
 template <class Plan>
-Clock::duration least_overrun_on_cancel(const Plan& plan, std::chrono::milliseconds given) {
+Clock::duration min_overrun_on_cancel(const Plan& plan, std::chrono::milliseconds given) {
   auto least = Clock::duration::max();
   for (int run = 0; run < 10 && least > kPromised; ++run) {
     std::atomic<bool> cancel{false};
@@ -95,7 +95,7 @@ TEST(LargeGrid, ACancelHoldsWhereverItComes) {
     const PlanRequest request = world.request('A', 'B', kRadius_m);
     const auto plan = [&](const Budget& budget) { return planner.plan(request, world.view(), budget); };
     for (const auto given : {5, 20, 60, 150, 400})
-      EXPECT_LE(least_overrun_on_cancel(plan, std::chrono::milliseconds(given)), kPromised)
+      EXPECT_LE(min_overrun_on_cancel(plan, std::chrono::milliseconds(given)), kPromised)
           << c.name << ", after " << given << " ms";
   }
 }

@@ -167,7 +167,7 @@ TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeI
         return plan(world, request, config).cost_m;
       };
       if (plan(world, request, config).outcome != PlanOutcome::solved) continue;
-      const DiscRoutes routes(std::make_shared<const DiscSpace>(world.grid, GroundRules{}), kRadius_m + kLeastRadius_m);
+      const DiscRoutes routes(std::make_shared<const DiscSpace>(world.grid, GroundRules{}), kRadius_m + kMinRadius_m);
       std::vector<Pose2> plain;
       for (const Point& p : routes.route(world.places.at('A'), world.places.at('B'), {}).route)
         plain.push_back({p.x(), p.y(), 0.0});
@@ -201,7 +201,7 @@ TEST(Objectives, WithoutACountImprovementLastsUntilTheDeadline) {
     const test::Overrun run_of = test::overrun_of(
         budget.deadline, [&] { return planner.plan(request, world.view(), budget); }, [] {});
     EXPECT_GE(Budget::Clock::now(), budget.deadline) << "it stopped before";
-    if (run_of.late <= test::kMostLate) least = std::min(least, run_of.over + run_of.late);
+    if (run_of.late <= test::kMaxLate) least = std::min(least, run_of.over + run_of.late);
     ASSERT_EQ(run_of.result.outcome, PlanOutcome::solved);
     EXPECT_LE(run_of.result.cost_m, plain.cost_m * (1.0 + 1e-9));
   }

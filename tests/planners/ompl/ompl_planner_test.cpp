@@ -73,7 +73,7 @@ TEST(OmplPlanner, AThinWallIsNeverCutWhateverTheSeed) {
   }
 }
 
-TEST(OmplPlanner, ARobotWiderThanThePassageIsTold) {
+TEST(OmplPlanner, ARobotWiderThanThePassageIsReported) {
   const auto world = drawn_world(
       "#################\n"
       "#.......#.......#\n"

@@ -15,7 +15,7 @@
 
 namespace cairn::test {
 
-constexpr auto kMostLate = std::chrono::milliseconds(2);
+constexpr auto kMaxLate = std::chrono::milliseconds(2);
 
 // Promises of processor time are of the program as it is shipped; under the address sanitizer it is many times slower.
 #if defined(__has_feature)

@@ -125,16 +125,21 @@ Status FakeHost::tick(Behaviour& behaviour) {
   wanted_ = {};
   Observation seen;
   if (observe) seen = observe(*this);
-  WorldView world{
-      grid, graph, robot, {T_map_robot, Eigen::Matrix3d::Zero()}, time_s, observe ? &seen : nullptr, held_back_ratio};
+  WorldView world{grid,
+                  graph,
+                  robot,
+                  {T_map_robot, Eigen::Matrix3d::Zero()},
+                  time_s,
+                  observe ? &seen : nullptr,
+                  speed_reduction_ratio};
   world.T_map_start = T_map_start;
   Status status = behaviour.tick(world, *this);
-  const Twist allowed = stop_layer ? stop_layer(T_map_robot, wanted_) : wanted_;
-  held_back_ratio = 0.0;
+  const Twist allowed = collision_monitor ? collision_monitor(T_map_robot, wanted_) : wanted_;
+  speed_reduction_ratio = 0.0;
   if (wanted_.v_mps != 0.0)
-    held_back_ratio = 1.0 - allowed.v_mps / wanted_.v_mps;
+    speed_reduction_ratio = 1.0 - allowed.v_mps / wanted_.v_mps;
   else if (wanted_.w_radps != 0.0)
-    held_back_ratio = 1.0 - allowed.w_radps / wanted_.w_radps;
+    speed_reduction_ratio = 1.0 - allowed.w_radps / wanted_.w_radps;
   move(allowed);
   driven.push_back(T_map_robot);
   time_s += kTick_s;

@@ -21,7 +21,7 @@ struct FakeHostSettings {
   bool all_known = false;  // the grid is complete from the start
 };
 
-class FakeHost : public Orders {
+class FakeHost : public BehaviourContext {
  public:
   explicit FakeHost(const std::string& drawing, const FakeHostSettings& settings = {});
 
@@ -63,9 +63,9 @@ class FakeHost : public Orders {
   // What the sensors see in a tick; nothing by default.
   std::function<Observation(const FakeHost&)> observe;
   double time_s = 0.0;
-  double held_back_ratio = 0.0;
+  double speed_reduction_ratio = 0.0;
   // What the stop layer lets through; all of it by default.
-  std::function<Twist(const Pose2& T_map_robot, const Twist& wanted)> stop_layer;
+  std::function<Twist(const Pose2& T_map_robot, const Twist& wanted)> collision_monitor;
   // Answers plan(); by default the shortest way over the grid.
   std::function<PlanResult(const PlanRequest&)> planner;
 

@@ -54,7 +54,7 @@ TEST_F(CarmenLog, ReadsALaserLine) {
   EXPECT_EQ(reason_, "end of a.log after 2 observations; 1 line of kinds not read: \"NEFF\" 1");
 }
 
-TEST_F(CarmenLog, TakesTheOdometryBesideThePoseWhenToldTo) {
+TEST_F(CarmenLog, TakesTheOdometryBesideThePoseWhenAskedTo) {
   config_.poses = Poses::odometry;
   config_.compass_from_pose = true;
   const auto seen = play(flaser("1 1", "1 2 0.5 7 8 0.25") + flaser("1 1", "1 2 0.5 7 9 0.75", 2));
@@ -132,7 +132,7 @@ TEST_F(CarmenLog, SonarsStandWhereTheLastPoseWas) {
   EXPECT_EQ(seen[1].ranges[1].sensor, 1);
 }
 
-TEST_F(CarmenLog, ReadsOnlyTheKindsItIsTold) {
+TEST_F(CarmenLog, ReadsOnlyTheKindsItIsGiven) {
   const std::string text = flaser("1 1", "0 0 0 0 0 0") + "SONAR 0.5 1 1.25 0 0 0 2 host 1\n";
   EXPECT_EQ(play(text).size(), 2U);
   config_.lines = {"SONAR"};

@@ -23,7 +23,7 @@ void record(const std::filesystem::path& file, const Pose2& T_map_start, const s
   for (const Observation& observation : observations) {
     const WorldView world{grid, graph, robot, {}, observation.stamp_s, &observation};
     recording.on(TickDone{}, {world});
-    recording.on(Said{"not written"}, {world});
+    recording.on(Message{"not written"}, {world});
   }
   recording.close();
 }

@@ -31,8 +31,8 @@ void fill(Dice& dice, Muriel& fast, PlainMuriel& plain) {
     const std::uint64_t counts = dice.word() & dice.word() & dice.word();
     fast.grid().set_log_odds(cell, value);
     plain.grid().set_log_odds(cell, value);
-    for (int bucket = 0; bucket < kMostBearings; ++bucket) {
-      const int count = static_cast<int>(counts >> (2 * bucket)) & kMostReadings;
+    for (int bucket = 0; bucket < kMaxBearings; ++bucket) {
+      const int count = static_cast<int>(counts >> (2 * bucket)) & kMaxReadings;
       fast.log().set_count(cell, bucket, count);
       plain.log().set_count(cell, bucket, count);
     }
@@ -68,7 +68,7 @@ TEST(MurielEquivalence, OneReadingGivesTheSameCellsAndValuesToOneQuantum) {
             << reading.range_m << " half " << degrees(reading.half_beam_rad);
         // A log may differ only where an increment was so near to half a quantum that one of the two rounded it to 0.
         bool same_log = true;
-        for (int bucket = 0; bucket < kMostBearings; ++bucket)
+        for (int bucket = 0; bucket < kMaxBearings; ++bucket)
           if (const int count = fast_log.count(cell, bucket); count != plain.log().count(cell, bucket)) {
             same_log = false;
             plain.log().set_count(cell, bucket, count);

@@ -12,7 +12,7 @@ TEST(IndependenceLog, CountsEachBearingOfEachCellOnItsOwn) {
   log.set_count({-1, 64}, 31, 3);
   log.set_count({-1, 64}, 31, 2);
   log.set_count({-1, 64}, 5, 1);
-  for (int bucket = 0; bucket < kMostBearings; ++bucket) {
+  for (int bucket = 0; bucket < kMaxBearings; ++bucket) {
     EXPECT_EQ(log.count({-1, 64}, bucket), bucket == 31 ? 2 : bucket == 5 ? 1 : 0);
     EXPECT_EQ(log.count({0, 64}, bucket), 0);
     EXPECT_EQ(log.count({1000, 1000}, bucket), 0);

@@ -65,7 +65,7 @@ TEST(OdometryCompass, GoesByOdometryAloneWithoutACompass) {
   EXPECT_NEAR(std::sqrt(estimate.covariance(2, 2)), std::hypot(radians(0.5), radians(0.5) * 2.0), 1e-9);
 }
 
-TEST(OdometryCompass, LeavesTheCompassOutWhenToldTo) {
+TEST(OdometryCompass, LeavesTheCompassOutWhenAskedTo) {
   Config config;
   config.use_compass = false;
   OdometryCompass at = localizer({}, config);
@@ -245,7 +245,7 @@ TEST(OdometryCompass, RefusesSightingsThatAreNoMeasurement) {
   EXPECT_EQ(after.covariance, before.covariance);
 }
 
-TEST(OdometryCompass, HeedsALandmarksOrientationOnlyWhenToldTo) {
+TEST(OdometryCompass, HeedsALandmarksOrientationOnlyWhenAskedTo) {
   Config with_heading;
   with_heading.use_landmark_heading = true;
   with_heading.start_heading_rad = radians(10.0);

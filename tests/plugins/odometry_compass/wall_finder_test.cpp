@@ -124,7 +124,7 @@ TEST(PoseFilterWalls, HoldAgainstDriftWhereTheyWereMetFirst) {
 TEST(PoseFilterWalls, AreNeverMoreThanThereIsRoomFor) {
   PoseFilter filter({}, {0.01, 0.01, 0.0, 0.0});
   for (int i = 0; i < 200; ++i) (void)filter.meet(seen_from({}, 0.03 * i, 1.0 + i), 3.5);
-  EXPECT_EQ(filter.walls(), PoseFilter::kMostWalls);
+  EXPECT_EQ(filter.walls(), PoseFilter::kMaxWalls);
   const Eigen::Matrix3d c = filter.estimate().covariance;
   EXPECT_GT(c.determinant(), 0.0);
 }

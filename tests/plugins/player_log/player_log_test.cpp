@@ -79,7 +79,7 @@ TEST_F(PlayerLog, ReadsALaserScanWhereTheLogSaysTheLaserSits) {
   EXPECT_EQ(seen[0].ranges[2].range_m, kInfinity);
 }
 
-TEST_F(PlayerLog, ReadsOneDeviceOfAKindAndOnlyTheInterfacesItIsTold) {
+TEST_F(PlayerLog, ReadsOneDeviceOfAKindAndOnlyTheInterfacesItIsGiven) {
   const std::string other = "6 0 6665 sonar 01 001 001 1 1.0\n";
   EXPECT_EQ(play(kGeometry + kOdometry + kRanges + other).size(), 1U);
   EXPECT_THAT(reason_, HasSubstr("\"sonar:1:1\" 1"));

@@ -40,7 +40,7 @@ TEST(PointMap, FindsTheNearestLineOfTheNeighboursWithinItsReach) {
 
 TEST(PointMap, AFullCellStandsFast) {
   PointMap map(0.1);
-  for (int i = 0; i < PointMap::kMostPoints; ++i) map.add({0.01 + 0.08 * (i % 9) / 8.0, 0.05});
+  for (int i = 0; i < PointMap::kMaxPoints; ++i) map.add({0.01 + 0.08 * (i % 9) / 8.0, 0.05});
   for (int i = 0; i < 1000; ++i) map.add({0.05, 0.09});
   EXPECT_NEAR(map.nearest_line({0.05, 0.05}, 0.3)->at_m.y(), 0.05, 1e-9);
 }

@@ -66,7 +66,7 @@ double error_after_a_round(ScanToMap& localizer, double range_offset_m = 0.0) {
 
 Config blind() {
   Config config;
-  config.least_pairs = 100000;
+  config.min_pairs = 100000;
   return config;
 }
 
@@ -108,8 +108,8 @@ TEST(ScanToMap, WideBeamsAndLostEchoesLeaveOdometryAlone) {
 TEST(ScanToMap, AScanOfAnotherPlaceNeitherMovesThePoseNorJoinsTheMap) {
   Config config;
   config.pair_m = 5.0;
-  config.least_distance_ratio = 0.001;
-  config.least_heading_rad_per_m = radians(0.1);
+  config.min_distance_ratio = 0.001;
+  config.min_heading_rad_per_m = radians(0.1);
   ScanToMap at(config, RobotModel{}, kStart);
   for (int i = 0; i < 5; ++i) (void)at.update(scan(kStart, {}), {});
   const Pose2 elsewhere{0.75, 0.7, 0.35};

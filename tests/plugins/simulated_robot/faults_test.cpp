@@ -67,7 +67,7 @@ TEST(Faults, ADeadTransducerHearsNoEcho) {
   EXPECT_NEAR(seen[kIn].ranges[0].range_m, 4.5, 1e-9) << "the others hear on";
 }
 
-TEST(Faults, ADeadTransducerCanTellNothingAtAll) {
+TEST(Faults, ADeadTransducerCanReportNothingAtAll) {
   const auto seen = run(with_fault("dead: [0], reads: nothing"), {}, 3.0);
   ASSERT_EQ(seen[kIn].ranges.size(), 1U);
   EXPECT_EQ(seen[kIn].ranges[0].sensor, 1);
@@ -120,7 +120,7 @@ TEST(Faults, OneWheelThatSlipsTurnsTheRobotToItsSide) {
   EXPECT_EQ(left[kAfter].T_odom_robot.theta_rad, 0.0) << "the odometry does not know";
 }
 
-TEST(Faults, OnlyTheCompassTellsOfAKidnapping) {
+TEST(Faults, OnlyTheCompassReportsOfAKidnapping) {
   const auto config = config_of("faults: [{at_s: 1, kidnap: {to_m: [4, 1], angle_deg: 90}}]");
   const auto seen = run(config, {}, 3.0);
   EXPECT_EQ(*seen[kBefore].true_T_map_robot, (Pose2{1.5, 2.5, 0.0}));

@@ -124,7 +124,7 @@ TEST(SonarEcho, NeverReadsShorterThanTheNearestPointOfTheWorld) {
   world.objects = {circle_at({2.0, 1.5}, 0.5), square_at({3.0, 0.8}, 0.5, 20.0)};
   const Scene scene(world);
   const SonarEcho sonar({}, scene, kHalfBeam_rad);
-  int heard = 0;
+  int echo_range = 0;
   for (int i = 0; i < 500; ++i) {
     const Point at_m(0.3 + 3.4 * std::fmod(i * 0.618034, 1.0), 0.3 + 2.4 * std::fmod(i * 0.754878, 1.0));
     double nearest_m = 1e9;
@@ -134,9 +134,9 @@ TEST(SonarEcho, NeverReadsShorterThanTheNearestPointOfTheWorld) {
     if (nearest_m < 0.0) continue;
     const auto way_m = sonar.first_echo({at_m.x(), at_m.y(), wrap_angle(radians(37.0 * i))}, 5.0);
     EXPECT_GE(way_m.value_or(nearest_m), nearest_m - 1e-9) << at_m.transpose();
-    heard += way_m.has_value();
+    echo_range += way_m.has_value();
   }
-  EXPECT_GT(heard, 350);
+  EXPECT_GT(echo_range, 350);
 }
 
 TEST(SonarEcho, IsAPlainRayWithoutABeamAngle) {
@@ -146,7 +146,7 @@ TEST(SonarEcho, IsAPlainRayWithoutABeamAngle) {
   EXPECT_TRUE(std::isinf(echo(beside, {}, {}, 0.0)));
 }
 
-TEST(Scene, TellsInnerCornersFromEdgesAndFromStraightWalls) {
+TEST(Scene, DistinguishesInnerCornersFromEdgesAndFromStraightWalls) {
   const auto look = [](const World& world, const Point& vertex, const Point& eye) {
     const Scene scene(world);
     for (const Vertex& v : scene.vertices()) {

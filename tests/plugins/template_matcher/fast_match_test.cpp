@@ -196,7 +196,7 @@ TEST(FastMatcher, FindsALargeTemplateThatNeedsCoarserUnits) {
 
 TEST(FastMatcher, RefusesTemplatesThatItsSumsCannotHold) {
   const std::vector<LandmarkTemplate> templates = {
-      {"palace", 0.0, std::vector<TemplateCell>(FastMatcher::kMostCells + 1)}};
+      {"palace", 0.0, std::vector<TemplateCell>(FastMatcher::kMaxCells + 1)}};
   try {
     const FastMatcher matcher(templates);
     FAIL() << "accepted";

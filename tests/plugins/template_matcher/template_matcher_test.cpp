@@ -129,7 +129,7 @@ TEST(TemplateMatcher, FindsTheSameLandmarksByEitherSearchAndWithEitherDegrees) {
   EXPECT_GE(detections, 12);
 }
 
-TEST(TemplateMatcher, TellsTheDegreeOfEveryTemplateWhenAskedTo) {
+TEST(TemplateMatcher, ReportsTheDegreeOfEveryTemplateWhenAskedTo) {
   OccupancyGrid grid(0.05);
   paint(grid, square_shape().contour, {0.013, 0.021, 0.7}, {{-25, -25}, {25, 25}});
   Config config = plain();

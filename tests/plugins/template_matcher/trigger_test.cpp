@@ -67,7 +67,7 @@ TEST(TriggerSinceMatching, LooksAgainSoonerAtWhatFitted) {
   EXPECT_FALSE(trigger.fires(kHere, 184.5)) << "it fits no longer";
 }
 
-TEST(TriggerSinceMatching, NeverLooksSoonerAtWhatFittedWhenToldSo) {
+TEST(TriggerSinceMatching, NeverLooksSoonerAtWhatFittedWhenAskedSo) {
   Config config = settings(TriggerRule::since_matching, 140.0, 10.0);
   config.tau_again = 255.0;
   Trigger trigger(config);

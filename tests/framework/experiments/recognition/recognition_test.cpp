@@ -31,7 +31,7 @@ Mission mission_with_two_shapes() {
   return mission;
 }
 
-TEST(JudgeRecognition, PairsTheNearestAndTellsTheRest) {
+TEST(JudgeRecognition, PairsTheNearestAndReportsTheRest) {
   Mission mission = mission_with_two_shapes();
   put(*mission.world, "square", {1.0, 1.0, radians(10.0)});
   put(*mission.world, "circle", {3.0, 1.0, 0.0});

@@ -35,8 +35,8 @@ struct Drawn {
 
 Drawn draw(const TrialsConfig& config, std::uint64_t seed, const std::filesystem::path& folder) {
   RandomWorldConfig worlds;
-  worlds.most_movers = 3;
-  worlds.most_doors = 2;
+  worlds.max_movers = 3;
+  worlds.max_doors = 2;
   const std::vector<LandmarkShape> shapes = load_landmark_shapes(kConfig + "/templates");
   std::ofstream(folder / "world.yaml") << random_world_yaml(worlds, shapes, 0.1, seed);
   const RobotModel robot = load_robot(kConfig + "/robots/pioneer1.yaml");
@@ -65,7 +65,7 @@ TEST(RandomMission, IsWholeOnEverySeedAndAsRandomAsItSays) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Drawn drawn = draw(config, seed, folder_of("whole"));
     for (const TreeNode* leaf : behaviours_of(drawn.mission.steps)) nodes.insert(leaf->choice.name);
-    EXPECT_GE(drawn.mission.steps.size(), 2U + static_cast<std::size_t>(config.least_goals));
+    EXPECT_GE(drawn.mission.steps.size(), 2U + static_cast<std::size_t>(config.min_goals));
     const TrueSpace space(*drawn.mission.world, drawn.mission.robot.radius_m + config.room_m - 0.001);
     EXPECT_TRUE(space.has_room(drawn.mission.config.start.at_m)) << "seed " << seed;
     silent += count(drawn.text, "silent: true");

@@ -46,8 +46,8 @@ TEST(RandomWorld, LoadsAndKeepsItsGapsOnEverySeed) {
                   radius_m + 0.5 * world.objects[k].contour.outer_diameter_m() + config.gap_m - 3e-3)
             << "seed " << seed;
     }
-    EXPECT_GE(landmarks, config.least_landmarks);
-    EXPECT_LE(landmarks, config.most_landmarks);
+    EXPECT_GE(landmarks, config.min_landmarks);
+    EXPECT_LE(landmarks, config.max_landmarks);
   }
   EXPECT_THAT(categories, testing::ElementsAre("", "circle", "square"));
 }
@@ -69,7 +69,7 @@ double distance_to_way(const Point& p, const WorldMover& mover) {
 
 TEST(RandomWorld, MoversComeToTheSameWorldAndGoClearOfItsThings) {
   RandomWorldConfig config;
-  config.most_movers = 3;
+  config.max_movers = 3;
   std::size_t movers = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const std::string text = random_world_yaml(config, shapes(), 0.3, seed);
@@ -89,7 +89,7 @@ TEST(RandomWorld, MoversComeToTheSameWorldAndGoClearOfItsThings) {
 
 TEST(RandomWorld, DoorsLeadToMoreRoomsInTheEast) {
   RandomWorldConfig config;
-  config.most_doors = 2;
+  config.max_doors = 2;
   std::size_t doors = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const World plain = loaded(random_world_yaml({}, shapes(), 0.3, seed));

@@ -59,7 +59,7 @@ TEST(TrialFigures, CountByHand) {
   EXPECT_EQ(f.false_success, 1);
 }
 
-TEST(BrokenLimits, AreToldOneByOne) {
+TEST(BrokenLimits, AreReportedOneByOne) {
   const ExperimentConfig config = config_of_trials();
   ExperimentRow row = row_with({goal(GoalEnd::reached)});
   EXPECT_THAT(broken_limits(config, {row}), testing::IsEmpty());
@@ -96,7 +96,7 @@ TEST(TrialsTable, ListsEveryCaseToLookInto) {
   EXPECT_THAT(table, HasSubstr("Limits that are not kept:\n- as_is: 0.0000 of the goals"));
 }
 
-TEST(TrialsTable, TheWallClockIsInNoFileButIsToldAsAHang) {
+TEST(TrialsTable, TheWallClockIsInNoFileButIsReportedAsAHang) {
   const ExperimentConfig config = config_of_trials();
   ExperimentRow row = row_with({goal(GoalEnd::reached)});
   const std::string table = trials_table(config, {row});

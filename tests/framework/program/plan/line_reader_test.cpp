@@ -50,7 +50,7 @@ TEST(LineReader, LinesMayCrossTheBlocksThatAreRead) {
 }
 
 TEST(LineReader, ALineWithoutEndIsRefusedWithItsNumber) {
-  const std::string file = file_with("a\n" + std::string(3 * LineReader::kMostBytes, 'x'));
+  const std::string file = file_with("a\n" + std::string(3 * LineReader::kMaxBytes, 'x'));
   LineReader reader(file);
   std::string line;
   EXPECT_TRUE(reader.next(line));

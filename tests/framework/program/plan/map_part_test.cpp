@@ -50,8 +50,8 @@ TEST(MapPart, NoWayByItsRimIsShorterThanSaid) {
   for (int trial = 0; trial < 500; ++trial) {
     const MapEnds ends = any_ends(random);
     const CellBox part = part_for(ends, (ends.to - ends.from).norm() + 2.0, 0.5, grid, grid.bounds());
-    const double least_m = least_outside_m(ends, part, 0.2, grid, grid.bounds());
-    if (!std::isfinite(least_m)) continue;
+    const double min_m = min_outside_m(ends, part, 0.2, grid, grid.bounds());
+    if (!std::isfinite(min_m)) continue;
     double found_m = std::numeric_limits<double>::infinity();
     const Point low = grid.origin_m() + 0.1 * Point(part.min.x, part.min.y);
     const Point high = grid.origin_m() + 0.1 * Point(part.max.x, part.max.y);
@@ -63,8 +63,8 @@ TEST(MapPart, NoWayByItsRimIsShorterThanSaid) {
       if (part.min.y > grid.bounds().min.y) by({at.x(), low.y() + 0.2});
       if (part.max.y < grid.bounds().max.y) by({at.x(), high.y() - 0.2});
     }
-    EXPECT_LE(least_m, found_m + 1e-9);
-    EXPECT_GT(least_m, found_m - 0.1) << "it is no guess";
+    EXPECT_LE(min_m, found_m + 1e-9);
+    EXPECT_GT(min_m, found_m - 0.1) << "it is no guess";
     ++bounded;
   }
   EXPECT_GT(bounded, 300);
@@ -74,8 +74,8 @@ TEST(MapPart, AnEndAtTheRimBoundsNothing) {
   const OccupancyGrid grid = any_grid();
   const MapEnds ends{{0.0, 8.0}, {4.0, 8.0}};
   const CellBox part{{30, 20}, {60, 100}};  // x from 0 to 3 m
-  EXPECT_EQ(least_outside_m(ends, part, 0.2, grid, grid.bounds()), 0.0);
-  EXPECT_EQ(least_outside_m(ends, grid.bounds(), 0.2, grid, grid.bounds()), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(min_outside_m(ends, part, 0.2, grid, grid.bounds()), 0.0);
+  EXPECT_EQ(min_outside_m(ends, grid.bounds(), 0.2, grid, grid.bounds()), std::numeric_limits<double>::infinity());
 }
 
 TEST(MapPart, EndsAreThoseOfRequestsThatLeaveNoChoice) {

@@ -113,7 +113,7 @@ TEST(MapServer, WhatIsNotOpaqueIsUnknown) {
   }
 }
 
-TEST(MapServer, TellsWhenTheGreyOfUnknownCountsAsFree) {
+TEST(MapServer, ReportsWhenTheGreyOfUnknownCountsAsFree) {
   MapServerSettings settings;
   settings.free_thresh = 0.25;
   const ImportedGrid imported = read(picture_of({".?#"}), settings);

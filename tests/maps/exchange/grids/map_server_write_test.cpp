@@ -79,7 +79,7 @@ TEST(MapServerWrite, AnyLogOddsComeBackWithinHalfAPercentAndThenStay) {
   }
 }
 
-TEST(MapServerWrite, TrinaryTellsWhatItTakesForUnknown) {
+TEST(MapServerWrite, TrinaryReportsWhatItTakesForUnknown) {
   OccupancyGrid grid(0.05);
   grid.set_log_odds({0, 0}, 100);
   grid.set_log_odds({1, 0}, -200);
@@ -89,7 +89,7 @@ TEST(MapServerWrite, TrinaryTellsWhatItTakesForUnknown) {
   EXPECT_TRUE(exported.warnings[0].starts_with("1 cell: seen, but neither free nor occupied")) << exported.warnings[0];
 }
 
-TEST(MapServerWrite, RawAndScaleTellWhichSeenCellsComeBackUnseen) {
+TEST(MapServerWrite, RawAndScaleReportWhichSeenCellsComeBackUnseen) {
   OccupancyGrid grid(0.05);
   grid.set_log_odds({0, 0}, 2);  // 50.2 %
   grid.set_log_odds({1, 0}, -200);

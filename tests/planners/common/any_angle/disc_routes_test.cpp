@@ -45,7 +45,7 @@ TEST(DiscRoutes, APointsRouteIsTheShortestAndTouchesNothing) {
   for (int round = 0; round < 24; ++round) {
     const OpenCells cells = random_cells(random, 24, 20, 0.1 + 0.08 * (round % 4));
     const OccupancyGrid grid = grid_of(cells, 0.05, {-0.3, 0.7});
-    const DiscRoutes routes = routes_on(grid, kLeastRadius_m);
+    const DiscRoutes routes = routes_on(grid, kMinRadius_m);
     for (int pair = 0; pair < 8; ++pair) {
       const Cell a{static_cast<int>(random() % 24), static_cast<int>(random() % 20)};
       const Cell b{static_cast<int>(random() % 24), static_cast<int>(random() % 20)};
@@ -55,7 +55,7 @@ TEST(DiscRoutes, APointsRouteIsTheShortestAndTouchesNothing) {
           0.05 * test::plain_shortest_length(cells, Point(a.x + 0.5, a.y + 0.5), Point(b.x + 0.5, b.y + 0.5));
       ASSERT_EQ(found.impossible, std::isinf(wanted)) << drawing_of(cells);
       if (found.impossible) continue;
-      EXPECT_NEAR(found.least_length_m, wanted, 1e-9);
+      EXPECT_NEAR(found.length_lower_bound_m, wanted, 1e-9);
       EXPECT_NEAR(length_of(found.route), wanted, 1e-4);
       ASSERT_EQ(refused_segment(grid, found.route, 0.0), 0U) << text_of(found.route) << drawing_of(cells);
     }
@@ -69,18 +69,18 @@ TEST(DiscRoutes, ADiscsRouteFitsAndIsNotShorterThanItMustBe) {
     const OpenCells cells = random_cells(random, 30, 30, 0.04 + 0.03 * (round % 4));
     const OccupancyGrid grid = grid_of(cells, 0.1, {5.0, -2.0});
     const double radius_m = 0.04 + 0.035 * (round % 5);
-    const DiscRoutes routes = routes_on(grid, radius_m + kLeastRadius_m);
+    const DiscRoutes routes = routes_on(grid, radius_m + kMinRadius_m);
     for (int pair = 0; pair < 8; ++pair) {
       const Point a = grid.centre_of({static_cast<int>(random() % 30), static_cast<int>(random() % 30)});
       const Point b = grid.centre_of({static_cast<int>(random() % 30), static_cast<int>(random() % 30)});
-      if (!routes.space().fits(a, radius_m + kLeastRadius_m) || !routes.space().fits(b, radius_m + kLeastRadius_m))
+      if (!routes.space().fits(a, radius_m + kMinRadius_m) || !routes.space().fits(b, radius_m + kMinRadius_m))
         continue;
       const DiscRoute found = routes.route(a, b, Budget{});
       if (found.route.empty()) continue;
       ++found_some;
       EXPECT_EQ(found.route.front(), a);
       EXPECT_EQ(found.route.back(), b);
-      EXPECT_GE(length_of(found.route), found.least_length_m - 1e-9);
+      EXPECT_GE(length_of(found.route), found.length_lower_bound_m - 1e-9);
       ASSERT_EQ(refused_segment(grid, found.route, radius_m), 0U) << text_of(found.route) << drawing_of(cells);
     }
   }
@@ -163,7 +163,7 @@ TEST(DiscRoutes, ADiscOfAQuarterCellPassesCorridorsOneCellWide) {
   const DiscRoute found = routes.route(world.places.at('A'), world.places.at('B'), Budget{});
   ASSERT_FALSE(found.route.empty());
   EXPECT_EQ(refused_segment(world.grid, found.route, 0.3 - 1e-6), 0U);
-  EXPECT_LT(length_of(found.route), 1.05 * found.least_length_m + 0.5);
+  EXPECT_LT(length_of(found.route), 1.05 * found.length_lower_bound_m + 0.5);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(MeshSearch, EndsInClosedCellsOrOtherPartsHaveNoPath) {
   EXPECT_TRUE(shortest_path(mesh, {0.5, 0.5}, {99.5, 0.5}).points.empty());
 }
 
-TEST(MeshSearch, StopsWhenTold) {
+TEST(MeshSearch, StopsWhenAsked) {
   std::mt19937_64 random(9);
   const OpenCells cells = random_cells(random, 300, 300, 0.3);
   const CellMesh mesh(cells.box, cells.open);

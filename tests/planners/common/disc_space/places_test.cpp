@@ -96,17 +96,17 @@ TEST(Places, OneStandsAtALandmarksAccessOrNearItOrNearTheLandmark) {
   const DiscSpace space(world.grid, {});
   Landmark landmark;
   landmark.T_map_landmark = {0.05, 0.55, 0.0};  // in the wall
-  const auto near = standing_place(space, landmark, 0.1);
+  const auto near = approach_pose(space, landmark, 0.1);
   ASSERT_TRUE(near);
   EXPECT_NEAR(near->x_m, 0.25, 1e-9);
   EXPECT_NEAR(std::abs(near->theta_rad), radians(180.0), 0.01) << "looks at the landmark";
   landmark.access = Pose2{0.5, 0.5, 1.0};
-  EXPECT_EQ(standing_place(space, landmark, 0.1), landmark.access);
+  EXPECT_EQ(approach_pose(space, landmark, 0.1), landmark.access);
   landmark.access = Pose2{0.75, 0.25, 1.0};  // unknown today
-  const auto beside = standing_place(space, landmark, 0.1);
+  const auto beside = approach_pose(space, landmark, 0.1);
   ASSERT_TRUE(beside);
   EXPECT_LT((beside->position() - landmark.access->position()).norm(), 0.3);
-  EXPECT_FALSE(standing_place(space, landmark, 0.5));
+  EXPECT_FALSE(approach_pose(space, landmark, 0.5));
 }
 
 }  // namespace

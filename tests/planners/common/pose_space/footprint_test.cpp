@@ -68,12 +68,12 @@ TEST(Footprint, TouchesTheCellsThatBruteForceFindsNear) {
   EXPECT_LT(near, 300);
 }
 
-TEST(Footprint, ACellInItsMiddleOrInItsNotchIsToldApart) {
+TEST(Footprint, ACellInItsMiddleOrInItsNotchIsDistinguished) {
   const std::vector<Point> u_shape{{-1.0, -1.0}, {1.0, -1.0},  {1.0, 1.0},  {0.5, 1.0},
                                    {0.5, -0.5},  {-0.5, -0.5}, {-0.5, 1.0}, {-1.0, 1.0}};
   const Lattice lattice{{0.0, 0.0}, 0.1};
   const auto touches = [&](Cell blocked) {
-    return polygon_touches(lattice, u_shape, kLeastRadius_m, [&](Cell cell) { return cell == blocked ? 0 : 1; });
+    return polygon_touches(lattice, u_shape, kMinRadius_m, [&](Cell cell) { return cell == blocked ? 0 : 1; });
   };
   EXPECT_FALSE(touches({0, 0})) << "in the notch";
   EXPECT_TRUE(touches({0, -8})) << "wholly inside, off the rim";

@@ -19,7 +19,7 @@ TEST(Motion, AQuarterCircleEndsWhereGeometrySays) {
   const Motion left({1.0, 2.0, 0.0}, {MotionElement::arc(3.0, radians(90.0))});
   expect_same(left.end(), {4.0, 5.0, radians(90.0)});
   EXPECT_NEAR(left.length_m(), 1.5 * std::numbers::pi, 1e-12);
-  EXPECT_NEAR(left.least_radius_m(), 3.0, 1e-12);
+  EXPECT_NEAR(left.min_radius_m(), 3.0, 1e-12);
   // Backwards with the wheels to the left the centre stays on the left, and the heading turns clockwise.
   const Motion reverse({1.0, 2.0, 0.0}, {MotionElement::arc(3.0, radians(-90.0), false)});
   expect_same(reverse.end(), {-2.0, 5.0, radians(-90.0)});

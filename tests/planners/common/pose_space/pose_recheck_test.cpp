@@ -32,7 +32,7 @@ TEST(PoseRecheck, PassesAllThatWasPlannedWithItsMarginAndNothingThatTouches) {
       planned += fits;
       if (outline.is_disc()) continue;
       const double brute_m = test::motion_distance_m(grid, rules, outline, motion, 0.004);
-      if (brute_m < kLeastRadius_m) {
+      if (brute_m < kMinRadius_m) {
         EXPECT_TRUE(touch) << "trial " << trial << " " << k;
         ++touching;
       } else if (touch) {

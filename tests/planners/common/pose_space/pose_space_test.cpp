@@ -32,7 +32,7 @@ TEST(PoseSpace, AnOutlineFitsWhereBruteForceFindsNothingNear) {
     const GroundRules rules = rules_for(trial);
     const OccupancyGrid grid = test::cluttered_grid(random, 40, 0.015);
     const DiscSpace ground(grid, rules);
-    const double margin_m = trial % 2 == 0 ? kLeastRadius_m : 0.01;
+    const double margin_m = trial % 2 == 0 ? kMinRadius_m : 0.01;
     const PoseSpace space(ground, test::random_outline(random, trial % 4 < 2), margin_m);
     for (int k = 0; k < 40; ++k) {
       const Pose2 pose = test::random_pose(random, grid);
@@ -54,7 +54,7 @@ TEST(PoseSpace, NoMotionThatTouchesIsAcceptedAndNoneThatKeepsItsDistanceRefused)
     const GroundRules rules = rules_for(trial);
     const OccupancyGrid grid = test::cluttered_grid(random, 40, 0.008);
     const DiscSpace ground(grid, rules);
-    const double margin_m = trial % 2 == 0 ? kLeastRadius_m : 0.008;
+    const double margin_m = trial % 2 == 0 ? kMinRadius_m : 0.008;
     const PoseSpace space(ground, test::random_outline(random, trial % 4 < 2), margin_m);
     for (int k = 0; k < 30; ++k) {
       const Pose2 start = test::random_pose(random, grid);
@@ -110,7 +110,7 @@ TEST(PoseSpace, ADiscMovesLikeTheDiscOfTheDiscSpace) {
     const Pose2 from = test::random_pose(random, grid);
     const Pose2 to = test::random_pose(random, grid);
     EXPECT_EQ(space.fits_along(turn_drive_turn(from, to)),
-              ground.fits_along(from.position(), to.position(), 0.1 + kLeastRadius_m));
+              ground.fits_along(from.position(), to.position(), 0.1 + kMinRadius_m));
     EXPECT_EQ(space.fits_along(Motion(from, {MotionElement::turn(2.0)})), space.fits(from));
     // A half circle, against its chords: they keep within the sagitta.
     const Motion bend(from, {MotionElement::arc(0.15, radians(180.0))});
@@ -119,7 +119,7 @@ TEST(PoseSpace, ADiscMovesLikeTheDiscOfTheDiscSpace) {
     for (double s_m = 0.0; s_m < bend.extent_m(); s_m += bend.extent_m() / 180.0)
       chords = chords &&
                ground.fits_along(bend.pose_at(s_m).position(), bend.pose_at(s_m + bend.extent_m() / 180.0).position(),
-                                 0.1 + space.bend_slack_m() + kLeastRadius_m + sagitta_m);
+                                 0.1 + space.bend_slack_m() + kMinRadius_m + sagitta_m);
     if (chords) {
       EXPECT_TRUE(space.fits_along(bend));
     }

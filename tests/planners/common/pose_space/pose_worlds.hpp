@@ -76,7 +76,7 @@ inline double outline_distance_m(const OccupancyGrid& grid, const GroundRules& r
   std::vector<Point> corners;
   for (const Point& corner : footprint.corners_m()) corners.push_back(pose * corner);
   const double near_m = footprint.circumscribed_m() + 3.0 * grid.cell_m();
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   const Cell low = grid.cell_at(pose.position() - Point(near_m, near_m));
   const Cell high = grid.cell_at(pose.position() + Point(near_m, near_m));
   for (int y = low.y; y <= high.y; ++y)
@@ -91,24 +91,24 @@ inline double outline_distance_m(const OccupancyGrid& grid, const GroundRules& r
         const double steps = std::ceil((b - a).norm() / rim_step_m);
         for (double k = 0.0; k < steps; k += 1.0) {
           const Point away = (a + (b - a) * (k / steps) - centre).cwiseAbs() - Point::Constant(0.5 * grid.cell_m());
-          least_m = std::min(least_m, away.cwiseMax(0.0).norm());
+          min_m = std::min(min_m, away.cwiseMax(0.0).norm());
         }
       }
       if (std::abs(around_rad) > 1.0) return 0.0;
     }
-  return least_m;
+  return min_m;
 }
 
 // The least of it over poses between which nothing moves more than step_m.
 inline double motion_distance_m(const OccupancyGrid& grid, const GroundRules& rules, const Footprint& footprint,
                                 const Motion& motion, double step_m) {
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   const double turn_rad = 0.5 * step_m / footprint.circumscribed_m();
   for (const Pose2& pose : motion.sampled(0.5 * step_m, turn_rad)) {
-    least_m = std::min(least_m, outline_distance_m(grid, rules, footprint, pose, step_m));
-    if (least_m == 0.0) break;
+    min_m = std::min(min_m, outline_distance_m(grid, rules, footprint, pose, step_m));
+    if (min_m == 0.0) break;
   }
-  return least_m;
+  return min_m;
 }
 
 }  // namespace cairn::test

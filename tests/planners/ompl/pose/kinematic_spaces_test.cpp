@@ -52,10 +52,10 @@ TEST(KinematicSpaces, MotionsEndWhereTheyShallAndKeepTheTurningRadius) {
         EXPECT_EQ(motion.start(), from);
         EXPECT_TRUE(motion.ends_at(to, kMotionEnd)) << "trial " << trial;
         if (kind == MotionKind::differential) {
-          EXPECT_EQ(motion.least_radius_m(), std::numeric_limits<double>::infinity());
+          EXPECT_EQ(motion.min_radius_m(), std::numeric_limits<double>::infinity());
           EXPECT_EQ(motion.reversals(), 0);
         } else {
-          EXPECT_GE(motion.least_radius_m(), radius_m * (1.0 - 1e-12));
+          EXPECT_GE(motion.min_radius_m(), radius_m * (1.0 - 1e-12));
           EXPECT_EQ(motion.spot_turn_rad(), 0.0);
         }
         if (kind != MotionKind::dubins) continue;

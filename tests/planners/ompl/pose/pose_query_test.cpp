@@ -54,19 +54,19 @@ Pose2 between(const Pose2& a, const Pose2& b, double share) {
 }
 
 // By closely spaced poses; straight between those of the path, which on arcs is off by less than a millimetre.
-double least_distance_m(const OccupancyGrid& grid, const Footprint& footprint, const std::vector<Pose2>& path) {
-  double least_m = test::outline_distance_m(grid, {}, footprint, path.front(), 0.005);
+double min_distance_m(const OccupancyGrid& grid, const Footprint& footprint, const std::vector<Pose2>& path) {
+  double min_m = test::outline_distance_m(grid, {}, footprint, path.front(), 0.005);
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double moved_m =
         (path[i].position() - path[i - 1].position()).norm() +
         std::abs(wrap_angle(path[i].theta_rad - path[i - 1].theta_rad)) * footprint.circumscribed_m();
     const int steps = std::max(1, static_cast<int>(std::ceil(moved_m / 0.02)));
     for (int k = 1; k <= steps; ++k)
-      least_m = std::min(
-          least_m, test::outline_distance_m(grid, {}, footprint,
-                                            between(path[i - 1], path[i], static_cast<double>(k) / steps), 0.005));
+      min_m = std::min(min_m,
+                       test::outline_distance_m(grid, {}, footprint,
+                                                between(path[i - 1], path[i], static_cast<double>(k) / steps), 0.005));
   }
-  return least_m;
+  return min_m;
 }
 
 // The circle through three points.
@@ -132,7 +132,7 @@ TEST_P(PoseQueryOf, EveryWayIsFreeDrivableAndEndsWhereItShall) {
     ++solved;
     SCOPED_TRACE("trial " + std::to_string(trial) + test::drawing_of(world.grid, result.path));
     // What the planner keeps, less what arcs and the oracle's rim are off by.
-    EXPECT_GE(least_distance_m(world.grid, footprint, result.path), 0.002);
+    EXPECT_GE(min_distance_m(world.grid, footprint, result.path), 0.002);
     expect_drivable(result.path, GetParam());
     EXPECT_TRUE(are_alike(result.path.front(), *request.from.pose, 1e-9));
     EXPECT_LT((result.path.back().position() - request.to.pose->position()).norm(), 1e-8);
@@ -141,8 +141,8 @@ TEST_P(PoseQueryOf, EveryWayIsFreeDrivableAndEndsWhereItShall) {
     }
     EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9);
     EXPECT_GT(result.clearance_m, 0.0);
-    ASSERT_TRUE(result.least_length_m);
-    EXPECT_LE(*result.least_length_m, result.length_m + 1e-9);
+    ASSERT_TRUE(result.length_lower_bound_m);
+    EXPECT_LE(*result.length_lower_bound_m, result.length_m + 1e-9);
   }
   EXPECT_GT(solved, GetParam() == MotionKind::dubins ? 15 : 30);
 }

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/plugins/common/sonar_model/standing_room_law.hpp"
+#include "tests/plugins/common/sonar_model/cleared_footprint_law.hpp"
 
 namespace cairn::bayes_map {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "tests/plugins/common/sonar_model/standing_room_law.hpp"
+#include "tests/plugins/common/sonar_model/cleared_footprint_law.hpp"
 
 namespace cairn::himm_map {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/plugins/common/sonar_model/standing_room_law.hpp"
+#include "tests/plugins/common/sonar_model/cleared_footprint_law.hpp"
 
 namespace cairn::murphy_map {
 namespace {
@@ -38,7 +38,7 @@ TEST(Murphy, SaysNothingBehindTheEcho) {
   EXPECT_DOUBLE_EQ(at(6.6, 0.0, 6.0), 0.5);
 }
 
-TEST(Murphy, TurnsRoundFarOutUnlessToldNotTo) {
+TEST(Murphy, TurnsRoundFarOutUnlessAskedNotTo) {
   Config config = of_the_book();
   EXPECT_GT(occupied_p(config, 9.0, radians(14.0), kHalfBeam, kInfinity, 10.0), 0.9);
   config.keep_sign = true;

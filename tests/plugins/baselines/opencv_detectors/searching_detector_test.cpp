@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair<const char*, Maker>{"generalized_hough", made<GeneralizedHough, HoughConfig>}),
     [](const auto& maker) { return maker.param.first; });
 
-TEST_P(OpenCvDetector, TellsWhatStandsWhereAndHowItIsTurned) {
+TEST_P(OpenCvDetector, ReportsWhatStandsWhereAndHowItIsTurned) {
   const Pose2 square{1.025, 1.525, radians(30.0)};
   const Pose2 triangle{3.525, 1.525, radians(75.0)};
   const OccupancyGrid grid = grid_with({{1, square}, {2, triangle}});

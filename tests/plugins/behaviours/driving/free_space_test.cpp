@@ -104,7 +104,7 @@ TEST(FreeSpace, ARobotTooNearToAWallTakesTheWayOutFirst) {
 ##########
 )");
   const FreeSpace space = space_of(map, 'R');
-  EXPECT_EQ(space.way_out().size(), 3U);
+  EXPECT_EQ(space.escape_path().size(), 3U);
   EXPECT_TRUE(space.reaches(map.places.at('A')));
   const std::vector<Point> path = space.path_to(map.places.at('A'));
   EXPECT_EQ(path.front(), map.at('R'));

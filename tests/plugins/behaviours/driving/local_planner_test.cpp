@@ -22,16 +22,16 @@ void add(std::vector<Point>& points, const std::vector<Point>& more) {
 }
 
 TEST(FreeWay, StraightAheadAndBack) {
-  EXPECT_NEAR(free_way_m({0.2, 0.0}, {{1.0, 0.0}}, 0.3), 0.7, 1e-9);
-  EXPECT_EQ(free_way_m({0.2, 0.0}, {{1.0, 0.31}}, 0.3), kNever);
-  EXPECT_EQ(free_way_m({-0.2, 0.0}, {{1.0, 0.0}}, 0.3), kNever);
-  EXPECT_NEAR(free_way_m({-0.2, 0.0}, {{-1.0, 0.0}}, 0.3), 0.7, 1e-9);
+  EXPECT_NEAR(free_distance_m({0.2, 0.0}, {{1.0, 0.0}}, 0.3), 0.7, 1e-9);
+  EXPECT_EQ(free_distance_m({0.2, 0.0}, {{1.0, 0.31}}, 0.3), kNever);
+  EXPECT_EQ(free_distance_m({-0.2, 0.0}, {{1.0, 0.0}}, 0.3), kNever);
+  EXPECT_NEAR(free_distance_m({-0.2, 0.0}, {{-1.0, 0.0}}, 0.3), 0.7, 1e-9);
 }
 
 TEST(FreeWay, WithinReachOnlyTheWayNearerIsBlocked) {
-  EXPECT_EQ(free_way_m({0.2, 0.0}, {{0.25, 0.0}}, 0.3), 0.0);
-  EXPECT_EQ(free_way_m({-0.2, 0.0}, {{0.25, 0.0}}, 0.3), kNever);
-  EXPECT_EQ(free_way_m({0.2, 0.0}, {{0.01, 0.29}}, 0.3), kNever);
+  EXPECT_EQ(free_distance_m({0.2, 0.0}, {{0.25, 0.0}}, 0.3), 0.0);
+  EXPECT_EQ(free_distance_m({-0.2, 0.0}, {{0.25, 0.0}}, 0.3), kNever);
+  EXPECT_EQ(free_distance_m({0.2, 0.0}, {{0.01, 0.29}}, 0.3), kNever);
 }
 
 // Against the disc's centre moved in tiny steps.
@@ -51,7 +51,7 @@ TEST(FreeWay, AgreesWithTinyStepsOnRandomArcs) {
       pose = pose * Pose2{0, 0, 0.5 * twist.w_radps * dt} * Pose2{twist.v_mps * dt, 0, 0} *
              Pose2{0, 0, 0.5 * twist.w_radps * dt};
     }
-    const double way_m = free_way_m(twist, {p}, 0.3);
+    const double way_m = free_distance_m(twist, {p}, 0.3);
     if (oracle_m < 1.5) {
       EXPECT_NEAR(way_m, oracle_m, 0.02) << i;
     } else {
@@ -112,7 +112,8 @@ TEST(LocalPlanner, WhatItTakesIsAdmissible) {
     EXPECT_LE(step.target.v_mps, limits.max_v_mps + 1e-12);
     EXPECT_LE(std::abs(step.target.w_radps), limits.max_w_radps + 1e-12);
     const double v = step.target.v_mps;
-    EXPECT_GE(free_way_m(step.target, obstacles, limits.radius_m + 0.03), v * v / (2.0 * limits.acceleration_mps2));
+    EXPECT_GE(free_distance_m(step.target, obstacles, limits.radius_m + 0.03),
+              v * v / (2.0 * limits.acceleration_mps2));
   }
 }
 

@@ -27,7 +27,7 @@ TEST(NearEchoes, AWallThatWasPassedIsSolidAndTheWayToItFree) {
   pass_wall(echoes);
   for (double y = 0.1; y < 0.9; y += 0.05) {
     EXPECT_TRUE(echoes.is_solid(map.cell_at({1.01, y}))) << y;
-    EXPECT_TRUE(echoes.is_surely_free(map.cell_at({0.7, y}))) << y;
+    EXPECT_TRUE(echoes.is_conservatively_free(map.cell_at({0.7, y}))) << y;
   }
 }
 
@@ -84,7 +84,7 @@ TEST(NearEchoes, WhereTheRobotHasStoodIsFree) {
   NearEchoes echoes(map);
   echoes.stand_at({0.5, 0.4}, 0.22);
   EXPECT_FALSE(echoes.is_occupied(map, map.cell_at({0.5, 0.5})));
-  EXPECT_FALSE(echoes.is_surely_free(map.cell_at({0.5, 0.8})));
+  EXPECT_FALSE(echoes.is_conservatively_free(map.cell_at({0.5, 0.8})));
 }
 
 TEST(NearEchoes, GivesTheAskedPartOfTheMapOnly) {

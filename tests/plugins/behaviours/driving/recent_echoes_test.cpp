@@ -22,7 +22,7 @@ const std::string kYard = R"(
 // Turns on the spot and hears: echoes of a ring at 0.6 m as long as there are any.
 class Hearing : public Behaviour {
  public:
-  Status tick(const WorldView& world, Orders& orders) override {
+  Status tick(const WorldView& world, BehaviourContext& orders) override {
     orders.drive({0.0, 1.0});
     if (forgets)
       echoes.forget(world);
@@ -65,7 +65,7 @@ TEST_F(Ring, IsForgottenAtOnceButForWhereTheRobotStands) {
   hearing.forgets = true;
   host.tick(hearing);
   EXPECT_FALSE(hearing.echoes.now().is_solid(on_ring));
-  EXPECT_TRUE(hearing.echoes.now().is_surely_free(host.grid.cell_at(host.T_map_robot.position())));
+  EXPECT_TRUE(hearing.echoes.now().is_conservatively_free(host.grid.cell_at(host.T_map_robot.position())));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ const Place kOtherRoom{Pose2{3.3, 0.5, 0.0}, false, {}, {}};
 class Driving : public Behaviour {
  public:
   explicit Driving(const RouteSettings& settings, const Place& goal) : driver(settings, 1), goal_(goal) {}
-  Status tick(const WorldView& world, Orders& orders) override { return driver.tick(goal_, world, orders); }
+  Status tick(const WorldView& world, BehaviourContext& orders) override { return driver.tick(goal_, world, orders); }
   void halt() override { driver.restart(); }
   RouteDriver driver;
 
@@ -113,7 +113,7 @@ TEST(RouteDriver, WaitsFirstAndThenClimbsTheLadder) {
   settings.rounds = 2;
   Driving driving(settings, kOtherRoom);
   host.run(driving, 3.0);
-  host.stop_layer = [](const Pose2&, const Twist& wanted) {
+  host.collision_monitor = [](const Pose2&, const Twist& wanted) {
     return Twist{std::min(0.0, wanted.v_mps), wanted.w_radps};
   };
   const double held_s = host.time_s;
@@ -131,14 +131,14 @@ TEST(RouteDriver, WaitsFirstAndThenClimbsTheLadder) {
 }
 
 // Somebody in the middle of the room goes on only when the robot is a metre off.
-TEST(RouteDriver, MakesWayForSomebodyWhoWaits) {
+TEST(RouteDriver, YieldsToSomebodyWhoWaits) {
   const auto drive = [](int rounds) {
     FakeHost host(kTwoDoors, kKnown);
     RouteSettings settings;
     settings.rounds = rounds;
     Driving driving(settings, kOtherRoom);
     bool is_gone = false;
-    host.stop_layer = [&](const Pose2& pose, const Twist& wanted) {
+    host.collision_monitor = [&](const Pose2& pose, const Twist& wanted) {
       const double distance_m = (pose.position() - Point(1.6, 0.8)).norm();
       is_gone = is_gone || (host.time_s > 20.0 && distance_m > 1.2);
       const bool is_held = !is_gone && pose.x_m > 1.2 && wanted.v_mps > 0.0 && std::abs(pose.theta_rad) < 1.5;
@@ -215,7 +215,7 @@ TEST(RouteDriver, LooksForLongWhereItStaysInTheWay) {
 }
 
 // A way there would begin with an arc forwards, into whoever holds it.
-TEST(RouteDriver, ACarBacksUpInsteadOfMakingWay) {
+TEST(RouteDriver, ACarBacksUpInsteadOfYielding) {
   for (const bool is_car : {false, true}) {
     FakeHost host(kTwoDoors, kKnown);
     if (is_car) {
@@ -223,14 +223,14 @@ TEST(RouteDriver, ACarBacksUpInsteadOfMakingWay) {
       host.robot.min_turning_radius_m = 0.5;
     }
     Driving driving({}, kOtherRoom);
-    host.stop_layer = [](const Pose2& pose, const Twist& wanted) {
+    host.collision_monitor = [](const Pose2& pose, const Twist& wanted) {
       const bool is_held = pose.x_m > 1.2 && wanted.v_mps > 0.0 && std::abs(pose.theta_rad) < 1.5;
       return is_held ? Twist{0.0, wanted.w_radps} : wanted;
     };
     EXPECT_EQ(host.run(driving, 600.0).progress, Progress::failure);
-    const bool made_way =
+    const bool yielded =
         std::ranges::any_of(host.said, [](const std::string& text) { return text.ends_with("makes way"); });
-    EXPECT_EQ(made_way, !is_car);
+    EXPECT_EQ(yielded, !is_car);
   }
 }
 
@@ -258,9 +258,9 @@ TEST(RouteDriver, GoesOnWhenWhatWasInTheWayHasGone) {
   FakeHost host(kTwoDoors, kKnown);
   Driving driving({}, kOtherRoom);
   host.run(driving, 3.0);
-  host.stop_layer = [](const Pose2&, const Twist&) { return Twist{}; };
+  host.collision_monitor = [](const Pose2&, const Twist&) { return Twist{}; };
   host.run(driving, 3.0);
-  host.stop_layer = nullptr;
+  host.collision_monitor = nullptr;
   const std::size_t plans = host.planned.size();
   EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
   EXPECT_EQ(host.planned.size(), plans) << "waiting was enough";
@@ -273,12 +273,12 @@ TEST(RouteDriver, ClosesAStoredRouteThatIsBlockedForAWhile) {
     result.outcome = PlanOutcome::solved;
     result.path = {*request.from.pose, {3.3, 0.5, 0.0}};
     const double length_m = (result.path[1].position() - result.path[0].position()).norm();
-    result.pieces = {{PlanPiece::Origin::stored, 7, length_m}};
+    result.segments = {{PathSegment::Origin::stored, 7, length_m}};
     result.routes = {7};
     return result;
   };
   Driving driving({}, kOtherRoom);
-  host.stop_layer = [](const Pose2&, const Twist& wanted) {
+  host.collision_monitor = [](const Pose2&, const Twist& wanted) {
     return Twist{std::min(0.0, wanted.v_mps), wanted.w_radps};
   };
   host.run(driving, 60.0);
@@ -300,7 +300,7 @@ TEST(RouteDriver, ARouteFoundBlockedIsOpenAgainAfterAWhile) {
   };
   Driving driving({}, Place{Pose2{1.5, 0.9, 0.0}, false, {}, {}});
   host.run(driving, 1.0);
-  host.stop_layer = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
+  host.collision_monitor = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
   host.run(driving, 30.0);
   ASSERT_GT(host.planned.size(), 1U);
   EXPECT_EQ(host.planned.at(1).closed, std::vector<RouteId>{5});
@@ -333,16 +333,16 @@ TEST(RouteDriver, KeepsWithinTheDynamicWindowFromTickToTick) {
   FakeHost host(kTwoDoors, kKnown);
   Driving driving({}, kOtherRoom);
   std::vector<Twist> ordered;
-  host.stop_layer = [&](const Pose2&, const Twist& wanted) {
+  host.collision_monitor = [&](const Pose2&, const Twist& wanted) {
     ordered.push_back(wanted);
     return wanted;
   };
   EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
-  const double most_v = host.robot.max_acceleration_mps2 * 0.04 + 1e-9;
-  const double most_w = host.robot.max_turn_acceleration_radps2 * 0.04 + 1e-9;
+  const double max_v = host.robot.max_acceleration_mps2 * 0.04 + 1e-9;
+  const double max_w = host.robot.max_turn_acceleration_radps2 * 0.04 + 1e-9;
   for (std::size_t i = 1; i + 1 < ordered.size(); ++i) {
-    EXPECT_LE(std::abs(ordered[i].v_mps - ordered[i - 1].v_mps), most_v) << "tick " << i;
-    EXPECT_LE(std::abs(ordered[i].w_radps - ordered[i - 1].w_radps), most_w) << "tick " << i;
+    EXPECT_LE(std::abs(ordered[i].v_mps - ordered[i - 1].v_mps), max_v) << "tick " << i;
+    EXPECT_LE(std::abs(ordered[i].w_radps - ordered[i - 1].w_radps), max_w) << "tick " << i;
   }
 }
 

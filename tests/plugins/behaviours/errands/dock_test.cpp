@@ -169,7 +169,7 @@ TEST(Dock, SilenceOfAnotherTransducerDoesNotClearWhatStandsBetween) {
   }
 }
 
-TEST(Dock, WaitingForWhatStandsBetweenDoesNotCountAsBeingHeldBack) {
+TEST(Dock, WaitingForWhatStandsBetweenDoesNotCountAsBeingBlocked) {
   FakeHost host = room();
   host.robot = with_sonar_ahead(host.robot);
   double near_since_s = -1.0;
@@ -204,9 +204,9 @@ TEST(Dock, FailsWhereTheSideIsBlocked) {
   EXPECT_EQ(host.driven_m, 0.0);
 }
 
-TEST(Dock, FailsWhenItIsHeldBack) {
+TEST(Dock, FailsWhenItIsBlocked) {
   FakeHost host = room();
-  host.stop_layer = [](const Pose2& pose, const Twist& wanted) {
+  host.collision_monitor = [](const Pose2& pose, const Twist& wanted) {
     return (pose.position() - kCentre).norm() < 0.95 ? Twist{0.0, wanted.w_radps} : wanted;
   };
   Dock step = dock("{landmark: L1, side: right, patience_s: 3}");
@@ -216,13 +216,13 @@ TEST(Dock, FailsWhenItIsHeldBack) {
   EXPECT_THAT(status.reason, HasSubstr("before the right side of L1 (square), not at 0.40 m"));
 }
 
-TEST(Dock, TellsHowLongItsWayStillTakes) {
+TEST(Dock, ReportsHowLongItsWayStillTakes) {
   FakeHost host = room();
   Dock step = dock("{landmark: L1, side: right}");
   EXPECT_GT(host.first_left_s(step, 20.0).value_or(0.0), 1.0);
 }
 
-TEST(Dock, TellsWhereItsSettingsAreWrong) {
+TEST(Dock, ReportsWhereItsSettingsAreWrong) {
   EXPECT_THAT(error_of([] { dock("{landmark: L1}"); }),
               HasSubstr("dock: needs a side (`side: left` or `side_deg: 90`)"));
   EXPECT_EQ(error_of([] { dock("{landmark: L1, side: left, side_deg: 3}"); }),

@@ -192,9 +192,9 @@ TEST(GoTo, FailsWhenTheWayHasBeenClosed) {
   EXPECT_THAT(status.reason, StartsWith("no_route: "));
 }
 
-TEST(GoTo, GivesUpAfterBeingHeldBackAgainAndAgain) {
+TEST(GoTo, GivesUpAfterBeingBlockedAgainAndAgain) {
   FakeHost host(kRoom, kKnown);
-  host.stop_layer = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
+  host.collision_monitor = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
   GoTo go(config_at({2.4, 1.4}), 1);
   const Status status = host.run(go, 600.0);
   EXPECT_EQ(status.progress, Progress::failure);

@@ -65,7 +65,7 @@ TEST(CaptureTemplate, OfAPlaceWithNothingFails) {
   EXPECT_THAT(host.tick(unknown).reason, HasSubstr("(did you mean \"box\"?)"));
 }
 
-TEST(CaptureTemplate, TellsWhereItsSettingsAreWrong) {
+TEST(CaptureTemplate, ReportsWhereItsSettingsAreWrong) {
   EXPECT_THAT(error_of([] { capture("{at: L1, name: crate, file: ../crate.yaml}"); }),
               HasSubstr("mission.yaml:1:29: file"));
   EXPECT_EQ(error_of([] { capture("{at: L1, name: crate, file: report.json}"); }),
@@ -93,7 +93,7 @@ TEST(PlanQuery, AsksTheWholeQuestion) {
   EXPECT_EQ(host.tick(usual).reason, "here -> L1: answered into answers.jsonl");
 }
 
-TEST(PlanQuery, TellsWhereItsSettingsAreWrong) {
+TEST(PlanQuery, ReportsWhereItsSettingsAreWrong) {
   const auto ask = [](const char* yaml) { return PlanQuery(config_of<PlanQueryConfig>(yaml)); };
   EXPECT_EQ(error_of([&] { ask("{to: L1, file: answers.txt}"); }),
             "mission.yaml:1:16: file must end in .jsonl, found \"answers.txt\"");
@@ -123,7 +123,7 @@ TEST(Log, SaysALineWithTheValuesOfTheMoment) {
   EXPECT_EQ(host.tick(other).reason, "26 % no landmark unknown 100.0 % 4.5 m2");
 }
 
-TEST(Log, TellsNamesThatItDoesNotKnow) {
+TEST(Log, ReportsNamesThatItDoesNotKnow) {
   const auto log = [](const char* yaml) { return Log(config_of<LogConfig>(yaml)); };
   EXPECT_EQ(
       error_of([&] { log("{text: 'at {plce}'}"); }),

@@ -111,9 +111,9 @@ TEST(Search, LooksAtAllOnceMore) {
     FakeHost host(kRoom);
     Search step = search("{category: square, at_most_s: 4000, rounds: " + rounds + "}");
     EXPECT_EQ(host.run(step, 4100.0).progress, Progress::failure);
-    const auto told = std::ranges::count_if(
+    const auto reported = std::ranges::count_if(
         host.said, [](const std::string& text) { return text.starts_with("0 of 1 square found in round 1 of 2: "); });
-    EXPECT_EQ(told, rounds == "2" ? 1 : 0);
+    EXPECT_EQ(reported, rounds == "2" ? 1 : 0);
     return host.driven_m;
   };
   EXPECT_GT(driven_m("2"), 1.5 * driven_m("1"));
@@ -149,7 +149,7 @@ TEST(Search, FailsWhenItsTimeIsUp) {
   EXPECT_THAT(status.reason, HasSubstr("1 of 2 square found (L1); time is up in round 1 of 3"));
 }
 
-TEST(Search, TellsACategoryThatNoTemplateHas) {
+TEST(Search, ReportsACategoryThatNoTemplateHas) {
   EXPECT_EQ(error_of([] { search("{category: sqare}"); }),
             "mission.yaml:1:12: search: the mission has no template of category \"sqare\" (did you mean \"square\"?); "
             "it has circle, square");
@@ -199,11 +199,11 @@ TEST(Inspect, GoesOnAsLongAsTheDegreeRises) {
   FakeHost host = room_with_block();
   Inspect step = inspect("{landmark: nearest square, rounds_at_most: 4}");
   Status status;
-  std::size_t laps = 0;
+  std::size_t orbits = 0;
   while (status.progress == Progress::running && host.time_s < 600.0) {
     status = host.tick(step);
-    if (host.said.size() == laps) continue;
-    laps = host.said.size();
+    if (host.said.size() == orbits) continue;
+    orbits = host.said.size();
   }
   EXPECT_THAT(status.reason, HasSubstr("in 1 lap"));
 
@@ -223,7 +223,7 @@ TEST(Inspect, GoesOnAsLongAsTheDegreeRises) {
 
 TEST(Inspect, EndsAfterItsLastLapHoweverTheDegreeRises) {
   FakeHost host = room_with_block();
-  Inspect step = inspect("{landmark: L1, rounds_at_most: 1, lap_speed_mps: 0.2}");
+  Inspect step = inspect("{landmark: L1, rounds_at_most: 1, orbit_speed_mps: 0.2}");
   Status status;
   while (status.progress == Progress::running && host.time_s < 600.0) {
     host.graph.find(1)->degree = 0.7 + 0.001 * host.time_s;
@@ -233,13 +233,13 @@ TEST(Inspect, EndsAfterItsLastLapHoweverTheDegreeRises) {
   EXPECT_THAT(status.reason, HasSubstr("in 1 lap, that was the last lap"));
 }
 
-TEST(Search, TellsHowLongExploringStillTakes) {
+TEST(Search, ReportsHowLongExploringStillTakes) {
   FakeHost host(kRoom);
   Search step = search("{category: square}");
   EXPECT_TRUE(host.first_left_s(step, 120.0));
 }
 
-TEST(Inspect, TellsHowLongTheWayThereStillTakes) {
+TEST(Inspect, ReportsHowLongTheWayThereStillTakes) {
   FakeHost host = room_with_block();
   Inspect step = inspect("L1");
   EXPECT_GT(host.first_left_s(step, 20.0).value_or(0.0), 0.0);

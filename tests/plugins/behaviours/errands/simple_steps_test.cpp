@@ -64,7 +64,7 @@ TEST(Drive, DrivesThroughGentleBendsWithoutStopping) {
   EXPECT_LT(host.time_s, 2.0 * std::numbers::pi * 0.3 / 0.2 + 12.0);
 }
 
-TEST(Drive, FailsWhenItIsHeldBack) {
+TEST(Drive, FailsWhenItIsBlocked) {
   FakeHost host(kHall);
   DriveTo drive({.points_m = {{2.9, 0.65}}, .patience_s = 3.0}, 1);
   const Status status = host.run(drive, 60.0);
@@ -75,7 +75,7 @@ TEST(Drive, FailsWhenItIsHeldBack) {
 // A robot that stands with its back to the point, and must turn first.
 TEST(Drive, FailsWhenItsTurnInPlaceIsHeld) {
   FakeHost host(kHall);
-  host.stop_layer = [](const Pose2&, const Twist&) { return Twist{}; };
+  host.collision_monitor = [](const Pose2&, const Twist&) { return Twist{}; };
   DriveTo drive({.points_m = {host.T_map_robot * Point(-0.3, 0.0)}, .patience_s = 3.0}, 1);
   const Status status = host.run(drive, 60.0);
   EXPECT_EQ(status.progress, Progress::failure);

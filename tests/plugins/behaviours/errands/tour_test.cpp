@@ -81,7 +81,7 @@ TEST(Tour, FailsAtAPlaceThatCannotBeReached) {
   EXPECT_THAT(status.reason, HasSubstr("; visited 0 of 2 places"));
 }
 
-TEST(Tour, LeavesOutWhatCannotBeReachedWhenToldTo) {
+TEST(Tour, LeavesOutWhatCannotBeReachedWhenAskedTo) {
   FakeHost host = hall();
   Tour step = tour("{places: [[3.5, 0.5], L1, nearest squirrel], skip: true}");
   const Status status = host.run(step, 600.0);
@@ -108,7 +108,7 @@ TEST(Tour, WaitsAtEachPlaceAndRunsOutOfTime) {
   EXPECT_NEAR(host.time_s, 30.0, 0.1);
 }
 
-TEST(Tour, TellsHowLongTheWayToThePlaceStillTakes) {
+TEST(Tour, ReportsHowLongTheWayToThePlaceStillTakes) {
   FakeHost host = hall();
   Tour step = tour("{places: [[2.6, 0.5]]}");
   EXPECT_GT(host.first_left_s(step, 20.0).value_or(0.0), 1.0);
@@ -116,7 +116,7 @@ TEST(Tour, TellsHowLongTheWayToThePlaceStillTakes) {
   EXPECT_GT(host.first_left_s(patrol, 20.0).value_or(0.0), 1.0);
 }
 
-TEST(Tour, TellsWhereItsSettingsAreWrong) {
+TEST(Tour, ReportsWhereItsSettingsAreWrong) {
   EXPECT_EQ(error_of([] { tour("{places: []}"); }),
             "mission.yaml:1:10: places must be a list of 1 to 50 places, found an empty list");
   EXPECT_THAT(error_of([] { tour("{places: [L1, [1, x]]}"); }), HasSubstr("mission.yaml:1:"));
@@ -184,7 +184,7 @@ TEST(Patrol, SaysHowManyLandmarksARoundLeavesOut) {
                                      "round 1 of 1 begins"));
 }
 
-TEST(Patrol, FailsWithoutLandmarksAndTellsWrongRounds) {
+TEST(Patrol, FailsWithoutLandmarksAndReportsWrongRounds) {
   FakeHost host(kHall, {.all_known = true});
   Patrol step(config_of<PatrolConfig>("3"), 1);
   EXPECT_EQ(host.run(step, 10.0), (Status{Progress::failure, "there is nothing to patrol: the map holds no landmark"}));

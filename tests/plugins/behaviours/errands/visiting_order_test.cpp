@@ -29,7 +29,7 @@ Costs random_costs(std::size_t places, std::uint64_t seed, double detours) {
   return cost;
 }
 
-double least_of_all_permutations(const Costs& cost) {
+double min_of_all_permutations(const Costs& cost) {
   std::vector<std::size_t> order(cost.size() - 1);
   std::iota(order.begin(), order.end(), 1);
   double least = cost_of(order, cost);
@@ -50,20 +50,20 @@ TEST(VisitingOrder, IsTheBestOfAllPermutations) {
       const Costs cost = random_costs(places, seed, 2.0);
       const std::vector<std::size_t> order = shortest_order(cost);
       expect_each_once(order, places);
-      EXPECT_NEAR(cost_of(order, cost), least_of_all_permutations(cost), 1e-9) << places << " places, seed " << seed;
+      EXPECT_NEAR(cost_of(order, cost), min_of_all_permutations(cost), 1e-9) << places << " places, seed " << seed;
     }
 }
 
 TEST(VisitingOrder, OfManyPlacesIsNearTheBest) {
   // Eleven are solved exactly; the same with one more on top of the last one must not cost much more.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Costs eleven = random_costs(kMostExactPlaces, seed, 0.0);
+    const Costs eleven = random_costs(kMaxExactPlaces, seed, 0.0);
     Costs twelve = eleven;
     for (std::vector<double>& row : twelve) row.push_back(row.back());
     twelve.push_back(twelve.back());
     twelve.back().back() = 0.0;
     const std::vector<std::size_t> order = shortest_order(twelve);
-    expect_each_once(order, kMostExactPlaces + 1);
+    expect_each_once(order, kMaxExactPlaces + 1);
     EXPECT_LE(cost_of(order, twelve), 1.25 * cost_of(shortest_order(eleven), eleven)) << seed;
   }
 }

@@ -191,17 +191,17 @@ TEST(Explore, FailsWhenItCannotMove) {
 
 TEST(Explore, FailsWhenTheStopLayerNeverLetsItGo) {
   FakeHost host(kRoomWithObject);
-  host.stop_layer = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
+  host.collision_monitor = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
   Explore explore({});
   const Status status = host.run(explore, 600.0);
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_THAT(status.reason, HasSubstr("held back"));
 }
 
-TEST(Explore, IsNotTrappedByAPlaceWhereItIsHeldBack) {
+TEST(Explore, IsNotTrappedByAPlaceWhereItIsBlocked) {
   // Something that the sonars see and the map does not hold stands in the right third of the room.
   FakeHost host(kRoomWithObject);
-  host.stop_layer = [](const Pose2& pose, const Twist& wanted) {
+  host.collision_monitor = [](const Pose2& pose, const Twist& wanted) {
     const Point ahead = pose * Point{std::copysign(0.3, wanted.v_mps), 0.0};
     const bool held = wanted.v_mps != 0.0 && (ahead - Point{3.2, 2.3}).norm() < 0.35;
     return Twist{held ? 0.0 : wanted.v_mps, wanted.w_radps};

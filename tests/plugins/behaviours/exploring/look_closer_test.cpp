@@ -48,14 +48,14 @@ TEST(CompactObjects, AreTheOnesThatFit) {
   EXPECT_THAT(compact_objects(space, 0.4), IsEmpty());
 }
 
-TEST(LapRound, IsOpenAllRoundAnObjectThatStandsFree) {
+TEST(OrbitRound, IsOpenAllRoundAnObjectThatStandsFree) {
   const FreeSpace space = space_of(open_room());
   const CellGroup object = compact_objects(space, 1.5).at(0);
-  const Lap lap = lap_round(space, object, {}, {}, {});
-  EXPECT_LT((lap.centre - kCentre).norm(), 1e-9);
-  EXPECT_EQ(lap.count(SectorState::open), kLapSectors);
-  EXPECT_TRUE(lap.is_round_trip());
-  for (const Sector& sector : lap.sectors) {
+  const Orbit orbit = orbit_round(space, object, {}, {}, {});
+  EXPECT_LT((orbit.centre - kCentre).norm(), 1e-9);
+  EXPECT_EQ(orbit.count(SectorState::open), kOrbitSectors);
+  EXPECT_TRUE(orbit.is_round_trip());
+  for (const Sector& sector : orbit.sectors) {
     double nearest_m = 1e9;
     for (const Cell c : object)
       nearest_m = std::min(nearest_m, (space.centre_of(c) - space.centre_of(sector.lookout)).norm());
@@ -63,15 +63,15 @@ TEST(LapRound, IsOpenAllRoundAnObjectThatStandsFree) {
   }
 }
 
-TEST(LapRound, CoversTheSectorsThatTheRobotHasBeenIn) {
+TEST(OrbitRound, CoversTheSectorsThatTheRobotHasBeenIn) {
   const FreeSpace space = space_of(open_room());
   const CellGroup object = compact_objects(space, 1.5).at(0);
-  EXPECT_EQ(lap_round(space, object, ring(kCentre, 0.8, 0, 360), {}, {}).count(SectorState::covered), kLapSectors);
-  EXPECT_EQ(lap_round(space, object, ring(kCentre, 0.8, -7, 187), {}, {}).count(SectorState::covered), 13);
-  EXPECT_EQ(lap_round(space, object, ring(kCentre, 1.5, 0, 360), {}, {}).count(SectorState::covered), 0);
+  EXPECT_EQ(orbit_round(space, object, ring(kCentre, 0.8, 0, 360), {}, {}).count(SectorState::covered), kOrbitSectors);
+  EXPECT_EQ(orbit_round(space, object, ring(kCentre, 0.8, -7, 187), {}, {}).count(SectorState::covered), 13);
+  EXPECT_EQ(orbit_round(space, object, ring(kCentre, 1.5, 0, 360), {}, {}).count(SectorState::covered), 0);
 }
 
-TEST(LapRound, IsNoRoundTripBehindAWallSeenFromOneSide) {
+TEST(OrbitRound, IsNoRoundTripBehindAWallSeenFromOneSide) {
   const AsciiGrid map(R"(
 ..............................
 ..............................
@@ -87,12 +87,12 @@ R.............................
 .........##########...........
 )");
   const FreeSpace space = space_of(map);
-  const Lap lap = lap_round(space, compact_objects(space, 1.5).at(0), {}, {}, {});
-  EXPECT_GE(lap.count(SectorState::hidden), 8);
-  EXPECT_FALSE(lap.is_round_trip());
+  const Orbit orbit = orbit_round(space, compact_objects(space, 1.5).at(0), {}, {}, {});
+  EXPECT_GE(orbit.count(SectorState::hidden), 8);
+  EXPECT_FALSE(orbit.is_round_trip());
 }
 
-TEST(LapRound, LeavesOutTheSideThatStandsAgainstAWall) {
+TEST(OrbitRound, LeavesOutTheSideThatStandsAgainstAWall) {
   std::string drawing;
   for (int r = 0; r < 25; ++r) {
     std::string row(50, '.');
@@ -103,16 +103,16 @@ TEST(LapRound, LeavesOutTheSideThatStandsAgainstAWall) {
   }
   const AsciiGrid map(drawing);
   const FreeSpace space = space_of(map);
-  const Lap lap = lap_round(space, compact_objects(space, 1.5).at(0), {}, {}, {});
-  EXPECT_GE(lap.count(SectorState::blocked), 5);
-  EXPECT_TRUE(lap.is_round_trip());
+  const Orbit orbit = orbit_round(space, compact_objects(space, 1.5).at(0), {}, {}, {});
+  EXPECT_GE(orbit.count(SectorState::blocked), 5);
+  EXPECT_TRUE(orbit.is_round_trip());
 }
 
-TEST(LapRoute, GoesAllTheWayRoundFromTheNearestSector) {
+TEST(OrbitRoute, GoesAllTheWayRoundFromTheNearestSector) {
   const AsciiGrid map = open_room();
   const FreeSpace space = space_of(map);
-  const Lap lap = lap_round(space, compact_objects(space, 1.5).at(0), {}, {}, {});
-  const LapRoute route = lap_route(space, lap, {map.at('R').x(), map.at('R').y(), 0.0});
+  const Orbit orbit = orbit_round(space, compact_objects(space, 1.5).at(0), {}, {}, {});
+  const OrbitRoute route = orbit_route(space, orbit, {map.at('R').x(), map.at('R').y(), 0.0});
   EXPECT_LT(space.centre_of(route.first).x(), kCentre.x());  // the robot comes from the left
   double turned_rad = 0.0;
   for (std::size_t i = 1; i < route.path.size(); ++i) {
@@ -123,20 +123,20 @@ TEST(LapRoute, GoesAllTheWayRoundFromTheNearestSector) {
   EXPECT_GT(std::abs(degrees(turned_rad)), 330.0);
 }
 
-TEST(LapRoute, GoesOnInTheDirectionThatIsLeft) {
+TEST(OrbitRoute, GoesOnInTheDirectionThatIsLeft) {
   const AsciiGrid map = open_room();
   const FreeSpace space(map.grid, {kCentre + Point{-0.8, 0.0}, 0.2, 0.1}, {{0.55, 1.75, 0.0}});
   // Half a lap is done, clockwise from the right over the top: on through the bottom.
-  const Lap lap = lap_round(space, compact_objects(space, 1.5).at(0), ring(kCentre, 0.8, 0, 180), {}, {});
-  const LapRoute route = lap_route(space, lap, {1.75, 1.75, radians(90.0)});
+  const Orbit orbit = orbit_round(space, compact_objects(space, 1.5).at(0), ring(kCentre, 0.8, 0, 180), {}, {});
+  const OrbitRoute route = orbit_route(space, orbit, {1.75, 1.75, radians(90.0)});
   EXPECT_LT(space.centre_of(route.first).y(), kCentre.y());
   EXPECT_GT(route.path.back().x(), kCentre.x());
 }
 
-TEST(LapRoute, IsEmptyWhenNothingIsOpen) {
+TEST(OrbitRoute, IsEmptyWhenNothingIsOpen) {
   const FreeSpace space = space_of(open_room());
-  const Lap lap = lap_round(space, compact_objects(space, 1.5).at(0), ring(kCentre, 0.8, 0, 360), {}, {});
-  EXPECT_TRUE(lap_route(space, lap, {}).path.empty());
+  const Orbit orbit = orbit_round(space, compact_objects(space, 1.5).at(0), ring(kCentre, 0.8, 0, 360), {}, {});
+  EXPECT_TRUE(orbit_route(space, orbit, {}).path.empty());
 }
 
 TEST(Unseen, IsWhatNoPoseOfTheTraceHasSeenFromNear) {

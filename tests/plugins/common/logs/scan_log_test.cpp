@@ -41,7 +41,7 @@ TEST(ScanLog, KeepsGoodStampsAsTheyStand) {
   EXPECT_EQ(sentence, "end of a.log after 4 observations");
 }
 
-TEST(ScanLog, BridgesAClockThatJumpsAndTellsTheFirstLine) {
+TEST(ScanLog, BridgesAClockThatJumpsAndReportsTheFirstLine) {
   std::string sentence;
   EXPECT_THAT(stamps_of(log_with_stamps({5, 6, 2, 3, 1e9, 1e9 + 2}), &sentence),
               Pointwise(DoubleNear(1e-6), {5.0, 6.0, 6.1, 7.1, 7.2, 9.2}));
@@ -55,7 +55,7 @@ TEST(ScanLog, StampsNeverGoBackWhateverTheClockDoes) {
   EXPECT_LT(stamps_s.back(), 1e9);
 }
 
-TEST(ScanLog, RefusesAClockJumpWhenToldTo) {
+TEST(ScanLog, RefusesAClockJumpWhenAskedTo) {
   LogRules rules;
   rules.on_clock_jump = ClockJump::refuse;
   try {
@@ -78,7 +78,7 @@ TEST(ScanLog, CountsScansWhenTheStampsStandStill) {
   EXPECT_THAT(sentence, HasSubstr("the time stamps stand still: scans taken as 0.5 s apart"));
 }
 
-TEST(ScanLog, TellsKindsItDidNotReadButNotAllOfThem) {
+TEST(ScanLog, ReportsKindsItDidNotReadButNotAllOfThem) {
   ScanLog log = log_with_stamps({1});
   for (int i = 0; i < 100; ++i) log.unknown_line("KIND" + std::to_string(i / 2));
   log.unknown_line(std::string(1000, 'K'));
@@ -88,7 +88,7 @@ TEST(ScanLog, TellsKindsItDidNotReadButNotAllOfThem) {
             "\"KIND3\" 2 \"KIND4\" 2 \"KIND5\" 2 \"KIND6\" 2 \"KIND7\" 2");
 }
 
-TEST(ScanLog, TellsTheFirstBadLineWithoutTheFolderItLiesIn) {
+TEST(ScanLog, ReportsTheFirstBadLineWithoutTheFolderItLiesIn) {
   LogRules rules;
   rules.on_bad_line = BadLine::skip;
   ScanLog log = log_with_stamps({1}, rules);

@@ -1,4 +1,4 @@
-#include "framework/experiments/recognition/lap.hpp"
+#include "framework/experiments/recognition/orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,11 @@ double bearing(const Point& from, const Point& to) {
 
 }  // namespace
 
-std::vector<LapSample> degrees_along_lap(const ExperimentConfig& config, const World& world, const Point& start_m,
-                                         const std::vector<DegreeSample>& samples) {
-  const auto object = std::ranges::find(world.objects, config.lap->around, &WorldObject::category);
+std::vector<OrbitSample> degrees_along_orbit(const ExperimentConfig& config, const World& world, const Point& start_m,
+                                             const std::vector<DegreeSample>& samples) {
+  const auto object = std::ranges::find(world.objects, config.orbit->around, &WorldObject::category);
   const Point centre_m = object->T_map_object.position();
-  std::vector<LapSample> lap;
+  std::vector<OrbitSample> orbit;
   double last_rad = bearing(centre_m, start_m);
   double angle_rad = 0.0;
   for (const DegreeSample& sample : samples) {
@@ -28,14 +28,14 @@ std::vector<LapSample> degrees_along_lap(const ExperimentConfig& config, const W
     last_rad = here_rad;
     if ((sample.region_centre_m - centre_m).norm() > config.looks_within_m) continue;
     if (std::abs(angle_rad) >= 2.0 * std::numbers::pi) break;
-    LapSample& on_lap = lap.emplace_back();
-    on_lap.angle_rad = std::abs(angle_rad);
-    on_lap.categories = degrees_in_order(sample.degrees, config.categories);
+    OrbitSample& on_orbit = orbit.emplace_back();
+    on_orbit.angle_rad = std::abs(angle_rad);
+    on_orbit.categories = degrees_in_order(sample.degrees, config.categories);
     for (const TemplateDegree& t : sample.templates)
-      if (t.category == config.lap->around)
-        on_lap.templates[static_cast<int>(std::lround(degrees(t.orientation_rad)))] = t.degree;
+      if (t.category == config.orbit->around)
+        on_orbit.templates[static_cast<int>(std::lround(degrees(t.orientation_rad)))] = t.degree;
   }
-  return lap;
+  return orbit;
 }
 
 }  // namespace cairn

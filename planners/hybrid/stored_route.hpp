@@ -10,10 +10,10 @@ namespace cairn {
 
 // Between landmarks: the cheapest way over the graph, when all its trajectories are free and it is so short that no
 // direct way could be preferred to it. Looks closely at the grid along that way only, coarsely at the rest where the
-// straight line is not enough to tell (least_way.hpp), and answers what a full look would; none where that is not
-// certain.
-[[nodiscard]] std::optional<PlanResult> stored_way(const HybridTools& tools, const LegRules& legs,
-                                                   const AnswerRules& answers, const PlanRequest& request,
-                                                   const WorldView& world, const Budget& budget);
+// straight line is not enough to tell (length_lower_bound.hpp), and answers what a full look would; none where that is
+// not certain.
+[[nodiscard]] std::optional<PlanResult> stored_route(const HybridTools& tools, const LegRules& legs,
+                                                     const AnswerRules& answers, const PlanRequest& request,
+                                                     const WorldView& world, const Budget& budget);
 
 }  // namespace cairn

@@ -1,25 +1,25 @@
-#include "planners/hybrid/pieces.hpp"
+#include "planners/hybrid/segments.hpp"
 
 namespace cairn {
 
-std::vector<PlanPiece> pieces_of(const std::vector<PartedPoint>& route, const std::vector<PlanPiece>& parts) {
-  std::vector<PlanPiece> pieces;
+std::vector<PathSegment> segments_of(const std::vector<PartedPoint>& route, const std::vector<PathSegment>& parts) {
+  std::vector<PathSegment> segments;
   int last = kSeveralParts - 1;  // none
   for (std::size_t i = 1; i < route.size(); ++i) {
     const double length_m = (route[i].at - route[i - 1].at).norm();
     if (length_m == 0.0) continue;
     const int part = route[i].part;
     if (part != last)
-      pieces.push_back(part == kSeveralParts ? PlanPiece{PlanPiece::Origin::cut, 0, 0.0}
-                                             : parts.at(static_cast<std::size_t>(part)));
+      segments.push_back(part == kSeveralParts ? PathSegment{PathSegment::Origin::cut, 0, 0.0}
+                                               : parts.at(static_cast<std::size_t>(part)));
     last = part;
-    pieces.back().length_m += length_m;
+    segments.back().length_m += length_m;
   }
-  return pieces;
+  return segments;
 }
 
-std::vector<PlanPiece> pieces_of_graph(const PlanResult& found, const LandmarkGraph& graph) {
-  std::vector<PlanPiece> parts;
+std::vector<PathSegment> segments_of_graph(const PlanResult& found, const LandmarkGraph& graph) {
+  std::vector<PathSegment> parts;
   std::vector<PartedPoint> route;
   const auto stand_at = [&](LandmarkId id) {
     const Landmark& landmark = *graph.find(id);
@@ -29,12 +29,12 @@ std::vector<PlanPiece> pieces_of_graph(const PlanResult& found, const LandmarkGr
     const Route& leg = *graph.find_route(found.routes[i]);
     const bool stored = !leg.trajectory.empty();
     if (route.empty() && !stored) route.push_back({stand_at(found.landmarks[i]), 0});
-    parts.push_back({stored ? PlanPiece::Origin::stored : PlanPiece::Origin::straight, leg.id, 0.0});
+    parts.push_back({stored ? PathSegment::Origin::stored : PathSegment::Origin::straight, leg.id, 0.0});
     const int part = static_cast<int>(i);
     for (const Pose2& pose : leg.trajectory) route.push_back({pose.position(), part});
     if (!stored) route.push_back({stand_at(found.landmarks[i + 1]), part});
   }
-  return pieces_of(route, parts);
+  return segments_of(route, parts);
 }
 
 }  // namespace cairn

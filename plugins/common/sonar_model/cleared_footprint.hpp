@@ -10,14 +10,14 @@
 
 namespace cairn::sonar_model {
 
-class StandingRoom {
+class ClearedFootprint {
  public:
   // What a cell under the robot is set to: free, and no more sure than that takes.
   static constexpr LogOdds kFree = -200;
 
   // Of a robot that takes no room: no cells.
-  StandingRoom() = default;
-  explicit StandingRoom(const RobotModel& robot);
+  ClearedFootprint() = default;
+  explicit ClearedFootprint(const RobotModel& robot);
 
   // The cells that are unknown and belong to the largest disc round the robot's origin that its footprint holds, or
   // are a cell beside it and do not look occupied: planners ask for the room of whole cells. Nothing once more before

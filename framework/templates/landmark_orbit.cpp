@@ -1,4 +1,4 @@
-#include "framework/templates/landmark_lap.hpp"
+#include "framework/templates/landmark_orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +39,8 @@ bool comes_near(const RangeReading& reading, const Pose2& T_map_robot, const Poi
 }
 
 // Drives one lap and hands every observation to the mapper.
-void drive_lap(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const Twist& twist, const Point& centre_m,
-               double needed_m) {
+void drive_orbit(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const Twist& twist, const Point& centre_m,
+                 double needed_m) {
   Drive* drive = sensor.drive();
   if (drive == nullptr) throw std::runtime_error("sensed templates need a sensor that can be driven");
   drive->command(twist);
@@ -48,8 +48,8 @@ void drive_lap(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const T
   double turned_rad = 0.0;
   double heading_rad = T_map_start.theta_rad;
   // Starting and the first turn of the wheels take a little longer than the lap itself.
-  const int most_steps = static_cast<int>(1.0e6);
-  for (int step = 0; step < most_steps && std::abs(turned_rad) < 2.0 * std::numbers::pi; ++step) {
+  const int max_steps = static_cast<int>(1.0e6);
+  for (int step = 0; step < max_steps && std::abs(turned_rad) < 2.0 * std::numbers::pi; ++step) {
     SensorStep next = sensor.next(budget);
     if (next.state != SensorState::observation) {
       throw std::runtime_error("sensed templates: the sensor stopped during a lap: " + next.reason);
@@ -66,7 +66,7 @@ void drive_lap(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const T
   }
 }
 
-ModuleContext context_of(const LapCrew& crew, const RobotModel& robot, std::uint64_t seed, const Pose2& T_map_start,
+ModuleContext context_of(const OrbitCrew& crew, const RobotModel& robot, std::uint64_t seed, const Pose2& T_map_start,
                          const World* world) {
   ModuleContext context{robot};
   context.world = world;
@@ -78,7 +78,7 @@ ModuleContext context_of(const LapCrew& crew, const RobotModel& robot, std::uint
 
 }  // namespace
 
-std::shared_ptr<Mapper> map_of_laps(const LapCrew& crew, const Contour& contour, const LapPlan& plan) {
+std::shared_ptr<Mapper> map_of_orbits(const OrbitCrew& crew, const Contour& contour, const OrbitPlan& plan) {
   const double contour_m = 0.5 * contour.outer_diameter_m();
   const double farthest_m = contour_m + std::ranges::max(plan.standoffs_m);
   const RobotModel robot = calibrated(crew.robot, 2.0 * farthest_m);
@@ -93,7 +93,7 @@ std::shared_ptr<Mapper> map_of_laps(const LapCrew& crew, const Contour& contour,
       const Pose2 T_map_start{centre.x() + side * radius_m, centre.y(), std::numbers::pi / 2.0};
       const auto sensor =
           crew.modules.make<Sensor>(crew.sensor, context_of(crew, robot, plan.seed, T_map_start, &world));
-      drive_lap(*sensor, *mapper, T_map_start, {speed_mps, side * speed_mps / radius_m}, centre, plan.needed_m);
+      drive_orbit(*sensor, *mapper, T_map_start, {speed_mps, side * speed_mps / radius_m}, centre, plan.needed_m);
     }
   }
   return mapper;

@@ -12,20 +12,20 @@ namespace cairn {
 
 // One line of a chart: a value in the middle of each bin of the lap, none where fewer than half of the
 // runs had a matching.
-struct LapSeries {
+struct OrbitSeries {
   std::string name;
   std::vector<std::optional<Estimate>> bins;
 };
 // In each run the last matching of a bin counts.
-[[nodiscard]] std::vector<LapSeries> lap_categories(const ExperimentConfig& config,
-                                                    const std::vector<const ExperimentRow*>& rows);
-[[nodiscard]] std::vector<LapSeries> lap_templates(const ExperimentConfig& config,
-                                                   const std::vector<const ExperimentRow*>& rows);
+[[nodiscard]] std::vector<OrbitSeries> orbit_categories(const ExperimentConfig& config,
+                                                        const std::vector<const ExperimentRow*>& rows);
+[[nodiscard]] std::vector<OrbitSeries> orbit_templates(const ExperimentConfig& config,
+                                                       const std::vector<const ExperimentRow*>& rows);
 
 // "square 15 deg"
 [[nodiscard]] std::string template_name(const ExperimentConfig& config, int orientation_deg);
 
 // Markdown; a table a mission and variant.
-[[nodiscard]] std::string lap_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
+[[nodiscard]] std::string orbit_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
 
 }  // namespace cairn

@@ -14,7 +14,7 @@
 namespace cairn {
 
 // Who drives, senses and maps.
-struct LapCrew {
+struct OrbitCrew {
   const RobotModel& robot;
   const PluginChoice& sensor;
   const PluginChoice& map;
@@ -23,7 +23,7 @@ struct LapCrew {
 
 enum class Side { left, right };  // of the robot, where the landmark is
 
-struct LapPlan {
+struct OrbitPlan {
   double orientation_rad = 0.0;           // of the landmark
   Point offset_m{0.0, 0.0};               // of its centre from that of cell (0, 0)
   std::vector<double> standoffs_m{0.55};  // from the contour's outer circle to the robot's centre
@@ -39,6 +39,7 @@ struct LapPlan {
 // end a little beyond the landmark, odometry and compass are free of error, the landmark's surface is rough. The same
 // arguments give the same map. Throws what the modules throw, and std::runtime_error when the sensor cannot be driven
 // or ends before the lap does.
-[[nodiscard]] std::shared_ptr<Mapper> map_of_laps(const LapCrew& crew, const Contour& contour, const LapPlan& plan);
+[[nodiscard]] std::shared_ptr<Mapper> map_of_orbits(const OrbitCrew& crew, const Contour& contour,
+                                                    const OrbitPlan& plan);
 
 }  // namespace cairn

@@ -1,4 +1,4 @@
-#include "planners/hybrid/least_way.hpp"
+#include "planners/hybrid/length_lower_bound.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ void PrintTo(const Case& of, std::ostream* out) {
        << (of.unknown == UnknownPolicy::avoid ? ", unknown avoided" : ", unknown allowed");
 }
 
-class LeastWays : public ::testing::TestWithParam<Case> {
+class LengthLowerBounds : public ::testing::TestWithParam<Case> {
  protected:
   // Between places where the disc fits.
   void compare(RandomRooms& rooms, int pairs) {
@@ -88,7 +88,7 @@ class LeastWays : public ::testing::TestWithParam<Case> {
   }
 
   const GroundRules rules_{GetParam().unknown, {}};
-  const double disc_m_ = GetParam().radius_m + kLeastRadius_m;
+  const double disc_m_ = GetParam().radius_m + kMinRadius_m;
   int compared_ = 0;
   int impossible_ = 0;
   double bounds_m_ = 0.0;
@@ -96,16 +96,16 @@ class LeastWays : public ::testing::TestWithParam<Case> {
 
  private:
   void compare(const OccupancyGrid& grid, const DiscRoutes& routes, const Point& from, const Point& to) {
-    const double bound_m = least_way_m(grid, rules_, disc_m_, from, to, Budget{});
-    const double least_m = routes.least_length_m(from, to, Budget{});
-    EXPECT_LE(bound_m, least_m) << from.transpose() << " to " << to.transpose();
-    if (std::isinf(least_m)) {
+    const double bound_m = length_lower_bound_m(grid, rules_, disc_m_, from, to, Budget{});
+    const double min_m = routes.length_lower_bound_m(from, to, Budget{});
+    EXPECT_LE(bound_m, min_m) << from.transpose() << " to " << to.transpose();
+    if (std::isinf(min_m)) {
       ++impossible_;
       return;
     }
     EXPECT_GE(bound_m, (1.0 - 1e-5) * (to - from).norm());
     bounds_m_ += bound_m;
-    lengths_m_ += least_m;
+    lengths_m_ += min_m;
     if (++compared_ % 8 != 0) return;
     // The same of a route itself, which takes longer.
     const DiscRoute found = routes.route(from, to, Budget{});
@@ -114,7 +114,7 @@ class LeastWays : public ::testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(LeastWays, AreNeverLongerThanTheWayThatMustBe) {
+TEST_P(LengthLowerBounds, AreNeverLongerThanTheWayThatMustBe) {
   const int door_cells = 5 + static_cast<int>(2.0 * GetParam().radius_m / 0.05);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomRooms rooms(seed, 150, door_cells, GetParam().clutter_ratio);
@@ -125,14 +125,14 @@ TEST_P(LeastWays, AreNeverLongerThanTheWayThatMustBe) {
   EXPECT_GT(bounds_m_, 0.8 * lengths_m_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, LeastWays,
+INSTANTIATE_TEST_SUITE_P(Cases, LengthLowerBounds,
                          ::testing::Values(Case{0.22, 0.0, UnknownPolicy::avoid},
                                            Case{0.22, 0.003, UnknownPolicy::allow},
                                            Case{0.14, 0.004, UnknownPolicy::avoid},
                                            Case{0.1, 0.02, UnknownPolicy::allow},
                                            Case{0.0, 0.2, UnknownPolicy::avoid}));
 
-TEST(LeastWay, GoesRoundAWall) {
+TEST(LengthLowerBound, GoesRoundAWall) {
   const test::DrawnWorld world = test::drawn_world(
       "###################\n"
       "#.................#\n"
@@ -145,22 +145,22 @@ TEST(LeastWay, GoesRoundAWall) {
   const Point b = world.places.at('B');
   const double straight_m = (b - a).norm();
   const auto space = std::make_shared<const DiscSpace>(world.grid, GroundRules{});
-  const double least_m = DiscRoutes(space, 0.22).least_length_m(a, b, {});
-  const double bound_m = least_way_m(world.grid, {}, 0.22, a, b, {});
-  EXPECT_GT(bound_m, straight_m + 0.5 * (least_m - straight_m));
-  EXPECT_LE(bound_m, least_m);
+  const double min_m = DiscRoutes(space, 0.22).length_lower_bound_m(a, b, {});
+  const double bound_m = length_lower_bound_m(world.grid, {}, 0.22, a, b, {});
+  EXPECT_GT(bound_m, straight_m + 0.5 * (min_m - straight_m));
+  EXPECT_LE(bound_m, min_m);
 }
 
-TEST(LeastWay, IsEndlessWhereNoneLeadsAndNotKnownWithoutTime) {
+TEST(LengthLowerBound, IsEndlessWhereNoneLeadsAndNotKnownWithoutTime) {
   const test::DrawnWorld world = test::drawn_world("A..?..B\n", 0.05, 12);
   const Point a = world.places.at('A');
   const Point b = world.places.at('B');
-  EXPECT_TRUE(std::isinf(least_way_m(world.grid, {UnknownPolicy::avoid, {}}, 0.22, a, b, {})));
-  EXPECT_NEAR(least_way_m(world.grid, {UnknownPolicy::allow, {}}, 0.22, a, b, {}), (b - a).norm(), 1e-4);
+  EXPECT_TRUE(std::isinf(length_lower_bound_m(world.grid, {UnknownPolicy::avoid, {}}, 0.22, a, b, {})));
+  EXPECT_NEAR(length_lower_bound_m(world.grid, {UnknownPolicy::allow, {}}, 0.22, a, b, {}), (b - a).norm(), 1e-4);
   const std::atomic<bool> cancel = true;
   Budget none;
   none.cancel = &cancel;
-  EXPECT_EQ(least_way_m(world.grid, {UnknownPolicy::allow, {}}, 0.22, a, b, none), 0.0);
+  EXPECT_EQ(length_lower_bound_m(world.grid, {UnknownPolicy::allow, {}}, 0.22, a, b, none), 0.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "planners/hybrid/stored_way.hpp"
+#include "planners/hybrid/stored_route.hpp"
 
 #include <gmock/gmock.h>
 
@@ -12,14 +12,14 @@ namespace {
 using test::Hybrid;
 using test::kRadius_m;
 
-class StoredWays : public Hybrid {
+class StoredRoutes : public Hybrid {
  protected:
   // Looked at along the way only.
   std::optional<PlanResult> beside(const PlanRequest& request) const {
     const HybridTools tools{config, UnknownPolicy::avoid, 0.0, usual_, avoiding_, *router, *searcher};
-    const LegRules legs{request.radius_m, request.radius_m + kLeastRadius_m, config.detour_ratio, request.seed};
+    const LegRules legs{request.radius_m, request.radius_m + kMinRadius_m, config.detour_ratio, request.seed};
     const AnswerRules answers{{}, request.radius_m, request.radius_m, config.shortcut};
-    return stored_way(tools, legs, answers, request, world.view(), {});
+    return stored_route(tools, legs, answers, request, world.view(), {});
   }
   // Every letter a landmark, routes between some of them straight on, a few with a cost or no trajectory.
   void add_any_routes(std::mt19937_64& random) {
@@ -51,10 +51,10 @@ void expect_same(const PlanResult& found, const PlanResult& whole) {
   EXPECT_EQ(found.cost_m, whole.cost_m);
   EXPECT_EQ(found.length_m, whole.length_m);
   EXPECT_NEAR(found.clearance_m, whole.clearance_m, 1e-9);
-  EXPECT_EQ(found.pieces.size(), whole.pieces.size());
+  EXPECT_EQ(found.segments.size(), whole.segments.size());
 }
 
-TEST_F(StoredWays, AreWhatAFullLookFinds) {
+TEST_F(StoredRoutes, AreWhatAFullLookFinds) {
   std::mt19937_64 random(8);
   int found = 0;
   int left = 0;
@@ -76,7 +76,7 @@ TEST_F(StoredWays, AreWhatAFullLookFinds) {
   EXPECT_GT(left, 60);
 }
 
-TEST_F(StoredWays, GoRoundWhatIsInEveryDirectWay) {
+TEST_F(StoredRoutes, GoRoundWhatIsInEveryDirectWay) {
   const LandmarkId u = landmark('U');
   const LandmarkId v = landmark('V');
   const Point beyond_the_wall(0.61, 0.0);
@@ -96,7 +96,7 @@ TEST_F(StoredWays, GoRoundWhatIsInEveryDirectWay) {
   EXPECT_THAT(plan(between(u, v)).routes, testing::IsEmpty());
 }
 
-TEST_F(StoredWays, WhatIsNotCertainIsLeftToTheFullLook) {
+TEST_F(StoredRoutes, WhatIsNotCertainIsLeftToTheFullLook) {
   const LandmarkId m = landmark('M');
   const LandmarkId n = landmark('N');
   route(m, n, "MUN");

@@ -1,4 +1,4 @@
-#include "plugins/common/sonar_model/standing_room.hpp"
+#include "plugins/common/sonar_model/cleared_footprint.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ double inscribed_m(const RobotModel& robot) {
 
 }  // namespace
 
-StandingRoom::StandingRoom(const RobotModel& robot) : radius_m_(inscribed_m(robot)) {}
+ClearedFootprint::ClearedFootprint(const RobotModel& robot) : radius_m_(inscribed_m(robot)) {}
 
-std::span<const Cell> StandingRoom::unknown_under(const OccupancyGrid& grid, const Pose2& T_map_robot) {
+std::span<const Cell> ClearedFootprint::unknown_under(const OccupancyGrid& grid, const Pose2& T_map_robot) {
   cells_.clear();
   const Point at_m = T_map_robot.position();
   const double cell_m = grid.cell_m();
@@ -31,13 +31,13 @@ std::span<const Cell> StandingRoom::unknown_under(const OccupancyGrid& grid, con
   for (int y = low.y; y <= high.y; ++y)
     for (int x = low.x; x <= high.x; ++x) {
       const double off_m = (grid.centre_of({x, y}) - at_m).norm();
-      const bool may_be_free = off_m <= radius_m_ || (off_m <= reach_m && grid.log_odds({x, y}) <= 0);
-      if (may_be_free && grid.state({x, y}) == CellState::unknown) cells_.push_back({x, y});
+      const bool is_optimistically_free = off_m <= radius_m_ || (off_m <= reach_m && grid.log_odds({x, y}) <= 0);
+      if (is_optimistically_free && grid.state({x, y}) == CellState::unknown) cells_.push_back({x, y});
     }
   return cells_;
 }
 
-void StandingRoom::take(OccupancyGrid& grid, const Pose2& T_map_robot, std::vector<CellSpan>& changed) {
+void ClearedFootprint::take(OccupancyGrid& grid, const Pose2& T_map_robot, std::vector<CellSpan>& changed) {
   for (const Cell cell : unknown_under(grid, T_map_robot)) {
     grid.set_log_odds(cell, kFree);
     changed.push_back({cell.y, cell.x, cell.x + 1});

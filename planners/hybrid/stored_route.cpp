@@ -1,11 +1,11 @@
-#include "planners/hybrid/stored_way.hpp"
+#include "planners/hybrid/stored_route.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "planners/hybrid/avoided.hpp"
-#include "planners/hybrid/least_way.hpp"
+#include "planners/hybrid/length_lower_bound.hpp"
 
 namespace cairn {
 namespace {
@@ -19,10 +19,10 @@ bool may_be_asked(const PlanRequest& request, const WorldView& world) {
   return between_landmarks && !asks_more && world.observation == nullptr && !world.graph.routes().empty();
 }
 
-class StoredWay {
+class StoredRoute {
  public:
-  StoredWay(const HybridTools& tools, const LegRules& legs, const AnswerRules& answers, const PlanRequest& request,
-            const WorldView& world, const Budget& budget)
+  StoredRoute(const HybridTools& tools, const LegRules& legs, const AnswerRules& answers, const PlanRequest& request,
+              const WorldView& world, const Budget& budget)
       : tools_(tools), legs_(legs), answers_(answers), request_(request), world_(world), budget_(budget) {}
 
   std::optional<PlanResult> find() {
@@ -70,8 +70,8 @@ class StoredWay {
     if (cost_m <= legs_.detour_ratio * straight_m_) return true;
     if (goals_.size() != 1) return false;
     const Point to = goals_.front().pose.position();
-    return cost_m <=
-           legs_.detour_ratio * least_way_m(world_.grid, answers_.ground, legs_.disc_m, start_.leave_from, to, budget_);
+    return cost_m <= legs_.detour_ratio * length_lower_bound_m(world_.grid, answers_.ground, legs_.disc_m,
+                                                               start_.leave_from, to, budget_);
   }
 
   CellBox box_along(const SymbolicPath& path, const GoalPlace& goal) const {
@@ -97,7 +97,7 @@ class StoredWay {
         Walker(beside, *start_.space, legs_, tools_.route, budget_).walk(start_.leave_from, path, goal.pose);
     const bool all_stored = walk.planned_legs == 0 &&
                             std::none_of(walk.parts.begin(), walk.parts.end(),
-                                         [](const auto& part) { return part.origin == PlanPiece::Origin::planned; });
+                                         [](const auto& part) { return part.origin == PathSegment::Origin::planned; });
     if (!walk.complete() || !all_stored) return std::nullopt;
     PlanResult result = over_landmarks(answers_, grid, budget_, start_, goal, path, walk);
     return result.clearance_m < kBeside_m ? std::optional(std::move(result)) : std::nullopt;
@@ -116,10 +116,10 @@ class StoredWay {
 
 }  // namespace
 
-std::optional<PlanResult> stored_way(const HybridTools& tools, const LegRules& legs, const AnswerRules& answers,
-                                     const PlanRequest& request, const WorldView& world, const Budget& budget) {
+std::optional<PlanResult> stored_route(const HybridTools& tools, const LegRules& legs, const AnswerRules& answers,
+                                       const PlanRequest& request, const WorldView& world, const Budget& budget) {
   if (!may_be_asked(request, world)) return std::nullopt;
-  return StoredWay(tools, legs, answers, request, world, budget).find();
+  return StoredRoute(tools, legs, answers, request, world, budget).find();
 }
 
 }  // namespace cairn

@@ -8,7 +8,7 @@
 
 namespace cairn::behaviours {
 
-struct WayToLook {
+struct LookoutRoute {
   Point at{0.0, 0.0};       // what is in the way
   std::vector<Point> path;  // from the robot to where that can be seen well, stand_off_m away
 };
@@ -16,8 +16,8 @@ struct WayToLook {
 // The cheapest way when everything may be crossed, what is surely occupied at the highest price: a door that was seen
 // closed a few times is cheaper than a wall that was seen for long. What was looked at before is dearer still. A
 // goal off the map is looked for at the map's rim. None when nothing stands in the way. O(cells log cells).
-[[nodiscard]] std::optional<WayToLook> way_to_look(const FreeSpace& space, const OccupancyGrid& grid, const Point& from,
-                                                   const Point& to, const std::vector<Point>& looked_at,
-                                                   double stand_off_m);
+[[nodiscard]] std::optional<LookoutRoute> lookout_route(const FreeSpace& space, const OccupancyGrid& grid,
+                                                        const Point& from, const Point& to,
+                                                        const std::vector<Point>& looked_at, double stand_off_m);
 
 }  // namespace cairn::behaviours

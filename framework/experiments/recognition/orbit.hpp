@@ -10,7 +10,7 @@
 namespace cairn {
 
 // One matching that looked at the landmark.
-struct LapSample {
+struct OrbitSample {
   double angle_rad = 0.0;           // how far round the landmark the robot had come, either way
   std::vector<double> categories;   // best degrees, in the order of the experiment's categories
   std::map<int, double> templates;  // of the landmark's category: best degree by orientation, whole degrees
@@ -18,7 +18,8 @@ struct LapSample {
 
 // Angles count from the start and add up from matching to matching, so the robot must not go half round
 // between two of them. Only one lap: what comes after it is left out.
-[[nodiscard]] std::vector<LapSample> degrees_along_lap(const ExperimentConfig& config, const World& world,
-                                                       const Point& start_m, const std::vector<DegreeSample>& samples);
+[[nodiscard]] std::vector<OrbitSample> degrees_along_orbit(const ExperimentConfig& config, const World& world,
+                                                           const Point& start_m,
+                                                           const std::vector<DegreeSample>& samples);
 
 }  // namespace cairn

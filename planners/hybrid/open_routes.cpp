@@ -1,4 +1,4 @@
-#include "planners/hybrid/open_ways.hpp"
+#include "planners/hybrid/open_routes.hpp"
 
 #include <algorithm>
 

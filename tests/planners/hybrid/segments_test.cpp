@@ -1,4 +1,4 @@
-#include "planners/hybrid/pieces.hpp"
+#include "planners/hybrid/segments.hpp"
 
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ using ::testing::IsEmpty;
 // "stored R1" ...
 std::vector<std::string> names(const PlanResult& result) {
   std::vector<std::string> names;
-  for (const PlanPiece& piece : result.pieces) {
+  for (const PathSegment& piece : result.segments) {
     names.emplace_back(name_of(piece.origin));
     if (piece.route != 0) names.back() += " R" + std::to_string(piece.route);
   }
@@ -29,8 +29,8 @@ TEST_F(Pieces, WithoutShortcutsArePlainlyWhatWasJoined) {
   const PlanResult result = plan(request('A', 'D'));
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_THAT(names(result), ElementsAre("straight", "stored R1", "planned"));
-  EXPECT_NEAR(result.pieces[0].length_m, 0.5, 1e-9);
-  EXPECT_NEAR(result.pieces[1].length_m, 1.3, 1e-9);
+  EXPECT_NEAR(result.segments[0].length_m, 0.5, 1e-9);
+  EXPECT_NEAR(result.segments[1].length_m, 1.3, 1e-9);
   expect_clear(result);
 }
 
@@ -61,14 +61,14 @@ TEST_F(Pieces, AnEscapeComesFirst) {
   const PlanResult result = plan(tight);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_EQ(names(result).front(), "escape");
-  expect_pieces_add_up(result);
+  expect_segments_add_up(result);
   const auto refuge = result.path[1];
   tight.to.pose = refuge;
   const PlanResult out = plan(tight);
   ASSERT_EQ(out.outcome, PlanOutcome::solved) << out.reason;
   EXPECT_THAT(names(out), ElementsAre("escape")) << "there is nothing behind it";
   EXPECT_EQ(out.path.size(), 2U);
-  expect_pieces_add_up(out);
+  expect_segments_add_up(out);
 }
 
 TEST_F(Pieces, BehindAnEscapeAreWhatTheyWouldBeWithoutIt) {
@@ -89,7 +89,7 @@ TEST_F(Pieces, OnAMapWithoutAGridAreTheRoutes) {
   const PlanResult result = plan(between(m, q));
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_THAT(names(result), ElementsAre("stored R1", "straight R2"));
-  EXPECT_NEAR(result.pieces[0].length_m + result.pieces[1].length_m, result.length_m, 1e-9);
+  EXPECT_NEAR(result.segments[0].length_m + result.segments[1].length_m, result.length_m, 1e-9);
 }
 
 }  // namespace

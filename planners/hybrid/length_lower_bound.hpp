@@ -12,7 +12,7 @@ namespace cairn {
 //
 // Takes O(cells) bit operations and a mesh of the blocks, which are single cells where the radius is below 1.5 of them;
 // no distance field.
-[[nodiscard]] double least_way_m(const OccupancyGrid& grid, const GroundRules& rules, double radius_m,
-                                 const Point& from, const Point& to, const Budget& budget);
+[[nodiscard]] double length_lower_bound_m(const OccupancyGrid& grid, const GroundRules& rules, double radius_m,
+                                          const Point& from, const Point& to, const Budget& budget);
 
 }  // namespace cairn

@@ -1,4 +1,4 @@
-#include "planners/hybrid/open_ways.hpp"
+#include "planners/hybrid/open_routes.hpp"
 
 #include <gmock/gmock.h>
 
@@ -36,7 +36,7 @@ class EndingPlanner : public Planner {
   std::atomic<bool>* cancel_;
 };
 
-class OpenWays : public Hybrid {
+class OpenRoutes : public Hybrid {
  protected:
   // Two parallel routes by the upper corridor, one round by the lower.
   void add_ways() {
@@ -58,7 +58,7 @@ class OpenWays : public Hybrid {
   std::vector<RouteId> upper, round;
 };
 
-TEST_F(OpenWays, SeveralBlockedRoutesInARowAreAllClosedAndNamed) {
+TEST_F(OpenRoutes, SeveralBlockedRoutesInARowAreAllClosedAndNamed) {
   add_ways();
   block('U');
   const PlanResult result = plan(between(m, n));
@@ -70,7 +70,7 @@ TEST_F(OpenWays, SeveralBlockedRoutesInARowAreAllClosedAndNamed) {
   expect_clear(result);
 }
 
-TEST_F(OpenWays, WithEveryWayBlockedTheWayIsDirectOrThereIsNone) {
+TEST_F(OpenRoutes, WithEveryWayBlockedTheWayIsDirectOrThereIsNone) {
   add_ways();
   block('U');
 
@@ -84,7 +84,7 @@ TEST_F(OpenWays, WithEveryWayBlockedTheWayIsDirectOrThereIsNone) {
   EXPECT_EQ(none.outcome, PlanOutcome::no_route) << none.reason;
 }
 
-TEST_F(OpenWays, ABudgetThatEndsWithinTheLoopEndsIt) {
+TEST_F(OpenRoutes, ABudgetThatEndsWithinTheLoopEndsIt) {
   add_ways();
   block('U');
   config.detour_ratio = 1.0;
@@ -114,7 +114,7 @@ TEST_F(OpenWays, ABudgetThatEndsWithinTheLoopEndsIt) {
   }
 }
 
-TEST_F(OpenWays, AlternativesThatAreBlockedTodayAreReplacedByOthers) {
+TEST_F(OpenRoutes, AlternativesThatAreBlockedTodayAreReplacedByOthers) {
   add_ways();
   const RouteId long_way = route(m, n, "", 9.0);
   PlanRequest request = between(m, n);

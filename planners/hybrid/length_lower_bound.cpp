@@ -1,4 +1,4 @@
-#include "planners/hybrid/least_way.hpp"
+#include "planners/hybrid/length_lower_bound.hpp"
 
 #include <bit>
 #include <cmath>
@@ -131,8 +131,8 @@ CellMesh mesh_of_blocks(const CellBits& closed, const CellBox& cells, int across
 
 }  // namespace
 
-double least_way_m(const OccupancyGrid& grid, const GroundRules& rules, double radius_m, const Point& from,
-                   const Point& to, const Budget& budget) {
+double length_lower_bound_m(const OccupancyGrid& grid, const GroundRules& rules, double radius_m, const Point& from,
+                            const Point& to, const Budget& budget) {
   if (budget.exhausted()) return 0.0;
   const double radius_cells = (1.0 - kSlack_ratio) * (radius_m - kSlack_m) / grid.cell_m();
   const int across = cells_across(radius_cells);

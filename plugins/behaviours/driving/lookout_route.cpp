@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/way_to_look.hpp"
+#include "plugins/behaviours/driving/lookout_route.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const
     price = kOccupied + kSurelyOccupied * std::clamp(certainty, 0.0, 1.0);
   } else if (space.state(cell) == CellState::unknown) {
     price = grid.log_odds(cell) < 0 ? kSeenOnce : kUnknown;
-  } else if (space.distance_m(cell) < space.least_distance_m()) {
+  } else if (space.distance_m(cell) < space.min_distance_m()) {
     price = kNarrow;
   }
   const Point at = space.centre_of(cell);
@@ -35,7 +35,7 @@ double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const
 
 // The occupied cell that is nearest to one that cannot be crossed, as far as that is due to one; else the cell itself.
 Cell what_blocks(Cell cell, const FreeSpace& space) {
-  const int reach = static_cast<int>(std::ceil(space.least_distance_m() / space.cell_m()));
+  const int reach = static_cast<int>(std::ceil(space.min_distance_m() / space.cell_m()));
   Cell nearest = cell;
   int least2 = reach * reach + 1;
   for (int dy = -reach; dy <= reach; ++dy) {
@@ -51,8 +51,8 @@ Cell what_blocks(Cell cell, const FreeSpace& space) {
 
 }  // namespace
 
-std::optional<WayToLook> way_to_look(const FreeSpace& space, const OccupancyGrid& grid, const Point& from,
-                                     const Point& to, const std::vector<Point>& looked_at, double stand_off_m) {
+std::optional<LookoutRoute> lookout_route(const FreeSpace& space, const OccupancyGrid& grid, const Point& from,
+                                          const Point& to, const std::vector<Point>& looked_at, double stand_off_m) {
   const CellBox box = space.box();
   if (box.empty() || !box.contains(space.cell_at(from))) return std::nullopt;
   const Cell beyond = space.cell_at(to);  // perhaps off the map: then the way there leads over its rim
@@ -67,7 +67,7 @@ std::optional<WayToLook> way_to_look(const FreeSpace& space, const OccupancyGrid
       std::find_if(way.begin(), way.end(), [&](Cell c) { return !space.reaches(c) && c != way.front(); });
   const auto in_the_way = occupied != way.end() ? occupied : closed;
   if (in_the_way == way.end()) return std::nullopt;
-  WayToLook look{space.centre_of(what_blocks(*in_the_way, space)), {from}};
+  LookoutRoute look{space.centre_of(what_blocks(*in_the_way, space)), {from}};
   for (auto c = in_the_way; c != way.begin(); --c) {
     if (!space.reaches(*c) || (space.centre_of(*c) - look.at).norm() < stand_off_m) continue;
     look.path = space.path_to(*c);
