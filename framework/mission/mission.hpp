@@ -36,7 +36,7 @@ struct MissionConfig {
   PluginChoice map;
   PluginChoice detector;
   PluginChoice planner;
-  LandmarkTrackerConfig landmarks;
+  LandmarksConfig landmarks;
   CollisionMonitorConfig collision_monitor;
   double at_most_s = 36000.0;
   double watchdog_s = 30.0;

@@ -5,23 +5,47 @@
 #include <span>
 
 namespace cairn {
+namespace {
 
-CellBox differing_cells(const OccupancyGrid& a, const OccupancyGrid& b) {
-  constexpr int kSide = OccupancyGrid::kTileSide;
-  constexpr std::array<LogOdds, kSide * kSide> kUnknown{};
+constexpr int kSide = OccupancyGrid::kTileSide;
+
+// Calls visit(tile, cells of a, cells of b), row-major, for each tile in which they differ.
+template <class Visit>
+void for_differing_tiles(const OccupancyGrid& a, const OccupancyGrid& b, Visit&& visit) {
+  static constexpr std::array<LogOdds, kSide * kSide> kUnknown{};
   const CellBox bounds = united(a.bounds(), b.bounds());
-  CellBox differing;
-  if (bounds.empty()) return differing;
+  if (bounds.empty()) return;
   for (int y = bounds.min.y >> 6; y <= (bounds.max.y - 1) >> 6; ++y)
     for (int x = bounds.min.x >> 6; x <= (bounds.max.x - 1) >> 6; ++x) {
       const LogOdds* const in_a = a.cells_of_tile({x, y});
       const LogOdds* const in_b = b.cells_of_tile({x, y});
       const std::span<const LogOdds> cells_a(in_a != nullptr ? in_a : kUnknown.data(), kUnknown.size());
       const std::span<const LogOdds> cells_b(in_b != nullptr ? in_b : kUnknown.data(), kUnknown.size());
-      if (std::equal(cells_a.begin(), cells_a.end(), cells_b.begin())) continue;
-      differing = united(differing, {{x * kSide, y * kSide}, {(x + 1) * kSide, (y + 1) * kSide}});
+      if (!std::equal(cells_a.begin(), cells_a.end(), cells_b.begin())) visit(Cell{x, y}, cells_a, cells_b);
     }
+}
+
+}  // namespace
+
+CellBox differing_cells(const OccupancyGrid& a, const OccupancyGrid& b) {
+  CellBox differing;
+  for_differing_tiles(a, b, [&](Cell tile, auto, auto) {
+    differing = united(differing, {{tile.x * kSide, tile.y * kSide}, {(tile.x + 1) * kSide, (tile.y + 1) * kSide}});
+  });
   return differing;
+}
+
+std::vector<Point> centres_of_changed_states(const OccupancyGrid& before, const OccupancyGrid& after) {
+  constexpr OccupancyThresholds kThresholds;
+  std::vector<Point> centres;
+  for_differing_tiles(before, after, [&](Cell tile, std::span<const LogOdds> old, std::span<const LogOdds> now) {
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (old[at] == now[at] || kThresholds.state(old[at]) == kThresholds.state(now[at])) continue;
+      centres.push_back(after.centre_of({tile.x * kSide + i % kSide, tile.y * kSide + i / kSide}));
+    }
+  });
+  return centres;
 }
 
 }  // namespace cairn

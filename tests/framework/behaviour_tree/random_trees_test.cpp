@@ -16,9 +16,9 @@ namespace {
 using testing_tree::letter_of;
 using testing_tree::ScriptedLeaves;
 
-using PortableRandom = std::mt19937_64;
+using Random = std::mt19937_64;
 
-int pick(PortableRandom& chance, int below) {
+int pick(Random& chance, int below) {
   return static_cast<int>(chance() % static_cast<std::uint64_t>(below));
 }
 
@@ -184,7 +184,7 @@ std::unique_ptr<Oracle> oracle_of(const TreeNode& node, ScriptedLeaves& leaves) 
   return oracle;
 }
 
-TreeNode random_tree(PortableRandom& chance, int depth, std::map<std::string, std::string>& scripts) {
+TreeNode random_tree(Random& chance, int depth, std::map<std::string, std::string>& scripts) {
   TreeNode node;
   if (depth == 0 || pick(chance, 4) == 0) {
     node.name = "l" + std::to_string(scripts.size());
@@ -206,7 +206,7 @@ TreeNode random_tree(PortableRandom& chance, int depth, std::map<std::string, st
 TEST(RandomTrees, TickAndHaltTheirLeavesAsTheOracleDoes) {
   int ended = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
-    PortableRandom chance(seed);
+    Random chance(seed);
     std::map<std::string, std::string> scripts;
     const TreeNode root = random_tree(chance, 4, scripts);
     ScriptedLeaves of_runner(scripts);
@@ -248,7 +248,7 @@ std::string without_halts_of_fresh_leaves(const std::string& log) {
 TEST(RandomTrees, GoOnFromTheirSavedStateAsTheUninterruptedTreeDoes) {
   int under_way = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
-    PortableRandom chance(seed);
+    Random chance(seed);
     std::map<std::string, std::string> scripts;
     TreeNode root = random_tree(chance, 4, scripts);
     number(root, "1");

@@ -1,0 +1,20 @@
+#include "framework/landmarks/config.hpp"
+
+namespace cairn {
+
+void LandmarksConfig::describe(Fields<LandmarksConfig>& fields) {
+  using C = LandmarksConfig;
+  fields.number("merge_m", &C::merge_m, {0.01, 10.0}, "m", "a detection this near to a landmark is that landmark");
+  fields.integer("confirm_sightings", &C::confirm_sightings, {1.0, 1000.0},
+                 "matchings that must find it before it counts as a landmark");
+  fields.number("freed_ratio", &C::freed_ratio, {0.5, 1.0}, "",
+                "a landmark is retired once this share of the cells inside its outline is seen free");
+  fields.integer("routes_per_landmark", &C::routes_per_landmark, {0.0, 100.0}, "joined to this many nearest others");
+  fields.number("driven_detour_ratio", &C::driven_detour_ratio, {1.0, 100.0}, "",
+                "a driven path is kept when it is at most this much longer than the planned one");
+  fields.flag("correct_pose", &C::correct_pose, "landmarks that are seen again correct the pose");
+  fields.number("access_margin_m", &C::access_margin_m, {0.0, 1.0}, "m",
+                "free space kept round the robot at a landmark's approach pose");
+}
+
+}  // namespace cairn
