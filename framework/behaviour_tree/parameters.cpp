@@ -128,13 +128,8 @@ ConfigError with_place_of_use(const ConfigError& error, const ConfigValue& value
   std::set<std::string> files;
   collect_files(value, files);
   files.erase(place.file);
-  const std::string text = error.what();
-  const bool is_given =
-      std::ranges::any_of(files, [&](const std::string& file) { return text.starts_with(file + ":"); });
-  if (!is_given) return error;
-  const std::size_t place_end = text.find(": ");
-  return {SourcePlace{text.substr(0, place_end), 0, 0},
-          text.substr(place_end + 2) + " (given as a parameter to " + place.text() + ")"};
+  if (!files.contains(error.place().file)) return error;
+  return {error.place(), error.sentence() + " (given as a parameter to " + place.text() + ")"};
 }
 
 }  // namespace cairn

@@ -21,15 +21,11 @@ bool is_below(const std::filesystem::path& file, const std::filesystem::path& fo
   return !way.empty() && *way.begin() != "..";
 }
 
-// Sentences quote what they found, or tell it behind a colon.
-ConfigError without_content(const ConfigError& error, const std::filesystem::path& file) {
-  const std::string text = error.what();
-  const std::size_t file_end = file.string().size();
-  const bool has_line = text.size() > file_end + 1 && std::isdigit(static_cast<unsigned char>(text[file_end + 1])) != 0;
-  if (!has_line) return error;
-  const std::size_t sentence = text.find(": ", file_end) + 2;
-  const std::size_t content = std::min(text.find(" \"", sentence), text.find(": ", sentence));
-  return {SourcePlace{text.substr(0, sentence - 2), 0, 0}, text.substr(sentence, content - sentence) + kNotShown};
+// A sentence quotes what was found, or gives it after a colon.
+ConfigError without_content(const ConfigError& error) {
+  if (error.place().line == 0) return error;
+  const std::string& sentence = error.sentence();
+  return {error.place(), sentence.substr(0, std::min(sentence.find(" \""), sentence.find(": "))) + kNotShown};
 }
 
 ConfigValue content_of(const std::filesystem::path& file, const SourcePlace& place) {
@@ -56,7 +52,7 @@ SubMissionFile read_sub_mission(const std::filesystem::path& file, const std::fi
   try {
     root = content_of(file, place);
   } catch (const ConfigError& error) {
-    if (is_outside && std::string(error.what()).starts_with(file.string() + ":")) throw without_content(error, file);
+    if (is_outside && error.place().file == file.string()) throw without_content(error);
     throw;
   }
   if (root.kind != ConfigValue::Kind::map)

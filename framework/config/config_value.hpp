@@ -19,13 +19,21 @@ struct SourcePlace {
   int column = 0;    // from 1
 
   [[nodiscard]] std::string text() const;  // "file:line:column"
+  bool operator==(const SourcePlace&) const = default;
 };
 
 // Bad input from outside: what() is "file:line:column: sentence".
 class ConfigError : public std::runtime_error {
  public:
   ConfigError(const SourcePlace& place, const std::string& sentence)
-      : std::runtime_error(place.text() + ": " + sentence) {}
+      : std::runtime_error(place.text() + ": " + sentence), place_(place), sentence_(sentence) {}
+
+  [[nodiscard]] const SourcePlace& place() const { return place_; }
+  [[nodiscard]] const std::string& sentence() const { return sentence_; }
+
+ private:
+  SourcePlace place_;
+  std::string sentence_;
 };
 
 class ConfigValue {

@@ -111,10 +111,8 @@ void load_short_form(const FieldSpec& field, void* config, const ConfigValue& va
   try {
     field.load(config, value);
   } catch (const ConfigError& error) {
-    const std::string text = error.what();
-    const std::string own = value.place.text() + ": " + field.key + " must ";
-    if (!text.starts_with(own)) throw;
-    throw ConfigError(value.place, what + ": " + text.substr(value.place.text().size() + 2));
+    if (error.place() != value.place || !error.sentence().starts_with(field.key + " must ")) throw;
+    throw ConfigError(value.place, what + ": " + error.sentence());
   }
 }
 

@@ -62,8 +62,7 @@ std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const T
     return build<Behaviour>(library, node.choice, context);
   } catch (const ConfigError& error) {
     // A module knows no place for a setting that is not there.
-    const std::string text = error.what();
-    if (text.starts_with(": ")) throw ConfigError(node.place, text.substr(2));
+    if (error.place().file.empty()) throw ConfigError(node.place, error.sentence());
     throw with_place_of_use(error, node.choice.config, node.place);
   }
 }

@@ -23,6 +23,13 @@ TEST(SourcePlace, LeavesOutALineThatItDoesNotHave) {
   EXPECT_EQ((SourcePlace{"a.yaml", 0, 0}.text()), "a.yaml");
 }
 
+TEST(ConfigError, CarriesItsPlaceAndItsSentenceAsData) {
+  const ConfigError error({"a.yaml", 3, 7}, "speed_mps must be a number: found \"b.yaml:1:2: x\"");
+  EXPECT_EQ(error.place(), (SourcePlace{"a.yaml", 3, 7}));
+  EXPECT_EQ(error.sentence(), "speed_mps must be a number: found \"b.yaml:1:2: x\"");
+  EXPECT_STREQ(error.what(), "a.yaml:3:7: speed_mps must be a number: found \"b.yaml:1:2: x\"");
+}
+
 TEST(ConfigValue, NamesItsKindForPeople) {
   const auto name_of = [](const char* text) { return parse_config_text(text, "m.yaml").find("a")->kind_name(); };
   EXPECT_EQ(name_of("a:"), "nothing");
