@@ -65,7 +65,7 @@ bool lies_in(const std::filesystem::path& folder, const std::filesystem::path& f
 }
 
 // As the path is written, and where its links lead: an archive may hold both the file and the link.
-void check_inside(const MapServerFile& file, const std::filesystem::path& yaml) {
+void check_own_folder(const MapServerFile& file, const std::filesystem::path& yaml) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::absolute(yaml).parent_path();
   const fs::path picture = fs::absolute(file.picture);
@@ -110,7 +110,7 @@ MapServerFile parse_map_server_yaml(const std::string& text, const std::string& 
 
 ImportedGrid load_map_server(const std::filesystem::path& file, PictureFolder pictures) {
   MapServerFile server = parse_map_server_yaml(exchange::text_of_file(file), file.string());
-  if (pictures == PictureFolder::own) check_inside(server, file);
+  if (pictures == PictureFolder::own) check_own_folder(server, file);
   const std::string picture = server.picture.string();
   ImportedGrid imported = grid_of(parse_grey_picture(text_of_picture(server), picture), server.settings, picture);
   for (std::string& warning : imported.warnings) warning.insert(0, file.string() + ": ");

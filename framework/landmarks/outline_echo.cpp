@@ -11,10 +11,6 @@ constexpr double kRimRatio = 0.9;      // of the half-beam: beyond it an echo is
 constexpr double kMinIncidence = 0.5;  // cosine: rays that graze say little of where a face is
 constexpr double kOnTop_m = 1e-3;
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 // The nearest point in the cone so far.
 struct Nearest {
   Point from_m;

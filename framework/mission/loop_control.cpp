@@ -6,11 +6,7 @@
 #include "framework/mission/loop.hpp"
 
 namespace cairn {
-namespace {
-
-constexpr std::chrono::milliseconds kLookEvery(20);
-
-}  // namespace
+namespace {}  // namespace
 
 bool MissionLoop::is_pause_wanted() const {
   return options_.control != nullptr && options_.control->flags().pause.load(std::memory_order_relaxed);
@@ -28,7 +24,7 @@ void MissionLoop::pace(double stamp_s) {
   while (!budget_.cancelled()) {
     const auto rest = until - std::chrono::steady_clock::now();
     if (rest <= rest.zero()) return;
-    std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(rest, kLookEvery));
+    std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(rest, kControlPollInterval));
   }
 }
 
@@ -50,7 +46,7 @@ void MissionLoop::wait_while_paused() {
   publish(Paused{});
   while (is_pause_wanted() && !budget_.cancelled()) {
     options_.control->tick([this] { return status(); });
-    std::this_thread::sleep_for(kLookEvery);
+    std::this_thread::sleep_for(kControlPollInterval);
   }
   paused_ = false;
   publish(Resumed{});

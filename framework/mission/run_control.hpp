@@ -16,6 +16,8 @@
 
 namespace cairn {
 
+inline constexpr std::chrono::milliseconds kControlPollInterval(20);  // of a thread that waits
+
 // What a signal handler can reach.
 struct ControlFlags {
   std::atomic<bool> cancel{false};

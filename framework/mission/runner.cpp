@@ -7,11 +7,7 @@
 #include "framework/mission/loop.hpp"
 
 namespace cairn {
-namespace {
-
-constexpr std::chrono::milliseconds kLookEvery(20);
-
-}  // namespace
+namespace {}  // namespace
 
 std::string_view name_of(MissionOutcome outcome) {
   switch (outcome) {
@@ -70,7 +66,8 @@ void MissionRunner::watch() {
     promise.set_value();
   });
   const std::chrono::nanoseconds longest(std::llround(longest_call_s_ * 1e9));
-  while (done.wait_for(kLookEvery) != std::future_status::ready && !gave_up_) gave_up_ = loop_->give_up_after(longest);
+  while (done.wait_for(kControlPollInterval) != std::future_status::ready && !gave_up_)
+    gave_up_ = loop_->give_up_after(longest);
   if (gave_up_)
     thread.detach();
   else

@@ -30,10 +30,6 @@ std::vector<Point> arc_of(const RangeReading& reading, const Pose2& T_odom_senso
   return points;
 }
 
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
-
 double round_of(const RobotModel& robot) {
   const std::size_t shots = robot.firing_order.empty() ? robot.sonars.size() : robot.firing_order.size();
   return robot.firing_period_s * static_cast<double>(std::max<std::size_t>(1, shots));

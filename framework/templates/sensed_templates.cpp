@@ -80,13 +80,13 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
   return {shape.category, orientation_rad, std::move(cells)};
 }
 
-struct Task {
+struct RenderTask {
   const LandmarkShape* shape;
   double orientation_rad;
   double size;
 };
 
-std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector<Task>& tasks) {
+std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector<RenderTask>& tasks) {
   std::vector<LandmarkTemplate> templates(tasks.size());
   in_parallel(tasks.size(), [&](std::size_t i) {
     const auto& [shape, orientation_rad, size] = tasks[i];
@@ -95,9 +95,9 @@ std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector
   return templates;
 }
 
-std::vector<Task> tasks_for(const LandmarkShape& shape, double step_rad, double cell_m,
-                            const std::vector<double>& sizes) {
-  std::vector<Task> tasks;
+std::vector<RenderTask> render_tasks_for(const LandmarkShape& shape, double step_rad, double cell_m,
+                                         const std::vector<double>& sizes) {
+  std::vector<RenderTask> tasks;
   for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m))
     for (const double size : sizes) tasks.push_back({&shape, orientation_rad, size});
   return tasks;
@@ -120,11 +120,11 @@ TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double s
   const Studio studio{cell_m, options, {robot, sensor, map, modules}};
   const std::string common_key = rendering_key(step_rad, cell_m, options, robot, sensor, map, modules);
   std::vector<std::optional<std::vector<LandmarkTemplate>>> kept;
-  std::vector<Task> tasks;
+  std::vector<RenderTask> tasks;
   for (const LandmarkShape& shape : shapes) {
     kept.push_back(cache.find(shape_key(common_key, shape)));
     if (kept.back()) continue;
-    const std::vector<Task> more = tasks_for(shape, step_rad, cell_m, options.sizes);
+    const std::vector<RenderTask> more = render_tasks_for(shape, step_rad, cell_m, options.sizes);
     tasks.insert(tasks.end(), more.begin(), more.end());
   }
   std::vector<LandmarkTemplate> rendered = render_all(studio, tasks);

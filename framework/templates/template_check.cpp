@@ -68,20 +68,20 @@ TemplateView view_of(const std::shared_ptr<const TemplateSet>& set, const Checke
   return view;
 }
 
-struct Task {
+struct OrbitTask {
   const LandmarkShape* shape;
   std::size_t orientations;
   OrbitPlan plan;
 };
 
-std::vector<Task> tasks_for(const TemplateSet& set) {
-  std::vector<Task> tasks;
+std::vector<OrbitTask> orbit_tasks_for(const TemplateSet& set) {
+  std::vector<OrbitTask> tasks;
   for (const LandmarkShape& shape : set.shapes) {
     const std::vector<double> orientations = distinct_orientations(shape.contour, set.step_rad, set.cell_m);
     Side side = Side::left;
     for (const double orientation_rad : orientations) {
       for (const double between : {0.0, 0.5}) {
-        Task task{&shape, orientations.size(), {}};
+        OrbitTask task{&shape, orientations.size(), {}};
         task.plan.orientation_rad = orientation_rad + between * set.step_rad;
         task.plan.offset_m = set.cell_m * kOffsetInCell;
         task.plan.landmark_sides = {side};
@@ -187,7 +187,7 @@ TemplateCheck check_templates(const std::shared_ptr<const TemplateSet>& set, con
                               const OrbitCrew& crew) {
   TemplateCheck check;
   for (const LandmarkShape& shape : set->shapes) check.categories.push_back(shape.category);
-  const std::vector<Task> tasks = tasks_for(*set);
+  const std::vector<OrbitTask> tasks = orbit_tasks_for(*set);
   check.views.resize(tasks.size());
   in_parallel(tasks.size(), [&](std::size_t i) {
     check.views[i] = view_of(set, detector, crew, *tasks[i].shape, tasks[i].plan, tasks[i].orientations);

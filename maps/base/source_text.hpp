@@ -22,6 +22,8 @@ namespace exchange {
 // Room for every grid reference on Earth; squares and sums of what is far beyond would be no numbers any more.
 inline constexpr double kMaxCoordinate_m = 1e9;
 
+inline constexpr std::string_view kLineBlanks = " \t\r";  // of a format that goes by lines
+
 // Refers to the text, which outlives it.
 class SourceText {
  public:

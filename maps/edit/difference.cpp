@@ -10,7 +10,7 @@
 namespace cairn {
 namespace {
 
-constexpr double kSamePlace_m = 1e-5;
+constexpr double kUnmoved_m = 1e-5;
 
 void compare_cells(const OccupancyGrid& a, const OccupancyGrid& b, MapDifference& difference) {
   // A grid without cells has no lattice worth keeping.
@@ -74,7 +74,7 @@ class LandmarkComparison {
     const Landmark& in_a = *a_.find(a);
     const Landmark& in_b = *b_.find(b);
     const LandmarkPair pair{a, b, (in_a.T_map_landmark.position() - in_b.T_map_landmark.position()).norm()};
-    (pair.distance_m > kSamePlace_m ? difference.moved : difference.same).push_back(pair);
+    (pair.distance_m > kUnmoved_m ? difference.moved : difference.same).push_back(pair);
     if (in_a.name != in_b.name) difference.renamed.push_back(pair);
   }
 
@@ -98,7 +98,7 @@ void compare_routes(const LandmarkGraph& a, const LandmarkGraph& b, const Landma
         found->second, {}, [&, cost_m = route.cost_m](const Route* other) { return std::abs(other->cost_m - cost_m); });
     const Route& other = **nearest;
     found->second.erase(nearest);
-    const bool is_same = other.closed == route.closed && std::abs(other.cost_m - route.cost_m) <= kSamePlace_m;
+    const bool is_same = other.closed == route.closed && std::abs(other.cost_m - route.cost_m) <= kUnmoved_m;
     (is_same ? difference.routes_same : difference.routes_changed).emplace_back(id, other.id);
   }
   for (const auto& [ends, routes] : between)

@@ -14,10 +14,6 @@
 namespace cairn {
 namespace {
 
-Pose2 standing_at(const Landmark& landmark) {
-  return landmark.access.value_or(landmark.T_map_landmark);
-}
-
 Landmark laid_over(Landmark landmark, const Pose2& T_a_b) {
   landmark.T_map_landmark = T_a_b * landmark.T_map_landmark;
   if (landmark.access) landmark.access = T_a_b * *landmark.access;
@@ -144,7 +140,8 @@ class Merger {
   // At a joined landmark no farther than a cell from where a robot stands there: what lies between is the same ground.
   [[nodiscard]] bool ends_at(const Pose2& end, LandmarkId id) const {
     const Landmark* joined = a_.graph.find(id);
-    return joined == nullptr || (end.position() - standing_at(*joined).position()).norm() <= merged_.map.grid.cell_m();
+    return joined == nullptr ||
+           (end.position() - joined->approach_pose().position()).norm() <= merged_.map.grid.cell_m();
   }
 
   void take_retired() {

@@ -51,10 +51,6 @@ std::string name_of_route(const LandmarkGraph& graph, const Route& route) {
                      full_label(*graph.find(route.to)));
 }
 
-Point standing_at(const Landmark& landmark) {
-  return landmark.access.value_or(landmark.T_map_landmark).position();
-}
-
 // What can be wrong with one route.
 class RouteLint {
  public:
@@ -63,7 +59,7 @@ class RouteLint {
 
   void look_at(const Route& route) {
     if (route.closed) {
-      add("closed_route", LintSeverity::note, route, standing_at(*graph_.find(route.from)), "is closed",
+      add("closed_route", LintSeverity::note, route, graph_.find(route.from)->approach_pose().position(), "is closed",
           "open it again when its way is free");
       return;
     }
@@ -82,7 +78,7 @@ class RouteLint {
                            LintSeverity::note,
                            {},
                            unchecked_,
-                           standing_at(*graph_.find(graph_.find_route(unchecked_.front())->from)),
+                           graph_.find(graph_.find_route(unchecked_.front())->from)->approach_pose().position(),
                            fmt::format("there is no grid to check {} trajector{} on", unchecked_.size(),
                                        unchecked_.size() == 1 ? "y" : "ies"),
                            "map the place, or import a grid of it"});
@@ -102,8 +98,8 @@ class RouteLint {
   }
 
   void look_at_cost(const Route& route) {
-    const Point from = standing_at(*graph_.find(route.from));
-    const double straight_m = (standing_at(*graph_.find(route.to)) - from).norm();
+    const Point from = graph_.find(route.from)->approach_pose().position();
+    const double straight_m = (graph_.find(route.to)->approach_pose().position() - from).norm();
     if (route.cost_m < straight_m * (1.0 - kRounding))
       add("too_cheap", LintSeverity::note, route, from,
           fmt::format("costs {:.2f} m, less than the straight line of {:.2f} m between its ends", route.cost_m,
@@ -114,8 +110,8 @@ class RouteLint {
   void look_at_ends(const Route& route) {
     const Landmark& from = *graph_.find(route.from);
     const Landmark& to = *graph_.find(route.to);
-    const double begin_m = (route.trajectory.front().position() - standing_at(from)).norm();
-    const double end_m = (route.trajectory.back().position() - standing_at(to)).norm();
+    const double begin_m = (route.trajectory.front().position() - from.approach_pose().position()).norm();
+    const double end_m = (route.trajectory.back().position() - to.approach_pose().position()).norm();
     if (begin_m <= kEnds_m && end_m <= kEnds_m) return;
     const bool at_begin = begin_m > kEnds_m;
     add("loose_ends", LintSeverity::warning, route,

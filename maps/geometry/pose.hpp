@@ -25,6 +25,18 @@ using Point = Eigen::Vector2d;  // metres
   return angle_rad * 180.0 / std::numbers::pi;
 }
 
+[[nodiscard]] inline Point unit_vector(double angle_rad) {
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+// Turned by a quarter anticlockwise.
+[[nodiscard]] inline Point to_left(const Point& p) {
+  return {-p.y(), p.x()};
+}
+// Positive when b is to the left of a.
+[[nodiscard]] inline double cross(const Point& a, const Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 // A rigid motion of the plane. theta_rad is kept in (-pi, pi] by every function below.
 struct Pose2 {
   double x_m = 0.0;
@@ -35,6 +47,10 @@ struct Pose2 {
   [[nodiscard]] Point direction() const { return {std::cos(theta_rad), std::sin(theta_rad)}; }
   bool operator==(const Pose2&) const = default;
 };
+
+[[nodiscard]] inline bool is_finite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
+}
 
 [[nodiscard]] inline Point operator*(const Pose2& T_a_b, const Point& p_b) {
   const double c = std::cos(T_a_b.theta_rad);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
+#include <boost/property_map/property_map.hpp>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -22,15 +23,19 @@ class Union {
   explicit Union(std::int32_t nodes)
       : rank_(static_cast<std::size_t>(nodes)),
         parent_(static_cast<std::size_t>(nodes)),
-        sets_(rank_.data(), parent_.data()) {
+        sets_(numbers_in(rank_), numbers_in(parent_)) {
     for (std::int32_t i = 0; i < nodes; ++i) sets_.make_set(i);
   }
   void join(std::int32_t a, std::int32_t b) { sets_.union_set(a, b); }
   std::int32_t find(std::int32_t a) { return sets_.find_set(a); }
 
  private:
+  // Not the bare pointers: Boost finds their get() only where no other header has included disjoint_sets before.
+  using Numbers = boost::iterator_property_map<std::int32_t*, boost::typed_identity_property_map<std::int32_t>>;
+  static Numbers numbers_in(std::vector<std::int32_t>& numbers) { return Numbers(numbers.data(), {}); }
+
   std::vector<std::int32_t> rank_, parent_;
-  boost::disjoint_sets<std::int32_t*, std::int32_t*> sets_;
+  boost::disjoint_sets<Numbers, Numbers> sets_;
 };
 
 template <class Visit>

@@ -47,6 +47,9 @@ struct Landmark {
   std::optional<Pose2> access;  // where a robot stands to be "at" the landmark; none: its position
   int level = 0;                // floor of a building
   std::string annotations;      // what other tools keep with it: the text of a JSON object, or empty
+
+  // Where a robot stands to be "at" it.
+  [[nodiscard]] Pose2 approach_pose() const { return access.value_or(T_map_landmark); }
   bool operator==(const Landmark&) const = default;
 };
 

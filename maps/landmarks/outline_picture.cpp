@@ -77,7 +77,7 @@ using Traces = std::vector<std::vector<cv::Point>>;
 
 // Along the edges of the pixels, in half pixels. OpenCV follows the middles of pixels. In a picture of twice
 // the size, each thing one pixel wider, these are the edges of the pixels here.
-Traces traces_in(const cv::Mat1b& thing) {
+Traces pixel_edges_in(const cv::Mat1b& thing) {
   cv::Mat1b lattice;
   cv::resize(thing, lattice, {}, 2.0, 2.0, cv::INTER_NEAREST);
   cv::dilate(lattice, lattice, cv::Mat1b::ones(2, 2), {1, 1});
@@ -108,7 +108,7 @@ std::vector<std::vector<Point>> smoothed(const Traces& traces, double smoothing_
 Contour contour_in_picture(const std::filesystem::path& file, double pixel_m) {
   cv::Mat1b thing = thing_in(grey_picture(file), file);
   join_corners(thing);
-  const Traces traces = traces_in(thing);
+  const Traces traces = pixel_edges_in(thing);
   try {
     return Contour::parts(smoothed(traces, kSmoothing_px, pixel_m));
   } catch (const std::invalid_argument&) {

@@ -16,7 +16,7 @@ using namespace pictures;
 constexpr double kMinPxForValues = 26.0;
 constexpr Colour kTrigger{211, 60, 75};
 constexpr Colour kRegion{239, 140, 0};
-constexpr double kBarPx = 300.0;
+constexpr double kScaleBarPx = 300.0;
 constexpr double kBarRoomPx = 52.0;
 
 PixelBox block_of(const MapFrame& frame, const CoarsePicture& picture, Cell coarse) {
@@ -80,12 +80,12 @@ void draw_blocks(Canvas& canvas, const MapFrame& frame, const CoarsePicture& pic
 void draw_value_bar(Canvas& canvas, const Pixel& upper_left) {
   CellImage ramp{256, 1, {}};
   for (int ol = 0; ol < 256; ++ol) ramp.colours.push_back(colour_of_ol(ol));
-  const PixelBox bar{upper_left, upper_left + Pixel(kBarPx, 16.0)};
+  const PixelBox bar{upper_left, upper_left + Pixel(kScaleBarPx, 16.0)};
   canvas.image(bar, ramp);
   canvas.outline(std::array{bar.min, Pixel(bar.max.x(), bar.min.y()), bar.max, Pixel(bar.min.x(), bar.max.y())},
                  {kFrame, 1.0});
   const auto mark = [&](double ol, const char* words, Align align) {
-    const Pixel at(bar.min.x() + kBarPx * ol / 255.0, bar.max.y());
+    const Pixel at(bar.min.x() + kScaleBarPx * ol / 255.0, bar.max.y());
     canvas.line(std::array{at, Pixel(at + Pixel(0.0, 4.0))}, {kFaintInk, 1.0});
     canvas.text(at + Pixel(0.0, 13.0), words, {kInk, 11.0, align});
   };

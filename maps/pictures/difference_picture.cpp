@@ -23,7 +23,7 @@ constexpr Colour kUnknown{214, 218, 221};
 constexpr Colour kNewFree{196, 232, 205};
 constexpr Colour kGoneFree{250, 212, 206};
 constexpr Colour kMoved{25, 118, 210};
-constexpr int kMarginCells = 3;
+constexpr int kDifferenceMarginCells = 3;
 constexpr int kMaxCellsAcross = 2000;
 constexpr double kDotPx = 5.0;
 constexpr std::size_t kMaxLabels = 60;
@@ -78,7 +78,7 @@ class Cells {
     for (int y = box_.min.y; y < box_.max.y; ++y)
       for (int x = box_.min.x; x < box_.max.x; ++x)
         if (!part.contains({x, y}) && sign_at({x, y}) != Sign::unknown) part = united(part, {{x, y}, {x + 1, y + 1}});
-    return part.empty() ? box_ : part.grown(kMarginCells);
+    return part.empty() ? box_ : part.grown(kDifferenceMarginCells);
   }
 
   const OccupancyGrid& a_;

@@ -33,7 +33,7 @@ void draw_contour(Canvas& canvas, const Contour& contour, Colour colour, double 
 }
 
 Point end_of(const Landmark& landmark) {
-  return landmark.access.value_or(landmark.T_map_landmark).position();
+  return landmark.approach_pose().position();
 }
 
 Stroke stroke_of(const Route& route, double width_px) {

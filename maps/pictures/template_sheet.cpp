@@ -16,11 +16,11 @@ using namespace pictures;
 
 constexpr int kColumns = 8;
 constexpr double kTilePx = 108.0;
-constexpr double kGapPx = 10.0;
+constexpr double kSheetGapPx = 10.0;
 constexpr double kCaptionPx = 24.0;
 constexpr double kNamePx = 20.0;
-constexpr double kTopPx = 66.0;
-constexpr double kLeftPx = 48.0;
+constexpr double kSheetTopPx = 66.0;
+constexpr double kSheetLeftPx = 48.0;
 constexpr double kLegendPx = 84.0;
 constexpr Colour kTileGround{24, 28, 34};
 
@@ -70,17 +70,17 @@ void draw_tile(Canvas& canvas, const Pixel& upper_left, const LandmarkTemplate& 
 }
 
 // Where each template goes; a new category starts a new row, under its name.
-struct Layout {
+struct SheetLayout {
   std::vector<Pixel> tiles;
-  double bottom_px = kTopPx;
+  double bottom_px = kSheetTopPx;
 };
 
 bool begins_category(const TemplateSet& set, std::size_t i) {
   return i == 0 || set.templates[i].category != set.templates[i - 1].category;
 }
 
-Layout lay_out(const TemplateSet& set) {
-  Layout layout;
+SheetLayout lay_out(const TemplateSet& set) {
+  SheetLayout layout;
   int column = kColumns;
   for (std::size_t i = 0; i < set.templates.size(); ++i) {
     if (begins_category(set, i)) layout.bottom_px += kNamePx;
@@ -88,7 +88,7 @@ Layout lay_out(const TemplateSet& set) {
       layout.bottom_px += kTilePx + kCaptionPx;
       column = 0;
     }
-    layout.tiles.emplace_back(kLeftPx + column * (kTilePx + kGapPx), layout.bottom_px - kTilePx - kCaptionPx);
+    layout.tiles.emplace_back(kSheetLeftPx + column * (kTilePx + kSheetGapPx), layout.bottom_px - kTilePx - kCaptionPx);
     ++column;
   }
   return layout;
@@ -113,9 +113,9 @@ void draw_legend(Canvas& canvas, const Pixel& left) {
 }  // namespace
 
 void write_template_sheet(const std::filesystem::path& file, const TemplateSet& templates, const std::string& title) {
-  const Layout layout = lay_out(templates);
+  const SheetLayout layout = lay_out(templates);
   const Scale scale = scale_of(templates);
-  const double width_px = kLeftPx + kColumns * (kTilePx + kGapPx) - kGapPx + kPageMarginPx;
+  const double width_px = kSheetLeftPx + kColumns * (kTilePx + kSheetGapPx) - kSheetGapPx + kPageMarginPx;
   Canvas canvas(static_cast<int>(std::ceil(width_px)), static_cast<int>(std::ceil(layout.bottom_px + kLegendPx)),
                 kPaper);
   draw_title(canvas, title,
@@ -127,7 +127,7 @@ void write_template_sheet(const std::filesystem::path& file, const TemplateSet& 
       canvas.text(layout.tiles[i] - Pixel(0.0, kNamePx / 2.0), templates.templates[i].category, {kInk, 12.0});
     draw_tile(canvas, layout.tiles[i], templates.templates[i], scale);
   }
-  draw_legend(canvas, {kLeftPx, layout.bottom_px + kLegendPx / 2.0});
+  draw_legend(canvas, {kSheetLeftPx, layout.bottom_px + kLegendPx / 2.0});
   canvas.write_png(file);
 }
 

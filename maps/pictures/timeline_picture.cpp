@@ -15,12 +15,12 @@ namespace {
 using namespace pictures;
 
 constexpr double kPlotPx = 860.0;
-constexpr double kRowPx = 22.0;
-constexpr double kBarPx = 13.0;
-constexpr double kTopPx = 76.0;
+constexpr double kTimelineRowPx = 22.0;
+constexpr double kTimelineBarPx = 13.0;
+constexpr double kTimelineTopPx = 76.0;
 constexpr double kIndentPx = 12.0;
-constexpr double kGapPx = 14.0;   // between labels and plot
-constexpr double kApartPx = 8.0;  // between marks and rows
+constexpr double kTimelineGapPx = 14.0;  // between labels and plot
+constexpr double kApartPx = 8.0;         // between marks and rows
 constexpr double kMinBarPx = 2.0;
 constexpr double kAxisPx = 34.0;
 constexpr double kMaxLabelPx = 380.0;
@@ -62,9 +62,9 @@ class Page {
     for (const TimelineRow& row : timeline.rows)
       label_px_ = std::max(label_px_, indent_px(row) + Canvas::text_width_px(row.label, kLabel));
     label_px_ = std::ceil(std::min(label_px_, kMaxLabelPx));
-    left_px_ = kPageMarginPx + label_px_ + kGapPx;
-    rows_top_px_ = kTopPx + (timeline.marks.empty() ? 0.0 : marks_px() + kApartPx);
-    bottom_px_ = rows_top_px_ + kRowPx * static_cast<double>(timeline.rows.size());
+    left_px_ = kPageMarginPx + label_px_ + kTimelineGapPx;
+    rows_top_px_ = kTimelineTopPx + (timeline.marks.empty() ? 0.0 : marks_px() + kApartPx);
+    bottom_px_ = rows_top_px_ + kTimelineRowPx * static_cast<double>(timeline.rows.size());
     span_s_ = std::max(timeline.end_s - timeline.begin_s, 1e-3);
   }
 
@@ -84,7 +84,7 @@ class Page {
 
  private:
   static double indent_px(const TimelineRow& row) { return kIndentPx * static_cast<double>(row.depth); }
-  [[nodiscard]] double marks_px() const { return kRowPx * static_cast<double>(timeline_.marks.size()); }
+  [[nodiscard]] double marks_px() const { return kTimelineRowPx * static_cast<double>(timeline_.marks.size()); }
   [[nodiscard]] double x_px(double time_s) const {
     return left_px_ + kPlotPx * std::clamp((time_s - timeline_.begin_s) / span_s_, 0.0, 1.0);
   }
@@ -93,10 +93,10 @@ class Page {
     const auto box = [&](double top_px, double height_px) {
       return PixelBox{{left_px_, top_px}, {left_px_ + kPlotPx, top_px + height_px}};
     };
-    if (!timeline_.marks.empty()) canvas.fill_box(box(kTopPx, marks_px()), {kWhite});
+    if (!timeline_.marks.empty()) canvas.fill_box(box(kTimelineTopPx, marks_px()), {kWhite});
     canvas.fill_box(box(rows_top_px_, bottom_px_ - rows_top_px_), {kWhite});
     for (std::size_t i = 1; i < timeline_.rows.size(); i += 2)
-      canvas.fill_box(box(rows_top_px_ + kRowPx * static_cast<double>(i), kRowPx), {kPaper});
+      canvas.fill_box(box(rows_top_px_ + kTimelineRowPx * static_cast<double>(i), kTimelineRowPx), {kPaper});
   }
 
   void draw_axis(Canvas& canvas) const {
@@ -107,15 +107,15 @@ class Page {
       const double time_s = (first + i) * step_s;
       if (time_s > timeline_.begin_s + span_s_ + 1e-9) break;
       const double x = x_px(time_s);
-      canvas.line(std::array{Pixel(x, kTopPx), Pixel(x, bottom_px_ + 4.0)}, {kFrame, 1.0, 0.5});
+      canvas.line(std::array{Pixel(x, kTimelineTopPx), Pixel(x, bottom_px_ + 4.0)}, {kFrame, 1.0, 0.5});
       canvas.text({x, bottom_px_ + 15.0}, short_text(time_s, decimals), kTime);
     }
-    canvas.text({left_px_ - kGapPx, bottom_px_ + 15.0}, "time, s", {kFaintInk, 11.0, Align::right});
+    canvas.text({left_px_ - kTimelineGapPx, bottom_px_ + 15.0}, "time, s", {kFaintInk, 11.0, Align::right});
     canvas.line(std::array{Pixel(left_px_, bottom_px_), Pixel(left_px_ + kPlotPx, bottom_px_)}, {kFrame, 1.0});
   }
 
   void draw_marks(Canvas& canvas, const TimelineMarks& marks, std::size_t row) const {
-    const double y = kTopPx + kRowPx * (static_cast<double>(row) + 0.5);
+    const double y = kTimelineTopPx + kTimelineRowPx * (static_cast<double>(row) + 0.5);
     canvas.text({kPageMarginPx, y}, marks.label, kLabel);
     const Colour colour = colour_of(marks.kind);
     for (std::size_t i = 0; i < marks.marks.size(); ++i) {
@@ -132,7 +132,7 @@ class Page {
   }
 
   void draw_row(Canvas& canvas, const TimelineRow& row, std::size_t at) const {
-    const double y = rows_top_px_ + kRowPx * (static_cast<double>(at) + 0.5);
+    const double y = rows_top_px_ + kTimelineRowPx * (static_cast<double>(at) + 0.5);
     const double indent = std::min(indent_px(row), label_px_ / 2.0);
     canvas.text({kPageMarginPx + indent, y}, cut_to(row.label, label_px_ - indent), kLabel);
     for (const TimelineBar& bar : row.bars) {
@@ -148,7 +148,7 @@ class Page {
   [[nodiscard]] PixelBox bar_box(double begin_s, double end_s, double y_px) const {
     const double begin_px = std::min(x_px(begin_s), left_px_ + kPlotPx - kMinBarPx);
     const double end_px = std::max(x_px(end_s), begin_px + kMinBarPx);
-    return {{begin_px, y_px - kBarPx / 2.0}, {end_px, y_px + kBarPx / 2.0}};
+    return {{begin_px, y_px - kTimelineBarPx / 2.0}, {end_px, y_px + kTimelineBarPx / 2.0}};
   }
 
   [[nodiscard]] static std::vector<LegendEntry> signs() {

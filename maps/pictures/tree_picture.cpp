@@ -14,11 +14,11 @@ namespace {
 using namespace pictures;
 
 constexpr double kBoxPx = 40.0;
-constexpr double kRowPx = 52.0;
-constexpr double kGapPx = 46.0;  // between columns
+constexpr double kTreeRowPx = 52.0;
+constexpr double kTreeGapPx = 46.0;  // between columns
 constexpr double kInsidePx = 12.0;
-constexpr double kTopPx = 76.0;
-constexpr double kBarPx = 5.0;
+constexpr double kTreeTopPx = 76.0;
+constexpr double kTreeBarPx = 5.0;
 constexpr std::size_t kMaxLetters = 44;
 const TextStyle kTitle{kInk, 13.0, Align::left, true};
 const TextStyle kDetail{kFaintInk, 11.0};
@@ -41,7 +41,7 @@ struct Placed {
   std::vector<std::size_t> children{};
 };
 
-struct Layout {
+struct TreeLayout {
   std::vector<Placed> boxes{};
   std::vector<double> widths_px{};  // of the columns
   std::size_t rows = 0;
@@ -53,13 +53,13 @@ struct Layout {
     if (column == widths_px.size()) widths_px.push_back(0.0);
     const double width_px =
         std::max(Canvas::text_width_px(boxes[at].title, kTitle), Canvas::text_width_px(boxes[at].detail, kDetail));
-    widths_px[column] = std::max(widths_px[column], std::ceil(width_px) + 2.0 * kInsidePx + kBarPx);
+    widths_px[column] = std::max(widths_px[column], std::ceil(width_px) + 2.0 * kInsidePx + kTreeBarPx);
     for (const TreeBox& child : box.children) {
       const std::size_t index = place(child, column + 1);
       boxes[at].children.push_back(index);
     }
     if (box.children.empty())
-      boxes[at].y_px = kTopPx + kRowPx * (static_cast<double>(rows++) + 0.5);
+      boxes[at].y_px = kTreeTopPx + kTreeRowPx * (static_cast<double>(rows++) + 0.5);
     else
       boxes[at].y_px = (boxes[boxes[at].children.front()].y_px + boxes[boxes[at].children.back()].y_px) / 2.0;
     return at;
@@ -67,7 +67,7 @@ struct Layout {
 
   [[nodiscard]] double left_px(std::size_t column) const {
     double left_px = kPageMarginPx;
-    for (std::size_t i = 0; i < column; ++i) left_px += widths_px[i] + kGapPx;
+    for (std::size_t i = 0; i < column; ++i) left_px += widths_px[i] + kTreeGapPx;
     return left_px;
   }
   [[nodiscard]] PixelBox box_of(const Placed& box) const {
@@ -79,7 +79,7 @@ struct Layout {
 void draw_edge(Canvas& canvas, const PixelBox& parent, const PixelBox& child) {
   const Pixel from(parent.max.x(), parent.centre().y());
   const Pixel to(child.min.x(), child.centre().y());
-  const double middle_px = to.x() - kGapPx / 2.0;
+  const double middle_px = to.x() - kTreeGapPx / 2.0;
   canvas.line(std::array{from, Pixel(middle_px, from.y()), Pixel(middle_px, to.y()), to}, {kFrame, 1.5});
 }
 
@@ -87,8 +87,8 @@ void draw_box(Canvas& canvas, const PixelBox& box, const Placed& placed) {
   canvas.fill_box(box, {kWhite}, 5.0);
   canvas.outline(std::array{box.min, Pixel(box.max.x(), box.min.y()), box.max, Pixel(box.min.x(), box.max.y())},
                  {kFrame, 1.0});
-  canvas.fill_box({box.min, {box.min.x() + kBarPx, box.max.y()}}, {colour_of(placed.kind)});
-  const double left_px = box.min.x() + kBarPx + kInsidePx;
+  canvas.fill_box({box.min, {box.min.x() + kTreeBarPx, box.max.y()}}, {colour_of(placed.kind)});
+  const double left_px = box.min.x() + kTreeBarPx + kInsidePx;
   const double apart_px = placed.detail.empty() ? 0.0 : 8.0;
   canvas.text({left_px, placed.y_px - apart_px}, placed.title, kTitle);
   if (!placed.detail.empty()) canvas.text({left_px, placed.y_px + apart_px + 1.0}, placed.detail, kDetail);
@@ -107,12 +107,12 @@ void write_tree_picture(const std::filesystem::path& file, const TreeBox& root, 
   if (const std::size_t rows = rows_of(root); rows > kMaxPictureRows)
     throw std::runtime_error(file.string() + ": the tree has " + std::to_string(rows) +
                              " rows; a picture holds at most " + std::to_string(kMaxPictureRows));
-  Layout layout;
+  TreeLayout layout;
   layout.place(root, 0);
   const double words_px = kPageMarginPx + std::max(Canvas::text_width_px(title, {kInk, 20.0, Align::left, true}),
                                                    Canvas::text_width_px(subtitle, {kInk, 13.0}));
-  const double width_px = std::max(words_px, layout.left_px(layout.widths_px.size()) - kGapPx) + kPageMarginPx;
-  const double height_px = kTopPx + kRowPx * static_cast<double>(layout.rows) + kPageMarginPx;
+  const double width_px = std::max(words_px, layout.left_px(layout.widths_px.size()) - kTreeGapPx) + kPageMarginPx;
+  const double height_px = kTreeTopPx + kTreeRowPx * static_cast<double>(layout.rows) + kPageMarginPx;
   Canvas canvas(static_cast<int>(std::ceil(width_px)), static_cast<int>(std::ceil(height_px)), kPaper);
   draw_title(canvas, title, subtitle);
   for (const Placed& box : layout.boxes)

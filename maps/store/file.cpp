@@ -18,7 +18,6 @@
 namespace cairn::store {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 100;
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
 [[noreturn]] void fail(const char* what, int error) {

@@ -1,6 +1,7 @@
 // The saved map as a file: its header, and how a new one takes the place of an old one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <set>
@@ -8,6 +9,8 @@
 #include <string_view>
 
 namespace cairn::store {
+
+inline constexpr std::size_t kHeaderBytes = 100;  // of SQLite's format
 
 // The file of a map without content.
 struct EmptyMapFile {

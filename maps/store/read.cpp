@@ -8,9 +8,7 @@
 namespace cairn::store {
 namespace {
 
-constexpr int kSide = OccupancyGrid::kTileSide;
-constexpr std::size_t kTileBytes = 2 * kSide * kSide;
-constexpr std::size_t kPoseBytes = 3 * sizeof(double);  // before version 5
+constexpr std::size_t kTileBytes = 2 * OccupancyGrid::kTileSide * OccupancyGrid::kTileSide;
 
 // A grid beyond these would only exhaust the memory of whoever works with it.
 constexpr std::int64_t kMaxCellIndex = OccupancyGrid::kLargestCellIndex;
@@ -67,17 +65,21 @@ void take_tile(OccupancyGrid& grid, Cell tile, const std::string& raw, const Cel
   const CellBox bounds = grid.bounds();
   const auto clamp = static_cast<int>(grid.clamp_nat() * kLogOddsPerNat);
   const auto value_at = [&raw](int i) { return little_endian_at<LogOdds>(raw, 2 * static_cast<std::size_t>(i)); };
-  const auto cell_at = [&](int i) { return Cell{tile.x * kSide + i % kSide, tile.y * kSide + i / kSide}; };
-  for (int i = 0; i < kSide * kSide; ++i) {
+  const auto cell_at = [&](int i) {
+    return Cell{tile.x * OccupancyGrid::kTileSide + i % OccupancyGrid::kTileSide,
+                tile.y * OccupancyGrid::kTileSide + i / OccupancyGrid::kTileSide};
+  };
+  for (int i = 0; i < OccupancyGrid::kTileSide * OccupancyGrid::kTileSide; ++i) {
     const LogOdds value = value_at(i);
     if (value != 0 && !bounds.contains(cell_at(i)))
       throw StoreError(what + " has known cells outside the grid's bounds");
     if (value > clamp || value < -clamp) throw StoreError(what + " holds log-odds beyond the grid's clamp");
   }
-  const CellBox inside = intersected({cell_at(0), cell_at(kSide * kSide - 1) + Cell{1, 1}}, box);
+  const CellBox inside =
+      intersected({cell_at(0), cell_at(OccupancyGrid::kTileSide * OccupancyGrid::kTileSide - 1) + Cell{1, 1}}, box);
   if (inside.empty()) return;
   LogOdds* const cells = grid.cells_of_tile_for_writing(tile);
-  for (int i = 0; i < kSide * kSide; ++i)
+  for (int i = 0; i < OccupancyGrid::kTileSide * OccupancyGrid::kTileSide; ++i)
     if (inside.contains(cell_at(i))) cells[i] = value_at(i);
 }
 
@@ -85,8 +87,10 @@ void read_tiles(Reading& reading, const std::string& where, const CellBox& box, 
   const std::string select = "SELECT level, tx, ty, log_odds, crc32 FROM tiles" + where + " ORDER BY level, ty, tx";
   reading.rows("tiles", select, [&](Statement& row) {
     require_level_zero(row, 0);
-    const Cell tile{static_cast<int>(row.integer_within(1, -kMaxCellIndex / kSide, kMaxCellIndex / kSide)),
-                    static_cast<int>(row.integer_within(2, -kMaxCellIndex / kSide, kMaxCellIndex / kSide))};
+    const Cell tile{static_cast<int>(row.integer_within(1, -kMaxCellIndex / OccupancyGrid::kTileSide,
+                                                        kMaxCellIndex / OccupancyGrid::kTileSide)),
+                    static_cast<int>(row.integer_within(2, -kMaxCellIndex / OccupancyGrid::kTileSide,
+                                                        kMaxCellIndex / OccupancyGrid::kTileSide))};
     const std::string what = "tile (" + std::to_string(tile.x) + ", " + std::to_string(tile.y) + ")";
     reading.at_tile(tile);
     take_tile(grid, tile, unpacked(row, 3, kTileBytes, what), box, what);
@@ -198,7 +202,7 @@ OccupancyGrid read_lattice(Reading& reading) {
   OccupancyGrid grid(1.0);
   reading.in_table("grid", [&] {
     grid = read_grid(reading);
-    reading.tile_m = {grid.origin_m(), kSide * grid.cell_m()};
+    reading.tile_m = {grid.origin_m(), OccupancyGrid::kTileSide * grid.cell_m()};
   });
   return grid;
 }

@@ -252,7 +252,6 @@ bool holds_nothing(const SavedMap& map) {
 // All headers of a version are alike but for the number of pages: the one of another map takes its place. Which version
 // it was, the content tells.
 std::optional<SalvagedMap> salvaged_past_header(const std::string& bytes) {
-  constexpr std::size_t kHeaderBytes = 100;
   std::optional<SalvagedMap> best;
   for (int version = kMapSchemaVersion; version >= 1 && bytes.size() > kHeaderBytes; --version) {
     std::string mended = bytes;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr char kDoubles = 0;
 constexpr char kSteps = 1;
-constexpr std::size_t kPoseBytes = 3 * sizeof(double);
 constexpr double kMaxSteps = 9e15;  // below 2^53, so that each number of steps is a double of its own
 constexpr std::array kParts{&Pose2::x_m, &Pose2::y_m, &Pose2::theta_rad};
 

@@ -8,6 +8,8 @@
 
 namespace cairn::store {
 
+inline constexpr std::size_t kPoseBytes = 3 * sizeof(double);  // of a pose as doubles
+
 // A trajectory of whole steps (see in_whole_steps) takes its differences, any other its little-endian doubles
 // x_m, y_m, theta_rad, compressed; nothing for none. The first byte says which.
 [[nodiscard]] std::string packed_trajectory(const std::vector<Pose2>& trajectory);

@@ -8,8 +8,6 @@
 namespace cairn::store {
 namespace {
 
-constexpr int kSide = OccupancyGrid::kTileSide;
-
 int tile_index(int cell) {
   return cell >> 6;
 }
@@ -32,10 +30,12 @@ void write_tiles(Database& database, const OccupancyGrid& grid) {
   const CellBox box = grid.bounds();
   if (box.empty()) return;
   Statement insert(database, "INSERT INTO tiles VALUES (0, ?, ?, ?, ?)");
-  std::vector<LogOdds> cells(kSide * kSide);
+  std::vector<LogOdds> cells(OccupancyGrid::kTileSide * OccupancyGrid::kTileSide);
   for (int ty = tile_index(box.min.y); ty <= tile_index(box.max.y - 1); ++ty) {
     for (int tx = tile_index(box.min.x); tx <= tile_index(box.max.x - 1); ++tx) {
-      grid.copy_log_odds({{tx * kSide, ty * kSide}, {(tx + 1) * kSide, (ty + 1) * kSide}}, cells);
+      grid.copy_log_odds({{tx * OccupancyGrid::kTileSide, ty * OccupancyGrid::kTileSide},
+                          {(tx + 1) * OccupancyGrid::kTileSide, (ty + 1) * OccupancyGrid::kTileSide}},
+                         cells);
       if (std::ranges::all_of(cells, [](LogOdds value) { return value == 0; })) continue;
       std::string raw;
       for (const LogOdds value : cells) append_little_endian(raw, value);

@@ -23,7 +23,7 @@ std::vector<PathSegment> segments_of_graph(const PlanResult& found, const Landma
   std::vector<PartedPoint> route;
   const auto stand_at = [&](LandmarkId id) {
     const Landmark& landmark = *graph.find(id);
-    return landmark.access.value_or(landmark.T_map_landmark).position();
+    return landmark.approach_pose().position();
   };
   for (std::size_t i = 0; i < found.routes.size(); ++i) {
     const Route& leg = *graph.find_route(found.routes[i]);

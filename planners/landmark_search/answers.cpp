@@ -30,12 +30,8 @@ std::string labels_of(const std::vector<LandmarkId>& ids, const LandmarkGraph& g
   return text;
 }
 
-Pose2 standing_at(const Landmark& landmark) {
-  return landmark.access.value_or(landmark.T_map_landmark);
-}
-
 void append_trajectory(std::vector<Pose2>& path, const Route* route, const Landmark& at) {
-  const std::vector<Pose2> alone{standing_at(at)};
+  const std::vector<Pose2> alone{at.approach_pose()};
   for (const Pose2& pose : route != nullptr && !route->trajectory.empty() ? route->trajectory : alone)
     if (path.empty() || !(path.back() == pose)) path.push_back(pose);
 }

@@ -1,12 +1,16 @@
 // What the searches over the landmark graph say in the same words.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "framework/contracts/planner.hpp"
 
 namespace cairn {
+
+// A search asks its budget after so many settled landmarks.
+inline constexpr std::int64_t kSettledPerBudgetCheck = 256;
 
 // Why the request cannot be searched, or nothing.
 [[nodiscard]] std::string complaint_about(const PlanRequest& request, const LandmarkGraph& graph);

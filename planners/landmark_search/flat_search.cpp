@@ -14,8 +14,6 @@ namespace {
 using Graph = BoostLandmarkGraph::Graph;
 using Edge = boost::graph_traits<Graph>::edge_descriptor;
 
-constexpr std::int64_t kSettledPerBudgetCheck = 256;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Search {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "planners/landmark_search/answers.hpp"
+
 namespace cairn {
 namespace {
 
-constexpr std::int64_t kSettledPerBudgetCheck = 256;
 constexpr std::size_t kFewestSlots = 256;
 
 // Where the two halves of a way pass the same vertex, what lies between costs nothing (or it would not be the

@@ -35,7 +35,7 @@ Muriel::Muriel(const Config& config, const Kernels& kernels)
 
 const CellChanges& Muriel::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
-  if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
+  if (!is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges)
     if (const auto evidence = placed(config_, reading, pose.T_map_robot)) integrate_reading(*evidence);
   cleared_footprint_.take(grid_, pose.T_map_robot, changes_.spans);

@@ -27,14 +27,6 @@ Eigen::Matrix2d rotation(double angle_rad) {
   return (Eigen::Matrix2d() << c, -s, s, c).finished();
 }
 
-Point direction(double angle_rad) {
-  return {std::cos(angle_rad), std::sin(angle_rad)};
-}
-
-Point to_left(const Point& p) {
-  return {-p.y(), p.x()};
-}
-
 }  // namespace
 
 PoseFilter::PoseFilter(const Pose2& T_map_robot, const Start& deviations)
@@ -101,7 +93,7 @@ void PoseFilter::doubt_heading(double off_rad) {
 }
 
 void PoseFilter::slide(double along_m, double deviation_m) {
-  const Point ahead = direction(state_[kTheta]);
+  const Point ahead = unit_vector(state_[kTheta]);
   state_.head<2>() += along_m * ahead;
   covariance_.topLeftCorner<2, 2>() += squared(deviation_m) * ahead * ahead.transpose();
 }
@@ -208,7 +200,7 @@ PoseFilter::Match PoseFilter::compare(int wall, const SeenWall& seen) const {
   Match match;
   const int at = kPoseStates + 2 * wall;
   const Wall& known = wall_[static_cast<std::size_t>(wall)];
-  const Point normal = direction(state_[at]);
+  const Point normal = unit_vector(state_[at]);
   const Point from_wall = state_.head<2>() - known.from_m;
   match.innovation = {wrap_angle(seen.bearing_rad - state_[at] + state_[kTheta]),
                       seen.distance_m - state_[at + 1] + normal.dot(from_wall)};
@@ -231,7 +223,7 @@ PoseFilter::Match PoseFilter::compare(int wall, const SeenWall& seen) const {
 ExpectedWall PoseFilter::expected(int wall) const {
   const Match match = compare(wall, {});
   const Wall& known = wall_[static_cast<std::size_t>(wall)];
-  const double foot_m = to_left(direction(state_[kPoseStates + 2 * wall])).dot(state_.head<2>() - known.from_m);
+  const double foot_m = to_left(unit_vector(state_[kPoseStates + 2 * wall])).dot(state_.head<2>() - known.from_m);
   return {wall,
           -match.innovation[0],
           -match.innovation[1],
@@ -275,7 +267,7 @@ PoseFilter::WallUse PoseFilter::meet(const SeenWall& seen, double gate_sigmas) {
 
 void PoseFilter::stretch(int wall, const SeenWall& seen) {
   Wall& known = wall_[static_cast<std::size_t>(wall)];
-  const Point normal = direction(state_[kPoseStates + 2 * wall]);
+  const Point normal = unit_vector(state_[kPoseStates + 2 * wall]);
   const double foot_m = to_left(normal).dot(state_.head<2>() - known.from_m);
   known.begin_m = std::min(known.begin_m, foot_m + seen.begin_m);
   known.end_m = std::max(known.end_m, foot_m + seen.end_m);
@@ -284,7 +276,7 @@ void PoseFilter::stretch(int wall, const SeenWall& seen) {
 
 void PoseFilter::add(const SeenWall& seen) {
   const double normal_rad = wrap_angle(state_[kTheta] + seen.bearing_rad);
-  const Point normal = direction(normal_rad);
+  const Point normal = unit_vector(normal_rad);
   const int at = kPoseStates + 2 * walls_;
   // The pose's errors are the wall's, turned; its own noise comes on top.
   Eigen::Matrix<double, 2, kPoseStates> g = Eigen::Matrix<double, 2, kPoseStates>::Zero();

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kStep_rad = 2.0 * std::numbers::pi / 120.0;
 constexpr double kStep_m = 0.05;
-constexpr double kBeyond_m = 1.5;   // a line may lie behind the robot by so much: it has turned round its end
-constexpr double kBeamRatio = 1.0;  // of the half-beam in which walls answer
-constexpr double kBeside_m = 1.0;   // beyond the ends of a known wall
+constexpr double kBeyond_m = 1.5;         // a line may lie behind the robot by so much: it has turned round its end
+constexpr double kBeamRatio = 1.0;        // of the half-beam in which walls answer
+constexpr double kBesideSegment_m = 1.0;  // beyond the ends of a known wall
 constexpr double kGate_m = 0.07;
 constexpr double kWidestGate_m = 0.3;
 constexpr int kMinAgain = 4;  // echoes of a known wall
@@ -24,14 +24,6 @@ constexpr int kPeaks = 4;
 constexpr int kBatch = 8;             // new echoes before the next search
 constexpr double kPointRatio = 0.75;  // a line must fit so much better than a point
 constexpr double kCurved_m = 0.010;   // how far a round thing must leave the line to be told from it
-
-Point direction(double angle_rad) {
-  return {std::cos(angle_rad), std::sin(angle_rad)};
-}
-
-Point to_left(const Point& p) {
-  return {-p.y(), p.x()};
-}
 
 }  // namespace
 
@@ -113,10 +105,10 @@ bool WallFinder::is_due() const {
 std::optional<double> WallFinder::off_m(const Echo& echo, const ExpectedWall& wall) const {
   const double normal_rad = T_odom_robot_.theta_rad + wall.bearing_rad;
   if (std::abs(wrap_angle(echo.axis_rad - normal_rad)) > kBeamRatio * echo.half_beam_rad) return std::nullopt;
-  const Point normal = direction(normal_rad);
+  const Point normal = unit_vector(normal_rad);
   const Point from_m = echo.at_m - T_odom_robot_.position();
   const double foot_m = to_left(normal).dot(from_m);
-  if (foot_m < wall.begin_m - kBeside_m || foot_m > wall.end_m + kBeside_m) return std::nullopt;
+  if (foot_m < wall.begin_m - kBesideSegment_m || foot_m > wall.end_m + kBesideSegment_m) return std::nullopt;
   return normal.dot(from_m) + echo.range_m - wall.distance_m;
 }
 
@@ -174,7 +166,7 @@ bool WallFinder::count_votes() {
     const int first = static_cast<int>(std::ceil((echo.axis_rad - kBeamRatio * echo.half_beam_rad) / kStep_rad));
     const int last = static_cast<int>(std::floor((echo.axis_rad + kBeamRatio * echo.half_beam_rad) / kStep_rad));
     for (int i = first; i <= last; ++i) {
-      const double distance_m = direction(i * kStep_rad).dot(from_m) + echo.range_m;
+      const double distance_m = unit_vector(i * kStep_rad).dot(from_m) + echo.range_m;
       const int bin = static_cast<int>(std::floor((distance_m + kBeyond_m) / kStep_m));
       if (bin < 0 || bin + 1 >= kDistances) continue;
       const int row = ((i % kDirections) + kDirections) % kDirections;
@@ -204,7 +196,7 @@ std::optional<WallFinder::Line> WallFinder::strongest() {
 
 bool WallFinder::speaks_for(const Echo& echo, const Line& line, double within_m) const {
   if (std::abs(wrap_angle(echo.axis_rad - line.normal_rad)) > kBeamRatio * echo.half_beam_rad) return false;
-  const double distance_m = direction(line.normal_rad).dot(echo.at_m - T_odom_robot_.position()) + echo.range_m;
+  const double distance_m = unit_vector(line.normal_rad).dot(echo.at_m - T_odom_robot_.position()) + echo.range_m;
   return std::abs(distance_m - line.distance_m) <= within_m;
 }
 
@@ -212,7 +204,7 @@ std::optional<WallFinder::Fit> WallFinder::fit(Line line, const Demands& demands
   const Point here_m = T_odom_robot_.position();
   Fit found;
   for (const double within : {1.6, 1.2, 1.0, 1.0}) {
-    const Point normal = direction(line.normal_rad);
+    const Point normal = unit_vector(line.normal_rad);
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     information(0, 0) = demands.hold;
@@ -255,7 +247,7 @@ double WallFinder::point_rms_m(const Line& line) const {
   int count = 0;
   for (const Echo& echo : echoes_) {
     if (!speaks_for(echo, line, rules_.inlier_m)) continue;
-    point_m += echo.at_m - here_m + echo.range_m * direction(line.normal_rad);
+    point_m += echo.at_m - here_m + echo.range_m * unit_vector(line.normal_rad);
     ++count;
   }
   point_m /= std::max(count, 1);

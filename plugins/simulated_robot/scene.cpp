@@ -10,10 +10,6 @@ constexpr double kSamePlace_m = 1e-3;  // world files are written to the millime
 constexpr double kOverlap_ratio = 1e-9;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 double bearing(const Point& d) {
   return wrap_angle(std::atan2(d.y(), d.x()));
 }

@@ -7,7 +7,7 @@
 namespace cairn {
 namespace {
 
-struct Counts {
+struct ThresholdCounts {
   std::int64_t truly = 0;
   std::int64_t found = 0;
   std::int64_t right = 0;
@@ -17,12 +17,12 @@ struct Counts {
   }
 };
 
-Counts operator+(const Counts& a, const Counts& b) {
+ThresholdCounts operator+(const ThresholdCounts& a, const ThresholdCounts& b) {
   return {a.truly + b.truly, a.found + b.found, a.right + b.right};
 }
 
-Counts counts_at(const WorldCounts& world, double threshold) {
-  Counts counts{world.truly, 0, 0};
+ThresholdCounts counts_at(const WorldCounts& world, double threshold) {
+  ThresholdCounts counts{world.truly, 0, 0};
   // The first one that is below.
   const auto end = std::ranges::partition_point(world.counts,
                                                 [&](const ThresholdCount& count) { return count.degree >= threshold; });
@@ -40,7 +40,7 @@ std::vector<CurvePoint> precision_recall(std::span<const WorldCounts> worlds) {
     for (const ThresholdCount& count : world.counts) thresholds.insert(count.degree);
   std::vector<CurvePoint> curve;
   for (const double threshold : thresholds) {
-    Counts all;
+    ThresholdCounts all;
     for (const WorldCounts& world : worlds) all = all + counts_at(world, threshold);
     curve.push_back({threshold, share_of(all.right, all.found).value, share_of(all.right, all.truly).value, all.f1()});
   }
@@ -48,12 +48,12 @@ std::vector<CurvePoint> precision_recall(std::span<const WorldCounts> worlds) {
 }
 
 CurveFigures figures_at(std::span<const WorldCounts> worlds, double threshold) {
-  std::vector<Counts> counts;
-  Counts all;
+  std::vector<ThresholdCounts> counts;
+  ThresholdCounts all;
   for (const WorldCounts& world : worlds) all = all + counts.emplace_back(counts_at(world, threshold));
   CurveFigures figures{threshold, share_of(all.right, all.found), share_of(all.right, all.truly), {}};
   figures.f1 = resampled(counts.size(), [&](std::span<const std::size_t> taken) {
-    Counts some;
+    ThresholdCounts some;
     for (const std::size_t index : taken) some = some + counts[index];
     return some.f1();
   });

@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<const ExperimentRow*>;
 
-struct Counts {
+struct PoseCounts {
   std::int64_t right = 0;
   std::int64_t truly = 0;  // landmarks of the world
   std::int64_t found = 0;
@@ -23,7 +23,7 @@ struct Counts {
   std::int64_t within_step = 0;
 };
 
-Counts operator+(Counts a, const Counts& b) {
+PoseCounts operator+(PoseCounts a, const PoseCounts& b) {
   a.right += b.right;
   a.truly += b.truly;
   a.found += b.found;
@@ -33,8 +33,8 @@ Counts operator+(Counts a, const Counts& b) {
   return a;
 }
 
-Counts counts_of(const ExperimentRow& row, double step_rad) {
-  Counts counts;
+PoseCounts counts_of(const ExperimentRow& row, double step_rad) {
+  PoseCounts counts;
   for (const Verdict& verdict : row.verdicts) {
     counts.right += verdict.is_right() ? 1 : 0;
     counts.truly += verdict.is.empty() ? 0 : 1;
@@ -47,7 +47,7 @@ Counts counts_of(const ExperimentRow& row, double step_rad) {
   return counts;
 }
 
-double f1_of(const Counts& counts) {
+double f1_of(const PoseCounts& counts) {
   const std::int64_t all = counts.truly + counts.found;
   return all == 0 ? 0.0 : 2.0 * static_cast<double>(counts.right) / static_cast<double>(all);
 }
@@ -145,8 +145,8 @@ BaselineFigures baseline_figures(const Rows& rows, const Rows& baseline) {
 }
 
 RecognitionFigures recognition_figures(const Rows& rows, double step_rad) {
-  std::vector<Counts> counts;
-  Counts all;
+  std::vector<PoseCounts> counts;
+  PoseCounts all;
   for (const ExperimentRow* row : rows) {
     counts.push_back(counts_of(*row, step_rad));
     all = all + counts.back();
@@ -157,7 +157,7 @@ RecognitionFigures recognition_figures(const Rows& rows, double step_rad) {
   figures.right_category = share_of(all.right, all.met);
   figures.within_step = share_of(all.within_step, all.turned);
   figures.f1 = resampled(rows.size(), [&](std::span<const std::size_t> taken) {
-    Counts some;
+    PoseCounts some;
     for (const std::size_t index : taken) some = some + counts[index];
     return f1_of(some);
   });

@@ -14,7 +14,7 @@ namespace cairn {
 namespace {
 
 enum Purpose : std::uint64_t { kSteps = 1, kBattery, kFirstFault = 10 };  // of streams of chance
-constexpr int kTries = 10000;
+constexpr int kGoalTries = 10000;
 constexpr double kFaultsFor_s = 3600.0;
 constexpr double kFromMover_m = 1.0;
 
@@ -66,7 +66,7 @@ Point Drawing::anywhere() {
 }
 
 Point Drawing::with_room() {
-  for (int t = 0; t < kTries; ++t)
+  for (int t = 0; t < kGoalTries; ++t)
     if (Point p_m = anywhere(); space_.has_room(p_m)) return p_m;
   throw ConfigError({robot_.name, 0, 0}, fmt::format("the robot and {:g} m beside it have room nowhere in the random "
                                                      "world of seed {}",
@@ -83,7 +83,7 @@ bool Drawing::is_clear_of_traffic(const Point& p_m) const {
 
 std::string Drawing::start() {
   Point at_m = with_room();
-  for (int t = 0; t < kTries && !is_clear_of_traffic(at_m); ++t) at_m = with_room();
+  for (int t = 0; t < kGoalTries && !is_clear_of_traffic(at_m); ++t) at_m = with_room();
   return fmt::format("{{at_m: [{:.3f}, {:.3f}], angle_deg: {:.1f}}}", at_m.x(), at_m.y(), chance_.between(0.0, 360.0));
 }
 

@@ -15,7 +15,7 @@ namespace {
 using exchange::counted;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kShown = 30;
+constexpr std::size_t kMaxDifferences = 30;
 constexpr auto kFree = static_cast<std::size_t>(CellState::free);
 constexpr auto kUnknown = static_cast<std::size_t>(CellState::unknown);
 constexpr auto kOccupied = static_cast<std::size_t>(CellState::occupied);
@@ -69,8 +69,10 @@ ordered_json json_of(const MapDifference& difference, const SavedMap& a, const S
 
 template <class Things, class Text>
 void print_first(const Things& things, Text text_of) {
-  for (std::size_t i = 0; i < std::min(things.size(), kShown); ++i) std::cout << "    " << text_of(things[i]) << "\n";
-  if (things.size() > kShown) std::cout << "    ... and " << things.size() - kShown << " more; --json lists all\n";
+  for (std::size_t i = 0; i < std::min(things.size(), kMaxDifferences); ++i)
+    std::cout << "    " << text_of(things[i]) << "\n";
+  if (things.size() > kMaxDifferences)
+    std::cout << "    ... and " << things.size() - kMaxDifferences << " more; --json lists all\n";
 }
 
 std::string place_of(const LandmarkGraph& graph, LandmarkId id) {

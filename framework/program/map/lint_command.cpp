@@ -7,6 +7,7 @@
 
 #include "framework/program/common/commands.hpp"
 #include "framework/program/plan/saved_radius.hpp"
+#include "maps/base/source_text.hpp"
 #include "maps/edit/graph_lint.hpp"
 #include "maps/store/map_store.hpp"
 
@@ -38,10 +39,6 @@ void print(const std::vector<LintFinding>& findings) {
       std::cout << fmt::format("... and {} more of the kind {}; --json lists all\n", times - kMaxOfAKind, kind);
 }
 
-std::string counted(std::int64_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 }  // namespace
 
 int map_lint(const LintCommand& command, const CommonOptions& common) {
@@ -51,7 +48,7 @@ int map_lint(const LintCommand& command, const CommonOptions& common) {
   options.near_m = command.near_m;
   const std::vector<LintFinding> findings = lint_graph(map.graph, map.grid, options);
   const auto count = [&](LintSeverity severity) {
-    return std::ranges::count(findings, severity, &LintFinding::severity);
+    return static_cast<std::size_t>(std::ranges::count(findings, severity, &LintFinding::severity));
   };
   const auto errors = count(LintSeverity::error);
   const auto warnings = count(LintSeverity::warning);
@@ -69,8 +66,9 @@ int map_lint(const LintCommand& command, const CommonOptions& common) {
   } else {
     print(findings);
     std::cout << fmt::format("{}: {}; {}, {}, {}, for a robot of {:g} m radius\n", command.map.string(),
-                             clean ? "clean" : "findings", counted(errors, "error"), counted(warnings, "warning"),
-                             counted(count(LintSeverity::note), "note"), options.radius_m);
+                             clean ? "clean" : "findings", exchange::counted(errors, "error"),
+                             exchange::counted(warnings, "warning"),
+                             exchange::counted(count(LintSeverity::note), "note"), options.radius_m);
   }
   return clean ? kExitDone : kExitNotSolved;
 }

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kShown = 50;
+constexpr std::size_t kMaxListed = 50;
 
 ordered_json levels_json(const SavedMap& map) {
   ordered_json levels = ordered_json::array();
@@ -28,10 +28,10 @@ template <class Things, class Text>
 void list_first(const Things& things, const char* what, Text text_of) {
   std::size_t shown = 0;
   for (const auto& [id, thing] : things) {
-    if (shown++ == kShown) break;
+    if (shown++ == kMaxListed) break;
     std::cout << text_of(thing);
   }
-  if (things.size() > kShown) std::cout << fmt::format("  ... and {} more {}\n", things.size() - kShown, what);
+  if (things.size() > kMaxListed) std::cout << fmt::format("  ... and {} more {}\n", things.size() - kMaxListed, what);
 }
 
 ordered_json json_of(const std::optional<MissionProgress>& progress) {

@@ -6,6 +6,7 @@
 #include "framework/behaviour_tree/tree_text.hpp"
 #include "framework/mission/check.hpp"
 #include "framework/program/common/commands.hpp"
+#include "maps/base/source_text.hpp"
 #include "maps/pictures/tree_picture.hpp"
 
 namespace cairn {
@@ -55,12 +56,8 @@ std::vector<TreeBox> boxes_of(const std::vector<TreeNode>& nodes) {
   return boxes;
 }
 
-std::string counted(std::size_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 std::string size_text(std::size_t steps, std::size_t nodes) {
-  return counted(steps, "step") + ", " + counted(nodes, "node");
+  return exchange::counted(steps, "step") + ", " + exchange::counted(nodes, "node");
 }
 
 }  // namespace
@@ -78,7 +75,7 @@ int mission_check(const MissionCheckCommand& command, const CommonOptions& commo
     if (!common.json)
       std::cout << fmt::format(
           "{}: {}\n", file.string(),
-          is_fine ? "fine, " + size_text(check.steps, check.nodes) : counted(check.errors.size(), "error"));
+          is_fine ? "fine, " + size_text(check.steps, check.nodes) : exchange::counted(check.errors.size(), "error"));
     rows.push_back({{"file", file.string()},
                     {"mission", check.mission},
                     {"outcome", is_fine ? "fine" : "errors"},

@@ -13,7 +13,7 @@ std::optional<Point> point_of(const Place& place, const LandmarkGraph& graph) {
   if (place.landmarks.size() != 1) return std::nullopt;
   const Landmark* const landmark = graph.find(place.landmarks.front());
   if (landmark == nullptr) return std::nullopt;
-  return landmark->access.value_or(landmark->T_map_landmark).position();
+  return landmark->approach_pose().position();
 }
 
 // By way of a line x = at (or y = at): the shortest is the straight one to the mirrored end.
@@ -34,8 +34,7 @@ bool costs_are_lengths(const LandmarkGraph& graph) {
   // In one piece of memory: a large graph is looked through for a single answer.
   std::vector<std::pair<LandmarkId, Point>> stands;
   stands.reserve(graph.landmarks().size());
-  for (const auto& [id, landmark] : graph.landmarks())
-    stands.emplace_back(id, landmark.access.value_or(landmark.T_map_landmark).position());
+  for (const auto& [id, landmark] : graph.landmarks()) stands.emplace_back(id, landmark.approach_pose().position());
   const auto stand = [&](LandmarkId id) -> const Point& {
     return std::lower_bound(stands.begin(), stands.end(), id,
                             [](const auto& at, LandmarkId of) { return at.first < of; })

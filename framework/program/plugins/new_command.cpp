@@ -8,6 +8,7 @@
 
 #include "framework/modules/module_library.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/output_files.hpp"
 
 namespace cairn {
 namespace {
@@ -100,12 +101,6 @@ void add_files_of(const fs::path& folder, const std::string& name, const std::ve
   }
 }
 
-void write(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
 }  // namespace
 
 int plugins_new(const NewPluginCommand& command, const CommonOptions& common) {
@@ -128,7 +123,7 @@ int plugins_new(const NewPluginCommand& command, const CommonOptions& common) {
   fs::create_directories(folder);
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
   for (const NewFile& file : files) {
-    write(folder / file.file, file.text);
+    write_file(folder / file.file, file.text);
     names.push_back(file.file.string());
     if (!common.json) std::cout << (folder / file.file).string() << "\n";
   }

@@ -1,18 +1,16 @@
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/output_files.hpp"
 #include "framework/program/reference/reference.hpp"
 
 namespace cairn {
 namespace {
 
-void write(const std::filesystem::path& file, const std::string& text) {
+void write_reference(const std::filesystem::path& file, const std::string& text) {
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  std::ofstream out(file, std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  write_file(file, text);
   std::cerr << "wrote " << file.string() << "\n";
 }
 
@@ -27,8 +25,8 @@ int plugins_reference(const ReferenceCommand& command, const CommonOptions& comm
   }
   if (!command.schema_folder.empty())
     for (const SchemaFile& schema : reference_schemas(library))
-      write(command.schema_folder / schema.file_name, schema.text);
-  if (!command.markdown.empty()) write(command.markdown, reference_markdown(library));
+      write_reference(command.schema_folder / schema.file_name, schema.text);
+  if (!command.markdown.empty()) write_reference(command.markdown, reference_markdown(library));
   if (command.markdown.empty() && command.schema_folder.empty()) std::cout << reference_markdown(library);
   return kExitDone;
 }

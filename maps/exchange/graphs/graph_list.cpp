@@ -13,14 +13,14 @@ namespace cairn {
 namespace {
 
 using exchange::FileId;
+using exchange::kLineBlanks;
 using exchange::NodeIds;
 using exchange::SourceText;
 
-constexpr std::string_view kBlanks = " \t\r";
 constexpr const char* kNodeLine = "node ID X_M Y_M [NAME]";
 constexpr const char* kEdgeLine = "edge FROM TO COST_M";
 
-struct Node {
+struct ListedNode {
   std::int64_t id = 0;
   double x_m = 0.0;
   double y_m = 0.0;
@@ -28,7 +28,7 @@ struct Node {
   std::size_t offset = 0;  // of the id
 };
 
-struct Edge {
+struct ListedEdge {
   std::int64_t from = 0;
   std::int64_t to = 0;
   double cost_m = 0.0;
@@ -66,7 +66,7 @@ class Cursor {
     skip_blanks();
     token_ = at_;
     std::string_view left = source_.text().substr(at_, end_ - at_);
-    const std::size_t last = left.find_last_not_of(kBlanks);
+    const std::size_t last = left.find_last_not_of(kLineBlanks);
     return left.substr(0, last == std::string_view::npos ? 0 : last + 1);
   }
   [[nodiscard]] std::size_t offset() const { return token_; }  // of the last token
@@ -105,7 +105,7 @@ class Cursor {
   }
 
  private:
-  void skip_blanks() { at_ = std::min(source_.text().find_first_not_of(kBlanks, at_), end_); }
+  void skip_blanks() { at_ = std::min(source_.text().find_first_not_of(kLineBlanks, at_), end_); }
   std::string_view required(const char* what, const char* line) {
     const std::string_view text = token();
     if (text.empty()) fail(std::string(what) + " is missing: " + line);
@@ -129,8 +129,8 @@ std::string_view name_of(Cursor& line) {
   return name;
 }
 
-Node node_of(Cursor& line) {
-  Node node;
+ListedNode node_of(Cursor& line) {
+  ListedNode node;
   node.id = line.id("the node's id", kNodeLine);
   node.offset = line.offset();
   node.x_m = line.coordinate_m("x_m", kNodeLine);
@@ -139,8 +139,8 @@ Node node_of(Cursor& line) {
   return node;
 }
 
-Edge edge_of(Cursor& line) {
-  Edge edge;
+ListedEdge edge_of(Cursor& line) {
+  ListedEdge edge;
   edge.from = line.id("the id that the edge comes from", kEdgeLine);
   edge.offset = line.offset();
   edge.to = line.id("the id that the edge goes to", kEdgeLine);
@@ -152,14 +152,14 @@ Edge edge_of(Cursor& line) {
   return edge;
 }
 
-struct Lines {
-  std::vector<Node> nodes;
-  std::vector<Edge> edges;
+struct ListedGraph {
+  std::vector<ListedNode> nodes;
+  std::vector<ListedEdge> edges;
   std::vector<std::string> warnings;
 };
 
-Lines lines_of(const SourceText& source) {
-  Lines lines;
+ListedGraph listed_in(const SourceText& source) {
+  ListedGraph lines;
   Cursor line(source);
   while (line.next_line()) {
     const std::string_view word = line.token();
@@ -177,14 +177,14 @@ Lines lines_of(const SourceText& source) {
   return lines;
 }
 
-[[noreturn]] void fail_unknown_end(const SourceText& source, const Edge& edge, bool from_is_known) {
+[[noreturn]] void fail_unknown_end(const SourceText& source, const ListedEdge& edge, bool from_is_known) {
   std::size_t at = edge.offset;
-  if (from_is_known) at = source.text().find_first_not_of(kBlanks, source.text().find_first_of(kBlanks, at));
+  if (from_is_known) at = source.text().find_first_not_of(kLineBlanks, source.text().find_first_of(kLineBlanks, at));
   source.fail(at, "there is no node " + std::to_string(from_is_known ? edge.to : edge.from));
 }
 
-void take_nodes(const std::vector<Node>& nodes, const NodeIds& ids, ImportedGraph& imported) {
-  for (const Node& node : nodes) {
+void take_nodes(const std::vector<ListedNode>& nodes, const NodeIds& ids, ImportedGraph& imported) {
+  for (const ListedNode& node : nodes) {
     Landmark landmark;
     landmark.id = ids.landmark_of(node.id);
     landmark.name = node.id == 0 && node.name.empty() ? "0" : std::string(node.name);
@@ -193,8 +193,9 @@ void take_nodes(const std::vector<Node>& nodes, const NodeIds& ids, ImportedGrap
   }
 }
 
-void take_edges(const std::vector<Edge>& edges, const NodeIds& ids, const SourceText& source, LandmarkGraph& graph) {
-  for (const Edge& edge : edges) {
+void take_edges(const std::vector<ListedEdge>& edges, const NodeIds& ids, const SourceText& source,
+                LandmarkGraph& graph) {
+  for (const ListedEdge& edge : edges) {
     Route route;
     route.from = ids.landmark_of(edge.from);
     route.to = ids.landmark_of(edge.to);
@@ -214,10 +215,10 @@ bool fits_a_line(const std::string& name) {
 
 ImportedGraph parse_graph_list(std::string_view text, const std::string& file_name) {
   const SourceText source(text, file_name);
-  Lines lines = lines_of(source);
+  ListedGraph lines = listed_in(source);
   std::vector<FileId> node_ids;
   node_ids.reserve(lines.nodes.size());
-  for (const Node& node : lines.nodes) node_ids.push_back({node.id, node.offset});
+  for (const ListedNode& node : lines.nodes) node_ids.push_back({node.id, node.offset});
   const NodeIds ids(std::move(node_ids), source);
   ImportedGraph imported{{}, std::move(lines.warnings)};
   take_nodes(lines.nodes, ids, imported);

@@ -34,9 +34,9 @@ struct Drawn {
   std::string label;
 };
 
-class Reader {
+class GraphmlReader {
  public:
-  explicit Reader(const SourceText& source) : source_(source) {}
+  explicit GraphmlReader(const SourceText& source) : source_(source) {}
 
   ImportedGraph read() {
     // Its own copy: pugixml writes into what it parses. Entities of a DOCTYPE are never expanded.
@@ -292,7 +292,7 @@ class Reader {
 
 ImportedGraph parse_graphml(std::string_view text, const std::string& file_name) {
   const SourceText source(text, file_name);
-  return Reader(source).read();
+  return GraphmlReader(source).read();
 }
 
 }  // namespace cairn

@@ -26,7 +26,7 @@ constexpr const char* kHead =
 <graph id="landmarks" edgedefault="directed">
 )";
 
-class Writer {
+class GraphmlWriter {
  public:
   ExportedGraph write(const LandmarkGraph& graph) {
     text_ = kHead;
@@ -103,7 +103,7 @@ class Writer {
 }  // namespace
 
 ExportedGraph graphml_of(const LandmarkGraph& graph) {
-  return Writer().write(graph);
+  return GraphmlWriter().write(graph);
 }
 
 }  // namespace cairn

@@ -93,13 +93,13 @@ class Feature {
   Json json_;
 };
 
-struct Node {
+struct Nav2Node {
   std::int64_t id = 0;
   std::size_t offset = 0;
   Landmark landmark;
 };
 
-struct Edge {
+struct Nav2Edge {
   std::int64_t from = 0;
   std::int64_t to = 0;
   std::size_t offset = 0;  // of the feature
@@ -116,9 +116,9 @@ struct Counts {
   std::size_t not_overridable_unset = 0;
 };
 
-class Reader {
+class Nav2Reader {
  public:
-  explicit Reader(const SourceText& source) : source_(source) {}
+  explicit Nav2Reader(const SourceText& source) : source_(source) {}
 
   ImportedGraph read() {
     exchange::JsonSlice features;
@@ -182,7 +182,7 @@ class Reader {
 
   void take_node(Feature& feature) {
     feature.check_properties();
-    Node node;
+    Nav2Node node;
     node.id = feature.take_id("id");
     node.offset = exchange::offset_of(source_, feature.offset(), {"properties", "id"});
     const Json point = feature.geometry().value("coordinates", Json());
@@ -202,7 +202,7 @@ class Reader {
 
   void take_edge(Feature& feature) {
     feature.check_properties();
-    Edge edge;
+    Nav2Edge edge;
     edge.route.id = feature.take_id("id");
     edge.from = feature.take_id("startid");
     edge.to = feature.take_id("endid");
@@ -259,12 +259,12 @@ class Reader {
   ImportedGraph graph() {
     std::vector<exchange::FileId> node_ids;
     std::vector<std::int64_t> edge_ids;
-    for (const Node& node : nodes_) node_ids.push_back({node.id, node.offset});
-    for (const Edge& edge : edges_) edge_ids.push_back(edge.route.id);
+    for (const Nav2Node& node : nodes_) node_ids.push_back({node.id, node.offset});
+    for (const Nav2Edge& edge : edges_) edge_ids.push_back(edge.route.id);
     const exchange::NodeIds nodes(std::move(node_ids), source_);
     const exchange::EdgeIds edges(edge_ids);
     ImportedGraph imported;
-    for (Node& node : nodes_) {
+    for (Nav2Node& node : nodes_) {
       node.landmark.id = nodes.landmark_of(node.id);
       imported.graph.add(std::move(node.landmark));
     }
@@ -276,7 +276,7 @@ class Reader {
     return imported;
   }
 
-  void add_route(Edge& edge, const exchange::NodeIds& nodes, LandmarkGraph& graph) const {
+  void add_route(Nav2Edge& edge, const exchange::NodeIds& nodes, LandmarkGraph& graph) const {
     const auto end = [&](std::int64_t id, const char* key) {
       const LandmarkId landmark = nodes.landmark_of(id);
       if (landmark == 0)
@@ -320,8 +320,8 @@ class Reader {
   const SourceText& source_;
   std::string crs_;
   bool is_collection_ = false;
-  std::vector<Node> nodes_;
-  std::vector<Edge> edges_;
+  std::vector<Nav2Node> nodes_;
+  std::vector<Nav2Edge> edges_;
   Counts counts_;
 };
 
@@ -329,7 +329,7 @@ class Reader {
 
 ImportedGraph parse_nav2_routes(std::string_view text, const std::string& file_name) {
   const SourceText source(text, file_name);
-  return Reader(source).read();
+  return Nav2Reader(source).read();
 }
 
 }  // namespace cairn

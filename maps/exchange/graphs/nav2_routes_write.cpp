@@ -65,9 +65,9 @@ Json point_of(const Pose2& pose) {
   return Json::array({pose.x_m, pose.y_m});
 }
 
-class Writer {
+class Nav2Writer {
  public:
-  explicit Writer(const LandmarkGraph& graph) : graph_(graph) {}
+  explicit Nav2Writer(const LandmarkGraph& graph) : graph_(graph) {}
 
   ExportedGraph write() {
     std::string& text = exported_.text;
@@ -214,7 +214,7 @@ class Writer {
 }  // namespace
 
 ExportedGraph nav2_routes_of(const LandmarkGraph& graph) {
-  return Writer(graph).write();
+  return Nav2Writer(graph).write();
 }
 
 }  // namespace cairn

@@ -36,9 +36,9 @@ std::string yaml_of(const Json& value) {
   return value.is_object() ? "{" + text + "}" : "[" + text + "]";
 }
 
-class Writer {
+class RmfWriter {
  public:
-  Writer(const LandmarkGraph& graph, const std::string& site)
+  RmfWriter(const LandmarkGraph& graph, const std::string& site)
       : graph_(graph), site_(object_of(site, "what the map keeps of Open-RMF")) {}
 
   ExportedGraph write() {
@@ -158,7 +158,7 @@ class Writer {
 }  // namespace
 
 ExportedGraph rmf_nav_graph_of(const LandmarkGraph& graph, const std::string& site) {
-  return Writer(graph, site).write();
+  return RmfWriter(graph, site).write();
 }
 
 }  // namespace cairn

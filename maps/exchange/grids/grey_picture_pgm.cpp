@@ -8,7 +8,7 @@
 namespace cairn::exchange {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
+constexpr std::string_view kPgmBlanks = " \t\r\n\v\f";
 
 // The numbers of a PGM's text; '#' begins a comment.
 class Numbers {
@@ -39,7 +39,7 @@ class Numbers {
  private:
   void skip_blanks() {
     for (;;) {
-      at_ = std::min(source_.bytes.find_first_not_of(kBlanks, at_), source_.bytes.size());
+      at_ = std::min(source_.bytes.find_first_not_of(kPgmBlanks, at_), source_.bytes.size());
       if (at_ == source_.bytes.size() || source_.bytes[at_] != '#') return;
       at_ = std::min(source_.bytes.find('\n', at_), source_.bytes.size());
     }

@@ -11,8 +11,6 @@
 namespace cairn {
 namespace {
 
-constexpr std::uint8_t kUnknownGrey = 205;  // as map_server writes it
-
 // Probability of being occupied; none: unknown.
 std::optional<double> probability_of_grey(std::uint8_t grey, const MapServerSettings& settings) {
   if (settings.mode == MapServerMode::raw) return grey <= 100 ? std::optional(grey / 100.0) : std::nullopt;

@@ -8,6 +8,8 @@
 
 namespace cairn {
 
+inline constexpr std::uint8_t kUnknownGrey = 205;  // as map_server writes it
+
 enum class MapServerMode { trinary, scale, raw };
 
 struct MapServerSettings {

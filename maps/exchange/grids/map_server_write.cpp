@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::uint8_t kFreeGrey = 254;
 constexpr std::uint8_t kOccupiedGrey = 0;
-constexpr std::uint8_t kUnknownGrey = 205;
 constexpr std::uint8_t kUnknownRaw = 255;
 constexpr std::uint8_t kHalfGrey = 128;  // of what is unknown beneath its transparency
 

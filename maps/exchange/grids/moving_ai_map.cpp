@@ -9,9 +9,9 @@
 namespace cairn {
 namespace {
 
+using exchange::kLineBlanks;
 using exchange::SourceText;
 
-constexpr std::string_view kBlanks = " \t\r";
 constexpr std::string_view kFree = ".GS";
 constexpr std::string_view kBlocked = "@OTW";
 
@@ -21,9 +21,9 @@ struct Line {
   std::size_t offset = 0;
 };
 
-class Lines {
+class MapLines {
  public:
-  explicit Lines(const SourceText& source) : source_(source) {}
+  explicit MapLines(const SourceText& source) : source_(source) {}
 
   [[nodiscard]] bool at_end() const { return next_ >= source_.text().size(); }
   Line next() {
@@ -31,7 +31,7 @@ class Lines {
     const std::size_t end = std::min(source_.text().find('\n', begin), source_.text().size());
     next_ = end + 1;
     std::string_view line = source_.text().substr(begin, end - begin);
-    line = line.substr(0, line.find_last_not_of(kBlanks) + 1);
+    line = line.substr(0, line.find_last_not_of(kLineBlanks) + 1);
     return {line, begin};
   }
 
@@ -49,10 +49,10 @@ std::string_view character_at(std::string_view text, std::size_t x) {
 
 // The word behind the key, with its offset in the text.
 Line value_of(const SourceText& source, const Line& line, std::size_t key_length) {
-  const std::size_t begin = std::min(line.text.find_first_not_of(kBlanks, key_length), line.text.size());
-  const std::size_t end = std::min(line.text.find_first_of(kBlanks, begin), line.text.size());
+  const std::size_t begin = std::min(line.text.find_first_not_of(kLineBlanks, key_length), line.text.size());
+  const std::size_t end = std::min(line.text.find_first_of(kLineBlanks, begin), line.text.size());
   if (begin == end) source.fail(line.offset + begin, shown(line.text.substr(0, key_length)) + " needs a value");
-  const std::size_t more = std::min(line.text.find_first_not_of(kBlanks, end), line.text.size());
+  const std::size_t more = std::min(line.text.find_first_not_of(kLineBlanks, end), line.text.size());
   if (more < line.text.size()) source.fail(line.offset + more, shown(line.text.substr(more)) + " is too much");
   return {line.text.substr(begin, end - begin), line.offset + begin};
 }
@@ -74,7 +74,7 @@ struct Header {
 };
 
 void take(Header& header, const SourceText& source, const Line& line) {
-  const std::string_view key = line.text.substr(0, line.text.find_first_of(kBlanks));
+  const std::string_view key = line.text.substr(0, line.text.find_first_of(kLineBlanks));
   const auto fail_twice = [&] { source.fail(line.offset, shown(key) + " stands here twice"); };
   if (key == "type") {
     if (header.has_type) fail_twice();
@@ -93,7 +93,7 @@ void take(Header& header, const SourceText& source, const Line& line) {
   }
 }
 
-Header header_of(const SourceText& source, Lines& lines) {
+Header header_of(const SourceText& source, MapLines& lines) {
   Header header;
   while (!lines.at_end()) {
     const Line line = lines.next();
@@ -134,7 +134,7 @@ void take_row(const SourceText& source, const Line& line, const Header& header, 
 
 ImportedGrid parse_moving_ai_map(std::string_view text, const std::string& file_name, double cell_m) {
   const SourceText source(text, file_name);
-  Lines lines(source);
+  MapLines lines(source);
   const Header header = header_of(source, lines);
   ImportedGrid imported{OccupancyGrid(cell_m), {}};
   for (int row = 0; row < header.height; ++row) {

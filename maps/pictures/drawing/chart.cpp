@@ -19,7 +19,8 @@ namespace cairn {
 namespace {
 
 // The colours of the categories on the map pictures, in the same order.
-constexpr std::array kColours{"#d33c4b", "#1976d2", "#388e3c", "#8e44ad", "#e69100", "#00838f", "#8d5a3c", "#c21882"};
+constexpr std::array kChartColours{"#d33c4b", "#1976d2", "#388e3c", "#8e44ad",
+                                   "#e69100", "#00838f", "#8d5a3c", "#c21882"};
 
 // Filled disc, square, triangle, diamond: where the colours begin again.
 constexpr std::array kMarks{7, 5, 9, 13};
@@ -88,9 +89,9 @@ std::string plot_of(const Chart& chart) {
     const bool bars = !chart.series[i].half_widths.empty();
     plot += "$data" + std::to_string(i) +
             (bars ? " using 1:2:3 with yerrorbars pointsize 0.9 linewidth 1.5 pointtype " +
-                        std::to_string(kMarks[i / kColours.size() % kMarks.size()])
+                        std::to_string(kMarks[i / kChartColours.size() % kMarks.size()])
                   : std::string(" using 1:2 with ") + style_of(chart.series[i].style)) +
-            " linecolor '" + kColours[i % kColours.size()] + "' title " + quoted(chart.series[i].name) + ", ";
+            " linecolor '" + kChartColours[i % kChartColours.size()] + "' title " + quoted(chart.series[i].name) + ", ";
   }
   for (const HorizontalLine& line : chart.horizontal_lines)
     if (std::isfinite(line.y))

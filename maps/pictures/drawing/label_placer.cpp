@@ -10,7 +10,7 @@ namespace {
 constexpr double kOutsideCost = 20.0;
 constexpr double kLabelCost = 10.0;
 constexpr double kRingCost = 150.0;  // of each step away from what the label names
-constexpr double kGapPx = 5.0;
+constexpr double kLabelGapPx = 5.0;
 // Right, left, above, below, then the corners: the order breaks ties.
 constexpr std::array<std::array<double, 2>, 8> kDirections{
     {{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}}};
@@ -51,7 +51,7 @@ PixelBox LabelPlacer::place(const Pixel& about, double radius_px, const Pixel& s
   PixelBox best;
   double best_cost = std::numeric_limits<double>::infinity();
   for (int ring = 0; ring < 4; ++ring) {
-    const double reach_px = radius_px + kGapPx + ring * 12.0;
+    const double reach_px = radius_px + kLabelGapPx + ring * 12.0;
     for (std::size_t i = 0; i < kDirections.size(); ++i) {
       // Diagonal labels start where the circle ends.
       const double share = i < 4 ? 1.0 : 0.75;

@@ -7,9 +7,9 @@
 namespace cairn::pictures {
 namespace {
 
-constexpr double kRowPx = 24.0;
+constexpr double kLegendRowPx = 24.0;
 constexpr double kSignPx = 26.0;
-constexpr double kGapPx = 8.0;
+constexpr double kLegendGapPx = 8.0;
 constexpr double kBetweenPx = 22.0;
 constexpr TextStyle kWords{kInk, 12.0};
 
@@ -18,25 +18,25 @@ constexpr TextStyle kWords{kInk, 12.0};
 Legend::Legend(std::vector<LegendEntry> entries, double width_px) {
   double x_px = 0.0;
   for (LegendEntry& entry : entries) {
-    const double entry_px = kSignPx + kGapPx + Canvas::text_width_px(entry.meaning, kWords);
+    const double entry_px = kSignPx + kLegendGapPx + Canvas::text_width_px(entry.meaning, kWords);
     if (rows_ == 0 || x_px + entry_px > width_px) {
       ++rows_;
       x_px = 0.0;
     }
-    placed_.push_back({std::move(entry), {x_px, (rows_ - 0.5) * kRowPx}});
+    placed_.push_back({std::move(entry), {x_px, (rows_ - 0.5) * kLegendRowPx}});
     x_px += entry_px + kBetweenPx;
   }
 }
 
 double Legend::height_px() const {
-  return rows_ * kRowPx;
+  return rows_ * kLegendRowPx;
 }
 
 void Legend::draw(Canvas& canvas, const Pixel& upper_left) const {
   for (const Placed& placed : placed_) {
     const Pixel left = upper_left + placed.at;
     placed.entry.draw_sign(canvas, left + Pixel(kSignPx / 2.0, 0.0));
-    canvas.text(left + Pixel(kSignPx + kGapPx, 0.0), placed.entry.meaning, kWords);
+    canvas.text(left + Pixel(kSignPx + kLegendGapPx, 0.0), placed.entry.meaning, kWords);
   }
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kLongerSidePx = 930.0;
 constexpr int kMinPageWidthPx = 560;
-constexpr double kTopPx = 62.0;
-constexpr double kLeftPx = 48.0;
+constexpr double kFrameTopPx = 62.0;
+constexpr double kFrameLeftPx = 48.0;
 constexpr double kTickRoomPx = 22.0;
 constexpr double kMinTickDistancePx = 70.0;
 constexpr int kMaxImageSide = 2000;
@@ -82,7 +82,7 @@ MapFrame frame_of(const Extent& extent, double cell_m) {
   MapFrame frame;
   frame.min_m = extent.min_m;
   frame.px_per_m = px_per_cell / cell_m;
-  frame.box.min = {kLeftPx, kTopPx};
+  frame.box.min = {kFrameLeftPx, kFrameTopPx};
   frame.box.max = frame.box.min + (size_m * frame.px_per_m).array().round().matrix();
   return frame;
 }
@@ -99,8 +99,8 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
 }
 
 void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle) {
-  canvas.text({kLeftPx, 24.0}, title, {kInk, 20.0, Align::left, true});
-  canvas.text({kLeftPx, 46.0}, subtitle, {kFaintInk, 12.0});
+  canvas.text({kFrameLeftPx, 24.0}, title, {kInk, 20.0, Align::left, true});
+  canvas.text({kFrameLeftPx, 46.0}, subtitle, {kFaintInk, 12.0});
 }
 
 void draw_scale_bar(Canvas& canvas, const MapFrame& frame, const Pixel& right_end) {

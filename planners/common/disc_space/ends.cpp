@@ -51,7 +51,7 @@ Refusal unreached(const Place& place, const WorldView& world, const EndRules& ru
 }
 
 std::string note_on(const Pose2& stand, const Landmark& landmark) {
-  const Point usual = landmark.access.value_or(landmark.T_map_landmark).position();
+  const Point usual = landmark.approach_pose().position();
   const double away_m = (stand.position() - usual).norm();
   if (away_m == 0.0) return {};
   return "; it ends " + metres_text(away_m) + " from " + label_of(landmark) +

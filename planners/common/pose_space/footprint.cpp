@@ -12,10 +12,6 @@ constexpr double kStripsPerWidth = 2.0;  // along the longer side of the cover; 
 constexpr double kMaxStrips = 8.0;
 constexpr double kFurthest_m = 1000.0;  // work grows with size: beyond it something else is wrong
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 double distance_to_segment_m(const Point& p, const Point& a, const Point& b) {
   const Point along = b - a;
   const double squared = along.squaredNorm();

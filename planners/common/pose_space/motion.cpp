@@ -13,10 +13,6 @@ double sinc(double x) {
   return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
 }
 
-bool is_finite(const Pose2& pose) {
-  return pose.position().allFinite() && std::isfinite(pose.theta_rad);
-}
-
 struct TurnDriveTurn {
   double first_rad = 0.0;
   double length_m = 0.0;

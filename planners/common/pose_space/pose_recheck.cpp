@@ -9,10 +9,6 @@ namespace {
 
 using Corners = std::vector<Point>;
 
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 double from_segment_m(const Point& p, const Point& a, const Point& b) {
   const double squared = (b - a).squaredNorm();
   const double t = squared > 0.0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;

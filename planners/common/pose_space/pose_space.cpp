@@ -73,10 +73,6 @@ double to_rim_m(const DiscSpace& space, const Point& p) {
   return std::min((p - low).minCoeff(), (high - p).minCoeff());
 }
 
-bool is_finite(const Pose2& pose) {
-  return pose.position().allFinite() && std::isfinite(pose.theta_rad);
-}
-
 }  // namespace
 
 // Places on it are told as shares of the element, from 0 to 1.

@@ -19,8 +19,6 @@ namespace {
 
 namespace ob = ompl::base;
 
-constexpr std::uint64_t kInformed = 0x1000;  // apart from the numbers of the plain samplers
-
 // Whole segments, exactly; OMPL's own validator samples them.
 class SegmentValidator : public ob::MotionValidator {
  public:
@@ -147,7 +145,7 @@ class TravelObjective : public ob::OptimizationObjective {
   }
   [[nodiscard]] ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& definition,
                                                                  unsigned) const override {
-    return std::make_shared<InformedCellSampler>(definition, problem_, mixed(mixed(problem_.seed) + kInformed));
+    return std::make_shared<InformedCellSampler>(definition, problem_, mixed(mixed(problem_.seed) + kInformedStream));
   }
 
  private:

@@ -14,8 +14,7 @@ namespace {
 
 namespace ob = ompl::base;
 
-constexpr std::uint64_t kInformed = 0x1000;  // apart from the numbers of the plain samplers
-constexpr double kTurnStep = 0.2;            // radians between the points by which an arc is counted
+constexpr double kTurnStep = 0.2;  // radians between the points by which an arc is counted
 
 double min_through(const PoseProblem& problem, const Point& p) {
   const Point to = problem.goals.front().position();
@@ -30,7 +29,8 @@ class InformedPoseSampler : public ob::InformedSampler {
   InformedPoseSampler(const ob::ProblemDefinitionPtr& definition, const PoseProblem& problem)
       : InformedSampler(definition, kTries),
         problem_(problem),
-        sampler_(space_.get(), problem.poses.ground().field(), problem.draw, mixed(mixed(problem.seed) + kInformed)) {}
+        sampler_(space_.get(), problem.poses.ground().field(), problem.draw,
+                 mixed(mixed(problem.seed) + kInformedStream)) {}
 
   bool sampleUniform(ob::State* state, const ob::Cost& below) override {
     return sampleUniform(state, ob::Cost(0.0), below);

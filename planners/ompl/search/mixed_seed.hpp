@@ -5,6 +5,9 @@
 
 namespace cairn {
 
+// Added to the seed of an informed sampler: apart from the numbers of the plain samplers.
+inline constexpr std::uint64_t kInformedStream = 0x1000;
+
 // splitmix64 (S. Vigna): neighbouring seeds give unrelated streams.
 [[nodiscard]] inline std::uint64_t mixed(std::uint64_t seed) {
   seed += 0x9e3779b97f4a7c15U;

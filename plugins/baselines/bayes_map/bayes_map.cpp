@@ -14,7 +14,7 @@ BayesMap::BayesMap(const Config& config) : beam_model_(config), grid_(config.cel
 
 const CellChanges& BayesMap::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
-  if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
+  if (!is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
   const std::size_t beams = changes_.spans.size();
   cleared_footprint_.take(grid_, pose.T_map_robot, changes_.spans);

@@ -26,7 +26,7 @@ double occupied_p(const Config& config, double cell_range_m, double bearing_rad,
 
 const CellChanges& MurphyMap::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
-  if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
+  if (!is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
   const std::size_t beams = changes_.spans.size();
   cleared_footprint_.take(grid_, pose.T_map_robot, changes_.spans);

@@ -39,7 +39,6 @@ constexpr double kExplained_m = 0.1;
 constexpr double kSurelyInBeam = 0.6;       // of half a beam
 constexpr double kThin_rad = radians(1.0);  // half a beam of no width
 constexpr int kArcPoints = 5;
-constexpr int kMaxSensors = 4096;
 constexpr double kLongestTick_s = 0.5;
 
 double braking_distance_m(double v_mps, const LocalLimits& limits) {

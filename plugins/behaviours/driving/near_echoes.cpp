@@ -8,26 +8,24 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kNear_m = 1.0;
+constexpr double kNearEcho_m = 1.0;
 constexpr int kHit = 100;
 constexpr int kSolid = 160;  // two hits
 constexpr int kPassed = -50;
 constexpr int kSurelyFree = -280;  // six echoes from behind it
 constexpr LogOdds kStoodThere = -400;
 constexpr double kMax_nat = 1.6;  // four hits
-constexpr double kMoved_m = 0.02;
+constexpr double kMovedOn_m = 0.02;
 constexpr double kTurned_rad = radians(3.0);
-constexpr int kRays = 5;  // over the middle half of the beam
+constexpr int kBeamRays = 5;  // over the middle half of the beam
 
 bool has_moved(const Pose2& a, const Pose2& b) {
-  return (a.position() - b.position()).norm() >= kMoved_m ||
+  return (a.position() - b.position()).norm() >= kMovedOn_m ||
          std::abs(wrap_angle(a.theta_rad - b.theta_rad)) >= kTurned_rad;
 }
 
-constexpr int kMaxSensors = 4096;  // an index beyond it is an error of the source, not a transducer
-
 bool is_usable(const RangeReading& reading) {
-  return reading.range_m > reading.min_m && reading.range_m > 0.0 && reading.range_m <= kNear_m &&
+  return reading.range_m > reading.min_m && reading.range_m > 0.0 && reading.range_m <= kNearEcho_m &&
          reading.half_beam_rad >= 0.0 && reading.half_beam_rad <= std::numbers::pi && reading.sensor >= 0 &&
          reading.sensor < kMaxSensors;
 }
@@ -39,7 +37,7 @@ NearEchoes::NearEchoes(const OccupancyGrid& map) : votes_(map.cell_m(), kMax_nat
 void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
   for (const RangeReading& reading : observation.ranges) {
     const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
-    if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), kNear_m)) continue;
+    if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), kNearEcho_m)) continue;
     const auto sensor = static_cast<std::size_t>(reading.sensor);
     const Pose2 nowhere{std::numeric_limits<double>::max(), 0.0, 0.0};
     if (sensor >= last_voted_.size()) last_voted_.resize(sensor + 1, nowhere);
@@ -53,8 +51,8 @@ void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
   const double cell_m = votes_.cell_m();
   std::vector<Cell> hit;
   std::vector<Cell> passed;
-  for (int i = 0; i < kRays; ++i) {
-    const double bearing_rad = 0.5 * reading.half_beam_rad * (2.0 * i / (kRays - 1) - 1.0);
+  for (int i = 0; i < kBeamRays; ++i) {
+    const double bearing_rad = 0.5 * reading.half_beam_rad * (2.0 * i / (kBeamRays - 1) - 1.0);
     const Point direction{std::cos(bearing_rad), std::sin(bearing_rad)};
     hit.push_back(votes_.cell_at(T_map_sensor * (direction * reading.range_m)));
     for (double r_m = 0.0; r_m < reading.range_m - 2.0 * cell_m; r_m += 0.5 * cell_m)

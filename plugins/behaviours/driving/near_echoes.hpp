@@ -13,6 +13,8 @@
 
 namespace cairn::behaviours {
 
+inline constexpr int kMaxSensors = 4096;  // an index beyond it is an error of the source, not a transducer
+
 class NearEchoes {
  public:
   // Cells as those of the map.

@@ -14,7 +14,7 @@ constexpr double kRoomOutOfReach_m2 = 0.5;
 constexpr double kRoomForWay = 4.0;
 constexpr double kRoomy_m = 0.8;
 constexpr double kRoomToDrive_m2 = 0.2;  // what is seen of a room through its door
-constexpr double kSame_m = 0.5;
+constexpr double kSameOpening_m = 0.5;
 
 // Free cells with room for the robot that it does not get to, in connected groups.
 std::vector<CellGroup> places_behind(const FreeSpace& space, double min_m2,
@@ -66,8 +66,8 @@ std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& 
                                            [&](Cell a, Cell b) { return squeezed.cost_m(a) < squeezed.cost_m(b); });
     const std::optional<Opening> opening = opening_on_way(space, squeezed.path_to(nearest));
     if (!opening || space.cost_m(opening->lookout) >= best_m) continue;
-    const bool is_seen =
-        std::any_of(seen.begin(), seen.end(), [&](const Point& p) { return (p - opening->at_m).norm() < kSame_m; });
+    const bool is_seen = std::any_of(seen.begin(), seen.end(),
+                                     [&](const Point& p) { return (p - opening->at_m).norm() < kSameOpening_m; });
     if (is_seen) continue;
     best = opening;
     best_m = space.cost_m(opening->lookout);
@@ -82,7 +82,8 @@ bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter) {
 std::optional<Point> room_out_of_reach(const FreeSpace& space, const Point& from, const std::vector<Point>& done) {
   const auto is_done = [&](const CellGroup& room) {
     return std::ranges::any_of(room, [&](Cell c) {
-      return std::ranges::any_of(done, [&](const Point& p) { return (p - space.centre_of(c)).norm() < kSame_m; });
+      return std::ranges::any_of(done,
+                                 [&](const Point& p) { return (p - space.centre_of(c)).norm() < kSameOpening_m; });
     });
   };
   std::vector<CellGroup> rooms = places_behind(space, kRoomOutOfReach_m2, [](Cell) { return true; });

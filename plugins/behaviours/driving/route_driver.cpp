@@ -7,13 +7,11 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kPlansApart_s = 1.0;
 constexpr double kOwnPlansApart_s = 3.0;  // they cost more
 constexpr double kBlockedAhead_m = 1.0;
 constexpr double kAsideAtMost_s = 30.0;  // a car may circle round where it wants to stand
 constexpr double kToLookAtMost_s = 120.0;
 constexpr double kEscapeTolerance_m = 0.02;
-constexpr double kTrace_m = 0.1;
 constexpr std::size_t kMaxTrace = 400;
 // What is doubted is gone near at a speed at which touching it would do no harm.
 constexpr double kDoubtNear_m = 0.25;
@@ -53,7 +51,7 @@ Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourCon
 void RouteDriver::remember(const WorldView& world) {
   const Pose2& pose = world.pose.T_map_robot;
   echoes_.see(world);
-  if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTrace_m) trace_.push_back(pose);
+  if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTraceSpacing_m) trace_.push_back(pose);
   if (trace_.size() > kMaxTrace) trace_.erase(trace_.begin());
   for (std::vector<TroubleSpot>* spots : {&troubles_, &shut_})
     std::erase_if(*spots, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });

@@ -27,6 +27,8 @@
 
 namespace cairn::behaviours {
 
+inline constexpr double kTraceSpacing_m = 0.1;  // of the poses that a behaviour remembers
+
 // The part of a behaviour's settings that is about driving somewhere: its config derives from this one.
 struct RouteSettings {
   double speed_mps = 0.25;
@@ -62,6 +64,7 @@ class RouteDriver {
   [[nodiscard]] LandmarkId goal_landmark() const { return goal_landmark_; }
 
  private:
+  static constexpr double kPlansApart_s = 1.0;
   static constexpr double kClosedFor_s = 60.0;  // a stored route that was blocked
   static constexpr double kBesideGoal_m = 0.5;  // from the robot's rim
 

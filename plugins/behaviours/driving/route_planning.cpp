@@ -13,7 +13,6 @@ namespace {
 // Room asked of the planner beside the robot, the most first: more than the local planner keeps, then what a narrow
 // door leaves, then nothing.
 constexpr double kRooms_m[] = {0.12, 0.06, 0.0};
-constexpr double kPlansApart_s = 1.0;
 constexpr int kMaxPlans = 200;
 constexpr int kMaxEscapes = 4;
 constexpr double kEscapeClearance_m = 0.1;
@@ -235,8 +234,7 @@ std::optional<Point> RouteDriver::goal_point(const WorldView& world) const {
   if (goal_.pose) return goal_.pose->position();
   if (route_end_) return route_end_;
   for (const LandmarkId id : goal_.landmarks)
-    if (const Landmark* landmark = world.graph.find(id))
-      return landmark->access.value_or(landmark->T_map_landmark).position();
+    if (const Landmark* landmark = world.graph.find(id)) return landmark->approach_pose().position();
   return std::nullopt;
 }
 

@@ -11,7 +11,7 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr int kMaxBlockages = 40;
-constexpr double kTroubleFor_s = 60.0;
+constexpr double kRouteTroubleFor_s = 60.0;
 constexpr double kShutFor_s = 200.0;  // long enough to try the other gaps of a wall that sonars leak through
 constexpr double kBackUp_mps = 0.04;  // few robots see well behind: what it touches it shall not push
 constexpr double kBackUp_m = 0.2;
@@ -59,7 +59,7 @@ Status RouteDriver::progress_checker(const WorldView& world, BehaviourContext& o
   const std::string where = "held back at " + described(held_at_) +
                             (held_by_ ? " by what is at " + described(*held_by_) : "") + " (" + std::to_string(round_) +
                             " of " + std::to_string(settings_.rounds) + "): ";
-  troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kTroubleFor_s});
+  troubles_.push_back({pose * Point{world.robot.radius_m + 0.1, 0.0}, world.time_s + kRouteTroubleFor_s});
   if (own_trust_ >= Trust::only_solid && held_by_) shut_.push_back({*held_by_, world.time_s + kShutFor_s});
   if (round_ >= 2) close_route_here(world, orders);
   if (yields(round_) && begin_aside(world)) {

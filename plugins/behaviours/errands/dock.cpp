@@ -12,7 +12,7 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kFarthestOutline_m = 1.2;
-constexpr double kBehind_m = 0.2;                        // free for so long: the outline is behind
+constexpr double kDockBehind_m = 0.2;                    // free for so long: the outline is behind
 constexpr double kUsualOutline_m = 0.2;                  // of a landmark that the map does not show on that side
 constexpr double kRunUps_m[] = {0.5, 0.35, 0.25, 0.15};  // from the standing place to the dock
 constexpr double kStraight_rad = radians(20.0);          // a transducer that looks further aside does not look ahead
@@ -25,7 +25,7 @@ constexpr double kBefore_m = 0.25;  // an echo from so far before the mapped out
 constexpr double kBeside_m = 0.3;   // so far beside the axis is not before the side
 constexpr int kMaxAgain = 3;
 constexpr double kSettle_s = 1.0;  // stands for a full round of echoes before it believes that it is there
-constexpr double kSlowest_mps = 0.02;
+constexpr double kDockSlowest_mps = 0.02;
 constexpr double kGain_per_s = 0.8;
 constexpr double kTurnFirst_rad = radians(12.0);
 constexpr double kMaxCorrection_rad = radians(20.0);
@@ -83,7 +83,7 @@ std::optional<double> outline_distance_m(const OccupancyGrid& grid, const Point&
   for (double r_m = 0.0; r_m <= kFarthestOutline_m; r_m += step_m) {
     if (grid.state(grid.cell_at(centre + r_m * direction)) == CellState::occupied)
       last_m = r_m;
-    else if (last_m && r_m - *last_m > kBehind_m)
+    else if (last_m && r_m - *last_m > kDockBehind_m)
       break;
   }
   return last_m;
@@ -276,7 +276,7 @@ Status Dock::approach(const WorldView& world, BehaviourContext& orders, const La
   still_since_s_ = -1.0;
   const double max_mps = std::min(config_.approach_mps, world.robot.max_v_mps);
   const double max_radps = std::min(radians(40.0), world.robot.max_w_radps);
-  const double v_mps = std::clamp(std::abs(left_m) * kGain_per_s, std::min(kSlowest_mps, max_mps), max_mps);
+  const double v_mps = std::clamp(std::abs(left_m) * kGain_per_s, std::min(kDockSlowest_mps, max_mps), max_mps);
   if (!is_there && std::abs(error_rad) <= kTurnFirst_rad) wanted_.v_mps = left_m > 0.0 ? v_mps : -v_mps;
   wanted_.w_radps = std::clamp(1.5 * error_rad, -max_radps, max_radps);
   orders.drive(wanted_);

@@ -8,8 +8,8 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kFace_rad = radians(3.0);
-constexpr double kFaceAtMost_s = 15.0;
+constexpr double kFacePose_rad = radians(3.0);
+constexpr double kFacePoseAtMost_s = 15.0;
 constexpr std::size_t kMaxNamed = 12;
 const std::string kNearest = "nearest ";
 
@@ -119,7 +119,7 @@ Status GoTo::face(const WorldView& world, BehaviourContext& orders) {
     error_rad = heading_error(pose, landmark->T_map_landmark.position());
   }
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
-  if (!can_turn || std::abs(error_rad) <= kFace_rad || world.time_s - *facing_since_s_ > kFaceAtMost_s)
+  if (!can_turn || std::abs(error_rad) <= kFacePose_rad || world.time_s - *facing_since_s_ > kFacePoseAtMost_s)
     return {Progress::success, "at " + destination(world)};
   orders.drive(turn_by(error_rad, follow_limits(world.robot, config_.speed_mps).max_w_radps));
   return {Progress::running, "turning to " + destination(world)};

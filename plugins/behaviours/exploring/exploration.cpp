@@ -7,26 +7,25 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kAway_s = 0.5;   // longer than any two ticks
-constexpr double kTrace_m = 0.1;  // spacing of remembered poses
+constexpr double kAway_s = 0.5;  // longer than any two ticks
 constexpr double kTraceTurn_rad = radians(30.0);
 constexpr double kChoiceEvery_s = 2.5;
 constexpr double kChoiceAtLeastApart_s = 0.5;
 constexpr double kLookAround_radps = radians(45.0);
-constexpr double kBlockedAhead_m = 0.8;
+constexpr double kTaskBlockedAhead_m = 0.8;
 constexpr double kOnOrbit_m = 0.5;       // from its first lookout
 constexpr double kTrustedRange_m = 3.0;  // beyond it a sonar's beam is wider than a door
-constexpr double kFace_rad = radians(8.0);
+constexpr double kFaceTask_rad = radians(8.0);
 constexpr double kFaceDwell_s = 0.6;  // one round of the sonars, about
 constexpr double kOpeningDwell_s = 2.0;
-constexpr double kFaceAtMost_s = 8.0;
+constexpr double kFaceTaskAtMost_s = 8.0;
 constexpr double kBackOff_mps = 0.04;  // as RouteDriver: few robots see well behind
 constexpr double kBackOff_m = 0.15;
 constexpr double kBackOffAtMost_s = 5.0;
 constexpr double kTroubleFor_s = 60.0;
 constexpr double kFailedAgain_m = 0.4;
 constexpr int kMaxStuckInARow = 8;
-constexpr double kMoved_m = 0.1;      // less is no exploring
+constexpr double kExplored_m = 0.1;   // less is no exploring
 constexpr double kGettingOn_m = 0.5;  // driven between two hold-ups, they are not "in a row"
 
 }  // namespace
@@ -82,7 +81,7 @@ void Exploration::remember(const WorldView& world) {
   near_echoes_.stand_at(pose.position(), world.robot.radius_m);
   local_.see(world, near_echoes_);
   const Pose2& last = memory_.trace.back();
-  if ((pose.position() - last.position()).norm() >= kTrace_m ||
+  if ((pose.position() - last.position()).norm() >= kTraceSpacing_m ||
       std::abs(wrap_angle(pose.theta_rad - last.theta_rad)) >= kTraceTurn_rad)
     memory_.trace.push_back(pose);
 }
@@ -126,7 +125,7 @@ bool Exploration::is_blocked(const WorldView& world) const {
     return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, margin_m);
   };
   // A robot that already stands too near to something is on its way out and must not stop there.
-  return blocks(task_->path, follow_state_.along_m, kBlockedAhead_m) &&
+  return blocks(task_->path, follow_state_.along_m, kTaskBlockedAhead_m) &&
          !blocks({world.pose.T_map_robot.position()}, 0.0, 0.0);
 }
 
@@ -177,9 +176,9 @@ void Exploration::arrive(const WorldView& world) {
 // Turns the sonars to what is still unknown; what they cannot settle from here is given up.
 Status Exploration::face(const WorldView& world, BehaviourContext& orders) {
   const double error_rad = heading_error(world.pose.T_map_robot, task_->about);
-  const bool has_time = world.time_s - mode_since_s_ < kFaceAtMost_s;
+  const bool has_time = world.time_s - mode_since_s_ < kFaceTaskAtMost_s;
   const double dwell_s = task_->kind == TaskKind::opening ? kOpeningDwell_s : kFaceDwell_s;
-  if (std::abs(error_rad) > kFace_rad && has_time) {
+  if (std::abs(error_rad) > kFaceTask_rad && has_time) {
     faced_s_ = world.time_s;
     drive(turn_by(error_rad, limits_.max_w_radps), world, orders);
   } else if (world.time_s - faced_s_ >= dwell_s || !has_time || !still_worthwhile(*task_, world.grid)) {
@@ -225,7 +224,7 @@ Status Exploration::back_off(const WorldView& world, BehaviourContext& orders) {
 // Once more round before the end: what seems to shut the robot in may be noise.
 Status Exploration::nothing_left(const WorldView& world, BehaviourContext& orders) {
   const bool can_turn = limits_.min_turning_radius_m <= 0.0;
-  if (!can_turn || driven_m_ - looked_around_at_m_ < kMoved_m) return finished(world);
+  if (!can_turn || driven_m_ - looked_around_at_m_ < kExplored_m) return finished(world);
   // And what it remembers of near echoes may be of somebody who has gone on.
   if (is_shut_in(world)) near_echoes_ = NearEchoes(world.grid);
   turned_rad_ = 0.0;
@@ -234,7 +233,7 @@ Status Exploration::nothing_left(const WorldView& world, BehaviourContext& order
 }
 
 Status Exploration::finished(const WorldView& world) const {
-  if (driven_m_ >= kMoved_m) return {Progress::success, "nothing left to explore: " + summary(world)};
+  if (driven_m_ >= kExplored_m) return {Progress::success, "nothing left to explore: " + summary(world)};
   if (stuck_in_a_row_ > 0) return cannot_get_away();
   const FreeSpace space = space_now(world, search_);
   const Cell here = space.cell_at(last_pose_.position());

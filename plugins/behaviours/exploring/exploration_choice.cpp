@@ -12,7 +12,7 @@ constexpr double kAroundHere_m = 8.0;
 constexpr double kShutInRatio = 0.9;  // of the trace
 constexpr int kNearTrace_cells = 4;
 constexpr double kSqueezed_m = 0.12;  // an opening twice this wide is looked into
-constexpr double kTightClearance_m = 0.02;
+constexpr double kTaskClearance_m = 0.02;
 constexpr double kEverywhere_m = 1e6;
 
 }  // namespace
@@ -82,7 +82,7 @@ bool Exploration::choose(const WorldView& world, BehaviourContext& orders) {
   // The whole map only when there is nothing to do around here; less room only when shut in, or where a door seems
   // narrow also from right ahead.
   const std::optional<ExploreTask> before = task_;
-  const Search tight{kEverywhere_m, std::min(config_.clearance_m, kTightClearance_m)};
+  const Search tight{kEverywhere_m, std::min(config_.clearance_m, kTaskClearance_m)};
   const bool found = choose_by({kAroundHere_m, config_.clearance_m}, world, before) ||
                      choose_by({kEverywhere_m, config_.clearance_m}, world, before) ||
                      (is_shut_in(world) && choose_by(tight, world, before)) || choose_again(world, before) ||

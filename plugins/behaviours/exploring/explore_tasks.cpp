@@ -18,9 +18,8 @@ constexpr double kMaxFrontierBonus_m = 0.8;
 constexpr int kMinLap_sectors = 2;
 constexpr double kOrbitFrom_m = 1.5;
 constexpr double kMaxDetourForOrbits_m = 1.0;  // for each open sector
-constexpr double kIsLandmark_m = 0.4;          // an object this near to a landmark's centre is that landmark
 constexpr double kStayBonus_m = 0.8;
-constexpr double kSame_m = 0.8;                   // tasks this near are the same one, grown or shrunk
+constexpr double kSameTask_m = 0.8;               // tasks this near are the same one, grown or shrunk
 constexpr double kMaxWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
 constexpr double kSmallEdge_m = 0.6;
 constexpr double kMinEdge_m = 0.3;
@@ -51,7 +50,7 @@ bool is_crack(const FreeSpace& space, const CellGroup& frontier) {
 }
 
 bool is_about_the_same(const ExploreTask& a, const ExploreTask& b) {
-  return a.kind == b.kind && ((a.lookout - b.lookout).norm() < kSame_m || (a.about - b.about).norm() < kSame_m);
+  return a.kind == b.kind && ((a.lookout - b.lookout).norm() < kSameTask_m || (a.about - b.about).norm() < kSameTask_m);
 }
 
 void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* previous) {
@@ -101,7 +100,7 @@ bool is_worth_a_orbit(const Orbit& orbit, double cost_m) {
 
 const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centre) {
   const auto found = std::find_if(memory.second_looks.begin(), memory.second_looks.end(),
-                                  [&](const SecondLook& look) { return (look.about - centre).norm() < kSame_m; });
+                                  [&](const SecondLook& look) { return (look.about - centre).norm() < kSameTask_m; });
   return found == memory.second_looks.end() ? nullptr : &*found;
 }
 

@@ -7,16 +7,16 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr int kRays = 72;
+constexpr int kGainRays = 72;
 constexpr double kMinArea_m2 = 0.01;
 
 }  // namespace
 
 double new_area_m2(const FreeSpace& space, const Point& viewpoint, double range_m) {
   const double step_m = space.cell_m();
-  const double between_rad = 2.0 * std::numbers::pi / kRays;
+  const double between_rad = 2.0 * std::numbers::pi / kGainRays;
   double area_m2 = 0.0;
-  for (int ray = 0; ray < kRays; ++ray) {
+  for (int ray = 0; ray < kGainRays; ++ray) {
     const Point direction(std::cos(ray * between_rad), std::sin(ray * between_rad));
     for (double r_m = step_m; r_m <= range_m; r_m += step_m) {
       const CellState state = space.state(space.cell_at(viewpoint + r_m * direction));

@@ -8,17 +8,15 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kNear_m = 1.5;  // from here on the laps' own paths lead on
+constexpr double kNearOrbit_m = 1.5;  // from here on the laps' own paths lead on
 constexpr double kSpace_m = 3.0;
 constexpr double kClearance_m = 0.08;
 constexpr double kLookCloser_m = 0.3;  // a lap may lead further from the landmark by this
 constexpr double kLargestObject_m = 1.5;
-constexpr double kIsLandmark_m = 0.4;
 constexpr int kUsualOutline_cells = 3;  // of a landmark that the map does not show
-constexpr double kChoiceEvery_s = 2.5;
-constexpr double kTrace_m = 0.1;
+constexpr double kApproachChoiceEvery_s = 2.5;
 constexpr int kMinCovered = 4;  // sectors: less is no lap
-constexpr double kBackOff_mps = 0.1;
+constexpr double kInspectBackOff_mps = 0.1;
 constexpr double kBackOff_s = 1.5;
 constexpr double kAheadOfStop_m = 0.4;
 
@@ -92,7 +90,7 @@ void Inspect::remember(const WorldView& world) {
   if (!near_echoes_) near_echoes_.emplace(world.grid);
   if (world.observation != nullptr) near_echoes_->see(*world.observation, pose);
   near_echoes_->stand_at(pose.position(), world.robot.radius_m);
-  if (trace_.empty() || (trace_.back().position() - pose.position()).norm() >= kTrace_m) trace_.push_back(pose);
+  if (trace_.empty() || (trace_.back().position() - pose.position()).norm() >= kTraceSpacing_m) trace_.push_back(pose);
 }
 
 Status Inspect::begin(const WorldView& world, BehaviourContext& orders) {
@@ -104,8 +102,9 @@ Status Inspect::begin(const WorldView& world, BehaviourContext& orders) {
 }
 
 Status Inspect::drive(const WorldView& world, BehaviourContext& orders, const Landmark& landmark) {
-  const bool is_near = (landmark.T_map_landmark.position() - world.pose.T_map_robot.position()).norm() <= kNear_m &&
-                       choose_way(world, landmark);
+  const bool is_near =
+      (landmark.T_map_landmark.position() - world.pose.T_map_robot.position()).norm() <= kNearOrbit_m &&
+      choose_way(world, landmark);
   Status status{Progress::success, ""};
   if (!is_near) {
     Place goal;
@@ -153,12 +152,12 @@ Status Inspect::orbit(const WorldView& world, BehaviourContext& orders, const La
   }
   FollowLimits limits = follow_limits(world.robot, config_.orbit_speed_mps);
   FollowStep step = follow(pose, path_, follow_state_, limits);
-  if (path_.empty() || step.arrived || world.time_s - chosen_s_ >= kChoiceEvery_s) {
+  if (path_.empty() || step.arrived || world.time_s - chosen_s_ >= kApproachChoiceEvery_s) {
     const bool was_there = step.arrived && !path_.empty();
     const Point end = was_there ? path_.back() : Point(1e9, 1e9);
     if (!choose_way(world, landmark)) return end_orbit(landmark, orders);
     // Arrived, and the sector still counts as open: it cannot be seen from there.
-    if (was_there && (path_.back() - end).norm() < kTrace_m) avoid_.push_back(end);
+    if (was_there && (path_.back() - end).norm() < kTraceSpacing_m) avoid_.push_back(end);
     step = follow(pose, path_, follow_state_, limits);
   }
   follow_state_ = step.state;
@@ -173,7 +172,7 @@ Status Inspect::back_off(const WorldView& world, BehaviourContext& orders) {
       path_is_blocked(world.grid, {world.pose.T_map_robot.position(), world.pose.T_map_robot * Point(-0.2, 0.0)}, 0.1,
                       0.2, world.robot.radius_m);
   if (!is_over) {
-    orders.drive({-kBackOff_mps, 0.0});
+    orders.drive({-kInspectBackOff_mps, 0.0});
     return {Progress::running, "backing off"};
   }
   mode_ = Mode::orbit;

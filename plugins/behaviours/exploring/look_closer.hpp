@@ -12,6 +12,8 @@
 
 namespace cairn::behaviours {
 
+inline constexpr double kIsLandmark_m = 0.4;  // an object this near to a landmark's centre is that landmark
+
 // How near, and how far off the robot's heading, a cell must be for the robot to have seen it well.
 struct Sight {
   double within_m = 0.9;

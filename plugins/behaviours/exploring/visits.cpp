@@ -7,7 +7,7 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kOutOfReach_m = 1e6;  // such places come last
+constexpr double kUnreached_m = 1e6;  // such places come last
 
 std::string joined(const std::vector<std::string>& texts) {
   std::string all;
@@ -82,8 +82,8 @@ void Visits::ask_next_way(const WorldView& world, BehaviourContext& orders) {
   PlanResult way;
   if (is_known(request.from) && is_known(request.to)) way = orders.plan(request);
   const bool is_solved = way.outcome == PlanOutcome::solved;
-  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(way.cost_m, kOutOfReach_m) : kOutOfReach_m;
-  if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kOutOfReach_m;
+  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(way.cost_m, kUnreached_m) : kUnreached_m;
+  if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kUnreached_m;
   // `nearest` is what is nearest from here: the other ways are to the same one.
   if (from_ == 0 && is_solved && !request.to.landmarks.empty() && !way.landmarks.empty())
     stop.chosen = way.landmarks.back();

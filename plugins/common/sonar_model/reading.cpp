@@ -6,10 +6,6 @@
 
 namespace cairn::sonar_model {
 
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
-
 Meaning meaning_of(const RangeReading& reading) {
   const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 &&
                     reading.half_beam_rad <= std::numbers::pi && reading.max_m > 0.0;

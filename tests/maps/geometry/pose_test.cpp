@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 namespace cairn {
@@ -31,6 +32,25 @@ TEST(WrapAngle, KeepsAnglesWithinMinusPiExcludedAndPiIncluded) {
     EXPECT_GT(wrap_angle(angle), -kPi);
     EXPECT_LE(wrap_angle(angle), kPi);
   }
+}
+
+TEST(Vectors, TurnToTheLeftByAQuarter) {
+  EXPECT_EQ(to_left({1.0, 2.0}), Point(-2.0, 1.0));
+  EXPECT_NEAR((to_left(unit_vector(0.3)) - unit_vector(0.3 + kPi / 2.0)).norm(), 0.0, 1e-15);
+}
+
+TEST(Vectors, CrossIsPositiveToTheLeft) {
+  EXPECT_GT(cross({1.0, 0.0}, {1.0, 1.0}), 0.0);
+  EXPECT_LT(cross({1.0, 0.0}, {1.0, -1.0}), 0.0);
+  EXPECT_EQ(cross({1.0, 2.0}, {2.0, 4.0}), 0.0);
+}
+
+TEST(Pose2, IsFiniteWhenEachOfItsNumbersIs) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(is_finite({1.0, 2.0, 3.0}));
+  EXPECT_FALSE(is_finite({infinite, 2.0, 3.0}));
+  EXPECT_FALSE(is_finite({1.0, -infinite, 3.0}));
+  EXPECT_FALSE(is_finite({1.0, 2.0, std::numeric_limits<double>::quiet_NaN()}));
 }
 
 TEST(Angles, GoToDegreesAndBack) {
