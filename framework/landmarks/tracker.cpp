@@ -47,7 +47,7 @@ std::optional<Pose2> approach_pose(const DistanceField& space, const TravelField
   return Pose2{at.x(), at.y(), std::atan2(landmark.y() - at.y(), landmark.x() - at.x())};
 }
 
-// Not heard yet: hear() adds what the matching says.
+// Without evidence: add_evidence() adds what the matching says.
 Landmark first_seen(const Detection& detection) {
   Landmark landmark;
   landmark.category = detection.category;

@@ -36,7 +36,7 @@ class LandmarkTracker {
     ChangeKind kind = ChangeKind::found;
   };
   // What one matching does to the graph. Its degrees are evidence for every landmark at whose place they were
-  // found (see hear()), with a detection or without: that is how an early category is corrected and a pose
+  // found (see add_evidence()), with a detection or without: that is how an early category is corrected and a pose
   // refined. Only detections make new landmarks, and chance likenesses in a growing map come and go: what is
   // not confirmed yet is a candidate, which gathers evidence too but is no landmark. Landmarks that prove to
   // be one are merged.
