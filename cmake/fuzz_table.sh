@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the fuzzers have run, as the table of docs/hardening.md: the turns in build/fuzz/turns.log, or in the files named,
+# What the fuzzers have run, as the table of docs/results/fuzzing.md: the turns in build/fuzz/turns.log, or in the files named,
 # added up for each reader. A line of them: end, reader, inputs, CPU seconds, ok or broken.
 set -eu
 export LC_ALL=C

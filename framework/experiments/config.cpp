@@ -160,7 +160,8 @@ void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
 
 void OrbitConfig::describe(Fields<OrbitConfig>& fields) {
   fields.text("around", &OrbitConfig::around, "category of the landmark, of which the world has one").required = true;
-  fields.angle("bin_deg", &OrbitConfig::bin_rad, {1.0, 180.0}, "one point of the charts in each such part of the lap");
+  fields.angle("bin_deg", &OrbitConfig::bin_rad, {1.0, 180.0},
+               "one point of the charts in each such part of the orbit");
 }
 
 void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
@@ -169,9 +170,9 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
       .choice(
           "experiment", &C::experiment, kinds(),
           "what is measured: `missions`, whether the landmarks were found; `maps`, how good the map is against "
-          "the true world, and how well it foretells readings that were withheld from it; `places`, how well "
-          "each category fits at given places of the drive; `lap`, how well each category and each template fits "
-          "along a lap round a landmark; `recognition`, which landmarks are found in random worlds; `curves`, "
+          "the true world, and how well it predicts readings that were held out of it; `places`, how well "
+          "each category fits at given places of the drive; `orbit`, how well each category and each template "
+          "fits along an orbit round a landmark; `recognition`, which landmarks are found in random worlds; `curves`, "
           "precision "
           "and recall of several detectors on the grids of the same runs, at every threshold; `trials`, what comes of "
           "random missions in random worlds with random faults")
@@ -187,11 +188,11 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
                 "that makes the experiment a success");
   fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
   fields.texts("categories", &C::categories,
-               "of `places` and `lap`: the categories, in the order of the table's columns");
+               "of `places` and `orbit`: the categories, in the order of the table's columns");
   fields.list("places", &C::places,
               "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
               "before that looked at its landmark");
-  fields.group("orbit", &C::orbit, "of `lap`: the lap");
+  fields.group("orbit", &C::orbit, "of `orbit`: the orbit");
   fields.group(
       "worlds", &C::worlds,
       "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
@@ -227,10 +228,10 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   const bool of_places = config.experiment == ExperimentKind::places;
   const bool of_orbit = config.experiment == ExperimentKind::orbit;
   if ((of_places || of_orbit) && config.categories.empty())
-    throw ConfigError(root.place, "an experiment of places or of a lap must list its categories");
+    throw ConfigError(root.place, "an experiment of places or of an orbit must list its categories");
   if (of_places) check_places(config, root);
   if (of_orbit && !config.orbit)
-    throw ConfigError(root.place, "an experiment of a lap must say under lap what it goes round");
+    throw ConfigError(root.place, "an experiment of an orbit must say under orbit what it goes round");
   if (const ConfigValue* worlds = root.find("worlds")) check_worlds(config.worlds, *worlds);
   if (config.detectors_as_given.kind != ConfigValue::Kind::null)
     config.detectors = detectors_of(config.detectors_as_given);

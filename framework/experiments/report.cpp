@@ -146,7 +146,7 @@ std::string map_table(const ExperimentConfig& config, const std::vector<Experime
                       const std::string& mission) {
   const std::vector<RunMeasure> measures = measures_for(rows, mission);
   if (measures.empty())
-    return "Nothing to measure: no true world and no reading withheld, or no run that ended well.\n";
+    return "Nothing to measure: no true world and no reading held out, or no run that ended well.\n";
   const bool compared = !config.baseline.empty();
   std::string head = "| variant |";
   std::string rule = "|---|";
@@ -235,7 +235,7 @@ const std::vector<RunMeasure>& map_measures() {
       {"Brier score", [](const Row& row) { return row.quality->brier; }, true},
       {"ghost share", [](const Row& row) { return row.quality->ghost_ratio; }, true},
       {"missed share", [](const Row& row) { return row.quality->missed_ratio; }, true},
-      {"withheld log-likelihood", [](const Row& row) { return row.held_out_log_likelihood; }, false}};
+      {"held-out log-likelihood", [](const Row& row) { return row.held_out_log_likelihood; }, false}};
   return kMeasures;
 }
 

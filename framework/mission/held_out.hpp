@@ -46,8 +46,8 @@ class HeldOutReadings : public Listener {
 //
 // The same simple sensor for every map: the beam is cut into rings a cell deep; in each ring the cell
 // believed occupied (P > 0.5) that is likeliest to answer does so with 0.7 (1 - (th/th_b)^2) P (a ray:
-// 0.98 P), anything else with 0.05 a metre; the first answer is the reading, smeared by METHOD 2.1's
-// range error; one reading in ten is anything at all.
+// 0.98 P), anything else with 0.05 a metre; the first answer is the reading, blurred by the range error of
+// docs/method.md 2.1; one reading in ten is anything at all.
 [[nodiscard]] double log_likelihood(const OccupancyGrid& grid, const Pose2& T_map_sensor, const RangeReading& reading);
 
 }  // namespace cairn

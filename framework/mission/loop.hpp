@@ -1,4 +1,4 @@
-// The one thread of control of a mission: one tick after the other (DESIGN, "One tick, as data").
+// The one thread of control of a mission: one tick after the other (docs/architecture.md, "One tick").
 #pragma once
 
 #include <chrono>

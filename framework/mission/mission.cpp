@@ -90,8 +90,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
       "record", &C::record,
       "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
   fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6},
-                 "every n-th range reading is withheld from the map, so that an experiment can ask how well the "
-                 "map foretells it; 0: none");
+                 "every n-th range reading is held out of the map, so that an experiment can measure how well the "
+                 "map predicts it; 0: none");
   fields.group("autosave", &C::autosave, "the map is saved while the mission runs, for `cairn run --resume`");
   fields.raw("steps", &C::steps, "list of steps",
              "behaviours and other nodes one after the other, each `{name: settings}`: docs/missions.md");

@@ -1,4 +1,4 @@
-// Runs a mission: one thread of control, one tick after the other (DESIGN, "One tick, as data").
+// Runs a mission: one thread of control, one tick after the other (docs/architecture.md, "One tick").
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // Drives the simulated robot round a landmark that stands alone in free space, and maps what it senses
-// (METHOD 6).
+// (docs/method.md 6.2).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Templates as the mission's own sensors and mapper would see the landmarks (METHOD 6, `sensed`).
+// Templates as the mission's own sensors and mapper would see the landmarks (docs/method.md 6.2).
 #pragma once
 
 #include <cstdint>

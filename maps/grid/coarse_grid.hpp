@@ -1,4 +1,4 @@
-// OG2: the second level occupancy grid (METHOD 3; paper section 3.1).
+// OG2: the second level occupancy grid (docs/method.md 3; paper section 3.1).
 //
 // Coarse cell (k, h) covers the n x n lattice cells [k n, (k+1) n) x [h n, (h+1) n) of OG1 and holds
 // their weighted mean OL: weight 1 where OL <= 127, alpha elsewhere. Sums are kept as integers, so

@@ -1,4 +1,4 @@
-// OG1: the first level occupancy grid (METHOD 2; paper section 2.2).
+// OG1: the first level occupancy grid (docs/method.md 2; paper section 2.2).
 //
 // Promises: a cell's index never changes, the grid grows in all four directions without moving
 // what it holds (64 x 64 tiles behind a directory), and every read outside it answers "unknown".

@@ -1,4 +1,4 @@
-// The clusters of a landmark graph, as names and numbers: what a saved map keeps of the hierarchy (METHOD 9).
+// The clusters of a landmark graph, as names and numbers: what a saved map keeps of the hierarchy (docs/method.md 9.2).
 //
 // Level 1 clusters hold landmarks, clusters of level l + 1 hold clusters of level l. Every cluster is connected
 // by routes, open or closed. A landmark belongs to one cluster of each level.

@@ -1,5 +1,5 @@
 // The clusters of a network, level on level, kept connected and of bounded size while the network changes
-// (METHOD 9).
+// (docs/method.md 9.2).
 //
 // Level 1 clusters hold vertices, clusters of level l + 1 hold clusters of level l. A vertex is in one cluster of
 // every level. Small networks have no levels. Clusters keep their id, anchor and name through changes; what is

@@ -1,5 +1,5 @@
 // What each cluster is to a search that need not look into it: the exact cost of every way through, from boundary
-// vertex to boundary vertex (METHOD 9; Delling, Goldberg, Pajor, Werneck: Customizable route planning).
+// vertex to boundary vertex (docs/method.md 9.3; Delling, Goldberg, Pajor, Werneck: Customizable route planning).
 //
 // The ways of a cluster are found on its inner graph: on level 1 its vertices and arcs, above that the boundary
 // vertices of its members with their ways through, and the arcs between members.

@@ -8,8 +8,8 @@ namespace cairn {
 
 // Of all things (occupied cells that hang together, gaps of up to four cells closed) that lie wholly within
 // the radius of a point and cover at least four cells. In the frame of the map, about their centroid; one
-// cell inside the cells' edges and without spikes, since range sensors smear an outline outward (METHOD 6). Throws
-// std::invalid_argument, with what is there instead, when there is none.
+// cell inside the cells' edges and without spikes, since range sensors smear an outline outward (docs/method.md 6.3).
+// Throws std::invalid_argument, with what is there instead, when there is none.
 struct CapturedOutline {
   Contour contour;
   Point at_m{0.0, 0.0};  // its centroid in the map

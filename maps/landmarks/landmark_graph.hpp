@@ -1,4 +1,4 @@
-// The lowest symbolic level: landmarks joined by routes (METHOD 9; paper section 2.1).
+// The lowest symbolic level: landmarks joined by routes (docs/method.md 9; paper section 2.1).
 //
 // Ids are stable: an id is never given twice, whatever is removed. Routes are directed: a two-way
 // road is two routes. Iteration goes by rising id, so results never depend on hashing.

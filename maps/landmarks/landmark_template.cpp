@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-// The ideal rendering's bands of signed distance, in cells (METHOD 6).
+// The ideal rendering's bands of signed distance, in cells (docs/method.md 6.1).
 constexpr double kRingInside = -1.5;
 constexpr double kRingOutside = 1.0;
 constexpr double kEdgeOutside = 1.5;

@@ -1,5 +1,5 @@
 // Templates: what a landmark category looks like in the gradients of OG1, one per orientation
-// (METHOD 6; paper section 3.3).
+// (docs/method.md 6; paper section 3.3).
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ void check_cell_size(const TemplateSet& set, double grid_cell_m);
 // the first repeat (circle 1, square 6, equilateral triangle 8 at 15 degrees).
 [[nodiscard]] std::vector<double> distinct_orientations(const Contour& contour, double step_rad, double cell_m);
 
-// METHOD 6 `ideal`: free outside, a ring of occupied cells biased half a cell outward, unknown inside.
+// docs/method.md 6.1: free outside, a ring of occupied cells biased half a cell outward, unknown inside.
 [[nodiscard]] LandmarkTemplate render_ideal(const LandmarkShape& shape, double orientation_rad, double cell_m);
 // Sizes: as shares of a shape's own, one template each at every orientation.
 [[nodiscard]] TemplateSet render_ideal_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,

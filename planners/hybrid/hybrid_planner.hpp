@@ -1,4 +1,4 @@
-// From a place to a place over both levels (METHOD 10): landmarks first, then the way between them.
+// From a place to a place over both levels (docs/method.md 10.5): landmarks first, then the way between them.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The sub-symbolic half of a plan: a way over the grid along the landmarks (METHOD 10).
+// The sub-symbolic half of a plan: a way over the grid along the landmarks (docs/method.md 10.5).
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // The exact cheapest way over a hierarchy: both ends search towards each other, and pass every cluster that holds
-// nothing of the question by its ways through (METHOD 9). On a graph without levels this is Dijkstra from both ends.
+// nothing of the question by its ways through (docs/method.md 9.4). On a graph without levels this is Dijkstra from
+// both ends.
 #pragma once
 
 #include <array>

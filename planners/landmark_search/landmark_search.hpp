@@ -1,4 +1,4 @@
-// Shortest paths over the landmark graph (METHOD 9), exact on graphs of any size.
+// Shortest paths over the landmark graph (docs/method.md 9.4), exact on graphs of any size.
 #pragma once
 
 #include <memory>

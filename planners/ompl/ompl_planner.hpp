@@ -1,5 +1,5 @@
-// Routes on OG1 (METHOD 10) for a disc or an outline: the shortest over the grid, improved by OMPL, or any of
-// OMPL's planners.
+// Routes on OG1 (docs/method.md 10.2, 10.4) for a disc or an outline: the shortest over the grid, improved by OMPL, or
+// any of OMPL's planners.
 #pragma once
 
 #include "framework/config/fields.hpp"

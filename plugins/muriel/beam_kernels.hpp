@@ -1,4 +1,4 @@
-// The inner loops of the fast evaluation: METHOD 2.1 over blocks of eight cells, in single precision.
+// The inner loops of the fast evaluation: docs/method.md 2.1 over blocks of eight cells, in single precision.
 //
 // Compiled for several instruction sets, chosen when the program starts; all give the same bits. Plain arrays, for
 // what a file compiled for one set shares with others must not hold functions.

@@ -1,4 +1,4 @@
-// Settings of the MURIEL map (METHOD 2).
+// Settings of the MURIEL map (docs/method.md 2).
 #pragma once
 
 #include "framework/config/fields.hpp"

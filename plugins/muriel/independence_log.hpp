@@ -1,4 +1,4 @@
-// The independence log: how many readings a cell has taken from each bearing (METHOD 2.3; paper 2.2).
+// The independence log: how many readings a cell has taken from each bearing (docs/method.md 2.3; paper 2.2).
 //
 // The pose that a cell was read from is kept as the direction of sight, one of `bearings` buckets; the
 // bucket of direction 0 has 0 in its middle. 32 buckets of 2 bits a cell: 8 bytes. A tile keeps them in

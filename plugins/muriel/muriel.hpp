@@ -1,4 +1,4 @@
-// Mapper: MURIEL (METHOD 2; paper section 2.2): Bayes in log-odds with specular weighting and an
+// Mapper: MURIEL (docs/method.md 2; paper section 2.2): Bayes in log-odds with specular weighting and an
 // independence log.
 //
 // Each reading's lambda is (1 - s) lambda0 + s, s the probability that it is specular given the map before

@@ -1,4 +1,4 @@
-// MURIEL cell by cell, as METHOD 2 has it: the oracle for the fast one (muriel.hpp), and what its speed
+// MURIEL cell by cell, as docs/method.md 2 has it: the oracle for the fast one (muriel.hpp), and what its speed
 // is measured against. Obviously right before anything else.
 #pragma once
 

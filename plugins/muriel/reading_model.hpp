@@ -1,4 +1,4 @@
-// What a reading says, given the map: the parts of METHOD 2.2 that both evaluations share, as numbers.
+// What a reading says, given the map: the parts of docs/method.md 2.2 that both evaluations share, as numbers.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class KnownTargets {
     raise(density_per_m_[static_cast<std::size_t>(sector)], density_per_m);
   }
 
-  // Probability that the reading is specular (METHOD 2.2).
+  // Probability that the reading is specular (docs/method.md 2.2).
   [[nodiscard]] double specular_p(const Config& config, bool is_echo) const;
 
  private:

@@ -1,6 +1,6 @@
 // Localizer: odometry for the way, compass for the heading, known landmarks against the drift.
 //
-// Promises a covariance that is honest for the errors the robot's file states (METHOD 11): white and
+// Promises a covariance that is honest for the errors the robot's file states (docs/method.md 11): white and
 // constant odometry errors, white compass noise, and a compass bias that wanders from place to place.
 // The first observation's odometry is the reference; whatever it says is the start pose. Rules:
 //   odometry that is not finite, or   the step is skipped, the next one counts from the last good one

@@ -1,4 +1,4 @@
-// Which echo a transducer hears first, without noise (METHOD 11, "Polaroid sonar").
+// Which echo a transducer hears first, without noise (docs/method.md 14.1).
 //
 // Direct echoes are found exactly: the foot of the perpendicular on every face, the nearest point of
 // every round face, every vertex. Rays over all lobes find the rest: rough faces hit at an angle, and

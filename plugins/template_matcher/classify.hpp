@@ -1,4 +1,4 @@
-// From mismatches to degrees and a class (METHOD 7; paper section 3.3).
+// From mismatches to degrees and a class (docs/method.md 7.1, 7.3; paper section 3.3).
 #pragma once
 
 #include <optional>

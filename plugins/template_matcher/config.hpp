@@ -1,4 +1,4 @@
-// Settings of the template matcher (METHOD 3 to 7). Values of OL and OL2 are on the scale 0..255.
+// Settings of the template matcher (docs/method.md 3 to 7). Values of OL and OL2 are on the scale 0..255.
 #pragma once
 
 #include "framework/files/template_settings.hpp"

@@ -1,4 +1,4 @@
-// Template matching (METHOD 7; paper section 3.3): where each template fits best, and how badly.
+// Template matching (docs/method.md 7.1; paper section 3.3): where each template fits best, and how badly.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Where to match (METHOD 5; paper section 3.2).
+// Where to match (docs/method.md 5; paper section 3.2).
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // The paper's landmark detector: OG2 says when and where, template matching on the gradients of OG1
-// says what (METHOD 3 to 7; paper section 3).
+// says what (docs/method.md 3 to 7; paper section 3).
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ namespace cairn::template_matcher {
 class TemplateMatcher : public Detector {
  public:
   // Throws std::invalid_argument without templates, on a template without cells, and when
-  // coarse_cells > floor(d_min / l) (METHOD 3).
+  // coarse_cells > floor(d_min / l) (docs/method.md 3).
   TemplateMatcher(const Config& config, std::shared_ptr<const TemplateSet> templates);
 
   DetectionReport detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) override;

@@ -1,4 +1,4 @@
-// When to match (METHOD 4; paper section 3.1).
+// When to match (docs/method.md 4; paper section 3.1).
 #pragma once
 
 #include <map>

@@ -62,7 +62,7 @@ TEST(Experiment, OfMapsJudgesEveryVariantOnEverySeed) {
     EXPECT_GT(row["log loss"], 0.0);
     EXPECT_LT(row["log loss"], 3.0);
     EXPECT_GT(row["held_out"], 10);
-    EXPECT_LT(row["withheld log-likelihood"], 0.0);
+    EXPECT_LT(row["held-out log-likelihood"], 0.0);
   }
   EXPECT_EQ(rows[0]["variant"], "textbook");
   EXPECT_NE(rows[0]["log loss"], rows[1]["log loss"]) << "another seed is another drive";

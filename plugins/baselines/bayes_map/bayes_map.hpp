@@ -1,4 +1,4 @@
-// Mapper: recursive Bayes in log-odds, each reading on its own (METHOD 2, 2.1).
+// Mapper: recursive Bayes in log-odds, each reading on its own (docs/method.md 2, 2.1).
 //
 // Every cell in a reading's beam gets round(256 ln lambda), from its centre's range and bearing, up to
 // 3 delta behind the echo, or up to max_m without one. What a reading means stands in

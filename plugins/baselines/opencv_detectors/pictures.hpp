@@ -24,7 +24,8 @@ struct Gradients {
 [[nodiscard]] Gradients gradients_of(const LandmarkTemplate& shape, int reach);
 // 255 on the template's cells, CV_8U.
 [[nodiscard]] cv::Mat cells_of(const LandmarkTemplate& shape, int reach);
-// OL about a landmark of this shape: free outside, a ring of occupied cells, unknown inside (METHOD 6). CV_8U.
+// OL about a landmark of this shape: free outside, a ring of occupied cells, unknown inside (docs/method.md 6.1).
+// CV_8U.
 [[nodiscard]] cv::Mat drawn(const Contour& contour, double orientation_rad, double cell_m, int reach);
 
 // Canny's edges, 255 on them, CV_8U. Thresholds on the magnitude of the gradient.

@@ -1,7 +1,7 @@
 // Looking closer: which edges the robot has not been near to, and laps round free-standing objects.
 //
-// A landmark is recognised in the gradients along its whole outline (METHOD 6: a quarter of a lap is
-// not enough), so an object that stands free is circled; walls are only passed.
+// A landmark is recognised in the gradients along its whole outline (docs/method.md 6), so an object that stands free
+// is circled; walls are only passed.
 #pragma once
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// What one echo, or its absence, says about one cell (METHOD 2.1, Konolige's form).
+// What one echo, or its absence, says about one cell (docs/method.md 2.1, Konolige's form).
 //
 //   alpha = alpha_max (1 - min(1, r / alpha_range)) (1 - (bearing / half_beam)^2)
 //   delta = delta_m + delta_per_m r
@@ -17,7 +17,7 @@ struct BeamModel {
   double delta_per_m = 0.015;
   double false_echo_per_m = 1.0;
 
-  // PortableRandom that a target at this range and bearing echoes; a ray (half_beam 0) has no bearing.
+  // Probability that a target at this range and bearing echoes; a ray (half_beam 0) has no bearing.
   [[nodiscard]] double alpha(double range_m, double bearing_rad, double half_beam_rad) const;
   [[nodiscard]] double delta(double range_m) const { return delta_m + delta_per_m * range_m; }
   [[nodiscard]] double lambda_of_echo(double alpha, double range_m, double echo_m) const;

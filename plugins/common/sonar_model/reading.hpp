@@ -1,4 +1,4 @@
-// What a range reading means, the same for every map (METHOD 2.1):
+// What a range reading means, the same for every map (docs/method.md 2.1):
 //   min_m <= range < max_m          an echo
 //   range >= max_m, or +inf         no echo
 //   range < min_m, negative, -inf   ignored: nearer than the sensor can tell

@@ -33,7 +33,7 @@ TEST(ExperimentReport, TheDifferenceIsTakenSeedBySeed) {
   const std::string table = table_of(maps_of_two(), rows);
   EXPECT_THAT(table, HasSubstr("log loss less plain's"));
   EXPECT_THAT(table, HasSubstr("-0.1000 ± 0.0000 |")) << table;
-  EXPECT_THAT(table, Not(HasSubstr("withheld"))) << "nothing was withheld";
+  EXPECT_THAT(table, Not(HasSubstr("held-out"))) << "nothing was held out";
 }
 
 // An interrupted experiment has rows that never ran, and others of half a drive.
@@ -58,7 +58,7 @@ TEST(ExperimentReport, WithoutATrueWorldOnlyHeldOutReadingsCount) {
   }
   rows[1].held_out_log_likelihood = -1.5;
   const std::string table = table_of(config, rows);
-  EXPECT_THAT(table, HasSubstr("| variant | withheld log-likelihood |"));
+  EXPECT_THAT(table, HasSubstr("| variant | held-out log-likelihood |"));
   EXPECT_THAT(table, HasSubstr("| better | -1.5000"));
   EXPECT_THAT(table, Not(HasSubstr("Brier")));
 }

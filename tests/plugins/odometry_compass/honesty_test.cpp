@@ -1,4 +1,4 @@
-// Does the covariance tell the truth? Many simulated runs with the errors of the shipped robots (METHOD 11);
+// Does the covariance tell the truth? Many simulated runs with the errors of the shipped robots (docs/method.md 11);
 // the normalised estimation error squared of a three-dimensional Gaussian averages 3.
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ PoseEstimate at(const Pose2& T_map_robot) {
   return {T_map_robot, {}};
 }
 
-// METHOD 2.1, word by word, for one cell centre in sensor coordinates.
+// The formulas of docs/method.md 2.1 for one cell centre in sensor coordinates.
 int plain_increment(const Config& c, const RangeReading& reading, const Point& p) {
   const double r = p.norm();
   const double th = std::atan2(p.y(), p.x());
