@@ -98,7 +98,7 @@ class Mission(unittest.TestCase):
             {"parallel": ["wait"]},
             {"parallel": {"succeed_when": 1, "fail_when": "all", "do": ["wait", "explore"]}},
             {"repeat": {"times": "forever", "do": ["wait", "explore"]}},
-            {"retry": {"times": 3, "do": {"not": {"always": ["wait"]}}}},
+            {"retry": {"times": 3, "do": {"not": {"force_success": ["wait"]}}}},
             {"timeout": {"after_s": 2.5, "do": "wait"}},
             {"mission": "a.yaml"},
             {"mission": {"file": "a.yaml", "with": {"anything": [1, 2]}}},
