@@ -1,6 +1,6 @@
 # Each verb works alone on a fresh Debian 12 machine: it installs what packages.txt lists (only what
 # is missing), configures and builds.
-.PHONY: build demo test check fuzz package bench deps experiment reference
+.PHONY: configure build demo test check fuzz package bench deps experiment reference
 .DEFAULT_GOAL := build
 
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo -E)
@@ -14,11 +14,16 @@ deps:
 	  $(SUDO) apt-get update -qq && \
 	  DEBIAN_FRONTEND=noninteractive $(SUDO) apt-get install -y -qq --no-install-recommends $$missing >/dev/null; fi
 
-build: deps
+configure: deps
 	@cmake --preset release >build-configure.log 2>&1 || { cat build-configure.log; rm -f build-configure.log; exit 1; }; rm -f build-configure.log
+
+build: configure
 	@cmake --build --preset release
 
-demo: build
+# The program and the modules of this mission alone.
+demo: configure
+	@cmake --build --preset release --target cairn simulated_robot odometry_compass muriel template_matcher \
+	  hybrid landmark_search ompl behaviours
 	$(CAIRN) run config/missions/office.yaml --out out/demo
 	$(CAIRN) plan out/demo/office.cairn --from 0.6,0.6 --to "nearest square" --picture out/demo/route.png
 	@echo "Look at out/demo/map.png and out/demo/route.png"
@@ -26,6 +31,7 @@ demo: build
 test: build
 	@cmake --build --preset release --target cairn_tests
 	@ctest --test-dir build/release --output-on-failure -j $(JOBS)
+	@cmake/test_cases.sh build/release
 
 package: build
 	@cmake --build --preset release --target cairn_conformance

@@ -42,33 +42,39 @@ endfunction()
 
 include(${CMAKE_CURRENT_LIST_DIR}/cairn_add_module.cmake)
 
-# cairn_add_test(NAME SOURCES ... [LINK ...] [TOGETHER SUITE] [SLOW_ORACLE]): one GoogleTest program, every case
-# known to ctest; the cases of SUITE as one, since they share something dear. SLOW_ORACLE: what the test itself computes
-# takes too long without optimization, where tests are built so.
+# How a test's own code is optimized: half the time to compile it, and hardly any to run it.
+function(cairn_test_options name)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${name} PRIVATE -O1)
+  endif()
+endfunction()
+
+# cairn_add_test(NAME SOURCES ... [LINK ...] [SHARDS N] [SLOW_ORACLE]): one GoogleTest program, run as one test, or as N
+# processes that share its cases: to start a process takes longer than most cases.
+# SLOW_ORACLE: what the test itself computes takes too long without optimization, where tests are built so.
 function(cairn_add_test name)
-  cmake_parse_arguments(arg "SLOW_ORACLE" "TOGETHER" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "SLOW_ORACLE" "SHARDS" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest_main cairn_private_options ${arg_LINK})
   target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                              CAIRN_BINARY_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  cairn_test_options(${name})
   if(CAIRN_SANITIZERS AND arg_SLOW_ORACLE)
     target_compile_options(${name} PRIVATE -O1)
-  elseif(TARGET cairn_test_headers)
+  else()
     target_precompile_headers(${name} REUSE_FROM cairn_test_headers)
   endif()
-  if(CAIRN_SANITIZERS)
-    # One process a program: to start one a case takes longer than most cases.
+  if(arg_SHARDS)
+    math(EXPR last "${arg_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+      add_test(NAME ${name}.${shard} COMMAND ${name})
+      set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT 1800
+                           ENVIRONMENT "GTEST_TOTAL_SHARDS=${arg_SHARDS};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+  else()
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES TIMEOUT 1800)
-  else()
-    set(filter)
-    if(arg_TOGETHER)
-      set(filter TEST_FILTER "-${arg_TOGETHER}.*")
-      add_test(NAME ${arg_TOGETHER} COMMAND ${name} "--gtest_filter=${arg_TOGETHER}.*")
-      set_tests_properties(${arg_TOGETHER} PROPERTIES TIMEOUT 300)
-    endif()
-    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 ${filter})
   endif()
   add_dependencies(cairn_tests ${name})
 endfunction()

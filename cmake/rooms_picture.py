@@ -2,8 +2,9 @@
 """Draws the rooms of maps/ and framework/ and what each uses, as the build files say (cairn_add_room ... USES ...).
 
     cmake/rooms_picture.py > docs/pictures/rooms.svg
+    cmake/rooms_picture.py --check    # is that picture today's, and does USES name just what the sources include?
 
-Arrows that follow from others are left out. tests/architecture holds the picture against the build files.
+Arrows that follow from others are left out.
 """
 import pathlib
 import re
@@ -115,5 +116,29 @@ def draw(rooms):
     return "\n".join(out + ["</svg>", ""])
 
 
+def included_rooms(room):
+    outer, name = room.split("_", 1)
+    folder = ROOT / outer / name
+    text = "".join(file.read_text() for ending in ("hpp", "cpp") for file in folder.rglob(f"*.{ending}"))
+    found = {"_".join(path) for path in re.findall(r'#include "(maps|framework)/(\w+)/', text)}
+    return found - {room}
+
+
+def faults():
+    rooms = read_rooms()
+    if (ROOT / "docs/pictures/rooms.svg").read_text() != draw(rooms):
+        yield "docs/pictures/rooms.svg is not of today's build files: cmake/rooms_picture.py > docs/pictures/rooms.svg"
+    for room, uses in rooms.items():
+        included = included_rooms(room)
+        for used in sorted(included - set(uses)):
+            yield f"{room} includes {used}, which its USES does not name"
+        for used in sorted(set(uses) - included):
+            yield f"{room} names {used} in its USES and includes nothing of it"
+
+
 if __name__ == "__main__":
+    if "--check" in sys.argv:
+        found = list(faults())
+        print("\n".join(found))
+        sys.exit(1 if found else 0)
     sys.stdout.write(draw(read_rooms()))

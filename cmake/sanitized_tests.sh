@@ -6,3 +6,4 @@ cd "$(dirname "$0")/.."
 cmake --preset asan >/dev/null
 cmake --build --preset asan --target all cairn_tests
 ctest --test-dir build/asan --output-on-failure -j "$(nproc)"
+cmake/test_cases.sh build/asan

@@ -1,4 +1,4 @@
-// What nearly every test includes, compiled beforehand where many instrumented tests are built.
+// What nearly every test includes, compiled beforehand.
 #pragma once
 
 #include <gmock/gmock.h>
