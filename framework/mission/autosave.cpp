@@ -5,13 +5,6 @@
 #include "maps/hierarchy/hierarchy.hpp"
 
 namespace cairn {
-namespace {
-
-double seconds_since(Autosaver::Clock::time_point begin) {
-  return std::chrono::duration<double>(Autosaver::Clock::now() - begin).count();
-}
-
-}  // namespace
 
 void AutosaveConfig::describe(Fields<AutosaveConfig>& fields) {
   using C = AutosaveConfig;
@@ -22,15 +15,20 @@ void AutosaveConfig::describe(Fields<AutosaveConfig>& fields) {
               "once the mission has saved its map");
 }
 
-Autosaver::Autosaver(std::filesystem::path file, double every_s) : file_(std::move(file)), every_(every_s) {}
+Autosaver::Autosaver(std::filesystem::path file, double every_s, std::shared_ptr<const WallClock> wall_clock)
+    : file_(std::move(file)), every_(every_s), wall_clock_(std::move(wall_clock)) {}
 
 Autosaver::~Autosaver() {
   finish();
 }
 
+double Autosaver::seconds_since(WallClock::Time begin) const {
+  return std::chrono::duration<double>(wall_clock_->now() - begin).count();
+}
+
 bool Autosaver::is_due() {
   if (every_.count() <= 0.0) return false;
-  const Clock::time_point now = Clock::now();
+  const WallClock::Time now = wall_clock_->now();
   if (asked_) longest_tick_ = std::max<std::chrono::duration<double>>(longest_tick_, now - *asked_);
   asked_ = now;
   const std::scoped_lock lock(mutex_);
@@ -40,7 +38,7 @@ bool Autosaver::is_due() {
   return !last_ || now - *last_ >= every_ - ahead;
 }
 
-void Autosaver::save(SavedMap copy, Clock::time_point taken) {
+void Autosaver::save(SavedMap copy, WallClock::Time taken) {
   last_ = taken;
   const std::scoped_lock lock(mutex_);
   copy_ = std::move(copy);
@@ -80,7 +78,7 @@ void Autosaver::write_copies() {
 }
 
 void Autosaver::write(SavedMap& copy) {
-  const Clock::time_point begin = Clock::now();
+  const WallClock::Time begin = wall_clock_->now();
   Outcome outcome;
   outcome.time_s = copy.progress ? copy.progress->time_s : 0.0;
   try {

@@ -8,12 +8,14 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "framework/config/fields.hpp"
+#include "framework/modules/wall_clock.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
@@ -35,10 +37,8 @@ struct AutosaveFigures {
 
 class Autosaver {
  public:
-  using Clock = std::chrono::steady_clock;
-
   // every_s 0: never due. Starts no thread before the first copy comes.
-  Autosaver(std::filesystem::path file, double every_s);
+  Autosaver(std::filesystem::path file, double every_s, std::shared_ptr<const WallClock> wall_clock);
   Autosaver(const Autosaver&) = delete;
   Autosaver& operator=(const Autosaver&) = delete;
   ~Autosaver();  // waits as finish() does
@@ -48,7 +48,7 @@ class Autosaver {
   // is written.
   [[nodiscard]] bool is_due();
   // taken: when the copy was begun. Its clusters may be those of an earlier state: they are brought in line here.
-  void save(SavedMap copy, Clock::time_point taken);
+  void save(SavedMap copy, WallClock::Time taken);
   // Waits until nothing is being written. Nothing may be saved afterwards.
   void finish();
 
@@ -67,18 +67,20 @@ class Autosaver {
   void write_copies();
   void write(SavedMap& copy);
   void note(Outcome outcome);
+  [[nodiscard]] double seconds_since(WallClock::Time begin) const;
 
   const std::filesystem::path file_;
   const std::chrono::duration<double> every_;
+  const std::shared_ptr<const WallClock> wall_clock_;
   // Of the mission's thread only.
-  std::optional<Clock::time_point> last_;   // when the last copy was taken
-  std::optional<Clock::time_point> asked_;  // when it was last asked whether one is due
+  std::optional<WallClock::Time> last_;   // when the last copy was taken
+  std::optional<WallClock::Time> asked_;  // when it was last asked whether one is due
   std::chrono::duration<double> longest_tick_{0.0};
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<SavedMap> copy_;  // to be written
-  Clock::time_point taken_;
+  WallClock::Time taken_;
   bool writing_ = false;
   bool ending_ = false;
   std::chrono::duration<double> longest_write_{0.0};  // from taking a copy to the file on the disk

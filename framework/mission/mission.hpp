@@ -14,7 +14,7 @@
 #include "framework/files/template_settings.hpp"
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/autosave.hpp"
-#include "framework/safety/collision_monitor.hpp"
+#include "framework/safety/config.hpp"
 #include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn {

@@ -4,11 +4,9 @@
 #include <future>
 #include <thread>
 
-#include "framework/mission/loop.hpp"
+#include "framework/mission/loop/mission_loop.hpp"
 
 namespace cairn {
-namespace {}  // namespace
-
 std::string_view name_of(MissionOutcome outcome) {
   switch (outcome) {
     case MissionOutcome::done:
@@ -31,6 +29,7 @@ std::string_view name_of(MissionOutcome outcome) {
 
 MissionRunner::MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
     : loop_(std::make_shared<MissionLoop>(mission, library, options)),
+      wall_clock_(options.wall_clock),
       control_(options.control),
       longest_call_s_(mission.config.watchdog_s) {}
 
@@ -66,8 +65,7 @@ void MissionRunner::watch() {
     promise.set_value();
   });
   const std::chrono::nanoseconds longest(std::llround(longest_call_s_ * 1e9));
-  while (done.wait_for(kControlPollInterval) != std::future_status::ready && !gave_up_)
-    gave_up_ = loop_->give_up_after(longest);
+  while (!wall_clock_->wait_for(done, kControlPollInterval) && !gave_up_) gave_up_ = loop_->give_up_after(longest);
   if (gave_up_)
     thread.detach();
   else

@@ -14,7 +14,8 @@
 #include "framework/mission/run_control.hpp"
 #include "framework/modules/module_library.hpp"
 #include "framework/modules/stage_clock.hpp"
-#include "framework/safety/collision_monitor.hpp"
+#include "framework/modules/wall_clock.hpp"
+#include "framework/safety/config.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
@@ -29,6 +30,8 @@ struct RunOptions {
   bool autosave = false;             // as the mission's settings say
   const SavedMap* resume = nullptr;  // go on from this map; must outlive the constructor's call only
   RunControl* control = nullptr;     // must outlive the runner
+  // For pacing, intervals and the watch over modules.
+  std::shared_ptr<const WallClock> wall_clock = std::make_shared<SteadyClock>();
 };
 
 struct StepReport {
@@ -93,6 +96,7 @@ class MissionRunner {
   void watch();
 
   std::shared_ptr<MissionLoop> loop_;
+  std::shared_ptr<const WallClock> wall_clock_;
   RunControl* control_ = nullptr;
   double longest_call_s_ = 0.0;
   bool gave_up_ = false;

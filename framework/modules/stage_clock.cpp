@@ -10,19 +10,18 @@ namespace {
 constexpr std::uint64_t kGivenUp = ~std::uint64_t{0};
 constexpr unsigned kStageBits = 16;
 
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
 StageClock::Id stage_in(std::uint64_t visit) {
   return visit & ((1U << kStageBits) - 1);
 }
 
 }  // namespace
 
-StageClock::StageClock() {
+StageClock::StageClock(std::shared_ptr<const WallClock> wall_clock) : wall_clock_(std::move(wall_clock)) {
   stages_.push_back({"host", "", 0, 0, 0, {}});
+}
+
+std::int64_t StageClock::now_ns() const {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(wall_clock_->now().time_since_epoch()).count();
 }
 
 StageClock::Id StageClock::add(const std::string& stage, const std::string& module) {
@@ -33,7 +32,7 @@ StageClock::Id StageClock::add(const std::string& stage, const std::string& modu
   return stages_.size() - 1;
 }
 
-StageClock::Visit::Visit(StageClock& clock, Id id) : clock_(clock), id_(id), begin_ns_(now_ns()) {
+StageClock::Visit::Visit(StageClock& clock, Id id) : clock_(clock), id_(id), begin_ns_(clock.now_ns()) {
   outer_ = clock_.current_.load();
   clock_.since_ns_.store(begin_ns_);
   const std::uint64_t mine = (++clock_.entered_ << kStageBits) | id;
@@ -41,7 +40,7 @@ StageClock::Visit::Visit(StageClock& clock, Id id) : clock_(clock), id_(id), beg
 }
 
 StageClock::Visit::~Visit() {
-  const std::int64_t end_ns = now_ns();
+  const std::int64_t end_ns = clock_.now_ns();
   std::uint64_t mine = clock_.current_.load();
   if (mine == kGivenUp) return;
   // The outer call is given its time again: what the inner one took is not its fault.

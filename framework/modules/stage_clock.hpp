@@ -9,8 +9,11 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "framework/modules/wall_clock.hpp"
 
 namespace cairn {
 
@@ -34,7 +37,7 @@ class StageClock {
   using Id = std::size_t;
   static constexpr Id kHost = 0;  // the host itself; never given up
 
-  StageClock();
+  explicit StageClock(std::shared_ptr<const WallClock> wall_clock = std::make_shared<SteadyClock>());
 
   // Before the run. The same stage and module give the same id.
   Id add(const std::string& stage, const std::string& module);
@@ -77,10 +80,12 @@ class StageClock {
     std::int64_t worst_ns = 0;
     std::array<std::uint32_t, kBuckets> histogram{};
   };
+  [[nodiscard]] std::int64_t now_ns() const;
   [[nodiscard]] static double quantile_us(const Stage& stage, double share);
   static int bucket_of(std::int64_t ns);
   void note(Id id, std::int64_t ns);
 
+  std::shared_ptr<const WallClock> wall_clock_;
   std::vector<Stage> stages_;
   std::uint64_t entered_ = 0;  // stages entered so far: tells two visits of one stage apart
   // Entry number and stage of the current visit, or kGivenUp; and when it was entered.

@@ -1,77 +1,44 @@
-// The stop layer: below every behaviour, it never lets the robot drive into what its sensors see. It knows nothing of
-// maps, poses or missions, and nothing in a mission takes it away: only live ranges, the odometry and the footprint.
+// The collision monitor: below every behaviour, the only one that orders the drive, and it never lets the robot drive
+// into what its sensors see (VelocityLimiter). Nothing in a mission takes it away.
 //
-// Stop zone: the footprint, grown by the margin, swept along the arc that the velocity describes for as long as the
-// robot needs to stand: its reaction (a tick, and until the transducer fires again) and its braking way. The speed is
-// cut, on the same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. The arc
-// that the robot is on, before it has come to the wanted one, counts as well. Slow zone: the same with a wider margin,
-// in which the robot only goes slowly. Where no transducer looks it creeps.
+// A command holds until the next one: the robot stands while the host does something that may take long, and is ordered
+// on at the end of the tick.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "framework/config/fields.hpp"
-#include "framework/contracts/observation.hpp"
-#include "framework/contracts/robot_model.hpp"
-#include "framework/safety/range_buffer.hpp"
+#include "framework/contracts/sensor.hpp"
+#include "framework/modules/staged.hpp"
+#include "framework/safety/velocity_limiter.hpp"
 
 namespace cairn {
 
-struct CollisionMonitorConfig {
-  double margin_m = 0.05;         // kept between the footprint and anything seen
-  double slow_m = 0.1;            // beyond the margin: only slowly
-  double stale_s = 1.0;           // how long an echo counts, and how long a transducer may be silent
-  std::optional<double> blind_s;  // without any reading for so long, no driving; none: one and a half periods of them
-  static void describe(Fields<CollisionMonitorConfig>& fields);
-};
-
-// How long it has interfered.
-struct CollisionMonitorFigures {
-  double slowed_s = 0.0;   // cut the speed, for what was seen or because nobody looked
-  double stopped_s = 0.0;  // let nothing of it through, for what was seen
-  double stale_s = 0.0;    // wanted to drive without fresh readings
+// What has become of the wanted velocity of a tick.
+struct DriveCommand {
+  Twist commanded{};
+  double speed_reduction_ratio = 0.0;  // share of the wanted speed that was left out: 0 none, 1 all
 };
 
 class CollisionMonitor {
  public:
-  CollisionMonitor(const CollisionMonitorConfig& config, const RobotModel& robot);
+  CollisionMonitor(const CollisionMonitorConfig& config, const RobotModel& robot) : limiter_(config, robot) {}
 
-  // Every observation, in order. One whose stamp is not later than the last one's, or whose stamp or odometry is no
-  // number, is stale as a whole.
-  void see(const Observation& observation);
-  // The wanted velocity, within the robot's limits and what the sensors allow. Once after each see().
-  [[nodiscard]] Twist limit(const Twist& wanted);
-  // Share of a wanted speed, or of a wanted turn in place, that an allowed one leaves out: 0 none, 1 all.
-  [[nodiscard]] double speed_reduction_ratio(const Twist& wanted, const Twist& allowed) const;
-  [[nodiscard]] const CollisionMonitorFigures& figures() const { return figures_; }
+  // Before the run. Without a drive (a log) nothing is ordered.
+  void attach(Staged<Drive> drive) { drive_ = std::move(drive); }
+  [[nodiscard]] bool has_drive() const { return static_cast<bool>(drive_); }
+
+  // Once a tick: limits the wanted velocity by what this observation and those before have shown, and orders it.
+  // Throws ModuleFault.
+  DriveCommand drive(const Observation& observation, const Twist& wanted);
+  // The robot stands until the next drive(). Throws ModuleFault.
+  void stop();
+  // For the thread that has given the mission up: stops the robot unless the call that was lost is one of the drive's
+  // own module.
+  void stop_after_giving_up(StageClock::Id lost, StageClock::Id sensor) noexcept;
+
+  [[nodiscard]] const CollisionMonitorFigures& figures() const { return limiter_.figures(); }
 
  private:
-  [[nodiscard]] bool is_stale() const;
-  void note_reading();
-  void feel_bump(bool bumped);
-  [[nodiscard]] Twist within_limits(const Twist& wanted) const;
-  [[nodiscard]] Twist next_towards(const Twist& twist) const;
-  [[nodiscard]] Twist allowed_of(const Twist& wanted);
-  [[nodiscard]] Twist cut(const Twist& clamped) const;
-  [[nodiscard]] double allowed_share(const Twist& twist, double margin_m) const;
-
-  CollisionMonitorConfig config_;
-  RobotModel robot_;
-  RangeBuffer memory_;
-  double tick_s_ = 0.0;  // between the last two observations
-  double stamp_s_ = 0.0;
-  double period_s_ = 0.0;       // of readings
-  std::vector<double> gaps_s_;  // the last few between readings, where the robot's file does not tell the period
-  double last_reading_s_ = 0.0;
-  bool begun_ = false;
-  bool useless_ = false;  // the last observation: its clock stands still, or it is not placed
-  bool heard_ = false;    // a reading
-  bool bumped_ = false;
-  Twist allowed_;  // of the last tick
-  Twist driven_;   // what it makes of the orders within its accelerations
-  CollisionMonitorFigures figures_;
+  VelocityLimiter limiter_;
+  Staged<Drive> drive_;
 };
 
 }  // namespace cairn

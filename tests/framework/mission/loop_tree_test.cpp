@@ -117,7 +117,7 @@ TEST_F(MissionOfTrees, ATimeoutHaltsByTheMissionsClock) {
   const MissionResult result = run("[{force_success: {timeout: {after_s: 0.5, do: {script: R}}}}]");
   EXPECT_EQ(result.outcome, MissionOutcome::done);
   EXPECT_NEAR(result.time_s, 0.5, 0.05);
-  EXPECT_THAT(outcomes(result), ElementsAre("1 always success", "1/1 timeout failure", "1/1/1 script halted"));
+  EXPECT_THAT(outcomes(result), ElementsAre("1 force_success success", "1/1 timeout failure", "1/1/1 script halted"));
 }
 
 TEST_F(MissionOfTrees, TwoThatDriveAtOnceFail) {

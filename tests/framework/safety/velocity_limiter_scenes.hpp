@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "framework/safety/collision_monitor.hpp"
+#include "framework/safety/velocity_limiter.hpp"
 
 namespace cairn {
 
@@ -46,9 +46,9 @@ inline Observation observation(double stamp_s, const Seen& seen = {}, const Pose
 }
 
 // Standing, with these ranges for two ticks.
-inline CollisionMonitor layer_that_sees(const Seen& seen, const RobotModel& robot = a_robot(),
-                                        const CollisionMonitorConfig& config = {}) {
-  CollisionMonitor layer(config, robot);
+inline VelocityLimiter layer_that_sees(const Seen& seen, const RobotModel& robot = a_robot(),
+                                       const CollisionMonitorConfig& config = {}) {
+  VelocityLimiter layer(config, robot);
   layer.see(observation(1.0, seen));
   layer.see(observation(1.0 + kTick_s, seen));
   return layer;

@@ -2,32 +2,32 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/framework/safety/collision_monitor_scenes.hpp"
+#include "tests/framework/safety/velocity_limiter_scenes.hpp"
 
 namespace cairn {
 namespace {
 
-TEST(CollisionMonitor, TooNearToMeasureCountsAsTheNearestRange) {
+TEST(VelocityLimiter, TooNearToMeasureCountsAsTheNearestRange) {
   EXPECT_EQ(layer_that_sees({.ahead_m = -kInfinity}).limit({0.3, 0.0}).v_mps, 0.0);
 }
 
-TEST(CollisionMonitor, SilenceDoesNotTakeAnEchoAway) {
-  CollisionMonitor layer = layer_that_sees({.ahead_m = 0.17});
+TEST(VelocityLimiter, SilenceDoesNotTakeAnEchoAway) {
+  VelocityLimiter layer = layer_that_sees({.ahead_m = 0.17});
   layer.see(observation(1.3));
   EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.0) << "a mirror or a dead transducer is silent too";
   layer.see(observation(2.5));
   EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.3) << "an old echo no longer counts";
 }
 
-TEST(CollisionMonitor, AnEchoFromBehindItTakesAnEchoAway) {
-  CollisionMonitor layer = layer_that_sees({.ahead_m = 0.17});
+TEST(VelocityLimiter, AnEchoFromBehindItTakesAnEchoAway) {
+  VelocityLimiter layer = layer_that_sees({.ahead_m = 0.17});
   layer.see(observation(1.1, {.ahead_m = 2.0}));
   EXPECT_GT(layer.limit({0.3, 0.0}).v_mps, 0.0);
 }
 
-TEST(CollisionMonitor, StopsEarlierForWhatApproachesByItself) {
+TEST(VelocityLimiter, StopsEarlierForWhatApproachesByItself) {
   const auto allowed = [](double closing_mps) {
-    CollisionMonitor layer({}, a_robot());
+    VelocityLimiter layer({}, a_robot());
     for (int i = 0; i <= 10; ++i)
       layer.see(observation(1.0 + 0.1 * i, {.ahead_m = 0.7 + closing_mps * 0.1 * (10 - i)}));
     return layer.limit({0.4, 0.0}).v_mps;
@@ -38,12 +38,12 @@ TEST(CollisionMonitor, StopsEarlierForWhatApproachesByItself) {
 }
 
 // Also when the cart comes at any speed up to 0.8 m/s, robot and cart on one line.
-TEST(CollisionMonitor, FindsTheRobotStandingWhenACartThatDoesNotWaitArrives) {
+TEST(VelocityLimiter, FindsTheRobotStandingWhenACartThatDoesNotWaitArrives) {
   for (const double cart_mps : {0.2, 0.5, 0.8}) {
     RobotModel robot = a_robot();
     robot.sonars.resize(7);
     robot.firing_period_s = kTick_s;
-    CollisionMonitor layer({}, robot);
+    VelocityLimiter layer({}, robot);
     double x_m = 0.0;
     double cart_m = 4.0;
     double v_mps = 0.0;
@@ -64,8 +64,8 @@ TEST(CollisionMonitor, FindsTheRobotStandingWhenACartThatDoesNotWaitArrives) {
   }
 }
 
-TEST(CollisionMonitor, CreepsWhereNoTransducerLooks) {
-  CollisionMonitor layer({}, a_robot());
+TEST(VelocityLimiter, CreepsWhereNoTransducerLooks) {
+  VelocityLimiter layer({}, a_robot());
   for (const double stamp_s : {1.0, 1.04}) {
     Observation o = observation(stamp_s);
     o.ranges.erase(o.ranges.begin() + 1);  // none at the back
@@ -75,8 +75,8 @@ TEST(CollisionMonitor, CreepsWhereNoTransducerLooks) {
   EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.3);
 }
 
-TEST(CollisionMonitor, CreepsWhereATransducerHasFallenSilent) {
-  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
+TEST(VelocityLimiter, CreepsWhereATransducerHasFallenSilent) {
+  VelocityLimiter layer = layer_that_sees({3.0, 3.0, 3.0});
   for (double stamp_s = 1.08; stamp_s < 2.6; stamp_s += kTick_s) {
     Observation o = observation(stamp_s, {3.0, 3.0, 3.0});
     o.ranges.erase(o.ranges.begin());
@@ -88,8 +88,8 @@ TEST(CollisionMonitor, CreepsWhereATransducerHasFallenSilent) {
   EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.04);
 }
 
-TEST(CollisionMonitor, StopsWithinTwoTicksWithoutReadings) {
-  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
+TEST(VelocityLimiter, StopsWithinTwoTicksWithoutReadings) {
+  VelocityLimiter layer = layer_that_sees({3.0, 3.0, 3.0});
   layer.see(without_readings(1.08));
   (void)layer.limit({0.3, 0.2});
   layer.see(without_readings(1.12));
@@ -101,7 +101,7 @@ TEST(CollisionMonitor, StopsWithinTwoTicksWithoutReadings) {
 
 // Seconds of ten in which a robot with readings every read_s and odometry every odometry_s, each by itself, is let go.
 double let_go_s(double odometry_s, double read_s, double jitter_s) {
-  CollisionMonitor layer({}, a_robot());
+  VelocityLimiter layer({}, a_robot());
   const int every = static_cast<int>(std::lround(read_s / odometry_s));
   double gone_s = 0.0;
   for (int tick = 1; tick * odometry_s < 10.0; ++tick) {
@@ -114,18 +114,18 @@ double let_go_s(double odometry_s, double read_s, double jitter_s) {
   return gone_s;
 }
 
-TEST(CollisionMonitor, MeasuresThePeriodOfReadingsNotOfOdometry) {
+TEST(VelocityLimiter, MeasuresThePeriodOfReadingsNotOfOdometry) {
   EXPECT_GT(let_go_s(0.02, 0.1, 0.0), 9.7) << "only the first readings tell how often they come";
   EXPECT_GT(let_go_s(0.04, 0.04, 0.0), 9.7);
 }
 
-TEST(CollisionMonitor, OneStampThatJittersDoesNotBlindItForGood) {
+TEST(VelocityLimiter, OneStampThatJittersDoesNotBlindItForGood) {
   EXPECT_GT(let_go_s(0.02, 0.1, 0.001), 9.6);
   EXPECT_GT(let_go_s(0.04, 0.04, 0.001), 9.6);
 }
 
-TEST(CollisionMonitor, ReadingsThatHaveBeenMissingOnceDoNotMakeItPatient) {
-  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
+TEST(VelocityLimiter, ReadingsThatHaveBeenMissingOnceDoNotMakeItPatient) {
+  VelocityLimiter layer = layer_that_sees({3.0, 3.0, 3.0});
   double stamp_s = 1.0 + kTick_s;
   for (int i = 0; i < 20; ++i) layer.see(observation(stamp_s += kTick_s, {3.0, 3.0, 3.0}));
   layer.see(observation(stamp_s += 3.0, {3.0, 3.0, 3.0}));
@@ -134,8 +134,8 @@ TEST(CollisionMonitor, ReadingsThatHaveBeenMissingOnceDoNotMakeItPatient) {
   EXPECT_EQ(layer.limit({0.3, 0.0}), Twist{});
 }
 
-TEST(CollisionMonitor, AReadingThatIsNoNumberIsNoReading) {
-  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
+TEST(VelocityLimiter, AReadingThatIsNoNumberIsNoReading) {
+  VelocityLimiter layer = layer_that_sees({3.0, 3.0, 3.0});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   layer.see(observation(1.08, {nan, nan, nan}));
   layer.see(observation(1.12, {nan, nan, nan}));
@@ -143,10 +143,10 @@ TEST(CollisionMonitor, AReadingThatIsNoNumberIsNoReading) {
 }
 
 // Also for a moment only: what it has seen in a frame that is lost may be anywhere.
-TEST(CollisionMonitor, OdometryThatIsNoNumberIsStale) {
+TEST(VelocityLimiter, OdometryThatIsNoNumberIsStale) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity}) {
     for (const Pose2& T_odom_robot : {Pose2{bad, 0.0, 0.0}, Pose2{0.0, bad, 0.0}, Pose2{0.0, 0.0, bad}}) {
-      CollisionMonitor layer = layer_that_sees({.ahead_m = 0.17});
+      VelocityLimiter layer = layer_that_sees({.ahead_m = 0.17});
       layer.see(observation(1.08, {.ahead_m = 0.17}, T_odom_robot));
       EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
       EXPECT_GT(layer.figures().stale_s, 0.0);
@@ -158,9 +158,9 @@ TEST(CollisionMonitor, OdometryThatIsNoNumberIsStale) {
   }
 }
 
-TEST(CollisionMonitor, AReadingFromNoPlaceIsNoReading) {
+TEST(VelocityLimiter, AReadingFromNoPlaceIsNoReading) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
+  VelocityLimiter layer = layer_that_sees({3.0, 3.0, 3.0});
   for (const double stamp_s : {1.08, 1.12}) {
     Observation o = observation(stamp_s, {0.17, 3.0, 3.0});
     o.ranges[0].T_robot_sensor.x_m = o.ranges[1].T_robot_sensor.theta_rad = o.ranges[2].half_beam_rad = nan;
@@ -169,8 +169,8 @@ TEST(CollisionMonitor, AReadingFromNoPlaceIsNoReading) {
   EXPECT_EQ(layer.limit({0.3, 0.2}), Twist{});
 }
 
-TEST(CollisionMonitor, AClockThatStandsStillOrJumpsBackIsStale) {
-  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
+TEST(VelocityLimiter, AClockThatStandsStillOrJumpsBackIsStale) {
+  VelocityLimiter layer = layer_that_sees({3.0, 3.0, 3.0});
   layer.see(observation(1.04, {3.0, 3.0, 3.0}));
   EXPECT_EQ(layer.limit({0.3, 0.0}), Twist{});
   layer.see(observation(0.5, {3.0, 3.0, 3.0}));
@@ -182,8 +182,8 @@ TEST(CollisionMonitor, AClockThatStandsStillOrJumpsBackIsStale) {
   EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.3) << "time goes on from there";
 }
 
-TEST(CollisionMonitor, ABumpStopsMotionTowardsItsSide) {
-  CollisionMonitor layer = layer_that_sees({3.0, 3.0, 3.0});
+TEST(VelocityLimiter, ABumpStopsMotionTowardsItsSide) {
+  VelocityLimiter layer = layer_that_sees({3.0, 3.0, 3.0});
   (void)layer.limit({0.2, 0.0});
   Observation bump = observation(1.08, {3.0, 3.0, 3.0});
   bump.bumped = true;

@@ -1,0 +1,24 @@
+#include "framework/mission/clock/pace.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+// In short naps: a log may hold a gap of hours, and the user may want to end it in there.
+constexpr std::chrono::nanoseconds kLongestNap = std::chrono::milliseconds(20);
+
+}  // namespace
+
+void Pace::keep(double stamp_s, const Budget& budget) {
+  if (!begin_) begin_ = Begin{wall_clock_->now(), stamp_s};
+  const std::chrono::duration<double> until(stamp_s - begin_->stamp_s);
+  while (!budget.cancelled()) {
+    const std::chrono::duration<double> rest = until - (wall_clock_->now() - begin_->wall);
+    if (rest.count() <= 0.0) return;
+    const std::chrono::duration<double> nap = std::min<std::chrono::duration<double>>(rest, kLongestNap);
+    wall_clock_->sleep_for(std::chrono::ceil<std::chrono::nanoseconds>(nap));
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,82 @@
+#include "framework/mission/loop/behaviour_requests.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "framework/planning/plan_answer.hpp"
+#include "framework/planning/plan_task.hpp"
+#include "framework/planning/tour.hpp"
+
+namespace cairn {
+
+void BehaviourRequests::drive(const Twist& wanted) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  if (!host_.monitor.has_drive())
+    throw std::runtime_error("wants to drive, but the sensor " + host_.mission.config.sensor.name +
+                             " cannot be driven");
+  if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps))
+    throw std::runtime_error("asked for a velocity that is not finite");
+  asked_.wanted = wanted;
+}
+
+PlanResult BehaviourRequests::plan(const PlanRequest& request) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  if (!host_.planning.has_planner()) {
+    PlanResult none;
+    none.reason = "the mission names no planner";
+    return none;
+  }
+  PlanResult result = host_.planning.plan(request, host_.world.view());
+  host_.publisher.publish(PlanDone{result});
+  return result;
+}
+
+Status BehaviourRequests::answer(const PlanQuestion& question, const std::string& file_name) {
+  host_.planning.update();
+  const bool names_clusters = !question.avoid.empty() || question.explain;
+  const ClusterTree clusters = names_clusters ? host_.planning.clusters() : ClusterTree{};
+  PlanTask task;
+  try {
+    task = task_of(question, host_.world.graph, clusters, host_.world.pose.T_map_robot);
+  } catch (const std::exception& error) {
+    return {Progress::failure, error.what()};
+  }
+  task.request.radius_m = host_.mission.robot.radius_m;
+  task.request.seed = module_seed(host_.mission.config.seed, PluginKind::planner, 2);
+  const PlanResult result =
+      plan_tour([&](const PlanRequest& request) { return plan(request); }, task.request, task.via);
+  const Status written = write({file_name,
+                                json_text_of({.question = question,
+                                              .result = result,
+                                              .graph = host_.world.graph,
+                                              .clusters = clusters,
+                                              .with_times = false}) +
+                                    "\n",
+                                true});
+  if (written.progress != Progress::success) return written;
+  if (result.outcome == PlanOutcome::solved) return {Progress::success, fmt::format("{:.2f} m", result.length_m)};
+  return {Progress::failure, std::string(name_of(result.outcome)) + ": " + result.reason};
+}
+
+Status BehaviourRequests::save(const std::string& file_name) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  host_.monitor.stop();
+  if (std::string refusal = host_.saving.refusal_of(file_name); !refusal.empty())
+    return {Progress::failure, std::move(refusal)};
+  Status saved = host_.saving.save(file_name);
+  asked_.has_failed_to_save |= saved.progress != Progress::success;
+  return saved;
+}
+
+Status BehaviourRequests::write(const OutputText& output) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  return texts_.write(output);
+}
+
+void BehaviourRequests::say(const std::string& sentence) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  host_.publisher.publish(Message{sentence});
+}
+
+}  // namespace cairn

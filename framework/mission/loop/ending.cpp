@@ -1,0 +1,154 @@
+// How a mission ends, what it leaves, and how it stands until then.
+
+#include "framework/mission/loop/mission_loop.hpp"
+#include "framework/mission/saved_content.hpp"
+
+namespace cairn {
+namespace {
+
+void add_sentence(std::string& reason, const std::string& sentence) {
+  if (!sentence.empty()) reason += (reason.empty() ? "" : "; ") + sentence;
+}
+
+}  // namespace
+
+bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
+  const StageClock::Id lost = modules_.clock.give_up_after(longest);
+  if (lost == StageClock::kHost) return false;
+  // From here on this thread is the only one that touches the mission; only what the lost call works
+  // on may still change.
+  ending_ = {MissionOutcome::module_fault,
+             "module " + modules_.clock.module_of(lost) + " has not returned from stage " +
+                 modules_.clock.stage_of(lost) + " for " +
+                 std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(longest).count()) +
+                 " ms and was given up"};
+  steps_.abandon(clock_.time_s(), ending_.reason);
+  monitor_.stop_after_giving_up(lost, modules_.sensor.stage());
+  if (lost == modules_.mapper.stage() || world_.grid == nullptr) {
+    world_.grid = nullptr;
+    world_.coarse = nullptr;
+    add_sentence(ending_.reason, "the map it works on could not be saved");
+  } else {
+    save_last();
+  }
+  return true;
+}
+
+std::optional<MissionLoop::Ending> MissionLoop::ending_after_tick() const {
+  if (steps_.failure()) return Ending{MissionOutcome::step_failed, *steps_.failure()};
+  if (!mission_.steps.empty() && steps_.are_done()) return Ending{};
+  if (clock_.time_s() >= mission_.config.at_most_s)
+    return Ending{MissionOutcome::out_of_time, "the mission's at_most_s has passed"};
+  return std::nullopt;
+}
+
+MissionLoop::Ending MissionLoop::at_end_of_data(const std::string& reason) const {
+  if (mission_.steps.empty()) return {MissionOutcome::done, reason};
+  return {MissionOutcome::step_failed, "the sensor's data ended before the steps did"};
+}
+
+// Whatever happened: the robot stops, and the map so far is saved.
+void MissionLoop::finish() {
+  try {
+    monitor_.stop();
+  } catch (const ModuleFault&) {
+    // It has failed already and is being left; there is no one to report to.
+  }
+  publish_any(pauses_.end(clock_.paused_s()));
+  for (const std::string& fault : steps_.halt(clock_.time_s(), ending_.reason)) add_sentence(ending_.reason, fault);
+  try {
+    if (ending_.outcome != MissionOutcome::cancelled && world_.grid != nullptr)
+      planning_.connect(perception_.tracker(), world_.view());
+  } catch (const ModuleFault& fault) {
+    add_sentence(ending_.reason, fault.what());
+    ending_.outcome = MissionOutcome::module_fault;
+  }
+  save_last();
+}
+
+void MissionLoop::save_last() {
+  const std::string not_saved = saving_.save_last(ending_.outcome == MissionOutcome::done);
+  if (not_saved.empty()) return;
+  add_sentence(ending_.reason, not_saved);
+  if (ending_.outcome == MissionOutcome::done) ending_.outcome = MissionOutcome::map_not_saved;
+}
+
+void MissionLoop::restore(const SavedMap& map) {
+  const MissionProgress& progress = *map.progress;
+  perception_.restore(map);
+  clock_.restore(progress.time_s, paused_before(map));
+  counts_.restore({progress.readings, progress.matchings, progress.collisions, progress.distance_m});
+  world_.time_s = progress.time_s;
+  if (!map.driven_path.empty()) world_.T_map_start = map.driven_path.front();
+  steps_.restore(map);
+}
+
+SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
+  MissionProgress progress;
+  progress.time_s = clock_.time_s();
+  progress.T_map_robot = world_.pose.T_map_robot;
+  progress.true_T_map_robot = world_.observation.true_T_map_robot;
+  progress.distance_m = counts_.figures().distance_m;
+  progress.readings = counts_.figures().readings;
+  progress.matchings = counts_.figures().matchings;
+  progress.collisions = counts_.figures().collisions;
+  steps_.describe(progress);
+  SavedMap map =
+      map_of_mission(mission_, *world_.grid, perception_.tracker(), std::move(clusters), std::move(progress));
+  add_pauses(map, clock_.paused_s());
+  steps_.describe(map);
+  return map;
+}
+
+MissionResult MissionLoop::result() const {
+  const RunFigures& counted = counts_.figures();
+  MissionResult result;
+  result.outcome = ending_.outcome;
+  result.reason = ending_.reason;
+  result.steps = steps_.reports();
+  result.node_runs = steps_.node_runs();
+  result.nodes = steps_.node_reports();
+  result.readings = counted.readings;
+  result.matchings = counted.matchings;
+  result.collisions = counted.collisions;
+  result.distance_m = counted.distance_m;
+  result.time_s = clock_.time_s();
+  result.paused_s = clock_.paused_s();
+  result.explored_ratio = saving_.explored_ratio();
+  result.resumed_s = clock_.resumed_s();
+  result.collision_monitor = monitor_.figures();
+  result.autosave = saving_.figures();
+  result.map_file = saving_.map_file();
+  return result;
+}
+
+RunStatus MissionLoop::status_in(RunState state) const {
+  RunStatus status;
+  status.state = state;
+  status.mission = mission_.config.mission;
+  status.time_s = clock_.time_s();
+  status.paused_s = clock_.paused_s();
+  status.explored_ratio = world_.explored_ratio();
+  status.T_map_robot = world_.pose.T_map_robot;
+  status.distance_m = counts_.figures().distance_m;
+  status.landmarks = world_.graph.landmarks().size();
+  steps_.describe(status);
+  return status;
+}
+
+RunStatus MissionLoop::status() const {
+  RunStatus status = status_in(pauses_.is_paused() ? RunState::paused : RunState::running);
+  steps_.describe_doing(status);
+  status.left = steps_.time_left(clock_.time_s(), mission_.config.at_most_s - clock_.time_s());
+  return status;
+}
+
+RunStatus MissionLoop::last_status() const {
+  RunStatus status = status_in(RunState::ended);
+  status.outcome = name_of(ending_.outcome);
+  status.reason = ending_.reason;
+  status.map_file = saving_.map_file();
+  return status;
+}
+
+}  // namespace cairn

@@ -1,0 +1,59 @@
+// Saves the mission's map: while it runs, when a step asks for it, and at its end.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "framework/contracts/behaviour.hpp"
+#include "framework/mission/autosave.hpp"
+#include "framework/mission/loop/planning.hpp"
+#include "framework/mission/loop/publisher.hpp"
+
+namespace cairn {
+
+class MapSaving {
+ public:
+  struct Options {
+    std::filesystem::path folder;
+    bool autosaves = false;   // as the mission's settings say
+    bool is_resumed = false;  // what lies in the folder is of this mission
+    std::shared_ptr<const WallClock> wall_clock;
+  };
+  // All must outlive it. content: the map as it stands, with these clusters.
+  MapSaving(const Mission& mission, Options options, Planning& planning, const WorldState& world, Publisher& publisher,
+            std::function<SavedMap(ClusterTree)> content);
+
+  // Once a tick. Changes nothing of what the mission does next.
+  void autosave();
+  // For a step. Success, or failure with its reason, which save_last() remembers.
+  Status save(const std::string& file_name);
+  // Why a step cannot save under that name; empty: it can.
+  [[nodiscard]] std::string refusal_of(const std::string& file_name) const;
+  // The mission has ended, is_done: as it should. Why not everything is saved; empty: it is.
+  std::string save_last(bool is_done);
+
+  [[nodiscard]] const std::string& map_file() const { return map_file_; }  // last saved; empty: none
+  [[nodiscard]] double explored_ratio() const { return explored_ratio_; }  // of the map as it was last saved
+  [[nodiscard]] AutosaveFigures figures() const { return autosaver_.figures(); }
+
+ private:
+  void report_autosave();
+  void keep_finished_map(const std::string& name, bool is_done);
+  Status write(const std::string& file_name);
+
+  const Mission& mission_;
+  const Options options_;
+  Planning& planning_;
+  const WorldState& world_;
+  Publisher& publisher_;
+  const std::function<SavedMap(ClusterTree)> content_;
+  Autosaver autosaver_;
+  bool autosave_has_failed_ = false;
+  std::string map_file_;
+  std::string not_saved_;  // the first reason
+  double explored_ratio_ = 0.0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,141 @@
+#include "framework/mission/loop/mission_loop.hpp"
+
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+Budget budget_of(const RunOptions& options) {
+  Budget budget;
+  budget.cancel = options.cancel;
+  return budget;
+}
+
+bool is_finite(const Observation& observation) {
+  const Pose2& at = observation.T_odom_robot;
+  return std::isfinite(observation.stamp_s) && std::isfinite(at.x_m) && std::isfinite(at.y_m) &&
+         std::isfinite(at.theta_rad);
+}
+
+}  // namespace
+
+MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
+    : mission_(mission),
+      options_(options),
+      budget_(budget_of(options)),
+      modules_(build_modules(mission_, library, options.resume), mission_, options.wall_clock),
+      perception_(mission_, modules_, budget_),
+      world_{mission_.robot, perception_.tracker().graph(), modules_.T_map_start},
+      publisher_(world_),
+      pace_(options.wall_clock),
+      pauses_(options.control, options.wall_clock),
+      monitor_(mission_.config.collision_monitor, mission_.robot),
+      planning_(mission_, modules_, world_.graph, options.resume != nullptr ? options.resume->clusters : ClusterTree{},
+                monitor_, budget_),
+      saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
+              world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
+      steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_}, modules_.behaviours,
+             TextFiles(options.out, options.resume != nullptr)) {
+  world_.pose.T_map_robot = modules_.T_map_start;
+  if (options.resume != nullptr) restore(*options.resume);
+}
+
+void MissionLoop::run() {
+  try {
+    Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
+    monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
+    world_.grid = &perception_.begin();
+    world_.coarse = perception_.coarse_grid();
+    ending_ = loop();
+  } catch (const GivenUp&) {
+    return;  // the thread that gave up reports
+  } catch (const std::exception& fault) {
+    ending_ = {MissionOutcome::module_fault, fault.what()};
+  }
+  try {
+    finish();
+  } catch (const GivenUp&) {
+  }
+}
+
+MissionLoop::Ending MissionLoop::loop() {
+  if (!steps_.not_restored().empty()) publisher_.publish(Message{steps_.not_restored()});
+  if (options_.control != nullptr) options_.control->publish(status());
+  if (steps_.are_done() && monitor_.has_drive()) return {};
+  while (true) {
+    wait_while_paused();
+    if (budget_.cancelled()) return {MissionOutcome::cancelled, "cancelled by the user"};
+    SensorStep step = sense();
+    if (step.state == SensorState::fault) return {MissionOutcome::sensor_fault, step.reason};
+    if (step.state == SensorState::end_of_data) return at_end_of_data(step.reason);
+    if (is_known_already(step.observation)) continue;
+    const WallClock::Time begin = options_.wall_clock->now();
+    tick(std::move(step.observation));
+    if (!pace_.is_kept()) modules_.clock.add_time(modules_.tick, options_.wall_clock->now() - begin);
+    if (const auto ending = ending_after_tick()) return *ending;
+  }
+}
+
+SensorStep MissionLoop::sense() {
+  SensorStep step = modules_.sensor.call([&](Sensor& sensor) { return sensor.next(budget_); });
+  if (step.state == SensorState::observation && !is_finite(step.observation))
+    throw modules_.sensor.fault("returned a stamp or an odometry that is not finite");
+  return step;
+}
+
+// One tick: each sentence takes values and hands a value on. The world shows them to those who look on.
+void MissionLoop::tick(Observation seen) {
+  world_.time_s = clock_.advance(seen.stamp_s, pauses_.is_paused());
+  world_.observe(std::move(seen));
+  const Observation& observation = world_.observation;
+  keep_pace();
+  if (counts_.count(observation)) publisher_.publish(Bumped{});
+
+  world_.pose = perception_.localize(observation, world_.pose);
+  const CellChanges& cells = perception_.map(observation, world_.pose);
+  const Recognition recognised = perception_.recognise(cells, world_.time_s);
+  world_.coarse = perception_.coarse_grid();
+  counts_.count_matchings(recognised.matchings);
+  for (const Event& event : recognised.events) publisher_.publish(event);
+
+  if (monitor_.has_drive()) publish_any(pauses_.apply(clock_.paused_s()));
+  const StepsTick steps = pauses_.is_paused() ? StepsTick{} : steps_.tick(world_.time_s);
+  if (steps.has_ended_step) planning_.connect(perception_.tracker(), world_.view());
+  world_.driven = monitor_.drive(observation, steps.wanted);
+
+  publisher_.publish(TickDone{});
+  if (options_.control != nullptr) options_.control->tick([this] { return status(); });
+  saving_.autosave();
+}
+
+// As fast as the wall clock when the user wants it so, and while nothing but time passes.
+void MissionLoop::keep_pace() {
+  if (options_.realtime || pauses_.is_paused())
+    pace_.keep(world_.observation.stamp_s, budget_);
+  else
+    pace_.release();
+}
+
+void MissionLoop::wait_while_paused() {
+  if (monitor_.has_drive() || !pauses_.is_wanted()) return;
+  pauses_.hold();
+  publisher_.publish(Paused{});
+  pauses_.wait(budget_, [this] { options_.control->tick([this] { return status(); }); });
+  publisher_.publish(Resumed{});
+}
+
+// A log begins at its beginning again. The last observation that the map holds shows the localizer where the odometry
+// was then.
+bool MissionLoop::is_known_already(const Observation& observation) {
+  if (monitor_.has_drive() || !clock_.resumed_s() || clock_.has_begun()) return false;
+  const double time_s = clock_.replay(observation.stamp_s);
+  if (time_s > *clock_.resumed_s()) return false;
+  if (time_s == *clock_.resumed_s()) world_.pose = perception_.localize(observation, world_.pose);
+  return true;
+}
+
+void MissionLoop::publish_any(const std::optional<Event>& event) {
+  if (event) publisher_.publish(*event);
+}
+
+}  // namespace cairn

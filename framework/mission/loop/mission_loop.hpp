@@ -1,0 +1,81 @@
+// The one thread of control of a mission: one tick after the other (docs/architecture.md, "One tick").
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "framework/mission/clock/mission_clock.hpp"
+#include "framework/mission/clock/pace.hpp"
+#include "framework/mission/clock/pauses.hpp"
+#include "framework/mission/loop/perception.hpp"
+#include "framework/mission/loop/run_counts.hpp"
+#include "framework/mission/loop/steps.hpp"
+
+namespace cairn {
+
+class MissionLoop {
+ public:
+  // Throws ConfigError, ModuleFault or StoreError.
+  MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
+
+  void subscribe(Listener& listener) { publisher_.subscribe(listener); }
+  // To the end, whatever happens. Throws nothing.
+  void run();
+  // From another thread, while run() runs: when one call of a module has lasted longer than that, ends
+  // the mission in its place (stops the robot, saves the map) and returns true. run() then returns as
+  // soon as the lost call does, if ever, and touches nothing more.
+  bool give_up_after(std::chrono::nanoseconds longest);
+
+  // While run() runs, in its thread.
+  [[nodiscard]] RunStatus status() const;
+  // After run(), or after give_up_after() returned true.
+  [[nodiscard]] MissionResult result() const;
+  [[nodiscard]] RunStatus last_status() const;
+  [[nodiscard]] const OccupancyGrid* grid() const { return world_.grid; }
+  [[nodiscard]] const CoarseGrid* coarse_grid() const { return world_.coarse; }
+  [[nodiscard]] const LandmarkTracker& tracker() const { return perception_.tracker(); }
+  [[nodiscard]] std::vector<StageTime> times() const { return modules_.clock.times(); }
+  [[nodiscard]] const Pose2& T_map_start() const { return modules_.T_map_start; }
+  [[nodiscard]] const std::vector<std::string>& listener_faults() const { return publisher_.listener_faults(); }
+
+ private:
+  struct Ending {
+    MissionOutcome outcome = MissionOutcome::done;
+    std::string reason{};
+  };
+
+  Ending loop();
+  SensorStep sense();
+  void tick(Observation seen);
+  void keep_pace();
+  [[nodiscard]] std::optional<Ending> ending_after_tick() const;
+  [[nodiscard]] Ending at_end_of_data(const std::string& reason) const;
+  void wait_while_paused();
+  bool is_known_already(const Observation& observation);
+  void restore(const SavedMap& map);
+  [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
+  void finish();
+  void save_last();
+  void publish_any(const std::optional<Event>& event);
+  [[nodiscard]] RunStatus status_in(RunState state) const;
+
+  const Mission mission_;
+  const RunOptions options_;
+  const Budget budget_;
+  StagedModules modules_;
+  Perception perception_;
+  WorldState world_;
+  Publisher publisher_;
+  MissionClock clock_;
+  Pace pace_;
+  Pauses pauses_;
+  RunCounts counts_;
+  CollisionMonitor monitor_;
+  Planning planning_;
+  MapSaving saving_;
+  Steps steps_;
+  Ending ending_;
+};
+
+}  // namespace cairn

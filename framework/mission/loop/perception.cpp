@@ -1,0 +1,108 @@
+#include "framework/mission/loop/perception.hpp"
+
+#include <cmath>
+
+#include "framework/landmarks/evidence.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks
+
+bool is_finite(const PoseEstimate& pose) {
+  const Pose2& at = pose.T_map_robot;
+  return std::isfinite(at.x_m) && std::isfinite(at.y_m) && std::isfinite(at.theta_rad) && pose.covariance.allFinite();
+}
+
+}  // namespace
+
+Perception::Perception(const Mission& mission, const StagedModules& modules, const Budget& budget)
+    : config_(mission.config),
+      modules_(modules),
+      budget_(budget),
+      tracker_(mission.config.landmarks, mission.robot, mission.shapes),
+      sightings_(mission.shapes),
+      hold_out_(mission.config.hold_out_every, mission.config.seed) {}
+
+void Perception::restore(const SavedMap& map) {
+  tracker_.restore(map.graph, map.progress->candidates, map.driven_path);
+  last_freed_check_s_ = map.progress->time_s;
+  is_resumed_ = true;
+}
+
+const OccupancyGrid& Perception::begin() {
+  grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
+  if (!is_resumed_ || !modules_.detector || grid_->bounds().empty()) return *grid_;
+  // It is no change: a budget that allows no matching keeps old evidence from counting twice.
+  const std::atomic<bool> cancelled = true;
+  Budget nothing;
+  nothing.cancel = &cancelled;
+  (void)detect(everything_in(grid_->bounds()), nothing);
+  return *grid_;
+}
+
+// Of the first observation nothing says where the odometry begins.
+std::span<const LandmarkSighting> Perception::see_again(const Observation& observation, const PoseEstimate& before) {
+  if (!T_odom_localized_ || !config_.landmarks.correct_pose) return {};
+  return sightings_.look(observation, before, *T_odom_localized_, tracker_.graph(), *grid_);
+}
+
+PoseEstimate Perception::localize(const Observation& observation, const PoseEstimate& before) {
+  const std::span<const LandmarkSighting> seen = see_again(observation, before);
+  PoseEstimate pose =
+      modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, seen); });
+  T_odom_localized_ = observation.T_odom_robot;
+  if (!is_finite(pose)) throw modules_.localizer.fault("returned a pose that is not finite");
+  return pose;
+}
+
+const CellChanges& Perception::map(const Observation& observation, const PoseEstimate& pose) {
+  tracker_.record_pose(pose.T_map_robot);
+  const bool all = config_.hold_out_every == 0;
+  if (!all) {
+    for_map_ = observation;
+    std::erase_if(for_map_.ranges, [&](const RangeReading&) { return hold_out_.next(); });
+  }
+  const Observation& seen = all ? observation : for_map_;
+  return modules_.mapper.call([&](Mapper& mapper) -> const CellChanges& { return mapper.integrate(seen, pose); });
+}
+
+DetectionReport Perception::detect(const CellChanges& changes, const Budget& budget) {
+  DetectionReport report = modules_.detector.call([&](Detector& detector) {
+    DetectionReport found = detector.detect(*grid_, changes, budget);
+    coarse_ = detector.coarse_grid();
+    return found;
+  });
+  for (const Matching& matching : report.matchings)
+    if (!is_finite(matching)) throw modules_.detector.fault("returned a detection that is not finite");
+  return report;
+}
+
+Recognition Perception::recognise(const CellChanges& changes, double time_s) {
+  Recognition recognised;
+  if (!modules_.detector) return recognised;
+  DetectionReport report = detect(changes, budget_);
+  recognised.matchings = std::ssize(report.matchings);
+  for (Matching& matching : report.matchings) {
+    const std::vector<LandmarkTracker::Change> changed = tracker_.update(matching);
+    recognised.events.emplace_back(MatchingDone{std::move(matching)});
+    add_events(changed, recognised.events);
+  }
+  if (time_s < last_freed_check_s_ + kFreedCheck_s) return recognised;
+  last_freed_check_s_ = time_s;
+  add_events(tracker_.retire_freed(*grid_), recognised.events);
+  return recognised;
+}
+
+void Perception::add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const {
+  for (const auto& [id, kind] : changes) {
+    if (kind == LandmarkTracker::ChangeKind::retired) {
+      const RetiredLandmark& retired = tracker_.graph().retired().at(id);
+      events.emplace_back(LandmarkRetired{retired.landmark, retired.reason});
+    } else {
+      events.emplace_back(LandmarkChanged{*tracker_.graph().find(id), kind == LandmarkTracker::ChangeKind::found});
+    }
+  }
+}
+
+}  // namespace cairn

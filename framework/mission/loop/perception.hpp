@@ -1,0 +1,63 @@
+// What observations show: where the robot is, what its surroundings look like, which landmarks are there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "framework/landmarks/sightings.hpp"
+#include "framework/landmarks/tracker.hpp"
+#include "framework/mission/events.hpp"
+#include "framework/mission/held_out.hpp"
+#include "framework/mission/loop/staged_modules.hpp"
+
+namespace cairn {
+
+// What a tick has recognised.
+struct Recognition {
+  std::int64_t matchings = 0;
+  std::vector<Event> events;  // each matching, and what it has changed in the landmark graph
+};
+
+class Perception {
+ public:
+  // Mission and modules must outlive it.
+  Perception(const Mission& mission, const StagedModules& modules, const Budget& budget);
+
+  // Goes on from what an earlier run has known. Before begin().
+  void restore(const SavedMap& map);
+  // Once, before all below: asks the mapper for its grid. What an earlier run has mapped is shown to the detector.
+  // Throws ModuleFault, as the stages do.
+  const OccupancyGrid& begin();
+
+  // The stages of a tick, in their order. before: the estimate of the observation before.
+  [[nodiscard]] PoseEstimate localize(const Observation& observation, const PoseEstimate& before);
+  // Which cells may have changed; valid until the next call.
+  const CellChanges& map(const Observation& observation, const PoseEstimate& pose);
+  [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s);
+
+  [[nodiscard]] const CoarseGrid* coarse_grid() const { return coarse_; }  // as of the last recognise(); may be null
+  [[nodiscard]] LandmarkTracker& tracker() { return tracker_; }
+  [[nodiscard]] const LandmarkTracker& tracker() const { return tracker_; }
+
+ private:
+  [[nodiscard]] std::span<const LandmarkSighting> see_again(const Observation& observation, const PoseEstimate& before);
+  [[nodiscard]] DetectionReport detect(const CellChanges& changes, const Budget& budget);
+  void add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const;
+
+  const MissionConfig& config_;
+  const StagedModules& modules_;
+  const Budget budget_;
+  LandmarkTracker tracker_;
+  LandmarkSightings sightings_;
+  HoldOut hold_out_;
+  Observation for_map_;  // without what is held out; a member for its memory only
+  const OccupancyGrid* grid_ = nullptr;
+  const CoarseGrid* coarse_ = nullptr;
+  std::optional<Pose2> T_odom_localized_;  // odometry of the last estimate; none: where it begins is not known
+  double last_freed_check_s_ = 0.0;
+  bool is_resumed_ = false;
+};
+
+}  // namespace cairn

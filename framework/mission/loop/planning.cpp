@@ -1,0 +1,35 @@
+#include "framework/mission/loop/planning.hpp"
+
+namespace cairn {
+
+Planning::Planning(const Mission& mission, const StagedModules& modules, const LandmarkGraph& graph,
+                   ClusterTree clusters, CollisionMonitor& monitor, const Budget& budget)
+    : mission_(mission),
+      modules_(modules),
+      monitor_(monitor),
+      budget_(budget),
+      hierarchies_(graph, std::move(clusters),
+                   {mission.robot.max_v_mps, mission.robot.max_w_radps, mission.robot.radius_m}) {}
+
+PlanResult Planning::plan(const PlanRequest& request, WorldView world) {
+  monitor_.stop();
+  hierarchies_.update();
+  world.hierarchies = &hierarchies_;
+  return modules_.planner.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
+}
+
+void Planning::connect(LandmarkTracker& tracker, const WorldView& world) {
+  if (!modules_.routes || tracker.graph().landmarks().empty()) return;
+  monitor_.stop();
+  const auto plan = [&](const PlanRequest& request) {
+    return modules_.routes.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
+  };
+  tracker.connect(world, plan, module_seed(mission_.config.seed, PluginKind::planner, 1));
+}
+
+ClusterTree Planning::clusters() {
+  hierarchies_.update();
+  return hierarchies_.tree();
+}
+
+}  // namespace cairn

@@ -1,0 +1,39 @@
+// The mission's planner, as behaviours and the landmark graph use it. The robot stands while it plans.
+#pragma once
+
+#include "framework/landmarks/tracker.hpp"
+#include "framework/mission/loop/staged_modules.hpp"
+#include "framework/safety/collision_monitor.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
+
+namespace cairn {
+
+class Planning {
+ public:
+  // All must outlive it. clusters: of the graph as an earlier run has left them.
+  Planning(const Mission& mission, const StagedModules& modules, const LandmarkGraph& graph, ClusterTree clusters,
+           CollisionMonitor& monitor, const Budget& budget);
+
+  [[nodiscard]] bool has_planner() const { return static_cast<bool>(modules_.planner); }
+  // There must be a planner. Throws ModuleFault.
+  [[nodiscard]] PlanResult plan(const PlanRequest& request, WorldView world);
+  // Joins the landmarks by routes; nothing without a planner. Throws ModuleFault.
+  void connect(LandmarkTracker& tracker, const WorldView& world);
+
+  // Brings the hierarchies in line with the graph.
+  void update() { hierarchies_.update(); }
+  // The same, and the clusters that come of it.
+  [[nodiscard]] ClusterTree clusters();
+  // As they were last brought in line. When that is decides which ids the clusters get, so that what must change
+  // nothing asks for these.
+  [[nodiscard]] ClusterTree last_clusters() const { return hierarchies_.last_tree(); }
+
+ private:
+  const Mission& mission_;
+  const StagedModules& modules_;
+  CollisionMonitor& monitor_;
+  const Budget budget_;
+  Hierarchies hierarchies_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,26 @@
+#include "framework/mission/loop/staged_modules.hpp"
+
+namespace cairn {
+
+StagedModules::StagedModules(const MissionModules& modules, const Mission& mission,
+                             std::shared_ptr<const WallClock> wall_clock)
+    : clock(std::move(wall_clock)), T_map_start(modules.T_map_start) {
+  const MissionConfig& config = mission.config;
+  const auto staged = [this](const auto& module, const char* stage, const PluginChoice& choice) {
+    using Module = typename std::decay_t<decltype(module)>::element_type;
+    return module ? Staged<Module>(module, clock, clock.add(stage, choice.name)) : Staged<Module>();
+  };
+  tick = clock.add("tick", "");
+  sensor = staged(modules.sensor, "sensor", config.sensor);
+  localizer = staged(modules.localizer, "localizer", config.localizer);
+  mapper = staged(modules.mapper, "map", config.map);
+  detector = staged(modules.detector, "detector", config.detector);
+  planner = staged(modules.planner, "planner", config.planner);
+  routes = staged(modules.planner, "routes", config.planner);
+  const std::vector<const TreeNode*> nodes = behaviours_of(mission.steps);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    behaviours.push_back(staged(modules.behaviours[i], "behaviour", nodes[i]->choice));
+  drive = clock.add("drive", config.sensor.name);
+}
+
+}  // namespace cairn

@@ -1,0 +1,16 @@
+#include "framework/mission/loop/world_state.hpp"
+
+namespace cairn {
+
+WorldView WorldState::view() const {
+  WorldView world{
+      *grid, graph, robot, pose, time_s, has_observation ? &observation : nullptr, driven.speed_reduction_ratio};
+  world.T_map_start = T_map_start;
+  return world;
+}
+
+double WorldState::explored_ratio() const {
+  return grid == nullptr ? 0.0 : known_ratio(*grid);
+}
+
+}  // namespace cairn

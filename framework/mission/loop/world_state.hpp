@@ -1,0 +1,36 @@
+// What the mission knows, as its ticks go on.
+//
+// The loop puts the value of each stage here for those who look on: behaviours, planners and listeners. Stages
+// themselves get values and return them.
+#pragma once
+
+#include <utility>
+
+#include "framework/contracts/world_view.hpp"
+#include "framework/mission/events.hpp"
+#include "framework/safety/collision_monitor.hpp"
+
+namespace cairn {
+
+struct WorldState {
+  const RobotModel& robot;
+  const LandmarkGraph& graph;
+  Pose2 T_map_start;                    // a mission that was resumed: where it began at first
+  const OccupancyGrid* grid = nullptr;  // of the mapper; null before the run, and when its module was given up with it
+  const CoarseGrid* coarse = nullptr;   // of the detector; may be null
+  Observation observation{};
+  bool has_observation = false;
+  PoseEstimate pose{};
+  double time_s = 0.0;
+  DriveCommand driven{};
+
+  void observe(Observation seen) {
+    observation = std::move(seen);
+    has_observation = true;
+  }
+  // There must be a grid.
+  [[nodiscard]] WorldView view() const;
+  [[nodiscard]] double explored_ratio() const;  // 0 without a grid
+};
+
+}  // namespace cairn
