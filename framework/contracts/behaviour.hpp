@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/contracts/plan_question.hpp"
 #include "framework/contracts/planner.hpp"
@@ -49,6 +50,17 @@ class Behaviour {
   // Called when the step is left before it ended, and when it is to be done once more after its end; it must
   // not ask for anything. A tick after it begins the step afresh.
   virtual void halt() = 0;
+};
+
+// Not the BehaviourContext of a tick.
+struct BehaviourFactoryContext : ModuleContext {
+  std::vector<std::string> categories{};  // of landmarks that the mission can find; empty: not known
+};
+
+template <>
+struct PluginTraits<Behaviour> {
+  static constexpr PluginKind kKind = PluginKind::behaviour;
+  using Context = BehaviourFactoryContext;
 };
 
 }  // namespace cairn

@@ -18,6 +18,10 @@ std::string_view name_of(PluginKind kind) {
       return "planner";
     case PluginKind::behaviour:
       return "behaviour";
+    case PluginKind::path_planner:
+      return "path_planner";
+    case PluginKind::route_planner:
+      return "route_planner";
   }
   return "?";
 }

@@ -1,14 +1,17 @@
 // Detector: recognises landmarks in OG1 (paper section 3).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/contracts/budget.hpp"
+#include "framework/contracts/module_context.hpp"
 #include "maps/grid/coarse_grid.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
+#include "maps/landmarks/landmark_template.hpp"
 
 namespace cairn {
 
@@ -52,6 +55,16 @@ class Detector {
   virtual DetectionReport detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) = 0;
   // OG2, for pictures and reports; null when the detector keeps none.
   [[nodiscard]] virtual const CoarseGrid* coarse_grid() const { return nullptr; }
+};
+
+struct DetectorContext : ModuleContext {
+  std::shared_ptr<const TemplateSet> templates{};  // rendered
+};
+
+template <>
+struct PluginTraits<Detector> {
+  static constexpr PluginKind kKind = PluginKind::detector;
+  using Context = DetectorContext;
 };
 
 }  // namespace cairn

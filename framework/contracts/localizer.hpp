@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "framework/contracts/module_context.hpp"
 #include "framework/contracts/observation.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
@@ -32,6 +33,16 @@ class Localizer {
   // Numbers that are not finite, or beyond all maps, do not spoil the estimate: it stays finite and its
   // covariance symmetric and positive semi-definite. Hot: no allocation.
   virtual PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) = 0;
+};
+
+struct LocalizerContext : ModuleContext {
+  Pose2 T_map_start{};  // where the robot begins
+};
+
+template <>
+struct PluginTraits<Localizer> {
+  static constexpr PluginKind kKind = PluginKind::localizer;
+  using Context = LocalizerContext;
 };
 
 }  // namespace cairn

@@ -2,13 +2,14 @@
 //
 //   void register_module(cairn::Registrar& registrar) {
 //     registrar.add<cairn::Localizer, MyConfig>("my_localizer", "one line for people",
-//         [](const MyConfig& config, const cairn::ModuleContext& context) {
-//           return std::make_unique<MyLocalizer>(config, context.robot);
+//         [](const MyConfig& config, const cairn::LocalizerContext& context) {
+//           return std::make_unique<MyLocalizer>(config, context.robot, context.T_map_start);
 //         });
 //   }
 //   CAIRN_MODULE(register_module)
 //
-// The ABI stamp is a constant that the host compares before it calls anything of the module.
+// The ABI stamp is a constant that the host compares before it calls anything of the module. It is made of all
+// contracts, so this header is for the file with CAIRN_MODULE; algorithms include the contract that they implement.
 #pragma once
 
 #include "framework/contracts/abi_stamp.hpp"

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "framework/contracts/budget.hpp"
+#include "framework/contracts/module_context.hpp"
 #include "framework/contracts/observation.hpp"
 
 namespace cairn {
+
+struct World;
 
 class Drive {
  public:
@@ -23,6 +26,18 @@ class Sensor {
   virtual Drive* drive() { return nullptr; }
   // The first pose in the map frame when the source knows it (a log with poses).
   [[nodiscard]] virtual std::optional<Pose2> start() const { return std::nullopt; }
+};
+
+struct SensorContext : ModuleContext {
+  const World* world = nullptr;  // simulation only
+  Pose2 T_map_start{};           // where the mission says the robot begins
+  double begin_s = 0.0;          // the mission's clock as this run begins: not 0 when it goes on from a saved map
+};
+
+template <>
+struct PluginTraits<Sensor> {
+  static constexpr PluginKind kKind = PluginKind::sensor;
+  using Context = SensorContext;
 };
 
 }  // namespace cairn

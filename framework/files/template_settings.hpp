@@ -1,5 +1,5 @@
 // The settings of every detector that looks for landmark templates. The host reads them as well: it renders
-// the templates that the detector finds in ModuleContext::templates.
+// the templates that the detector finds in DetectorContext::templates.
 #pragma once
 
 #include <filesystem>

@@ -79,7 +79,7 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.plugin("localizer", &C::localizer, "localizer", "where the robot is").required = true;
   fields.plugin("map", &C::map, "map", "builds the occupancy grid").required = true;
   fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
-  fields.plugin("planner", &C::planner, "planner", "finds ways");
+  fields.plugin("planner", &C::planner, "planner", "plans paths from place to place");
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
   fields.group("collision_monitor", &C::collision_monitor, "what keeps the robot from driving into what it sees");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");

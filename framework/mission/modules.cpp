@@ -10,21 +10,36 @@ namespace {
 
 template <class Interface>
 std::shared_ptr<Interface> build(const ModuleLibrary& library, const PluginChoice& choice,
-                                 const ModuleContext& context) {
+                                 const ContextOf<Interface>& context) {
   return fenced_making(choice.name, [&] { return library.make<Interface>(choice, context); });
 }
 
-ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, const MissionModules& built,
-                          PluginKind kind, std::size_t index = 0) {
-  ModuleContext context{mission.robot};
-  context.world = mission.world ? &*mission.world : nullptr;
-  context.T_map_start = built.T_map_start;
-  context.seed = module_seed(mission.config.seed, kind, index);
-  context.templates = built.templates;
-  context.modules = &library;
-  for (const LandmarkShape& shape : mission.shapes) context.categories.push_back(shape.category);
-  context.begin_s = built.begin_s;
-  return context;
+// What factories of all kinds get.
+ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, PluginKind kind,
+                          std::size_t index = 0) {
+  return {mission.robot, module_seed(mission.config.seed, kind, index), &library};
+}
+
+std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary& library,
+                                     const MissionModules& built) {
+  const World* const world = mission.world ? &*mission.world : nullptr;
+  return build<Sensor>(library, mission.config.sensor,
+                       {context_for(mission, library, PluginKind::sensor), world, built.T_map_start, built.begin_s});
+}
+
+std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
+                                           const MissionModules& built) {
+  return build<Localizer>(library, mission.config.localizer,
+                          {context_for(mission, library, PluginKind::localizer), built.T_map_start});
+}
+
+std::shared_ptr<Mapper> build_mapper(const Mission& mission, const ModuleLibrary& library,
+                                     const OccupancyGrid* grid_so_far = nullptr) {
+  return build<Mapper>(library, mission.config.map, {context_for(mission, library, PluginKind::map), grid_so_far});
+}
+
+std::shared_ptr<Planner> build_planner(const Mission& mission, const ModuleLibrary& library) {
+  return build<Planner>(library, mission.config.planner, context_for(mission, library, PluginKind::planner));
 }
 
 void add_detector(const Mission& mission, const ModuleLibrary& library, double cell_m, MissionModules& built) {
@@ -32,7 +47,8 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
   (void)library.find(PluginKind::detector, detector.name, detector.config.place);
   built.templates = std::make_shared<TemplateSet>(
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, cell_m, library); }));
-  built.detector = build<Detector>(library, detector, context_for(mission, library, built, PluginKind::detector));
+  built.detector =
+      build<Detector>(library, detector, {context_for(mission, library, PluginKind::detector), built.templates});
 }
 
 // What is no behaviour may be meant for a node.
@@ -55,8 +71,10 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
   throw ConfigError(node.place, sentence);
 }
 
-std::shared_ptr<Behaviour> build_behaviour(const ModuleLibrary& library, const TreeNode& node,
-                                           const ModuleContext& context) {
+std::shared_ptr<Behaviour> build_behaviour(const Mission& mission, const ModuleLibrary& library, const TreeNode& node,
+                                           std::size_t index = 0) {
+  BehaviourFactoryContext context{context_for(mission, library, PluginKind::behaviour, index)};
+  for (const LandmarkShape& shape : mission.shapes) context.categories.push_back(shape.category);
   if (library.find_any(node.choice.name) == nullptr) fail_unknown(library, node);
   try {
     return build<Behaviour>(library, node.choice, context);
@@ -79,11 +97,11 @@ Pose2 start_of(const MissionConfig& config) {
   return {config.start.at_m.x(), config.start.at_m.y(), config.start.angle_rad};
 }
 
-std::shared_ptr<Mapper> mapper_that_goes_on(const ModuleLibrary& library, const PluginChoice& map,
-                                            ModuleContext context, const Mapper& empty, const OccupancyGrid& saved) {
+std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const ModuleLibrary& library, const Mapper& empty,
+                                            const OccupancyGrid& saved) {
+  const PluginChoice& map = mission.config.map;
   check_same_cells(saved, fenced("map", map.name, [&]() -> const OccupancyGrid& { return empty.grid(); }));
-  context.grid_so_far = &saved;
-  std::shared_ptr<Mapper> mapper = build<Mapper>(library, map, context);
+  std::shared_ptr<Mapper> mapper = build_mapper(mission, library, &saved);
   if (fenced("map", map.name, [&]() -> const OccupancyGrid& { return mapper->grid(); }) != saved)
     throw StoreError("cannot go on with this mission: its map module " + map.name +
                      " does not begin with a grid that is given to it");
@@ -133,24 +151,18 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
     built.T_map_start = resume->progress->true_T_map_robot.value_or(resume->progress->T_map_robot);
   }
-  const auto context = [&](PluginKind kind, std::size_t index = 0) {
-    return context_for(mission, library, built, kind, index);
-  };
-  built.sensor = build<Sensor>(library, config.sensor, context(PluginKind::sensor));
+  built.sensor = build_sensor(mission, library, built);
   check_has_steps(config, mission.steps, *built.sensor);
   const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
   if (start) built.T_map_start = *start;
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
-  built.localizer = build<Localizer>(library, config.localizer, context(PluginKind::localizer));
-  built.mapper = build<Mapper>(library, config.map, context(PluginKind::map));
-  if (resume != nullptr)
-    built.mapper = mapper_that_goes_on(library, config.map, context(PluginKind::map), *built.mapper, resume->grid);
+  built.localizer = build_localizer(mission, library, built);
+  built.mapper = build_mapper(mission, library);
+  if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
   if (!config.detector.name.empty()) add_detector(mission, library, built.mapper->grid().cell_m(), built);
-  if (!config.planner.name.empty())
-    built.planner = build<Planner>(library, config.planner, context(PluginKind::planner));
+  if (!config.planner.name.empty()) built.planner = build_planner(mission, library);
   for (const TreeNode* node : behaviours_of(mission.steps))
-    built.behaviours.push_back(
-        build_behaviour(library, *node, context(PluginKind::behaviour, built.behaviours.size())));
+    built.behaviours.push_back(build_behaviour(mission, library, *node, built.behaviours.size()));
   return built;
 }
 
@@ -168,15 +180,12 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
   const MissionConfig& config = mission.config;
   MissionModules built;
   built.T_map_start = start_of(config);
-  const auto context = [&](PluginKind kind, std::size_t index = 0) {
-    return context_for(mission, library, built, kind, index);
-  };
   attempt([&] {
-    const auto sensor = build<Sensor>(library, config.sensor, context(PluginKind::sensor));
+    const auto sensor = build_sensor(mission, library, built);
     check_has_steps(config, mission.steps, *sensor);
   });
-  attempt([&] { (void)build<Localizer>(library, config.localizer, context(PluginKind::localizer)); });
-  attempt([&] { built.mapper = build<Mapper>(library, config.map, context(PluginKind::map)); });
+  attempt([&] { (void)build_localizer(mission, library, built); });
+  attempt([&] { built.mapper = build_mapper(mission, library); });
   attempt([&] {
     if (config.detector.name.empty() || !built.mapper) return;
     Mission ideal = mission;
@@ -184,10 +193,10 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
     add_detector(ideal, library, built.mapper->grid().cell_m(), built);
   });
   attempt([&] {
-    if (!config.planner.name.empty()) (void)build<Planner>(library, config.planner, context(PluginKind::planner));
+    if (!config.planner.name.empty()) (void)build_planner(mission, library);
   });
   for (const TreeNode* node : behaviours_of(mission.steps))
-    attempt([&] { (void)build_behaviour(library, *node, context(PluginKind::behaviour)); });
+    attempt([&] { (void)build_behaviour(mission, library, *node); });
   return errors;
 }
 

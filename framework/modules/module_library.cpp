@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "framework/contracts/lone_planners.hpp"
+
 namespace cairn {
 namespace {
 
@@ -55,7 +57,8 @@ void ModuleLibrary::adopt(std::unique_ptr<LoadedPlugin> plugin) {
 std::vector<ModuleEntry> ModuleLibrary::entries() const {
   std::vector<ModuleEntry> sorted = entries_;
   std::sort(sorted.begin(), sorted.end(), [](const ModuleEntry& a, const ModuleEntry& b) {
-    return std::pair(a.module->kind, a.module->name) < std::pair(b.module->kind, b.module->name);
+    const auto rank = [](PluginKind kind) { return std::find(std::begin(kPluginKinds), std::end(kPluginKinds), kind); };
+    return std::pair(rank(a.module->kind), a.module->name) < std::pair(rank(b.module->kind), b.module->name);
   });
   return sorted;
 }
@@ -70,9 +73,9 @@ const RegisteredModule& ModuleLibrary::find(PluginKind kind, const std::string& 
   const std::string kind_text(name_of(kind));
   std::vector<std::string> names;
   for (const ModuleEntry& entry : entries())
-    if (entry.module->kind == kind) names.push_back(entry.module->name);
+    if (serves_as(entry.module->kind, kind)) names.push_back(entry.module->name);
   const ModuleEntry* entry = find_any(name);
-  if (entry != nullptr && entry->module->kind == kind) return *entry->module;
+  if (entry != nullptr && serves_as(entry->module->kind, kind)) return *entry->module;
   if (entry != nullptr)
     throw ConfigError(
         place, "\"" + name + "\" is a " + std::string(name_of(entry->module->kind)) + " plugin, not a " + kind_text);
@@ -87,7 +90,20 @@ const RegisteredModule& ModuleLibrary::find(PluginKind kind, const std::string& 
 std::shared_ptr<void> ModuleLibrary::make_any(PluginKind kind, const PluginChoice& choice,
                                               const ModuleContext& context) const {
   const RegisteredModule& module = find(kind, choice.name, choice.config.place);
-  return module.make(choice.config, context);
+  std::shared_ptr<void> made = module.make(choice.config, context);
+  if (module.kind == kind) return made;
+  // The contexts of all three kinds of planners are the same type.
+  std::shared_ptr<Planner> planner;
+  if (module.kind == PluginKind::path_planner)
+    planner = std::make_shared<LonePathPlanner>(std::static_pointer_cast<PathPlanner>(made));
+  else
+    planner = std::make_shared<LoneRoutePlanner>(std::static_pointer_cast<RoutePlanner>(made));
+  return planner;
+}
+
+bool serves_as(PluginKind found, PluginKind wanted) {
+  if (wanted != PluginKind::planner) return found == wanted;
+  return found == PluginKind::planner || found == PluginKind::path_planner || found == PluginKind::route_planner;
 }
 
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesystem::path>& given) {

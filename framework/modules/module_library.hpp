@@ -26,7 +26,8 @@ class ModuleLibrary : public ModuleMaker {
   void add(const std::string& origin, const Registrar& registrar);
 
   [[nodiscard]] std::vector<ModuleEntry> entries() const;  // by kind, then name
-  // Throws ConfigError at the place of the choice: unknown name (nearest one), wrong kind.
+  // The module of that name; where a planner is asked for, a path or route planner will do. Throws ConfigError at the
+  // place of the choice: unknown name (nearest one), wrong kind.
   [[nodiscard]] const RegisteredModule& find(PluginKind kind, const std::string& name, const SourcePlace& place) const;
   [[nodiscard]] const ModuleEntry* find_any(const std::string& name) const;
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
@@ -40,6 +41,10 @@ class ModuleLibrary : public ModuleMaker {
   std::vector<ModuleEntry> entries_;
   std::vector<std::string> faults_;
 };
+
+// Whether a module of kind `found` can be made where one of kind `wanted` is asked for: a path or route planner serves
+// as a planner by itself (lone_planners.hpp).
+[[nodiscard]] bool serves_as(PluginKind found, PluginKind wanted);
 
 // Where modules are looked for: folders given, then CAIRN_PLUGIN_PATH (colon separated), then
 // lib/cairn beside the program's bin folder.

@@ -22,13 +22,13 @@ ordered_json json_of(const std::optional<double>& value) {
 
 ordered_json json_of(const std::vector<PathSegment>& segments) {
   ordered_json list = ordered_json::array();
-  for (const PathSegment& piece : segments)
+  for (const PathSegment& segment : segments)
     list.push_back(
-        {{"origin", std::string(name_of(piece.origin))}, {"route", piece.route}, {"length_m", piece.length_m}});
+        {{"origin", std::string(name_of(segment.origin))}, {"route", segment.route}, {"length_m", segment.length_m}});
   return list;
 }
 
-ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind kind, const LandmarkGraph& graph,
+ordered_json json_of_explanation(const RouteExplanation& explanation, CostKind kind, const LandmarkGraph& graph,
                                  const ClusterTree& clusters) {
   ordered_json passed = ordered_json::array();
   for (const auto& level : explanation.clusters) {
@@ -46,9 +46,9 @@ ordered_json json_of_explanation(const PlanExplanation& explanation, CostKind ki
           {"closed_in_the_way", explanation.closed_in_the_way}};
 }
 
-ordered_json json_of(const std::vector<PlanAlternative>& alternatives) {
+ordered_json json_of(const std::vector<RouteAlternative>& alternatives) {
   ordered_json list = ordered_json::array();
-  for (const PlanAlternative& other : alternatives)
+  for (const RouteAlternative& other : alternatives)
     list.push_back({{"cost_m", other.cost_m}, {"landmarks", labels(other.landmarks, "L")}, {"routes", other.routes}});
   return list;
 }

@@ -17,7 +17,7 @@ struct PlanAnswer {
   const PlanResult& result;
   const LandmarkGraph& graph;
   const ClusterTree& clusters;                // that an explanation names
-  std::vector<TrajectoryPoint> trajectory{};  // told when the question asks for it
+  std::vector<TrajectoryPoint> trajectory{};  // given when the question asks for it
   bool with_times = true;                     // of the wall clock: they differ from run to run
 };
 // One object, without a line's end. Names that are no UTF-8 get replacement characters.

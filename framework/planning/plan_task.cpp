@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array kCosts{CostKind::length, CostKind::time, CostKind::clearance};
 
-// The landmarks that a landmark's or a cluster's name stands for.
+// The landmarks that a landmark's or a cluster's name means.
 std::vector<LandmarkId> landmarks_called(const std::string& name, const LandmarkGraph& graph,
                                          const ClusterTree& clusters) {
   if (graph.find_by_name(name) == nullptr)

@@ -18,7 +18,7 @@ void check(const PlanQuestion& question);
 
 struct PlanTask {
   PlanRequest request;
-  std::vector<Place> via;  // stops on the way
+  std::vector<Place> via;  // stops in between
 };
 // here: what the place `here` stands for; without it, that is a name like any other. Throws PlaceError.
 [[nodiscard]] PlanTask task_of(const PlanQuestion& question, const LandmarkGraph& graph, const ClusterTree& clusters,

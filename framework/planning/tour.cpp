@@ -22,11 +22,11 @@ std::optional<double> sum_of(std::optional<double> a, std::optional<double> b) {
   return a && b ? std::optional(*a + *b) : std::nullopt;
 }
 
-std::optional<double> cost_with_all_open(const PlanExplanation& leg) {
+std::optional<double> cost_with_all_open(const RouteExplanation& leg) {
   return leg.cost_with_closed_open ? leg.cost_with_closed_open : leg.cost;
 }
 
-void append_explanation(std::optional<PlanExplanation>& sum, const std::optional<PlanExplanation>& leg) {
+void append_explanation(std::optional<RouteExplanation>& sum, const std::optional<RouteExplanation>& leg) {
   if (!leg) return;
   if (!sum) {
     sum = leg;

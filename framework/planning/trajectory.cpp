@@ -28,7 +28,7 @@ struct Leg {
   Point chord;
   double length_m = 0.0;     // as driven
   double heading_rad = 0.0;  // where it begins
-  double turn_rad = 0.0;     // on the way
+  double turn_rad = 0.0;     // between the poses
   bool backwards = false;
   bool is_arc = false;  // else it is driven straight
 

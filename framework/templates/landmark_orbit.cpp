@@ -66,23 +66,14 @@ void drive_orbit(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const
   }
 }
 
-ModuleContext context_of(const OrbitCrew& crew, const RobotModel& robot, std::uint64_t seed, const Pose2& T_map_start,
-                         const World* world) {
-  ModuleContext context{robot};
-  context.world = world;
-  context.T_map_start = T_map_start;
-  context.seed = seed;
-  context.modules = &crew.modules;
-  return context;
-}
-
 }  // namespace
 
 std::shared_ptr<Mapper> map_of_orbits(const OrbitCrew& crew, const Contour& contour, const OrbitPlan& plan) {
   const double contour_m = 0.5 * contour.outer_diameter_m();
   const double farthest_m = contour_m + std::ranges::max(plan.standoffs_m);
   const RobotModel robot = calibrated(crew.robot, 2.0 * farthest_m);
-  auto mapper = crew.modules.make<Mapper>(crew.map, context_of(crew, robot, plan.seed, {}, nullptr));
+  const ModuleContext context{robot, plan.seed, &crew.modules};
+  auto mapper = crew.modules.make<Mapper>(crew.map, {context});
   const Point centre = mapper->grid().centre_of({0, 0}) + plan.offset_m;
   const World world = world_of(contour, {centre.x(), centre.y(), plan.orientation_rad}, 2.0 * farthest_m + 1.0);
   const double speed_mps = std::min(plan.speed_mps, robot.max_v_mps);
@@ -91,8 +82,7 @@ std::shared_ptr<Mapper> map_of_orbits(const OrbitCrew& crew, const Contour& cont
       const double radius_m = contour_m + standoff_m;
       const double side = landmark_side == Side::left ? 1.0 : -1.0;
       const Pose2 T_map_start{centre.x() + side * radius_m, centre.y(), std::numbers::pi / 2.0};
-      const auto sensor =
-          crew.modules.make<Sensor>(crew.sensor, context_of(crew, robot, plan.seed, T_map_start, &world));
+      const auto sensor = crew.modules.make<Sensor>(crew.sensor, {context, &world, T_map_start});
       drive_orbit(*sensor, *mapper, T_map_start, {speed_mps, side * speed_mps / radius_m}, centre, plan.needed_m);
     }
   }

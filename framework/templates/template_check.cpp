@@ -25,7 +25,7 @@ double orientation_error(double a_rad, double b_rad, double period_rad) {
 
 DetectionReport report_on(const OccupancyGrid& grid, const std::shared_ptr<const TemplateSet>& set,
                           const PluginChoice& choice, const OrbitCrew& crew) {
-  ModuleContext context{crew.robot};
+  DetectorContext context{{crew.robot}};
   context.templates = set;
   context.modules = &crew.modules;
   return crew.modules.make<Detector>(choice, context)->detect(grid, everything_in(grid.bounds()), Budget());

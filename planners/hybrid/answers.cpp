@@ -60,7 +60,8 @@ PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, c
 PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
                       const GoalPlace& goal, const PlanResult& planned) {
   if (!route_is_free(grid, rules.ground, points_on(planned.path), rules.radius_m)) {
-    return refused_plan({PlanOutcome::out_of_budget, "the route planner's path touches something and was refused"});
+    return refused<PlanResult>(
+        {PlanOutcome::out_of_budget, "the route planner's path touches something and was refused"});
   }
   PlanResult result = planned;
   const auto origin = planned.path.size() == 2 ? PathSegment::Origin::straight : PathSegment::Origin::planned;

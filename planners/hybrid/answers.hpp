@@ -1,4 +1,4 @@
-// Answers of what was walked or planned: joined, shortened, re-checked and told.
+// Answers made of what was walked or planned: joined, shortened and re-checked.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ struct AnswerRules {
                                         const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path,
                                         const Walk& walk);
 
-// The route planner's path as it is, from where the start is left: there is nothing to join it to. Without a path when
+// The path planner's path as it is, from where the start is left: there is nothing to join it to. Without a path when
 // it touches something.
 [[nodiscard]] PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
                                     const GoalPlace& goal, const PlanResult& planned);

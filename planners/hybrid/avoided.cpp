@@ -12,7 +12,7 @@ void add_points(const Place& end, const LandmarkGraph& graph, const DiscSpace& s
   if (end.pose) points.push_back(end.pose->position());
   for (const LandmarkId id : end.landmarks)
     if (const Landmark* const landmark = graph.find(id))
-      if (const auto stand = approach_pose(space, *landmark, radius_m)) points.push_back(stand->position());
+      if (const auto approach = approach_pose(space, *landmark, radius_m)) points.push_back(approach->position());
 }
 
 std::vector<Cell> cells_under(const OccupancyGrid& grid, const Point& p_map, double radius_m) {
@@ -35,9 +35,9 @@ std::optional<OccupancyGrid> with_avoided_blocked(const WorldView& world, const 
   std::optional<OccupancyGrid> blocked;
   for (const LandmarkId id : request.avoid) {
     const Landmark* const landmark = world.graph.find(id);
-    const auto stand = landmark != nullptr ? approach_pose(space, *landmark, radius_m) : std::nullopt;
-    if (!stand) continue;
-    const std::vector<Cell> cells = cells_under(world.grid, stand->position(), radius_m);
+    const auto approach = landmark != nullptr ? approach_pose(space, *landmark, radius_m) : std::nullopt;
+    if (!approach) continue;
+    const std::vector<Cell> cells = cells_under(world.grid, approach->position(), radius_m);
     const auto touches_end = [&](Cell cell) {
       return std::any_of(ends.begin(), ends.end(), [&](const Point& end) {
         return distance_to_square_m(end, end, world.grid.centre_of(cell), world.grid.cell_m()) < radius_m;

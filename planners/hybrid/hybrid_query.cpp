@@ -3,6 +3,7 @@
 #include <chrono>
 #include <set>
 
+#include "framework/contracts/lone_planners.hpp"
 #include "planners/common/any_angle/nearest_goals.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"
@@ -27,27 +28,27 @@ bool is_large(const OccupancyGrid& grid) {
   return std::int64_t{grid.bounds().width()} * grid.bounds().height() >= kLarge_cells;
 }
 
-// One request on its way to an answer.
+// Answers one request.
 class Query {
  public:
   Query(const HybridTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget)
       : tools_(tools), request_(request), world_(world), budget_(budget) {
-    ends_.ground.unknown = tools.unknown;
-    ends_.radius_m = request.radius_m + tools.margin_m;
+    ends_.ground.unknown = tools.traits.unknown;
+    ends_.radius_m = request.radius_m + tools.traits.margin_m;
     ends_.start_tolerance_m = tools.config.start_tolerance_m;
     legs_ = {request.radius_m, disc_m(), tools.config.detour_ratio, request.seed};
     answers_ = {ends_.ground, request.radius_m, ends_.radius_m, tools.config.shortcut};
   }
 
   PlanResult answer() {
-    if (budget_.exhausted() || budget_.iterations <= 0) return stopped_plan(stop_outcome(budget_));
+    if (budget_.exhausted() || budget_.iterations <= 0) return refused<PlanResult>(stopped(stop_outcome(budget_)));
     if (world_.grid.bounds().empty()) return answer_of_graph();
-    if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused_plan(*refusal);
+    if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused<PlanResult>(*refusal);
     // Before the ground is known as a whole, which on a large map takes longer than the answer.
     if (is_large(world_.grid) && tools_.usual.spaces.empty())
       if (auto answer = stored_route(tools_, legs_, answers_, request_, world_, budget_)) return *std::move(answer);
     const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
-    if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused_plan(*refusal);
+    if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused<PlanResult>(*refusal);
     const auto& start = std::get<StartPlace>(usual);
     if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space, disc_m());
     PlanResult result = avoided_grid_ ? answer_avoiding() : answer_from(start, world_);
@@ -62,7 +63,7 @@ class Query {
 
  private:
   PlanResult answer_of_graph() const {
-    PlanResult result = tools_.graph.plan(request_, world_, budget_);
+    PlanResult result = LoneRoutePlanner(tools_.route_planner).plan(request_, world_, budget_);
     if (result.outcome == PlanOutcome::solved) result.segments = segments_of_graph(result, world_.graph);
     return result;
   }
@@ -71,7 +72,7 @@ class Query {
   PlanResult answer_avoiding() {
     const WorldView world = with_grid(*avoided_grid_, world_);
     const auto start = start_of(request_.from, world, ends_, tools_.avoiding.spaces);
-    PlanResult result = std::holds_alternative<Refusal>(start) ? refused_plan(std::get<Refusal>(start))
+    PlanResult result = std::holds_alternative<Refusal>(start) ? refused<PlanResult>(std::get<Refusal>(start))
                                                                : answer_from(std::get<StartPlace>(start), world);
     if (result.outcome != PlanOutcome::solved) result.reason += kAvoidedCount;
     return result;
@@ -88,7 +89,7 @@ class Query {
     }
   }
 
-  // With a hair more than is re-checked, so that rounding cannot tell them apart.
+  // With a hair more than is re-checked, so that rounding makes no difference.
   double disc_m() const { return ends_.radius_m + kMinRadius_m; }
 
   // The robot's world as it is planned in: with the ground under the robot known, and the robot no
@@ -100,7 +101,7 @@ class Query {
     return planned;
   }
   Walker walker(const StartPlace& start, const WorldView& planned_world) const {
-    return {planned_world, *start.space, legs_, tools_.route, budget_};
+    return {planned_world, *start.space, legs_, tools_.path_planner, budget_};
   }
 
   PlanResult answer_from(const StartPlace& start, const WorldView& world) {
@@ -108,7 +109,7 @@ class Query {
     const auto routes = ground.routes.routes_of(start.space, disc_m());
     const auto goals_or_refusal = goals_of(
         request_.to, world, ends_, start, [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
-    if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused_plan(*refusal);
+    if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused<PlanResult>(*refusal);
     std::vector<GoalPlace> goals;
     for (RankedGoal& goal :
          nearest_first(std::get<std::vector<GoalPlace>>(goals_or_refusal), start.leave_from, *routes, budget_))
@@ -118,7 +119,7 @@ class Query {
 
     const WorldView planned = planned_world(start, world);
     const SymbolicQuery query{request_, world_, start, goals, disc_m(), tools_.config.detour_ratio};
-    const SymbolicSearch search(query, tools_.graph, budget_);
+    const SymbolicSearch search(query, *tools_.route_planner, budget_);
     // What only a graph with routes needs.
     const double direct_m = world_.graph.routes().empty()
                                 ? 0.0
@@ -126,28 +127,28 @@ class Query {
     std::optional<PlanResult> over = over_graph(search, planned, start, goals, direct_m);
     PlanResult result = over ? std::move(*over) : direct(planned, start, goals);
     if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
-      alternatives_ = open_alternatives(search, ways_, result.routes, request_.alternatives,
+      alternatives_ = open_alternatives(search, candidates_, result.routes, request_.alternatives,
                                         OpenRoutes(world_.graph, walker(start, planned), blocked_), budget_);
     return result;
   }
 
-  // The way over landmarks: an answer, or none when there is none or the direct one is to be preferred.
+  // The path over landmarks; none when there is none or the direct one is preferred.
   std::optional<PlanResult> over_graph(const SymbolicSearch& search, const WorldView& planned, const StartPlace& start,
                                        const std::vector<GoalPlace>& goals, double direct_m) {
-    // Who asks for other than short ways takes longer ones into the bargain.
+    // A request for other than short paths accepts longer ones.
     const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
     for (;;) {
       const SymbolicAnswer symbolic = search_graph(search);
-      if (symbolic.stopped) return stopped_plan(*symbolic.stopped);
+      if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
       if (!symbolic.path) return std::nullopt;
       if (!any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m) {
-        why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct way " +
+        why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct path " +
                       metres_text(direct_m);
         return std::nullopt;
       }
       const GoalPlace& goal = goals[symbolic.path->goal];
       const Walk walk = walk_along(planned, start, *symbolic.path, goal);
-      if (walk.stopped) return stopped_plan(*walk.stopped);
+      if (walk.stopped) return refused<PlanResult>(stopped(*walk.stopped));
       if (walk.access_leg_failed) return std::nullopt;
       if (!walk.blocked)
         return over_landmarks(answers_, planned_grid(start), budget_, start, goal, *symbolic.path, walk);
@@ -160,7 +161,7 @@ class Query {
     SymbolicAnswer answer = search.find(blocked_);
     graph_ms_ += ms_since(begin);
     settled_ += answer.settled;
-    ways_ = answer.ways;
+    candidates_ = answer.candidates;
     explanation_ = answer.explanation;
     return answer;
   }
@@ -191,7 +192,7 @@ class Query {
   }
 
   PlanResult direct_to(const WorldView& planned_world, const StartPlace& start, const GoalPlace& goal) {
-    PlanRequest request;
+    PathRequest request;
     request.from.pose = Pose2{start.leave_from.x(), start.leave_from.y(), start.pose.theta_rad};
     request.to.pose = goal.pose;
     request.to.heading_matters = goal.heading_rad.has_value();
@@ -199,7 +200,7 @@ class Query {
     request.seed = request_.seed;
     request.cost = request_.cost;
     const Time begin = Budget::Clock::now();
-    PlanResult planned = tools_.route.plan(request, planned_world, budget_);
+    PlanResult planned = plan_of(tools_.path_planner.plan(request, planned_world, budget_));
     route_ms_ += ms_since(begin);
     if (planned.path.empty()) return planned;
     PlanResult result = as_planned(answers_, planned_world.grid, start, goal, planned);
@@ -226,11 +227,11 @@ class Query {
   AnswerRules answers_;
   std::optional<OccupancyGrid> avoided_grid_;
   std::set<RouteId> blocked_;
-  std::vector<PlanAlternative> ways_;  // of the last search
+  std::vector<RouteAlternative> candidates_;  // of the last search
   std::string why_direct_;
   std::int64_t settled_ = 0;
-  std::vector<PlanAlternative> alternatives_;
-  std::optional<PlanExplanation> explanation_;
+  std::vector<RouteAlternative> alternatives_;
+  std::optional<RouteExplanation> explanation_;
   double graph_ms_ = 0.0;
   double route_ms_ = 0.0;
 };

@@ -1,4 +1,4 @@
-// One request to the hybrid planner on its way to an answer.
+// Answers one request to the hybrid planner.
 #pragma once
 
 #include "planners/hybrid/hybrid_planner.hpp"
@@ -8,12 +8,11 @@ namespace cairn {
 // What the planner brings to every request.
 struct HybridTools {
   const HybridConfig& config;
-  UnknownPolicy unknown;
-  double margin_m;  // that the route planner adds to a request's radius
+  const PlannerTraits& traits;  // of the path planner
   const HybridGround& usual;
   const HybridGround& avoiding;
-  const Planner& route;
-  const Planner& graph;
+  const PathPlanner& path_planner;
+  const std::shared_ptr<const RoutePlanner>& route_planner;
 };
 
 // For a disc that turns on the spot.

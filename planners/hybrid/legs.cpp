@@ -26,18 +26,18 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
     walk.cost_m += (to - from).norm();
     return Step::done;
   }
-  PlanRequest request;
+  PathRequest request;
   request.from.pose = Pose2{from.x(), from.y(), 0.0};
   request.to.pose = Pose2{to.x(), to.y(), 0.0};
   request.radius_m = rules_.radius_m;
   request.seed = rules_.seed;
-  const PlanResult planned = route_planner_.plan(request, world_, budget_);
+  const PathResult planned = path_planner_.plan(request, world_, budget_);
   if (planned.outcome == PlanOutcome::cancelled || budget_.exhausted()) {
     walk.stopped = stopped().value_or(planned.outcome);
     return Step::stopped;
   }
   if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return Step::failed;
-  // Another planner's word is not enough: it may leave its start with less.
+  // The path planner may leave its start with less clearance: check.
   if (!is_passable(planned.path) || planned.path.back().position() != to) return Step::failed;
   walk.add_part(PathSegment::Origin::planned, leg);
   for (std::size_t i = 1; i < planned.path.size(); ++i) walk.go_on_to(planned.path[i].position());
@@ -59,22 +59,22 @@ void Walker::take_leg(const Route& leg, Walk& walk) const {
     ++walk.stored_legs;
     return;
   }
-  const auto stand = approach_pose(space_, *world_.graph.find(leg.to), rules_.disc_m);
+  const auto approach = approach_pose(space_, *world_.graph.find(leg.to), rules_.disc_m);
   const Point from = walk.route.back().at;
-  const double straight_m = stand ? (stand->position() - from).norm() : 0.0;
+  const double straight_m = approach ? (approach->position() - from).norm() : 0.0;
   const double at_most_m = rules_.detour_ratio * std::max(leg.cost_m, straight_m);
-  if (!stand || go_to(stand->position(), leg.id, walk, at_most_m) == Step::failed) walk.blocked = leg.id;
+  if (!approach || go_to(approach->position(), leg.id, walk, at_most_m) == Step::failed) walk.blocked = leg.id;
   ++walk.planned_legs;
 }
 
 Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal) const {
   Walk walk;
   walk.route = {{from, 0}};
-  // A leg without a passable trajectory begins where its landmark is stood at.
+  // A leg without a passable trajectory begins at its landmark's approach pose.
   const Route& first = *world_.graph.find_route(path.routes.front());
   if (!is_passable(first.trajectory)) {
-    const auto stand = approach_pose(space_, *world_.graph.find(first.from), rules_.disc_m);
-    if (stand) take_access_leg(stand->position(), walk);
+    const auto approach = approach_pose(space_, *world_.graph.find(first.from), rules_.disc_m);
+    if (approach) take_access_leg(approach->position(), walk);
   }
   for (const RouteId id : path.routes) {
     if (walk.complete()) walk.stopped = stopped();
@@ -87,11 +87,11 @@ Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal
 
 Walk Walker::walk_alone(const Route& leg) const {
   Walk walk;
-  const auto stand = approach_pose(space_, *world_.graph.find(leg.from), rules_.disc_m);
+  const auto approach = approach_pose(space_, *world_.graph.find(leg.from), rules_.disc_m);
   walk.stopped = stopped();
-  if (!stand) walk.blocked = leg.id;
+  if (!approach) walk.blocked = leg.id;
   if (!walk.complete()) return walk;
-  walk.route = {{is_passable(leg.trajectory) ? leg.trajectory.front().position() : stand->position(), 0}};
+  walk.route = {{is_passable(leg.trajectory) ? leg.trajectory.front().position() : approach->position(), 0}};
   take_leg(leg, walk);
   return walk;
 }

@@ -1,10 +1,11 @@
-// The sub-symbolic half of a plan: a way over the grid along the landmarks (docs/method.md 10.5).
+// The sub-symbolic half of a plan: a path over the grid along the landmarks (docs/method.md 10.5).
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "framework/contracts/path_planner.hpp"
 #include "framework/contracts/planner.hpp"
 #include "planners/common/disc_space/routes.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
@@ -12,7 +13,7 @@
 namespace cairn {
 
 struct LegRules {
-  double radius_m = 0.22;     // of the request, to which the route planner adds its margin
+  double radius_m = 0.22;     // of the request, to which the path planner adds its margin
   double disc_m = 0.22;       // radius of the disc that has to fit: with the margin, and a hair more
   double detour_ratio = 1.3;  // a leg planned anew may be this much longer than its stored cost
   std::uint64_t seed = 1;
@@ -25,7 +26,7 @@ struct Walk {
   int stored_legs = 0;
   int planned_legs = 0;
   std::optional<RouteId> blocked;      // the route that is not passable today; the walk ends there
-  bool access_leg_failed = false;      // no way to the first or from the last landmark
+  bool access_leg_failed = false;      // no path to the first or from the last landmark
   std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
 
   [[nodiscard]] bool complete() const { return !blocked && !access_leg_failed && !stopped; }
@@ -34,15 +35,15 @@ struct Walk {
 };
 
 // Walks a symbolic path: stored trajectories where the disc still fits along them, otherwise legs by the
-// route planner. `world` is the robot's world with the start's grid.
+// path planner. `world` is the robot's world with the start's grid.
 class Walker {
  public:
-  Walker(const WorldView& world, const DiscSpace& space, const LegRules& rules, const Planner& route_planner,
+  Walker(const WorldView& world, const DiscSpace& space, const LegRules& rules, const PathPlanner& path_planner,
          const Budget& budget)
-      : world_(world), space_(space), rules_(rules), route_planner_(route_planner), budget_(budget) {}
+      : world_(world), space_(space), rules_(rules), path_planner_(path_planner), budget_(budget) {}
 
   [[nodiscard]] Walk walk(const Point& from, const SymbolicPath& path, const Pose2& goal) const;
-  // One leg by itself, from where its first landmark is stood at.
+  // One leg by itself, from the approach pose of its first landmark.
   [[nodiscard]] Walk walk_alone(const Route& leg) const;
 
  private:
@@ -57,7 +58,7 @@ class Walker {
   const WorldView& world_;
   const DiscSpace& space_;
   const LegRules& rules_;
-  const Planner& route_planner_;
+  const PathPlanner& path_planner_;
   const Budget& budget_;
 };
 

@@ -8,9 +8,9 @@
 
 // Why it is a bound. Let the disc's centre p be somewhere in a cell with centre c, and b the centre of a blocked cell.
 // p + (b - c) lies in the blocked square, so that square is no further from p than |b - c|, and the radius is no more
-// than that. So the way stays on cells whose centres are as far as the radius from those of all blocked cells. It stays
-// on the blocks that hold such a cell all the more, and where it goes from cell to cell over a side, it goes over a
-// side from block to block or stays in one. The shortest path of a point over these blocks is no longer.
+// than that. So the path stays on cells whose centres are as far as the radius from those of all blocked cells. It
+// stays on the blocks that hold such a cell all the more, and where it goes from cell to cell over a side, it goes over
+// a side from block to block or stays in one. The shortest path of a point over these blocks is no longer.
 
 namespace cairn {
 namespace {
@@ -50,18 +50,18 @@ CellBits blocked_cells(const OccupancyGrid& grid, const GroundRules& rules, cons
       {{tile_of(cells.min.x), tile_of(cells.min.y)}, {tile_of(cells.max.x - 1) + 1, tile_of(cells.max.y - 1) + 1}});
   // More than this blocks: what is not free, or what is occupied.
   const OccupancyThresholds& thresholds = rules.thresholds;
-  const int most = rules.unknown == UnknownPolicy::avoid
-                       ? std::min<int>(thresholds.occupied_above, thresholds.free_below - 1)
-                       : thresholds.occupied_above;
+  const int max_free = rules.unknown == UnknownPolicy::avoid
+                           ? std::min<int>(thresholds.occupied_above, thresholds.free_below - 1)
+                           : thresholds.occupied_above;
   for (int ty = 0; ty < blocked.tiles.height(); ++ty)
     for (int tx = 0; tx < blocked.tiles.width(); ++tx) {
       const LogOdds* const values = grid.cells_of_tile(blocked.tiles.min + Cell{tx, ty});
       for (int y = 0; y < kSide; ++y) {
         Word word = 0;
         if (values == nullptr) {
-          word = most < 0 ? ~Word{0} : Word{0};
+          word = max_free < 0 ? ~Word{0} : Word{0};
         } else {
-          for (int x = 0; x < kSide; ++x) word |= Word{values[y * kSide + x] > most} << x;
+          for (int x = 0; x < kSide; ++x) word |= Word{values[y * kSide + x] > max_free} << x;
         }
         blocked.row(ty * kSide + y)[tx] = word;
       }

@@ -1,4 +1,4 @@
-// How long a way across a large grid must be, from a coarse look at it.
+// How long a path across a large grid must be at least, from coarse blocks of its cells.
 #pragma once
 
 #include "framework/contracts/budget.hpp"
@@ -6,8 +6,8 @@
 
 namespace cairn {
 
-// No way for the disc between the two points is shorter, nor is the least length that DiscRoutes knows of. +inf when
-// there is no way; 0 when the budget ends first. The look is at blocks of cells, about as large as the disc's radius:
+// No path for the disc between the two points is shorter, nor is the lower bound that DiscRoutes gives. +inf when
+// there is no path; 0 when the budget ends first. It works on blocks of cells, about as large as the disc's radius:
 // it cuts turns shorter, and goes through gaps that only just are too narrow.
 //
 // Takes O(cells) bit operations and a mesh of the blocks, which are single cells where the radius is below 1.5 of them;

@@ -11,9 +11,9 @@ void register_module(cairn::Registrar& registrar) {
       "hybrid", "landmarks first, then routes on the grid between them",
       [](const cairn::HybridConfig& config, const cairn::ModuleContext& context) {
         if (context.modules == nullptr) throw std::invalid_argument("hybrid: no maker of modules in its context");
-        return std::make_unique<cairn::HybridPlanner>(config,
-                                                      context.modules->make<cairn::Planner>(config.route, context),
-                                                      context.modules->make<cairn::Planner>(config.graph, context));
+        return std::make_unique<cairn::HybridPlanner>(
+            config, context.modules->make<cairn::PathPlanner>(config.route, context),
+            context.modules->make<cairn::RoutePlanner>(config.graph, context));
       });
 }
 

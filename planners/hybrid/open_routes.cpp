@@ -17,20 +17,21 @@ bool OpenRoutes::are_open(const std::vector<RouteId>& routes) {
   return std::all_of(routes.begin(), routes.end(), [&](RouteId id) { return is_open(id); });
 }
 
-std::vector<PlanAlternative> open_alternatives(const SymbolicSearch& search, std::vector<PlanAlternative> ways,
-                                               const std::vector<RouteId>& routes, int count, OpenRoutes open,
-                                               const Budget& budget) {
+std::vector<RouteAlternative> open_alternatives(const SymbolicSearch& search, std::vector<RouteAlternative> candidates,
+                                                const std::vector<RouteId>& routes, int count, OpenRoutes open,
+                                                const Budget& budget) {
   const auto wanted = static_cast<std::size_t>(count);
   for (;;) {
     const std::size_t blocked_before = open.blocked().size();
-    std::vector<PlanAlternative> found;
-    for (const PlanAlternative& way : ways)
-      if (found.size() < wanted && way.routes != routes && open.are_open(way.routes)) found.push_back(way);
+    std::vector<RouteAlternative> found;
+    for (const RouteAlternative& candidate : candidates)
+      if (found.size() < wanted && candidate.routes != routes && open.are_open(candidate.routes))
+        found.push_back(candidate);
     const bool all_open = open.blocked().size() == blocked_before;
     if (found.size() == wanted || all_open || budget.exhausted()) return found;
     SymbolicAnswer more = search.find(open.blocked());
     if (more.stopped) return found;
-    ways = std::move(more.ways);
+    candidates = std::move(more.candidates);
   }
 }
 

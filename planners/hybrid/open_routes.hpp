@@ -1,4 +1,4 @@
-// Other ways over the landmark graph that are not blocked today.
+// Other routes over the landmark graph that are not blocked today.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-// Whether routes can be driven now, each looked at once.
+// Whether routes can be driven now, each checked once.
 class OpenRoutes {
  public:
   // Routes found blocked are added to `blocked`.
@@ -28,11 +28,11 @@ class OpenRoutes {
   std::set<RouteId> open_;
 };
 
-// Up to `count` of `ways` that are open and not the answer's own `routes`; where some are blocked, the graph is
+// Up to `count` of `candidates` that are open and not the answer's own `routes`; where some are blocked, the graph is
 // searched on without their blocked routes. Fewer when there are no more or the budget ends.
-[[nodiscard]] std::vector<PlanAlternative> open_alternatives(const SymbolicSearch& search,
-                                                             std::vector<PlanAlternative> ways,
-                                                             const std::vector<RouteId>& routes, int count,
-                                                             OpenRoutes open, const Budget& budget);
+[[nodiscard]] std::vector<RouteAlternative> open_alternatives(const SymbolicSearch& search,
+                                                              std::vector<RouteAlternative> candidates,
+                                                              const std::vector<RouteId>& routes, int count,
+                                                              OpenRoutes open, const Budget& budget);
 
 }  // namespace cairn

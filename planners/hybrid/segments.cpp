@@ -21,18 +21,18 @@ std::vector<PathSegment> segments_of(const std::vector<PartedPoint>& route, cons
 std::vector<PathSegment> segments_of_graph(const PlanResult& found, const LandmarkGraph& graph) {
   std::vector<PathSegment> parts;
   std::vector<PartedPoint> route;
-  const auto stand_at = [&](LandmarkId id) {
+  const auto approach_to = [&](LandmarkId id) {
     const Landmark& landmark = *graph.find(id);
     return landmark.approach_pose().position();
   };
   for (std::size_t i = 0; i < found.routes.size(); ++i) {
     const Route& leg = *graph.find_route(found.routes[i]);
     const bool stored = !leg.trajectory.empty();
-    if (route.empty() && !stored) route.push_back({stand_at(found.landmarks[i]), 0});
+    if (route.empty() && !stored) route.push_back({approach_to(found.landmarks[i]), 0});
     parts.push_back({stored ? PathSegment::Origin::stored : PathSegment::Origin::straight, leg.id, 0.0});
     const int part = static_cast<int>(i);
     for (const Pose2& pose : leg.trajectory) route.push_back({pose.position(), part});
-    if (!stored) route.push_back({stand_at(found.landmarks[i + 1]), part});
+    if (!stored) route.push_back({approach_to(found.landmarks[i + 1]), part});
   }
   return segments_of(route, parts);
 }

@@ -10,7 +10,7 @@
 namespace cairn {
 namespace {
 
-constexpr double kBeside_m = 3.0;  // of the grid on each side of the way; clearances are known up to there
+constexpr double kBeside_m = 3.0;  // of the grid on each side of the path; clearances are known up to there
 
 bool may_be_asked(const PlanRequest& request, const WorldView& world) {
   const bool between_landmarks = !request.from.pose && request.from.landmarks.size() == 1 && !request.to.pose;
@@ -29,7 +29,7 @@ class StoredRoute {
     if (!take_ends()) return std::nullopt;
     const SymbolicQuery query{request_, world_, start_, goals_, legs_.disc_m, legs_.detour_ratio};
     const Budget::Clock::time_point begin = Budget::Clock::now();
-    const SymbolicAnswer symbolic = SymbolicSearch(query, tools_.graph, budget_).find({});
+    const SymbolicAnswer symbolic = SymbolicSearch(query, *tools_.route_planner, budget_).find({});
     const auto graph_time = Budget::Clock::now() - begin;
     if (!symbolic.path || !is_preferred(symbolic.path->cost_m)) return std::nullopt;
     auto result = walked(*symbolic.path, goals_[symbolic.path->goal]);
@@ -42,8 +42,8 @@ class StoredRoute {
   }
 
  private:
-  // Where one stands at a landmark when that is its usual place.
-  std::optional<Pose2> usual_stand(LandmarkId id) const {
+  // A landmark's stored approach pose, where it is free.
+  std::optional<Pose2> usual_approach(LandmarkId id) const {
     const Landmark* const landmark = world_.graph.find(id);
     if (landmark == nullptr || !landmark->access) return std::nullopt;
     const Point at = landmark->access->position();
@@ -52,20 +52,20 @@ class StoredRoute {
 
   bool take_ends() {
     start_.landmark = request_.from.landmarks.front();
-    const auto start = usual_stand(start_.landmark);
+    const auto start = usual_approach(start_.landmark);
     if (!start) return false;
     start_.pose = *start;
     start_.leave_from = start->position();
     for (const LandmarkId id : request_.to.landmarks) {
-      const auto stand = usual_stand(id);
-      if (!stand || id == start_.landmark) return false;
-      goals_.push_back({*stand, std::nullopt, id, ""});
-      straight_m_ = std::min(straight_m_, (stand->position() - start_.leave_from).norm());
+      const auto approach = usual_approach(id);
+      if (!approach || id == start_.landmark) return false;
+      goals_.push_back({*approach, std::nullopt, id, ""});
+      straight_m_ = std::min(straight_m_, (approach->position() - start_.leave_from).norm());
     }
     return !goals_.empty();
   }
 
-  // To any direct way, however short that may be.
+  // To any direct path, however short that may be.
   bool is_preferred(double cost_m) const {
     if (cost_m <= legs_.detour_ratio * straight_m_) return true;
     if (goals_.size() != 1) return false;
@@ -94,7 +94,7 @@ class StoredRoute {
     WorldView beside = with_grid(grid, world_);
     beside.hierarchies = nullptr;
     const Walk walk =
-        Walker(beside, *start_.space, legs_, tools_.route, budget_).walk(start_.leave_from, path, goal.pose);
+        Walker(beside, *start_.space, legs_, tools_.path_planner, budget_).walk(start_.leave_from, path, goal.pose);
     const bool all_stored = walk.planned_legs == 0 &&
                             std::none_of(walk.parts.begin(), walk.parts.end(),
                                          [](const auto& part) { return part.origin == PathSegment::Origin::planned; });

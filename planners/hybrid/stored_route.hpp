@@ -1,4 +1,4 @@
-// A way over stored routes that needs no look at the rest of a large grid.
+// A path over stored routes that needs nothing of the rest of a large grid.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace cairn {
 
-// Between landmarks: the cheapest way over the graph, when all its trajectories are free and it is so short that no
-// direct way could be preferred to it. Looks closely at the grid along that way only, coarsely at the rest where the
-// straight line is not enough to tell (length_lower_bound.hpp), and answers what a full look would; none where that is
+// Between landmarks: the cheapest route over the graph, when all its trajectories are free and it is so short that no
+// direct path could be preferred to it. Examines the grid closely along that route only, coarsely elsewhere when the
+// straight line does not decide (length_lower_bound.hpp), and gives the answer of the full search; none where that is
 // not certain.
 [[nodiscard]] std::optional<PlanResult> stored_route(const HybridTools& tools, const LegRules& legs,
                                                      const AnswerRules& answers, const PlanRequest& request,

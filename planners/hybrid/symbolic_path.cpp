@@ -1,5 +1,7 @@
 #include "planners/hybrid/symbolic_path.hpp"
 
+#include "framework/contracts/lone_planners.hpp"
+
 namespace cairn {
 namespace {
 
@@ -36,8 +38,8 @@ class Joiner {
     for (const auto& [id, landmark] : graph.landmarks()) {
       if (budget_.exhausted()) return;  // which the search then says
       if (graph.routes_from(id).empty() && graph.routes_to(id).empty()) continue;
-      const auto stand = approach_pose(space, landmark, query_.radius_m, reached);
-      if (stand) end.add(id, travel.cost_m(space.field().cell_at(stand->position())), goal);
+      const auto approach = approach_pose(space, landmark, query_.radius_m, reached);
+      if (approach) end.add(id, travel.cost_m(space.field().cell_at(approach->position())), goal);
     }
   }
 
@@ -52,17 +54,14 @@ void SymbolicEnd::add(LandmarkId id, double travel_m, std::size_t goal) {
   if (!fresh && travel_m < at->second.travel_m) at->second = {travel_m, goal};
 }
 
-Place SymbolicEnd::place(double weight) const {
-  Place place;
-  for (const auto& [id, reached] : reached_) {
-    place.landmarks.push_back(id);
-    place.costs.push_back(weight * reached.travel_m);
-  }
-  return place;
+std::vector<RouteEnd> SymbolicEnd::route_ends(double weight) const {
+  std::vector<RouteEnd> ends;
+  for (const auto& [id, reached] : reached_) ends.push_back({id, weight * reached.travel_m});
+  return ends;
 }
 
-SymbolicSearch::SymbolicSearch(const SymbolicQuery& query, const Planner& graph_planner, const Budget& budget)
-    : query_(query), graph_planner_(graph_planner), budget_(budget) {
+SymbolicSearch::SymbolicSearch(const SymbolicQuery& query, const RoutePlanner& route_planner, const Budget& budget)
+    : query_(query), route_planner_(route_planner), budget_(budget) {
   if (query.world.graph.routes().empty()) return;
   const Joiner joiner(query, budget);
   start_ = joiner.start();
@@ -73,14 +72,14 @@ SymbolicAnswer SymbolicSearch::find(const std::set<RouteId>& blocked) const {
   SymbolicAnswer answer;
   if (budget_.exhausted()) answer.stopped = budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget;
   if (answer.stopped || start_.empty() || goals_.empty()) return answer;
-  PlanRequest request = query_.request;
+  RouteRequest request = route_request_of(query_.request);
   // Travel off the routes in the unit that these are counted in.
   const double weight =
       request.cost == CostKind::time ? query_.travel_weight / query_.world.robot.max_v_mps : query_.travel_weight;
-  request.from = start_.place(weight);
-  request.to = goals_.place(weight);
+  request.from = start_.route_ends(weight);
+  request.to = goals_.route_ends(weight);
   request.closed.insert(request.closed.end(), blocked.begin(), blocked.end());
-  const PlanResult found = graph_planner_.plan(request, query_.world, budget_);
+  const RouteResult found = route_planner_.plan(request, query_.world, budget_);
   answer.settled = found.settled;
   answer.explanation = found.explanation;
   if (found.outcome == PlanOutcome::cancelled || found.outcome == PlanOutcome::out_of_budget)
@@ -90,9 +89,9 @@ SymbolicAnswer SymbolicSearch::find(const std::set<RouteId>& blocked) const {
     path.cost_m = start_.travel_m(found.landmarks.front()) + goals_.travel_m(found.landmarks.back());
     for (const RouteId id : found.routes) path.cost_m += query_.world.graph.find_route(id)->cost_m;
     answer.path = std::move(path);
-    answer.ways.push_back({found.cost_m, found.landmarks, found.routes});
+    answer.candidates.push_back({found.cost_m, found.landmarks, found.routes});
   }
-  answer.ways.insert(answer.ways.end(), found.alternatives.begin(), found.alternatives.end());
+  answer.candidates.insert(answer.candidates.end(), found.alternatives.begin(), found.alternatives.end());
   return answer;
 }
 

@@ -14,16 +14,16 @@ namespace cairn {
 struct SymbolicPath {
   std::vector<LandmarkId> landmarks;  // first to last; the ends of the routes
   std::vector<RouteId> routes;        // from landmark to landmark
-  double cost_m = 0.0;                // routes by their cost, the first and last mile by travel
+  double cost_m = 0.0;                // routes by their cost, the access legs by travel
   std::size_t goal = 0;               // index of the goal it leads to
 };
 
 struct SymbolicAnswer {
-  std::optional<SymbolicPath> path;    // none: no way over at least one stored route
+  std::optional<SymbolicPath> path;    // none: no path over at least one stored route
   std::optional<PlanOutcome> stopped;  // cancelled or out_of_budget
   std::int64_t settled = 0;
-  std::vector<PlanAlternative> ways;  // that path, then the alternatives asked for
-  std::optional<PlanExplanation> explanation;
+  std::vector<RouteAlternative> candidates;  // that path, then the alternatives asked for
+  std::optional<RouteExplanation> explanation;
 };
 
 // What a search over landmarks starts from.
@@ -43,7 +43,7 @@ struct SymbolicQuery {
 class SymbolicEnd {
  public:
   void add(LandmarkId id, double travel_m, std::size_t goal);
-  [[nodiscard]] Place place(double weight) const;
+  [[nodiscard]] std::vector<RouteEnd> route_ends(double weight) const;
   [[nodiscard]] double travel_m(LandmarkId id) const { return reached_.at(id).travel_m; }
   [[nodiscard]] std::size_t goal(LandmarkId id) const { return reached_.at(id).goal; }
   [[nodiscard]] bool empty() const { return reached_.empty(); }
@@ -60,14 +60,14 @@ class SymbolicEnd {
 // ends that are landmarks are themselves. Joined once; each find() is one search of the graph planner.
 class SymbolicSearch {
  public:
-  SymbolicSearch(const SymbolicQuery& query, const Planner& graph_planner, const Budget& budget);
+  SymbolicSearch(const SymbolicQuery& query, const RoutePlanner& route_planner, const Budget& budget);
 
   // Routes in `blocked` are left out.
   [[nodiscard]] SymbolicAnswer find(const std::set<RouteId>& blocked) const;
 
  private:
   const SymbolicQuery& query_;
-  const Planner& graph_planner_;
+  const RoutePlanner& route_planner_;
   const Budget& budget_;
   SymbolicEnd start_;
   SymbolicEnd goals_;

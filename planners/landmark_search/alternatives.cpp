@@ -11,14 +11,15 @@ class Yen {
   Yen(const Hierarchy& hierarchy, const RouteQuery& query, HierarchySearch& search, const Budget& budget)
       : hierarchy_(hierarchy), query_(query), search_(search), budget_(budget) {}
 
-  std::vector<Way> after(const Way& best, int count) {
+  std::vector<GraphPath> after(const GraphPath& best, int count) {
     taken_.push_back(best);
     while (static_cast<int>(taken_.size()) <= count) {
       leave(taken_.back());
       if (candidates_.empty() || budget_.exhausted()) break;
-      const auto next = std::min_element(candidates_.begin(), candidates_.end(), [](const Way& a, const Way& b) {
-        return a.cost != b.cost ? a.cost < b.cost : a.routes < b.routes;
-      });
+      const auto next =
+          std::min_element(candidates_.begin(), candidates_.end(), [](const GraphPath& a, const GraphPath& b) {
+            return a.cost != b.cost ? a.cost < b.cost : a.routes < b.routes;
+          });
       taken_.push_back(std::move(*next));
       candidates_.erase(next);
     }
@@ -41,36 +42,37 @@ class Yen {
     return cost;
   }
 
-  // The ways that leave this one at each of its landmarks, or begin elsewhere.
-  void leave(const Way& way) {
+  // The paths that leave this one at each of its landmarks, or begin elsewhere.
+  void leave(const GraphPath& path) {
     RouteQuery query = query_;
-    begins_at_.insert(way.vertices.front());
+    begins_at_.insert(path.vertices.front());
     std::erase_if(query.from, [&](const SearchEnd& end) { return begins_at_.contains(end.vertex); });
-    if (!query.from.empty()) add(way, 0, 0.0, search_.find(hierarchy_, query, budget_));
+    if (!query.from.empty()) add(path, 0, 0.0, search_.find(hierarchy_, query, budget_));
     std::vector<SearchEnd> goals = query_.to;  // without landmarks passed before
     query = query_;
-    double root_cost = cost_of_start(way.vertices.front());
-    for (std::size_t i = 0; i < way.vertices.size() && !budget_.exhausted(); ++i) {
-      const VertexIndex spur = way.vertices[i];
-      if (i > 0 && query_.avoided.contains(spur)) return;  // a goal that no way passes
+    double root_cost = cost_of_start(path.vertices.front());
+    for (std::size_t i = 0; i < path.vertices.size() && !budget_.exhausted(); ++i) {
+      const VertexIndex spur = path.vertices[i];
+      if (i > 0 && query_.avoided.contains(spur)) return;  // a goal that no path passes
       query.from = {{spur, 0.0}};
       query.to = goals;
       query.costs = query_.costs;
-      close_taken(way, i, query);
-      if (!query.to.empty()) add(way, i, root_cost, search_.find(hierarchy_, query, budget_));
-      if (i == way.routes.size()) return;
+      close_taken(path, i, query);
+      if (!query.to.empty()) add(path, i, root_cost, search_.find(hierarchy_, query, budget_));
+      if (i == path.routes.size()) return;
       query.avoided.insert(spur);
       std::erase_if(goals, [&](const SearchEnd& end) { return end.vertex == spur; });
-      root_cost += cost_of(way.routes[i]);
+      root_cost += cost_of(path.routes[i]);
     }
   }
 
-  // How the ways taken so far that begin like this one go on after `length` routes, or that they end there.
-  void close_taken(const Way& way, std::size_t length, RouteQuery& query) const {
-    const auto end = way.routes.begin() + static_cast<std::ptrdiff_t>(length);
-    for (const Way& other : taken_) {
-      if (other.routes.size() < length || other.vertices.front() != way.vertices.front() ||
-          !std::equal(way.routes.begin(), end, other.routes.begin()))
+  // Closes how the paths taken so far continue that begin like this one for `length` routes: their next route, or their
+  // end there.
+  void close_taken(const GraphPath& path, std::size_t length, RouteQuery& query) const {
+    const auto end = path.routes.begin() + static_cast<std::ptrdiff_t>(length);
+    for (const GraphPath& other : taken_) {
+      if (other.routes.size() < length || other.vertices.front() != path.vertices.front() ||
+          !std::equal(path.routes.begin(), end, other.routes.begin()))
         continue;
       if (other.routes.size() > length)
         query.costs[other.routes[length]] = kNoWay;
@@ -79,31 +81,31 @@ class Yen {
     }
   }
 
-  void add(const Way& root, std::size_t length, double root_cost, Way spur) {
+  void add(const GraphPath& root, std::size_t length, double root_cost, GraphPath spur) {
     if (spur.stopped || !(spur.cost < kNoWay)) return;
-    Way way;
-    way.vertices.assign(root.vertices.begin(), root.vertices.begin() + static_cast<std::ptrdiff_t>(length));
-    way.routes.assign(root.routes.begin(), root.routes.begin() + static_cast<std::ptrdiff_t>(length));
-    way.vertices.insert(way.vertices.end(), spur.vertices.begin(), spur.vertices.end());
-    way.routes.insert(way.routes.end(), spur.routes.begin(), spur.routes.end());
-    way.cost = root_cost + spur.cost;
-    way.settled = spur.settled;
-    if (known_.emplace(way.vertices.front(), way.routes).second) candidates_.push_back(std::move(way));
+    GraphPath path;
+    path.vertices.assign(root.vertices.begin(), root.vertices.begin() + static_cast<std::ptrdiff_t>(length));
+    path.routes.assign(root.routes.begin(), root.routes.begin() + static_cast<std::ptrdiff_t>(length));
+    path.vertices.insert(path.vertices.end(), spur.vertices.begin(), spur.vertices.end());
+    path.routes.insert(path.routes.end(), spur.routes.begin(), spur.routes.end());
+    path.cost = root_cost + spur.cost;
+    path.settled = spur.settled;
+    if (known_.emplace(path.vertices.front(), path.routes).second) candidates_.push_back(std::move(path));
   }
 
   const Hierarchy& hierarchy_;
   const RouteQuery& query_;
   HierarchySearch& search_;
   const Budget& budget_;
-  std::vector<Way> taken_, candidates_;
+  std::vector<GraphPath> taken_, candidates_;
   std::set<std::pair<VertexIndex, std::vector<RouteId>>> known_;
   std::set<VertexIndex> begins_at_;
 };
 
 }  // namespace
 
-std::vector<Way> alternatives_to(const Way& best, int count, const Hierarchy& hierarchy, const RouteQuery& query,
-                                 HierarchySearch& search, const Budget& budget) {
+std::vector<GraphPath> alternatives_to(const GraphPath& best, int count, const Hierarchy& hierarchy,
+                                       const RouteQuery& query, HierarchySearch& search, const Budget& budget) {
   return Yen(hierarchy, query, search, budget).after(best, count);
 }
 

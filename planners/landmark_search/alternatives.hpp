@@ -1,4 +1,4 @@
-// The next cheapest ways, none of which passes a landmark twice (Yen, Finding the k shortest loopless paths, 1971).
+// The next cheapest paths, none of which passes a landmark twice (Yen, Finding the k shortest loopless paths, 1971).
 #pragma once
 
 #include <vector>
@@ -7,9 +7,10 @@
 
 namespace cairn {
 
-// Up to `count` ways after `best`, which answers the query, by rising cost; fewer when there are no more or the
-// budget ends. Ways that take another of several parallel routes count as others. One search a landmark of each way.
-[[nodiscard]] std::vector<Way> alternatives_to(const Way& best, int count, const Hierarchy& hierarchy,
-                                               const RouteQuery& query, HierarchySearch& search, const Budget& budget);
+// Up to `count` paths after `best`, which answers the query, by rising cost; fewer when there are no more or the
+// budget ends. Paths that take another of several parallel routes count as others. One search a landmark of each path.
+[[nodiscard]] std::vector<GraphPath> alternatives_to(const GraphPath& best, int count, const Hierarchy& hierarchy,
+                                                     const RouteQuery& query, HierarchySearch& search,
+                                                     const Budget& budget);
 
 }  // namespace cairn

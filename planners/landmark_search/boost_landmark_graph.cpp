@@ -6,11 +6,11 @@
 
 namespace cairn {
 
-BoostLandmarkGraph::BoostLandmarkGraph(const LandmarkGraph& landmarks, const PlanRequest& request) {
+BoostLandmarkGraph::BoostLandmarkGraph(const LandmarkGraph& landmarks, const RouteRequest& request) {
   const std::set<RouteId> closed(request.closed.begin(), request.closed.end());
   const std::set<LandmarkId> avoided(request.avoid.begin(), request.avoid.end());
-  const auto in = [](const Place& place, LandmarkId id) {
-    return std::find(place.landmarks.begin(), place.landmarks.end(), id) != place.landmarks.end();
+  const auto in = [](const std::vector<RouteEnd>& ends_of_request, LandmarkId id) {
+    return std::ranges::find(ends_of_request, id, &RouteEnd::landmark) != ends_of_request.end();
   };
   // Into an avoided landmark only as the goal, out of it only as the start.
   const auto is_shut = [&](const Route& route) {

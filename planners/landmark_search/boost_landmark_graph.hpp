@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/route_planner.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
@@ -21,7 +21,7 @@ struct BoostLandmarkGraph {
 
   // Without routes that are closed, in the map or by the request, and routes at landmarks to be avoided (those of
   // the request's ends are kept). Valid as long as the landmark graph does not change.
-  explicit BoostLandmarkGraph(const LandmarkGraph& landmarks, const PlanRequest& request = {});
+  explicit BoostLandmarkGraph(const LandmarkGraph& landmarks, const RouteRequest& request = {});
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   [[nodiscard]] std::size_t vertex_of(LandmarkId id) const;  // kNone when there is no such landmark

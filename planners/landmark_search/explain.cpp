@@ -5,9 +5,9 @@
 namespace cairn {
 namespace {
 
-std::vector<std::vector<ClusterId>> clusters_along(const Way& way, const Clustering& clustering) {
+std::vector<std::vector<ClusterId>> clusters_along(const GraphPath& path, const Clustering& clustering) {
   std::vector<std::vector<ClusterId>> clusters(static_cast<std::size_t>(clustering.levels()));
-  for (const VertexIndex v : way.vertices)
+  for (const VertexIndex v : path.vertices)
     for (int level = 1; level <= clustering.levels(); ++level) {
       auto& passed = clusters[static_cast<std::size_t>(level - 1)];
       const ClusterId id = clustering.node(clustering.cluster_of(v, level)).id;
@@ -18,13 +18,13 @@ std::vector<std::vector<ClusterId>> clusters_along(const Way& way, const Cluster
 
 }  // namespace
 
-PlanExplanation explanation_of(const Way& way, const RouteQuery& query, const PlanRequest& request,
-                               const LandmarkGraph& graph, const Hierarchy& hierarchy, const RouteCost& cost,
-                               HierarchySearch& search, const Budget& budget) {
-  PlanExplanation explanation;
-  explanation.settled_of_level = way.settled_of_level;
-  explanation.clusters = clusters_along(way, hierarchy.clustering());
-  if (way.cost < kNoWay) explanation.cost = way.cost;
+RouteExplanation explanation_of(const GraphPath& path, const RouteQuery& query, const RouteRequest& request,
+                                const LandmarkGraph& graph, const Hierarchy& hierarchy, const RouteCost& cost,
+                                HierarchySearch& search, const Budget& budget) {
+  RouteExplanation explanation;
+  explanation.settled_of_level = path.settled_of_level;
+  explanation.clusters = clusters_along(path, hierarchy.clustering());
+  if (path.cost < kNoWay) explanation.cost = path.cost;
   RouteQuery open = query;
   open.costs.clear();  // which held what the request closes
   for (const RouteId id : request.closed)
@@ -32,8 +32,8 @@ PlanExplanation explanation_of(const Way& way, const RouteQuery& query, const Pl
   for (const auto& [id, route] : graph.routes())
     if (route.closed) open.costs[id] = cost(route);
   if (open.costs.empty()) return explanation;
-  const Way better = search.find(hierarchy, open, budget);
-  if (better.stopped || !(better.cost < way.cost)) return explanation;
+  const GraphPath better = search.find(hierarchy, open, budget);
+  if (better.stopped || !(better.cost < path.cost)) return explanation;
   explanation.cost_with_closed_open = better.cost;
   for (const RouteId id : better.routes)
     if (open.costs.contains(id)) explanation.closed_in_the_way.push_back(id);

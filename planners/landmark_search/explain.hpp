@@ -1,14 +1,15 @@
-// Why a way over the landmark graph is what it is.
+// Explains a path over the landmark graph.
 #pragma once
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/route_planner.hpp"
 #include "planners/landmark_search/hierarchy_search.hpp"
 
 namespace cairn {
 
-// Searches a second time, with every closed route open, to say what the closed ones cost.
-[[nodiscard]] PlanExplanation explanation_of(const Way& way, const RouteQuery& query, const PlanRequest& request,
-                                             const LandmarkGraph& graph, const Hierarchy& hierarchy,
-                                             const RouteCost& cost, HierarchySearch& search, const Budget& budget);
+// Searches a second time, with every closed route open, for what the closed ones cost.
+[[nodiscard]] RouteExplanation explanation_of(const GraphPath& path, const RouteQuery& query,
+                                              const RouteRequest& request, const LandmarkGraph& graph,
+                                              const Hierarchy& hierarchy, const RouteCost& cost,
+                                              HierarchySearch& search, const Budget& budget);
 
 }  // namespace cairn

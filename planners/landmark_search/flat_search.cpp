@@ -57,17 +57,17 @@ class EarlyStop : public boost::default_dijkstra_visitor {
 };
 
 // What each vertex costs as an end.
-std::vector<double> costs_of(const Place& place, const BoostLandmarkGraph& model) {
+std::vector<double> costs_of(const std::vector<RouteEnd>& ends, const BoostLandmarkGraph& model) {
   std::vector<double> costs_m(model.ids.size(), kInfinity);
-  for (std::size_t i = 0; i < place.landmarks.size(); ++i) {
-    double& cost_m = costs_m[model.vertex_of(place.landmarks[i])];
-    cost_m = std::min(cost_m, place.costs.empty() ? 0.0 : place.costs[i]);
+  for (const RouteEnd& end : ends) {
+    double& cost_m = costs_m[model.vertex_of(end.landmark)];
+    cost_m = std::min(cost_m, end.cost);
   }
   return costs_m;
 }
 
 // Dijkstra from all starts at once.
-Search search_for(const PlanRequest& request, const BoostLandmarkGraph& model, const Budget& budget) {
+Search search_for(const RouteRequest& request, const BoostLandmarkGraph& model, const Budget& budget) {
   Search search;
   search.goal_cost_m = costs_of(request.to, model);
   search.cost_m = costs_of(request.from, model);
@@ -88,8 +88,8 @@ Search search_for(const PlanRequest& request, const BoostLandmarkGraph& model, c
   return search;
 }
 
-// Landmarks and routes of the way to the goal.
-void follow_back(const Search& search, const BoostLandmarkGraph& model, PlanResult& result) {
+// Landmarks and routes of the path to the goal.
+void follow_back(const Search& search, const BoostLandmarkGraph& model, RouteResult& result) {
   result.landmarks = {model.ids[search.goal]};
   for (std::size_t v = search.goal; search.arrived_by[v] != nullptr; v = model.vertex_of(result.landmarks.back())) {
     result.routes.push_back(search.arrived_by[v]->id);
@@ -99,18 +99,18 @@ void follow_back(const Search& search, const BoostLandmarkGraph& model, PlanResu
   std::reverse(result.landmarks.begin(), result.landmarks.end());
 }
 
-// What the plain search has no way to heed.
-std::string unheeded(const PlanRequest& request) {
+// What the plain search does not support.
+std::string unsupported(const RouteRequest& request) {
   if (request.cost != CostKind::length) return "other costs than length";
   if (request.alternatives > 0) return "alternatives";
   return request.explain ? "an explanation" : "";
 }
 
-PlanResult search_graph(const PlanRequest& request, const LandmarkGraph& graph, const Budget& budget) {
-  PlanResult result;
+RouteResult search_graph(const RouteRequest& request, const LandmarkGraph& graph, const Budget& budget) {
+  RouteResult result;
   result.outcome = PlanOutcome::unknown_place;
   result.reason = complaint_about(request, graph);
-  if (const std::string what = unheeded(request); !what.empty())
+  if (const std::string what = unsupported(request); !what.empty())
     result.reason = "flat_search does not know " + what + "; landmark_search does";
   if (!result.reason.empty()) return result;
   if (budget.exhausted() || budget.iterations <= 0) return stopped_search(budget);
@@ -133,15 +133,8 @@ PlanResult search_graph(const PlanRequest& request, const LandmarkGraph& graph, 
 
 }  // namespace
 
-PlanResult FlatSearch::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
-  const auto begin = Budget::Clock::now();
-  PlanResult result = search_graph(request, world.graph, budget);
-  const auto found = Budget::Clock::now();
-  if (result.outcome == PlanOutcome::solved) join_trajectories(result, world.graph);
-  result.time_ms.graph_ms = ms_between(begin, found);
-  result.time_ms.route_ms = ms_between(found, Budget::Clock::now());
-  result.time_ms.total_ms = result.time_ms.graph_ms + result.time_ms.route_ms;
-  return result;
+RouteResult FlatSearch::plan(const RouteRequest& request, const WorldView& world, const Budget& budget) const {
+  return search_graph(request, world.graph, budget);
 }
 
 }  // namespace cairn

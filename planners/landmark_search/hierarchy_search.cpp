@@ -10,40 +10,40 @@ namespace {
 
 constexpr std::size_t kFewestSlots = 256;
 
-// Where the two halves of a way pass the same vertex, what lies between costs nothing (or it would not be the
-// cheapest way) and is left out.
-void remove_loops(Way& way) {
-  std::vector<VertexIndex> rising = way.vertices;
+// Where the two halves of a path pass the same vertex, what lies between costs nothing (or it would not be the
+// cheapest path) and is left out.
+void remove_loops(GraphPath& path) {
+  std::vector<VertexIndex> rising = path.vertices;
   std::sort(rising.begin(), rising.end());
   if (std::adjacent_find(rising.begin(), rising.end()) == rising.end()) return;
   std::unordered_map<VertexIndex, std::size_t> at;
-  at.reserve(way.vertices.size());
+  at.reserve(path.vertices.size());
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < way.vertices.size(); ++i) {
-    const auto [first, fresh] = at.emplace(way.vertices[i], kept);
+  for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+    const auto [first, fresh] = at.emplace(path.vertices[i], kept);
     if (!fresh) {
-      for (std::size_t k = first->second + 1; k < kept; ++k) at.erase(way.vertices[k]);
+      for (std::size_t k = first->second + 1; k < kept; ++k) at.erase(path.vertices[k]);
       kept = first->second;
     } else if (kept > 0) {
-      way.routes[kept - 1] = way.routes[i - 1];
+      path.routes[kept - 1] = path.routes[i - 1];
     }
-    way.vertices[kept++] = way.vertices[i];
+    path.vertices[kept++] = path.vertices[i];
   }
-  way.vertices.resize(kept);
-  way.routes.resize(kept == 0 ? 0 : kept - 1);
+  path.vertices.resize(kept);
+  path.routes.resize(kept == 0 ? 0 : kept - 1);
 }
 
 }  // namespace
 
-Way HierarchySearch::find(const Hierarchy& hierarchy, const RouteQuery& query, const Budget& budget) {
-  Way way;
-  way.settled_of_level.assign(static_cast<std::size_t>(hierarchy.levels()) + 1, 0);
+GraphPath HierarchySearch::find(const Hierarchy& hierarchy, const RouteQuery& query, const Budget& budget) {
+  GraphPath path;
+  path.settled_of_level.assign(static_cast<std::size_t>(hierarchy.levels()) + 1, 0);
   begin(hierarchy, query);
-  run(budget, way);
-  if (way.stopped || meeting_.left == kNone) return way;
-  unpack(way);
-  remove_loops(way);
-  return way;
+  run(budget, path);
+  if (path.stopped || meeting_.left == kNone) return path;
+  unpack(path);
+  remove_loops(path);
+  return path;
 }
 
 void HierarchySearch::begin(const Hierarchy& hierarchy, const RouteQuery& query) {
@@ -144,7 +144,7 @@ void HierarchySearch::relax(int side, NodeIndex to, double cost, NodeIndex befor
   std::push_heap(queues_[here].begin(), queues_[here].end(), std::greater<>());
 }
 
-// One that has a node all the same is an end. It is not relaxed, or ways would go on from there.
+// One that has a node all the same is an end. It is not relaxed, or paths would continue from there.
 void HierarchySearch::end_at_avoided(int side, NodeIndex at, const Arc& arc, double reached) {
   const NodeIndex end = slot_of(arc.other);
   if (end == kNone) return;
@@ -165,22 +165,22 @@ void HierarchySearch::relax_arc(int side, NodeIndex at, const Arc& arc) {
   relax(side, node_at(arc.other), reached, at, arc.route);
 }
 
-void HierarchySearch::settle(int side, NodeIndex at, Way& way) {
+void HierarchySearch::settle(int side, NodeIndex at, GraphPath& path) {
   const Node node = nodes_[at];
   const Label& label = node.label[static_cast<std::size_t>(side)];
   const Network& network = hierarchy_->network();
   if (node.cluster == kNoCluster) {
-    ++way.settled_of_level[0];
+    ++path.settled_of_level[0];
     for (const Arc& arc : side == 0 ? network.out(node.vertex) : network.in(node.vertex)) relax_arc(side, at, arc);
     return;
   }
   const ClusterNode& cluster = hierarchy_->clustering().node(node.cluster);
   const Passage& passage = hierarchy_->overlay().passage(node.cluster);
-  ++way.settled_of_level[static_cast<std::size_t>(cluster.level)];
+  ++path.settled_of_level[static_cast<std::size_t>(cluster.level)];
   const std::vector<Arc>& arcs = side == 0 ? passage.out : passage.in;
   const std::vector<std::uint32_t>& begin = side == 0 ? passage.out_begin : passage.in_begin;
   for (std::uint32_t a = begin[node.index]; a < begin[node.index + 1]; ++a) relax_arc(side, at, arcs[a]);
-  // Two ways through the same cluster in a row are never better than one.
+  // Two paths through the same cluster in a row are never better than one.
   if (label.route == 0 && label.before != kNone) return;
   const std::size_t count = passage.boundary();
   const double* const through = (side == 0 ? passage.through : passage.through_back).data() + node.index * count;
@@ -190,7 +190,7 @@ void HierarchySearch::settle(int side, NodeIndex at, Way& way) {
   }
 }
 
-void HierarchySearch::run(const Budget& budget, Way& way) {
+void HierarchySearch::run(const Budget& budget, GraphPath& path) {
   const auto drop_outdated = [&](std::size_t side) {
     Queue& queue = queues_[side];
     while (!queue.empty() && queue.front().first > nodes_[queue.front().second].label[side].cost) {
@@ -198,9 +198,9 @@ void HierarchySearch::run(const Budget& budget, Way& way) {
       queue.pop_back();
     }
   };
-  for (;; ++way.settled) {
-    if (way.settled >= budget.iterations || (way.settled % kSettledPerBudgetCheck == 0 && budget.exhausted())) {
-      way.stopped = true;
+  for (;; ++path.settled) {
+    if (path.settled >= budget.iterations || (path.settled % kSettledPerBudgetCheck == 0 && budget.exhausted())) {
+      path.stopped = true;
       return;
     }
     drop_outdated(0);
@@ -212,17 +212,17 @@ void HierarchySearch::run(const Budget& budget, Way& way) {
     const NodeIndex at = queues_[side].front().second;
     std::pop_heap(queues_[side].begin(), queues_[side].end(), std::greater<>());
     queues_[side].pop_back();
-    settle(static_cast<int>(side), at, way);
+    settle(static_cast<int>(side), at, path);
   }
 }
 
-void HierarchySearch::append(VertexIndex from, VertexIndex to, Way& way) const {
-  way.routes.push_back(hierarchy_->network().cheapest(from, to)->route);
-  way.vertices.push_back(to);
+void HierarchySearch::append(VertexIndex from, VertexIndex to, GraphPath& path) const {
+  path.routes.push_back(hierarchy_->network().cheapest(from, to)->route);
+  path.vertices.push_back(to);
 }
 
-// Along the tree of ways from boundary vertex `from`, which leads back from its inner vertices.
-void HierarchySearch::unpack_passage(ClusterIndex cluster, std::size_t from, std::size_t to, Way& way) const {
+// Along the tree of paths from boundary vertex `from`, which leads back from its inner vertices.
+void HierarchySearch::unpack_passage(ClusterIndex cluster, std::size_t from, std::size_t to, GraphPath& path) const {
   const Passage& passage = hierarchy_->overlay().passage(cluster);
   const ClusterNode& node = hierarchy_->clustering().node(cluster);
   const std::uint16_t* const before = passage.before.data() + from * passage.inner.size();
@@ -234,40 +234,40 @@ void HierarchySearch::unpack_passage(ClusterIndex cluster, std::size_t from, std
     const std::size_t member = node.level == 1 ? 0 : passage.member_of(p);
     const bool within = node.level > 1 && passage.member_of(q) == member;
     if (within)
-      unpack_passage(node.members[member], p - passage.member_begin[member], q - passage.member_begin[member], way);
+      unpack_passage(node.members[member], p - passage.member_begin[member], q - passage.member_begin[member], path);
     else
-      append(passage.inner[p], passage.inner[q], way);
+      append(passage.inner[p], passage.inner[q], path);
   }
 }
 
-void HierarchySearch::unpack_step(int side, NodeIndex at, Way& way) const {
+void HierarchySearch::unpack_step(int side, NodeIndex at, GraphPath& path) const {
   const Node& node = nodes_[at];
   const Label& label = node.label[static_cast<std::size_t>(side)];
   const Node& before = nodes_[label.before];
   if (label.route != 0) {
-    way.routes.push_back(label.route);
-    way.vertices.push_back(side == 0 ? node.vertex : before.vertex);
+    path.routes.push_back(label.route);
+    path.vertices.push_back(side == 0 ? node.vertex : before.vertex);
   } else if (side == 0) {
-    unpack_passage(node.cluster, before.index, node.index, way);
+    unpack_passage(node.cluster, before.index, node.index, path);
   } else {
-    unpack_passage(node.cluster, node.index, before.index, way);
+    unpack_passage(node.cluster, node.index, before.index, path);
   }
 }
 
-void HierarchySearch::unpack(Way& way) const {
+void HierarchySearch::unpack(GraphPath& path) const {
   std::vector<NodeIndex> forward;
   for (NodeIndex n = meeting_.left; nodes_[n].label[0].before != kNone; n = nodes_[n].label[0].before)
     forward.push_back(n);
   const NodeIndex start = forward.empty() ? meeting_.left : nodes_[forward.back()].label[0].before;
-  way.vertices.push_back(nodes_[start].vertex);
-  for (auto n = forward.rbegin(); n != forward.rend(); ++n) unpack_step(0, *n, way);
+  path.vertices.push_back(nodes_[start].vertex);
+  for (auto n = forward.rbegin(); n != forward.rend(); ++n) unpack_step(0, *n, path);
   if (meeting_.route != 0) {
-    way.routes.push_back(meeting_.route);
-    way.vertices.push_back(nodes_[meeting_.right].vertex);
+    path.routes.push_back(meeting_.route);
+    path.vertices.push_back(nodes_[meeting_.right].vertex);
   }
   NodeIndex goal = meeting_.right;
-  for (; nodes_[goal].label[1].before != kNone; goal = nodes_[goal].label[1].before) unpack_step(1, goal, way);
-  way.cost = best_;
+  for (; nodes_[goal].label[1].before != kNone; goal = nodes_[goal].label[1].before) unpack_step(1, goal, path);
+  path.cost = best_;
 }
 
 }  // namespace cairn

@@ -1,5 +1,5 @@
-// The exact cheapest way over a hierarchy: both ends search towards each other, and pass every cluster that holds
-// nothing of the question by its ways through (docs/method.md 9.4). On a graph without levels this is Dijkstra from
+// The exact cheapest path over a hierarchy: both ends search towards each other, and pass every cluster that holds
+// nothing of the query by its shortest paths through it (docs/method.md 9.4). On a graph without levels this is Dijkstra from
 // both ends.
 #pragma once
 
@@ -22,12 +22,12 @@ struct SearchEnd {
 
 struct RouteQuery {
   std::vector<SearchEnd> from, to;          // any one of each
-  std::unordered_set<VertexIndex> avoided;  // not passed; a way may begin or end there
+  std::unordered_set<VertexIndex> avoided;  // not passed; a path may begin or end there
   // Routes that cost something else in this query; kNoWay: not to be taken.
   std::unordered_map<RouteId, double> costs;
 };
 
-struct Way {
+struct GraphPath {
   double cost = kNoWay;                        // kNoWay: there is none; ends included
   std::vector<VertexIndex> vertices;           // from end to end
   std::vector<RouteId> routes;                 // one less
@@ -40,8 +40,8 @@ struct Way {
 // thread-safe; belongs to no hierarchy.
 class HierarchySearch {
  public:
-  // O(k log k) in the vertices settled. Equal queries give equal ways. budget.iterations: settled vertices.
-  [[nodiscard]] Way find(const Hierarchy& hierarchy, const RouteQuery& query, const Budget& budget);
+  // O(k log k) in the vertices settled. Equal queries give equal paths. budget.iterations: settled vertices.
+  [[nodiscard]] GraphPath find(const Hierarchy& hierarchy, const RouteQuery& query, const Budget& budget);
 
  private:
   using NodeIndex = std::uint32_t;
@@ -58,7 +58,7 @@ class HierarchySearch {
     std::uint32_t index = 0;            // in the cluster's boundary
     std::array<Label, 2> label;         // from the start, to the goal
   };
-  // Where the two halves of a way meet: at one node, or by a route from one to another.
+  // Where the two halves of a path meet: at one node, or by a route from one to another.
   struct Meeting {
     NodeIndex left = kNone;
     NodeIndex right = kNone;
@@ -69,8 +69,8 @@ class HierarchySearch {
   void begin(const Hierarchy& hierarchy, const RouteQuery& query);
   void look_into_clusters_of(VertexIndex v);
   void look_into_clusters_with(RouteId route);
-  void run(const Budget& budget, Way& way);
-  void settle(int side, NodeIndex at, Way& way);
+  void run(const Budget& budget, GraphPath& path);
+  void settle(int side, NodeIndex at, GraphPath& path);
   void relax_arc(int side, NodeIndex at, const Arc& arc);
   void end_at_avoided(int side, NodeIndex at, const Arc& arc, double reached);
   void relax(int side, NodeIndex to, double cost, NodeIndex before, RouteId route);
@@ -78,10 +78,10 @@ class HierarchySearch {
   NodeIndex node_at(VertexIndex v, ClusterIndex cluster, std::uint32_t index);
   NodeIndex& slot_of(VertexIndex v);
   void grow();
-  void unpack(Way& way) const;
-  void unpack_step(int side, NodeIndex at, Way& way) const;
-  void unpack_passage(ClusterIndex cluster, std::size_t from, std::size_t to, Way& way) const;
-  void append(VertexIndex from, VertexIndex to, Way& way) const;
+  void unpack(GraphPath& path) const;
+  void unpack_step(int side, NodeIndex at, GraphPath& path) const;
+  void unpack_passage(ClusterIndex cluster, std::size_t from, std::size_t to, GraphPath& path) const;
+  void append(VertexIndex from, VertexIndex to, GraphPath& path) const;
   [[nodiscard]] double cost_of(const Arc& arc) const;
 
   const Hierarchy* hierarchy_ = nullptr;
@@ -93,7 +93,7 @@ class HierarchySearch {
   std::array<Queue, 2> queues_;
   std::array<double, 2> frontier_{};  // what each queue began with when the present node was taken from one
   double best_ = kNoWay;
-  Meeting meeting_;  // of the best way so far
+  Meeting meeting_;  // of the best path so far
 };
 
 }  // namespace cairn

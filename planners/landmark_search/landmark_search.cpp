@@ -16,7 +16,7 @@ namespace {
 // The hierarchy that the world offers, or the graph as it is.
 class Searched {
  public:
-  Searched(const PlanRequest& request, const WorldView& world) {
+  Searched(const RouteRequest& request, const WorldView& world) {
     cost_ = route_cost(request.cost, {world.robot.max_v_mps, world.robot.max_w_radps, request.radius_m, &world.grid});
     if (world.hierarchies != nullptr) {
       hierarchy_ = &world.hierarchies->by(request.cost);
@@ -35,20 +35,20 @@ class Searched {
   const Hierarchy* hierarchy_ = nullptr;
 };
 
-std::vector<SearchEnd> ends_of(const Place& place, const Network& network) {
+std::vector<SearchEnd> ends_of(const std::vector<RouteEnd>& asked, const Network& network) {
   std::vector<SearchEnd> ends;
-  for (std::size_t i = 0; i < place.landmarks.size(); ++i) {
-    const VertexIndex v = network.vertex_of(place.landmarks[i]);
+  for (const RouteEnd& end : asked) {
+    const VertexIndex v = network.vertex_of(end.landmark);
     if (v == kNoVertex)
-      throw std::logic_error("landmark_search: the hierarchies lack L" + std::to_string(place.landmarks[i]) +
+      throw std::logic_error("landmark_search: the hierarchies lack L" + std::to_string(end.landmark) +
                              "; they were not updated after the graph");
-    ends.push_back({v, place.costs.empty() ? 0.0 : place.costs[i]});
+    ends.push_back({v, end.cost});
   }
   std::sort(ends.begin(), ends.end(), [](const SearchEnd& a, const SearchEnd& b) { return a.vertex < b.vertex; });
   return ends;
 }
 
-RouteQuery query_of(const PlanRequest& request, const Network& network) {
+RouteQuery query_of(const RouteRequest& request, const Network& network) {
   RouteQuery query;
   query.from = ends_of(request.from, network);
   query.to = ends_of(request.to, network);
@@ -58,16 +58,16 @@ RouteQuery query_of(const PlanRequest& request, const Network& network) {
   return query;
 }
 
-std::vector<LandmarkId> landmarks_of(const Way& way, const Network& network) {
+std::vector<LandmarkId> landmarks_of(const GraphPath& path, const Network& network) {
   std::vector<LandmarkId> landmarks;
-  landmarks.reserve(way.vertices.size());
-  for (const VertexIndex v : way.vertices) landmarks.push_back(network.landmark_of(v));
+  landmarks.reserve(path.vertices.size());
+  for (const VertexIndex v : path.vertices) landmarks.push_back(network.landmark_of(v));
   return landmarks;
 }
 
-PlanResult search_graph(const PlanRequest& request, const WorldView& world, HierarchySearch& search,
-                        const Budget& budget) {
-  PlanResult result;
+RouteResult search_graph(const RouteRequest& request, const WorldView& world, HierarchySearch& search,
+                         const Budget& budget) {
+  RouteResult result;
   result.outcome = PlanOutcome::unknown_place;
   result.reason = complaint_about(request, world.graph);
   if (!result.reason.empty()) return result;
@@ -76,13 +76,13 @@ PlanResult search_graph(const PlanRequest& request, const WorldView& world, Hier
   const Searched searched(request, world);
   const Network& network = searched.hierarchy().network();
   const RouteQuery query = query_of(request, network);
-  const Way way = search.find(searched.hierarchy(), query, budget);
-  if (way.stopped) return stopped_search(budget);
-  result.settled = way.settled;
+  const GraphPath path = search.find(searched.hierarchy(), query, budget);
+  if (path.stopped) return stopped_search(budget);
+  result.settled = path.settled;
   if (request.explain)
     result.explanation =
-        explanation_of(way, query, request, world.graph, searched.hierarchy(), searched.cost(), search, budget);
-  if (!(way.cost < kNoWay)) {
+        explanation_of(path, query, request, world.graph, searched.hierarchy(), searched.cost(), search, budget);
+  if (!(path.cost < kNoWay)) {
     result.outcome = PlanOutcome::no_route;
     result.reason = no_route_text(request, world.graph);
     if (result.explanation && result.explanation->cost_with_closed_open)
@@ -90,10 +90,11 @@ PlanResult search_graph(const PlanRequest& request, const WorldView& world, Hier
     return result;
   }
   result.outcome = PlanOutcome::solved;
-  result.landmarks = landmarks_of(way, network);
-  result.routes = way.routes;
+  result.landmarks = landmarks_of(path, network);
+  result.routes = path.routes;
   result.reason = by_routes_text(result.routes.size());
-  for (const Way& other : alternatives_to(way, request.alternatives, searched.hierarchy(), query, search, budget))
+  for (const GraphPath& other :
+       alternatives_to(path, request.alternatives, searched.hierarchy(), query, search, budget))
     result.alternatives.push_back({0.0, landmarks_of(other, network), other.routes});
   return result;
 }
@@ -113,21 +114,14 @@ void LandmarkSearch::give_back(std::unique_ptr<HierarchySearch> search) const {
   idle_.push_back(std::move(search));
 }
 
-PlanResult LandmarkSearch::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
-  const auto begin = Budget::Clock::now();
+RouteResult LandmarkSearch::plan(const RouteRequest& request, const WorldView& world, const Budget& budget) const {
   std::unique_ptr<HierarchySearch> search = borrow();
-  PlanResult result = search_graph(request, world, *search, budget);
+  RouteResult result = search_graph(request, world, *search, budget);
   give_back(std::move(search));
-  const auto found = Budget::Clock::now();
-  if (result.outcome == PlanOutcome::solved) {
-    join_trajectories(result, world.graph);
+  if (result.outcome == PlanOutcome::solved)
     result.cost_m = cost_m_of(result.landmarks, result.routes, request, world.graph);
-    for (PlanAlternative& other : result.alternatives)
-      other.cost_m = cost_m_of(other.landmarks, other.routes, request, world.graph);
-  }
-  result.time_ms.graph_ms = ms_between(begin, found);
-  result.time_ms.route_ms = ms_between(found, Budget::Clock::now());
-  result.time_ms.total_ms = result.time_ms.graph_ms + result.time_ms.route_ms;
+  for (RouteAlternative& other : result.alternatives)
+    other.cost_m = cost_m_of(other.landmarks, other.routes, request, world.graph);
   return result;
 }
 

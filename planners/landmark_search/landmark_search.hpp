@@ -5,21 +5,19 @@
 #include <mutex>
 #include <vector>
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/route_planner.hpp"
 #include "planners/landmark_search/hierarchy_search.hpp"
 
 namespace cairn {
 
-// Ends are landmarks: from the best of `from` to the cheapest of `to`; ties go the same way every time.
-// Closed routes are never used. A pose as an end is an unknown place to this planner. The result's path
-// joins the stored trajectories, or the landmarks' standing places where there is none; it is not
-// checked against the grid. cost_m is the sum of the routes' costs by length, whatever the ways are
-// compared by. Uses the world's hierarchies, which must be up to date (std::logic_error when they lack an end);
-// without them each call looks at the whole graph. Thread-safe.
-class LandmarkSearch : public Planner {
+// From the best of `from` to the cheapest of `to`; ties are resolved alike every time. Closed routes are never
+// used. cost_m is the sum of the routes' costs by length, and of the ends' costs when these are lengths too. Uses the
+// world's hierarchies, which must be up to date (std::logic_error when they lack an end); without them each call
+// searches the whole graph. Thread-safe.
+class LandmarkSearch : public RoutePlanner {
  public:
-  [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
-                                const Budget& budget) const override;
+  [[nodiscard]] RouteResult plan(const RouteRequest& request, const WorldView& world,
+                                 const Budget& budget) const override;
 
  private:
   [[nodiscard]] std::unique_ptr<HierarchySearch> borrow() const;

@@ -6,11 +6,11 @@
 namespace {
 
 void register_module(cairn::Registrar& registrar) {
-  registrar.add<cairn::Planner, cairn::NoConfig>(
+  registrar.add<cairn::RoutePlanner, cairn::NoConfig>(
       "landmark_search",
       "shortest path from landmark to landmark over the stored routes, exact and fast on graphs of any size",
       [](const cairn::NoConfig&, const cairn::ModuleContext&) { return std::make_unique<cairn::LandmarkSearch>(); });
-  registrar.add<cairn::Planner, cairn::NoConfig>(
+  registrar.add<cairn::RoutePlanner, cairn::NoConfig>(
       "flat_search", "the same by Dijkstra over the whole graph, to compare with",
       [](const cairn::NoConfig&, const cairn::ModuleContext&) { return std::make_unique<cairn::FlatSearch>(); });
 }

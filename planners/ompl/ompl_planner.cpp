@@ -1,6 +1,5 @@
 #include "planners/ompl/ompl_planner.hpp"
 
-#include <chrono>
 #include <stdexcept>
 
 #include "planners/common/pose_space/footprint.hpp"
@@ -39,7 +38,7 @@ void describe_motion(Fields<OmplConfig>& fields) {
        {"differential", MotionKind::differential},
        {"dubins", MotionKind::dubins},
        {"reeds_shepp", MotionKind::reeds_shepp}},
-      "how the robot moves: a disc any way; differential turns on the spot and drives straight; dubins drives "
+      "how the robot moves: a disc in any direction; differential turns on the spot and drives straight; dubins drives "
       "forwards on circles and straight lines, reeds_shepp backwards too");
   fields.choice("footprint", &OmplConfig::footprint,
                 {{"disc", WantedFootprint::disc}, {"robot", WantedFootprint::robot}},
@@ -120,6 +119,29 @@ OmplPlanner::OmplPlanner(OmplConfig config, const RobotModel& robot)
   check_motion(config_, robot);
 }
 
+PlannerTraits OmplPlanner::traits() const {
+  PlannerTraits traits;
+  traits.shape =
+      config_.footprint == WantedFootprint::disc ? PlannerTraits::Shape::disc : PlannerTraits::Shape::outline;
+  switch (config_.kinematics) {
+    case MotionKind::disc:
+      traits.kinematics = PlannerTraits::Kinematics::holonomic;
+      break;
+    case MotionKind::differential:
+      traits.kinematics = PlannerTraits::Kinematics::differential;
+      break;
+    case MotionKind::dubins:
+      traits.kinematics = PlannerTraits::Kinematics::dubins;
+      break;
+    case MotionKind::reeds_shepp:
+      traits.kinematics = PlannerTraits::Kinematics::reeds_shepp;
+      break;
+  }
+  traits.margin_m = config_.margin_m;
+  traits.unknown = config_.unknown == UnknownGround::avoid ? UnknownPolicy::avoid : UnknownPolicy::allow;
+  return traits;
+}
+
 void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
   if (world.grid.bounds().empty()) return;
   std::optional<PoseSetup> poses;
@@ -136,17 +158,13 @@ void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
   (void)space->joined(inside, inside);  // numbers the parts that are connected
 }
 
-PlanResult OmplPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
+PathResult OmplPlanner::plan(const PathRequest& request, const WorldView& world, const Budget& budget) const {
   if (!(request.radius_m >= 0.0 && std::isfinite(request.radius_m)))
     throw std::invalid_argument("ompl: radius_m must be finite and not negative, got " +
                                 std::to_string(request.radius_m));
-  const auto begin = Budget::Clock::now();
   const OmplTools tools{config_, parameters_, caches_};
-  PlanResult result = config_.kinematics == MotionKind::disc ? DiscQuery(tools, request, world, budget).answer()
-                                                             : PoseQuery(tools, request, world, budget).answer();
-  result.time_ms.route_ms = std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
-  result.time_ms.total_ms = result.time_ms.route_ms;
-  return result;
+  return config_.kinematics == MotionKind::disc ? DiscQuery(tools, request, world, budget).answer()
+                                                : PoseQuery(tools, request, world, budget).answer();
 }
 
 }  // namespace cairn

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "framework/config/fields.hpp"
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/path_planner.hpp"
 #include "planners/common/any_angle/disc_routes.hpp"
 #include "planners/common/disc_space/space_cache.hpp"
 #include "planners/ompl/pose/motion_kind.hpp"
@@ -53,16 +53,17 @@ struct OmplCaches {
 };
 
 // Every route that is called solved has been re-checked against the grid, cell by cell. That a goal
-// cannot be reached is proven before any search. Landmarks as ends stand for their standing places.
+// cannot be reached is proven before any search. A landmark as an end is its approach pose.
 // Thread-safe; searches by OMPL's own planners run one at a time in a process, because OMPL's seeds are
 // process-wide; the default algorithm's run side by side.
-class OmplPlanner : public Planner {
+class OmplPlanner : public PathPlanner {
  public:
   // Throws ConfigError on a parameter that the algorithm does not have, and on settings that do not go together
   // or ask for what the robot's file does not say.
   explicit OmplPlanner(OmplConfig config, const RobotModel& robot = {});
 
-  [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
+  [[nodiscard]] PlannerTraits traits() const override;
+  [[nodiscard]] PathResult plan(const PathRequest& request, const WorldView& world,
                                 const Budget& budget) const override;
   // For requests of the same radius on the same grid; builds all that the first of them would wait for.
   void prepare(const WorldView& world, double radius_m) const override;

@@ -19,7 +19,7 @@ using namespace cairn::behaviours;
 // A behaviour that drives: made with its settings and a seed. places: the settings that name some.
 template <class Step, class Config, class... Member>
 void add_driving(Registrar& registrar, const char* name, const char* summary, Member... places) {
-  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const ModuleContext& context) {
+  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const BehaviourFactoryContext& context) {
     (check_named_categories(config.*places, name, context.categories), ...);
     return std::make_unique<Step>(config, context.seed);
   });
@@ -27,7 +27,7 @@ void add_driving(Registrar& registrar, const char* name, const char* summary, Me
 
 template <class Step, class Config, class... Member>
 void add(Registrar& registrar, const char* name, const char* summary, Member... places) {
-  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const ModuleContext& context) {
+  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const BehaviourFactoryContext& context) {
     (check_named_categories(config.*places, name, context.categories), ...);
     return std::make_unique<Step>(config);
   });
@@ -37,7 +37,7 @@ void register_module(Registrar& registrar) {
   add<Explore, ExploreConfig>(registrar, "explore",
                               "explores the reachable space at a safe distance and looks closer at what it finds");
   registrar.add<Behaviour, SearchConfig>("search", "explores until so many landmarks of a category are known",
-                                         [](const SearchConfig& config, const ModuleContext& context) {
+                                         [](const SearchConfig& config, const BehaviourFactoryContext& context) {
                                            return std::make_unique<Search>(config, context.seed, context.categories);
                                          });
   add_driving<Inspect, InspectConfig>(registrar, "inspect",

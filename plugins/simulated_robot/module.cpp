@@ -8,7 +8,7 @@ namespace {
 void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Sensor, cairn::SimulatedRobotConfig>(
       "simulated_robot", "a robot that drives and measures in a simulated world",
-      [](const cairn::SimulatedRobotConfig& config, const cairn::ModuleContext& context) {
+      [](const cairn::SimulatedRobotConfig& config, const cairn::SensorContext& context) {
         return std::make_unique<cairn::SimulatedRobot>(config, context.robot, context.world, context.T_map_start,
                                                        context.seed, context.begin_s);
       });

@@ -4,7 +4,9 @@
 #include "tests/conformance/detector.hpp"
 #include "tests/conformance/localizer.hpp"
 #include "tests/conformance/map.hpp"
+#include "tests/conformance/path_planner.hpp"
 #include "tests/conformance/planner.hpp"
+#include "tests/conformance/route_planner.hpp"
 #include "tests/conformance/sensor.hpp"
 
 namespace cairn::conformance {
@@ -15,7 +17,7 @@ const std::filesystem::path kModules = std::filesystem::path(CAIRN_BINARY_DIR) /
 // A subject whose objects wrap those of a shipped module.
 template <class Interface, class Wrapper>
 Subject<Interface> wrapped(const std::string& name, const Subject<Interface>& inner) {
-  return {name, [inner](const ModuleContext& context) -> std::shared_ptr<Interface> {
+  return {name, [inner](const ContextOf<Interface>& context) -> std::shared_ptr<Interface> {
             return std::make_shared<Wrapper>(inner.make(context.seed));
           }};
 }
@@ -120,7 +122,7 @@ class SharedLocalizer : public Localizer {
 
 template <class Type>
 Subject<Localizer> localizer(const std::string& name) {
-  return {name, [](const ModuleContext& context) { return std::make_shared<Type>(context.T_map_start); }};
+  return {name, [](const LocalizerContext& context) { return std::make_shared<Type>(context.T_map_start); }};
 }
 INSTANTIATE_TEST_SUITE_P(Faulty, LocalizerConformance,
                          testing::Values(localizer<SureLocalizer>("never in doubt"),
@@ -318,6 +320,83 @@ INSTANTIATE_TEST_SUITE_P(Faulty, PlannerConformance,
                                          wrapped<Planner, ThinPlanner>("forgets the radius", shipped_planner()),
                                          wrapped<Planner, BlindPlanner>("sees no walls", shipped_planner()),
                                          wrapped<Planner, ForgetfulPlanner>("keeps old answers", shipped_planner())));
+
+class WrappedPathPlanner : public PathPlanner {
+ public:
+  explicit WrappedPathPlanner(std::shared_ptr<PathPlanner> inner) : inner_(std::move(inner)) {}
+  [[nodiscard]] PlannerTraits traits() const override { return inner_->traits(); }
+  [[nodiscard]] PathResult plan(const PathRequest& request, const WorldView& world,
+                                const Budget& budget) const override {
+    return inner_->plan(request, world, budget);
+  }
+
+ protected:
+  std::shared_ptr<PathPlanner> inner_;
+};
+
+// Says that it keeps a margin, and that it stays on known ground.
+class PretendingPathPlanner : public WrappedPathPlanner {
+ public:
+  using WrappedPathPlanner::WrappedPathPlanner;
+  [[nodiscard]] PlannerTraits traits() const override { return {.margin_m = 0.1}; }
+};
+
+class MoodyPathPlanner : public WrappedPathPlanner {
+ public:
+  using WrappedPathPlanner::WrappedPathPlanner;
+  [[nodiscard]] PlannerTraits traits() const override { return {.margin_m = 0.001 * ++asked_}; }
+
+ private:
+  mutable int asked_ = 0;
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Faulty, PathPlannerConformance,
+    testing::Values(
+        wrapped<PathPlanner, PretendingPathPlanner>("promises what it does not keep",
+                                                    module<PathPlanner>(kModules, "ompl", "{unknown: allow}")),
+        wrapped<PathPlanner, MoodyPathPlanner>("changes its traits", module<PathPlanner>(kModules, "ompl"))));
+
+class WrappedRoutePlanner : public RoutePlanner {
+ public:
+  explicit WrappedRoutePlanner(std::shared_ptr<RoutePlanner> inner) : inner_(std::move(inner)) {}
+
+ protected:
+  std::shared_ptr<RoutePlanner> inner_;
+};
+
+// Forgets everything of a request but its landmarks.
+class ForgetfulRoutePlanner : public WrappedRoutePlanner {
+ public:
+  using WrappedRoutePlanner::WrappedRoutePlanner;
+  [[nodiscard]] RouteResult plan(const RouteRequest& request, const WorldView& world,
+                                 const Budget& budget) const override {
+    RouteRequest ends;
+    for (const RouteEnd& end : request.from) ends.from.push_back({end.landmark, 0.0});
+    for (const RouteEnd& end : request.to) ends.to.push_back({end.landmark, 0.0});
+    return inner_->plan(ends, world, budget);
+  }
+};
+
+// Leaves the last route out.
+class ShortRoutePlanner : public WrappedRoutePlanner {
+ public:
+  using WrappedRoutePlanner::WrappedRoutePlanner;
+  [[nodiscard]] RouteResult plan(const RouteRequest& request, const WorldView& world,
+                                 const Budget& budget) const override {
+    RouteResult result = inner_->plan(request, world, budget);
+    if (!result.routes.empty()) result.routes.pop_back();
+    return result;
+  }
+};
+
+Subject<RoutePlanner> shipped_route_planner() {
+  return module<RoutePlanner>(kModules, "landmark_search");
+}
+INSTANTIATE_TEST_SUITE_P(
+    Faulty, RoutePlannerConformance,
+    testing::Values(wrapped<RoutePlanner, ForgetfulRoutePlanner>("forgets what is closed", shipped_route_planner()),
+                    wrapped<RoutePlanner, ShortRoutePlanner>("leaves a route out", shipped_route_planner())));
 
 class WrappedBehaviour : public Behaviour {
  public:

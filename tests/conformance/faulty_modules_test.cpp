@@ -85,6 +85,21 @@ TEST(FaultyModules, PlannersFail) {
   faulty.expect_failure("AChangedMapIsPlannedAfresh", "keeps old answers");
 }
 
+TEST(FaultyModules, PathPlannersFail) {
+  const FaultySuite faulty("PathPlannerConformance");
+  faulty.expect_failure("ADiscKeepsTheMarginOfItsTraits", "promises what it does not keep");
+  faulty.expect_failure("UnknownCellsAreCrossedOnlyWhereItsTraitsAllowIt", "promises what it does not keep");
+  faulty.expect_failure("ItsTraitsStayWhatTheyAre", "changes its traits");
+}
+
+TEST(FaultyModules, RoutePlannersFail) {
+  const FaultySuite faulty("RoutePlannerConformance");
+  faulty.expect_failure("AClosedRouteIsNotTaken", "forgets what is closed");
+  faulty.expect_failure("AnAvoidedLandmarkIsNotPassedButMayBeAnEnd", "forgets what is closed");
+  faulty.expect_failure("WhatItsEndsCostIsCounted", "forgets what is closed");
+  faulty.expect_failure("ASolvedRouteLeadsFromLandmarkToLandmark", "leaves a route out");
+}
+
 TEST(FaultyModules, BehavioursFail) {
   const FaultySuite faulty("BehaviourConformance");
   faulty.expect_failure("AHaltAsksForNothing", "drives in halt");

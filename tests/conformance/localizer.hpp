@@ -106,7 +106,7 @@ TEST_P(LocalizerConformance, FollowsAnErrorlessDrive) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Pose2 off = inverse(steps[i].T_map_robot) * estimates[i].T_map_robot;
     ASSERT_LT(off.position().norm(), 0.5) << "at " << steps[i].observation.stamp_s << " s; the drive begins at "
-                                          << text_of(kRoomStart) << ", which is ModuleContext::T_map_start";
+                                          << text_of(kRoomStart) << ", which is LocalizerContext::T_map_start";
     ASSERT_LT(std::abs(off.theta_rad), radians(20.0)) << "at " << steps[i].observation.stamp_s << " s";
   }
 }

@@ -151,7 +151,7 @@ TEST_P(MapperConformance, GoesOnFromTheGridOfAnEarlierRun) {
   const OccupancyGrid so_far = earlier->grid();
   const auto mapper = GetParam().going_on_from(so_far).make(7);
   if (mapper->grid() != so_far)
-    GTEST_SKIP() << "ModuleContext::grid_so_far is not heeded: missions with this map cannot be gone on with";
+    GTEST_SKIP() << "MapperContext::grid_so_far is not heeded: missions with this map cannot be gone on with";
   follow(*mapper, {half, steps.end()});
   const OccupancyGrid& grid = mapper->grid();
   EXPECT_FALSE(grid == so_far) << "nothing more is mapped";

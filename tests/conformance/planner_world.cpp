@@ -81,8 +81,16 @@ PlannerWorld::PlannerWorld() {
 }
 
 void PlannerWorld::close_door() {
+  set_door(kSure);
+}
+
+void PlannerWorld::forget_door() {
+  set_door(0);
+}
+
+void PlannerWorld::set_door(LogOdds log_odds) {
   for (int y = kDoorLow.y; y < kDoorHigh.y; ++y)
-    for (int x = kDoorLow.x; x < kDoorHigh.x; ++x) grid.set_log_odds({x, y}, kSure);
+    for (int x = kDoorLow.x; x < kDoorHigh.x; ++x) grid.set_log_odds({x, y}, log_odds);
   std::vector<RouteId> ids;
   for (const auto& [id, route] : graph.routes()) ids.push_back(id);
   for (const RouteId id : ids) graph.set_closed(id, true);

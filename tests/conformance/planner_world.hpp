@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/world_view.hpp"
 
 namespace cairn::conformance {
 
@@ -17,6 +17,8 @@ struct PlannerWorld {
   [[nodiscard]] WorldView view() const { return {grid, graph, robot, {}, 0.0, nullptr, 0.0}; }
   // Walls up the door and closes the routes through it.
   void close_door();
+  // Nothing is known of the door's cells any more; the routes through it are closed.
+  void forget_door();
   // The grid with the cells that a path crosses as '*'.
   [[nodiscard]] std::string drawing(const std::vector<Pose2>& path) const;
 
@@ -28,6 +30,9 @@ struct PlannerWorld {
   Pose2 behind_walls{0.7, 0.4, 0.0};  // in the closed room
   Pose2 in_the_wall{2.1, 3.9, 0.0};   // between the rooms
   Pose2 outside{40.0, 40.0, 0.0};     // unknown ground, far off
+
+ private:
+  void set_door(LogOdds log_odds);
 };
 
 // Least distance from the points of a path, looked at every centimetre, to an occupied cell's square.

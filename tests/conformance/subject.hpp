@@ -15,6 +15,7 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -60,7 +61,7 @@ class ModuleSource {
 template <class Interface>
 class Subject {
  public:
-  using Factory = std::function<std::shared_ptr<Interface>(const ModuleContext&)>;
+  using Factory = std::function<std::shared_ptr<Interface>(const ContextOf<Interface>&)>;
 
   // An object that no module file holds; ModuleContext::modules is null.
   Subject(std::string name, Factory factory) : name_(std::move(name)), factory_(std::move(factory)) {}
@@ -115,15 +116,21 @@ class Subject {
     change(copy.setup_);
     return copy;
   }
-  [[nodiscard]] ModuleContext context(const ModuleMaker* modules, std::uint64_t seed) const {
-    ModuleContext made{setup_.robot};
-    made.world = setup_.world.get();
-    made.T_map_start = setup_.T_map_start;
-    made.seed = seed;
-    made.templates = setup_.templates;
-    made.modules = modules;
-    made.grid_so_far = setup_.grid_so_far.get();
-    return made;
+  [[nodiscard]] ContextOf<Interface> context(const ModuleMaker* modules, std::uint64_t seed) const {
+    using Context = ContextOf<Interface>;
+    const ModuleContext common{setup_.robot, seed, modules};
+    if constexpr (std::is_same_v<Context, SensorContext>)
+      return {common, setup_.world.get(), setup_.T_map_start};
+    else if constexpr (std::is_same_v<Context, LocalizerContext>)
+      return {common, setup_.T_map_start};
+    else if constexpr (std::is_same_v<Context, MapperContext>)
+      return {common, setup_.grid_so_far.get()};
+    else if constexpr (std::is_same_v<Context, DetectorContext>)
+      return {common, setup_.templates};
+    else if constexpr (std::is_same_v<Context, BehaviourFactoryContext>)
+      return {common};
+    else
+      return common;
   }
   [[nodiscard]] std::shared_ptr<Interface> checked(std::shared_ptr<Interface> object) const {
     if (object == nullptr) throw std::runtime_error("the factory of " + name_ + " returned null; throw instead");

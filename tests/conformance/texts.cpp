@@ -69,6 +69,28 @@ std::string text_of(const PlanResult& result) {
   return text;
 }
 
+std::string text_of(const PathResult& result) {
+  std::string text = std::string(name_of(result.outcome)) + ": " + result.reason + "\n  cost " +
+                     text_of(result.cost_m) + " length " + text_of(result.length_m) + " clearance " +
+                     text_of(result.clearance_m) + " from L" + std::to_string(result.from_landmark) + " to L" +
+                     std::to_string(result.to_landmark);
+  for (const Pose2& pose : result.path) text += "\n  " + text_of(pose);
+  return text;
+}
+
+std::string text_of(const RouteResult& result) {
+  std::string text = std::string(name_of(result.outcome)) + ": " + result.reason + "\n  cost " +
+                     text_of(result.cost_m) + " settled " + std::to_string(result.settled) + "\n  landmarks";
+  for (const LandmarkId id : result.landmarks) text += " L" + std::to_string(id);
+  text += " routes";
+  for (const RouteId id : result.routes) text += " R" + std::to_string(id);
+  for (const RouteAlternative& other : result.alternatives) {
+    text += "\n  or, cost " + text_of(other.cost_m);
+    for (const RouteId id : other.routes) text += " R" + std::to_string(id);
+  }
+  return text;
+}
+
 std::string text_of(const Status& status) {
   const char* const word = status.progress == Progress::running   ? "running: "
                            : status.progress == Progress::success ? "success: "

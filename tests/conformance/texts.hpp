@@ -15,6 +15,8 @@ namespace cairn::conformance {
 [[nodiscard]] std::string text_of(const PoseEstimate& estimate);
 [[nodiscard]] std::string text_of(const DetectionReport& report);
 [[nodiscard]] std::string text_of(const PlanResult& result);  // without the times
+[[nodiscard]] std::string text_of(const PathResult& result);
+[[nodiscard]] std::string text_of(const RouteResult& result);
 [[nodiscard]] std::string text_of(const Status& status);
 [[nodiscard]] std::string text_of(Cell cell);
 

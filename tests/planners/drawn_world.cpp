@@ -43,8 +43,8 @@ double distance_to_cell(const Point& p, const Point& centre, double cell_m) {
 
 }  // namespace
 
-PlanRequest DrawnWorld::request(char from, char to, double radius_m) const {
-  PlanRequest request;
+PathRequest DrawnWorld::request(char from, char to, double radius_m) const {
+  PathRequest request;
   request.from.pose = pose(from);
   request.to.pose = pose(to);
   request.radius_m = radius_m;

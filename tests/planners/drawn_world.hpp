@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/path_planner.hpp"
 
 namespace cairn::test {
 
@@ -22,7 +22,7 @@ struct DrawnWorld {
 
   [[nodiscard]] WorldView view() const { return {grid, graph, robot, {}, 0.0, nullptr, 0.0}; }
   [[nodiscard]] Pose2 pose(char place) const { return {places.at(place).x(), places.at(place).y(), 0.0}; }
-  [[nodiscard]] PlanRequest request(char from, char to, double radius_m) const;
+  [[nodiscard]] PathRequest request(char from, char to, double radius_m) const;
   // Sets the blocks with this letter, and the block of cells under it, to a state.
   void fill(char place, CellState state);
 };

@@ -77,7 +77,7 @@ TEST(ModuleLibrary, TakesModulesThatAreLinkedIn) {
   ModuleLibrary library({});
   library.add("(linked in)", registrar);
   const RobotModel robot;
-  EXPECT_NE(library.make<Localizer>(choice_of("odometry_compass"), ModuleContext{robot}), nullptr);
+  EXPECT_NE(library.make<Localizer>(choice_of("odometry_compass"), {{robot}}), nullptr);
   EXPECT_EQ(library.find_any("odometry_compass")->plugin->file, "(linked in)");
 }
 
@@ -124,7 +124,7 @@ TEST(ModuleLibrary, AnObjectOutlivesTheLibraryThatLoadedIt) {
   {
     const ModuleLibrary library({folder_of("faulty")});
     const RobotModel robot;
-    localizer = library.make<Localizer>(choice_of("still_localizer"), ModuleContext{robot});
+    localizer = library.make<Localizer>(choice_of("still_localizer"), {{robot}});
   }
   EXPECT_EQ(localizer->update({}, {}).T_map_robot, Pose2{});
 }
@@ -142,7 +142,7 @@ TEST(ModuleLibrary, UnknownConfigKeysAreRefused) {
   entry.key_place = {"mission.yaml", 8, 5};
   entry.value = value;
   try {
-    (void)library.make<Sensor>(choice, ModuleContext{robot});
+    (void)library.make<Sensor>(choice, {{robot}});
     FAIL() << "no error";
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("mission.yaml:8:5"), HasSubstr("reading"), HasSubstr("readings")));

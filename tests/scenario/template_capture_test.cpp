@@ -45,7 +45,7 @@ std::filesystem::path OfficeCapture::folder_;
 std::optional<Detection> found_in(const OccupancyGrid& grid, const LandmarkShape& shape) {
   const ModuleLibrary library({std::filesystem::path(CAIRN_BINARY_DIR) / "lib" / "cairn"});
   const RobotModel robot = load_robot(source_folder() + "/config/robots/pioneer1.yaml");
-  ModuleContext context{robot};
+  DetectorContext context{{robot}};
   context.templates = std::make_shared<TemplateSet>(render_sensed_set({shape}, radians(15.0), 0.05, {}, robot,
                                                                       choice("simulated_robot", "{}"),
                                                                       choice("muriel", "{cell_m: 0.05}"), library));

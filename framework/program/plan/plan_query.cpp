@@ -7,7 +7,7 @@
 namespace cairn {
 namespace {
 
-void report_explanation(std::ostream& out, const PlanExplanation& explanation, CostKind kind, const SavedMap& map,
+void report_explanation(std::ostream& out, const RouteExplanation& explanation, CostKind kind, const SavedMap& map,
                         const ClusterTree& clusters) {
   const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no way";
   out << fmt::format("  by {}: {}; settled", name_of(kind), cost);
@@ -65,7 +65,7 @@ void print_text(std::ostream& out, const PlanQuery& query, const PlanResult& res
   }
   if (!result.reason.empty()) out << "\n  " << result.reason;
   out << "\n";
-  for (const PlanAlternative& other : result.alternatives) {
+  for (const RouteAlternative& other : result.alternatives) {
     out << fmt::format("  or {:.2f} m:", other.cost_m);
     list(other.landmarks);
     out << "\n";

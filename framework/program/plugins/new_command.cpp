@@ -60,9 +60,7 @@ std::string pascal_case(const std::string& name) {
 
 void check_kind(const std::string& kind) {
   std::vector<std::string> kinds;
-  for (const PluginKind known : {PluginKind::sensor, PluginKind::localizer, PluginKind::map, PluginKind::detector,
-                                 PluginKind::planner, PluginKind::behaviour})
-    kinds.emplace_back(name_of(known));
+  for (const PluginKind known : kPluginKinds) kinds.emplace_back(name_of(known));
   if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
   std::string all;
   for (const std::string& known : kinds) all += (all.empty() ? "" : ", ") + known;
@@ -111,10 +109,12 @@ int plugins_new(const NewPluginCommand& command, const CommonOptions& common) {
     throw std::runtime_error(folder.string() + ": is there already; name another folder with --folder");
 
   const fs::path shared = prefix() / "share" / "cairn";
-  const std::vector<Replacement> replacements = {{"@NAME@", command.name},
-                                                 {"@CLASS@", pascal_case(command.name)},
-                                                 {"@KIND@", command.kind},
-                                                 {"@CONFIG@", fs::weakly_canonical(shared / "config").string()}};
+  const std::vector<Replacement> replacements = {
+      {"@NAME@", command.name},
+      {"@CLASS@", pascal_case(command.name)},
+      {"@KIND@", command.kind},
+      {"@CONFIG@", fs::weakly_canonical(shared / "config").string()},
+      {"@MODULES@", fs::weakly_canonical(prefix() / "lib" / "cairn").string()}};
   std::vector<NewFile> files;
   add_files_of(shared / "scaffold" / "common", command.name, replacements, files);
   add_files_of(shared / "scaffold" / command.kind, command.name, replacements, files);

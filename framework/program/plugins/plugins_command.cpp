@@ -94,7 +94,7 @@ int plugins_list(const CommonOptions& common) {
                       {"version", std::string(entry.plugin->stamp.cairn_version)},
                       {"summary", entry.module->summary}});
     else
-      std::cout << fmt::format("{:<10} {:<18} {:<22} {:<8} {}\n", kind, entry.module->name, file,
+      std::cout << fmt::format("{:<13} {:<18} {:<22} {:<8} {}\n", kind, entry.module->name, file,
                                std::string(entry.plugin->stamp.cairn_version), entry.module->summary);
   }
   if (common.json) std::cout << ordered_json{{"modules", list}, {"faults", library.faults()}}.dump() << "\n";

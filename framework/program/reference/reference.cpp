@@ -94,6 +94,11 @@ std::string table_of(const Schema& schema) {
 std::string about_kind(PluginKind kind) {
   const std::string name(name_of(kind));
   if (kind == PluginKind::behaviour) return "A step of a mission: " + code("- name: settings") + " under `steps`.";
+  if (kind == PluginKind::path_planner)
+    return "Plans paths on the grid: for a planner that names it, or alone as the mission's " + code("planner") + ".";
+  if (kind == PluginKind::route_planner)
+    return "Plans routes over the landmark graph: for a planner that names it, or alone as the mission's " +
+           code("planner") + ".";
   for (const FieldSpec& field : schema_of<MissionConfig>().fields)
     if (field.plugin_kind == name) return "The mission's " + code(field.key) + ": " + field.meaning + ".";
   return "";

@@ -122,7 +122,7 @@ ordered_json choice_of(PluginKind kind, const ModuleLibrary& library, const std:
   std::string about = "which module does it:";
   for (const ModuleEntry& entry : library.entries()) {
     const RegisteredModule& module = *entry.module;
-    if (module.kind != kind) continue;
+    if (!serves_as(module.kind, kind)) continue;
     names.push_back(module.name);
     about += "\n- " + module.name + ": " + module.summary;
     cases.push_back({{"if", {{"required", {"plugin"}}, {"properties", {{"plugin", {{"const", module.name}}}}}}},
@@ -208,9 +208,8 @@ ordered_json parameter() {
 
 ordered_json definitions_of(const ModuleLibrary& library) {
   ordered_json definitions = ordered_json::object();
-  for (const PluginKind kind :
-       {PluginKind::sensor, PluginKind::localizer, PluginKind::map, PluginKind::detector, PluginKind::planner})
-    definitions[std::string(name_of(kind))] = choice_of(kind, library);
+  for (const PluginKind kind : kPluginKinds)
+    if (kind != PluginKind::behaviour) definitions[std::string(name_of(kind))] = choice_of(kind, library);
   add_nodes(definitions, library);
   for (const ModuleEntry& entry : library.entries()) {
     const RegisteredModule& module = *entry.module;

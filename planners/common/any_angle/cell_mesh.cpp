@@ -121,7 +121,7 @@ void CellMesh::find_blocks() {
   block_above_.assign(rectangles_.size(), kNone);
   rectangle_above_.assign(static_cast<std::size_t>(blocks_), kNone);
   depth_.assign(rectangles_.size(), 0);
-  // Breadth first: a block is first entered through the one rectangle that all ways from the root lead through.
+  // Breadth first: a block is first entered through the one rectangle that all paths from the root lead through.
   std::vector<std::size_t> queue;
   Index parts = 0;
   for (std::size_t root = 0; root < rectangles_.size(); ++root) {
@@ -185,7 +185,7 @@ std::vector<std::uint8_t> CellMesh::blocks_between(Index from, Index to) const {
     const Index block = block_above_[static_cast<std::size_t>(deeper)];
     marks[static_cast<std::size_t>(block)] = 1;
     deeper = rectangle_above_[static_cast<std::size_t>(block)];
-    // Siblings of one block meet in it: the way between them needs not go through what is above.
+    // Siblings of one block meet in it: the path between them need not go through what is above.
     const Index& other = &deeper == &from ? to : from;
     if (other != deeper && block_above_[static_cast<std::size_t>(other)] == block) break;
   }

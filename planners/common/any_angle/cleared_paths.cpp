@@ -35,7 +35,7 @@ std::optional<Point> beside_nearest_corner(const DiscSpace& space, const Point& 
   return beside;
 }
 
-// Goes on to a point, past corners that the straight way grazes.
+// Continues to a point, past corners that the straight segment grazes.
 void go_past_corners(const DiscSpace& space, const Point& to, int depth, std::vector<Point>& route) {
   constexpr int kMaxDepth = 40;
   const Point from = route.back();

@@ -114,10 +114,11 @@ DiscRoutes::Meshes DiscRoutes::meshes_of(int parts) const {
   // From some point of a cell to any of a square is as far as from centre to centre at most, and at least
   // as far as between the squares.
   const auto radius_m = static_cast<float>(radius_m_ - 1e-6);
-  CellMesh may = mesh_where(field, [&](Cell c) { return !field.is_blocked(c) && field.distance_m(c) >= radius_m; });
+  CellMesh optimistic =
+      mesh_where(field, [&](Cell c) { return !field.is_blocked(c) && field.distance_m(c) >= radius_m; });
   const DistanceField squares = between_squares(field);
   const auto all_m = static_cast<float>(radius_m_ + 1e-6);
-  return {space, std::move(may), mesh_where(field, [&](Cell c) { return squares.distance_m(c) >= all_m; })};
+  return {space, std::move(optimistic), mesh_where(field, [&](Cell c) { return squares.distance_m(c) >= all_m; })};
 }
 
 const DiscRoutes::Meshes* DiscRoutes::finer(const Budget& budget) const {
@@ -141,8 +142,8 @@ const DiscRoutes::Meshes* DiscRoutes::finer(const Budget& budget) const {
 
 bool DiscRoutes::may_reach(const Point& from, const Point& to) const {
   const auto part = [&](const Point& p) {
-    const CellMesh::Index at = coarse_.may.rectangle_of(coarse_.space->field().cell_at(p));
-    return at == CellMesh::kNone ? CellMesh::kNone : coarse_.may.part_of(at);
+    const CellMesh::Index at = coarse_.optimistic.rectangle_of(coarse_.space->field().cell_at(p));
+    return at == CellMesh::kNone ? CellMesh::kNone : coarse_.optimistic.part_of(at);
   };
   return part(from) != CellMesh::kNone && part(from) == part(to);
 }
@@ -151,13 +152,14 @@ double DiscRoutes::length_lower_bound_m(const Point& from, const Point& to, cons
   if (!may_reach(from, to)) return std::numeric_limits<double>::infinity();
   const DiscSpace& space = *coarse_.space;
   const auto stop = [&budget] { return budget.exhausted(); };
-  return shortest_path(coarse_.may, to_lattice(space, from), to_lattice(space, to), stop).length * space.cell_m();
+  return shortest_path(coarse_.optimistic, to_lattice(space, from), to_lattice(space, to), stop).length *
+         space.cell_m();
 }
 
 std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, double max_m,
                                             const Budget& budget) const {
   constexpr int kAskEvery = 4096;
-  const CellMesh& mesh = coarse_.may;
+  const CellMesh& mesh = coarse_.optimistic;
   const DistanceField& field = coarse_.space->field();
   const CellMesh::Index start = mesh.rectangle_of(field.cell_at(from));
   std::vector<Cell> cells;
@@ -184,7 +186,7 @@ DiscRoute DiscRoutes::route_on(const Meshes& meshes, const Point& from, const Po
   const DiscSpace& space = *meshes.space;
   const auto stop = [&budget] { return budget.exhausted(); };
   DiscRoute answer;
-  const MeshPath least = shortest_path(meshes.may, to_lattice(space, from), to_lattice(space, to), stop);
+  const MeshPath least = shortest_path(meshes.optimistic, to_lattice(space, from), to_lattice(space, to), stop);
   answer.expanded = least.expanded;
   answer.interrupted = least.interrupted;
   answer.impossible = least.points.empty() && !least.interrupted;
@@ -193,15 +195,16 @@ DiscRoute DiscRoutes::route_on(const Meshes& meshes, const Point& from, const Po
   std::vector<Point> min_path = to_map(space, least.points);
   min_path.front() = from;
   min_path.back() = to;
-  if (!meshes.surely) {
+  if (!meshes.conservative) {
     answer.route = off_corners(space, min_path);
     return answer;
   }
   const int reach = 2 * std::max(1, static_cast<int>(std::lround(space_->cell_m() / space.cell_m()))) + 1;
   double best_m = std::numeric_limits<double>::infinity();
-  for (const Point& first : entry_points(space, *meshes.surely, from, radius_m_, reach))
-    for (const Point& last : entry_points(space, *meshes.surely, to, radius_m_, reach)) {
-      const MeshPath path = shortest_path(*meshes.surely, to_lattice(space, first), to_lattice(space, last), stop);
+  for (const Point& first : entry_points(space, *meshes.conservative, from, radius_m_, reach))
+    for (const Point& last : entry_points(space, *meshes.conservative, to, radius_m_, reach)) {
+      const MeshPath path =
+          shortest_path(*meshes.conservative, to_lattice(space, first), to_lattice(space, last), stop);
       answer.expanded += path.expanded;
       answer.interrupted = answer.interrupted || path.interrupted;
       if (path.points.empty()) continue;

@@ -47,16 +47,16 @@ class DiscRoutes {
                                                 const Budget& budget = {}) const;
   [[nodiscard]] const std::shared_ptr<const DiscSpace>& lattice() const { return coarse_.space; }
 
-  // Between two places where the disc fits. None without `impossible`: the way, if there is one, is narrower
-  // than the finest lattice tried can tell.
+  // Between two places where the disc fits. None without `impossible`: the route, if there is one, is narrower
+  // than the finest lattice tried can show.
   [[nodiscard]] DiscRoute route(const Point& from, const Point& to, const Budget& budget) const;
 
  private:
   // One lattice: a whole part of a cell of the grid.
   struct Meshes {
     std::shared_ptr<const DiscSpace> space;
-    CellMesh may;
-    std::optional<CellMesh> surely;  // none: the same
+    CellMesh optimistic;
+    std::optional<CellMesh> conservative;  // none: the same
   };
 
   [[nodiscard]] Meshes meshes_of(int parts) const;

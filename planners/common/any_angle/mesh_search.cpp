@@ -11,7 +11,7 @@ namespace {
 using Index = CellMesh::Index;
 using Side = CellMesh::Side;
 
-constexpr double kSnap = 1e-9;     // cells: as near to a lattice line as rounding can tell
+constexpr double kSnap = 1e-9;     // cells: as near to a lattice line as rounding resolves
 constexpr double kMinPart = 1e-9;  // cells: a shorter interval is a point that its neighbours cover
 constexpr int kAskEvery = 64;
 
@@ -53,7 +53,7 @@ bool runs_along_x(Side side) {
   return side == Side::below || side == Side::above;
 }
 
-// The shortest way from a through a stretch of a side to b, with nothing else in the way.
+// The shortest path from a through an interval of a side to b, with no other obstacle.
 double length_through(const Point& a, Side side, const Point& left, const Point& right, Point b) {
   const int across = runs_along_x(side) ? 1 : 0;
   const int along = 1 - across;
@@ -102,7 +102,7 @@ class Search {
       while (true) {
         if (++expanded_ % kAskEvery == 0 && stop_ && stop_()) return stopped();
         if (!is_outdone(next)) expand(next);
-        // The only way on needs not wait in line.
+        // A single continuation need not wait in the queue.
         if (found_.size() != 1 || found_.front().into == CellMesh::kNone) break;
         next = found_.front();
         found_.clear();
@@ -118,7 +118,7 @@ class Search {
   }
 
   // Those that hold the start, rims included: several when it lies on a line between them. The search sets out from
-  // all; between them it would go round the start for ever, no way being longer than another.
+  // all; between them it would go round the start for ever, no path being longer than another.
   [[nodiscard]] std::vector<Index> rectangles_around_start() const {
     std::vector<Index> around{start_};
     for (std::size_t i = 0; i < around.size(); ++i)
@@ -160,7 +160,7 @@ class Search {
     return root.corner != CellMesh::kNone && root.length > best_[static_cast<std::size_t>(root.corner)] + kSnap;
   }
 
-  // The root for a path that turns at a point; -1 where there is nothing to turn round or a shorter way is known.
+  // The root for a path that turns at a point; -1 where there is nothing to turn round or a shorter path is known.
   std::int32_t root_at(const Point& p, std::int32_t before) {
     const Index corner = corner_of(p);
     if (corner == CellMesh::kNone) return -1;
@@ -280,7 +280,7 @@ class Search {
   Index start_;
   Index goal_;
   std::vector<std::uint8_t> allowed_;  // by block
-  std::vector<double> best_;           // by corner: the shortest way known
+  std::vector<double> best_;           // by corner: the shortest path known
   std::vector<Root> roots_;
   std::vector<Interval> found_;  // of the interval being expanded
   std::priority_queue<Interval, std::vector<Interval>, LongerFirst> waiting_;

@@ -10,10 +10,10 @@ namespace cairn {
 
 struct RankedGoal {
   GoalPlace place;
-  double length_lower_bound_m = 0.0;  // no way there is shorter; 0 where it was not asked for
+  double length_lower_bound_m = 0.0;  // no route there is shorter; 0 where it was not asked for
 };
 
-// By how long a way to them must be at least, equal ones as they come. Of a single goal it is not asked.
+// By the lower bound of the length of a route to them, equal ones as they come. Not computed for a single goal.
 [[nodiscard]] std::vector<RankedGoal> nearest_first(const std::vector<GoalPlace>& goals, const Point& from,
                                                     const DiscRoutes& routes, const Budget& budget);
 

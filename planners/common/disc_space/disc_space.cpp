@@ -133,7 +133,7 @@ bool DiscSpace::fits_along(const Point& from, const Point& to, double radius_m) 
     const Bounds bounds = bounds_at(at(middle_m));
     if (bounds.max_m < reach_m && !nothing_blocks()) return false;
     double known_m = bounds.min_m - reach_m;
-    if (2.0 * known_m < std::min(lattice_.cell_m, part.end_m - part.begin_m) || known_m < 0.0) {  // too near to tell
+    if (2.0 * known_m < std::min(lattice_.cell_m, part.end_m - part.begin_m) || known_m < 0.0) {  // too close to decide
       known_m = 2.0 * lattice_.cell_m;
       const Part near{std::max(part.begin_m, middle_m - known_m), std::min(part.end_m, middle_m + known_m)};
       if (!doubtful.push(near) && touches(near)) return false;

@@ -1,7 +1,7 @@
-// Where on OG1 a disc may stand and along which straight segments it may move.
+// Where on OG1 a disc fits and along which straight segments it may move.
 //
 // Answers are exact: a disc fits where it touches no blocked cell (swept_disc.hpp). The distance field
-// answers nearly all questions at once; only what is too near to tell is looked up cell by cell.
+// answers nearly all questions at once; only what is too close to decide is checked cell by cell.
 // Immutable and thread-safe. Building it costs O(cells).
 #pragma once
 
@@ -41,7 +41,7 @@ class DiscSpace {
   // The same ground on a lattice `parts` times as fine: the same answers, with narrower doubt below.
   [[nodiscard]] DiscSpace refined(int parts) const;
 
-  // Travel from a point over every cell in which such a disc might stand: a cell that it does not reach
+  // Travel from a point over every cell in which such a disc might fit: a cell that it does not reach
   // cannot be reached. What it reaches may still be too narrow by less than two cells.
   [[nodiscard]] TravelField travel_at_most(const Point& from, double radius_m) const;
 

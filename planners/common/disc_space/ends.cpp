@@ -41,7 +41,7 @@ std::string not_reached_text(const Place& goal, const LandmarkGraph& graph) {
   return "none of " + std::to_string(goal.landmarks.size()) + " goals (" + first + ", ...) can be reached";
 }
 
-// No way at all, or none for a robot of this size?
+// No path at all, or none for a robot of this size?
 Refusal unreached(const Place& place, const WorldView& world, const EndRules& rules, const StartPlace& start,
                   const std::vector<Point>& goals) {
   const auto is_open = [&](const Point& goal) { return start.space->joined(start.leave_from, goal); };
@@ -50,9 +50,9 @@ Refusal unreached(const Place& place, const WorldView& world, const EndRules& ru
           not_reached_text(place, world.graph) + ": what is free around the start ends before it"};
 }
 
-std::string note_on(const Pose2& stand, const Landmark& landmark) {
+std::string note_on(const Pose2& approach, const Landmark& landmark) {
   const Point usual = landmark.approach_pose().position();
-  const double away_m = (stand.position() - usual).norm();
+  const double away_m = (approach.position() - usual).norm();
   if (away_m == 0.0) return {};
   return "; it ends " + metres_text(away_m) + " from " + label_of(landmark) +
          (landmark.access ? ", whose usual place is not free" : "");
@@ -60,21 +60,13 @@ std::string note_on(const Pose2& stand, const Landmark& landmark) {
 
 }  // namespace
 
-PlanResult refused_plan(const Refusal& refusal) {
-  PlanResult result;
-  result.outcome = refusal.outcome;
-  result.reason = refusal.reason;
-  return result;
-}
-
 PlanOutcome stop_outcome(const Budget& budget) {
   return budget.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget;
 }
 
-PlanResult stopped_plan(PlanOutcome stop_outcome) {
-  if (stop_outcome == PlanOutcome::cancelled)
-    return refused_plan({stop_outcome, "the search for a route was cancelled"});
-  return refused_plan({stop_outcome, "the budget was used up before a route was found"});
+Refusal stopped(PlanOutcome stop_outcome) {
+  if (stop_outcome == PlanOutcome::cancelled) return {stop_outcome, "the search for a route was cancelled"};
+  return {stop_outcome, "the budget was used up before a route was found"};
 }
 
 bool is_larger_than(const OccupancyGrid& grid, double radius_m) {
@@ -84,7 +76,7 @@ bool is_larger_than(const OccupancyGrid& grid, double radius_m) {
 
 Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m) {
   return {PlanOutcome::no_route, not_reached_text(goal, graph) +
-                                     ": the way there is too narrow for a robot of radius " + metres_text(radius_m)};
+                                     ": the path there is too narrow for a robot of radius " + metres_text(radius_m)};
 }
 
 std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph, const std::string& end) {
@@ -110,9 +102,9 @@ std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& 
   if (place.pose) return start_at_pose(*place.pose, world, rules, spaces);
   const auto space = spaces.space_of(world.grid, rules.ground, world.grid_version);
   for (const LandmarkId id : place.landmarks) {
-    const std::optional<Pose2> stand = approach_pose(*space, *world.graph.find(id), rules.radius_m + kMinRadius_m);
-    if (!stand) continue;
-    auto start = start_at_pose(*stand, world, rules, spaces);
+    const std::optional<Pose2> approach = approach_pose(*space, *world.graph.find(id), rules.radius_m + kMinRadius_m);
+    if (!approach) continue;
+    auto start = start_at_pose(*approach, world, rules, spaces);
     if (auto* found = std::get_if<StartPlace>(&start)) found->landmark = id;
     return start;
   }
@@ -141,8 +133,8 @@ std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const
   std::vector<Point> out_of_reach;
   for (const LandmarkId id : place.landmarks) {
     const Landmark& landmark = *world.graph.find(id);
-    if (const auto stand = approach_pose(space, landmark, radius_m, may_reach)) {
-      goals.push_back({*stand, std::nullopt, id, note_on(*stand, landmark)});
+    if (const auto approach = approach_pose(space, landmark, radius_m, may_reach)) {
+      goals.push_back({*approach, std::nullopt, id, note_on(*approach, landmark)});
     } else if (const auto anywhere = approach_pose(space, landmark, radius_m)) {
       out_of_reach.push_back(anywhere->position());
     }

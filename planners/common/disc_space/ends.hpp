@@ -1,4 +1,4 @@
-// The two ends of a request as points on the grid: where the robot sets out and where it may arrive.
+// The two ends of a request as points on the grid: where the robot starts and where it may arrive.
 #pragma once
 
 #include <functional>
@@ -19,10 +19,17 @@ struct Refusal {
   std::string reason;
 };
 
-[[nodiscard]] PlanResult refused_plan(const Refusal& refusal);
+// As the result of a planner: a PathResult or PlanResult.
+template <class Result>
+[[nodiscard]] Result refused(const Refusal& refusal) {
+  Result result;
+  result.outcome = refusal.outcome;
+  result.reason = refusal.reason;
+  return result;
+}
 // Of a call that its budget ended: `cancelled` or `out_of_budget`.
 [[nodiscard]] PlanOutcome stop_outcome(const Budget& budget);
-[[nodiscard]] PlanResult stopped_plan(PlanOutcome stop_outcome);
+[[nodiscard]] Refusal stopped(PlanOutcome stop_outcome);
 
 // The robot at the start. The grid is the world's, with the unknown ground under the robot made free
 // when it stands there now.
@@ -43,7 +50,7 @@ struct GoalPlace {
   Pose2 pose;
   std::optional<double> heading_rad;  // when it matters
   LandmarkId landmark = 0;
-  std::string note;  // for people, when it is not where one usually stands at the landmark
+  std::string note;  // for people, when it is not the usual approach pose of the landmark
 };
 
 // What a robot that stands at a pose covers of the grid.
@@ -59,19 +66,19 @@ struct EndRules {
   std::optional<Covering> covering;  // none: the disc
 };
 
-// Such a disc can stand nowhere, and looking at every cell it would cover takes for ever.
+// Such a disc fits nowhere, and checking every cell under it would take for ever.
 [[nodiscard]] bool is_larger_than(const OccupancyGrid& grid, double radius_m);
 // Landmarks of a place that the graph lacks, non-finite numbers, a place that names nothing.
 [[nodiscard]] std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph,
                                                       const std::string& end);
-// The first landmark that has a standing place stands for several.
+// Of several landmarks, the first one that has an approach pose.
 [[nodiscard]] std::variant<StartPlace, Refusal> start_of(const Place& place, const WorldView& world,
                                                          const EndRules& rules, const SpaceCache& spaces);
-// That the way is too narrow for the robot, for people.
+// That the path is too narrow for the robot, for people.
 [[nodiscard]] Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_m);
 // Whether a disc that leaves the start may get to a point; false is certain.
 using MayReach = std::function<bool(const Point&)>;
-// Every place that the request would accept, landmarks by their standing places that may be reached; one
+// Every place that the request would accept, landmarks by their approach poses that may be reached; one
 // that cannot be is left out. At least one, or a refusal that says why.
 [[nodiscard]] std::variant<std::vector<GoalPlace>, Refusal> goals_of(const Place& place, const WorldView& world,
                                                                      const EndRules& rules, const StartPlace& start,

@@ -72,7 +72,7 @@ std::optional<Pose2> approach_pose(const DiscSpace& space, const Landmark& landm
   const Point centre = landmark.T_map_landmark.position();
   const Point wanted = landmark.access ? landmark.access->position() : centre;
   if (landmark.access && space.fits(wanted, radius_m) && (!accept || accept(wanted))) return landmark.access;
-  const std::optional<Point> near = nearest_fit(space, wanted, radius_m, kStandNear_m, accept);
+  const std::optional<Point> near = nearest_fit(space, wanted, radius_m, kApproachNear_m, accept);
   if (!near) return std::nullopt;
   const Point look = centre - *near;
   return Pose2{near->x(), near->y(), std::atan2(look.y(), look.x())};

@@ -1,29 +1,30 @@
-// Where a disc can stand near a point, how it leaves a tight start, and why it does not fit.
+// Where a disc fits near a point, how it leaves a tight start, and why it does not fit.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/path_planner.hpp"
 #include "planners/common/disc_space/disc_space.hpp"
 
 namespace cairn {
 
-inline constexpr double kStandNear_m = 1.5;  // a landmark without an access: how far from it one may stand
+// How far from a landmark without an access its approach pose may be.
+inline constexpr double kApproachNear_m = 1.5;
 
 // The cell centre nearest to a point, within a distance, where the disc fits and `accept` (optional)
 // agrees. Ties go to the smaller (y, x).
 [[nodiscard]] std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, double radius_m,
                                                double within_m, const std::function<bool(const Point&)>& accept = {});
 
-// Where a robot stands to be at a landmark: its access where the disc fits, else the nearest place that
+// The pose of a robot that is at a landmark: its access where the disc fits, else the nearest place that
 // fits (and that `accept` agrees to) round the access or, without one, round the landmark. The heading
-// of another place than the access looks at the landmark.
+// of another place than the access is towards the landmark.
 [[nodiscard]] std::optional<Pose2> approach_pose(const DiscSpace& space, const Landmark& landmark, double radius_m,
                                                  const std::function<bool(const Point&)>& accept = {});
 
-// Why the disc cannot stand there, as the end of a sentence: "an occupied cell is 0.12 m from its centre".
+// Why the disc does not fit there, as the end of a sentence: "an occupied cell is 0.12 m from its centre".
 [[nodiscard]] std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const Point& p_map,
                                       double radius_m);
 // "; the nearest free place is (1.200, 0.850), 0.25 m away", or that there is none; `accept` as in nearest_fit.
@@ -42,7 +43,7 @@ inline constexpr double kStandNear_m = 1.5;  // a landmark without an access: ho
                                                              const Point& p_map, double reach_m,
                                                              const std::function<bool(Cell)>& covers);
 
-// A straight way out of a start that is too near to something. On it the disc keeps keep_m, which is
+// A straight escape path out of a start that is too near to something. On it the disc keeps keep_m, which is
 // what the start itself keeps from occupied cells, and may cross unknown ones.
 struct Escape {
   Point to;

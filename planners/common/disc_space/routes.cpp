@@ -26,8 +26,8 @@ double length_of(const std::vector<PartedPoint>& route) {
   return length_m;
 }
 
-// Cuts corners round by round. The corner B between A and C first moves to where the straight ways from A and from C
-// round the obstacle meet, then is cut off there.
+// Cuts corners round by round. The corner B between A and C first moves to where the straight segments from A and from
+// C round the obstacle meet, then is cut off there.
 class CornerCutter {
  public:
   CornerCutter(const DiscSpace& space, double radius_m, const Budget& budget)
@@ -129,7 +129,7 @@ std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<
   const auto fits = [&](const Point& from, const Point& to) {
     return !budget.exhausted() && space.fits_along(from, to, radius_m);
   };
-  // One sweep that stretches each straight piece as far as it goes, for routes of many points ...
+  // One sweep that extends each straight segment as far as possible, for routes of many points ...
   std::vector<PartedPoint> swept(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
   int part = route[keep].part;
   for (std::size_t i = keep + 1; i < route.size(); ++i) {

@@ -10,12 +10,12 @@ namespace cairn {
 
 [[nodiscard]] double length_of(const std::vector<Point>& route);
 
-// A point of a route, and which part of the route the straight piece that ends there belongs to.
+// A point of a route, and which part of the route the straight segment that ends there belongs to.
 struct PartedPoint {
   Point at{0.0, 0.0};
   int part = 0;
 };
-inline constexpr int kSeveralParts = -1;  // the piece cuts across
+inline constexpr int kSeveralParts = -1;  // the segment cuts across
 
 // Drops the corners that a straight free segment can skip; the first `keep` points and the last stay. Looks from each
 // corner to all others; those that the budget leaves no time for stay.

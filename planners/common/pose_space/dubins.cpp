@@ -11,7 +11,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kRounding = 1e-11;  // radians, and turning radii
 
 // A word: turns about the first and last centre to the side given (1 left, -1 right), and between them a
-// straight piece or a turn to the other side.
+// straight segment or a turn to the other side.
 struct Word {
   double side = 0.0;
   double last_side = 0.0;

@@ -1,4 +1,7 @@
-// The shortest way forwards on straight lines and circles of one radius (Dubins 1957).
+// The shortest forward path on straight lines and circles of one radius (Dubins 1957).
+//
+// OMPL's DubinsStateSpace has the same words, but its motions may end micrometres beside their goals (shown by
+// tests/planners/ompl/pose/kinematic_spaces_test.cpp), so a path cut in parts would not be the path that was checked.
 #pragma once
 
 #include "planners/common/pose_space/motion.hpp"

@@ -43,7 +43,7 @@ class Footprint {
   std::vector<Disc> cover_;
 };
 
-// Corners in order, either way round; the rim may count as outside.
+// Corners in order, in either direction; the rim may count as outside.
 [[nodiscard]] bool holds(std::span<const Point> corners, const Point& p);
 
 // Whether a solid polygon comes nearer than reach_m to a cell, or holds it.

@@ -19,16 +19,16 @@ struct TurnDriveTurn {
   double last_rad = 0.0;
 
   TurnDriveTurn(const Pose2& from, const Pose2& to, Driving driving) {
-    const Point way = to.position() - from.position();
-    length_m = way.norm();
+    const Point drive = to.position() - from.position();
+    length_m = drive.norm();
     if (length_m == 0.0) {
       first_rad = wrap_angle(to.theta_rad - from.theta_rad);
       return;
     }
-    face(from, to, driving == Driving::backwards ? Point(-way) : way);
+    face(from, to, driving == Driving::backwards ? Point(-drive) : drive);
     if (driving == Driving::either) {
       TurnDriveTurn reverse = *this;
-      reverse.face(from, to, -way);
+      reverse.face(from, to, -drive);
       if (reverse.turned_rad() < turned_rad()) {
         *this = reverse;
         driving = Driving::backwards;
@@ -158,16 +158,16 @@ std::vector<Pose2> Motion::sampled(double step_m, double step_rad) const {
 }
 
 Motion turn_drive_turn(const Pose2& from, const Pose2& to, Driving driving, double spot_turn_m) {
-  const TurnDriveTurn way(from, to, driving);
-  return {
-      from,
-      {MotionElement::turn(way.first_rad), MotionElement::straight(way.length_m), MotionElement::turn(way.last_rad)},
-      spot_turn_m};
+  const TurnDriveTurn drive(from, to, driving);
+  return {from,
+          {MotionElement::turn(drive.first_rad), MotionElement::straight(drive.length_m),
+           MotionElement::turn(drive.last_rad)},
+          spot_turn_m};
 }
 
 double turn_drive_turn_m(const Pose2& from, const Pose2& to, Driving driving, double spot_turn_m) {
-  const TurnDriveTurn way(from, to, driving);
-  return std::abs(way.length_m) + spot_turn_m * way.turned_rad();
+  const TurnDriveTurn drive(from, to, driving);
+  return std::abs(drive.length_m) + spot_turn_m * drive.turned_rad();
 }
 
 }  // namespace cairn

@@ -1,4 +1,4 @@
-// A continuous motion of a robot on wheels: straight pieces, arcs and turns on the spot, one after another.
+// A continuous motion of a robot on wheels: straight segments, arcs and turns on the spot, one after another.
 //
 // Every element is a length driven and a heading turned by, both signed, at a constant rate to each other;
 // positions and headings along it follow from that exactly. Lengths are negative in reverse.
@@ -35,7 +35,7 @@ struct MotionElement {
 // In metres and radians.
 [[nodiscard]] bool are_alike(const Pose2& a, const Pose2& b, double within);
 
-// Places along a motion are told by s in metres: the way driven, plus spot_turn_m for each radian turned
+// Places along a motion are given by s in metres: the length driven, plus spot_turn_m for each radian turned
 // on the spot. s below 0 and beyond extent_m() means the ends.
 class Motion {
  public:
@@ -56,7 +56,7 @@ class Motion {
   [[nodiscard]] bool is_finite() const;
   [[nodiscard]] bool ends_at(const Pose2& pose, double within) const { return are_alike(end(), pose, within); }
 
-  [[nodiscard]] double length_m() const;        // driven, either way
+  [[nodiscard]] double length_m() const;        // driven, in either direction
   [[nodiscard]] double total_turn_rad() const;  // of all elements, without signs
   [[nodiscard]] double spot_turn_rad() const;   // of those on the spot
   [[nodiscard]] int reversals() const;          // changes between forwards and backwards
@@ -77,7 +77,7 @@ class Motion {
 
 enum class Driving { forwards, backwards, either };
 
-// Turns on the spot to face the other place, drives there, turns to its heading. With `either` the way
+// Turns on the spot to face the other place, drives there, turns to its heading. With `either` the direction
 // that turns less, forwards when equal.
 [[nodiscard]] Motion turn_drive_turn(const Pose2& from, const Pose2& to, Driving driving = Driving::forwards,
                                      double spot_turn_m = 1.0);

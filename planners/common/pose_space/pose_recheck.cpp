@@ -112,22 +112,23 @@ double max_moved_m(const Footprint& footprint, const MotionElement& element) {
   return arm_m * std::abs(element.turn_rad);
 }
 
-struct Piece {
+struct Segment {
   double from_m;
   double to_m;
   double moved_m;
 };
 
-std::optional<Touch> first_touch_on(const Looker& looker, const Motion& motion, const Piece& piece, double slack_m) {
-  const double middle_m = 0.5 * (piece.from_m + piece.to_m);
+std::optional<Touch> first_touch_on(const Looker& looker, const Motion& motion, const Segment& segment,
+                                    double slack_m) {
+  const double middle_m = 0.5 * (segment.from_m + segment.to_m);
   const Pose2 pose = motion.pose_at(middle_m);
-  const double grown_m = 0.5 * piece.moved_m + kMinRadius_m;
+  const double grown_m = 0.5 * segment.moved_m + kMinRadius_m;
   const auto cell = looker.blocked_near(pose, grown_m);
   if (!cell) return std::nullopt;
   if (grown_m <= slack_m + kMinRadius_m) return Touch{middle_m, pose, *cell};
-  const double half_m = 0.5 * piece.moved_m;
-  if (auto touch = first_touch_on(looker, motion, {piece.from_m, middle_m, half_m}, slack_m)) return touch;
-  return first_touch_on(looker, motion, {middle_m, piece.to_m, half_m}, slack_m);
+  const double half_m = 0.5 * segment.moved_m;
+  if (auto touch = first_touch_on(looker, motion, {segment.from_m, middle_m, half_m}, slack_m)) return touch;
+  return first_touch_on(looker, motion, {middle_m, segment.to_m, half_m}, slack_m);
 }
 
 }  // namespace
@@ -143,11 +144,12 @@ std::optional<Touch> first_touch(const OccupancyGrid& grid, const GroundRules& r
   for (const MotionElement& element : motion.elements()) {
     const double extent_m = motion.extent_of(element);
     const double moved_m = max_moved_m(footprint, element);
-    // Longer pieces than the outline would only have more cells to look at.
+    // Longer segments than the outline would only have more cells to look at.
     const double segments = std::ceil(moved_m / (footprint.circumscribed_m() + grid.cell_m()));
     for (double k = 0.0; k < segments; k += 1.0) {
-      const Piece piece{s_m + extent_m * (k / segments), s_m + extent_m * ((k + 1.0) / segments), moved_m / segments};
-      if (auto touch = first_touch_on(looker, motion, piece, slack_m)) return touch;
+      const Segment segment{s_m + extent_m * (k / segments), s_m + extent_m * ((k + 1.0) / segments),
+                            moved_m / segments};
+      if (auto touch = first_touch_on(looker, motion, segment, slack_m)) return touch;
     }
     s_m += extent_m;
   }

@@ -1,8 +1,8 @@
 // The re-check of finished motions of a robot with an outline: straight from the occupancy grid.
 //
-// Shares no geometry with PoseSpace. The motion is cut in halves until each piece is so short that the
-// outline, grown by half of what any of its points moves on the piece, is clear at the piece's middle; a
-// piece on which nothing moves more than 2 slack_m and that is not clear is a touch.
+// Shares no geometry with PoseSpace. The motion is cut in halves until each segment is so short that the
+// outline, grown by half of what any of its points moves on the segment, is clear at the segment's middle; a
+// segment on which nothing moves more than 2 slack_m and that is not clear is a touch.
 #pragma once
 
 #include <optional>

@@ -75,18 +75,18 @@ double to_rim_m(const DiscSpace& space, const Point& p) {
 
 }  // namespace
 
-// Places on it are told as shares of the element, from 0 to 1.
-struct PoseSpace::Way {
+// Places on it are given as shares of the element, from 0 to 1.
+struct PoseSpace::ElementSweep {
   Pose2 from;
   MotionElement element;
   double far_m = 0.0;        // furthest point of the outline, or the origin, from the centre of turning
   double displaced_m = 0.0;  // no point of the outline moves more
   double exact_step = 1.0;
   // The sides through which points can enter the outline: only these need to be swept. As the robot turns
-  // about a point of its own frame, a side leads all the way or never.
+  // about a point of its own frame, a side leads along the whole element or never.
   std::vector<std::pair<Point, Point>> leading;
 
-  Way(const PoseSpace& space, const Pose2& start, const MotionElement& driven_element)
+  ElementSweep(const PoseSpace& space, const Pose2& start, const MotionElement& driven_element)
       : from(start), element(driven_element) {
     const bool turns = element.turn_rad != 0.0;
     const Point hub(0.0, turns ? element.signed_radius_m() : 0.0);
@@ -147,18 +147,18 @@ bool PoseSpace::fits(const Pose2& pose) const {
 }
 
 // From a pose that fits.
-bool PoseSpace::segment_fits(const Way& way, double from, double to) const {
-  const Pose2 first = way.pose_at(from);
-  const Pose2 last = way.pose_at(to);
+bool PoseSpace::segment_fits(const ElementSweep& sweep, double from, double to) const {
+  const Pose2 first = sweep.pose_at(from);
+  const Pose2 last = sweep.pose_at(to);
   if (!space_->contains(last.position())) return false;
   // The arc of a point strays from its chord by this at most, and the chords of a side lie in the hull of
   // its first and last position.
-  const double stray_m = way.far_m * (1.0 - std::cos(0.5 * (to - from) * way.element.turn_rad));
+  const double stray_m = sweep.far_m * (1.0 - std::cos(0.5 * (to - from) * sweep.element.turn_rad));
   if (footprint_.is_disc())
     return space_->fits_along(first.position(), last.position(), footprint_.inscribed_m() + margin_m_ + stray_m);
   const Frame T_map_first(first);
   const Frame T_map_last(last);
-  for (const auto& [a, b] : way.leading) {
+  for (const auto& [a, b] : sweep.leading) {
     const Hull swept({T_map_first(a), T_map_first(b), T_map_last(a), T_map_last(b)});
     if (polygon_touches({space_->field().origin_m(), space_->cell_m()}, swept.span(), margin_m_ + stray_m,
                         free_run_on(*space_)))
@@ -168,13 +168,13 @@ bool PoseSpace::segment_fits(const Way& way, double from, double to) const {
 }
 
 // From a pose that fits: how far by steps that are known to.
-double PoseSpace::share_reached(const Way& way) const {
-  if (way.displaced_m == 0.0) return 1.0;
+double PoseSpace::share_reached(const ElementSweep& sweep) const {
+  if (sweep.displaced_m == 0.0) return 1.0;
   for (double at = 0.0; at < 1.0;) {
-    double step = clear_m(way.pose_at(at)) / way.displaced_m;
-    if (step < way.exact_step) {
-      step = way.exact_step;
-      if (!segment_fits(way, at, std::min(at + step, 1.0))) return at;
+    double step = clear_m(sweep.pose_at(at)) / sweep.displaced_m;
+    if (step < sweep.exact_step) {
+      step = sweep.exact_step;
+      if (!segment_fits(sweep, at, std::min(at + step, 1.0))) return at;
     }
     at += step;
   }
@@ -184,16 +184,16 @@ double PoseSpace::share_reached(const Way& way) const {
 bool PoseSpace::fits_along(const Motion& motion) const {
   if (!motion.is_finite() || !fits(motion.start())) return false;
   for (std::size_t i = 0; i < motion.elements().size(); ++i)
-    if (share_reached(Way(*this, motion.start_of(i), motion.elements()[i])) < 1.0) return false;
+    if (share_reached(ElementSweep(*this, motion.start_of(i), motion.elements()[i])) < 1.0) return false;
   return true;
 }
 
-double PoseSpace::share_refined(const Way& way, double good) const {
-  double bad = std::min(good + way.exact_step, 1.0);
+double PoseSpace::share_refined(const ElementSweep& sweep, double good) const {
+  double bad = std::min(good + sweep.exact_step, 1.0);
   const double start = good;
-  while ((bad - good) * way.displaced_m > 0.01 * space_->cell_m()) {
+  while ((bad - good) * sweep.displaced_m > 0.01 * space_->cell_m()) {
     const double middle = 0.5 * (good + bad);
-    (segment_fits(way, start, middle) ? good : bad) = middle;
+    (segment_fits(sweep, start, middle) ? good : bad) = middle;
   }
   return good;
 }
@@ -202,10 +202,10 @@ double PoseSpace::share_that_fits(const Motion& motion) const {
   if (!motion.is_finite() || !fits(motion.start())) return 0.0;
   double reached_m = 0.0;
   for (std::size_t i = 0; i < motion.elements().size(); ++i) {
-    const Way way(*this, motion.start_of(i), motion.elements()[i]);
-    const double share = share_reached(way);
+    const ElementSweep sweep(*this, motion.start_of(i), motion.elements()[i]);
+    const double share = share_reached(sweep);
     const double extent_m = motion.extent_of(motion.elements()[i]);
-    if (share < 1.0) return (reached_m + share_refined(way, share) * extent_m) / motion.extent_m();
+    if (share < 1.0) return (reached_m + share_refined(sweep, share) * extent_m) / motion.extent_m();
     reached_m += extent_m;
   }
   return 1.0;

@@ -1,7 +1,7 @@
-// At which poses a robot with an outline may stand on OG1, and along which motions it may move.
+// At which poses a robot with an outline fits on OG1, and along which motions it may move.
 //
 // fits() is exact. fits_along() holds for every instant of the motion, not for samples of it: exact on
-// straight pieces; on arcs and turns what it accepts is exact, and it may refuse what passes an obstacle by
+// straight segments; on arcs and turns what it accepts is exact, and it may refuse what passes an obstacle by
 // less than bend_slack_m() beyond the margin. Immutable and thread-safe; refers to the DiscSpace.
 #pragma once
 
@@ -28,13 +28,13 @@ class PoseSpace {
   [[nodiscard]] double share_that_fits(const Motion& motion) const;
 
  private:
-  struct Way;  // one element of a motion
+  struct ElementSweep;  // one element of a motion
 
   [[nodiscard]] double clear_m(const Pose2& pose) const;
   [[nodiscard]] bool touches(const Pose2& pose) const;
-  [[nodiscard]] bool segment_fits(const Way& way, double from, double to) const;
-  [[nodiscard]] double share_reached(const Way& way) const;
-  [[nodiscard]] double share_refined(const Way& way, double good) const;
+  [[nodiscard]] bool segment_fits(const ElementSweep& sweep, double from, double to) const;
+  [[nodiscard]] double share_reached(const ElementSweep& sweep) const;
+  [[nodiscard]] double share_refined(const ElementSweep& sweep, double good) const;
 
   const DiscSpace* space_;
   Footprint footprint_;

@@ -28,7 +28,7 @@ EndRules end_rules_of(const OmplConfig& config, double radius_m) {
   return rules;
 }
 
-TravelCostRules cost_rules_of(const OmplConfig& config, const PlanRequest& request, const RobotModel& robot,
+TravelCostRules cost_rules_of(const OmplConfig& config, const PathRequest& request, const RobotModel& robot,
                               double radius_m) {
   const auto asked = [&] {
     switch (config.objective) {
@@ -56,39 +56,40 @@ TravelCostRules cost_rules_of(const OmplConfig& config, const PlanRequest& reque
           radius_m};
 }
 
-DiscQuery::DiscQuery(const OmplTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget)
+DiscQuery::DiscQuery(const OmplTools& tools, const PathRequest& request, const WorldView& world, const Budget& budget)
     : tools_(tools),
       request_(request),
       world_(world),
       budget_(budget),
       rules_(end_rules_of(tools.config, request.radius_m)) {}
 
-// Planned with a hair more than is re-checked, so that rounding cannot tell them apart.
+// Planned with a hair more than is re-checked, so that rounding makes no difference.
 double DiscQuery::radius_m() const {
   return rules_.radius_m + kMinRadius_m;
 }
 
-PlanResult DiscQuery::answer() const {
-  if (budget_.exhausted() || budget_.iterations <= 0) return stopped_plan(stop_outcome(budget_));
+PathResult DiscQuery::answer() const {
+  if (budget_.exhausted() || budget_.iterations <= 0) return refused<PathResult>(stopped(stop_outcome(budget_)));
   // Both ends are looked at before either is worked on.
-  if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused_plan(*refusal);
+  if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused<PathResult>(*refusal);
   const auto start = start_of(request_.from, world_, rules_, tools_.caches.spaces);
-  if (const auto* refusal = std::get_if<Refusal>(&start)) return refused_plan(*refusal);
+  if (const auto* refusal = std::get_if<Refusal>(&start)) return refused<PathResult>(*refusal);
   return answer_from(std::get<StartPlace>(start));
 }
 
-PlanResult DiscQuery::answer_from(const StartPlace& start) const {
+PathResult DiscQuery::answer_from(const StartPlace& start) const {
   const auto routes = tools_.caches.routes.routes_of(start.space, radius_m());
   const auto goals = goals_of(request_.to, world_, rules_, start,
                               [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
-  if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused_plan(*refusal);
-  PlanResult first;
+  if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused<PathResult>(*refusal);
+  PathResult first;
   for (const RankedGoal& goal :
        nearest_first(std::get<std::vector<GoalPlace>>(goals), start.leave_from, *routes, budget_)) {
-    if (budget_.exhausted()) return stopped_plan(stop_outcome(budget_));
+    if (budget_.exhausted()) return refused<PathResult>(stopped(stop_outcome(budget_)));
     const FoundRoute found = find(start, goal.place, *routes);
-    if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped_plan(stop_outcome(budget_));
-    PlanResult result = checked(start, goal.place, found);
+    if (budget_.cancelled() || (found.interrupted && !found.exact))
+      return refused<PathResult>(stopped(stop_outcome(budget_)));
+    PathResult result = checked(start, goal.place, found);
     if (found.exact) return result;
     if (first.reason.empty()) first = std::move(result);
   }
@@ -126,12 +127,12 @@ FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& c
   FoundRoute found{std::move(grid.route), false, grid.interrupted, grid.impossible, grid.length_lower_bound_m, ""};
   if (found.interrupted && !found.route.empty()) found.interrupted = false;  // it is a route all the same
   if (found.impossible || found.interrupted) return found;
-  found.how = "the shortest way over the grid";
+  found.how = "the shortest path over the grid";
   if (!cost.is_length()) {
     std::vector<Point> cheap = weighted_route(routes, cost, from, to, budget_);
     if (!cheap.empty() && (found.route.empty() || cost_of(cost, cheap) < cost_of(cost, found.route))) {
       found.route = std::move(cheap);
-      found.how = "the cheapest way over the grid";
+      found.how = "the cheapest path over the grid";
     }
   }
   found.exact = !found.route.empty();
@@ -208,10 +209,10 @@ void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const Trave
   found.how += ", improved by OMPL";
 }
 
-PlanResult DiscQuery::checked(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found) const {
-  if (found.impossible) return refused_plan(too_narrow(request_.to, world_.graph, rules_.radius_m));
+PathResult DiscQuery::checked(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found) const {
+  if (found.impossible) return refused<PathResult>(too_narrow(request_.to, world_.graph, rules_.radius_m));
   if (found.route.size() < (found.exact ? 1U : 2U)) {
-    return refused_plan(
+    return refused<PathResult>(
         {PlanOutcome::out_of_budget, "no route was found in " +
                                          std::to_string(std::min(tools_.config.iterations, budget_.iterations)) +
                                          " iterations; if there is one, it is hardly wider than the robot"});
@@ -227,17 +228,17 @@ PlanResult DiscQuery::checked(const StartPlace& start, const GoalPlace& goal, co
   return result_of(start, goal, found, route, cost);
 }
 
-PlanResult DiscQuery::result_of(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found,
+PathResult DiscQuery::result_of(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found,
                                 const std::vector<Point>& route, const TravelCost& cost) const {
-  PlanResult result;
+  PathResult result;
   result.outcome = found.exact ? PlanOutcome::solved : PlanOutcome::approximate;
   result.length_m = length_of(route);
   result.cost_m = cost.is_in_metres() ? cost_of(cost, route) : result.length_m;
   if (found.exact && !start.escape) result.length_lower_bound_m = found.length_lower_bound_m;
   result.clearance_m = clearance_along(*start.space, route, request_.radius_m);
   result.path = poses_along(route, start.pose.theta_rad, found.exact ? goal.heading_rad : std::nullopt);
-  if (start.landmark != 0) result.landmarks.push_back(start.landmark);
-  if (found.exact && goal.landmark != 0 && goal.landmark != start.landmark) result.landmarks.push_back(goal.landmark);
+  result.from_landmark = start.landmark;
+  if (found.exact) result.to_landmark = goal.landmark;
   result.reason = found.how + goal.note;
   if (!found.exact) result.reason = "the route ends at " + text_of(route.back()) + ", short of the goal";
   if (found.interrupted) result.reason += "; the budget ended the search for a shorter one";

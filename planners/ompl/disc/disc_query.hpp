@@ -1,4 +1,4 @@
-// One request for a disc on its way to an answer.
+// Answers one request for a disc.
 #pragma once
 
 #include "planners/common/disc_space/ends.hpp"
@@ -14,10 +14,10 @@ struct OmplTools {
 };
 
 [[nodiscard]] EndRules end_rules_of(const OmplConfig& config, double radius_m);
-[[nodiscard]] TravelCostRules cost_rules_of(const OmplConfig& config, const PlanRequest& request,
+[[nodiscard]] TravelCostRules cost_rules_of(const OmplConfig& config, const PathRequest& request,
                                             const RobotModel& robot, double radius_m);
 
-// A route with where it came from.
+// A route and how it was found.
 struct FoundRoute {
   std::vector<Point> route;  // from StartPlace::leave_from; empty: none
   bool exact = false;        // otherwise it ends short of the goal
@@ -30,12 +30,12 @@ struct FoundRoute {
 class DiscQuery {
  public:
   // Borrows all of it.
-  DiscQuery(const OmplTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget);
+  DiscQuery(const OmplTools& tools, const PathRequest& request, const WorldView& world, const Budget& budget);
 
-  [[nodiscard]] PlanResult answer() const;
+  [[nodiscard]] PathResult answer() const;
 
  private:
-  [[nodiscard]] PlanResult answer_from(const StartPlace& start) const;
+  [[nodiscard]] PathResult answer_from(const StartPlace& start) const;
   [[nodiscard]] FoundRoute find(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes) const;
   [[nodiscard]] FoundRoute find_on_grid(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                         const Point& to) const;
@@ -44,13 +44,13 @@ class DiscQuery {
   [[nodiscard]] std::vector<Point> shortened(const DiscRoutes& routes, const TravelCost& cost,
                                              const std::vector<Point>& route) const;
   void improve(FoundRoute& found, const DiscRoutes& routes, const TravelCost& cost) const;
-  [[nodiscard]] PlanResult checked(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found) const;
-  [[nodiscard]] PlanResult result_of(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found,
+  [[nodiscard]] PathResult checked(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found) const;
+  [[nodiscard]] PathResult result_of(const StartPlace& start, const GoalPlace& goal, const FoundRoute& found,
                                      const std::vector<Point>& route, const TravelCost& cost) const;
   [[nodiscard]] double radius_m() const;
 
   OmplTools tools_;
-  const PlanRequest& request_;
+  const PathRequest& request_;
   const WorldView& world_;
   const Budget& budget_;
   EndRules rules_;

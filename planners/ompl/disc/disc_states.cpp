@@ -84,7 +84,7 @@ class CellSampler : public ob::StateSampler {
   CellDraw draw_;
 };
 
-// Points that a cheaper route may pass: the way there and on, at the least cost a metre, is below the bound.
+// Points that a cheaper route may pass: the route to them and on, at the least cost a metre, is below the bound.
 class InformedCellSampler : public ob::InformedSampler {
  public:
   static constexpr unsigned kTries = 200;

@@ -9,7 +9,8 @@
 namespace cairn {
 
 // The cheapest over the grid's cells, 8 neighbours, then shortened; empty where cells are too coarse to see the
-// way, or when the budget ends the search. O(cells log cells): all that is as cheap to reach as the goal is looked at.
+// way, or when the budget ends the search. O(cells log cells): everything that is as cheap to reach as the goal is
+// visited.
 [[nodiscard]] std::vector<Point> weighted_route(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                                 const Point& to, const Budget& budget);
 // Drops corners where the straight segment is free and no dearer; those that the budget leaves no time for stay.

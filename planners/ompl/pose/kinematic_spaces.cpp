@@ -59,7 +59,7 @@ class Differential : public SpaceOfMotions<ob::SE2StateSpace> {
     return getSubspace(0)->getMaximumExtent() + 2.0 * std::numbers::pi * spot_turn_m_;
   }
   bool isMetricSpace() const override { return false; }
-  // Driven the other way round, a motion is another one, unless the robot reverses as well.
+  // Driven from its end to its start, a motion is another one, unless the robot reverses as well.
   bool hasSymmetricDistance() const override { return driving_ == Driving::either; }
   bool hasSymmetricInterpolate() const override { return driving_ == Driving::either; }
 
@@ -88,10 +88,10 @@ class ReedsShepp : public SpaceOfMotions<ob::ReedsSheppStateSpace> {
     const ReedsSheppPath word = reedsShepp(from, to);
     Motion motion(pose_of(from));
     for (int i = 0; i < 5; ++i) {
-      const double piece = word.length_[i];  // in turning radii, negative in reverse
-      if (word.type_[i] == RS_STRAIGHT) motion.append(MotionElement::straight(rho_ * piece));
-      if (word.type_[i] == RS_LEFT) motion.append({rho_ * piece, piece});
-      if (word.type_[i] == RS_RIGHT) motion.append({rho_ * piece, -piece});
+      const double part = word.length_[i];  // in turning radii, negative in reverse
+      if (word.type_[i] == RS_STRAIGHT) motion.append(MotionElement::straight(rho_ * part));
+      if (word.type_[i] == RS_LEFT) motion.append({rho_ * part, part});
+      if (word.type_[i] == RS_RIGHT) motion.append({rho_ * part, -part});
     }
     return motion;
   }
@@ -122,7 +122,7 @@ std::shared_ptr<ob::SE2StateSpace> space_for(const KinematicRules& rules) {
     case MotionKind::disc:
       break;
   }
-  throw std::invalid_argument("a disc that may move any way has no space of poses");
+  throw std::invalid_argument("a disc that may move in any direction has no space of poses");
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // OMPL's view of robots that cannot slide sideways: states are poses, and between two of them there is
 // one motion that the robot can drive (planners/pose_space/motion.hpp).
 //
-// The spaces stand on those of OMPL 1.5.2. Repaired here: validSegmentCount() counted a share of the
+// The spaces derive from those of OMPL 1.5.2. Repaired here: validSegmentCount() counted a share of the
 // straight line, and a Dubins motion to a place on another one ended up to micrometres beside it.
 #pragma once
 
@@ -38,7 +38,7 @@ void set_pose(ompl::base::State* state, const Pose2& pose);
                                                                               const DistanceField& field);
 // In a space that make_kinematic_space() made: from exactly the first to kMotionEnd of the second, its
 // extent_m() being the space's distance. Should rounding leave no such motion, which takes poses that are
-// nearly but not quite alike, it ends elsewhere: Motion::ends_at() tells, and the validator refuses it.
+// nearly but not quite alike, it ends elsewhere: Motion::ends_at() detects it, and the validator refuses it.
 [[nodiscard]] Motion motion_between(const ompl::base::StateSpace& space, const ompl::base::State* from,
                                     const ompl::base::State* to);
 [[nodiscard]] Motion motion_between(const ompl::base::StateSpace& space, const Pose2& from, const Pose2& to);

@@ -8,7 +8,7 @@
 namespace cairn {
 
 enum class MotionKind : std::uint8_t {
-  disc,          // any way; no heading (planned in the plane)
+  disc,          // in any direction; no heading (planned in the plane)
   differential,  // turns on the spot, drives straight, turns on the spot
   dubins,        // forwards, straight or on circles
   reeds_shepp,   // the same, forwards and backwards

@@ -21,7 +21,7 @@ double min_through(const PoseProblem& problem, const Point& p) {
   return problem.cost.min_per_m() * ((p - problem.from.position()).norm() + (to - p).norm());
 }
 
-// Poses that a cheaper way may pass.
+// Poses that a cheaper path may pass.
 class InformedPoseSampler : public ob::InformedSampler {
  public:
   static constexpr unsigned kTries = 200;

@@ -23,7 +23,7 @@ struct PoseProblem {
   std::uint64_t seed = 1;
 };
 
-// Of a motion: what its way counts, and turns on the spot by their extent, or by their time.
+// Of a motion: the cost of its path, and turns on the spot by their extent, or by their time.
 [[nodiscard]] double cost_of(const PoseProblem& problem, const Motion& motion);
 
 // With starts, goals and objective; borrows the problem.

@@ -32,53 +32,53 @@ std::vector<Pose2> with_steps(const ompl::base::StateSpace& space, const std::ve
 
 }  // namespace
 
-PoseQuery::PoseQuery(const OmplTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget)
+PoseQuery::PoseQuery(const OmplTools& tools, const PathRequest& request, const WorldView& world, const Budget& budget)
     : tools_(tools),
       request_(request),
       world_(world),
       budget_(budget),
       setup_(tools.config, request.radius_m, world.robot, world.grid) {}
 
-PlanResult PoseQuery::answer() const {
-  if (budget_.exhausted() || budget_.iterations <= 0) return stopped_plan(stop_outcome(budget_));
-  if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused_plan(*refusal);
+PathResult PoseQuery::answer() const {
+  if (budget_.exhausted() || budget_.iterations <= 0) return refused<PathResult>(stopped(stop_outcome(budget_)));
+  if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused<PathResult>(*refusal);
   const auto start = start_of(request_.from, world_, setup_.ends, tools_.caches.spaces);
-  if (const auto* refusal = std::get_if<Refusal>(&start)) return refused_plan(*refusal);
+  if (const auto* refusal = std::get_if<Refusal>(&start)) return refused<PathResult>(*refusal);
   return answer_from(std::get<StartPlace>(start));
 }
 
-PlanResult PoseQuery::answer_from(const StartPlace& start) const {
+PathResult PoseQuery::answer_from(const StartPlace& start) const {
   const PoseSpace poses(*start.space, setup_.footprint, setup_.margin_m);
   if (const auto refusal = blocked(start.pose, "start", PlanOutcome::start_blocked, poses))
-    return refused_plan(*refusal);
+    return refused<PathResult>(*refusal);
   // The disc that the outline holds gets wherever the outline does.
   const auto routes = tools_.caches.routes.routes_of(start.space, setup_.inner_radius_m());
   const Point from = start.pose.position();
   const auto goals = goals_of(request_.to, world_, setup_.ends, start,
                               [&](const Point& goal) { return routes->may_reach(from, goal); });
-  if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused_plan(*refusal);
-  PlanResult first;
+  if (const auto* refusal = std::get_if<Refusal>(&goals)) return refused<PathResult>(*refusal);
+  PathResult first;
   for (const RankedGoal& goal : nearest_first(std::get<std::vector<GoalPlace>>(goals), from, *routes, budget_)) {
-    PlanResult result = answer_to(start, goal.place, *routes, poses);
+    PathResult result = answer_to(start, goal.place, *routes, poses);
     if (result.outcome == PlanOutcome::solved || budget_.exhausted()) return result;
     if (first.reason.empty()) first = std::move(result);
   }
   return first;
 }
 
-PlanResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes,
+PathResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes,
                                 const PoseSpace& poses) const {
   const Point from = start.pose.position();
   const Point to = goal.pose.position();
   const DiscRoute guide = routes.route(from, to, budget_);
-  if (guide.interrupted && guide.route.empty()) return stopped_plan(stop_outcome(budget_));
-  if (guide.impossible) return refused_plan(too_narrow(request_.to, world_.graph, setup_.ends.radius_m));
+  if (guide.interrupted && guide.route.empty()) return refused<PathResult>(stopped(stop_outcome(budget_)));
+  if (guide.impossible) return refused<PathResult>(too_narrow(request_.to, world_.graph, setup_.ends.radius_m));
   const std::vector<Pose2> goals = goal_poses(goal, guide.route, poses);
-  if (goals.empty()) return refused_plan(*blocked(goal.pose, "goal", PlanOutcome::goal_blocked, poses));
+  if (goals.empty()) return refused<PathResult>(*blocked(goal.pose, "goal", PlanOutcome::goal_blocked, poses));
 
   PoseDraw draw;
   draw.cells = routes.cells_between(from, to, std::numeric_limits<double>::infinity(), budget_);
-  if (draw.cells.empty()) return stopped_plan(stop_outcome(budget_));
+  if (draw.cells.empty()) return refused<PathResult>(stopped(stop_outcome(budget_)));
   draw.guide = guide.route;
   draw.guide_share = guide.route.empty() ? 0.0 : kGuideShare;
   draw.guide_width_m = std::max(setup_.footprint.circumscribed_m(), 2.0 * start.space->cell_m());
@@ -88,13 +88,14 @@ PlanResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, 
   const PoseProblem problem{setup_.kinematics,        lattice_poses, start.pose, goals, draw, cost,
                             world_.robot.max_w_radps, request_.seed};
   const FoundPath found = find(problem, start);
-  if (budget_.cancelled() || (found.interrupted && !found.exact)) return stopped_plan(stop_outcome(budget_));
+  if (budget_.cancelled() || (found.interrupted && !found.exact))
+    return refused<PathResult>(stopped(stop_outcome(budget_)));
   if (!found.exact || found.states.empty())
-    return refused_plan(
-        {PlanOutcome::out_of_budget, "no way was found in " +
+    return refused<PathResult>(
+        {PlanOutcome::out_of_budget, "no path was found in " +
                                          std::to_string(std::min(tools_.config.iterations, budget_.iterations)) +
                                          " iterations; whether there is one for such a robot is not known"});
-  PlanResult result = result_of(problem, setup_, world_, start, goal, found);
+  PathResult result = result_of(problem, setup_, world_, start, goal, found);
   result.length_lower_bound_m = guide.length_lower_bound_m;
   return result;
 }
@@ -139,7 +140,7 @@ FoundPath PoseQuery::find_along_route(const PoseProblem& problem, const StartPla
   const auto routes = tools_.caches.outer_routes.routes_of(start.space, radius_m);
   const DiscRoute route = routes->route(from, to, budget_);
   if (route.route.empty()) return {};
-  FoundPath found{{problem.from}, true, false, "the shortest way over the grid on which it can turn anywhere"};
+  FoundPath found{{problem.from}, true, false, "the shortest path over the grid on which it can turn anywhere"};
   for (std::size_t i = 1; i + 1 < route.route.size(); ++i) {
     const Point step = route.route[i] - route.route[i - 1];
     found.states.push_back({route.route[i].x(), route.route[i].y(), std::atan2(step.y(), step.x())});
@@ -198,9 +199,9 @@ void PoseQuery::improve(FoundPath& found, const PoseProblem& problem) const {
       search(info, definition, {config.algorithm, tools_.parameters, iterations, config.simplify, request_.seed},
              budget_, states.all());
   if (!answer.path || !answer.exact) return;
-  const auto sum_of = [&](const std::vector<Pose2>& way) {
+  const auto sum_of = [&](const std::vector<Pose2>& path) {
     double sum = 0.0;
-    for (const Motion& motion : motions_of(space, way)) sum += cost_of(problem, motion);
+    for (const Motion& motion : motions_of(space, path)) sum += cost_of(problem, motion);
     return sum;
   };
   const std::vector<Pose2> better = poses_of(*answer.path);

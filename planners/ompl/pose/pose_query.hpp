@@ -1,4 +1,4 @@
-// One request for a robot whose heading matters on its way to an answer.
+// Answers one request for a robot whose heading matters.
 #pragma once
 
 #include "planners/ompl/disc/disc_query.hpp"
@@ -9,13 +9,13 @@ namespace cairn {
 class PoseQuery {
  public:
   // Borrows all of it.
-  PoseQuery(const OmplTools& tools, const PlanRequest& request, const WorldView& world, const Budget& budget);
+  PoseQuery(const OmplTools& tools, const PathRequest& request, const WorldView& world, const Budget& budget);
 
-  [[nodiscard]] PlanResult answer() const;
+  [[nodiscard]] PathResult answer() const;
 
  private:
-  [[nodiscard]] PlanResult answer_from(const StartPlace& start) const;
-  [[nodiscard]] PlanResult answer_to(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes,
+  [[nodiscard]] PathResult answer_from(const StartPlace& start) const;
+  [[nodiscard]] PathResult answer_to(const StartPlace& start, const GoalPlace& goal, const DiscRoutes& routes,
                                      const PoseSpace& poses) const;
   [[nodiscard]] std::vector<Pose2> goal_poses(const GoalPlace& goal, const std::vector<Point>& guide,
                                               const PoseSpace& poses) const;
@@ -28,7 +28,7 @@ class PoseQuery {
   [[nodiscard]] bool fits_along(const PoseProblem& problem, const std::vector<Pose2>& states) const;
 
   OmplTools tools_;
-  const PlanRequest& request_;
+  const PathRequest& request_;
   const WorldView& world_;
   const Budget& budget_;
   PoseSetup setup_;

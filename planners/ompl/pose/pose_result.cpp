@@ -39,7 +39,7 @@ std::vector<Pose2> path_along(const std::vector<Motion>& motions, const Pose2& o
 
 }  // namespace
 
-PlanResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
+PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
                      const StartPlace& start, const GoalPlace& goal, const FoundPath& found) {
   const auto space = make_kinematic_space(setup.kinematics, start.space->field());
   const std::vector<Motion> motions = motions_of(*space, found.states);
@@ -52,7 +52,7 @@ PlanResult result_of(const PoseProblem& problem, const PoseSetup& setup, const W
                              ", outline of radius " + std::to_string(setup.footprint.circumscribed_m()));
     reversals += motion.reversals();
   }
-  PlanResult result;
+  PathResult result;
   result.outcome = PlanOutcome::solved;
   result.path = path_along(motions, start.pose);
   for (std::size_t i = 1; i < result.path.size(); ++i)
@@ -63,8 +63,8 @@ PlanResult result_of(const PoseProblem& problem, const PoseSetup& setup, const W
     for (const Motion& motion : motions) result.cost_m += cost_of(problem, motion);
   }
   result.clearance_m = clearance_of(*start.space, setup.footprint, result.path);
-  if (start.landmark != 0) result.landmarks.push_back(start.landmark);
-  if (goal.landmark != 0 && goal.landmark != start.landmark) result.landmarks.push_back(goal.landmark);
+  result.from_landmark = start.landmark;
+  result.to_landmark = goal.landmark;
   result.reason = found.how + goal.note;
   if (reversals == 1) result.reason += "; it turns back once";
   if (reversals > 1) result.reason += "; it turns back " + std::to_string(reversals) + " times";

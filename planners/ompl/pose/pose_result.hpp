@@ -1,4 +1,4 @@
-// A way that was found, checked again and told.
+// The answer made of a path that was found: re-checked against the grid.
 #pragma once
 
 #include "planners/ompl/pose/pose_problem.hpp"
@@ -14,7 +14,7 @@ struct FoundPath {
 };
 
 // The re-check is straight from the grid, over the whole of every motion; throws std::logic_error when it refuses.
-[[nodiscard]] PlanResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
+[[nodiscard]] PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
                                    const StartPlace& start, const GoalPlace& goal, const FoundPath& found);
 
 }  // namespace cairn

@@ -24,11 +24,11 @@ Pose2 PoseSampler::near_guide() {
   const auto end = std::upper_bound(guide_ends_m_.begin(), guide_ends_m_.end() - 1, along_m);
   const auto segment = static_cast<std::size_t>(end - guide_ends_m_.begin());
   const Point& from = draw_->guide[segment];
-  const Point way = draw_->guide[segment + 1] - from;
+  const Point step = draw_->guide[segment + 1] - from;
   const double before_m = segment == 0 ? 0.0 : guide_ends_m_[segment - 1];
-  const double share = way.norm() > 0.0 ? (along_m - before_m) / way.norm() : 0.0;
-  const Point at = from + share * way + Point(symmetric(draw_->guide_width_m), symmetric(draw_->guide_width_m));
-  return {at.x(), at.y(), std::atan2(way.y(), way.x()) + symmetric(draw_->guide_spread_rad)};
+  const double share = step.norm() > 0.0 ? (along_m - before_m) / step.norm() : 0.0;
+  const Point at = from + share * step + Point(symmetric(draw_->guide_width_m), symmetric(draw_->guide_width_m));
+  return {at.x(), at.y(), std::atan2(step.y(), step.x()) + symmetric(draw_->guide_spread_rad)};
 }
 
 void PoseSampler::sampleUniform(ob::State* state) {

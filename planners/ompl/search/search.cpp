@@ -27,18 +27,18 @@ class OmplTurn {
  public:
   // Waits for its turn until the budget is exhausted.
   explicit OmplTurn(const Budget& budget) {
-    std::unique_lock lock(gate().mutex);
-    while (gate().taken && !budget.exhausted()) gate().freed.wait_for(lock, std::chrono::milliseconds(2));
-    is_mine_ = !gate().taken;
-    gate().taken = true;
+    std::unique_lock lock(slot().mutex);
+    while (slot().taken && !budget.exhausted()) slot().freed.wait_for(lock, std::chrono::milliseconds(2));
+    is_mine_ = !slot().taken;
+    slot().taken = true;
   }
   ~OmplTurn() {
     if (!is_mine_) return;
     {
-      const std::lock_guard lock(gate().mutex);
-      gate().taken = false;
+      const std::lock_guard lock(slot().mutex);
+      slot().taken = false;
     }
-    gate().freed.notify_one();
+    slot().freed.notify_one();
   }
   OmplTurn(const OmplTurn&) = delete;
   OmplTurn& operator=(const OmplTurn&) = delete;
@@ -46,14 +46,14 @@ class OmplTurn {
   [[nodiscard]] bool is_mine() const { return is_mine_; }
 
  private:
-  struct Gate {
+  struct Slot {
     std::mutex mutex;
     std::condition_variable freed;
     bool taken = false;
   };
-  static Gate& gate() {
-    static Gate gate;
-    return gate;
+  static Slot& slot() {
+    static Slot slot;
+    return slot;
   }
 
   bool is_mine_ = false;

@@ -31,11 +31,11 @@ class TravelCost {
 
   // Nothing but the length counts.
   [[nodiscard]] bool is_length() const { return rules_.objective == Objective::length && rules_.unknown_weight <= 1.0; }
-  // What it counts can be told beside lengths.
+  // Its costs can be compared with lengths.
   [[nodiscard]] bool is_in_metres() const {
     return rules_.objective == Objective::length || rules_.objective == Objective::clearance;
   }
-  // Straight, both ways the same; by room and unknown ground to a cell's accuracy.
+  // Straight, the same in both directions; by room and unknown ground to a cell's accuracy.
   [[nodiscard]] double between(const Point& from, const Point& to) const;
   // What a metre counts there, at least min_per_m().
   [[nodiscard]] double per_m_at(const Point& p_map) const;

@@ -12,7 +12,7 @@ bool works_where_ways_back_differ(Algorithm algorithm) {
     case rrt_sharp:
     case rrt_x_static:
     case bfmt:
-    case bi_est:  // trees from the goal whose motions were checked the other way round
+    case bi_est:  // trees from the goal whose motions were checked in reverse
     case bkpiece:
     case sbl:
       return false;
@@ -35,7 +35,7 @@ bool works_with(MotionKind kind, Algorithm algorithm) {
     case MotionKind::differential:
       return works_where_ways_back_differ(algorithm);
     case MotionKind::dubins:
-      // RRTConnect's trees hardly ever meet when both headings point along the way: no path from any of
+      // RRTConnect's trees hardly ever meet when both headings point along the path: no path from any of
       // twelve seeds, where RRT finds one from each.
       return algorithm != rrt_connect && works_where_ways_back_differ(algorithm);
     case MotionKind::reeds_shepp:

@@ -9,7 +9,7 @@ void register_module(cairn::Registrar& registrar) {
   using cairn::bayes_map::Config;
   registrar.add<cairn::Mapper, Config>(
       "bayes", "occupancy grid from sonar: recursive Bayes in log-odds, each reading on its own",
-      [](const Config& config, const cairn::ModuleContext& context) {
+      [](const Config& config, const cairn::MapperContext& context) {
         auto map = std::make_unique<BayesMap>(config);
         map->clear_under(context.robot);
         if (context.grid_so_far != nullptr) map->begin_with(*context.grid_so_far);

@@ -11,7 +11,7 @@ using namespace cairn::opencv_detectors;
 
 template <class Made, class Config>
 void add(Registrar& registrar, const char* name, const char* summary) {
-  registrar.add<Detector, Config>(name, summary, [](const Config& config, const ModuleContext& context) {
+  registrar.add<Detector, Config>(name, summary, [](const Config& config, const DetectorContext& context) {
     return std::make_unique<Made>(config, context.templates);
   });
 }

@@ -93,7 +93,7 @@ Status Search::nothing_left(const std::string& found, const std::string& why, co
   if (place) {
     orders.say(so_far + "; tries to get to " + described(*place));
     been_at_.push_back(*place);
-    room_ = Place{Pose2{place->x(), place->y(), 0.0}, false, {}, {}};
+    room_ = Place{Pose2{place->x(), place->y(), 0.0}, false, {}};
     to_room_since_s_ = world.time_s;
     return {Progress::running, "trying to get to " + described(*place)};
   }

@@ -53,8 +53,8 @@ struct Row {
   }
 
   // The first leg is in cluster 1 and has nothing better, the second one in 1 and 2 would cost 3 less.
-  [[nodiscard]] PlanExplanation explanation_of(const PlanRequest& request) const {
-    PlanExplanation explanation;
+  [[nodiscard]] RouteExplanation explanation_of(const PlanRequest& request) const {
+    RouteExplanation explanation;
     const bool first = asked.size() == 1;
     explanation.settled_of_level = first ? std::vector<std::int64_t>{4} : std::vector<std::int64_t>{3, 2};
     explanation.clusters =

@@ -9,7 +9,7 @@ void register_module(cairn::Registrar& registrar) {
   using pillar_finder::PillarFinder;
   registrar.add<cairn::Detector, Config>(
       "pillar_finder", "finds round pillars of one diameter",
-      [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<PillarFinder>(config); });
+      [](const Config& config, const cairn::DetectorContext&) { return std::make_unique<PillarFinder>(config); });
 }
 
 }  // namespace

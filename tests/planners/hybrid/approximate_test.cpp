@@ -15,7 +15,7 @@ TEST_F(Hybrid, AnApproximateAnswerIsReportedAsItIsAlsoFromATightStart) {
   few.algorithm = Algorithm::rrt;
   few.iterations = 3;
   few.fall_back_to_grid = false;
-  router = std::make_shared<test::CountingPlanner>(std::make_shared<OmplPlanner>(few));
+  router = test::counted_ompl(few);
   int approximate = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
     for (const double x_m : {0.25, 0.18}) {  // free, and nearer to the wall than the radius

@@ -102,8 +102,7 @@ TEST_F(Avoided, ACarKeepsOffToo) {
   OmplConfig car;
   car.kinematics = MotionKind::dubins;
   car.turning_radius_m = 0.1;
-  config.route.config = parse_config_text("kinematics: dubins", "test");
-  router = std::make_shared<test::CountingPlanner>(std::make_shared<OmplPlanner>(car));
+  router = test::counted_ompl(car);
   PlanRequest direct = request('A', 'B');
   const PlanResult before = plan(direct);
   ASSERT_EQ(before.outcome, PlanOutcome::solved) << before.reason;

@@ -197,10 +197,21 @@ TEST_F(Hybrid, KeepsToItsBudget) {
   EXPECT_EQ(plan(request('A', 'B'), none).outcome, PlanOutcome::out_of_budget);
 }
 
-TEST_F(Hybrid, TheRoutersPolicyOnUnknownSpaceHoldsForStoredRoutesToo) {
-  EXPECT_EQ(unknown_policy_of({"ompl", parse_config_text("unknown: allow", "test")}), UnknownPolicy::allow);
-  EXPECT_EQ(unknown_policy_of({"ompl", parse_config_text("iterations: 5", "test")}), UnknownPolicy::avoid);
-  EXPECT_EQ(unknown_policy_of(HybridConfig{}.route), UnknownPolicy::avoid);
+TEST_F(Hybrid, ThePathPlannersPolicyOnUnknownSpaceHoldsForStoredRoutesToo) {
+  const LandmarkId m = landmark('M');
+  const LandmarkId n = landmark('N');
+  const RouteId stored = route(m, n, "MUN");
+  for (int dy = -2; dy <= 3; ++dy)
+    world.grid.set_log_odds(world.grid.cell_at(world.places['U']) + Cell{0, dy}, 0);  // unknown right across
+  EXPECT_THAT(plan(between(m, n)).blocked_routes, ElementsAre(stored));
+  for (const UnknownGround unknown : {UnknownGround::allow, UnknownGround::cost}) {
+    OmplConfig crossing;
+    crossing.unknown = unknown;
+    router = test::counted_ompl(crossing);
+    const PlanResult result = plan(between(m, n));
+    EXPECT_THAT(result.routes, ElementsAre(stored)) << result.reason;
+    EXPECT_THAT(result.blocked_routes, IsEmpty());
+  }
 }
 
 // Random worlds and graphs: whatever happens, an answer is never unsafe and never differs from itself.
@@ -214,9 +225,7 @@ TEST_F(Hybrid, TheRoutersMarginHoldsForStoredRoutesAndCutCornersToo) {
   const auto with_margin = [&](double margin_m) {
     OmplConfig wide;
     wide.margin_m = margin_m;
-    config.route.config = parse_config_text("margin_m: " + std::to_string(margin_m), "test");
-    EXPECT_EQ(margin_m_of(config.route), margin_m);
-    router = std::make_shared<test::CountingPlanner>(std::make_shared<OmplPlanner>(wide));
+    router = test::counted_ompl(wide);
   };
   with_margin(0.005);
   EXPECT_TRUE(stored(plan(request('M', 'N'))));
@@ -274,7 +283,7 @@ TEST_F(Hybrid, AnswersAreSafeAndRepeatableOnRandomWorlds) {
     request.from.pose = Pose2{from.x(), from.y(), 0.0};
     request.to.pose = Pose2{to.x(), to.y(), 0.0};
     request.radius_m = kRadius_m;
-    if (seed % 3 == 0) request.to = {{}, false, {ids[0], ids[1]}, {}};
+    if (seed % 3 == 0) request.to = {{}, false, {ids[0], ids[1]}};
     const PlanResult result = plan(request);
     EXPECT_EQ(result.path, plan(request).path);
     EXPECT_FALSE(result.reason.empty());

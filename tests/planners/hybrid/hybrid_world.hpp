@@ -15,19 +15,37 @@ namespace cairn::test {
 
 inline constexpr double kRadius_m = 0.14;
 
-// Counts what it passes on.
-class CountingPlanner : public Planner {
+// Count what they pass on.
+class CountingPathPlanner : public PathPlanner {
  public:
-  explicit CountingPlanner(std::shared_ptr<const Planner> inner) : inner_(std::move(inner)) {}
-  PlanResult plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const override {
+  explicit CountingPathPlanner(std::shared_ptr<const PathPlanner> inner) : inner_(std::move(inner)) {}
+  PlannerTraits traits() const override { return inner_->traits(); }
+  PathResult plan(const PathRequest& request, const WorldView& world, const Budget& budget) const override {
     ++calls;
     return inner_->plan(request, world, budget);
   }
   mutable int calls = 0;
 
  private:
-  std::shared_ptr<const Planner> inner_;
+  std::shared_ptr<const PathPlanner> inner_;
 };
+
+class CountingRoutePlanner : public RoutePlanner {
+ public:
+  explicit CountingRoutePlanner(std::shared_ptr<const RoutePlanner> inner) : inner_(std::move(inner)) {}
+  RouteResult plan(const RouteRequest& request, const WorldView& world, const Budget& budget) const override {
+    ++calls;
+    return inner_->plan(request, world, budget);
+  }
+  mutable int calls = 0;
+
+ private:
+  std::shared_ptr<const RoutePlanner> inner_;
+};
+
+[[nodiscard]] inline std::shared_ptr<CountingPathPlanner> counted_ompl(const OmplConfig& config = {}) {
+  return std::make_shared<CountingPathPlanner>(std::make_shared<OmplPlanner>(config));
+}
 
 class Hybrid : public ::testing::Test {
  protected:
@@ -51,9 +69,9 @@ class Hybrid : public ::testing::Test {
       "#..........................#\n"
       "############################\n");
   HybridConfig config;
-  std::shared_ptr<CountingPlanner> router =
-      std::make_shared<CountingPlanner>(std::make_shared<OmplPlanner>(OmplConfig{}));
-  std::shared_ptr<CountingPlanner> searcher = std::make_shared<CountingPlanner>(std::make_shared<LandmarkSearch>());
+  std::shared_ptr<CountingPathPlanner> router = counted_ompl();
+  std::shared_ptr<CountingRoutePlanner> searcher =
+      std::make_shared<CountingRoutePlanner>(std::make_shared<LandmarkSearch>());
 
   LandmarkId landmark(char place) {
     Landmark landmark;
@@ -80,7 +98,13 @@ class Hybrid : public ::testing::Test {
     for (int dy = -2; dy <= 3; ++dy)
       world.grid.set_log_odds(world.grid.cell_at(world.places.at(place)) + Cell{0, dy}, 900);
   }
-  PlanRequest request(char from, char to) const { return world.request(from, to, kRadius_m); }
+  PlanRequest request(char from, char to) const {
+    PlanRequest request;
+    request.from.pose = world.pose(from);
+    request.to.pose = world.pose(to);
+    request.radius_m = kRadius_m;
+    return request;
+  }
   static PlanRequest between(LandmarkId from, LandmarkId to) {
     PlanRequest request;
     request.from.landmarks = {from};

@@ -15,25 +15,48 @@ using ::testing::IsEmpty;
 // Later than the calls before the ending one take on a slow machine, and then waited for.
 constexpr std::chrono::milliseconds kLater{1500};
 
-// Has its budget end during a call: sets the cancel flag, or waits for the deadline.
-class EndingPlanner : public Planner {
+// Has a budget end during a call: sets the cancel flag, or waits for the deadline.
+class BudgetEnd {
  public:
-  EndingPlanner(std::shared_ptr<const Planner> inner, int at_call, std::atomic<bool>* cancel)
-      : inner_(std::move(inner)), at_call_(at_call), cancel_(cancel) {}
-  PlanResult plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const override {
-    const PlanResult result = inner_->plan(request, world, budget);
-    if (++calls < at_call_) return result;
+  BudgetEnd(int at_call, std::atomic<bool>* cancel) : at_call_(at_call), cancel_(cancel) {}
+  void count(const Budget& budget) const {
+    if (++calls < at_call_) return;
     if (cancel_ != nullptr) *cancel_ = true;
     while (!budget.exhausted()) {
     }
-    return result;
   }
   mutable int calls = 0;
 
  private:
-  std::shared_ptr<const Planner> inner_;
   int at_call_;
   std::atomic<bool>* cancel_;
+};
+
+class EndingRoutePlanner : public RoutePlanner, public BudgetEnd {
+ public:
+  using BudgetEnd::BudgetEnd;
+  RouteResult plan(const RouteRequest& request, const WorldView& world, const Budget& budget) const override {
+    RouteResult result = search_.plan(request, world, budget);
+    count(budget);
+    return result;
+  }
+
+ private:
+  LandmarkSearch search_;
+};
+
+class EndingPathPlanner : public PathPlanner, public BudgetEnd {
+ public:
+  using BudgetEnd::BudgetEnd;
+  PlannerTraits traits() const override { return ompl_.traits(); }
+  PathResult plan(const PathRequest& request, const WorldView& world, const Budget& budget) const override {
+    PathResult result = ompl_.plan(request, world, budget);
+    count(budget);
+    return result;
+  }
+
+ private:
+  OmplPlanner ompl_{OmplConfig{}};
 };
 
 class OpenRoutes : public Hybrid {
@@ -48,9 +71,9 @@ class OpenRoutes : public Hybrid {
     round = {route(m, p, "", 1.2), route(p, q, "PVQ"), route(q, n, "", 1.2)};
     config.detour_ratio = 2.0;
   }
-  PlanResult plan_with(std::shared_ptr<const Planner> route_planner, std::shared_ptr<const Planner> graph_planner,
-                       const Budget& budget) const {
-    return HybridPlanner(config, std::move(route_planner), std::move(graph_planner))
+  PlanResult plan_with(std::shared_ptr<const PathPlanner> path_planner,
+                       std::shared_ptr<const RoutePlanner> route_planner, const Budget& budget) const {
+    return HybridPlanner(config, std::move(path_planner), std::move(route_planner))
         .plan(between(m, n), world.view(), budget);
   }
 
@@ -94,8 +117,7 @@ TEST_F(OpenRoutes, ABudgetThatEndsWithinTheLoopEndsIt) {
       Budget budget;
       budget.cancel = &cancel;
       if (by_deadline) budget.deadline = Budget::Clock::now() + kLater;
-      const auto ending =
-          std::make_shared<EndingPlanner>(std::make_shared<LandmarkSearch>(), call, by_deadline ? nullptr : &cancel);
+      const auto ending = std::make_shared<EndingRoutePlanner>(call, by_deadline ? nullptr : &cancel);
       const PlanResult result = plan_with(router, ending, budget);
       EXPECT_EQ(result.outcome, by_deadline ? PlanOutcome::out_of_budget : PlanOutcome::cancelled) << result.reason;
       EXPECT_EQ(ending->calls, call) << "no search after the end";
@@ -104,8 +126,7 @@ TEST_F(OpenRoutes, ABudgetThatEndsWithinTheLoopEndsIt) {
     Budget budget;
     budget.cancel = &cancel;
     if (by_deadline) budget.deadline = Budget::Clock::now() + kLater;
-    const auto ending = std::make_shared<EndingPlanner>(std::make_shared<OmplPlanner>(OmplConfig{}), 1,
-                                                        by_deadline ? nullptr : &cancel);
+    const auto ending = std::make_shared<EndingPathPlanner>(1, by_deadline ? nullptr : &cancel);
     searcher->calls = 0;
     const PlanResult result = plan_with(ending, searcher, budget);
     EXPECT_EQ(result.outcome, by_deadline ? PlanOutcome::out_of_budget : PlanOutcome::cancelled) << result.reason;
@@ -121,7 +142,7 @@ TEST_F(OpenRoutes, AlternativesThatAreBlockedTodayAreReplacedByOthers) {
   request.alternatives = 2;
   const auto routes_of = [](const PlanResult& result) {
     std::vector<std::vector<RouteId>> routes;
-    for (const PlanAlternative& way : result.alternatives) routes.push_back(way.routes);
+    for (const RouteAlternative& way : result.alternatives) routes.push_back(way.routes);
     return routes;
   };
   EXPECT_THAT(routes_of(plan(request)), ElementsAre(std::vector{upper[1]}, round));

@@ -14,9 +14,11 @@ using test::kRadius_m;
 
 class StoredRoutes : public Hybrid {
  protected:
-  // Looked at along the way only.
+  // Examines the grid along the route only.
   std::optional<PlanResult> beside(const PlanRequest& request) const {
-    const HybridTools tools{config, UnknownPolicy::avoid, 0.0, usual_, avoiding_, *router, *searcher};
+    const PlannerTraits traits = router->traits();
+    const std::shared_ptr<const RoutePlanner> search = searcher;
+    const HybridTools tools{config, traits, usual_, avoiding_, *router, search};
     const LegRules legs{request.radius_m, request.radius_m + kMinRadius_m, config.detour_ratio, request.seed};
     const AnswerRules answers{{}, request.radius_m, request.radius_m, config.shortcut};
     return stored_route(tools, legs, answers, request, world.view(), {});

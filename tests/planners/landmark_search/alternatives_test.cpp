@@ -18,14 +18,14 @@ using test::Variety;
 
 constexpr ClusterSizes kSmall{2, 2, 4};
 
-// The best way and so many after it.
-std::vector<Way> ways(const LandmarkGraph& graph, const Question& question, int count) {
+// The best path and so many after it.
+std::vector<GraphPath> paths(const LandmarkGraph& graph, const Question& question, int count) {
   const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
   HierarchySearch search;
   const RouteQuery query = query_of(question, hierarchy.network());
-  const Way best = search.find(hierarchy, query, {});
+  const GraphPath best = search.find(hierarchy, query, {});
   if (!(best.cost < kNoWay)) return {};
-  std::vector<Way> all = alternatives_to(best, count, hierarchy, query, search, {});
+  std::vector<GraphPath> all = alternatives_to(best, count, hierarchy, query, search, {});
   all.insert(all.begin(), best);
   return all;
 }
@@ -56,10 +56,10 @@ void expect_all_ways(const Variety& variety, std::uint64_t seeds) {
     std::vector<double> costs;
     std::set<std::pair<VertexIndex, std::vector<RouteId>>> seen;
     const int count = static_cast<int>(random() % 20);
-    for (const Way& way : ways(graph, question, count)) {
-      ASSERT_EQ(fault_of(way, question, graph, network), "") << "seed " << seed;
-      EXPECT_TRUE(seen.emplace(way.vertices.front(), way.routes).second) << "the same way twice, seed " << seed;
-      costs.push_back(way.cost);
+    for (const GraphPath& path : paths(graph, question, count)) {
+      ASSERT_EQ(fault_of(path, question, graph, network), "") << "seed " << seed;
+      EXPECT_TRUE(seen.emplace(path.vertices.front(), path.routes).second) << "the same path twice, seed " << seed;
+      costs.push_back(path.cost);
     }
     std::vector<double> want = all_costs(graph, question);
     want.resize(std::min(want.size(), static_cast<std::size_t>(count) + 1));
@@ -86,14 +86,14 @@ TEST(Alternatives, TakeAnotherOfSeveralParallelRoutes) {
   LandmarkGraph graph = drawn_graph("1>2 1>2 1>2 2>3");
   graph.set_cost(2, 2.0);
   graph.set_cost(3, 5.0);
-  const std::vector<Way> all = ways(graph, {{{1, 0.0}}, {{3, 0.0}}, {}, {}}, 5);
+  const std::vector<GraphPath> all = paths(graph, {{{1, 0.0}}, {{3, 0.0}}, {}, {}}, 5);
   ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[1].routes, (std::vector<RouteId>{2, 4}));
   EXPECT_EQ(all[2].routes, (std::vector<RouteId>{3, 4}));
 }
 
 TEST(Alternatives, OfAWayThatStaysWhereItIsAreNone) {
-  EXPECT_EQ(ways(drawn_graph("1<>2 2<>3 3<>1"), {{{1, 0.0}}, {{1, 0.0}}, {}, {}}, 5).size(), 1U);
+  EXPECT_EQ(paths(drawn_graph("1<>2 2<>3 3<>1"), {{{1, 0.0}}, {{1, 0.0}}, {}, {}}, 5).size(), 1U);
 }
 
 TEST(Alternatives, AreRightOnGraphsWithManyClustersToo) {
@@ -102,9 +102,9 @@ TEST(Alternatives, AreRightOnGraphsWithManyClustersToo) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 20; ++i) {
     const Question question = test::random_question(graph, {}, random);
-    const std::vector<Way> all = ways(graph, question, 6);
+    const std::vector<GraphPath> all = paths(graph, question, 6);
     for (std::size_t w = 1; w < all.size(); ++w) EXPECT_GE(all[w].cost, all[w - 1].cost - 1e-9);
-    for (const Way& way : all) EXPECT_EQ(fault_of(way, question, graph, network), "");
+    for (const GraphPath& path : all) EXPECT_EQ(fault_of(path, question, graph, network), "");
   }
 }
 
@@ -113,7 +113,7 @@ TEST(Alternatives, EndWithTheBudget) {
   const Hierarchy hierarchy(graph);
   HierarchySearch search;
   const RouteQuery query = query_of(Question{{{1, 0.0}}, {{4, 0.0}}, {}, {}}, hierarchy.network());
-  const Way best = search.find(hierarchy, query, {});
+  const GraphPath best = search.find(hierarchy, query, {});
   EXPECT_EQ(alternatives_to(best, 3, hierarchy, query, search, {}).size(), 3U);
   Budget over;
   over.deadline = Budget::Clock::time_point::min();

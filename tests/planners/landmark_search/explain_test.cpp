@@ -16,8 +16,8 @@ using test::line_of;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-PlanRequest request(LandmarkId from, LandmarkId to) {
-  PlanRequest request = test::request({from}, {to});
+RouteRequest request(LandmarkId from, LandmarkId to) {
+  RouteRequest request = test::request({from}, {to});
   request.explain = true;
   return request;
 }
@@ -31,7 +31,7 @@ TEST(Explain, SaysWhatTheClosedRoutesOfTheMapCost) {
   GraphWorld world = line_of(4);
   world.route(1, 4, 9.0);
   world.graph.set_closed(2, true);
-  const PlanResult result = world.plan(LandmarkSearch(), request(1, 4));
+  const RouteResult result = world.plan(LandmarkSearch(), request(1, 4));
   EXPECT_DOUBLE_EQ(result.cost_m, 9.0);
   EXPECT_EQ(result.explanation->cost, 9.0);
   EXPECT_THAT(result.explanation->closed_in_the_way, ElementsAre(2));
@@ -41,9 +41,9 @@ TEST(Explain, SaysWhatTheClosedRoutesOfTheMapCost) {
 TEST(Explain, AndThoseThatTheRequestCloses) {
   GraphWorld world = line_of(4);
   world.route(1, 4, 9.0);
-  PlanRequest asked = request(1, 4);
+  RouteRequest asked = request(1, 4);
   asked.closed = {1, 3, 77};
-  const PlanResult result = world.plan(LandmarkSearch(), asked);
+  const RouteResult result = world.plan(LandmarkSearch(), asked);
   EXPECT_THAT(result.explanation->closed_in_the_way, ElementsAre(1, 3));
   EXPECT_DOUBLE_EQ(result.explanation->cost_with_closed_open.value(), 3.0);
 }
@@ -51,7 +51,7 @@ TEST(Explain, AndThoseThatTheRequestCloses) {
 TEST(Explain, ClosedRoutesThatWouldNotHelpAreNotNamed) {
   GraphWorld world = line_of(3);
   world.graph.set_closed(world.route(1, 3, 50.0), true);
-  const PlanResult result = world.plan(LandmarkSearch(), request(1, 3));
+  const RouteResult result = world.plan(LandmarkSearch(), request(1, 3));
   EXPECT_THAT(result.explanation->closed_in_the_way, IsEmpty());
   EXPECT_FALSE(result.explanation->cost_with_closed_open);
 }
@@ -67,9 +67,9 @@ TEST(Explain, WithoutAWayTheReasonSaysWhetherClosedRoutesAreToBlame) {
 TEST(Explain, NamesTheClustersOfEveryLevelAlongTheWayAndCountsWhatWasSettled) {
   const GraphWorld world = line_of(800);
   const Hierarchies hierarchies = world.hierarchies();
-  const PlanResult result = world.plan(LandmarkSearch(), request(1, 800), {}, &hierarchies);
+  const RouteResult result = world.plan(LandmarkSearch(), request(1, 800), {}, &hierarchies);
   const ClusterTree tree = hierarchies.tree();
-  const PlanExplanation& explanation = result.explanation.value();
+  const RouteExplanation& explanation = result.explanation.value();
   const auto levels = static_cast<std::size_t>(hierarchies.by(CostKind::length).levels());
   ASSERT_GE(levels, 2U);
   ASSERT_EQ(explanation.clusters.size(), levels);

@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 TEST(FlatSearch, SettlesWhatIsNotFartherThanTheGoal) {
   GraphWorld world = line_of(3);
   world.route(1, 3, 5.0);
-  const PlanResult result = world.plan(FlatSearch(), request({1}, {3}));
+  const RouteResult result = world.plan(FlatSearch(), request({1}, {3}));
   EXPECT_THAT(result.landmarks, ElementsAre(1, 2, 3));
   EXPECT_EQ(result.settled, 3);
 }
@@ -38,17 +38,17 @@ TEST(FlatSearch, KeepsToACountOfSettledLandmarks) {
 TEST(FlatSearch, SaysWhatItDoesNotKnow) {
   const GraphWorld world = line_of(2);
   const auto reason = [&](auto change) {
-    PlanRequest asked = request({1}, {2});
+    RouteRequest asked = request({1}, {2});
     change(asked);
-    const PlanResult result = world.plan(FlatSearch(), asked);
+    const RouteResult result = world.plan(FlatSearch(), asked);
     EXPECT_EQ(result.outcome, PlanOutcome::unknown_place);
     return result.reason;
   };
-  EXPECT_EQ(reason([](PlanRequest& asked) { asked.alternatives = 1; }),
+  EXPECT_EQ(reason([](RouteRequest& asked) { asked.alternatives = 1; }),
             "flat_search does not know alternatives; landmark_search does");
-  EXPECT_EQ(reason([](PlanRequest& asked) { asked.explain = true; }),
+  EXPECT_EQ(reason([](RouteRequest& asked) { asked.explain = true; }),
             "flat_search does not know an explanation; landmark_search does");
-  EXPECT_EQ(reason([](PlanRequest& asked) { asked.cost = CostKind::time; }),
+  EXPECT_EQ(reason([](RouteRequest& asked) { asked.cost = CostKind::time; }),
             "flat_search does not know other costs than length; landmark_search does");
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/route_planner.hpp"
 #include "maps/hierarchy/hierarchies.hpp"
 
 namespace cairn::test {
@@ -30,16 +30,16 @@ struct GraphWorld {
   [[nodiscard]] Hierarchies hierarchies() const {
     return {graph, {}, {robot.max_v_mps, robot.max_w_radps, 0.22, nullptr}};
   }
-  [[nodiscard]] PlanResult plan(const Planner& planner, const PlanRequest& request, const Budget& budget = {},
-                                const Hierarchies* of_graph = nullptr) const {
+  [[nodiscard]] RouteResult plan(const RoutePlanner& planner, const RouteRequest& request, const Budget& budget = {},
+                                 const Hierarchies* of_graph = nullptr) const {
     return planner.plan(request, {grid, graph, robot, {}, 0.0, nullptr, 0.0, of_graph}, budget);
   }
 };
 
-[[nodiscard]] inline PlanRequest request(std::vector<LandmarkId> from, std::vector<LandmarkId> to) {
-  PlanRequest request;
-  request.from.landmarks = std::move(from);
-  request.to.landmarks = std::move(to);
+[[nodiscard]] inline RouteRequest request(const std::vector<LandmarkId>& from, const std::vector<LandmarkId>& to) {
+  RouteRequest request;
+  for (const LandmarkId id : from) request.from.push_back({id, 0.0});
+  for (const LandmarkId id : to) request.to.push_back({id, 0.0});
   return request;
 }
 

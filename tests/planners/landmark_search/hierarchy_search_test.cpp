@@ -23,11 +23,11 @@ constexpr ClusterSizes kMiddle{16, 3, 40};
 // What the search makes of a question is what Dijkstra makes of it.
 void expect_cheapest(const Question& question, const Hierarchy& hierarchy, const LandmarkGraph& graph,
                      HierarchySearch& search, const std::string& where) {
-  const Way way = search.find(hierarchy, query_of(question, hierarchy.network()), {});
+  const GraphPath path = search.find(hierarchy, query_of(question, hierarchy.network()), {});
   const double want = cheapest(graph, question);
-  ASSERT_FALSE(way.stopped);
-  ASSERT_TRUE(same_cost(way.cost, want)) << where << ": " << way.cost << " instead of " << want;
-  ASSERT_EQ(fault_of(way, question, graph, hierarchy.network()), "") << where;
+  ASSERT_FALSE(path.stopped);
+  ASSERT_TRUE(same_cost(path.cost, want)) << where << ": " << path.cost << " instead of " << want;
+  ASSERT_EQ(fault_of(path, question, graph, hierarchy.network()), "") << where;
 }
 
 void expect_cheapest_on_random_graphs(const Variety& variety, int seeds, int questions) {
@@ -138,9 +138,9 @@ TEST(HierarchySearch, FromALandmarkToItselfStaysThere) {
   const LandmarkGraph graph = drawn_graph("1<>2 2<>3 3<>1");
   const Hierarchy hierarchy(graph);
   const Question question{{{2, 3.0}}, {{2, 4.0}}, {2}, {}};
-  const Way way = HierarchySearch().find(hierarchy, query_of(question, hierarchy.network()), {});
-  EXPECT_EQ(way.cost, 7.0);
-  EXPECT_EQ(way.vertices.size(), 1U);
+  const GraphPath path = HierarchySearch().find(hierarchy, query_of(question, hierarchy.network()), {});
+  EXPECT_EQ(path.cost, 7.0);
+  EXPECT_EQ(path.vertices.size(), 1U);
 }
 
 TEST(HierarchySearch, AnAvoidedEndIsAnEndAndNotPassed) {
@@ -173,8 +173,8 @@ TEST(HierarchySearch, EqualQueriesGiveEqualWays) {
   for (int i = 0; i < 100; ++i) {
     const RouteQuery query =
         query_of(random_question(graph, {.max_ends = 3, .max_avoided = 2}, random), hierarchy.network());
-    const Way first = used.find(hierarchy, query, {});
-    const Way second = HierarchySearch().find(hierarchy, query, {});
+    const GraphPath first = used.find(hierarchy, query, {});
+    const GraphPath second = HierarchySearch().find(hierarchy, query, {});
     EXPECT_EQ(first.vertices, second.vertices);
     EXPECT_EQ(first.routes, second.routes);
     EXPECT_EQ(first.settled, second.settled);
@@ -189,13 +189,14 @@ TEST(HierarchySearch, CountsWhatItSettlesByLevel) {
   std::int64_t one_by_one = 0;
   std::int64_t all = 0;
   for (int i = 0; i < 50; ++i) {
-    const Way way = search.find(hierarchy, query_of(random_question(graph, {}, random), hierarchy.network()), {});
-    ASSERT_EQ(way.settled_of_level.size(), static_cast<std::size_t>(hierarchy.levels()) + 1);
+    const GraphPath path =
+        search.find(hierarchy, query_of(random_question(graph, {}, random), hierarchy.network()), {});
+    ASSERT_EQ(path.settled_of_level.size(), static_cast<std::size_t>(hierarchy.levels()) + 1);
     std::int64_t sum = 0;
-    for (const std::int64_t settled : way.settled_of_level) sum += settled;
-    EXPECT_EQ(sum, way.settled);
-    one_by_one += way.settled_of_level[0];
-    all += way.settled;
+    for (const std::int64_t settled : path.settled_of_level) sum += settled;
+    EXPECT_EQ(sum, path.settled);
+    one_by_one += path.settled_of_level[0];
+    all += path.settled;
   }
   EXPECT_LT(2 * one_by_one, all) << "most of a large graph is passed cluster by cluster";
 }
@@ -208,12 +209,12 @@ TEST(HierarchySearch, StopsWhenItsBudgetIsUsedUp) {
   int cut = 0;
   for (int i = 0; i < 50; ++i) {
     const RouteQuery query = query_of(random_question(graph, {}, random), hierarchy.network());
-    const Way whole = search.find(hierarchy, query, {});
+    const GraphPath whole = search.find(hierarchy, query, {});
     Budget budget;
     budget.iterations = whole.settled;
-    const Way enough = search.find(hierarchy, query, budget);
+    const GraphPath enough = search.find(hierarchy, query, budget);
     budget.iterations = whole.settled / 2;
-    const Way half = search.find(hierarchy, query, budget);
+    const GraphPath half = search.find(hierarchy, query, budget);
     if (whole.settled < 2) continue;
     ++cut;
     EXPECT_TRUE(half.stopped);

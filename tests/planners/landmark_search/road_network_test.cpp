@@ -73,26 +73,26 @@ TEST_P(RoadNetwork, IsAnsweredAsByDijkstra) {
   };
   int reached = 0;
   for (int s = 0; s < kSources; ++s) {
-    PlanRequest request;
-    request.from.landmarks = {any()};
-    const std::vector<double> want = costs_from(plain, request.from.landmarks.front());
+    RouteRequest request;
+    request.from = {{any()}};
+    const std::vector<double> want = costs_from(plain, request.from.front().landmark);
     for (int g = 0; g < kGoals; ++g) {
-      request.to.landmarks = {any()};
-      const double cost_m = want[static_cast<std::size_t>(request.to.landmarks.front())];
-      const PlanResult result = search.plan(
+      request.to = {{any()}};
+      const double cost_m = want[static_cast<std::size_t>(request.to.front().landmark)];
+      const RouteResult result = search.plan(
           request, {.grid = grid, .graph = graph, .robot = robot, .pose = {}, .hierarchies = &hierarchies}, {});
       const std::string where =
-          "L" + std::to_string(request.from.landmarks[0]) + " to L" + std::to_string(request.to.landmarks[0]);
+          "L" + std::to_string(request.from[0].landmark) + " to L" + std::to_string(request.to[0].landmark);
       ASSERT_EQ(result.outcome == PlanOutcome::solved, cost_m < kNoWay) << where;
       if (result.outcome != PlanOutcome::solved) continue;
       ++reached;
       ASSERT_NEAR(result.cost_m, cost_m, 1e-9 * std::max(1.0, cost_m)) << where;
-      LandmarkId at = request.from.landmarks.front();
+      LandmarkId at = request.from.front().landmark;
       for (const RouteId id : result.routes) {
         ASSERT_EQ(graph.find_route(id)->from, at) << where;
         at = graph.find_route(id)->to;
       }
-      ASSERT_EQ(at, request.to.landmarks.front()) << where;
+      ASSERT_EQ(at, request.to.front().landmark) << where;
     }
   }
   EXPECT_GT(reached, kSources * kGoals / 2);

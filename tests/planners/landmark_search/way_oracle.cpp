@@ -21,7 +21,7 @@ auto any_key(const Map& map, std::mt19937_64& random) {
   return at->first;
 }
 
-// Tries every way on from a landmark, depth first.
+// Tries every path on from a landmark, depth first.
 class Enumeration {
  public:
   Enumeration(const LandmarkGraph& graph, const Question& question) : graph_(graph), question_(question) {}
@@ -121,23 +121,24 @@ std::vector<double> all_costs(const LandmarkGraph& graph, const Question& questi
   return Enumeration(graph, question).all();
 }
 
-std::string fault_of(const Way& way, const Question& question, const LandmarkGraph& graph, const Network& network) {
-  if (!(way.cost < kNoWay)) return way.vertices.empty() && way.routes.empty() ? "" : "a way without a cost";
+std::string fault_of(const GraphPath& path, const Question& question, const LandmarkGraph& graph,
+                     const Network& network) {
+  if (!(path.cost < kNoWay)) return path.vertices.empty() && path.routes.empty() ? "" : "a path without a cost";
   std::vector<LandmarkId> landmarks;
-  for (const VertexIndex v : way.vertices) landmarks.push_back(network.landmark_of(v));
-  if (landmarks.empty() || way.routes.size() + 1 != landmarks.size()) return "landmarks and routes do not alternate";
+  for (const VertexIndex v : path.vertices) landmarks.push_back(network.landmark_of(v));
+  if (landmarks.empty() || path.routes.size() + 1 != landmarks.size()) return "landmarks and routes do not alternate";
   if (!question.from.contains(landmarks.front())) return "begins at L" + std::to_string(landmarks.front());
   if (!question.to.contains(landmarks.back())) return "ends at L" + std::to_string(landmarks.back());
   if (std::set(landmarks.begin(), landmarks.end()).size() != landmarks.size()) return "passes a landmark twice";
   double sum = question.from.at(landmarks.front()) + question.to.at(landmarks.back());
-  for (std::size_t i = 0; i < way.routes.size(); ++i) {
-    const Route* const route = graph.find_route(way.routes[i]);
+  for (std::size_t i = 0; i < path.routes.size(); ++i) {
+    const Route* const route = graph.find_route(path.routes[i]);
     if (route == nullptr || route->from != landmarks[i] || route->to != landmarks[i + 1])
-      return "route " + std::to_string(way.routes[i]) + " does not join its landmarks";
+      return "route " + std::to_string(path.routes[i]) + " does not join its landmarks";
     if (i > 0 && question.avoided.contains(landmarks[i])) return "passes L" + std::to_string(landmarks[i]);
     sum += cost_of(*route, question);
   }
-  return same_cost(sum, way.cost) ? "" : "its routes cost " + std::to_string(sum);
+  return same_cost(sum, path.cost) ? "" : "its routes cost " + std::to_string(sum);
 }
 
 }  // namespace cairn::test

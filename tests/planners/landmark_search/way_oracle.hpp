@@ -33,8 +33,8 @@ struct Variety {
 // The costs of all answers that pass no landmark twice, rising, by trying each.
 [[nodiscard]] std::vector<double> all_costs(const LandmarkGraph& graph, const Question& question);
 // What is wrong with an answer apart from its being the cheapest: ends, joints, avoided landmarks, landmarks passed
-// twice, a cost that is not the sum; or nothing. A way that is not there is not wrong.
-[[nodiscard]] std::string fault_of(const Way& way, const Question& question, const LandmarkGraph& graph,
+// twice, a cost that is not the sum; or nothing. A path that is not there is not wrong.
+[[nodiscard]] std::string fault_of(const GraphPath& path, const Question& question, const LandmarkGraph& graph,
                                    const Network& network);
 [[nodiscard]] bool same_cost(double a, double b);
 

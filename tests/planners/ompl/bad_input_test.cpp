@@ -27,8 +27,8 @@ class BadInput : public ::testing::TestWithParam<std::string> {
     return OmplPlanner(load_config<OmplConfig>(
         parse_config_text("{kinematics: " + GetParam() + ", turning_radius_m: 0.2}", "test"), "plugin ompl"));
   }
-  static PlanResult plan(const test::DrawnWorld& world, const PlanRequest& request, const Budget& budget = {}) {
-    PlanResult result = planner().plan(request, world.view(), budget);
+  static PathResult plan(const test::DrawnWorld& world, const PathRequest& request, const Budget& budget = {}) {
+    PathResult result = planner().plan(request, world.view(), budget);
     EXPECT_FALSE(result.reason.empty());
     EXPECT_EQ(result.path.empty(), result.outcome != PlanOutcome::solved);
     return result;
@@ -39,12 +39,12 @@ TEST_P(BadInput, PlacesThatAreNoneAreReported) {
   const auto world = test::drawn_world(test::kOffice);
   for (const double odd : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (const bool at_start : {true, false}) {
-      PlanRequest request = world.request('A', 'B', 0.1);
+      PathRequest request = world.request('A', 'B', 0.1);
       (at_start ? request.from : request.to).pose->y_m = odd;
       EXPECT_EQ(plan(world, request).outcome, PlanOutcome::unknown_place);
     }
   for (const double far_m : {-3.0, 40.0, 1e12, 1e300}) {
-    PlanRequest request = world.request('A', 'B', 0.1);
+    PathRequest request = world.request('A', 'B', 0.1);
     request.from.pose->x_m = far_m;
     EXPECT_EQ(plan(world, request).outcome, PlanOutcome::start_blocked) << far_m;
     request = world.request('A', 'B', 0.1);
@@ -78,7 +78,7 @@ TEST_P(BadInput, MapsOnWhichNothingIsFree) {
   const auto full = test::drawn_world("####\n####\n####\n");
   const auto unseen = test::drawn_world("????\n????\n????\n");
   const test::DrawnWorld empty;
-  PlanRequest request;
+  PathRequest request;
   request.from.pose = Pose2{0.15, 0.15, 0.0};
   request.to.pose = Pose2{0.25, 0.15, 0.0};
   request.radius_m = 0.01;

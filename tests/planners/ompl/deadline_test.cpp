@@ -54,8 +54,8 @@ class InTime : public ::testing::TestWithParam<KindCase> {
     return OmplPlanner(config);
   }
   // Warm: what is kept from call to call is there.
-  static PlanResult plan(const OmplPlanner& planner, const Budget& budget, std::uint64_t seed) {
-    PlanRequest request = world_->request('A', 'B', 0.2);
+  static PathResult plan(const OmplPlanner& planner, const Budget& budget, std::uint64_t seed) {
+    PathRequest request = world_->request('A', 'B', 0.2);
     request.seed = seed;
     return planner.plan(request, world_->view(), budget);
   }
@@ -81,7 +81,7 @@ TEST_P(InTime, ADeadlineHolds) {
       const Overrun run_of = overrun_of(
           budget.deadline, [&] { return plan(planner, budget, 10 + run); }, [] {});
       if (run_of.late <= test::kMaxLate) least = std::min(least, run_of.over + run_of.late);
-      const PlanResult& result = run_of.result;
+      const PathResult& result = run_of.result;
       EXPECT_TRUE(result.outcome == PlanOutcome::solved || result.outcome == PlanOutcome::out_of_budget)
           << name_of(result.outcome) << ": " << result.reason;
     }
@@ -105,7 +105,7 @@ TEST_P(InTime, ACancelHolds) {
     least = std::min(least, run_of.over);
     // What was found by then may be answered; and a flag that comes late, on a busy machine, finds a search that has
     // used up its iterations: such a call had ended before it.
-    const PlanResult& result = run_of.result;
+    const PathResult& result = run_of.result;
     const bool ended_before = result.outcome == PlanOutcome::out_of_budget && run_of.over == Clock::duration::zero();
     EXPECT_TRUE(ended_before || result.outcome == PlanOutcome::cancelled || result.outcome == PlanOutcome::solved)
         << name_of(result.outcome) << ": " << result.reason;

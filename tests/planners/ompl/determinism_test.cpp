@@ -22,7 +22,7 @@ TEST(OmplDeterminism, SeveralThreadsAtOnceGetWhatOneGets) {
        {Algorithm::rrt_connect, Algorithm::bit_star, Algorithm::prm, Algorithm::informed_rrt_star}) {
     const OmplPlanner planner = planner_of(algorithm);
     const auto path_for = [&](std::uint64_t seed) {
-      PlanRequest request = world.request('A', 'B', 0.1);
+      PathRequest request = world.request('A', 'B', 0.1);
       request.seed = seed;
       return planner.plan(request, world.view(), {}).path;
     };
@@ -56,7 +56,7 @@ TEST(OmplDeterminism, HoweverTheRobotMovesThreadsChangeNothing) {
       const OmplPlanner planner(config);
       constexpr std::pair<char, char> kEnds[] = {{'A', 'B'}, {'B', 'C'}, {'C', 'D'}, {'D', 'A'}};
       const auto path_of = [&](const OmplPlanner& by, std::size_t query) {
-        PlanRequest request = world.request(kEnds[query % 4].first, kEnds[query % 4].second, 0.1);
+        PathRequest request = world.request(kEnds[query % 4].first, kEnds[query % 4].second, 0.1);
         request.seed = query;
         return by.plan(request, world.view(), {}).path;
       };

@@ -92,7 +92,7 @@ TEST(LargeGrid, ACancelHoldsWhereverItComes) {
   for (const Case& c : cases()) {
     const OmplPlanner planner(c.config);
     planner.prepare(world.view(), kRadius_m);
-    const PlanRequest request = world.request('A', 'B', kRadius_m);
+    const PathRequest request = world.request('A', 'B', kRadius_m);
     const auto plan = [&](const Budget& budget) { return planner.plan(request, world.view(), budget); };
     for (const auto given : {5, 20, 60, 150, 400})
       EXPECT_LE(min_overrun_on_cancel(plan, std::chrono::milliseconds(given)), kPromised)
@@ -102,7 +102,7 @@ TEST(LargeGrid, ACancelHoldsWhereverItComes) {
 
 TEST(LargeGrid, ACancelHoldsWhileAFinerLatticeIsMade) {
   const auto world = hall_with_a_narrow_door();
-  const PlanRequest request = world.request('A', 'B', 0.27);
+  const PathRequest request = world.request('A', 'B', 0.27);
   const OmplPlanner planner(OmplConfig{});
   planner.prepare(world.view(), 0.27);
   std::atomic<bool> cancel{false};

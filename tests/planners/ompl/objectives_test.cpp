@@ -36,7 +36,7 @@ OmplConfig by(WantedObjective objective) {
   return config;
 }
 
-PlanResult plan(const test::DrawnWorld& world, const PlanRequest& request, const OmplConfig& config) {
+PathResult plan(const test::DrawnWorld& world, const PathRequest& request, const OmplConfig& config) {
   return OmplPlanner(config).plan(request, world.view(), {});
 }
 
@@ -77,9 +77,9 @@ test::DrawnWorld room_with_boxes(std::uint64_t seed) {
 
 TEST(Objectives, ClearanceGoesRoundWhereLengthSqueezesThrough) {
   const auto world = test::drawn_world(kTightOrWide, 0.1, 4);
-  const PlanRequest request = world.request('A', 'B', kWide_m);
-  const PlanResult shortest = plan(world, request, by(WantedObjective::length));
-  const PlanResult clearest = plan(world, request, by(WantedObjective::clearance));
+  const PathRequest request = world.request('A', 'B', kWide_m);
+  const PathResult shortest = plan(world, request, by(WantedObjective::length));
+  const PathResult clearest = plan(world, request, by(WantedObjective::clearance));
   ASSERT_EQ(shortest.outcome, PlanOutcome::solved);
   ASSERT_EQ(clearest.outcome, PlanOutcome::solved);
   EXPECT_GT(clearest.clearance_m, shortest.clearance_m + 0.04) << test::drawing_of(world.grid, clearest.path);
@@ -91,14 +91,14 @@ TEST(Objectives, ClearanceGoesRoundWhereLengthSqueezesThrough) {
 
 TEST(Objectives, WeightedMovesBetweenThemWithItsWeight) {
   const auto world = test::drawn_world(kTightOrWide, 0.1, 4);
-  const PlanRequest request = world.request('A', 'B', kWide_m);
+  const PathRequest request = world.request('A', 'B', kWide_m);
   double length_before_m = 0.0;
   double room_before = std::numeric_limits<double>::infinity();
   for (const double weight : {0.0, 0.3, 3.0, 100.0}) {
     OmplConfig config = by(WantedObjective::weighted);
     config.time_weight = 0.0;
     config.clearance_weight = weight;
-    const PlanResult result = plan(world, request, config);
+    const PathResult result = plan(world, request, config);
     ASSERT_EQ(result.outcome, PlanOutcome::solved);
     const double room = counted(world, result.path, clearance_rules(kWide_m)) - result.length_m;
     EXPECT_GE(result.length_m, length_before_m * 0.999) << "weight " << weight;
@@ -113,9 +113,9 @@ TEST(Objectives, WeightedMovesBetweenThemWithItsWeight) {
 TEST(Objectives, TimeGoesAsStraightAsLength) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto world = room_with_boxes(seed);
-    const PlanRequest request = world.request('A', 'B', kRadius_m);
-    const PlanResult shortest = plan(world, request, by(WantedObjective::length));
-    const PlanResult fastest = plan(world, request, by(WantedObjective::time));
+    const PathRequest request = world.request('A', 'B', kRadius_m);
+    const PathResult shortest = plan(world, request, by(WantedObjective::length));
+    const PathResult fastest = plan(world, request, by(WantedObjective::time));
     ASSERT_EQ(shortest.outcome, fastest.outcome);
     if (shortest.outcome != PlanOutcome::solved) continue;
     EXPECT_LE(fastest.length_m, shortest.length_m * 1.01);
@@ -132,12 +132,12 @@ TEST(Objectives, UnknownGroundIsCrossedOnlyWhereItSavesEnough) {
       "#..A.........????.........B..#\n"
       "#............????............#\n"
       "##############################\n");
-  const PlanRequest request = world.request('A', 'B', 0.04);
+  const PathRequest request = world.request('A', 'B', 0.04);
   OmplConfig config;
   config.unknown = UnknownGround::cost;
   const auto crosses = [&](double weight) {
     config.unknown_weight = weight;
-    const PlanResult result = plan(world, request, config);
+    const PathResult result = plan(world, request, config);
     EXPECT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
     double unknown_m = 0.0;
     for (std::size_t i = 1; i < result.path.size(); ++i)
@@ -158,7 +158,7 @@ TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeI
   for (const WantedObjective objective : {WantedObjective::length, WantedObjective::clearance})
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const auto world = room_with_boxes(seed);
-      const PlanRequest request = world.request('A', 'B', kRadius_m);
+      const PathRequest request = world.request('A', 'B', kRadius_m);
       OmplConfig config = by(objective);
       config.good_enough_ratio = 1.0;
       config.improve_iterations = 0;  // no deadline: no improvement
@@ -188,11 +188,11 @@ TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeI
 // Until the deadline, and with what that has brought: judged by the best of several runs.
 TEST(Objectives, WithoutACountImprovementLastsUntilTheDeadline) {
   const auto world = room_with_boxes(2);
-  const PlanRequest request = world.request('A', 'B', kRadius_m);
+  const PathRequest request = world.request('A', 'B', kRadius_m);
   OmplConfig config = by(WantedObjective::clearance);
   config.improve_iterations = 0;
   const OmplPlanner planner(config);
-  const PlanResult plain = planner.plan(request, world.view(), {});
+  const PathResult plain = planner.plan(request, world.view(), {});
   ASSERT_EQ(plain.outcome, PlanOutcome::solved) << plain.reason;
   auto least = Budget::Clock::duration::max();
   for (int run = 0; run < 4; ++run) {

@@ -15,7 +15,7 @@ using test::drawn_world;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-PlanResult plan(const test::DrawnWorld& world, const PlanRequest& request, const OmplConfig& config = {}) {
+PathResult plan(const test::DrawnWorld& world, const PathRequest& request, const OmplConfig& config = {}) {
   return OmplPlanner(config).plan(request, world.view(), {});
 }
 
@@ -28,12 +28,12 @@ const char* const kSplit =
 
 TEST(OmplPlanner, GoesStraightWhereNothingIsInTheWay) {
   const auto world = drawn_world(test::kOffice);
-  const PlanResult result = plan(world, world.request('C', 'D', 0.1));
+  const PathResult result = plan(world, world.request('C', 'D', 0.1));
   EXPECT_EQ(result.outcome, PlanOutcome::solved);
   EXPECT_GT(result.path.size(), 2U) << "a door post is in the way of C to D";
-  PlanRequest request = world.request('A', 'C', 0.1);
+  PathRequest request = world.request('A', 'C', 0.1);
   request.to.pose = Pose2{0.9, 0.5, 2.0};
-  const PlanResult straight = plan(world, world.request('C', 'C', 0.1));
+  const PathResult straight = plan(world, world.request('C', 'C', 0.1));
   EXPECT_EQ(straight.outcome, PlanOutcome::solved);
   EXPECT_EQ(straight.path.size(), 1U);
   EXPECT_EQ(straight.length_m, 0.0);
@@ -43,7 +43,7 @@ TEST(OmplPlanner, WhatIsWalledOffHasNoRouteAndNoSearchIsMadeForIt) {
   const auto world = drawn_world(kSplit);
   OmplConfig config;
   config.iterations = 1'000'000'000;  // would never end
-  const PlanResult result = plan(world, world.request('A', 'B', 0.1), config);
+  const PathResult result = plan(world, world.request('A', 'B', 0.1), config);
   EXPECT_EQ(result.outcome, PlanOutcome::no_route);
   EXPECT_EQ(result.reason, "the goal (1.35, 0.25) cannot be reached: what is free around the start ends before it");
   EXPECT_TRUE(result.path.empty());
@@ -61,11 +61,11 @@ TEST(OmplPlanner, AThinWallIsNeverCutWhateverTheSeed) {
       0.02);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     for (const Algorithm algorithm : {Algorithm::rrt_connect, Algorithm::rrt, Algorithm::prm}) {
-      PlanRequest request = world.request('A', 'B', 0.01);
+      PathRequest request = world.request('A', 'B', 0.01);
       request.seed = seed;
       OmplConfig config;
       config.algorithm = algorithm;
-      const PlanResult result = plan(world, request, config);
+      const PathResult result = plan(world, request, config);
       ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
       EXPECT_GE(test::distance_by_brute_force(world.grid, result.path, false, 0.001), 0.01 - 1e-9)
           << test::drawing_of(world.grid, result.path);
@@ -80,7 +80,7 @@ TEST(OmplPlanner, ARobotWiderThanThePassageIsReported) {
       "#...A.......B...#\n"
       "#.......#.......#\n"
       "#################\n");
-  const PlanResult result = plan(world, world.request('A', 'B', 0.12));
+  const PathResult result = plan(world, world.request('A', 'B', 0.12));
   EXPECT_EQ(result.outcome, PlanOutcome::no_route);
   EXPECT_THAT(result.reason, HasSubstr("too narrow for a robot of radius 0.12 m"));
   EXPECT_EQ(plan(world, world.request('A', 'B', 0.04)).outcome, PlanOutcome::solved);
@@ -94,15 +94,15 @@ TEST(OmplPlanner, APointPassesAnyGapOfOneCell) {
       "#.#.#.#.#\n"
       "#...#..B#\n"
       "#########\n");
-  const PlanResult result = plan(world, world.request('A', 'B', 0.0));
+  const PathResult result = plan(world, world.request('A', 'B', 0.0));
   EXPECT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
 }
 
 TEST(OmplPlanner, ABlockedGoalIsNamedWithTheNearestFreePlace) {
   const auto world = drawn_world(test::kOffice);
-  PlanRequest request = world.request('A', 'B', 0.14);
+  PathRequest request = world.request('A', 'B', 0.14);
   request.to.pose = Pose2{2.25, 1.05, 0.0};
-  const PlanResult result = plan(world, request);
+  const PathResult result = plan(world, request);
   EXPECT_EQ(result.outcome, PlanOutcome::goal_blocked);
   EXPECT_EQ(result.reason,
             "the goal (2.25, 1.05) is blocked: an occupied cell is 0.05 m from its centre, and the robot needs "
@@ -114,7 +114,7 @@ TEST(OmplPlanner, ABlockedGoalIsNamedWithTheNearestFreePlace) {
 
 TEST(OmplPlanner, ABlockedStartIsNamedUnlessAStepFreesIt) {
   const auto world = drawn_world(test::kOffice);
-  PlanRequest request = world.request('A', 'B', 0.14);
+  PathRequest request = world.request('A', 'B', 0.14);
   request.from.pose = Pose2{0.05, 0.5, 0.0};
   EXPECT_EQ(plan(world, request).outcome, PlanOutcome::start_blocked);
   EXPECT_THAT(plan(world, request).reason, HasSubstr("it lies on an occupied cell"));
@@ -123,7 +123,7 @@ TEST(OmplPlanner, ABlockedStartIsNamedUnlessAStepFreesIt) {
   EXPECT_THAT(plan(world, request).reason, HasSubstr("outside the map"));
 
   request.from.pose = Pose2{0.18, 0.55, 0.0};  // 0.08 m from the wall
-  const PlanResult result = plan(world, request);
+  const PathResult result = plan(world, request);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_THAT(result.reason, HasSubstr("less clearance"));
   EXPECT_EQ(result.path.front().position(), request.from.pose->position());
@@ -144,13 +144,13 @@ TEST(OmplPlanner, UnknownGroundUnderTheRobotItselfDoesNotBlock) {
       "#.???.........#\n"
       "#.............#\n"
       "###############\n");
-  const PlanRequest request = world.request('A', 'B', 0.12);
+  const PathRequest request = world.request('A', 'B', 0.12);
   OmplConfig config;
   config.start_tolerance_m = 0.05;
   EXPECT_EQ(plan(world, request, config).outcome, PlanOutcome::start_blocked) << "nobody says the robot is there";
   const Observation observation;
   WorldView live{world.grid, world.graph, world.robot, {world.pose('A'), {}}, 1.0, &observation, 0.0};
-  const PlanResult result = OmplPlanner(config).plan(request, live, {});
+  const PathResult result = OmplPlanner(config).plan(request, live, {});
   EXPECT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
 }
 
@@ -168,7 +168,7 @@ TEST(OmplPlanner, UnknownSpaceIsCrossedOnlyWhenAllowed) {
 
 TEST(OmplPlanner, NumbersThatAreNotFiniteAreNoPlace) {
   const auto world = drawn_world(test::kOffice);
-  PlanRequest request = world.request('A', 'B', 0.1);
+  PathRequest request = world.request('A', 'B', 0.1);
   request.to.pose->x_m = NAN;
   EXPECT_EQ(plan(world, request).outcome, PlanOutcome::unknown_place);
   EXPECT_EQ(plan(world, request).reason, "the goal is not a place: its numbers are not finite");
@@ -185,10 +185,10 @@ TEST(OmplPlanner, AMapWithoutAGridAndABudgetOfNothingAreOutcomes) {
   none.iterations = 0;
   EXPECT_EQ(OmplPlanner({}).plan(world.request('A', 'B', 0.1), world.view(), none).outcome, PlanOutcome::out_of_budget);
   const test::DrawnWorld empty;
-  PlanRequest request;
+  PathRequest request;
   request.from.pose = Pose2{};
   request.to.pose = Pose2{1.0, 0.0, 0.0};
-  const PlanResult result = plan(empty, request);
+  const PathResult result = plan(empty, request);
   EXPECT_EQ(result.outcome, PlanOutcome::start_blocked);
   EXPECT_EQ(result.reason, "the map holds no grid to plan a route on");
 }
@@ -201,9 +201,9 @@ TEST(OmplPlanner, WhatEndsShortOfTheGoalIsNeverCalledSolved) {
   config.fall_back_to_grid = false;
   int approximate = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    PlanRequest request = world.request('A', 'B', 0.15);
+    PathRequest request = world.request('A', 'B', 0.15);
     request.seed = seed;
-    const PlanResult result = plan(world, request, config);
+    const PathResult result = plan(world, request, config);
     EXPECT_NE(result.outcome, PlanOutcome::solved);
     if (result.outcome != PlanOutcome::approximate) continue;
     ++approximate;
@@ -219,7 +219,7 @@ TEST(OmplPlanner, WhereSamplingFindsNothingTheGridHelps) {
   OmplConfig config;
   config.algorithm = Algorithm::rrt_connect;
   config.iterations = 1;
-  const PlanResult result = plan(world, world.request('A', 'B', 0.15), config);
+  const PathResult result = plan(world, world.request('A', 'B', 0.15), config);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_THAT(result.reason, HasSubstr("sampling found nothing"));
   EXPECT_TRUE(test::keeps_clear(world.grid, result.path, 0.15));
@@ -229,7 +229,7 @@ TEST(OmplPlanner, TheMarginIsKeptAndTheClearanceIsTheRobotsOwn) {
   const auto world = drawn_world(test::kOffice);
   OmplConfig config;
   config.margin_m = 0.06;
-  const PlanResult result = plan(world, world.request('A', 'B', 0.1), config);
+  const PathResult result = plan(world, world.request('A', 'B', 0.1), config);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_TRUE(test::keeps_clear(world.grid, result.path, 0.16));
   EXPECT_NEAR(result.clearance_m, test::distance_by_brute_force(world.grid, result.path) - 0.1, 0.005);
@@ -237,9 +237,9 @@ TEST(OmplPlanner, TheMarginIsKeptAndTheClearanceIsTheRobotsOwn) {
 
 TEST(OmplPlanner, TheGoalsHeadingIsTakenOnlyWhereItMatters) {
   const auto world = drawn_world(test::kOffice);
-  PlanRequest request = world.request('A', 'B', 0.1);
+  PathRequest request = world.request('A', 'B', 0.1);
   request.to.pose->theta_rad = 2.5;
-  const PlanResult any = plan(world, request);
+  const PathResult any = plan(world, request);
   const Point last = any.path.back().position() - any.path[any.path.size() - 2].position();
   EXPECT_NEAR(any.path.back().theta_rad, std::atan2(last.y(), last.x()), 1e-12);
   request.to.heading_matters = true;
@@ -255,10 +255,10 @@ TEST(OmplPlanner, OfSeveralLandmarksTakesTheNearestByTravelThatCanBeReached) {
   landmark = {};
   landmark.T_map_landmark = {0.05, 0.3, 0.0};  // in the wall, near C, without an access
   const LandmarkId below = world.graph.add(landmark);
-  PlanRequest request = world.request('A', 'B', 0.12);
+  PathRequest request = world.request('A', 'B', 0.12);
   request.to = {};
   request.to.landmarks = {beyond, below};
-  const PlanResult result = plan(world, request);
+  const PathResult result = plan(world, request);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_THAT(result.landmarks, ElementsAre(below));
   request.to.landmarks = {99};
@@ -300,16 +300,16 @@ TEST(OmplPlanner, AGoalThatProvesOutOfReachWhileItIsSearchedForLeavesTheOthers) 
     landmark.access = world.pose('D');
     landmark.T_map_landmark = world.pose('D');
     const LandmarkId far = world.graph.add(landmark);
-    PlanRequest request = world.request('A', 'D', 0.27);
+    PathRequest request = world.request('A', 'D', 0.27);
     request.to = {};
     request.to.landmarks = {behind};
     OmplConfig config;
     config.kinematics = kind;
-    const PlanResult narrow = plan(world, request, config);
+    const PathResult narrow = plan(world, request, config);
     ASSERT_EQ(narrow.outcome, PlanOutcome::no_route) << narrow.reason;
     EXPECT_THAT(narrow.reason, HasSubstr("too narrow"));
     request.to.landmarks = {behind, far};
-    const PlanResult result = plan(world, request, config);
+    const PathResult result = plan(world, request, config);
     ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
     EXPECT_THAT(result.landmarks, ElementsAre(far));
   }
@@ -329,7 +329,7 @@ TEST(OmplPlanner, RoutesAreNotMuchLongerThanTheShortest) {
       for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 3; ++x) world.grid.set_log_odds(low + Cell{x, y}, LogOdds{900});
     }
-    PlanRequest request;
+    PathRequest request;
     request.from.pose = Pose2{0.25, 0.25, 0.0};
     request.to.pose = Pose2{3.75, 3.75, 0.0};
     request.radius_m = 0.12;
@@ -337,7 +337,7 @@ TEST(OmplPlanner, RoutesAreNotMuchLongerThanTheShortest) {
     const std::vector<Cell> cells = TravelField(space.field(), {0.25, 0.25}, 0.17).path_to({37, 37});
     std::vector<Point> over_cells;
     for (const Cell cell : cells) over_cells.push_back(space.field().centre_of(cell));
-    const PlanResult result = plan(world, request);
+    const PathResult result = plan(world, request);
     const double over_cells_m = length_of(over_cells);
     if (over_cells.empty()) continue;
     ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;

@@ -1,7 +1,7 @@
 // Drawings that the tests of the OMPL planner share.
 #pragma once
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/path_planner.hpp"
 #include "planners/ompl/ompl_planner.hpp"
 #include "tests/planners/drawn_world.hpp"
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "framework/contracts/planner.hpp"
+#include "framework/contracts/path_planner.hpp"
 
 namespace cairn::test {
 
@@ -37,7 +37,7 @@ inline Budget::Clock::duration worked(clockid_t thread) {
 }
 
 struct Overrun {
-  PlanResult result;
+  PathResult result;
   Budget::Clock::duration over;  // at least
   Budget::Clock::duration late;  // how long after the end the counting began: the thread may have worked so much more
 };
@@ -55,7 +55,7 @@ Overrun overrun_of(Budget::Clock::time_point end, const Call& call, const AtEnd&
     late = Budget::Clock::now() - end;
     at_end();
   });
-  PlanResult result = call();
+  PathResult result = call();
   const Budget::Clock::duration after = worked(mine);
   other.join();
   return {std::move(result), std::max(after - before, Budget::Clock::duration::zero()), late};

@@ -30,9 +30,9 @@ TEST_P(Prepared, TheFirstRequestBuildsNothing) {
   ASSERT_TRUE(routes);
   EXPECT_EQ(outer_routes != nullptr, GetParam().kind == MotionKind::differential);
 
-  PlanRequest request = world.request('A', 'B', 0.1);
+  PathRequest request = world.request('A', 'B', 0.1);
   request.to.heading_matters = true;
-  const PlanResult result = planner.plan(request, world.view(), {});
+  const PathResult result = planner.plan(request, world.view(), {});
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_EQ(planner.caches().routes.last(), routes);
   EXPECT_EQ(planner.caches().outer_routes.last(), outer_routes);

@@ -119,12 +119,12 @@ TEST_P(PoseQueryOf, EveryWayIsFreeDrivableAndEndsWhereItShall) {
     test::DrawnWorld world = room_with_boxes(random);
     world.robot.polygon_m = trial % 2 == 0 ? kRectangle : kAngle;
     const Footprint footprint = Footprint::polygon(world.robot.polygon_m);
-    PlanRequest request;
+    PathRequest request;
     request.from.pose = test::random_pose(random, world.grid);
     request.to.pose = test::random_pose(random, world.grid);
     request.to.heading_matters = trial % 3 != 0;
     request.seed = static_cast<std::uint64_t>(trial) + 1;
-    const PlanResult result = OmplPlanner(config_of(GetParam())).plan(request, world.view(), {});
+    const PathResult result = OmplPlanner(config_of(GetParam())).plan(request, world.view(), {});
     if (result.outcome != PlanOutcome::solved) {
       EXPECT_TRUE(result.path.empty() && !result.reason.empty());
       continue;
@@ -152,13 +152,13 @@ TEST_P(PoseQueryOf, AnEndThatTouchesIsNamedWithAPlaceThatFits) {
   test::DrawnWorld world = room_with_boxes(random);
   world.robot.polygon_m = kRectangle;
   const Footprint footprint = Footprint::polygon(kRectangle);
-  PlanRequest request;
+  PathRequest request;
   request.from.pose = Pose2{0.3, 2.0, 0.0};  // wide enough for the disc that it holds, not for its tail
   request.to.pose = Pose2{3.0, 0.3, radians(-90.0)};
   for (const bool from_start : {true, false}) {
     if (!from_start) request.from.pose = request.to.pose, request.from.pose->theta_rad = 0.0;
     request.to.heading_matters = true;
-    const PlanResult result = OmplPlanner(config_of(GetParam())).plan(request, world.view(), {});
+    const PathResult result = OmplPlanner(config_of(GetParam())).plan(request, world.view(), {});
     ASSERT_EQ(result.outcome, from_start ? PlanOutcome::start_blocked : PlanOutcome::goal_blocked) << result.reason;
     EXPECT_THAT(result.reason, HasSubstr("outline touches something"));
     const std::size_t at = result.reason.find("nearest free place is (");
@@ -181,11 +181,11 @@ TEST_P(PoseQueryOf, HalfATurnIsAHeadingLikeAnyOther) {
   const Pose2 right{4.0, 2.5, 0.0};
   const Pose2 left{1.5, 2.5, 0.0};
   for (const auto& [from_rad, to_rad] : {std::pair(kHalf, kHalf), {-kHalf, kHalf}, {0.0, -kHalf}, {0.0, 3.0 * kHalf}}) {
-    PlanRequest request;
+    PathRequest request;
     request.from.pose = Pose2{right.x_m, right.y_m, from_rad};
     request.to.pose = Pose2{left.x_m, left.y_m, to_rad};
     request.to.heading_matters = true;
-    const PlanResult result = planner.plan(request, world.view(), Budget{});
+    const PathResult result = planner.plan(request, world.view(), Budget{});
     ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason << ", " << from_rad << " to " << to_rad;
     EXPECT_NEAR(wrap_angle(result.path.back().theta_rad - to_rad), 0.0, 1e-6);
     EXPECT_LT(result.length_m, 9.0);
@@ -204,13 +204,13 @@ TEST_P(PoseQueryOf, UnknownGroundUnderTheRobotItselfDoesNotBlock) {
     }
   world.robot.polygon_m = kRectangle;
   const OmplPlanner planner(config_of(GetParam()), world.robot);
-  PlanRequest request;
+  PathRequest request;
   request.from.pose = stand;
   request.to.pose = Pose2{5.0, 2.5, 0.0};
   EXPECT_EQ(planner.plan(request, world.view(), {}).outcome, PlanOutcome::start_blocked) << "nobody says it is there";
   const Observation observation;
   const WorldView live{world.grid, world.graph, world.robot, {stand, {}}, 1.0, &observation, 0.0};
-  const PlanResult result = planner.plan(request, live, {});
+  const PathResult result = planner.plan(request, live, {});
   EXPECT_NE(result.outcome, PlanOutcome::start_blocked) << result.reason;
 }
 
@@ -218,7 +218,7 @@ TEST_P(PoseQueryOf, AnOutlineLargerThanAnyPassageIsAnOutcome) {
   Random random(6);
   test::DrawnWorld world = room_with_boxes(random);
   world.robot.polygon_m = {{-9.0, -9.0}, {9.0, -9.0}, {9.0, 9.0}, {-9.0, 9.0}};
-  PlanRequest request;
+  PathRequest request;
   request.from.pose = Pose2{3.0, 2.0, 0.0};
   request.to.pose = Pose2{4.0, 2.0, 0.0};
   EXPECT_EQ(OmplPlanner(config_of(GetParam())).plan(request, world.view(), {}).outcome, PlanOutcome::start_blocked);

@@ -24,8 +24,8 @@ std::vector<std::string> names() {
 
 TEST_P(EveryAlgorithm, FindsItsOwnWayRoundTheWalls) {
   const auto world = test::drawn_world(test::kOffice);
-  const PlanRequest request = world.request('A', 'B', 0.15);
-  const PlanResult result = planner("fall_back_to_grid: false\niterations: 5000").plan(request, world.view(), {});
+  const PathRequest request = world.request('A', 'B', 0.15);
+  const PathResult result = planner("fall_back_to_grid: false\niterations: 5000").plan(request, world.view(), {});
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   EXPECT_TRUE(test::keeps_clear(world.grid, result.path, request.radius_m))
       << test::drawing_of(world.grid, result.path);
@@ -38,11 +38,11 @@ TEST_P(EveryAlgorithm, FindsItsOwnWayRoundTheWalls) {
 
 TEST_P(EveryAlgorithm, GivesTheSameRouteAgain) {
   const auto world = test::drawn_world(test::kOffice);
-  PlanRequest request = world.request('A', 'D', 0.12);
+  PathRequest request = world.request('A', 'D', 0.12);
   request.seed = 5;
-  const PlanResult first = planner("iterations: 600").plan(request, world.view(), {});
+  const PathResult first = planner("iterations: 600").plan(request, world.view(), {});
   (void)planner("iterations: 77").plan(world.request('C', 'B', 0.1), world.view(), {});
-  const PlanResult again = planner("iterations: 600").plan(request, world.view(), {});
+  const PathResult again = planner("iterations: 600").plan(request, world.view(), {});
   EXPECT_EQ(first.outcome, again.outcome);
   EXPECT_EQ(first.path, again.path);
 }
@@ -63,7 +63,7 @@ TEST_P(EveryAlgorithm, ComesBackWhenTheDeadlinePassesMeanwhile) {
   const auto world = test::drawn_world(test::kOffice);
   Budget short_budget;
   short_budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(3);
-  const PlanResult result =
+  const PathResult result =
       planner("iterations: 1000000000").plan(world.request('A', 'B', 0.1), world.view(), short_budget);
   EXPECT_TRUE(result.outcome == PlanOutcome::solved || result.outcome == PlanOutcome::out_of_budget) << result.reason;
 }

@@ -36,7 +36,7 @@ const std::string kTwoDoors = R"(
   ########################################
 )";
 const FakeHostSettings kKnown{.sight_m = 1.2, .all_known = true};
-const Place kOtherRoom{Pose2{3.3, 0.5, 0.0}, false, {}, {}};
+const Place kOtherRoom{Pose2{3.3, 0.5, 0.0}, false, {}};
 
 // A behaviour that only drives there.
 class Driving : public Behaviour {
@@ -64,7 +64,7 @@ TEST(RouteDriver, DrivesThroughADoor) {
 
 TEST(RouteDriver, TurnsToTheHeadingOfTheGoal) {
   FakeHost host(kTwoDoors, kKnown);
-  Place goal{Pose2{1.0, 1.0, radians(120.0)}, true, {}, {}};
+  Place goal{Pose2{1.0, 1.0, radians(120.0)}, true, {}};
   Driving driving({}, goal);
   EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
   EXPECT_NEAR(degrees(host.T_map_robot.theta_rad), 120.0, 4.0);
@@ -298,7 +298,7 @@ TEST(RouteDriver, ARouteFoundBlockedIsOpenAgainAfterAWhile) {
     first = false;
     return result;
   };
-  Driving driving({}, Place{Pose2{1.5, 0.9, 0.0}, false, {}, {}});
+  Driving driving({}, Place{Pose2{1.5, 0.9, 0.0}, false, {}});
   host.run(driving, 1.0);
   host.collision_monitor = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
   host.run(driving, 30.0);
@@ -323,7 +323,7 @@ TEST(RouteDriver, FindsAWayOutWhereTheMapSaysItStandsInAWall) {
     result.path = {*request.from.pose, {1.2, 0.5, 0.0}};
     return result;
   };
-  Driving driving({}, Place{Pose2{1.2, 0.5, 0.0}, false, {}, {}});
+  Driving driving({}, Place{Pose2{1.2, 0.5, 0.0}, false, {}});
   const Status status = host.run(driving, 120.0);
   EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
 }
