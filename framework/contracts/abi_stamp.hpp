@@ -19,7 +19,7 @@ struct AbiStamp {
   char compiler[48];
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
-  std::uint32_t sizes[14];  // of the exchanged types, as this_abi_stamp() lists them
+  std::uint32_t sizes[16];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
@@ -48,9 +48,10 @@ constexpr void copy(char (&out)[N], std::string_view text) {
 #endif
   stamp.eigen_align = EIGEN_MAX_ALIGN_BYTES;
   const std::uint32_t sizes[] = {
-      sizeof(Observation),      sizeof(OccupancyGrid), sizeof(LandmarkGraph), sizeof(PlanResult), sizeof(PlanRequest),
-      sizeof(DetectionReport),  sizeof(Matching),      sizeof(WorldView),     sizeof(RobotModel), sizeof(World),
-      sizeof(RegisteredModule), sizeof(FieldSpec),     sizeof(ModuleContext), sizeof(Status),
+      sizeof(Observation),   sizeof(OccupancyGrid),   sizeof(LandmarkGraph),    sizeof(PlanResult),
+      sizeof(PlanRequest),   sizeof(DetectionReport), sizeof(Matching),         sizeof(WorldView),
+      sizeof(RobotModel),    sizeof(World),           sizeof(RegisteredModule), sizeof(FieldSpec),
+      sizeof(ModuleContext), sizeof(Status),          sizeof(ControlRequest),   sizeof(ControlResult),
   };
   static_assert(sizeof sizes == sizeof stamp.sizes);
   for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];

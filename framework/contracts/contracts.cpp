@@ -18,6 +18,8 @@ std::string_view name_of(PluginKind kind) {
       return "planner";
     case PluginKind::behaviour:
       return "behaviour";
+    case PluginKind::controller:
+      return "controller";
   }
   return "?";
 }
@@ -56,6 +58,18 @@ std::string_view name_of(PathSegment::Origin origin) {
       return "cut";
     case PathSegment::Origin::escape:
       return "escape";
+  }
+  return "?";
+}
+
+std::string_view name_of(ControlState state) {
+  switch (state) {
+    case ControlState::following:
+      return "following";
+    case ControlState::blocked:
+      return "blocked";
+    case ControlState::arrived:
+      return "arrived";
   }
   return "?";
 }

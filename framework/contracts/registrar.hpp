@@ -12,6 +12,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
+#include "framework/contracts/controller.hpp"
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/mapper.hpp"
@@ -23,7 +24,12 @@
 
 namespace cairn {
 
-enum class PluginKind { sensor, localizer, map, detector, planner, behaviour };
+// New kinds are added at the end: the seeds of modules depend on the number of their kind.
+enum class PluginKind { sensor, localizer, map, detector, planner, behaviour, controller };
+// All of them, in the order in which people read them.
+inline constexpr PluginKind kPluginKinds[] = {PluginKind::sensor,   PluginKind::localizer, PluginKind::map,
+                                              PluginKind::detector, PluginKind::planner,   PluginKind::controller,
+                                              PluginKind::behaviour};
 [[nodiscard]] std::string_view name_of(PluginKind kind);
 
 template <class Interface>
@@ -34,6 +40,7 @@ template <class Interface>
   if constexpr (std::is_same_v<Interface, Detector>) return PluginKind::detector;
   if constexpr (std::is_same_v<Interface, Planner>) return PluginKind::planner;
   if constexpr (std::is_same_v<Interface, Behaviour>) return PluginKind::behaviour;
+  if constexpr (std::is_same_v<Interface, Controller>) return PluginKind::controller;
 }
 
 struct ModuleContext;

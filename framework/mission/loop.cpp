@@ -39,6 +39,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
     planner_ = clock_.add("planner", config.planner.name);
     routes_ = clock_.add("routes", config.planner.name);
   }
+  if (modules_.controller) controller_ = clock_.add("controller", config.controller.name);
   build_trees();
   drive_stage_ = clock_.add("drive", config.sensor.name);
   if (options.resume != nullptr) restore(*options.resume);

@@ -16,6 +16,7 @@
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/held_out.hpp"
 #include "framework/mission/modules.hpp"
+#include "framework/mission/named_values.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/modules/stage_clock.hpp"
@@ -93,6 +94,9 @@ class MissionLoop : private BehaviourContext, private TreeHost {
   void publish(const Event& event);
 
   void drive(const Twist& wanted) override;
+  ControlResult control(const ControlRequest& request) override;
+  std::optional<Place> input(const std::string& name) override;
+  void output(const std::string& name, const Place& place) override;
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override;
   Status answer(const PlanQuestion& question, const std::string& file_name) override;
@@ -117,14 +121,17 @@ class MissionLoop : private BehaviourContext, private TreeHost {
   std::vector<std::string> listener_faults_;
   StageClock clock_;
   StageClock::Id tick_ = 0, sensor_ = 0, localizer_ = 0, mapper_ = 0, detector_ = 0, planner_ = 0, routes_ = 0,
-                 drive_stage_ = 0;
+                 controller_ = 0, drive_stage_ = 0;
   struct Leaf {
     Behaviour* behaviour = nullptr;
     StageClock::Id stage = 0;
     bool has_ended = false;
   };
   std::map<const TreeNode*, Leaf> behaviours_;
-  std::vector<TreeRunner> trees_;  // one a step
+  std::vector<TreeRunner> trees_;         // one a step
+  const TreeNode* ticked_ = nullptr;      // the leaf that was ticked last
+  const TreeNode* controlled_ = nullptr;  // the leaf that used the controller last
+  NamedValues values_;                    // that behaviours hand over
   NodeTimes node_times_;
   std::optional<TreeState> tree_left_;  // of the step under way, before it was halted
   ConditionCheck check_;

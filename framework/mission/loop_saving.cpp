@@ -45,6 +45,7 @@ void MissionLoop::restore(const SavedMap& map) {
   step_ = static_cast<std::size_t>(progress.step);
   resumed_true_pose_ = progress.true_T_map_robot;
   if (!map.driven_path.empty()) T_map_first_start_ = map.driven_path.front();
+  values_ = saved_named_values(map);
   restore_tree(map);
 }
 
@@ -107,6 +108,7 @@ void MissionLoop::autosave() {
 SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
   SavedMap map = map_of_mission(mission_, *grid_, tracker_, std::move(clusters), progress());
   add_pauses(map, result_.paused_s);
+  add_named_values(map, values_);
   if (step_ < trees_.size() && step_begun_)
     add_tree(map, {tree_fingerprint(mission_.steps[step_]), tree_left_.value_or(trees_[step_].state())});
   return map;

@@ -65,6 +65,7 @@ LeafTick MissionLoop::tick_leaf(const TreeNode& leaf) {
   // Only halt() promises that it begins afresh.
   if (asked.has_ended) halt_leaf(leaf);
   ordered_.reset();
+  ticked_ = &leaf;
   save_failed_ = false;
   const Status status = in_stage(asked.stage, [&] { return asked.behaviour->tick(view(), *this); });
   asked.has_ended = status.progress != Progress::running;

@@ -1,6 +1,7 @@
 #include "framework/mission/modules.hpp"
 
 #include "framework/behaviour_tree/parameters.hpp"
+#include "framework/mission/named_values.hpp"
 #include "framework/mission/resume.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/templates/sensed_templates.hpp"
@@ -33,6 +34,17 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
   built.templates = std::make_shared<TemplateSet>(
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, cell_m, library); }));
   built.detector = build<Detector>(library, detector, context_for(mission, library, built, PluginKind::detector));
+}
+
+// The default controller is not missed before a behaviour asks for it.
+std::shared_ptr<Controller> build_controller(const ModuleLibrary& library, const PluginChoice& choice,
+                                             const ModuleContext& context) {
+  const bool is_default = choice.config.kind == ConfigValue::Kind::null;
+  if (!is_default) return build<Controller>(library, choice, context);
+  if (library.find_any(choice.name) == nullptr) return nullptr;
+  PluginChoice usual = choice;
+  usual.config.kind = ConfigValue::Kind::map;
+  return build<Controller>(library, usual, context);
 }
 
 // What is no behaviour may be meant for a node.
@@ -149,6 +161,9 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   if (!config.detector.name.empty()) add_detector(mission, library, built.mapper->grid().cell_m(), built);
   if (!config.planner.name.empty())
     built.planner = build<Planner>(library, config.planner, context(PluginKind::planner));
+  built.controller = build_controller(library, config.controller, context(PluginKind::controller));
+  if (const std::vector<ConfigError> missing = missing_inputs(mission.steps, library); !missing.empty())
+    throw missing.front();
   for (const TreeNode* node : behaviours_of(mission.steps))
     built.behaviours.push_back(
         build_behaviour(library, *node, context(PluginKind::behaviour, built.behaviours.size())));
@@ -187,6 +202,8 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
   attempt([&] {
     if (!config.planner.name.empty()) (void)build<Planner>(library, config.planner, context(PluginKind::planner));
   });
+  attempt([&] { (void)build_controller(library, config.controller, context(PluginKind::controller)); });
+  for (const ConfigError& error : missing_inputs(mission.steps, library)) errors.emplace_back(error.what());
   for (const TreeNode* node : behaviours_of(mission.steps))
     attempt([&] { (void)build_behaviour(library, *node, context(PluginKind::behaviour)); });
   return errors;

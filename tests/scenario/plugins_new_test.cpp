@@ -29,7 +29,7 @@ class PluginsNew : public testing::Test {
 };
 
 TEST_F(PluginsNew, WritesAWholeProjectOfEveryKindWithoutAnyMarkLeft) {
-  for (const std::string kind : {"sensor", "localizer", "map", "detector", "planner", "behaviour"}) {
+  for (const std::string kind : {"sensor", "localizer", "map", "detector", "planner", "controller", "behaviour"}) {
     std::filesystem::remove_all(project_);
     const Finished finished = make(kind, "my_" + kind);
     ASSERT_EQ(finished.exit_status, 0) << finished.err;

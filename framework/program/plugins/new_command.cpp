@@ -59,9 +59,7 @@ std::string pascal_case(const std::string& name) {
 
 void check_kind(const std::string& kind) {
   std::vector<std::string> kinds;
-  for (const PluginKind known : {PluginKind::sensor, PluginKind::localizer, PluginKind::map, PluginKind::detector,
-                                 PluginKind::planner, PluginKind::behaviour})
-    kinds.emplace_back(name_of(known));
+  for (const PluginKind known : kPluginKinds) kinds.emplace_back(name_of(known));
   if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
   std::string all;
   for (const std::string& known : kinds) all += (all.empty() ? "" : ", ") + known;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "framework/config/fields.hpp"
 #include "maps/grid/distance_field.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/grid/travel_field.hpp"
@@ -22,10 +23,21 @@ struct TroubleSpot {
   double until_s = 0.0;
 };
 
+struct FreeSpaceSettings {
+  double preferred_room_m = 0.25;
+  double tight_cost = 1.5;
+  double avoided_cost = 20.0;
+  double avoided_radius_m = 0.3;
+  double longest_escape_m = 0.8;
+  int longest_shortcut_cells = 60;
+  static void describe(Fields<FreeSpaceSettings>& fields);
+};
+
 struct RobotSpace {
   Point position{0.0, 0.0};
   double radius_m = 0.22;
   double clearance_m = 0.1;  // kept beyond the radius
+  FreeSpaceSettings settings{};
 };
 
 class FreeSpace {

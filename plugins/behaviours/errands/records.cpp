@@ -69,19 +69,19 @@ CaptureTemplate::CaptureTemplate(const CaptureTemplateConfig& config)
   check_category(category_, config.name.place);
 }
 
-Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& orders) {
+Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& context) {
   const FoundPlace found = find_place(at_, world.graph);
   if (!found.unknown.empty()) return {Progress::failure, found.unknown};
   Point at;
   if (found.place.pose)
     at = found.place.pose->position();
   else
-    at = world.graph.find(cheapest_of(found.place.landmarks, world, orders))->T_map_landmark.position();
+    at = world.graph.find(cheapest_of(found.place.landmarks, world, context))->T_map_landmark.position();
   try {
     const CapturedOutline captured = captured_outline(world.grid, at, radius_m_);
     const std::string text = template_text(category_, captured, "a mission's map");
     (void)parse_landmark_shape(text, file_name_);
-    const Status written = orders.write({file_name_, text});
+    const Status written = context.write({file_name_, text});
     if (written.progress != Progress::success) return written;
     return {Progress::success,
             written.reason + ": " + category_ + ", " + number("%.2f m across", captured.contour.outer_diameter_m())};
@@ -125,8 +125,8 @@ PlanQuery::PlanQuery(const PlanQueryConfig& config)
     throw ConfigError(config.to.place, "plan_query: alternatives are known from place to place, not for a tour");
 }
 
-Status PlanQuery::tick(const WorldView&, BehaviourContext& orders) {
-  const Status status = orders.answer(question_, file_name_);
+Status PlanQuery::tick(const WorldView&, BehaviourContext& context) {
+  const Status status = context.answer(question_, file_name_);
   return {status.progress, question_.from + " -> " + question_.to + ": " + status.reason};
 }
 
@@ -169,10 +169,10 @@ Log::Log(const LogConfig& config) {
   segments_.push_back({plain, false});
 }
 
-Status Log::tick(const WorldView& world, BehaviourContext& orders) {
+Status Log::tick(const WorldView& world, BehaviourContext& context) {
   std::string line;
   for (const Piece& piece : segments_) line += piece.is_name ? value_of(piece.text, world) : piece.text;
-  orders.say(line);
+  context.say(line);
   return {Progress::success, line.empty() ? "said nothing" : line};
 }
 

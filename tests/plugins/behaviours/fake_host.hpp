@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "framework/contracts/behaviour.hpp"
+#include "plugins/pursuit_dwa/pursuit_dwa.hpp"
 
 namespace cairn::behaviours {
 
@@ -26,6 +27,8 @@ class FakeHost : public BehaviourContext {
   explicit FakeHost(const std::string& drawing, const FakeHostSettings& settings = {});
 
   void drive(const Twist& wanted) override { wanted_ = wanted; }
+  // By `controller`, pursuit_dwa unless set.
+  ControlResult control(const ControlRequest& request) override;
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override {
     saved.push_back(file_name);
@@ -41,6 +44,11 @@ class FakeHost : public BehaviourContext {
     return {Progress::success, "wrote " + output.file_name};
   }
   void say(const std::string& sentence) override { said.push_back(sentence); }
+  std::optional<Place> input(const std::string& name) override {
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional(found->second);
+  }
+  void output(const std::string& name, const Place& place) override { values[name] = place; }
 
   // Ticks until the behaviour ends or the time is up (then its status is still running).
   Status run(Behaviour& behaviour, double at_most_s);
@@ -69,6 +77,9 @@ class FakeHost : public BehaviourContext {
   // Answers plan(); by default the shortest way over the grid.
   std::function<PlanResult(const PlanRequest&)> planner;
 
+  std::shared_ptr<Controller> controller = std::make_shared<pursuit_dwa::PursuitDwa>(pursuit_dwa::PursuitDwaConfig{});
+  std::map<std::string, Place> values;  // that steps hand over
+
   std::vector<Pose2> driven;  // every tick
   std::vector<PlanRequest> planned;
   std::vector<std::string> saved;
@@ -79,6 +90,7 @@ class FakeHost : public BehaviourContext {
   double nearest_solid_m = 1e9;  // over the whole run
 
  private:
+  [[nodiscard]] WorldView view(const Observation* seen) const;
   void reveal();
   void move(const Twist& twist);
   [[nodiscard]] bool can_stand(const Point& p) const;

@@ -42,7 +42,7 @@ const Place kOtherRoom{Pose2{3.3, 0.5, 0.0}, false, {}, {}};
 class Driving : public Behaviour {
  public:
   explicit Driving(const RouteSettings& settings, const Place& goal) : driver(settings, 1), goal_(goal) {}
-  Status tick(const WorldView& world, BehaviourContext& orders) override { return driver.tick(goal_, world, orders); }
+  Status tick(const WorldView& world, BehaviourContext& context) override { return driver.tick(goal_, world, context); }
   void halt() override { driver.restart(); }
   RouteDriver driver;
 
