@@ -164,7 +164,7 @@ std::vector<Point> FreeSpace::path_to(Cell cell) const {
   if (!reaches(cell)) return {};
   std::vector<Point> path = escape_path_;
   const std::vector<Point> rest = straightened(travel_.path_to(cell));
-  // The first cell is the one that the way out ends in.
+  // The first cell is the one that the escape path ends in.
   path.insert(path.end(), rest.begin() + (rest.size() > 1 ? 1 : 0), rest.end());
   return path;
 }

@@ -2,8 +2,8 @@
 //
 // A cell can be crossed when it is known free and its distance to every occupied cell is at least the
 // robot's radius plus the clearance. Paths prefer more room than that. Where the robot has stood is
-// free, whatever its sonars (which never look under it) have said.
-// A robot that stands nearer to something than the clearance first takes the shortest way out.
+// free, whatever its sonars (which never look under it) say.
+// A robot that stands nearer to something than the clearance first takes the shortest escape path.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace cairn::behaviours {
 
-// Somewhere the robot was held back: paths avoid it where they can.
+// Somewhere the robot was blocked: paths avoid it where they can.
 struct TroubleSpot {
   Point at_m{0.0, 0.0};
   double until_s = 0.0;
@@ -57,7 +57,7 @@ class FreeSpace {
   [[nodiscard]] double radius_m() const { return robot_.radius_m; }
 
   [[nodiscard]] bool reaches(Cell cell) const;
-  // Length of the way, with dearer metres where there is little room; +inf when out of reach.
+  // Cost of the path: its length, with metres that cost more where there is little room; +inf when out of reach.
   [[nodiscard]] double cost_m(Cell cell) const;
   // Straightened; from the robot's position to the cell's centre. Empty when out of reach.
   [[nodiscard]] std::vector<Point> path_to(Cell cell) const;

@@ -22,7 +22,7 @@ struct OpeningSettings {
 };
 
 struct Opening {
-  Point at_m{0.0, 0.0};  // where the way gets too narrow
+  Point at_m{0.0, 0.0};  // where the path gets too narrow
   Cell lookout;          // in front of it, in reach
 };
 

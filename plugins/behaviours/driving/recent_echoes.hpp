@@ -1,4 +1,4 @@
-// Near echoes of the last 15 to 30 s (once to twice kept_s): somebody who has gone on leaves some that no later one
+// Near echoes of the last 15 to 30 s (once to twice kept_s): somebody who has left leaves some that no later one
 // takes away.
 #pragma once
 

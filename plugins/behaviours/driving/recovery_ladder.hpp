@@ -36,7 +36,7 @@ struct RecoverySettings {
   static void describe(Fields<RecoverySettings>& fields);
 };
 
-// The path to where the robot is out of somebody's way: far from them, less what the path costs. None: nowhere.
+// The path to where the robot does not block somebody: far from them, less what the path costs. None: nowhere.
 [[nodiscard]] std::vector<Point> path_aside(const FreeSpace& space, const Point& robot, const Point& from,
                                             const YieldSettings& settings);
 

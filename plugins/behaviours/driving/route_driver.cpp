@@ -66,9 +66,9 @@ Status RouteDriver::travel(const WorldView& world, BehaviourContext& context) {
   const ControlResult step = follower_.step(world, map_, context);
   if (step.state == ControlState::arrived) return arrive(world, context);
   if (step.state == ControlState::blocked) {
-    if (!said_wait_) context.say("waits: something is in the way at " + described(world.pose.T_map_robot.position()));
+    if (!said_wait_) context.say("waits: blocked at " + described(world.pose.T_map_robot.position()));
     said_wait_ = true;
-    return {Progress::running, "waiting for the way to be free"};
+    return {Progress::running, "waiting until the path is free"};
   }
   if (follower_.leg() != Leg::route) return {Progress::running, "under way"};
   return {Progress::running, "under way", follower_.left_s(step, world)};
@@ -77,7 +77,7 @@ Status RouteDriver::travel(const WorldView& world, BehaviourContext& context) {
 Status RouteDriver::arrive(const WorldView& world, BehaviourContext& context) {
   if (follower_.leg() == Leg::escape) {
     set_mode(Mode::plan, world.time_s);
-    return {Progress::running, "has made room"};
+    return {Progress::running, "has left the tight place"};
   }
   if (follower_.leg() != Leg::route) return begin_look_from_here(world, context);
   set_mode(Mode::face, world.time_s);

@@ -13,7 +13,7 @@ Status RouteDriver::plan(const WorldView& world, BehaviourContext& context) {
   if (requests_.is_used_up()) return give_up(world);
   if (ladder_.plans_round_it() && plan_locally(world, Optimism::none)) {
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "going round what held it back"};
+    return {Progress::running, "going round what blocked it"};
   }
   const PlanResult result = requests_.ask(goal_, world, context);
   if (result.outcome != PlanOutcome::solved) return without_route(result, world, context);
@@ -80,17 +80,17 @@ Status RouteDriver::without_route(const PlanResult& result, const WorldView& wor
   if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return failed;
   if (result.outcome == PlanOutcome::start_blocked && begin_escape(world)) {
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "making room"};
+    return {Progress::running, "leaving a tight place"};
   }
   const std::optional<Point> goal = goal_point(world);
   if (const auto path = goal ? local_planning_.next_path(*goal, world, map_, look_) : std::nullopt) {
     take_local(*path, world);
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, path->optimism == Optimism::narrow_gaps ? "trying an opening that looks too narrow"
-                                                                       : "under way by what it sees itself"};
+                                                                       : "under way on the local map"};
   }
   if (begin_look(result.outcome, world)) {
-    context.say("no way now (" + why + "): looks again at " + described(look_.target().at));
+    context.say("no path now (" + why + "): looks again at " + described(look_.target().at));
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "going to look at " + described(look_.target().at)};
   }
@@ -103,7 +103,7 @@ bool RouteDriver::begin_escape(const WorldView& world) {
   const std::optional<std::vector<Point>> path = local_planning_.escape(goal, world, map_, look_);
   if (!path) return false;
   take(*path, Leg::escape);
-  tried_ = "made room " + std::to_string(local_planning_.escapes()) + " times";
+  tried_ = "left tight places " + std::to_string(local_planning_.escapes()) + " times";
   return true;
 }
 
@@ -148,7 +148,7 @@ bool RouteDriver::begin_look_at_goal(const Point& goal, const WorldView& world) 
 void RouteDriver::go_to_look(const LookoutRoute& route, const BlockageLook::Target& target) {
   look_.count_drive();
   take(route.path, Leg::to_look);
-  tried_ = "looked " + std::to_string(look_.looks()) + " times whether the way is free again, last at " +
+  tried_ = "looked " + std::to_string(look_.looks()) + " times whether the path is free again, last at " +
            described(route.at);
   look_.aim_at(target);
 }

@@ -21,16 +21,16 @@ Status RouteDriver::recover(const WorldView& world, BehaviourContext& context) {
   const Recovery next = ladder_.next(pose.position(), nearest_ahead(world));
   if (next == Recovery::give_up) return give_up(world);
   const std::optional<Point>& by = ladder_.blocked_by();
-  const std::string where = "held back at " + described(ladder_.blocked_at()) +
+  const std::string where = "blocked at " + described(ladder_.blocked_at()) +
                             (by ? " by what is at " + described(*by) : "") + " (" + std::to_string(ladder_.round()) +
                             " of " + std::to_string(settings_.rounds) + "): ";
   map_.avoid(pose * Point{world.robot.radius_m + recovery.avoid_ahead_m, 0.0}, world.time_s + recovery.avoid_for_s);
   if (follower_.optimism() >= Optimism::unknown_free && by) map_.shut(*by, world.time_s + recovery.shut_for_s);
   if (ladder_.round() >= 2) close_route_here(world, context);
   if (next == Recovery::yield && begin_yield(world)) {
-    context.say(where + "makes way");
+    context.say(where + "yields");
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "making way"};
+    return {Progress::running, "yielding"};
   }
   const bool looks = ladder_.without_yielding() == Recovery::back_up_and_look;
   context.say(where + (looks ? "backs up and looks" : "backs up and turns"));
@@ -67,7 +67,7 @@ bool RouteDriver::begin_yield(const WorldView& world) {
   target.at_least_s = yield.for_s;
   target.is_live = true;
   look_.aim_at(target);
-  tried_ = "made way";
+  tried_ = "yielded";
   return true;
 }
 
@@ -124,7 +124,7 @@ Status RouteDriver::look(const WorldView& world, BehaviourContext& context) {
   const bool is_open = look_.has_opened(world, map_.echoes(), follower_.obstacles());
   const BlockageLook::Target& target = look_.target();
   if (looked_s < target.at_least_s || (!is_open && looked_s < target.at_most_s))
-    return {Progress::running, "looking whether the way is free again"};
+    return {Progress::running, "looking whether the path is free again"};
   if (target.is_live && is_open) map_.forget_echoes(world);
   set_mode(Mode::plan, world.time_s);
   return plan(world, context);
@@ -132,8 +132,8 @@ Status RouteDriver::look(const WorldView& world, BehaviourContext& context) {
 
 Status RouteDriver::give_up(const WorldView& world) const {
   const Point at = world.pose.T_map_robot.position();
-  return {Progress::failure, "held back at " + described(at) + ": waited, backed up, looked and planned again " +
-                                 std::to_string(ladder_.round() - 1) + " times in this place, " +
+  return {Progress::failure, "blocked at " + described(at) + ": waited, backed up, looked and planned again " +
+                                 std::to_string(ladder_.round() - 1) + " times at this place, " +
                                  std::to_string(requests_.plans()) + " plans in all" +
                                  (tried_.empty() ? "" : "; " + tried_)};
 }

@@ -84,9 +84,9 @@ void DockConfig::describe(Fields<DockConfig>& fields) {
   fields.choice("facing", &C::facing, {{"landmark", C::Facing::landmark}, {"away", C::Facing::away}},
                 "where the robot looks in the end");
   fields.number("tolerance_m", &C::dock_tolerance_m, {0.005, 1.0}, "m", "the distance may be so much more or less");
-  fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed to the standing place");
+  fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed to the approach pose");
   fields.number("approach_mps", &C::approach_mps, {0.02, 1.0}, "m/s", "top speed from there on");
-  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "waited for what is in the way to go");
+  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "how long it waits for a blockage to go");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "when it is up the step has failed");
   fields.numbers("run_ups_m", &C::run_ups_m, {0.0, 10.0}, "m",
                  "lengths of the straight approach to try, one after the other; [0.5, 0.35, 0.25, 0.15] unless given");
@@ -183,7 +183,7 @@ Status Dock::begin(const WorldView& world, BehaviourContext& context) {
   const Landmark& landmark = *world.graph.find(landmark_);
   outward_rad_ = landmark.T_map_landmark.theta_rad + side_rad_;
   if (!choose_stand(world, landmark))
-    return {Progress::failure, where(world) + " is blocked: there is no free way to it on the map"};
+    return {Progress::failure, where(world) + " is blocked: there is no free path to it on the map"};
   return {Progress::running, "going to " + where(world)};
 }
 
@@ -280,7 +280,7 @@ Status Dock::approach(const WorldView& world, BehaviourContext& context, const L
   }
   if (progress_.is_stuck(world, wanted_))
     return {Progress::failure,
-            "held back " + metres(gap_m_) + " before " + where(world) + ", not at " + metres(config_.distance_m)};
+            "blocked " + metres(gap_m_) + " before " + where(world) + ", not at " + metres(config_.distance_m)};
   const double left_m = line.along_m(pose.position()) - outline_m(mapped_m) - wanted_m(world.robot);
   gap_m_ = left_m + config_.distance_m;
   const double correction_rad = std::clamp(config_.approach.correction_rad_per_m * line.aside_m(pose.position()),

@@ -1,8 +1,8 @@
-// Docks beside a landmark: plans to a standing place on the wanted side, then approaches straight and slowly by the
+// Docks beside a landmark: plans to an approach pose on the wanted side, then approaches straight and slowly by the
 // latest echoes, and stops at a distance between the robot's footprint and the landmark's outline.
 //
 // Where no echo of the landmark comes back, its outline is taken from the map. Honest failures: the side is blocked,
-// the standing place cannot be reached, something stands between, the robot is held back.
+// the approach pose cannot be reached, something stands between, the robot is blocked.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ struct FoundPlace {
 [[nodiscard]] std::string described(const Landmark& landmark);
 [[nodiscard]] std::string described(const Point& at_m);
 
-// The one of some landmarks that the mission's planner finds the cheapest to get to; where it finds a way to none, the
+// The one of some landmarks that the mission's planner finds the cheapest to get to; where it finds a path to none, the
 // nearest one. ids must not be empty and be known to the graph.
 [[nodiscard]] LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& world,
                                      BehaviourContext& context);

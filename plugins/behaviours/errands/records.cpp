@@ -98,10 +98,10 @@ void PlanQueryConfig::describe(Fields<PlanQueryConfig>& fields) {
   fields.raw("via", &C::via, "list of texts", "places to pass, in this order");
   fields.texts("avoid", &C::avoid, "landmarks and clusters that are not passed");
   fields.texts("closed", &C::closed, "routes that are not taken: 12 or R12");
-  fields.integer("alternatives", &C::alternatives, {0.0, 1000.0}, "so many more ways; not with via");
+  fields.integer("alternatives", &C::alternatives, {0.0, 1000.0}, "so many more routes; not with via");
   fields.choice("cost", &C::cost,
                 {{"length", C::Cost::length}, {"time", C::Cost::time}, {"clearance", C::Cost::clearance}},
-                "what a good way has little (length, time) or much of");
+                "what a good route has little (length, time) or much of");
   fields.flag("explain", &C::explain, "how the answer came about");
   fields.raw("file", &C::file, "text", "its name in the output folder, NAME.jsonl").default_text = "answers.jsonl";
   fields.shorthand("to");

@@ -45,11 +45,11 @@ void SearchConfig::describe(Fields<SearchConfig>& fields) {
   fields.integer("until", &C::until, {1.0, 1e6}, "so many landmarks of the category must be known");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to search; when it is up the step has failed");
   fields.integer("rounds", &C::rounds, {1.0, 1e6},
-                 "all is looked at so often before the search is given up: doors open, people go on");
+                 "all is looked at so often before the search is given up: doors open, people leave");
   fields.output("output", &C::output,
                 "the landmarks found are given under this name to later steps, such as `goto: {input: NAME}`");
   fields.group("between_rounds", &C::between_rounds, "what it does between two rounds");
-  describe_ways(fields);
+  describe_exploring(fields);
   fields.shorthand("category");
 }
 

@@ -1,6 +1,6 @@
 // Explores until so many landmarks of a category are known. When all in reach is seen without, it tries to get to what
 // was out of reach, the largest room first, and explores on there; and begins again when there is no such room left:
-// doors open, people go on, and what has been looked at twice is known better.
+// doors open, people leave, and what has been looked at twice is known better.
 #pragma once
 
 #include <cstdint>

@@ -32,8 +32,7 @@ void DriveConfig::describe(Fields<DriveConfig>& fields) {
       .required = true;
   fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
   fields.number("tolerance_m", &C::tolerance_m, {0.01, 1.0}, "m", "this near to a point is there");
-  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s",
-                "held back for longer than this, the step has failed");
+  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "blocked for longer than this, the step has failed");
   fields.number("scatter_m", &C::scatter_m, {0.0, 100.0}, "m",
                 "each point is moved by up to this in x and in y, by chance of the seed: for experiments over many "
                 "paths");
@@ -68,8 +67,8 @@ Status DriveTo::tick(const WorldView& world, BehaviourContext& context) {
   char text[96];
   if (watch_.is_stuck(world, wanted_)) {
     const Point end = stretch_.points().back();
-    std::snprintf(text, sizeof text, "held back at (%.2f, %.2f) on the way to (%.2f, %.2f)", pose.x_m, pose.y_m,
-                  end.x(), end.y());
+    std::snprintf(text, sizeof text, "blocked at (%.2f, %.2f) on the way to (%.2f, %.2f)", pose.x_m, pose.y_m, end.x(),
+                  end.y());
     return {Progress::failure, text};
   }
   ControlResult step = follow_stretch(context);

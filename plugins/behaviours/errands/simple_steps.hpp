@@ -23,7 +23,7 @@ struct DriveConfig {
   static void describe(Fields<DriveConfig>& fields);
 };
 
-// Drives straight from point to point, whatever the map says; only the host's stop layer holds it back.
+// Drives straight from point to point, whatever the map says; only the collision monitor stops it.
 class DriveTo : public Behaviour {
  public:
   // The seed decides where scattered points go.

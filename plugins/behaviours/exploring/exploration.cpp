@@ -116,12 +116,12 @@ bool Exploration::is_blocked(const WorldView& world) const {
   const auto blocks = [&](const std::vector<Point>& path, double along_m, double ahead_m) {
     return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, margin_m);
   };
-  // A robot that already stands too near to something is on its way out and must not stop there.
+  // A robot that already stands too near to something is leaving a tight place and must not stop there.
   return blocks(task_->path, path_.along_m(), config_.exploring.motion.blocked_ahead_m) &&
          !blocks({world.pose.T_map_robot.position()}, 0.0, 0.0);
 }
 
-// Round the object, no longer on the way to it.
+// Round the object, no longer driving to it.
 bool Exploration::is_on_orbit(const WorldView& world) const {
   return (world.pose.T_map_robot.position() - task_->lookout).norm() < config_.exploring.motion.on_orbit_m ||
          path_.along_m() > task_->path_m;
@@ -228,7 +228,7 @@ Status Exploration::back_off(const WorldView& world, BehaviourContext& context) 
 Status Exploration::nothing_left(const WorldView& world, BehaviourContext& context) {
   if (!can_turn(world.robot) || driven_m_ - looked_around_at_m_ < config_.exploring.motion.moved_m)
     return finished(world);
-  // And what it remembers of near echoes may be of somebody who has gone on.
+  // And what it remembers of near echoes may be of somebody who has left.
   if (is_shut_in(world)) near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
   turned_rad_ = 0.0;
   set_mode(Mode::look_around, world.time_s);
@@ -253,7 +253,7 @@ Status Exploration::finished(const WorldView& world) const {
 
 Status Exploration::cannot_get_away() const {
   char text[96];
-  std::snprintf(text, sizeof text, "cannot get away from (%.2f, %.2f): held back wherever it turns", last_pose_.x_m,
+  std::snprintf(text, sizeof text, "cannot get away from (%.2f, %.2f): blocked wherever it turns", last_pose_.x_m,
                 last_pose_.y_m);
   return {Progress::failure, text};
 }

@@ -10,7 +10,7 @@ void ExploreConfig::describe(Fields<ExploreConfig>& fields) {
   fields.number("until_known_ratio", &C::until_known_ratio, {0.0, 1.0}, "",
                 "share of the cells within the outermost walls to know; then frontiers are left alone");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to explore; when it is up the step has succeeded");
-  describe_ways(fields);
+  describe_exploring(fields);
 }
 
 Explore::Explore(const ExploreConfig& config) : config_(config) {}

@@ -37,7 +37,7 @@ struct ExploreConfig {
   static void describe(Fields<ExploreConfig>& fields);
   // All but when it ends: of a config that derives from it.
   template <class Config>
-  static void describe_ways(Fields<Config>& fields) {
+  static void describe_exploring(Fields<Config>& fields) {
     using C = Config;
     fields.number("clearance_m", &C::clearance_m, {0.0, 2.0}, "m",
                   "kept between the robot's edge and everything occupied");

@@ -62,7 +62,7 @@ void InspectConfig::describe(Fields<InspectConfig>& fields) {
   fields.number("gain", &C::gain, {0.0, 1.0}, "", "no lap more when the degree has not risen by more than this in one");
   fields.number("orbit_speed_mps", &C::orbit_speed_mps, {0.01, 5.0}, "m/s", "top speed on a lap");
   fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed on the way there");
-  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "waited for what is in the way to go");
+  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "how long it waits for a blockage to go");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "when it is up, it ends with what it has seen");
   fields.group("orbit", &C::orbit, "laps round the landmark");
   describe_driving(fields);
@@ -121,7 +121,7 @@ Status Inspect::begin(const WorldView& world, BehaviourContext& context) {
 Status Inspect::drive(const WorldView& world, BehaviourContext& context, const Landmark& landmark) {
   const bool is_near =
       (landmark.T_map_landmark.position() - world.pose.T_map_robot.position()).norm() <= config_.orbit.near_m &&
-      choose_way(world, landmark);
+      choose_path(world, landmark);
   Status status{Progress::success, ""};
   if (!is_near) {
     Place goal;
@@ -138,7 +138,7 @@ Status Inspect::drive(const WorldView& world, BehaviourContext& context, const L
   return {Progress::running, "at " + described(landmark)};
 }
 
-bool Inspect::choose_way(const WorldView& world, const Landmark& landmark) {
+bool Inspect::choose_path(const WorldView& world, const Landmark& landmark) {
   chosen_s_ = world.time_s;
   const Pose2& pose = world.pose.T_map_robot;
   const Point centre = landmark.T_map_landmark.position();
@@ -173,7 +173,7 @@ Status Inspect::orbit(const WorldView& world, BehaviourContext& context, const L
   if (path_.empty() || has_arrived || world.time_s - chosen_s_ >= config_.orbit.choose_every_s) {
     const bool was_there = has_arrived && !path_.empty();
     const Point end = was_there ? path_.points().back() : Point(1e9, 1e9);
-    if (!choose_way(world, landmark)) return end_orbit(landmark, context);
+    if (!choose_path(world, landmark)) return end_orbit(landmark, context);
     // Arrived, and the sector still counts as open: it cannot be seen from there.
     if (was_there && (path_.points().back() - end).norm() < config_.orbit.trace_apart_m) avoid_.push_back(end);
     step = follow_path(context);
@@ -215,7 +215,7 @@ Status Inspect::end_orbit(const Landmark& landmark, BehaviourContext& context) {
   path_.take({});
   if (covered_ < config_.orbit.min_covered_sectors) {
     if (orbits_ > 0) return finish(landmark, "it cannot be circled once more");
-    return {Progress::failure, described(landmark) + " cannot be circled: no free way leads round it"};
+    return {Progress::failure, described(landmark) + " cannot be circled: no free path leads round it"};
   }
   ++orbits_;
   const double risen = landmark.degree - degree_at_lap_;

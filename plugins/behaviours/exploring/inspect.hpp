@@ -67,7 +67,7 @@ class Inspect : public Behaviour {
   Status finish(const Landmark& landmark, const std::string& why) const;
   void remember(const WorldView& world);
   // False when nothing of the lap is left.
-  [[nodiscard]] bool choose_way(const WorldView& world, const Landmark& landmark);
+  [[nodiscard]] bool choose_path(const WorldView& world, const Landmark& landmark);
 
   InspectConfig config_;
   std::uint64_t seed_;

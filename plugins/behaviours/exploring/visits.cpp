@@ -54,8 +54,8 @@ Status Visits::find_order(const WorldView& world, BehaviourContext& context) {
   const std::size_t all = stops_.size() + 1;
   if (cost_m_.empty()) cost_m_.assign(all, std::vector<double>(all, 0.0));
   if (from_ + 1 < all) {
-    ask_next_way(world, context);
-    return {Progress::running, "asking for the ways between " + std::to_string(all - 1) + " places"};
+    ask_next_length(world, context);
+    return {Progress::running, "asking for the routes between " + std::to_string(all - 1) + " places"};
   }
   std::vector<Stop> in_order;
   for (const std::size_t stop : shortest_order(cost_m_)) in_order.push_back(stops_[stop - 1]);
@@ -67,8 +67,8 @@ Status Visits::find_order(const WorldView& world, BehaviourContext& context) {
   return {Progress::running, "has found the shortest order"};
 }
 
-// Ways count the same in both directions.
-void Visits::ask_next_way(const WorldView& world, BehaviourContext& context) {
+// Routes count the same in both directions.
+void Visits::ask_next_length(const WorldView& world, BehaviourContext& context) {
   PlanRequest request;
   request.radius_m = world.robot.radius_m;
   request.seed = seed_;
@@ -79,14 +79,14 @@ void Visits::ask_next_way(const WorldView& world, BehaviourContext& context) {
   Stop& stop = stops_[to_ - 1];
   request.to = place_of(stop, world.graph);
   const auto is_known = [](const Place& place) { return place.pose || !place.landmarks.empty(); };
-  PlanResult way;
-  if (is_known(request.from) && is_known(request.to)) way = context.plan(request);
-  const bool is_solved = way.outcome == PlanOutcome::solved;
-  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(way.cost_m, kOutOfReach_m) : kOutOfReach_m;
+  PlanResult route;
+  if (is_known(request.from) && is_known(request.to)) route = context.plan(request);
+  const bool is_solved = route.outcome == PlanOutcome::solved;
+  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(route.cost_m, kOutOfReach_m) : kOutOfReach_m;
   if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kOutOfReach_m;
   // `nearest` is what is nearest from here: the other ways are to the same one.
-  if (from_ == 0 && is_solved && !request.to.landmarks.empty() && !way.landmarks.empty())
-    stop.chosen = way.landmarks.back();
+  if (from_ == 0 && is_solved && !request.to.landmarks.empty() && !route.landmarks.empty())
+    stop.chosen = route.landmarks.back();
   if (++to_ > stops_.size()) to_ = ++from_ + 1;
 }
 

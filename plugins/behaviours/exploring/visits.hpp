@@ -26,7 +26,7 @@ struct VisitSettings : RouteSettings {
     fields.choice(
         "order", static_cast<VisitOrder Config::*>(&Config::order),
         {{"given", VisitOrder::given}, {"shortest", VisitOrder::shortest}},
-        "`shortest`: so that the whole way is short, by the planner's lengths: the best order up to 11 places, "
+        "`shortest`: so that the whole route is short, by the planner's lengths: the best order up to 11 places, "
         "cheapest insertion and 2-opt for more");
     fields.flag("skip", &Config::skip, "a place that cannot be reached is left out; without it, the step fails there");
     fields.number("wait_s", &Config::wait_s, {0.0, 1e6}, "s", "stands still at each place");
@@ -50,7 +50,7 @@ class Visits {
          Unknown unknown = Unknown::as_skip_says);
 
   // Success when every place was visited or left out, but not all left out; failure with the place and why. `shortest`
-  // asks the planner for one way a tick, n (n + 1) / 2 in all, while the robot stands.
+  // asks the planner for one route a tick, n (n + 1) / 2 in all, while the robot stands.
   Status tick(const WorldView& world, BehaviourContext& context);
 
   [[nodiscard]] std::size_t visited() const { return visited_.size(); }
@@ -64,7 +64,7 @@ class Visits {
     std::optional<LandmarkId> chosen;  // of several landmarks, when the order was found
   };
   Status find_order(const WorldView& world, BehaviourContext& context);
-  void ask_next_way(const WorldView& world, BehaviourContext& context);
+  void ask_next_length(const WorldView& world, BehaviourContext& context);
   Status drive(const WorldView& world, BehaviourContext& context);
   Status wait(const WorldView& world);
   Status leave_out(const std::string& why, bool may_be_left_out);
@@ -85,7 +85,7 @@ class Visits {
 
   bool ordered_ = false;
   std::vector<std::vector<double>> cost_m_;  // [0] from where the robot stands
-  std::size_t from_ = 0;                     // the way that is asked for next
+  std::size_t from_ = 0;                     // the route that is asked for next
   std::size_t to_ = 1;
 };
 

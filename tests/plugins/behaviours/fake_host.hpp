@@ -53,7 +53,7 @@ class FakeHost : public BehaviourContext {
   // Ticks until the behaviour ends or the time is up (then its status is still running).
   Status run(Behaviour& behaviour, double at_most_s);
   Status tick(Behaviour& behaviour);
-  // Ticks until it tells how long it still takes; none when it ends or the time is up before.
+  // Ticks until it says how long it still takes; none when it ends or the time is up before.
   std::optional<double> first_left_s(Behaviour& behaviour, double at_most_s);
 
   [[nodiscard]] bool is_solid(const Point& p) const;
@@ -72,9 +72,9 @@ class FakeHost : public BehaviourContext {
   std::function<Observation(const FakeHost&)> observe;
   double time_s = 0.0;
   double speed_reduction_ratio = 0.0;
-  // What the stop layer lets through; all of it by default.
+  // What the collision monitor lets through; all of it by default.
   std::function<Twist(const Pose2& T_map_robot, const Twist& wanted)> collision_monitor;
-  // Answers plan(); by default the shortest way over the grid.
+  // Answers plan(); by default the shortest path over the grid.
   std::function<PlanResult(const PlanRequest&)> planner;
 
   std::shared_ptr<Controller> controller = std::make_shared<pursuit_dwa::PursuitDwa>(pursuit_dwa::PursuitDwaConfig{});
