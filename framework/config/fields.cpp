@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -171,6 +172,14 @@ std::string to_file_name(const ConfigValue& value, const std::string& key) {
   if (name.empty() || name == "." || name == ".." || name.size() > kMaxFileName ||
       std::ranges::any_of(name, is_kept_out))
     fail(value, key, "a plain file name of up to " + std::to_string(kMaxFileName) + " bytes, without a folder");
+  return name;
+}
+
+std::string to_value_name(const ConfigValue& value, const std::string& key) {
+  std::string name = to_text(value, key);
+  const auto is_part = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  if (name.empty() || name.size() > kMaxFileName || !std::ranges::all_of(name, is_part))
+    fail(value, key, "a name of letters, digits and _");
   return name;
 }
 

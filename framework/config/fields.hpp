@@ -52,6 +52,7 @@ struct FieldSpec {
   bool required = false;
   std::string plugin_kind;        // of a plugin: "planner", ...
   std::vector<FieldSpec> fields;  // of a nested struct, with its shorthand and its one_of
+  std::string shared;             // of a nested struct that several modules have: what the reference calls it
   std::string shorthand;
   std::vector<std::string> one_of;
   std::function<void(void* config, const ConfigValue& value)> load;
@@ -94,6 +95,8 @@ namespace config_detail {
 [[nodiscard]] std::string to_text(const ConfigValue& value, const std::string& key);
 // Text that names a file or folder within a folder, and nothing outside it.
 [[nodiscard]] std::string to_file_name(const ConfigValue& value, const std::string& key);
+// The name of a place that steps hand over: letters, digits and _.
+[[nodiscard]] std::string to_value_name(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::size_t to_choice(const ConfigValue& value, const std::string& key,
                                     const std::vector<std::string>& choices);
 [[nodiscard]] Point to_point(const ConfigValue& value, const std::string& key, const Range& range = {},
@@ -177,6 +180,14 @@ class Fields {
       static_cast<Config*>(c)->*member = config_detail::to_file_name(v, key);
     };
     return f;
+  }
+  // Of a behaviour: the name under which it takes a place from an earlier step, and gives one to later ones. The host
+  // checks that a step before gives what another takes.
+  FieldSpec& input(std::string key, std::string Config::*member, std::string meaning) {
+    return value_name(std::move(key), "input", member, std::move(meaning));
+  }
+  FieldSpec& output(std::string key, std::string Config::*member, std::string meaning) {
+    return value_name(std::move(key), "output", member, std::move(meaning));
   }
   template <class Enum>
   FieldSpec& choice(std::string key, Enum Config::*member, std::vector<std::pair<std::string, Enum>> options,
@@ -334,6 +345,14 @@ class Fields {
     f.default_text = std::move(default_text);
     schema_.fields.push_back(std::move(f));
     return schema_.fields.back();
+  }
+
+  FieldSpec& value_name(std::string key, std::string type, std::string Config::*member, std::string meaning) {
+    FieldSpec& f = add(std::move(key), std::move(type), std::move(meaning), "");
+    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = config_detail::to_value_name(v, key);
+    };
+    return f;
   }
 
   static void take_nested(FieldSpec& field, const Schema& schema) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "framework/contracts/behaviour.hpp"
+#include "framework/contracts/controller.hpp"
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/mapper.hpp"
 #include "framework/contracts/path_planner.hpp"
@@ -27,7 +28,7 @@ struct AbiStamp {
   char compiler[48];
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
-  std::uint32_t sizes[24];  // of the exchanged types, as this_abi_stamp() lists them
+  std::uint32_t sizes[26];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
@@ -80,6 +81,8 @@ constexpr void copy(char (&out)[N], std::string_view text) {
       sizeof(DetectorContext),
       sizeof(BehaviourFactoryContext),
       sizeof(Status),
+      sizeof(ControlRequest),
+      sizeof(ControlResult),
   };
   static_assert(sizeof sizes == sizeof stamp.sizes);
   for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/controller.hpp"
 #include "framework/contracts/plan_question.hpp"
 #include "framework/contracts/planner.hpp"
 
@@ -31,7 +32,9 @@ struct OutputText {
 class BehaviourContext {
  public:
   virtual ~BehaviourContext() = default;
-  virtual void drive(const Twist& wanted) = 0;              // for this tick; no call: stop. Throws: no drive, no number
+  virtual void drive(const Twist& wanted) = 0;  // for this tick; no call: stop. Throws: no drive, no number
+  // By the mission's controller, at once; the robot moves only by drive(). Throws: no controller.
+  virtual ControlResult control(const ControlRequest& request) = 0;
   virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once; without one, no_route
   // Asks the mission's planner and adds its answer to a file of the output folder, one JSON object a line. Success when
   // it is solved; failure with the reason, which is in the file too, unless the question makes no sense on this map.
@@ -41,12 +44,16 @@ class BehaviourContext {
   // Success, or failure with its reason. Files of earlier missions are replaced, whatever is asked for.
   virtual Status write(const OutputText& output) = 0;
   virtual void say(const std::string& sentence) = 0;  // an event for people
+  // Places that steps hand to later ones, saved with the mission's progress: what output() was last given under that
+  // name; none: nothing yet.
+  virtual std::optional<Place> input(const std::string& name) = 0;
+  virtual void output(const std::string& name, const Place& place) = 0;
 };
 
 class Behaviour {
  public:
   virtual ~Behaviour() = default;
-  virtual Status tick(const WorldView& world, BehaviourContext& orders) = 0;
+  virtual Status tick(const WorldView& world, BehaviourContext& context) = 0;
   // Called when the step is left before it ended, and when it is to be done once more after its end; it must
   // not ask for anything. A tick after it begins the step afresh.
   virtual void halt() = 0;

@@ -22,6 +22,8 @@ std::string_view name_of(PluginKind kind) {
       return "path_planner";
     case PluginKind::route_planner:
       return "route_planner";
+    case PluginKind::controller:
+      return "controller";
   }
   return "?";
 }
@@ -60,6 +62,18 @@ std::string_view name_of(PathSegment::Origin origin) {
       return "cut";
     case PathSegment::Origin::escape:
       return "escape";
+  }
+  return "?";
+}
+
+std::string_view name_of(ControlState state) {
+  switch (state) {
+    case ControlState::following:
+      return "following";
+    case ControlState::blocked:
+      return "blocked";
+    case ControlState::arrived:
+      return "arrived";
   }
   return "?";
 }

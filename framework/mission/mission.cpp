@@ -68,6 +68,12 @@ void StartConfig::describe(Fields<StartConfig>& fields) {
   fields.angle("angle_deg", &StartConfig::angle_rad, {-360.0, 360.0}, "which way it looks there");
 }
 
+PluginChoice default_controller() {
+  PluginChoice choice;
+  choice.name = "pursuit_dwa";
+  return choice;
+}
+
 void MissionConfig::describe(Fields<MissionConfig>& fields) {
   using C = MissionConfig;
   fields.file_name("mission", &C::mission, "name of the mission").required = true;
@@ -80,6 +86,7 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.plugin("map", &C::map, "map", "builds the occupancy grid").required = true;
   fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
   fields.plugin("planner", &C::planner, "planner", "plans paths from place to place");
+  fields.plugin("controller", &C::controller, "controller", "follows paths past obstacles");
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
   fields.group("collision_monitor", &C::collision_monitor, "what keeps the robot from driving into what it sees");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");

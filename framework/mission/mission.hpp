@@ -25,6 +25,9 @@ struct StartConfig {
   static void describe(Fields<StartConfig>& fields);
 };
 
+// `pursuit_dwa` with its default settings.
+[[nodiscard]] PluginChoice default_controller();
+
 struct MissionConfig {
   std::string mission;
   std::int64_t seed = 1;
@@ -36,6 +39,7 @@ struct MissionConfig {
   PluginChoice map;
   PluginChoice detector;
   PluginChoice planner;
+  PluginChoice controller = default_controller();
   LandmarksConfig landmarks;
   CollisionMonitorConfig collision_monitor;
   double at_most_s = 36000.0;

@@ -1,6 +1,7 @@
 #include "framework/mission/modules.hpp"
 
 #include "framework/behaviour_tree/parameters.hpp"
+#include "framework/mission/named_values.hpp"
 #include "framework/mission/resume.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/templates/sensed_templates.hpp"
@@ -49,6 +50,18 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, cell_m, library); }));
   built.detector =
       build<Detector>(library, detector, {context_for(mission, library, PluginKind::detector), built.templates});
+}
+
+// The default controller is not missed before a behaviour asks for it.
+std::shared_ptr<Controller> build_controller(const Mission& mission, const ModuleLibrary& library) {
+  const PluginChoice& choice = mission.config.controller;
+  const ModuleContext context = context_for(mission, library, PluginKind::controller);
+  const bool is_default = choice.config.kind == ConfigValue::Kind::null;
+  if (!is_default) return build<Controller>(library, choice, context);
+  if (library.find_any(choice.name) == nullptr) return nullptr;
+  PluginChoice usual = choice;
+  usual.config.kind = ConfigValue::Kind::map;
+  return build<Controller>(library, usual, context);
 }
 
 // What is no behaviour may be meant for a node.
@@ -161,6 +174,9 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
   if (!config.detector.name.empty()) add_detector(mission, library, built.mapper->grid().cell_m(), built);
   if (!config.planner.name.empty()) built.planner = build_planner(mission, library);
+  built.controller = build_controller(mission, library);
+  if (const std::vector<ConfigError> missing = missing_inputs(mission.steps, library); !missing.empty())
+    throw missing.front();
   for (const TreeNode* node : behaviours_of(mission.steps))
     built.behaviours.push_back(build_behaviour(mission, library, *node, built.behaviours.size()));
   return built;
@@ -195,6 +211,8 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
   attempt([&] {
     if (!config.planner.name.empty()) (void)build_planner(mission, library);
   });
+  attempt([&] { (void)build_controller(mission, library); });
+  for (const ConfigError& error : missing_inputs(mission.steps, library)) errors.emplace_back(error.what());
   for (const TreeNode* node : behaviours_of(mission.steps))
     attempt([&] { (void)build_behaviour(mission, library, *node); });
   return errors;

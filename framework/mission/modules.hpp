@@ -17,6 +17,7 @@ struct MissionModules {
   std::shared_ptr<const TemplateSet> templates;        // null without a detector
   std::shared_ptr<Detector> detector;                  // may be null
   std::shared_ptr<Planner> planner;                    // may be null
+  std::shared_ptr<Controller> controller;              // null when the default one is not installed
   std::vector<std::shared_ptr<Behaviour>> behaviours;  // in the order of behaviours_of()
   Pose2 T_map_start;
   double begin_s = 0.0;  // the mission's clock

@@ -170,7 +170,7 @@ void add_plugins(CLI::App& app, PluginsCommand& c, const CommonOptions& common, 
 void add_plugins_new(CLI::App& app, NewPluginCommand& c, const CommonOptions& common, Action& action) {
   CLI::App* made = app.get_subcommand("plugins")->add_subcommand("new", "Write a small complete project for a module");
   made->add_option("KIND", c.kind,
-                   "sensor, localizer, map, detector, planner, path_planner, route_planner or behaviour")
+                   "sensor, localizer, map, detector, planner, path_planner, route_planner, controller or behaviour")
       ->required();
   made->add_option("NAME", c.name, "of the module, in lower_snake_case")->required();
   made->add_option("--folder", c.folder, "of the new project; without it, NAME");

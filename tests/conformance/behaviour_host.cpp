@@ -25,6 +25,48 @@ void BehaviourHost::drive(const Twist& wanted) {
   record_ += "drive " + text_of(wanted) + "\n";
 }
 
+ControlResult BehaviourHost::control(const ControlRequest& request) {
+  ControlResult result;
+  result.state = ControlState::arrived;
+  result.progress = request.progress;
+  if (request.path.empty() || !is_finite(T_map_robot)) return result;
+  double begin_m = 0.0;
+  Point aim = request.path.back();
+  bool has_aim = false;
+  for (std::size_t i = 0; i + 1 < request.path.size(); ++i) {
+    begin_m += (request.path[i + 1] - request.path[i]).norm();
+    if (has_aim || begin_m < request.progress.along_m + 0.2) continue;
+    aim = request.path[i + 1];
+    has_aim = true;
+  }
+  const Point to_aim = inverse(T_map_robot) * aim;
+  const double to_end_m = (request.path.back() - T_map_robot.position()).norm();
+  result.left_m = std::max(0.0, begin_m - request.progress.along_m);
+  if (!has_aim && to_end_m <= request.tolerance_m) return result;
+  result.state = ControlState::following;
+  const double error_rad = to_aim.norm() < 1e-9 ? 0.0 : std::atan2(to_aim.y(), to_aim.x());
+  const double max_radps = std::min(1.0, robot.max_w_radps);
+  const double v_mps = std::min({request.speed_mps, request.speed_limit_mps, robot.max_v_mps, to_end_m / 0.1});
+  result.twist = {std::abs(error_rad) < 0.5 ? v_mps : 0.0, std::clamp(2.0 * error_rad, -max_radps, max_radps)};
+  if (!std::isfinite(result.twist.v_mps) || !std::isfinite(result.twist.w_radps)) result.twist = {};
+  result.unhindered = result.twist;
+  // As far as the robot can have come.
+  if (std::abs(error_rad) < 0.5 || to_aim.norm() < 0.2) result.progress.along_m += v_mps * std::abs(tick_s);
+  result.progress.along_m = std::min(result.progress.along_m, begin_m);
+  return result;
+}
+
+std::optional<Place> BehaviourHost::input(const std::string& name) {
+  record_ += "input " + name + "\n";
+  const auto found = values_.find(name);
+  return found == values_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void BehaviourHost::output(const std::string& name, const Place& place) {
+  record_ += "output " + name + "\n";
+  values_[name] = place;
+}
+
 PlanResult BehaviourHost::plan(const PlanRequest& request) {
   record_ += "plan, seed " + std::to_string(request.seed) + "\n";
   PlanResult result;

@@ -1,6 +1,8 @@
 // The host's side of a behaviour: a robot that does as it is told in the room of fixtures.hpp.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +15,15 @@ class BehaviourHost : public BehaviourContext {
   BehaviourHost();
 
   void drive(const Twist& wanted) override;
+  // Straight to a point of the path that is a little ahead; obstacles do not count.
+  ControlResult control(const ControlRequest& request) override;
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override;
   Status answer(const PlanQuestion& question, const std::string& file_name) override;
   Status write(const OutputText& output) override;
   void say(const std::string& sentence) override;
+  std::optional<Place> input(const std::string& name) override;
+  void output(const std::string& name, const Place& place) override;
 
   // One tick: the behaviour, then the motion it asked for, then the clock.
   Status tick(Behaviour& behaviour);
@@ -44,6 +50,7 @@ class BehaviourHost : public BehaviourContext {
   OccupancyGrid room_;
   Twist wanted_;
   double speed_reduction_ratio_ = 0.0;
+  std::map<std::string, Place> values_;
   std::string record_;
   std::string fault_;
 };

@@ -1,6 +1,7 @@
 // Modules that break their contracts, each in one way, run through the suites: every one must fail the test
 // that is for it. A program of its own, because its tests fail on purpose; faulty_modules_test.cpp judges it.
 #include "tests/conformance/behaviour.hpp"
+#include "tests/conformance/controller.hpp"
 #include "tests/conformance/detector.hpp"
 #include "tests/conformance/localizer.hpp"
 #include "tests/conformance/map.hpp"
@@ -446,6 +447,61 @@ INSTANTIATE_TEST_SUITE_P(Faulty, BehaviourConformance,
                          testing::Values(wrapped<Behaviour, LateBehaviour>("drives in halt", shipped_drive()),
                                          wrapped<Behaviour, ForgetfulBehaviour>("halts not", shipped_drive()),
                                          wrapped<Behaviour, NanBehaviour>("orders NaN", shipped_drive())));
+
+class WrappedController : public Controller {
+ public:
+  explicit WrappedController(std::shared_ptr<Controller> inner) : inner_(std::move(inner)) {}
+  ControlResult control(const ControlRequest& request, const WorldView& world) override {
+    return inner_->control(request, world);
+  }
+
+ protected:
+  std::shared_ptr<Controller> inner_;
+};
+
+class BlindController : public WrappedController {
+ public:
+  using WrappedController::WrappedController;
+  ControlResult control(const ControlRequest& request, const WorldView& world) override {
+    ControlRequest blind = request;
+    blind.obstacles = {};
+    return inner_->control(blind, world);
+  }
+};
+
+// Follows the first path for ever.
+class StubbornController : public WrappedController {
+ public:
+  using WrappedController::WrappedController;
+  ControlResult control(const ControlRequest& request, const WorldView& world) override {
+    if (path_.empty()) path_.assign(request.path.begin(), request.path.end());
+    ControlRequest first = request;
+    if (!request.path.empty()) first.path = path_;
+    return inner_->control(first, world);
+  }
+
+ private:
+  std::vector<Point> path_;
+};
+
+class HastyController : public WrappedController {
+ public:
+  using WrappedController::WrappedController;
+  ControlResult control(const ControlRequest& request, const WorldView& world) override {
+    ControlResult result = inner_->control(request, world);
+    result.twist.v_mps *= 3.0;
+    return result;
+  }
+};
+
+std::vector<Subject<Controller>> faulty_controllers() {
+  const auto shipped = module<Controller>(kModules, "pursuit_dwa");
+  return {wrapped<Controller, BlindController>("sees no obstacles", shipped),
+          wrapped<Controller, StubbornController>("keeps the first path", shipped),
+          wrapped<Controller, HastyController>("too fast", shipped)};
+}
+
+INSTANTIATE_TEST_SUITE_P(Faulty, ControllerConformance, testing::ValuesIn(faulty_controllers()));
 
 }  // namespace
 }  // namespace cairn::conformance

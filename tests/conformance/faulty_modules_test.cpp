@@ -100,6 +100,13 @@ TEST(FaultyModules, RoutePlannersFail) {
   faulty.expect_failure("ASolvedRouteLeadsFromLandmarkToLandmark", "leaves a route out");
 }
 
+TEST(FaultyModules, ControllersFail) {
+  const FaultySuite faulty("ControllerConformance");
+  faulty.expect_failure("NeverDrivesIntoWhatIsRightAhead", "sees no obstacles");
+  faulty.expect_failure("ForgetsTheOldPathWhenANewOneBegins", "keeps the first path");
+  faulty.expect_failure("VelocitiesAreFiniteAndWithinTheLimits", "too fast");
+}
+
 TEST(FaultyModules, BehavioursFail) {
   const FaultySuite faulty("BehaviourConformance");
   faulty.expect_failure("AHaltAsksForNothing", "drives in halt");

@@ -129,6 +129,47 @@ TEST(Behaviours, AMissionThatGoesOnReturnsToWhereItFirstBegan) {
   EXPECT_LT((map.progress->true_T_map_robot->position() - Point(1.0, 2.0)).norm(), 0.25);
 }
 
+TEST(Behaviours, APlaceThatOneStepFindsIsWhereALaterOneGoesAlsoAfterAResume) {
+  const auto folder = fresh_folder("found");
+  const std::string mission = config("missions/find_and_visit.yaml");
+  const Finished finished = run_cairn({"run", mission, "--out", folder.string()});
+  ASSERT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  const json report = json::parse(text_of_file(folder / "report.json"));
+  EXPECT_EQ(reason_of(report, "search"), "found square: L1");
+  EXPECT_EQ(reason_of(report, "goto"), "at L1 (square)");
+
+  const std::string steps =
+      "  - search: {category: square, output: found}\n  - save: half.cairn\n  - goto: {input: found}\n";
+  const auto first = fresh_folder("found_first");
+  (void)run(first, steps, "1");
+  const auto second = fresh_folder("found_again");
+  const Finished again = run_cairn({"run", (first / "mission.yaml").string(), "--resume",
+                                    (first / "half.cairn").string(), "--out", second.string(), "--seed", "1"});
+  EXPECT_EQ(again.exit_status, 0) << again.out << again.err;
+  EXPECT_EQ(reason_of(json::parse(text_of_file(second / "report.json")), "goto"), "at L1 (square)");
+}
+
+TEST(Behaviours, AnInputThatNoStepBeforeGivesIsAnErrorWithItsPlace) {
+  const auto folder = fresh_folder("no_such_input");
+  const std::string file =
+      mission_in(folder, "  - search: {category: square, output: found}\n  - goto: {input: fond}\n").string();
+  for (const char* command : {"check", "run"}) {
+    const Finished finished = command == std::string("check") ? run_cairn({"mission", "check", file})
+                                                              : run_cairn({"run", file, "--out", folder.string()});
+    EXPECT_EQ(finished.exit_status, 2);
+    EXPECT_THAT(finished.err + finished.out,
+                HasSubstr(":13:19: input: no step before gives \"fond\" (did you mean \"found\"?); given are: found"));
+  }
+}
+
+TEST(Behaviours, AnUnknownControllerIsReportedWithTheNearestName) {
+  const auto folder = fresh_folder("no_such_controller");
+  const std::string file = mission_in(folder, "  - wait: 1\n").string();
+  const Finished finished = run_cairn({"mission", "check", file, "--set", "controller.plugin=plain_persuit"});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err + finished.out, HasSubstr("(did you mean \"plain_pursuit\"?)"));
+}
+
 TEST(Behaviours, ABatteryThatIsLowSendsTheRobotHome) {
   const Ran ran =
       run(fresh_folder("battery"),

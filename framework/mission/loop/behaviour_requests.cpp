@@ -9,15 +9,42 @@
 #include "framework/planning/tour.hpp"
 
 namespace cairn {
+namespace {
+
+bool is_finite(const Twist& twist) {
+  return std::isfinite(twist.v_mps) && std::isfinite(twist.w_radps);
+}
+
+}  // namespace
+
+void BehaviourRequests::begin(const TreeNode& leaf) {
+  asking_ = &leaf;
+  (void)take();
+}
 
 void BehaviourRequests::drive(const Twist& wanted) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
   if (!host_.monitor.has_drive())
     throw std::runtime_error("wants to drive, but the sensor " + host_.mission.config.sensor.name +
                              " cannot be driven");
-  if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps))
-    throw std::runtime_error("asked for a velocity that is not finite");
+  if (!is_finite(wanted)) throw std::runtime_error("asked for a velocity that is not finite");
   asked_.wanted = wanted;
+}
+
+ControlResult BehaviourRequests::control(const ControlRequest& request) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  if (!host_.controller)
+    throw std::runtime_error("wants to follow a path, but there is no controller: no module " +
+                             host_.mission.config.controller.name + " was found");
+  ControlRequest asked = request;
+  asked.is_new_path = request.is_new_path || controlled_ != asking_;
+  controlled_ = asking_;
+  const WorldView world = host_.world.view();
+  const ControlResult result =
+      host_.controller.call([&](Controller& controller) { return controller.control(asked, world); });
+  if (!is_finite(result.twist) || !is_finite(result.unhindered) || !std::isfinite(result.progress.along_m))
+    throw host_.controller.fault("returned a velocity that is not finite");
+  return result;
 }
 
 PlanResult BehaviourRequests::plan(const PlanRequest& request) {
@@ -77,6 +104,19 @@ Status BehaviourRequests::write(const OutputText& output) {
 void BehaviourRequests::say(const std::string& sentence) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
   host_.publisher.publish(Message{sentence});
+}
+
+std::optional<Place> BehaviourRequests::input(const std::string& name) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  const auto found = values_.find(name);
+  return found == values_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void BehaviourRequests::output(const std::string& name, const Place& place) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  if (!values_.contains(name) && values_.size() >= kMaxNamedValues)
+    throw std::runtime_error("gives more than " + std::to_string(kMaxNamedValues) + " named values");
+  values_[name] = place;
 }
 
 }  // namespace cairn

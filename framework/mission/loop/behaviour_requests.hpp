@@ -5,7 +5,9 @@
 #include <string>
 
 #include "framework/mission/loop/map_saving.hpp"
+#include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/loop/text_files.hpp"
+#include "framework/mission/named_values.hpp"
 
 namespace cairn {
 
@@ -18,6 +20,7 @@ struct HostParts {
   CollisionMonitor& monitor;
   Planning& planning;
   MapSaving& saving;
+  const Staged<Controller>& controller;  // may be none
 };
 
 // What one behaviour has asked for in one tick.
@@ -31,21 +34,31 @@ class BehaviourRequests final : public BehaviourContext {
  public:
   BehaviourRequests(const HostParts& host, TextFiles texts) : host_(host), texts_(std::move(texts)) {}
 
-  // What was asked for since the last call.
+  // Whose requests come next. The controller forgets what another leaf has asked it.
+  void begin(const TreeNode& leaf);
+  // What was asked for since begin().
   LeafRequests take() { return std::exchange(asked_, {}); }
+  [[nodiscard]] const NamedValues& values() const { return values_; }
+  void restore(NamedValues values) { values_ = std::move(values); }
 
   void drive(const Twist& wanted) override;
+  ControlResult control(const ControlRequest& request) override;
   PlanResult plan(const PlanRequest& request) override;
   // Without the times that it took: the same mission writes the same bytes.
   Status answer(const PlanQuestion& question, const std::string& file_name) override;
   Status save(const std::string& file_name) override;
   Status write(const OutputText& output) override;
   void say(const std::string& sentence) override;
+  std::optional<Place> input(const std::string& name) override;
+  void output(const std::string& name, const Place& place) override;
 
  private:
   const HostParts host_;
   TextFiles texts_;
   LeafRequests asked_;
+  NamedValues values_;                    // that behaviours hand over
+  const TreeNode* asking_ = nullptr;      // the leaf that is ticked
+  const TreeNode* controlled_ = nullptr;  // the leaf that used the controller last
 };
 
 }  // namespace cairn

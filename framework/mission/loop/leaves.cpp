@@ -13,7 +13,7 @@ LeafTick Leaves::tick_leaf(const TreeNode& node) {
   Leaf& leaf = leaves_.at(&node);
   // Only halt() promises that it begins afresh.
   if (leaf.has_ended) halt_leaf(node);
-  (void)requests_.take();
+  requests_.begin(node);
   const Status status =
       leaf.behaviour.call([&](Behaviour& behaviour) { return behaviour.tick(world_.view(), requests_); });
   leaf.has_ended = status.progress != Progress::running;

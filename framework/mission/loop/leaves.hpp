@@ -23,6 +23,9 @@ class Leaves final : public TreeHost {
   void ended(const TreeNode& node, const NodeReport& how) override;
   void ran(const TreeNode& node, const NodeReport& how, double begun_s) override;
 
+  // Places that behaviours hand to later ones.
+  [[nodiscard]] const NamedValues& values() const { return requests_.values(); }
+  void restore(NamedValues values) { requests_.restore(std::move(values)); }
   [[nodiscard]] const NodeRuns& runs() const { return runs_; }
   [[nodiscard]] const NodeTimes& times() const { return times_; }
   // The behaviour that was ticked last has asked for a save that failed: how it ends matters less than where it drives.

@@ -17,6 +17,7 @@ StagedModules::StagedModules(const MissionModules& modules, const Mission& missi
   detector = staged(modules.detector, "detector", config.detector);
   planner = staged(modules.planner, "planner", config.planner);
   routes = staged(modules.planner, "routes", config.planner);
+  controller = staged(modules.controller, "controller", config.controller);
   const std::vector<const TreeNode*> nodes = behaviours_of(mission.steps);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     behaviours.push_back(staged(modules.behaviours[i], "behaviour", nodes[i]->choice));

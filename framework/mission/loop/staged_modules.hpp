@@ -23,6 +23,7 @@ struct StagedModules {
   Staged<Detector> detector;                  // may be none
   Staged<Planner> planner;                    // may be none
   Staged<Planner> routes;                     // the same, when it joins landmarks
+  Staged<Controller> controller;              // may be none
   std::vector<Staged<Behaviour>> behaviours;  // in the order of behaviours_of()
   StageClock::Id drive = StageClock::kHost;
   Pose2 T_map_start;

@@ -11,6 +11,7 @@ Steps::Steps(const HostParts& host, const std::vector<Staged<Behaviour>>& behavi
 
 void Steps::restore(const SavedMap& map) {
   step_ = static_cast<std::size_t>(map.progress->step);
+  leaves_.restore(saved_named_values(map));
   restore_tree(map);
 }
 
@@ -101,6 +102,7 @@ void Steps::describe(MissionProgress& progress) const {
 }
 
 void Steps::describe(SavedMap& map) const {
+  add_named_values(map, leaves_.values());
   if (!are_done() && is_under_way_)
     add_tree(map, {tree_fingerprint(steps_[step_]), tree_left_ ? *tree_left_ : trees_[step_].state()});
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "framework/experiments/experiment.hpp"
 #include "framework/files/robot_file.hpp"
@@ -66,6 +67,7 @@ std::string default_text(const FieldSpec& field) {
 
 std::string meaning_text(const FieldSpec& field) {
   std::string text = field.meaning;
+  if (!field.shared.empty()) text += ": [" + field.shared + "](#" + field.shared + ")";
   if (!field.one_of.empty()) text += "; exactly one of " + joined(field.one_of);
   if (!field.shorthand.empty()) text += "; a bare value stands for " + code(field.shorthand);
   return text;
@@ -78,6 +80,7 @@ void add_rows(std::string& text, const std::vector<FieldSpec>& fields, const std
          {type_text(field), field.unit, range_text(field), default_text(field), meaning_text(field)})
       text += " | " + in_cell(cell);
     text += " |\n";
+    if (!field.shared.empty()) continue;
     add_rows(text, field.fields, prefix + field.key + (field.type == "list of maps" ? "[]." : "."));
   }
 }
@@ -122,6 +125,21 @@ std::string modules_section(const ModuleLibrary& library) {
     if (kind != heading) text += "\n### " + kind + "\n\n" + about_kind(entry.module->kind) + "\n";
     heading = kind;
     text += section_of(*entry.module);
+  }
+  return text;
+}
+
+// Groups of settings that several modules have, each once.
+std::string shared_section(const ModuleLibrary& library) {
+  std::map<std::string, FieldSpec> shared;
+  for (const ModuleEntry& entry : library.entries())
+    for (const FieldSpec& field : entry.module->schema.fields)
+      if (!field.shared.empty()) shared.emplace(field.shared, field);
+  std::string text;
+  for (const auto& [name, field] : shared) {
+    text += "\n### " + name + "\n\nSettings that several modules have, under " + code(field.key) + ".\n\n";
+    text += "| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
+    add_rows(text, field.fields, "");
   }
   return text;
 }
@@ -183,7 +201,7 @@ std::string reference_markdown(const ModuleLibrary& library) {
     name.front() = static_cast<char>(name.front() - 'a' + 'A');
     text += "\n## " + name + " files\n\n" + file.about + " Shipped ones: [" + file.folder + "](../" + file.folder +
             ").\n\n" + table_of(file.schema);
-    if (file.name == "mission") text += modules_section(library) + nodes_section();
+    if (file.name == "mission") text += modules_section(library) + shared_section(library) + nodes_section();
   }
   return text;
 }

@@ -13,7 +13,8 @@ using nlohmann::ordered_json;
 // The loader takes any scalar as text.
 const ordered_json kText = {{"type", {"string", "number", "boolean"}}};
 const std::string kDefinitions = "#/definitions/";
-const std::string kNamed = "named_";  // modules that a list gives names to
+const std::string kNamed = "named_";    // modules that a list gives names to
+const std::string kShared = "shared.";  // groups of settings that several modules have
 
 ordered_json reference_to(const std::string& definition) {
   return {{"$ref", kDefinitions + definition}};
@@ -44,6 +45,7 @@ ordered_json with_shorthand(const ordered_json& object, const std::vector<FieldS
                             const std::string& shorthand);
 
 ordered_json map_of(const FieldSpec& field) {
+  if (!field.shared.empty()) return reference_to(kShared + field.shared);
   if (field.fields.empty()) return {{"type", {"object", "null"}}};
   return with_shorthand(object_of(field.fields, field.one_of, false), field.fields, field.shorthand);
 }
@@ -55,7 +57,7 @@ ordered_json shape_of(const FieldSpec& field) {
   if (field.type == "number" || field.type == "integer") return bounded(field.type.c_str(), field.range);
   if (field.type == "flag") return {{"type", "boolean"}};
   if (field.type == "choice") return {{"enum", field.choices}};
-  if (field.type == "text" || field.type == "file") return kText;
+  if (field.type == "text" || field.type == "file" || field.type == "input" || field.type == "output") return kText;
   if (field.type == "point") return point;
   if (field.type == "list of points") return list_of(point);
   if (field.type == "place") return place;
@@ -179,7 +181,16 @@ void add_nodes(ordered_json& definitions, const ModuleLibrary& library) {
   definitions["child"] = {{"anyOf", {reference_to("node"), reference_to("nodes")}}};
 }
 
+void add_shared(ordered_json& definitions, const ModuleLibrary& library) {
+  for (const ModuleEntry& entry : library.entries())
+    for (const FieldSpec& field : entry.module->schema.fields)
+      if (!field.shared.empty())
+        definitions[kShared + field.shared] =
+            with_shorthand(object_of(field.fields, field.one_of, false), field.fields, field.shorthand);
+}
+
 void add_behaviours(ordered_json& definitions, const ModuleLibrary& library) {
+  add_shared(definitions, library);
   for (const ModuleEntry& entry : library.entries()) {
     const RegisteredModule& module = *entry.module;
     if (module.kind != PluginKind::behaviour) continue;

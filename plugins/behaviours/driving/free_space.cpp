@@ -4,23 +4,32 @@
 #include <cmath>
 #include <limits>
 
-#include "plugins/behaviours/driving/path_follower.hpp"
+#include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kPreferredRoom_m = 0.25;  // beyond the clearance; from there on a metre costs a metre
-constexpr double kTightCost = 1.5;         // extra cost of a metre with no room to spare
-constexpr double kTroubleCost = 20.0;
-constexpr double kTroubleRadius_m = 0.3;
 constexpr double kForbidden = 1e6;  // the step weight of cells that may not be crossed
 constexpr double kOutOfReach_m = 1e4;
-constexpr float kDearest = 1e5F;  // the start may lie where nothing may be crossed
-constexpr double kLongestEscape_m = 0.8;
-constexpr std::size_t kLongestShortcut_cells = 60;
+constexpr float kDearest = 1e5F;                             // the start may lie where nothing may be crossed
+constexpr double kShortcutCost = 1.02;                       // of what it replaces: rounding
 constexpr int kStraightFirst[8] = {1, 3, 4, 6, 0, 2, 5, 7};  // of kNeighbours
 
 }  // namespace
+
+void FreeSpaceSettings::describe(Fields<FreeSpaceSettings>& fields) {
+  using C = FreeSpaceSettings;
+  fields.number("preferred_room_m", &C::preferred_room_m, {0.01, 5.0}, "m",
+                "room beyond the clearance from which on a metre of path costs no more than its length");
+  fields.number("tight_cost", &C::tight_cost, {0.0, 1000.0}, "", "extra cost of a metre with no room to spare");
+  fields.number("avoided_cost", &C::avoided_cost, {0.0, 1e5}, "",
+                "extra cost of a metre where the robot was blocked a while ago");
+  fields.number("avoided_radius_m", &C::avoided_radius_m, {0.0, 5.0}, "m", "around such a place");
+  fields.number("longest_escape_m", &C::longest_escape_m, {0.0, 5.0}, "m",
+                "a robot that stands too near to something looks for room within this distance");
+  fields.integer("longest_shortcut_cells", &C::longest_shortcut_cells, {2.0, 10000.0},
+                 "straight pieces of paths replace at most so many cells");
+}
 
 CellLayer<CellState> FreeSpace::known_states(const OccupancyGrid& grid, const DistanceField& field, double radius_m,
                                              const std::vector<Pose2>& trace) {
@@ -52,10 +61,11 @@ CellLayer<float> FreeSpace::weights(const std::vector<TroubleSpot>& troubles) co
     for (int x = box().min.x; x < box().max.x; ++x) {
       const Cell c{x, y};
       if (states_.at(c) != CellState::free || field_.distance_m(c) < min_m_) continue;
-      const double missing_m = std::max(0.0, min_m_ + kPreferredRoom_m - field_.distance_m(c));
-      double weight = 1.0 + kTightCost * missing_m / kPreferredRoom_m;
+      const double missing_m = std::max(0.0, min_m_ + robot_.settings.preferred_room_m - field_.distance_m(c));
+      double weight = 1.0 + robot_.settings.tight_cost * missing_m / robot_.settings.preferred_room_m;
       for (const TroubleSpot& spot : troubles)
-        if ((centre_of(c) - spot.at_m).norm() < kTroubleRadius_m) weight += kTroubleCost;
+        if ((centre_of(c) - spot.at_m).norm() < robot_.settings.avoided_radius_m)
+          weight += robot_.settings.avoided_cost;
       all[c] = static_cast<float>(weight);
     }
   }
@@ -64,11 +74,11 @@ CellLayer<float> FreeSpace::weights(const std::vector<TroubleSpot>& troubles) co
 
 // Breadth first over cells that are not occupied, to the first one with enough room.
 std::vector<Point> FreeSpace::find_escape_path() const {
-  std::vector<Point> way{robot_.position};
+  std::vector<Point> path{robot_.position};
   const Cell start = cell_at(robot_.position);
-  if (!box().contains(start) || weights_.at(start) < kForbidden) return way;
+  if (!box().contains(start) || weights_.at(start) < kForbidden) return path;
 
-  const int reach = static_cast<int>(kLongestEscape_m / cell_m());
+  const int reach = static_cast<int>(robot_.settings.longest_escape_m / cell_m());
   const CellBox near = intersected(box(), CellBox{start, start + Cell{1, 1}}.grown(reach));
   CellLayer<std::int8_t> came_from(near, -1, -1);
   CellGroup queue{start};
@@ -76,9 +86,9 @@ std::vector<Point> FreeSpace::find_escape_path() const {
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const Cell here = queue[i];
     if (weights_.at(here) < kForbidden) {
-      for (Cell c = here; c != start; c = c + kNeighbours[7 - came_from.at(c)]) way.push_back(centre_of(c));
-      std::reverse(way.begin() + 1, way.end());
-      return way;
+      for (Cell c = here; c != start; c = c + kNeighbours[7 - came_from.at(c)]) path.push_back(centre_of(c));
+      std::reverse(path.begin() + 1, path.end());
+      return path;
     }
     for (const int k : kStraightFirst) {
       const Cell next = here + kNeighbours[k];
@@ -87,7 +97,7 @@ std::vector<Point> FreeSpace::find_escape_path() const {
       queue.push_back(next);
     }
   }
-  return way;
+  return path;
 }
 
 TravelField FreeSpace::travel_from_escape() const {
@@ -116,7 +126,7 @@ bool FreeSpace::reaches(Cell cell) const {
 
 double FreeSpace::cost_m(Cell cell) const {
   const double cost = travel_.cost_m(cell);
-  return cost < kOutOfReach_m && weights_.at(cell) < kForbidden ? cost + length_of(escape_path_)
+  return cost < kOutOfReach_m && weights_.at(cell) < kForbidden ? cost + motion::length_of(escape_path_)
                                                                 : std::numeric_limits<double>::infinity();
 }
 
@@ -139,9 +149,10 @@ std::vector<Point> FreeSpace::straightened(const std::vector<Cell>& cells) const
   path.push_back(centre_of(cells[0]));
   while (at + 1 < cells.size()) {
     std::size_t next = at + 1;
-    for (std::size_t i = at + 2; i < std::min(cells.size(), at + kLongestShortcut_cells); ++i) {
+    for (std::size_t i = at + 2;
+         i < std::min(cells.size(), at + static_cast<std::size_t>(robot_.settings.longest_shortcut_cells)); ++i) {
       const double saved_m = travel_.cost_m(cells[i]) - travel_.cost_m(cells[at]);
-      if (line_cost(path.back(), centre_of(cells[i])) <= 1.02 * saved_m) next = i;
+      if (line_cost(path.back(), centre_of(cells[i])) <= kShortcutCost * saved_m) next = i;
     }
     at = next;
     path.push_back(centre_of(cells[at]));
@@ -153,7 +164,7 @@ std::vector<Point> FreeSpace::path_to(Cell cell) const {
   if (!reaches(cell)) return {};
   std::vector<Point> path = escape_path_;
   const std::vector<Point> rest = straightened(travel_.path_to(cell));
-  // The first cell is the one that the way out ends in.
+  // The first cell is the one that the escape path ends in.
   path.insert(path.end(), rest.begin() + (rest.size() > 1 ? 1 : 0), rest.end());
   return path;
 }
@@ -181,11 +192,11 @@ bool path_is_blocked(const OccupancyGrid& grid, const std::vector<Point>& path, 
 bool path_is_blocked(const OccupancyGrid& space, const std::function<bool(Cell)>& is_occupied,
                      const std::vector<Point>& path, double along_m, double ahead_m, double radius_m) {
   if (path.empty()) return false;
-  const double end_m = std::min(along_m + ahead_m, length_of(path));
+  const double end_m = std::min(along_m + ahead_m, motion::length_of(path));
   const double radius_cells = radius_m / space.cell_m();
   const int reach = static_cast<int>(radius_cells);
   for (double s = along_m; s <= end_m; s += 2.0 * space.cell_m()) {
-    const Cell centre = space.cell_at(point_along(path, s));
+    const Cell centre = space.cell_at(motion::point_along(path, s));
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
         if (dx * dx + dy * dy > radius_cells * radius_cells) continue;

@@ -2,13 +2,14 @@
 //
 // A cell can be crossed when it is known free and its distance to every occupied cell is at least the
 // robot's radius plus the clearance. Paths prefer more room than that. Where the robot has stood is
-// free, whatever its sonars (which never look under it) have said.
-// A robot that stands nearer to something than the clearance first takes the shortest way out.
+// free, whatever its sonars (which never look under it) say.
+// A robot that stands nearer to something than the clearance first takes the shortest escape path.
 #pragma once
 
 #include <functional>
 #include <vector>
 
+#include "framework/config/fields.hpp"
 #include "maps/grid/distance_field.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/grid/travel_field.hpp"
@@ -16,16 +17,27 @@
 
 namespace cairn::behaviours {
 
-// Somewhere the robot was held back: paths avoid it where they can.
+// Somewhere the robot was blocked: paths avoid it where they can.
 struct TroubleSpot {
   Point at_m{0.0, 0.0};
   double until_s = 0.0;
+};
+
+struct FreeSpaceSettings {
+  double preferred_room_m = 0.25;
+  double tight_cost = 1.5;
+  double avoided_cost = 20.0;
+  double avoided_radius_m = 0.3;
+  double longest_escape_m = 0.8;
+  int longest_shortcut_cells = 60;
+  static void describe(Fields<FreeSpaceSettings>& fields);
 };
 
 struct RobotSpace {
   Point position{0.0, 0.0};
   double radius_m = 0.22;
   double clearance_m = 0.1;  // kept beyond the radius
+  FreeSpaceSettings settings{};
 };
 
 class FreeSpace {
@@ -45,7 +57,7 @@ class FreeSpace {
   [[nodiscard]] double radius_m() const { return robot_.radius_m; }
 
   [[nodiscard]] bool reaches(Cell cell) const;
-  // Length of the way, with dearer metres where there is little room; +inf when out of reach.
+  // Cost of the path: its length, with metres that cost more where there is little room; +inf when out of reach.
   [[nodiscard]] double cost_m(Cell cell) const;
   // Straightened; from the robot's position to the cell's centre. Empty when out of reach.
   [[nodiscard]] std::vector<Point> path_to(Cell cell) const;

@@ -8,28 +8,20 @@
 namespace cairn::behaviours {
 namespace {
 
-// What a metre costs, against one that is free.
-constexpr double kNarrow = 4.0;    // too near to something
-constexpr double kSeenOnce = 3.0;  // unknown, but an echo has come through
-constexpr double kUnknown = 15.0;
-constexpr double kOccupied = 20.0;
-constexpr double kSurelyOccupied = 60.0;  // besides, at the map's bound of certainty
-constexpr double kLookedAt = 12.0;        // less than a wall: a door is looked at twice before one
-constexpr double kLookedAround_m = 0.8;
-
-double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const std::vector<Point>& looked_at) {
+double price(Cell cell, const FreeSpace& space, const OccupancyGrid& grid, const std::vector<Point>& looked_at,
+             const LookoutCosts& costs) {
   double price = 1.0;
   if (space.state(cell) == CellState::occupied) {
     const double certainty = static_cast<double>(grid.log_odds(cell)) / std::max(1, grid.clamp_quanta());
-    price = kOccupied + kSurelyOccupied * std::clamp(certainty, 0.0, 1.0);
+    price = costs.occupied + costs.certainly_occupied * std::clamp(certainty, 0.0, 1.0);
   } else if (space.state(cell) == CellState::unknown) {
-    price = grid.log_odds(cell) < 0 ? kSeenOnce : kUnknown;
+    price = grid.log_odds(cell) < 0 ? costs.seen_once : costs.unknown;
   } else if (space.distance_m(cell) < space.min_distance_m()) {
-    price = kNarrow;
+    price = costs.narrow;
   }
   const Point at = space.centre_of(cell);
   for (const Point& seen : looked_at)
-    if ((seen - at).norm() < kLookedAround_m) price += kLookedAt;
+    if ((seen - at).norm() < costs.looked_at_radius_m) price += costs.looked_at;
   return price;
 }
 
@@ -51,24 +43,38 @@ Cell what_blocks(Cell cell, const FreeSpace& space) {
 
 }  // namespace
 
+void LookoutCosts::describe(Fields<LookoutCosts>& fields) {
+  using C = LookoutCosts;
+  const Range cost{0.0, 1e5};
+  fields.number("narrow", &C::narrow, cost, "", "cost of a metre too near to something; a free metre costs 1");
+  fields.number("seen_once", &C::seen_once, cost, "", "of a metre that is unknown, but an echo has come through");
+  fields.number("unknown", &C::unknown, cost, "", "of a metre that is unknown");
+  fields.number("occupied", &C::occupied, cost, "", "of a metre that is occupied");
+  fields.number("certainly_occupied", &C::certainly_occupied, cost, "",
+                "added to that where the map is as certain as it can be");
+  fields.number("looked_at", &C::looked_at, cost, "", "added near each place that was looked at");
+  fields.number("looked_at_radius_m", &C::looked_at_radius_m, {0.0, 10.0}, "m", "this near");
+}
+
 std::optional<LookoutRoute> lookout_route(const FreeSpace& space, const OccupancyGrid& grid, const Point& from,
-                                          const Point& to, const std::vector<Point>& looked_at, double stand_off_m) {
+                                          const Point& to, const std::vector<Point>& looked_at, double stand_off_m,
+                                          const LookoutCosts& costs) {
   const CellBox box = space.box();
   if (box.empty() || !box.contains(space.cell_at(from))) return std::nullopt;
-  const Cell beyond = space.cell_at(to);  // perhaps off the map: then the way there leads over its rim
+  const Cell beyond = space.cell_at(to);  // perhaps off the map: then the path there leads over its edge
   const Cell goal{std::clamp(beyond.x, box.min.x, box.max.x - 1), std::clamp(beyond.y, box.min.y, box.max.y - 1)};
   const std::size_t cells = static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
   const DistanceField everywhere(box, space.cell_m(), grid.origin_m(), std::vector<std::uint8_t>(cells, 1));
-  const TravelField travel(everywhere, from, 0.0, [&](Cell c) { return price(c, space, grid, looked_at); });
-  const std::vector<Cell> way = travel.path_to(goal);
+  const TravelField travel(everywhere, from, 0.0, [&](Cell c) { return price(c, space, grid, looked_at, costs); });
+  const std::vector<Cell> path = travel.path_to(goal);
   const auto occupied =
-      std::find_if(way.begin(), way.end(), [&](Cell c) { return space.state(c) == CellState::occupied; });
+      std::find_if(path.begin(), path.end(), [&](Cell c) { return space.state(c) == CellState::occupied; });
   const auto closed =
-      std::find_if(way.begin(), way.end(), [&](Cell c) { return !space.reaches(c) && c != way.front(); });
-  const auto in_the_way = occupied != way.end() ? occupied : closed;
-  if (in_the_way == way.end()) return std::nullopt;
-  LookoutRoute look{space.centre_of(what_blocks(*in_the_way, space)), {from}};
-  for (auto c = in_the_way; c != way.begin(); --c) {
+      std::find_if(path.begin(), path.end(), [&](Cell c) { return !space.reaches(c) && c != path.front(); });
+  const auto blocked = occupied != path.end() ? occupied : closed;
+  if (blocked == path.end()) return std::nullopt;
+  LookoutRoute look{space.centre_of(what_blocks(*blocked, space)), {from}};
+  for (auto c = blocked; c != path.begin(); --c) {
     if (!space.reaches(*c) || (space.centre_of(*c) - look.at).norm() < stand_off_m) continue;
     look.path = space.path_to(*c);
     break;

@@ -8,17 +8,30 @@
 
 #include <vector>
 
+#include "framework/config/fields.hpp"
 #include "framework/contracts/observation.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn::behaviours {
 
-inline constexpr int kMaxSensors = 4096;  // an index beyond it is an error of the source, not a transducer
+struct NearEchoSettings {
+  double within_m = 1.0;
+  double moved_m = 0.02;
+  double turned_rad = radians(3.0);
+  int rays = 5;
+  int hit = 100;
+  int passed = -50;
+  int solid_at = 160;
+  int free_at = -280;
+  int stood = -400;
+  double clamp_nat = 1.6;
+  static void describe(Fields<NearEchoSettings>& fields);
+};
 
 class NearEchoes {
  public:
   // Cells as those of the map.
-  explicit NearEchoes(const OccupancyGrid& map);
+  explicit NearEchoes(const OccupancyGrid& map, const NearEchoSettings& settings = {});
 
   // A reading counts when its transducer has moved since the last one that did.
   void see(const Observation& observation, const Pose2& T_map_robot);
@@ -37,6 +50,10 @@ class NearEchoes {
  private:
   void vote(const RangeReading& reading, const Pose2& T_map_sensor);
 
+  [[nodiscard]] bool is_usable(const RangeReading& reading) const;
+  [[nodiscard]] bool has_moved(const Pose2& a, const Pose2& b) const;
+
+  NearEchoSettings settings_;
   OccupancyGrid votes_;
   std::vector<Pose2> last_voted_;  // T_map_sensor, by transducer
 };

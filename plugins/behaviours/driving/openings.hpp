@@ -11,22 +11,35 @@
 
 namespace cairn::behaviours {
 
+struct OpeningSettings {
+  double room_behind_m2 = 1.0;
+  double room_out_of_reach_m2 = 0.5;
+  double room_to_drive_m2 = 0.2;
+  double room_weight = 4.0;
+  double roomy_m = 0.8;
+  double same_m = 0.5;
+  static void describe(Fields<OpeningSettings>& fields);
+};
+
 struct Opening {
-  Point at_m{0.0, 0.0};  // where the way gets too narrow
+  Point at_m{0.0, 0.0};  // where the path gets too narrow
   Cell lookout;          // in front of it, in reach
 };
 
-// The cheapest one to get to. squeezed is the same space for a slimmer robot. seen: not within 0.5 m of these.
-[[nodiscard]] std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& squeezed,
-                                                     const std::vector<Point>& seen);
+// The cheapest one to get to. narrow is the same space for a slimmer robot. seen: not within same_m of these.
+[[nodiscard]] std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& narrow,
+                                                     const std::vector<Point>& seen,
+                                                     const OpeningSettings& settings = {});
 
 // Whether a robot that keeps less room, in the same space, gets to where there is room again.
-[[nodiscard]] bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter);
+[[nodiscard]] bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter,
+                                    const OpeningSettings& settings = {});
 
-// A near and roomy place of the largest room that is free but out of reach; none when each has less than 0.5 m2 for the
-// robot's centre or is within 0.5 m of a place that is done with. A door that is closed now is shut before it, or a
-// beam drawn across one.
+// A near and roomy place of the largest room that is free but out of reach; none when each has less than
+// room_out_of_reach_m2 for the robot's centre or is within same_m of a place that is done with. A door that is closed
+// now is shut before it, or a beam drawn across one.
 [[nodiscard]] std::optional<Point> room_out_of_reach(const FreeSpace& space, const Point& from,
-                                                     const std::vector<Point>& done);
+                                                     const std::vector<Point>& done,
+                                                     const OpeningSettings& settings = {});
 
 }  // namespace cairn::behaviours

@@ -1,4 +1,5 @@
-// Near echoes of the last 15 to 30 s: somebody who has gone on leaves some that no later one takes away.
+// Near echoes of the last 15 to 30 s (once to twice kept_s): somebody who has left leaves some that no later one
+// takes away.
 #pragma once
 
 #include <optional>
@@ -8,8 +9,15 @@
 
 namespace cairn::behaviours {
 
+struct RecentEchoSettings {
+  double kept_s = 15.0;
+  NearEchoSettings near;
+  static void describe(Fields<RecentEchoSettings>& fields);
+};
+
 class RecentEchoes {
  public:
+  explicit RecentEchoes(const RecentEchoSettings& settings = {}) : settings_(settings) {}
   // Every tick.
   void see(const WorldView& world);
   // All but where the robot stands.
@@ -20,6 +28,7 @@ class RecentEchoes {
  private:
   void add(const WorldView& world);
 
+  RecentEchoSettings settings_;
   std::optional<NearEchoes> now_;
   std::optional<NearEchoes> later_;  // will be now_
   double since_s_ = 0.0;

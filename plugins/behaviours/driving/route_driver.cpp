@@ -5,132 +5,94 @@
 #include "plugins/behaviours/errands/place_name.hpp"
 
 namespace cairn::behaviours {
-namespace {
-
-constexpr double kOwnPlansApart_s = 3.0;  // they cost more
-constexpr double kBlockedAhead_m = 1.0;
-constexpr double kAsideAtMost_s = 30.0;  // a car may circle round where it wants to stand
-constexpr double kToLookAtMost_s = 120.0;
-constexpr double kEscapeTolerance_m = 0.02;
-constexpr std::size_t kMaxTrace = 400;
-// What is doubted is gone near at a speed at which touching it would do no harm.
-constexpr double kDoubtNear_m = 0.25;
-constexpr double kDoubtful_mps = 0.05;
-constexpr double kFaceGoal_rad = radians(3.0);
-constexpr double kFaceAtMost_s = 15.0;
-
-}  // namespace
 
 RouteDriver::RouteDriver(const RouteSettings& settings, std::uint64_t seed)
-    : settings_(settings), seed_(seed), watch_(settings.patience_s) {}
+    : settings_(settings),
+      seed_(seed),
+      map_(settings.driving.local_map),
+      follower_({settings.speed_mps, settings.tolerance_m}, settings.driving.follow, settings.driving.obstacles,
+                ProgressChecker(settings.patience_s, settings.driving.progress)),
+      requests_(settings.driving.planning, seed),
+      local_planning_(settings.driving.optimism),
+      look_(settings.driving.look),
+      ladder_(settings.driving.recovery, settings.rounds),
+      back_up_(settings.driving.recovery.back_up),
+      turn_round_(settings.driving.recovery.turn) {}
 
 void RouteDriver::restart() {
   *this = RouteDriver(settings_, seed_);
 }
 
-Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourContext& orders) {
+Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourContext& context) {
   goal_ = goal;
-  remember(world);
+  map_.see(world);
+  requests_.tick(world.time_s);
+  follower_.see(world, map_);
   switch (mode_) {
     case Mode::plan:
-      return plan(world, orders);
+      return plan(world, context);
     case Mode::travel:
-      return travel(world, orders);
+      return travel(world, context);
     case Mode::back_up:
-      return back_up(world, orders);
+      return back_up(world, context);
     case Mode::turn:
-      return turn(world, orders);
+      return turn(world, context);
     case Mode::look:
-      return look(world, orders);
+      return look(world, context);
     case Mode::face:
       break;
   }
-  return face(world, orders);
-}
-
-void RouteDriver::remember(const WorldView& world) {
-  const Pose2& pose = world.pose.T_map_robot;
-  echoes_.see(world);
-  if (trace_.empty() || (trace_.back().position() - pose.position()).norm() > kTraceSpacing_m) trace_.push_back(pose);
-  if (trace_.size() > kMaxTrace) trace_.erase(trace_.begin());
-  for (std::vector<TroubleSpot>* spots : {&troubles_, &shut_})
-    std::erase_if(*spots, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
-  std::erase_if(closed_until_s_, [&](const auto& closed) { return closed.second < world.time_s; });
-  local_.see(world, echoes_.now(), doubted_);
+  return face(world, context);
 }
 
 void RouteDriver::set_mode(Mode mode, double time_s) {
   mode_ = mode;
   mode_since_s_ = time_s;
-  preferred_ = {};
-  watch_.restart();
+  follower_.restart_progress();
 }
 
-// Something has turned up on the path: another one, if there is.
-void RouteDriver::plan_past(const WorldView& world, BehaviourContext& orders) {
-  if (own_trust_) {
-    if (world.time_s - planned_s_ < kOwnPlansApart_s) return;
-    planned_s_ = world.time_s;
-    (void)plan_by_own_eyes(world, *own_trust_);  // without one it goes on: what is there the live echoes tell
-    return;
+Status RouteDriver::travel(const WorldView& world, BehaviourContext& context) {
+  const Leg leg = follower_.leg();
+  const bool looks_at_end = leg == Leg::aside || leg == Leg::to_look;
+  const double at_most_s =
+      leg == Leg::aside ? settings_.driving.recovery.yield.drive_at_most_s : settings_.driving.look.drive_at_most_s;
+  if (looks_at_end && world.time_s - mode_since_s_ > at_most_s) return begin_look_from_here(world, context);
+  if (follower_.is_stuck(world))
+    return leg == Leg::aside ? begin_look_from_here(world, context) : recover(world, context);
+  if (follower_.is_path_blocked(world, map_) && requests_.may_plan(world.time_s)) {
+    if (looks_at_end) return begin_look_from_here(world, context);
+    plan_past(world, context);
   }
-  const PlanResult result = ask_planner(world, orders);
-  if (result.outcome == PlanOutcome::solved) take_route(result, world);
-}
-
-Status RouteDriver::travel(const WorldView& world, BehaviourContext& orders) {
-  const Pose2& pose = world.pose.T_map_robot;
-  const bool is_late = world.time_s - mode_since_s_ > (leg_ == Leg::aside ? kAsideAtMost_s : kToLookAtMost_s);
-  if ((leg_ == Leg::aside || leg_ == Leg::to_look) && is_late) return begin_look_from_here(world, orders);
-  if (watch_.is_stuck(world, preferred_))
-    return leg_ == Leg::aside ? begin_look_from_here(world, orders) : progress_checker(world, orders);
-  // One cell less than the planner's disc, so that the two never disagree about the same map.
-  const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
-  const bool blocked =
-      leg_ != Leg::escape_path && is_blocked(world, path_, follow_state_.along_m, kBlockedAhead_m, margin_m);
-  if (blocked && world.time_s - planned_s_ >= kPlansApart_s) {
-    if (leg_ == Leg::to_look || leg_ == Leg::aside) return begin_look_from_here(world, orders);
-    plan_past(world, orders);
-  }
-  FollowLimits limits = follow_limits(world.robot, settings_.speed_mps);
-  const bool doubts_here = std::ranges::any_of(doubted_places_, [&](const Point& p) {
-    return (p - pose.position()).norm() < kDoubtNear_m + world.robot.radius_m;
-  });
-  if (doubts_here) limits.speed_mps = std::min(limits.speed_mps, kDoubtful_mps);
-  limits.arrive_m = leg_ == Leg::escape_path ? kEscapeTolerance_m : settings_.tolerance_m;
-  const FollowStep step = follow(pose, path_, follow_state_, limits);
-  follow_state_ = step.state;
-  if (step.arrived) return arrive(world, orders);
-  preferred_ = step.wanted;
-  const Point aim = point_along(path_, step.state.along_m + limits.lookahead_m);
-  orders.drive(leg_ == Leg::escape_path ? local_.approach(preferred_, world)
-                                        : local_.steer(preferred_, aim, limits.speed_mps, world));
-  if (local_.is_blocked()) {
-    if (!said_wait_) orders.say("waits: something is in the way at " + described(pose.position()));
+  const ControlResult step = follower_.step(world, map_, context);
+  if (step.state == ControlState::arrived) return arrive(world, context);
+  if (step.state == ControlState::blocked) {
+    if (!said_wait_) context.say("waits: blocked at " + described(world.pose.T_map_robot.position()));
     said_wait_ = true;
-    return {Progress::running, "waiting for the way to be free"};
+    return {Progress::running, "waiting until the path is free"};
   }
-  if (leg_ != Leg::route) return {Progress::running, "under way"};
-  return {Progress::running, "under way", step.left_m / limits.speed_mps};
+  if (follower_.leg() != Leg::route) return {Progress::running, "under way"};
+  return {Progress::running, "under way", follower_.left_s(step, world)};
 }
 
-Status RouteDriver::arrive(const WorldView& world, BehaviourContext& orders) {
-  if (leg_ == Leg::escape_path) {
+Status RouteDriver::arrive(const WorldView& world, BehaviourContext& context) {
+  if (follower_.leg() == Leg::escape) {
     set_mode(Mode::plan, world.time_s);
-    return {Progress::running, "has made room"};
+    return {Progress::running, "has left the tight place"};
   }
-  if (leg_ == Leg::to_look || leg_ == Leg::aside) return begin_look_from_here(world, orders);
+  if (follower_.leg() != Leg::route) return begin_look_from_here(world, context);
   set_mode(Mode::face, world.time_s);
-  return face(world, orders);
+  return face(world, context);
 }
 
-Status RouteDriver::face(const WorldView& world, BehaviourContext& orders) {
+Status RouteDriver::face(const WorldView& world, BehaviourContext& context) {
+  const FaceSettings& face = settings_.driving.face;
+  const motion::TurnSettings& turn = settings_.driving.turn;
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
   const double error_rad =
       goal_.pose && goal_.heading_matters ? wrap_angle(goal_.pose->theta_rad - world.pose.T_map_robot.theta_rad) : 0.0;
-  if (!can_turn || std::abs(error_rad) <= kFaceGoal_rad || world.time_s - mode_since_s_ > kFaceAtMost_s)
+  if (!can_turn || std::abs(error_rad) <= face.faced_rad || world.time_s - mode_since_s_ > face.at_most_s)
     return {Progress::success, "there"};
-  orders.drive(local_.approach(turn_by(error_rad, follow_limits(world.robot, settings_.speed_mps).max_w_radps), world));
+  follower_.drive_towards(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   return {Progress::running, "turning to its heading"};
 }
 

@@ -13,7 +13,13 @@ bool is_at_rim(Cell c, const CellBox& box) {
 
 }  // namespace
 
-std::vector<Cell> speckles_of(const OccupancyGrid& grid, const CellBox& box, int max_occupied, int max_cells) {
+void SpeckleSettings::describe(Fields<SpeckleSettings>& fields) {
+  fields.integer("max_occupied_cells", &SpeckleSettings::max_occupied_cells, {0.0, 1e6},
+                 "an isolated group with at most so many occupied cells is a speckle, left by somebody who passed");
+  fields.integer("max_cells", &SpeckleSettings::max_cells, {0.0, 1e6}, "and with at most so many cells in all");
+}
+
+std::vector<Cell> speckles_of(const OccupancyGrid& grid, const CellBox& box, const SpeckleSettings& settings) {
   CellLayer<std::uint8_t> seen(box, 0, 1);
   std::vector<Cell> speckles;
   std::vector<Cell> group;
@@ -35,7 +41,7 @@ std::vector<Cell> speckles_of(const OccupancyGrid& grid, const CellBox& box, int
           group.push_back(next);
         }
       }
-      if (!is_open && occupied <= max_occupied && static_cast<int>(group.size()) <= max_cells)
+      if (!is_open && occupied <= settings.max_occupied_cells && static_cast<int>(group.size()) <= settings.max_cells)
         speckles.insert(speckles.end(), group.begin(), group.end());
     }
   }

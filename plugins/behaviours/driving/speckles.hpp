@@ -3,13 +3,20 @@
 
 #include <vector>
 
+#include "framework/config/fields.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn::behaviours {
 
+struct SpeckleSettings {
+  int max_occupied_cells = 4;
+  int max_cells = 80;
+  static void describe(Fields<SpeckleSettings>& fields);
+};
+
 // The cells of those groups (8 neighbours) of unknown and occupied cells in the box which hold few occupied cells
-// (at most max_occupied) and few at all (at most max_cells); groups that touch the box's rim are none. In order.
-[[nodiscard]] std::vector<Cell> speckles_of(const OccupancyGrid& grid, const CellBox& box, int max_occupied = 4,
-                                            int max_cells = 80);
+// and few at all; groups that touch the box's rim are none. In order.
+[[nodiscard]] std::vector<Cell> speckles_of(const OccupancyGrid& grid, const CellBox& box,
+                                            const SpeckleSettings& settings = {});
 
 }  // namespace cairn::behaviours

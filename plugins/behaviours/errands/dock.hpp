@@ -1,14 +1,15 @@
-// Docks beside a landmark: plans to a standing place on the wanted side, then approaches straight and slowly by the
+// Docks beside a landmark: plans to an approach pose on the wanted side, then approaches straight and slowly by the
 // latest echoes, and stops at a distance between the robot's footprint and the landmark's outline.
 //
 // Where no echo of the landmark comes back, its outline is taken from the map. Honest failures: the side is blocked,
-// the standing place cannot be reached, something stands between, the robot is held back.
+// the approach pose cannot be reached, something stands between, the robot is blocked.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
@@ -16,6 +17,37 @@
 #include "plugins/behaviours/driving/route_driver.hpp"
 
 namespace cairn::behaviours {
+
+struct OutlineSettings {
+  double farthest_m = 1.2;
+  double behind_m = 0.2;
+  double usual_m = 0.2;
+  static void describe(Fields<OutlineSettings>& fields);
+};
+
+struct ApproachSettings {
+  double straight_rad = radians(20.0);
+  double same_rad = radians(1.0);
+  int echoes = 7;
+  int min_echoes = 3;
+  double past_m = 0.05;
+  double before_m = 0.25;
+  double beside_m = 0.3;
+  int max_again = 3;
+  double settle_s = 1.0;
+  double min_mps = 0.02;
+  double gain_per_s = 0.8;
+  double turn_first_rad = radians(12.0);
+  double max_correction_rad = radians(20.0);
+  double correction_rad_per_m = 2.5;
+  double correct_until_m = 0.1;
+  double faced_rad = radians(3.0);
+  double turn_gain_per_s = 1.5;
+  double max_turn_radps = radians(40.0);
+  double final_turn_radps = radians(45.0);
+  double room_to_turn_m = 0.02;
+  static void describe(Fields<ApproachSettings>& fields);
+};
 
 struct DockConfig : RouteSettings {
   enum class Facing { landmark, away };
@@ -28,19 +60,22 @@ struct DockConfig : RouteSettings {
   double dock_tolerance_m = 0.03;
   double approach_mps = 0.1;
   double at_most_s = 300.0;
+  std::vector<double> run_ups_m{0.5, 0.35, 0.25, 0.15};  // from the approach pose to the dock
+  OutlineSettings outline;
+  ApproachSettings approach;
   static void describe(Fields<DockConfig>& fields);
 };
 
 // How far a landmark's outline is from its centre in a direction of the map, as the grid has it; none: nothing occupied
-// within 1.2 m there.
-[[nodiscard]] std::optional<double> outline_distance_m(const OccupancyGrid& grid, const Point& centre,
-                                                       double angle_rad);
+// within settings.farthest_m there.
+[[nodiscard]] std::optional<double> outline_distance_m(const OccupancyGrid& grid, const Point& centre, double angle_rad,
+                                                       const OutlineSettings& settings = {});
 
 class Dock : public Behaviour {
  public:
   // Throws ConfigError on both or neither of side and side_deg, and a side that is none.
   Dock(const DockConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
 
  private:
@@ -55,12 +90,12 @@ class Dock : public Behaviour {
     [[nodiscard]] double aside_m(const Point& p) const;  // to the left of who looks outward
   };
   [[nodiscard]] Axis axis(const Landmark& landmark) const;
-  Status begin(const WorldView& world, BehaviourContext& orders);
+  Status begin(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] bool choose_stand(const WorldView& world, const Landmark& landmark);
-  Status drive(const WorldView& world, BehaviourContext& orders);
-  Status approach(const WorldView& world, BehaviourContext& orders, const Landmark& landmark);
+  Status drive(const WorldView& world, BehaviourContext& context);
+  Status approach(const WorldView& world, BehaviourContext& context, const Landmark& landmark);
   Status go_again(const WorldView& world, const Landmark& landmark);
-  Status turn(const WorldView& world, BehaviourContext& orders, const Landmark& landmark);
+  Status turn(const WorldView& world, BehaviourContext& context, const Landmark& landmark);
   void see(const WorldView& world, const Axis& axis, double mapped_m);
   [[nodiscard]] double outline_m(double mapped_m) const;
   [[nodiscard]] double wanted_m(const RobotModel& robot) const;
@@ -71,7 +106,7 @@ class Dock : public Behaviour {
   std::string name_;
   double side_rad_ = 0.0;
   RouteDriver driver_;
-  ProgressChecker watch_;
+  ProgressChecker progress_;
   Mode mode_ = Mode::drive;
   std::optional<double> begun_s_;
   LandmarkId landmark_ = 0;

@@ -4,12 +4,11 @@
 #include <cstdio>
 
 #include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kFacePose_rad = radians(3.0);
-constexpr double kFacePoseAtMost_s = 15.0;
 constexpr std::size_t kMaxNamed = 12;
 const std::string kNearest = "nearest ";
 
@@ -41,8 +40,9 @@ NamedLandmarks nearest_of(const std::string& category, const LandmarkGraph& grap
 void GoToConfig::describe(Fields<GoToConfig>& fields) {
   using C = GoToConfig;
   fields.raw("landmark", &C::landmark, "text",
-             "where to go: a landmark's id (L3) or name, or `nearest CATEGORY`; this or at_m");
+             "where to go: a landmark's id (L3) or name, or `nearest CATEGORY`; this, at_m or input");
   fields.point("at_m", &C::at_m, "m", "where to go: a place of the map");
+  fields.input("input", &C::input, "where to go: the place that an earlier step gives by `output` under this name");
   fields.angle("angle_deg", &C::angle_rad, {-360.0, 360.0},
                "heading at the end; without it the robot faces the landmark");
   RouteSettings::describe_route(fields);
@@ -64,9 +64,12 @@ GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed
     throw ConfigError(config.landmark.place, "goto: landmark must be text; a place is written `{at_m: [x, y]}`");
   if (names_landmark && config.at_m)
     throw ConfigError(config.landmark.place, "goto: landmark and at_m exclude each other");
-  if (!names_landmark && !config.at_m)
+  if (!config.input.empty() && (names_landmark || config.at_m))
+    throw ConfigError(config.landmark.place, "goto: input takes the place of landmark and at_m; give one of them");
+  if (!names_landmark && !config.at_m && config.input.empty())
     throw ConfigError(config.landmark.place,
-                      "goto: needs a landmark (`landmark: nearest square`) or a place (`at_m: [x, y]`)");
+                      "goto: needs a landmark (`landmark: nearest square`), a place (`at_m: [x, y]`) or the place that "
+                      "an earlier step gives (`input: NAME`)");
   if (names_landmark) landmark_name_ = to_landmark_name(config.landmark, "landmark");
 }
 
@@ -74,60 +77,71 @@ void GoTo::halt() {
   *this = GoTo(config_, seed_);
 }
 
-Status GoTo::tick(const WorldView& world, BehaviourContext& orders) {
+Status GoTo::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
     return {Progress::failure, "time is up on the way to " + destination(world)};
-  return facing_since_s_ ? face(world, orders) : drive_there(world, orders);
+  return facing_since_s_ ? face(world, context) : drive_there(world, context);
 }
 
-Place GoTo::goal_of(const NamedLandmarks& named) const {
-  Place goal;
+GoTo::FoundGoal GoTo::find_goal(const WorldView& world, BehaviourContext& context) const {
+  FoundGoal found;
   if (config_.at_m) {
-    goal.pose = Pose2{config_.at_m->x(), config_.at_m->y(), config_.angle_rad.value_or(0.0)};
-    goal.heading_matters = config_.angle_rad.has_value();
+    found.goal.pose = Pose2{config_.at_m->x(), config_.at_m->y(), config_.angle_rad.value_or(0.0)};
+    found.goal.heading_matters = config_.angle_rad.has_value();
+  } else if (!config_.input.empty()) {
+    const std::optional<Place> given = context.input(config_.input);
+    if (!given) return {{}, "no step has given the place \"" + config_.input + "\" yet"};
+    found.goal = *given;
+    if (names_retired(found.goal, world.graph))
+      found.unknown = "of the place \"" + config_.input + "\": " + lost(found.goal.landmarks.front(), world.graph);
+  } else {
+    NamedLandmarks named = landmarks_named(landmark_name_, world.graph);
+    found.goal.landmarks = std::move(named.ids);
+    found.unknown = std::move(named.unknown);
   }
-  goal.landmarks = named.ids;
-  return goal;
+  return found;
 }
 
-Status GoTo::drive_there(const WorldView& world, BehaviourContext& orders) {
+Status GoTo::drive_there(const WorldView& world, BehaviourContext& context) {
   if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
   if (!goal_) {
     driver_.restart();
-    NamedLandmarks named;
-    if (!config_.at_m) named = landmarks_named(landmark_name_, world.graph);
-    if (!named.unknown.empty()) return {Progress::failure, named.unknown};
-    goal_ = goal_of(named);
+    FoundGoal found = find_goal(world, context);
+    if (!found.unknown.empty()) return {Progress::failure, found.unknown};
+    goal_ = std::move(found.goal);
   }
-  const Status status = driver_.tick(*goal_, world, orders);
+  const Status status = driver_.tick(*goal_, world, context);
   if (status.progress == Progress::running)
     return {Progress::running, status.reason + ", to " + destination(world), status.left_s};
   if (status.progress == Progress::failure)
     return {Progress::failure, status.reason + "; on the way to " + destination(world)};
   facing_since_s_ = world.time_s;
-  return face(world, orders);
+  return face(world, context);
 }
 
-Status GoTo::face(const WorldView& world, BehaviourContext& orders) {
+Status GoTo::face(const WorldView& world, BehaviourContext& context) {
   const Pose2& pose = world.pose.T_map_robot;
   const Landmark* landmark = world.graph.find(driver_.goal_landmark());
   double error_rad = 0.0;
   if (config_.angle_rad) {
     error_rad = wrap_angle(*config_.angle_rad - pose.theta_rad);
   } else if (landmark != nullptr) {
-    error_rad = heading_error(pose, landmark->T_map_landmark.position());
+    error_rad = motion::heading_error(pose, landmark->T_map_landmark.position());
   }
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
-  if (!can_turn || std::abs(error_rad) <= kFacePose_rad || world.time_s - *facing_since_s_ > kFacePoseAtMost_s)
+  if (!can_turn || std::abs(error_rad) <= config_.driving.face.faced_rad ||
+      world.time_s - *facing_since_s_ > config_.driving.face.at_most_s)
     return {Progress::success, "at " + destination(world)};
-  orders.drive(turn_by(error_rad, follow_limits(world.robot, config_.speed_mps).max_w_radps));
+  const motion::TurnSettings& turn = config_.driving.turn;
+  context.drive(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn));
   return {Progress::running, "turning to " + destination(world)};
 }
 
 std::string GoTo::destination(const WorldView& world) const {
   if (const Landmark* landmark = world.graph.find(driver_.goal_landmark()))
     return label_of(*landmark) + (landmark->category.empty() ? "" : " (" + landmark->category + ")");
+  if (!config_.input.empty()) return "the place \"" + config_.input + "\"";
   if (!config_.at_m) return landmark_name_;
   char text[64];
   std::snprintf(text, sizeof text, "(%.2f, %.2f)", config_.at_m->x(), config_.at_m->y());

@@ -17,6 +17,7 @@ struct GoToConfig : RouteSettings {
   ConfigValue landmark;  // text: `L3`, a name, or `nearest CATEGORY`
   std::optional<Point> at_m;
   std::optional<double> angle_rad;
+  std::string input;  // a place that an earlier step gives
   double at_most_s = 900.0;
 
   static void describe(Fields<GoToConfig>& fields);
@@ -31,16 +32,21 @@ struct NamedLandmarks {
 
 class GoTo : public Behaviour {
  public:
-  // Throws ConfigError unless exactly one of landmark and at_m is given.
+  // Throws ConfigError unless exactly one of landmark, at_m and input is given.
   GoTo(const GoToConfig& config, std::uint64_t seed);
 
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
 
  private:
-  Status drive_there(const WorldView& world, BehaviourContext& orders);
-  Status face(const WorldView& world, BehaviourContext& orders);
-  [[nodiscard]] Place goal_of(const NamedLandmarks& named) const;
+  Status drive_there(const WorldView& world, BehaviourContext& context);
+  Status face(const WorldView& world, BehaviourContext& context);
+  // The goal; why there is none.
+  struct FoundGoal {
+    Place goal;
+    std::string unknown;
+  };
+  [[nodiscard]] FoundGoal find_goal(const WorldView& world, BehaviourContext& context) const;
   [[nodiscard]] std::string destination(const WorldView& world) const;
 
   GoToConfig config_;

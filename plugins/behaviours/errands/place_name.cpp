@@ -57,13 +57,13 @@ std::string described(const Point& at_m) {
   return text;
 }
 
-LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& world, BehaviourContext& orders) {
+LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& world, BehaviourContext& context) {
   if (ids.size() == 1) return ids.front();
   PlanRequest request;
   request.from.pose = world.pose.T_map_robot;
   request.to.landmarks = ids;
   request.radius_m = world.robot.radius_m;
-  const PlanResult result = orders.plan(request);
+  const PlanResult result = context.plan(request);
   const bool is_one = !result.landmarks.empty() && std::ranges::find(ids, result.landmarks.back()) != ids.end();
   if (result.outcome == PlanOutcome::solved && is_one) return result.landmarks.back();
   const auto distance_m = [&](LandmarkId id) {
@@ -73,10 +73,10 @@ LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& worl
   return *std::ranges::min_element(ids, {}, distance_m);
 }
 
-ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, BehaviourContext& orders) {
+ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, BehaviourContext& context) {
   const NamedLandmarks named = landmarks_named(name, world.graph);
   if (!named.unknown.empty()) return {0, named.unknown};
-  return {cheapest_of(named.ids, world, orders), ""};
+  return {cheapest_of(named.ids, world, context), ""};
 }
 
 std::string lost(LandmarkId id, const LandmarkGraph& graph) {

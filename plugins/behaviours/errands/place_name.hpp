@@ -34,17 +34,18 @@ struct FoundPlace {
 [[nodiscard]] std::string described(const Landmark& landmark);
 [[nodiscard]] std::string described(const Point& at_m);
 
-// The one of some landmarks that the mission's planner finds the cheapest to get to; where it finds a way to none, the
+// The one of some landmarks that the mission's planner finds the cheapest to get to; where it finds a path to none, the
 // nearest one. ids must not be empty and be known to the graph.
 [[nodiscard]] LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& world,
-                                     BehaviourContext& orders);
+                                     BehaviourContext& context);
 
 // The landmark that a behaviour is about, chosen once; the reason when there is none.
 struct ChosenLandmark {
   LandmarkId id = 0;
   std::string unknown;
 };
-[[nodiscard]] ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, BehaviourContext& orders);
+[[nodiscard]] ChosenLandmark choose_landmark(const std::string& name, const WorldView& world,
+                                             BehaviourContext& context);
 // Why a landmark that was chosen is not known any more.
 [[nodiscard]] std::string lost(LandmarkId id, const LandmarkGraph& graph);
 

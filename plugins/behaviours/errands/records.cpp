@@ -69,19 +69,19 @@ CaptureTemplate::CaptureTemplate(const CaptureTemplateConfig& config)
   check_category(category_, config.name.place);
 }
 
-Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& orders) {
+Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& context) {
   const FoundPlace found = find_place(at_, world.graph);
   if (!found.unknown.empty()) return {Progress::failure, found.unknown};
   Point at;
   if (found.place.pose)
     at = found.place.pose->position();
   else
-    at = world.graph.find(cheapest_of(found.place.landmarks, world, orders))->T_map_landmark.position();
+    at = world.graph.find(cheapest_of(found.place.landmarks, world, context))->T_map_landmark.position();
   try {
     const CapturedOutline captured = captured_outline(world.grid, at, radius_m_);
     const std::string text = template_text(category_, captured, "a mission's map");
     (void)parse_landmark_shape(text, file_name_);
-    const Status written = orders.write({file_name_, text});
+    const Status written = context.write({file_name_, text});
     if (written.progress != Progress::success) return written;
     return {Progress::success,
             written.reason + ": " + category_ + ", " + number("%.2f m across", captured.contour.outer_diameter_m())};
@@ -98,10 +98,10 @@ void PlanQueryConfig::describe(Fields<PlanQueryConfig>& fields) {
   fields.raw("via", &C::via, "list of texts", "places to pass, in this order");
   fields.texts("avoid", &C::avoid, "landmarks and clusters that are not passed");
   fields.texts("closed", &C::closed, "routes that are not taken: 12 or R12");
-  fields.integer("alternatives", &C::alternatives, {0.0, 1000.0}, "so many more ways; not with via");
+  fields.integer("alternatives", &C::alternatives, {0.0, 1000.0}, "so many more routes; not with via");
   fields.choice("cost", &C::cost,
                 {{"length", C::Cost::length}, {"time", C::Cost::time}, {"clearance", C::Cost::clearance}},
-                "what a good way has little (length, time) or much of");
+                "what a good route has little (length, time) or much of");
   fields.flag("explain", &C::explain, "how the answer came about");
   fields.raw("file", &C::file, "text", "its name in the output folder, NAME.jsonl").default_text = "answers.jsonl";
   fields.shorthand("to");
@@ -125,8 +125,8 @@ PlanQuery::PlanQuery(const PlanQueryConfig& config)
     throw ConfigError(config.to.place, "plan_query: alternatives are known from place to place, not for a tour");
 }
 
-Status PlanQuery::tick(const WorldView&, BehaviourContext& orders) {
-  const Status status = orders.answer(question_, file_name_);
+Status PlanQuery::tick(const WorldView&, BehaviourContext& context) {
+  const Status status = context.answer(question_, file_name_);
   return {status.progress, question_.from + " -> " + question_.to + ": " + status.reason};
 }
 
@@ -169,10 +169,10 @@ Log::Log(const LogConfig& config) {
   segments_.push_back({plain, false});
 }
 
-Status Log::tick(const WorldView& world, BehaviourContext& orders) {
+Status Log::tick(const WorldView& world, BehaviourContext& context) {
   std::string line;
   for (const Piece& piece : segments_) line += piece.is_name ? value_of(piece.text, world) : piece.text;
-  orders.say(line);
+  context.say(line);
   return {Progress::success, line.empty() ? "said nothing" : line};
 }
 

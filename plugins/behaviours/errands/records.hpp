@@ -24,7 +24,7 @@ class CaptureTemplate : public Behaviour {
  public:
   // Throws ConfigError on a place that is none, a name that no template can have, and a file that is not NAME.yaml.
   explicit CaptureTemplate(const CaptureTemplateConfig& config);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override {}
 
  private:
@@ -52,7 +52,7 @@ class PlanQuery : public Behaviour {
  public:
   // Throws ConfigError on questions that make no sense on any map, and a file that is not NAME.jsonl.
   explicit PlanQuery(const PlanQueryConfig& config);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override {}
 
  private:
@@ -70,7 +70,7 @@ class Log : public Behaviour {
  public:
   // Throws ConfigError on a name in braces that is none, with the nearest one, and on a brace without its other one.
   explicit Log(const LogConfig& config);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override {}
 
  private:

@@ -24,7 +24,7 @@ void ReturnHome::halt() {
   *this = ReturnHome(config_, seed_);
 }
 
-Status ReturnHome::tick(const WorldView& world, BehaviourContext& orders) {
+Status ReturnHome::tick(const WorldView& world, BehaviourContext& context) {
   const std::string home = to_.empty() ? "home at " + described(world.T_map_start.position()) : "home at " + to_;
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up on the way " + home};
@@ -42,7 +42,7 @@ Status ReturnHome::tick(const WorldView& world, BehaviourContext& orders) {
     }
     goal_ = goal;
   }
-  const Status status = driver_.tick(*goal_, world, orders);
+  const Status status = driver_.tick(*goal_, world, context);
   if (status.progress == Progress::running) return {Progress::running, status.reason + ", " + home, status.left_s};
   if (status.progress == Progress::failure) return {Progress::failure, status.reason + "; on the way " + home};
   return {Progress::success, home};

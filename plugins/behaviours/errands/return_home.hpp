@@ -20,7 +20,7 @@ struct ReturnHomeConfig : RouteSettings {
 class ReturnHome : public Behaviour {
  public:
   ReturnHome(const ReturnHomeConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
 
  private:

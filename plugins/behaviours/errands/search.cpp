@@ -8,10 +8,6 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kPause_s = 10.0;  // between two rounds: somebody may make room
-constexpr double kToRoomAtMost_s = 90.0;
-constexpr double kBeenApart_m = 0.5;
-
 std::string labels_of(const std::vector<LandmarkId>& ids, const LandmarkGraph& graph) {
   std::string text;
   for (const LandmarkId id : ids) text += (text.empty() ? "" : ", ") + label_of(*graph.find(id));
@@ -28,10 +24,20 @@ ExploreConfig exploring(const SearchConfig& config) {
 RouteSettings driving(const SearchConfig& config) {
   RouteSettings settings;
   settings.speed_mps = config.speed_mps;
+  settings.driving = config.driving;
   return settings;
 }
 
 }  // namespace
+
+void SearchRoundSettings::describe(Fields<SearchRoundSettings>& fields) {
+  using C = SearchRoundSettings;
+  fields.number("pause_s", &C::pause_s, {0.0, 3600.0}, "s", "it waits before it looks at all once more");
+  fields.number("to_room_at_most_s", &C::to_room_at_most_s, {0.0, 3600.0}, "s",
+                "time to try to get into a room that was out of reach");
+  fields.number("been_apart_m", &C::been_apart_m, {0.01, 50.0}, "m",
+                "where it has been is remembered at this spacing: rooms there are not tried");
+}
 
 void SearchConfig::describe(Fields<SearchConfig>& fields) {
   using C = SearchConfig;
@@ -39,8 +45,11 @@ void SearchConfig::describe(Fields<SearchConfig>& fields) {
   fields.integer("until", &C::until, {1.0, 1e6}, "so many landmarks of the category must be known");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to search; when it is up the step has failed");
   fields.integer("rounds", &C::rounds, {1.0, 1e6},
-                 "all is looked at so often before the search is given up: doors open, people go on");
-  describe_ways(fields);
+                 "all is looked at so often before the search is given up: doors open, people leave");
+  fields.output("output", &C::output,
+                "the landmarks found are given under this name to later steps, such as `goto: {input: NAME}`");
+  fields.group("between_rounds", &C::between_rounds, "what it does between two rounds");
+  describe_exploring(fields);
   fields.shorthand("category");
 }
 
@@ -67,38 +76,38 @@ std::string Search::in_round() const {
 }
 
 // What it does while it does not explore.
-std::optional<Status> Search::between(const WorldView& world, BehaviourContext& orders) {
-  if (waits_since_s_ && world.time_s - *waits_since_s_ < kPause_s) {
-    orders.drive({});
+std::optional<Status> Search::between(const WorldView& world, BehaviourContext& context) {
+  if (waits_since_s_ && world.time_s - *waits_since_s_ < config_.between_rounds.pause_s) {
+    context.drive({});
     return Status{Progress::running, "waiting before it looks at all once more"};
   }
   waits_since_s_.reset();
   if (!room_) return std::nullopt;
-  const Status status = driver_.tick(*room_, world, orders);
+  const Status status = driver_.tick(*room_, world, context);
   const std::string place = described(room_->pose->position());
-  const bool is_late = world.time_s - to_room_since_s_ >= kToRoomAtMost_s;
+  const bool is_late = world.time_s - to_room_since_s_ >= config_.between_rounds.to_room_at_most_s;
   if (status.progress == Progress::running && !is_late)
     return Status{Progress::running, "trying to get to " + place + " (" + status.reason + ")"};
   if (status.progress != Progress::success)
-    orders.say("does not get to " + place + ": " + (is_late ? "it takes too long" : status.reason));
+    context.say("does not get to " + place + ": " + (is_late ? "it takes too long" : status.reason));
   driver_.restart();
   room_.reset();
   return std::nullopt;
 }
 
 Status Search::nothing_left(const std::string& found, const std::string& why, const WorldView& world,
-                            BehaviourContext& orders) {
+                            BehaviourContext& context) {
   const std::string so_far = found + in_round() + ": " + why;
   const std::optional<Point> place = explore_.room_out_of_reach(world, been_at_);
   if (place) {
-    orders.say(so_far + "; tries to get to " + described(*place));
+    context.say(so_far + "; tries to get to " + described(*place));
     been_at_.push_back(*place);
     room_ = Place{Pose2{place->x(), place->y(), 0.0}, false, {}};
     to_room_since_s_ = world.time_s;
     return {Progress::running, "trying to get to " + described(*place)};
   }
   if (round_ >= config_.rounds) return {Progress::failure, so_far};
-  orders.say(so_far + "; looks at all once more");
+  context.say(so_far + "; looks at all once more");
   explore_.halt();
   been_at_.clear();
   ++round_;
@@ -106,25 +115,28 @@ Status Search::nothing_left(const std::string& found, const std::string& why, co
   return {Progress::running, "looks at all once more"};
 }
 
-Status Search::tick(const WorldView& world, BehaviourContext& orders) {
+Status Search::tick(const WorldView& world, BehaviourContext& context) {
   const std::vector<LandmarkId> found = world.graph.of_category(category_);
-  if (found.size() >= static_cast<std::size_t>(config_.until))
+  if (found.size() >= static_cast<std::size_t>(config_.until)) {
+    if (!config_.output.empty()) context.output(config_.output, Place{std::nullopt, false, found, {}});
     return {Progress::success, "found " + category_ + ": " + labels_of(found, world.graph)};
+  }
   if (!begun_s_) begun_s_ = world.time_s;
   const std::string count = std::to_string(found.size()) + " of " + std::to_string(config_.until) + " " + category_ +
                             " found" + (found.empty() ? "" : " (" + labels_of(found, world.graph) + ")");
   const double left_s = *begun_s_ + config_.at_most_s - world.time_s;
   if (left_s <= 0.0) return {Progress::failure, count + "; time is up" + in_round()};
   const Point here = world.pose.T_map_robot.position();
-  if (std::ranges::none_of(been_at_, [&](const Point& p) { return (p - here).norm() < kBeenApart_m; }))
+  if (std::ranges::none_of(been_at_,
+                           [&](const Point& p) { return (p - here).norm() < config_.between_rounds.been_apart_m; }))
     been_at_.push_back(here);
   Status status;
-  if (const std::optional<Status> now = between(world, orders)) {
+  if (const std::optional<Status> now = between(world, context)) {
     status = *now;
   } else {
-    status = explore_.tick(world, orders);
+    status = explore_.tick(world, context);
     if (status.progress == Progress::success)
-      status = nothing_left(count, status.reason, world, orders);
+      status = nothing_left(count, status.reason, world, context);
     else if (status.progress == Progress::failure)
       status.reason = count + "; " + status.reason;
   }

@@ -1,6 +1,6 @@
 // Explores until so many landmarks of a category are known. When all in reach is seen without, it tries to get to what
 // was out of reach, the largest room first, and explores on there; and begins again when there is no such room left:
-// doors open, people go on, and what has been looked at twice is known better.
+// doors open, people leave, and what has been looked at twice is known better.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,20 @@
 
 namespace cairn::behaviours {
 
+// Between two rounds of a search.
+struct SearchRoundSettings {
+  double pause_s = 10.0;
+  double to_room_at_most_s = 90.0;
+  double been_apart_m = 0.5;
+  static void describe(Fields<SearchRoundSettings>& fields);
+};
+
 struct SearchConfig : ExploreConfig {
   ConfigValue category;  // text
   int until = 1;
   int rounds = 3;
+  std::string output;  // the name of the place that it gives
+  SearchRoundSettings between_rounds;
   static void describe(Fields<SearchConfig>& fields);
 };
 
@@ -26,15 +36,16 @@ class Search : public Behaviour {
  public:
   // categories: that the mission can find, where that is known. Throws ConfigError on another one, with the nearest.
   Search(const SearchConfig& config, std::uint64_t seed, const std::vector<std::string>& categories);
-  // Success names the landmarks; failure when all has been explored so many rounds, or time is up, without them.
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  // Success names the landmarks and gives them to later steps as one place; failure when all has been explored so many
+  // rounds, or time is up, without them.
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
 
  private:
   [[nodiscard]] std::string in_round() const;
-  [[nodiscard]] std::optional<Status> between(const WorldView& world, BehaviourContext& orders);
+  [[nodiscard]] std::optional<Status> between(const WorldView& world, BehaviourContext& context);
   Status nothing_left(const std::string& found, const std::string& why, const WorldView& world,
-                      BehaviourContext& orders);
+                      BehaviourContext& context);
 
   SearchConfig config_;
   std::string category_;

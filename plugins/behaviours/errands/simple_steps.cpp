@@ -8,8 +8,6 @@
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kSharp_rad = radians(35.0);  // corners sharper than this are stopped at
-
 double corner_at(const Point& before, const Point& corner, const Point& after) {
   const Point in = corner - before;
   const Point out = after - corner;
@@ -34,11 +32,12 @@ void DriveConfig::describe(Fields<DriveConfig>& fields) {
       .required = true;
   fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
   fields.number("tolerance_m", &C::tolerance_m, {0.01, 1.0}, "m", "this near to a point is there");
-  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s",
-                "held back for longer than this, the step has failed");
+  fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "blocked for longer than this, the step has failed");
   fields.number("scatter_m", &C::scatter_m, {0.0, 100.0}, "m",
                 "each point is moved by up to this in x and in y, by chance of the seed: for experiments over many "
                 "paths");
+  fields.angle("stop_at_corner_deg", &C::stop_at_corner_rad, {0.0, 180.0},
+               "at a point where it turns by more than this it stops; it drives through the others");
   fields.shorthand("points_m");
 }
 
@@ -53,45 +52,55 @@ void DriveTo::halt() {
 }
 
 void DriveTo::begin_stretch(const Point& from) {
-  stretch_ = {from};
+  std::vector<Point> points{from};
   do {
-    stretch_.push_back(points_m_[next_++]);
+    points.push_back(points_m_[next_++]);
   } while (next_ < points_m_.size() &&
-           corner_at(stretch_[stretch_.size() - 2], stretch_.back(), points_m_[next_]) < kSharp_rad);
-  follow_state_ = {};
+           corner_at(points[points.size() - 2], points.back(), points_m_[next_]) < config_.stop_at_corner_rad);
+  stretch_.begin(std::move(points));
 }
 
-Status DriveTo::tick(const WorldView& world, BehaviourContext& orders) {
+Status DriveTo::tick(const WorldView& world, BehaviourContext& context) {
   const Pose2& pose = world.pose.T_map_robot;
   if (!begun_ && !points_m_.empty()) begin_stretch(pose.position());
   begun_ = true;
   char text[96];
   if (watch_.is_stuck(world, wanted_)) {
-    std::snprintf(text, sizeof text, "held back at (%.2f, %.2f) on the way to (%.2f, %.2f)", pose.x_m, pose.y_m,
-                  stretch_.back().x(), stretch_.back().y());
+    const Point end = stretch_.points().back();
+    std::snprintf(text, sizeof text, "blocked at (%.2f, %.2f) on the way to (%.2f, %.2f)", pose.x_m, pose.y_m, end.x(),
+                  end.y());
     return {Progress::failure, text};
   }
-  FollowLimits limits = follow_limits(world.robot, config_.speed_mps);
-  limits.arrive_m = config_.tolerance_m;
-  FollowStep step = follow(pose, stretch_, follow_state_, limits);
-  if (step.arrived) {
+  ControlResult step = follow_stretch(context);
+  if (step.state == ControlState::arrived) {
     if (next_ >= points_m_.size()) return {Progress::success, "drove all points"};
-    begin_stretch(stretch_.back());
-    step = follow(pose, stretch_, follow_state_, limits);
+    begin_stretch(stretch_.points().back());
+    step = follow_stretch(context);
   }
-  follow_state_ = step.state;
-  wanted_ = step.wanted;
-  orders.drive(wanted_);
-  std::snprintf(text, sizeof text, "driving to (%.2f, %.2f)", stretch_.back().x(), stretch_.back().y());
-  return {Progress::running, text, left_s(step, limits)};
+  wanted_ = step.twist;
+  context.drive(wanted_);
+  std::snprintf(text, sizeof text, "driving to (%.2f, %.2f)", stretch_.points().back().x(),
+                stretch_.points().back().y());
+  return {Progress::running, text, left_s(step, world.robot)};
 }
 
-// To the last point, as if never held back.
-double DriveTo::left_s(const FollowStep& step, const FollowLimits& limits) const {
+// Whatever the map says: only the collision monitor stops it.
+ControlResult DriveTo::follow_stretch(BehaviourContext& context) {
+  ControlRequest request = stretch_.request();
+  request.speed_mps = config_.speed_mps;
+  request.tolerance_m = config_.tolerance_m;
+  request.avoids_obstacles = false;
+  const ControlResult result = context.control(request);
+  stretch_.record(result);
+  return result;
+}
+
+// To the last point, as if never blocked.
+double DriveTo::left_s(const ControlResult& step, const RobotModel& robot) const {
   double left_m = step.left_m;
   for (std::size_t i = next_; i < points_m_.size(); ++i)
-    left_m += (points_m_[i] - (i == next_ ? stretch_.back() : points_m_[i - 1])).norm();
-  return left_m / limits.speed_mps;
+    left_m += (points_m_[i] - (i == next_ ? stretch_.points().back() : points_m_[i - 1])).norm();
+  return left_m / std::min(config_.speed_mps, robot.max_v_mps);
 }
 
 void WaitConfig::describe(Fields<WaitConfig>& fields) {
@@ -115,8 +124,8 @@ void SaveConfig::describe(Fields<SaveConfig>& fields) {
 // Maps are saved into the output folder.
 Save::Save(const SaveConfig& config) : file_name_(file_name_of(config.file, "map.cairn", ".cairn")) {}
 
-Status Save::tick(const WorldView&, BehaviourContext& orders) {
-  return orders.save(file_name_);
+Status Save::tick(const WorldView&, BehaviourContext& context) {
+  return context.save(file_name_);
 }
 
 }  // namespace cairn::behaviours

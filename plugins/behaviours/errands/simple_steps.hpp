@@ -7,7 +7,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
-#include "plugins/behaviours/driving/path_follower.hpp"
+#include "plugins/behaviours/driving/followed_path.hpp"
 #include "plugins/behaviours/driving/progress_checker.hpp"
 
 namespace cairn::behaviours {
@@ -18,29 +18,30 @@ struct DriveConfig {
   double tolerance_m = 0.05;
   double patience_s = 10.0;
   double scatter_m = 0.0;
+  double stop_at_corner_rad = radians(35.0);
 
   static void describe(Fields<DriveConfig>& fields);
 };
 
-// Drives straight from point to point, whatever the map says; only the host's stop layer holds it back.
+// Drives straight from point to point, whatever the map says; only the collision monitor stops it.
 class DriveTo : public Behaviour {
  public:
   // The seed decides where scattered points go.
   DriveTo(const DriveConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
 
  private:
   void begin_stretch(const Point& from);
-  [[nodiscard]] double left_s(const FollowStep& step, const FollowLimits& limits) const;
+  ControlResult follow_stretch(BehaviourContext& context);
+  [[nodiscard]] double left_s(const ControlResult& step, const RobotModel& robot) const;
 
   DriveConfig config_;
   std::uint64_t seed_;
   std::vector<Point> points_m_;  // the configured ones, scattered
   std::size_t next_ = 0;         // the first point of the next stretch
   bool begun_ = false;
-  std::vector<Point> stretch_;  // points that are driven through without stopping to turn
-  FollowState follow_state_;
+  FollowedPath stretch_;  // points that are driven through without stopping to turn
   Twist wanted_;
   ProgressChecker watch_;
 };
@@ -53,7 +54,7 @@ struct WaitConfig {
 class Wait : public Behaviour {
  public:
   explicit Wait(const WaitConfig& config) : config_(config) {}
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override { begun_s_.reset(); }
 
  private:
@@ -70,7 +71,7 @@ class Save : public Behaviour {
  public:
   // Throws ConfigError on anything but a plain file name.
   explicit Save(const SaveConfig& config);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override {}
 
  private:

@@ -19,7 +19,7 @@ class Tour : public Behaviour {
  public:
   // Throws ConfigError on places that are none.
   Tour(const TourConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
 
  private:
@@ -38,12 +38,12 @@ class Patrol : public Behaviour {
  public:
   // Throws ConfigError on places or rounds that are none.
   Patrol(const PatrolConfig& config, std::uint64_t seed);
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
 
  private:
-  Status begin_round(const WorldView& world, BehaviourContext& orders);
-  [[nodiscard]] std::vector<PlaceName> all_landmarks(const LandmarkGraph& graph, BehaviourContext& orders) const;
+  Status begin_round(const WorldView& world, BehaviourContext& context);
+  [[nodiscard]] std::vector<PlaceName> all_landmarks(const LandmarkGraph& graph, BehaviourContext& context) const;
 
   PatrolConfig config_;
   std::uint64_t seed_;

@@ -11,7 +11,7 @@ using Costs = std::vector<std::vector<double>>;
 
 constexpr double kBetter = 1e-9;
 
-// best[set][last]: of the way from the start through the places of the set, ending at one of them (both from 0).
+// best[set][last]: of the route from the start through the places of the set, ending at one of them (both from 0).
 std::vector<std::size_t> best_order(const Costs& cost) {
   const std::size_t n = cost.size() - 1;
   const std::size_t sets = std::size_t{1} << n;
@@ -62,7 +62,7 @@ std::vector<std::size_t> by_insertion(const Costs& cost) {
   return order;
 }
 
-// Turns stretches round as long as that makes the way shorter.
+// Turns stretches round as long as that makes the route shorter.
 void improve(std::vector<std::size_t>& order, const Costs& cost) {
   for (bool improved = true; improved;) {
     improved = false;

@@ -1,4 +1,4 @@
-// In which order to visit places so that the whole way is short: an open tour, from a start through all of them.
+// In which order to visit places so that the whole route is short: an open tour, from a start through all of them.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ inline constexpr std::size_t kMaxExactPlaces = 11;
 // problems, 1962; O(n^2 2^n)); beyond that by cheapest insertion and 2-opt (O(n^3)), which is often, not always, best.
 // Equal costs: the lower number first.
 [[nodiscard]] std::vector<std::size_t> shortest_order(const std::vector<std::vector<double>>& cost);
-// Of the way from the start through all places of an order.
+// Length of the route from the start through all places of an order.
 [[nodiscard]] double cost_of(const std::vector<std::size_t>& order, const std::vector<std::vector<double>>& cost);
 
 }  // namespace cairn::behaviours

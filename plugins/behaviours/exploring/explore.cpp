@@ -5,31 +5,26 @@
 #include "plugins/behaviours/exploring/exploration.hpp"
 
 namespace cairn::behaviours {
-namespace {
-
-constexpr double kPassed_m = 1.0;  // where edges are not passed at a distance of their own
-
-}  // namespace
-
 void ExploreConfig::describe(Fields<ExploreConfig>& fields) {
   using C = ExploreConfig;
   fields.number("until_known_ratio", &C::until_known_ratio, {0.0, 1.0}, "",
                 "share of the cells within the outermost walls to know; then frontiers are left alone");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to explore; when it is up the step has succeeded");
-  describe_ways(fields);
+  describe_exploring(fields);
 }
 
 Explore::Explore(const ExploreConfig& config) : config_(config) {}
 
 Explore::~Explore() = default;
 
-Status Explore::tick(const WorldView& world, BehaviourContext& orders) {
+Status Explore::tick(const WorldView& world, BehaviourContext& context) {
   if (!run_) {
     run_ = std::make_unique<Exploration>(config_, world);
-    progress_.emplace(world, config_.look_closer_m > 0.0 ? config_.look_closer_m : kPassed_m);
+    const EstimateSettings& estimate = config_.exploring.estimate;
+    progress_.emplace(world, config_.look_closer_m > 0.0 ? config_.look_closer_m : estimate.passed_m, estimate);
     begun_s_ = world.time_s;
   }
-  Status status = run_->tick(world, orders);
+  Status status = run_->tick(world, context);
   if (status.progress != Progress::running) return status;
   status.left_s = progress_->left_s(world);
   if (status.left_s) status.left_s = std::min(*status.left_s, begun_s_ + config_.at_most_s - world.time_s);

@@ -11,7 +11,10 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
+#include "plugins/behaviours/driving/settings.hpp"
 #include "plugins/behaviours/exploring/explore_progress.hpp"
+#include "plugins/behaviours/exploring/look_closer.hpp"
+#include "plugins/behaviours/exploring/settings.hpp"
 
 namespace cairn::behaviours {
 
@@ -27,11 +30,14 @@ struct ExploreConfig {
   double gain_m = 0.0;
   double speed_mps = 0.2;
   double orbit_speed_mps = 0.1;
+  ObjectSettings object;
+  ExploringSettings exploring;
+  DrivingSettings driving;
 
   static void describe(Fields<ExploreConfig>& fields);
   // All but when it ends: of a config that derives from it.
   template <class Config>
-  static void describe_ways(Fields<Config>& fields) {
+  static void describe_exploring(Fields<Config>& fields) {
     using C = Config;
     fields.number("clearance_m", &C::clearance_m, {0.0, 2.0}, "m",
                   "kept between the robot's edge and everything occupied");
@@ -49,6 +55,15 @@ struct ExploreConfig {
     fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
     fields.number("orbit_speed_mps", &C::orbit_speed_mps, {0.01, 5.0}, "m/s",
                   "the same on a lap: slower means more readings, and no more error of the odometry");
+    fields.group("object", static_cast<ObjectSettings C::*>(&C::object), "what is an object that stands free");
+    fields
+        .group("exploring", static_cast<ExploringSettings C::*>(&C::exploring),
+               "how it chooses what to do next, and what it does when it is blocked")
+        .shared = "exploring";
+    fields
+        .group("driving", static_cast<DrivingSettings C::*>(&C::driving),
+               "how it follows paths and what it takes for an obstacle")
+        .shared = "driving";
   }
 };
 
@@ -59,7 +74,7 @@ class Explore : public Behaviour {
   explicit Explore(const ExploreConfig& config);
   ~Explore() override;
 
-  Status tick(const WorldView& world, BehaviourContext& orders) override;
+  Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
   // Where it did not get to, as openings.hpp; none before the first tick. done: rooms to leave out. Ticked after its
   // end it explores on from where the robot is then.

@@ -4,20 +4,12 @@
 #include <cmath>
 
 namespace cairn::behaviours {
-namespace {
-
-constexpr double kCountEvery_s = 5.0;
-constexpr double kNothingBefore_s = 20.0;  // a look round
-constexpr double kMarkEvery_m = 0.25;
-
-}  // namespace
-
-ExploreProgress::ExploreProgress(const WorldView& world, double near_m)
-    : near_m_(near_m), begun_s_(world.time_s), counted_s_(world.time_s) {}
+ExploreProgress::ExploreProgress(const WorldView& world, double near_m, const EstimateSettings& settings)
+    : near_m_(near_m), settings_(settings), begun_s_(world.time_s), counted_s_(world.time_s) {}
 
 void ExploreProgress::pass(const WorldView& world) {
   const Point here = world.pose.T_map_robot.position();
-  if ((here - marked_m_).norm() < kMarkEvery_m) return;
+  if ((here - marked_m_).norm() < settings_.mark_every_m) return;
   marked_m_ = here;
   const double cell_m = world.grid.cell_m();
   const Cell centre = world.grid.cell_at(here);
@@ -43,11 +35,11 @@ double ExploreProgress::passed_ratio(const OccupancyGrid& grid) const {
 std::optional<double> ExploreProgress::left_s(const WorldView& world) {
   pass(world);
   const double done_s = world.time_s - begun_s_;
-  if (world.time_s >= counted_s_ + kCountEvery_s) {
+  if (world.time_s >= counted_s_ + settings_.every_s) {
     counted_s_ = world.time_s;
     const double ratio = passed_ratio(world.grid);
     left_at_count_s_.reset();
-    if (ratio > 0.0 && done_s >= kNothingBefore_s) left_at_count_s_ = done_s * (1.0 - ratio) / ratio;
+    if (ratio > 0.0 && done_s >= settings_.not_before_s) left_at_count_s_ = done_s * (1.0 - ratio) / ratio;
   }
   if (!left_at_count_s_) return std::nullopt;
   return std::max(0.0, *left_at_count_s_ - (world.time_s - counted_s_));

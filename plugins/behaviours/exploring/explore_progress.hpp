@@ -1,6 +1,6 @@
 // How far an exploration has come, for people: which share of what stands in the map the robot has passed closely.
 //
-// The share of the map that is known says little: half of it is known after a look round, and the way goes past every
+// The share of the map that is known says little: half of it is known after a look round, and the path passes every
 // edge after that.
 #pragma once
 
@@ -8,13 +8,14 @@
 
 #include "framework/contracts/world_view.hpp"
 #include "plugins/behaviours/driving/cell_layer.hpp"
+#include "plugins/behaviours/exploring/settings.hpp"
 
 namespace cairn::behaviours {
 
 class ExploreProgress {
  public:
   // near_m: what the robot's centre comes nearer to has been passed.
-  ExploreProgress(const WorldView& world, double near_m);
+  ExploreProgress(const WorldView& world, double near_m, const EstimateSettings& settings = {});
 
   // In every tick; counts the map every few seconds only. As if the rest took as long for each cell as what is passed
   // has; nothing before there is anything to go by.
@@ -25,6 +26,7 @@ class ExploreProgress {
   [[nodiscard]] double passed_ratio(const OccupancyGrid& grid) const;
 
   double near_m_;
+  EstimateSettings settings_;
   double begun_s_;
   double counted_s_;
   Point marked_m_{1e9, 1e9};

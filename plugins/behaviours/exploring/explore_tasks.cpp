@@ -11,21 +11,6 @@
 namespace cairn::behaviours {
 namespace {
 
-// What a task may cost more than the next one and still come first, in metres of way.
-constexpr double kOrbitBonus_m = 1.5;           // an object is circled when the robot first comes near
-constexpr double kFrontierBonus_m_per_m = 0.3;  // of the frontier's length
-constexpr double kMaxFrontierBonus_m = 0.8;
-constexpr int kMinLap_sectors = 2;
-constexpr double kOrbitFrom_m = 1.5;
-constexpr double kMaxDetourForOrbits_m = 1.0;  // for each open sector
-constexpr double kStayBonus_m = 0.8;
-constexpr double kSameTask_m = 0.8;               // tasks this near are the same one, grown or shrunk
-constexpr double kMaxWayForEdges_m_per_m = 10.0;  // small leftovers far away are noise, mostly
-constexpr double kSmallEdge_m = 0.6;
-constexpr double kMinEdge_m = 0.3;
-// Things are looked at from a little nearer than needed, so that arriving is seeing.
-constexpr double kViewRatio = 0.85;
-
 struct Choice {
   double score_m = std::numeric_limits<double>::infinity();
   ExploreTask task;
@@ -49,12 +34,12 @@ bool is_crack(const FreeSpace& space, const CellGroup& frontier) {
                       [&](Cell c) { return space.distance_m(c) >= space.radius_m(); });
 }
 
-bool is_about_the_same(const ExploreTask& a, const ExploreTask& b) {
-  return a.kind == b.kind && ((a.lookout - b.lookout).norm() < kSameTask_m || (a.about - b.about).norm() < kSameTask_m);
+bool is_about_the_same(const ExploreTask& a, const ExploreTask& b, double same_m) {
+  return a.kind == b.kind && ((a.lookout - b.lookout).norm() < same_m || (a.about - b.about).norm() < same_m);
 }
 
-void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* previous) {
-  if (previous != nullptr && is_about_the_same(*previous, task)) bonus_m += kStayBonus_m;
+void offer(Choice& best, ExploreTask task, double bonus_m, const ExploreTask* previous, const TaskWeights& weights) {
+  if (previous != nullptr && is_about_the_same(*previous, task, weights.same_m)) bonus_m += weights.stay_bonus_m;
   if (task.cost_m - bonus_m >= best.score_m) return;
   best = {task.cost_m - bonus_m, std::move(task)};
 }
@@ -65,13 +50,13 @@ struct Worth {
   double view_m = 1.0;         // looked at from within this distance
   double bonus_m_per_m = 0.0;  // of the group's length
   double small_m = 0.0;        // shorter groups are worth ...
-  double max_m_per_m = 0.0;    // ... no longer way for each of their metres
+  double max_m_per_m = 0.0;    // ... no longer path for each of their metres
   double gain_m = 0.0;         // > 0: the area that would be seen counts instead of the length
   double gain_range_m = 0.0;
 };
 
 void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& worth, const FreeSpace& space,
-                  const ExploreTask* previous) {
+                  const ExploreTask* previous, const TaskWeights& weights) {
   const std::vector<std::optional<Cell>> stands = lookouts(space, groups, worth.view_m);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!stands[i]) continue;
@@ -85,47 +70,47 @@ void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& wort
     if (size_m < worth.small_m && task.cost_m > worth.max_m_per_m * size_m) continue;
     const double bonus_m = worth.gain_m > 0.0
                                ? worth_of_area_m(new_area_m2(space, task.lookout, worth.gain_range_m), worth.gain_m)
-                               : std::min(kMaxFrontierBonus_m, worth.bonus_m_per_m * size_m);
-    offer(best, std::move(task), bonus_m, previous);
+                               : std::min(weights.max_frontier_bonus_m, worth.bonus_m_per_m * size_m);
+    offer(best, std::move(task), bonus_m, previous, weights);
   }
 }
 
 // An object that the robot has not been near to yet is an edge to look at: from afar a piece of wall looks the same.
 // And a small rest of a lap is worth a small detour only.
-bool is_worth_a_orbit(const Orbit& orbit, double cost_m) {
+bool is_worth_a_orbit(const Orbit& orbit, double cost_m, const TaskWeights& weights) {
   const int open = orbit.count(SectorState::open);
-  if (orbit.count(SectorState::covered) == 0 && cost_m > kOrbitFrom_m) return false;
-  return open >= kMinLap_sectors && cost_m <= kMaxDetourForOrbits_m * open;
+  if (orbit.count(SectorState::covered) == 0 && cost_m > weights.orbit_from_m) return false;
+  return open >= weights.min_orbit_sectors && cost_m <= weights.max_detour_for_sector_m * open;
 }
 
-const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centre) {
+const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centre, double same_m) {
   const auto found = std::find_if(memory.second_looks.begin(), memory.second_looks.end(),
-                                  [&](const SecondLook& look) { return (look.about - centre).norm() < kSameTask_m; });
+                                  [&](const SecondLook& look) { return (look.about - centre).norm() < same_m; });
   return found == memory.second_looks.end() ? nullptr : &*found;
 }
 
 void offer_orbits(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
-                  const OrbitSettings& settings, const ExploreMemory& memory) {
-  for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
+                  const OrbitSettings& settings, const TaskWeights& weights, const ExploreMemory& memory) {
+  for (const CellGroup& object : compact_objects(space, settings.largest_object_m, settings.object)) {
     // No lap begins nearer than this.
     const double min_m =
         (middle_of(space, object) - T_map_robot.position()).norm() - settings.largest_object_m - settings.look_closer_m;
-    if (min_m - kOrbitBonus_m - kStayBonus_m >= best.score_m) continue;
-    const SecondLook* again = second_look_at(memory, middle_of(space, object));
+    if (min_m - weights.orbit_bonus_m - weights.stay_bonus_m >= best.score_m) continue;
+    const SecondLook* again = second_look_at(memory, middle_of(space, object), weights.same_m);
     const auto trace = std::span(memory.trace).subspan(again == nullptr ? 0 : again->trace_from);
     const Orbit orbit = orbit_round(space, object, trace, memory.given_up_lookouts, settings);
-    if (!orbit.is_round_trip() || orbit.count(SectorState::open) == 0) continue;
+    if (!orbit.is_round_trip(settings.object) || orbit.count(SectorState::open) == 0) continue;
     OrbitRoute route = orbit_route(space, orbit, T_map_robot);
     ExploreTask task;
     task.kind = TaskKind::orbit;
     task.about = orbit.centre;
     task.lookout = space.centre_of(route.first);
     task.path = std::move(route.path);
-    task.way_m = route.way_m;
+    task.path_m = route.path_m;
     task.cost_m = route.cost_m;
-    const bool is_at_it = previous != nullptr && is_about_the_same(*previous, task);
-    if (!is_at_it && again == nullptr && !is_worth_a_orbit(orbit, task.cost_m)) continue;
-    offer(best, std::move(task), kOrbitBonus_m, previous);
+    const bool is_at_it = previous != nullptr && is_about_the_same(*previous, task, weights.same_m);
+    if (!is_at_it && again == nullptr && !is_worth_a_orbit(orbit, task.cost_m, weights)) continue;
+    offer(best, std::move(task), weights.orbit_bonus_m, previous, weights);
   }
 }
 
@@ -134,44 +119,48 @@ void offer_orbits(Choice& best, const FreeSpace& space, const Pose2& T_map_robot
 std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot, bool frontiers_wanted,
                                      const ExploreTask* previous, const TaskSettings& settings, ExploreMemory& memory) {
   Choice best;
+  const TaskWeights& weights = settings.weights;
   const double look_closer_m = settings.orbit.look_closer_m;
   if (look_closer_m > 0.0) {
     const std::vector<Cell> left = unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges);
-    const Worth worth{TaskKind::edge, kViewRatio * look_closer_m, 0.0, kSmallEdge_m, kMaxWayForEdges_m_per_m};
-    offer_groups(best, groups_of(left, kMinEdge_m / space.cell_m()), worth, space, previous);
+    const Worth worth{TaskKind::edge, weights.view_ratio * look_closer_m, 0.0, weights.small_edge_m,
+                      weights.max_path_for_edges_m_per_m};
+    offer_groups(best, groups_of(left, weights.min_edge_m / space.cell_m()), worth, space, previous, weights);
   }
   if (frontiers_wanted) {
     const Sight& sight = settings.frontier_sight;
     const std::vector<Cell> left = unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers);
     std::vector<CellGroup> groups = groups_of(left, settings.smallest_frontier_m / space.cell_m());
     std::erase_if(groups, [&](const CellGroup& group) { return is_crack(space, group); });
-    Worth worth{TaskKind::frontier, kViewRatio * sight.within_m, kFrontierBonus_m_per_m};
+    Worth worth{TaskKind::frontier, weights.view_ratio * sight.within_m, weights.frontier_bonus_m_per_m};
     worth.gain_m = settings.gain_m;
     worth.gain_range_m = settings.gain_range_m;
-    offer_groups(best, std::move(groups), worth, space, previous);
+    offer_groups(best, std::move(groups), worth, space, previous, weights);
   }
-  if (look_closer_m > 0.0) offer_orbits(best, space, T_map_robot, previous, settings.orbit, memory);
+  if (look_closer_m > 0.0) offer_orbits(best, space, T_map_robot, previous, settings.orbit, weights, memory);
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
   if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
   return std::move(best.task);
 }
 
-bool look_again(const FreeSpace& space, const LandmarkGraph& known, const OrbitSettings& settings,
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSettings& settings,
                 ExploreMemory& memory) {
   bool found = false;
-  for (const CellGroup& object : compact_objects(space, settings.largest_object_m)) {
+  for (const CellGroup& object : compact_objects(space, settings.orbit.largest_object_m, settings.orbit.object)) {
     const Point centre = middle_of(space, object);
-    if (known.nearest(centre, kIsLandmark_m) != nullptr || second_look_at(memory, centre) != nullptr) continue;
-    if (!orbit_round(space, object, memory.trace, {}, settings).is_round_trip()) continue;
+    if (known.nearest(centre, settings.weights.is_landmark_m) != nullptr ||
+        second_look_at(memory, centre, settings.weights.same_m) != nullptr)
+      continue;
+    if (!orbit_round(space, object, memory.trace, {}, settings.orbit).is_round_trip(settings.orbit.object)) continue;
     memory.second_looks.push_back({centre, memory.trace.size()});
     found = true;
   }
   return found;
 }
 
-std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,
+std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& narrow, const TaskSettings& settings,
                                         const ExploreMemory& memory) {
-  const std::optional<Opening> opening = nearest_opening(space, squeezed, memory.seen_openings);
+  const std::optional<Opening> opening = nearest_opening(space, narrow, memory.seen_openings, settings.openings);
   if (!opening) return std::nullopt;
   ExploreTask task;
   task.kind = TaskKind::opening;
@@ -192,7 +181,8 @@ void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings
     return;
   }
   const bool is_frontier_task = task.kind == TaskKind::frontier;
-  const double reach_m = 1.3 * (is_frontier_task ? settings.frontier_sight.within_m : settings.orbit.look_closer_m);
+  const double reach_m = settings.weights.give_up_ratio *
+                         (is_frontier_task ? settings.frontier_sight.within_m : settings.orbit.look_closer_m);
   CellSet& set = is_frontier_task ? memory.seen_frontiers : memory.seen_edges;
   for (const Cell cell : task.targets) {
     if ((space.centre_of(cell) - task.lookout).norm() > reach_m) continue;

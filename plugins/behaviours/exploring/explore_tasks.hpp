@@ -8,6 +8,7 @@
 
 #include "maps/landmarks/landmark_graph.hpp"
 #include "plugins/behaviours/exploring/look_closer.hpp"
+#include "plugins/behaviours/exploring/settings.hpp"
 
 namespace cairn::behaviours {
 
@@ -17,6 +18,8 @@ struct TaskSettings {
   Sight frontier_sight{1.0, radians(60.0)};  // a frontier is looked at from within it
   double gain_m = 0.0;                       // what e times the new area is worth; 0: the nearest frontier first
   double gain_range_m = 3.0;                 // of the sensors, for the new area
+  TaskWeights weights{};
+  OpeningSettings openings{};
 };
 
 // An object that is circled again: only the trace from here on counts as having looked at it.
@@ -44,7 +47,7 @@ struct ExploreTask {
   CellGroup targets;        // of frontiers and edges
   Point lookout{0.0, 0.0};  // the first place that the path leads to
   std::vector<Point> path;
-  double way_m = 0.0;  // of the path, to the lookout; a lap goes on behind it
+  double path_m = 0.0;  // of the path, to the lookout; a lap continues behind it
   double cost_m = 0.0;
 };
 
@@ -55,12 +58,12 @@ struct ExploreTask {
 
 // For when nothing else is left: notes that a free-standing object which is no known landmark is to be
 // circled once more, since a second lap often shows what the first did not. False when there is none.
-bool look_again(const FreeSpace& space, const LandmarkGraph& known, const OrbitSettings& settings,
+bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSettings& settings,
                 ExploreMemory& memory);
 
 // For when nothing else is left either: an opening that looks too narrow, to be looked at head on.
-[[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& squeezed,
-                                                      const ExploreMemory& memory);
+[[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& narrow,
+                                                      const TaskSettings& settings, const ExploreMemory& memory);
 
 // Not to be chosen again: what the task has from its lookout.
 void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory);

@@ -62,8 +62,8 @@ std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vec
   std::vector<std::optional<Cell>> best(groups.size());
   std::vector<double> best_cost_m(groups.size(), std::numeric_limits<double>::infinity());
   CellLayer<char> settled(space.box(), 0, 1);
-  for (int way = 0; way <= most; ++way) {
-    for (const Entry entry : buckets[static_cast<std::size_t>(way)]) {
+  for (int length = 0; length <= most; ++length) {
+    for (const Entry entry : buckets[static_cast<std::size_t>(length)]) {
       if (settled.at(entry.cell)) continue;
       settled[entry.cell] = 1;
       const auto g = static_cast<std::size_t>(entry.group);
@@ -73,11 +73,11 @@ std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vec
       }
       for (const Cell step : kNeighbours) {
         const bool is_diagonal = step.x != 0 && step.y != 0;
-        const int next_way = way + (is_diagonal ? kDiagonal : kStraight);
+        const int next_length = length + (is_diagonal ? kDiagonal : kStraight);
         const Cell next = entry.cell + step;
         if (is_diagonal && cuts_corner(space, entry.cell, step)) continue;
-        if (next_way <= most && !settled.at(next) && space.state(next) == CellState::free)
-          buckets[static_cast<std::size_t>(next_way)].push_back({next, entry.group});
+        if (next_length <= most && !settled.at(next) && space.state(next) == CellState::free)
+          buckets[static_cast<std::size_t>(next_length)].push_back({next, entry.group});
       }
     }
   }

@@ -17,7 +17,7 @@ namespace cairn::behaviours {
 [[nodiscard]] std::vector<Cell> frontier_cells(const FreeSpace& space);
 [[nodiscard]] std::vector<Cell> edge_cells(const FreeSpace& space);
 
-// Where to stand to look at a group of cells: the cheapest cell in reach from which the way to the
+// Where to stand to look at a group of cells: the cheapest cell in reach from which the path to the
 // group, over free cells, is at most within_m. One answer a group; none where there is no such cell.
 [[nodiscard]] std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vector<CellGroup>& groups,
                                                         double within_m);

@@ -5,16 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "plugins/behaviours/driving/path_follower.hpp"
+#include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
-constexpr int kGap_cells = 2;  // sonar leaves holes in outlines; steps over them hold an object together
-constexpr std::size_t kMinObject_cells = 4;
-constexpr int kMaxHidden = 7;  // of kOrbitSectors; behind a wall half of them are
-constexpr int kMinRoom = 9;    // sectors that can be stood in
-constexpr double kAvoid_m = 0.25;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 double sector_angle(int sector) {
@@ -75,11 +70,12 @@ Sector look_along(const FreeSpace& space, const CellGroup& object, const Orbit& 
   for (const double distance_m : tried_distances(space, settings)) {
     const Point p = point_on_ray(space, object, orbit, sector, distance_m);
     const Cell cell = space.cell_at(p);
-    if (space.reaches(cell) && !is_near_any(p, avoid, kAvoid_m) && space.sees(p, nearest_cell(space, object, p).cell))
+    if (space.reaches(cell) && !is_near_any(p, avoid, settings.object.avoid_m) &&
+        space.sees(p, nearest_cell(space, object, p).cell))
       return {SectorState::open, cell};
     if (space.state(cell) != CellState::unknown && space.distance_m(cell) < space.min_distance_m())
       result.state = SectorState::blocked;
-    if (is_near_any(p, avoid, kAvoid_m)) result.state = SectorState::blocked;
+    if (is_near_any(p, avoid, settings.object.avoid_m)) result.state = SectorState::blocked;
   }
   return result;
 }
@@ -110,6 +106,16 @@ void mark_covered(const FreeSpace& space, const CellGroup& object, std::span<con
 
 }  // namespace
 
+void ObjectSettings::describe(Fields<ObjectSettings>& fields) {
+  using C = ObjectSettings;
+  fields.integer("gap_cells", &C::gap_cells, {1.0, 100.0}, "gaps in an outline up to this are part of one object");
+  fields.integer("min_cells", &C::min_cells, {1.0, 1e6}, "fewer occupied cells are no object");
+  fields.integer("max_hidden_sectors", &C::max_hidden_sectors, {0.0, 24.0},
+                 "an object stands free when at most so many of 24 directions round it are unknown");
+  fields.integer("min_open_sectors", &C::min_open_sectors, {0.0, 24.0}, "and the robot can stand in at least so many");
+  fields.number("avoid_m", &C::avoid_m, {0.0, 10.0}, "m", "places on a lap this near to one that failed are left out");
+}
+
 std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells, const std::vector<Pose2>& trace,
                          const Sight& sight, CellSet& seen) {
   const bool looks_all_round = sight.to_the_side_rad >= std::numbers::pi;
@@ -119,7 +125,7 @@ std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells,
     const Point p = space.centre_of(cell);
     const bool now_seen = std::any_of(trace.rbegin(), trace.rend(), [&](const Pose2& from) {
       return (p - from.position()).squaredNorm() <= sight.within_m * sight.within_m &&
-             (looks_all_round || std::abs(heading_error(from, p)) <= sight.to_the_side_rad) &&
+             (looks_all_round || std::abs(motion::heading_error(from, p)) <= sight.to_the_side_rad) &&
              space.sees(from.position(), cell);
     });
     if (now_seen) {
@@ -136,22 +142,24 @@ int Orbit::count(SectorState state) const {
       std::count_if(sectors.begin(), sectors.end(), [state](const Sector& s) { return s.state == state; }));
 }
 
-bool Orbit::is_round_trip() const {
-  return count(SectorState::hidden) <= kMaxHidden && count(SectorState::open) + count(SectorState::covered) >= kMinRoom;
+bool Orbit::is_round_trip(const ObjectSettings& settings) const {
+  return count(SectorState::hidden) <= settings.max_hidden_sectors &&
+         count(SectorState::open) + count(SectorState::covered) >= settings.min_open_sectors;
 }
 
-std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_object_m) {
+std::vector<CellGroup> compact_objects(const FreeSpace& space, double largest_object_m,
+                                       const ObjectSettings& settings) {
   std::vector<Cell> occupied;
   const CellBox box = space.box();
   for (int y = box.min.y; y < box.max.y; ++y)
     for (int x = box.min.x; x < box.max.x; ++x)
       if (space.state({x, y}) == CellState::occupied) occupied.push_back({x, y});
 
-  std::vector<CellGroup> groups = grouped(occupied, kGap_cells);
+  std::vector<CellGroup> groups = grouped(occupied, settings.gap_cells);
   std::erase_if(groups, [&](const CellGroup& group) {
     CellBox extent;
     for (const Cell c : group) extent = united(extent, {c, c + Cell{1, 1}});
-    return group.size() < kMinObject_cells ||
+    return static_cast<int>(group.size()) < settings.min_cells ||
            std::max(extent.width(), extent.height()) * space.cell_m() > largest_object_m;
   });
   return groups;
@@ -190,7 +198,7 @@ OrbitRoute orbit_route(const FreeSpace& space, const Orbit& orbit, const Pose2& 
   if (first < 0) return route;
   route.first = sector(first).lookout;
   route.path = space.path_to(route.first);
-  route.way_m = length_of(route.path);
+  route.path_m = motion::length_of(route.path);
 
   const auto run = [&](int step) {
     int length = 0;

@@ -35,10 +35,10 @@ Visits::Visits(const VisitSettings& settings, std::uint64_t seed, std::vector<Pl
   for (PlaceName& name : places) stops_.push_back({std::move(name), std::nullopt});
 }
 
-Status Visits::tick(const WorldView& world, BehaviourContext& orders) {
-  if (!ordered_) return find_order(world, orders);
+Status Visits::tick(const WorldView& world, BehaviourContext& context) {
+  if (!ordered_) return find_order(world, context);
   if (waiting_since_s_) return wait(world);
-  return drive(world, orders);
+  return drive(world, context);
 }
 
 Place Visits::place_of(const Stop& stop, const LandmarkGraph& graph) const {
@@ -50,12 +50,12 @@ Place Visits::place_of(const Stop& stop, const LandmarkGraph& graph) const {
   return find_place(stop.name, graph).place;
 }
 
-Status Visits::find_order(const WorldView& world, BehaviourContext& orders) {
+Status Visits::find_order(const WorldView& world, BehaviourContext& context) {
   const std::size_t all = stops_.size() + 1;
   if (cost_m_.empty()) cost_m_.assign(all, std::vector<double>(all, 0.0));
   if (from_ + 1 < all) {
-    ask_next_way(world, orders);
-    return {Progress::running, "asking for the ways between " + std::to_string(all - 1) + " places"};
+    ask_next_length(world, context);
+    return {Progress::running, "asking for the routes between " + std::to_string(all - 1) + " places"};
   }
   std::vector<Stop> in_order;
   for (const std::size_t stop : shortest_order(cost_m_)) in_order.push_back(stops_[stop - 1]);
@@ -63,12 +63,12 @@ Status Visits::find_order(const WorldView& world, BehaviourContext& orders) {
   ordered_ = true;
   std::vector<std::string> names;
   for (const Stop& stop : stops_) names.push_back(stop.chosen ? "L" + std::to_string(*stop.chosen) : stop.name.text);
-  orders.say("the shortest order is " + joined(names));
+  context.say("the shortest order is " + joined(names));
   return {Progress::running, "has found the shortest order"};
 }
 
-// Ways count the same in both directions.
-void Visits::ask_next_way(const WorldView& world, BehaviourContext& orders) {
+// Routes count the same in both directions.
+void Visits::ask_next_length(const WorldView& world, BehaviourContext& context) {
   PlanRequest request;
   request.radius_m = world.robot.radius_m;
   request.seed = seed_;
@@ -79,14 +79,14 @@ void Visits::ask_next_way(const WorldView& world, BehaviourContext& orders) {
   Stop& stop = stops_[to_ - 1];
   request.to = place_of(stop, world.graph);
   const auto is_known = [](const Place& place) { return place.pose || !place.landmarks.empty(); };
-  PlanResult way;
-  if (is_known(request.from) && is_known(request.to)) way = orders.plan(request);
-  const bool is_solved = way.outcome == PlanOutcome::solved;
-  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(way.cost_m, kUnreached_m) : kUnreached_m;
-  if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kUnreached_m;
+  PlanResult route;
+  if (is_known(request.from) && is_known(request.to)) route = context.plan(request);
+  const bool is_solved = route.outcome == PlanOutcome::solved;
+  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(route.cost_m, kOutOfReach_m) : kOutOfReach_m;
+  if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kOutOfReach_m;
   // `nearest` is what is nearest from here: the other ways are to the same one.
-  if (from_ == 0 && is_solved && !request.to.landmarks.empty() && !way.landmarks.empty())
-    stop.chosen = way.landmarks.back();
+  if (from_ == 0 && is_solved && !request.to.landmarks.empty() && !route.landmarks.empty())
+    stop.chosen = route.landmarks.back();
   if (++to_ > stops_.size()) to_ = ++from_ + 1;
 }
 
@@ -99,24 +99,24 @@ bool Visits::resolve(const WorldView& world) {
   return false;
 }
 
-Status Visits::drive(const WorldView& world, BehaviourContext& orders) {
+Status Visits::drive(const WorldView& world, BehaviourContext& context) {
   if (goal_ && names_retired(*goal_, world.graph)) {
     goal_.reset();
     driver_.restart();
   }
   if (!goal_ && !resolve(world)) return leave_out(unknown_, settings_.skip || if_unknown_ == Unknown::left_out);
-  const Status status = driver_.tick(*goal_, world, orders);
+  const Status status = driver_.tick(*goal_, world, context);
   const std::string& name = stops_[next_].name.text;
   const std::string number = std::to_string(next_ + 1) + " of " + std::to_string(stops_.size());
   if (status.progress == Progress::running)
     return {Progress::running, status.reason + ", to " + name + ", place " + number, status.left_s};
   if (status.progress == Progress::failure) {
-    if (settings_.skip) orders.say("leaves out " + name + ": " + status.reason);
+    if (settings_.skip) context.say("leaves out " + name + ": " + status.reason);
     return leave_out(status.reason, settings_.skip);
   }
   const Landmark* landmark = world.graph.find(driver_.goal_landmark());
   visited_.push_back(landmark == nullptr ? name : described(*landmark));
-  orders.say("at " + visited_.back() + ", place " + number);
+  context.say("at " + visited_.back() + ", place " + number);
   waiting_since_s_ = world.time_s;
   return wait(world);
 }

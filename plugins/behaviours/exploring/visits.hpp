@@ -13,15 +13,6 @@ namespace cairn::behaviours {
 
 inline constexpr std::size_t kMaxPlaces = 50;
 
-// What a behaviour says of its driving whose own settings leave no room for all of describe_route().
-template <class Config>
-void describe_driving(Fields<Config>& fields) {
-  fields.number("tolerance_m", &Config::tolerance_m, {0.01, 2.0}, "m", "this near to the end of a plan is there");
-  fields.number("speed_mps", &Config::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
-  fields.number("patience_s", &Config::patience_s, {0.1, 3600.0}, "s",
-                "waited for what is in the way to go, before anything else is tried");
-}
-
 enum class VisitOrder { given, shortest };
 
 struct VisitSettings : RouteSettings {
@@ -35,10 +26,14 @@ struct VisitSettings : RouteSettings {
     fields.choice(
         "order", static_cast<VisitOrder Config::*>(&Config::order),
         {{"given", VisitOrder::given}, {"shortest", VisitOrder::shortest}},
-        "`shortest`: so that the whole way is short, by the planner's lengths: the best order up to 11 places, "
+        "`shortest`: so that the whole route is short, by the planner's lengths: the best order up to 11 places, "
         "cheapest insertion and 2-opt for more");
     fields.flag("skip", &Config::skip, "a place that cannot be reached is left out; without it, the step fails there");
     fields.number("wait_s", &Config::wait_s, {0.0, 1e6}, "s", "stands still at each place");
+    fields.number("tolerance_m", &Config::tolerance_m, {0.01, 2.0}, "m", "this near to the end of a plan is there");
+    fields.number("speed_mps", &Config::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
+    fields.number("patience_s", &Config::patience_s, {0.1, 3600.0}, "s",
+                  "how long it waits for a blockage to go before it tries anything else");
     describe_driving(fields);
   }
 };
@@ -55,8 +50,8 @@ class Visits {
          Unknown unknown = Unknown::as_skip_says);
 
   // Success when every place was visited or left out, but not all left out; failure with the place and why. `shortest`
-  // asks the planner for one way a tick, n (n + 1) / 2 in all, while the robot stands.
-  Status tick(const WorldView& world, BehaviourContext& orders);
+  // asks the planner for one route a tick, n (n + 1) / 2 in all, while the robot stands.
+  Status tick(const WorldView& world, BehaviourContext& context);
 
   [[nodiscard]] std::size_t visited() const { return visited_.size(); }
   [[nodiscard]] std::size_t left_out() const { return left_out_.size(); }
@@ -68,9 +63,9 @@ class Visits {
     PlaceName name;
     std::optional<LandmarkId> chosen;  // of several landmarks, when the order was found
   };
-  Status find_order(const WorldView& world, BehaviourContext& orders);
-  void ask_next_way(const WorldView& world, BehaviourContext& orders);
-  Status drive(const WorldView& world, BehaviourContext& orders);
+  Status find_order(const WorldView& world, BehaviourContext& context);
+  void ask_next_length(const WorldView& world, BehaviourContext& context);
+  Status drive(const WorldView& world, BehaviourContext& context);
   Status wait(const WorldView& world);
   Status leave_out(const std::string& why, bool may_be_left_out);
   [[nodiscard]] bool resolve(const WorldView& world);
@@ -90,7 +85,7 @@ class Visits {
 
   bool ordered_ = false;
   std::vector<std::vector<double>> cost_m_;  // [0] from where the robot stands
-  std::size_t from_ = 0;                     // the way that is asked for next
+  std::size_t from_ = 0;                     // the route that is asked for next
   std::size_t to_ = 1;
 };
 

@@ -121,19 +121,21 @@ PlanResult FakeHost::plan(const PlanRequest& request) {
   return result;
 }
 
+WorldView FakeHost::view(const Observation* seen) const {
+  WorldView world{grid, graph, robot, {T_map_robot, Eigen::Matrix3d::Zero()}, time_s, seen, speed_reduction_ratio};
+  world.T_map_start = T_map_start;
+  return world;
+}
+
+ControlResult FakeHost::control(const ControlRequest& request) {
+  return controller->control(request, view(nullptr));
+}
+
 Status FakeHost::tick(Behaviour& behaviour) {
   wanted_ = {};
   Observation seen;
   if (observe) seen = observe(*this);
-  WorldView world{grid,
-                  graph,
-                  robot,
-                  {T_map_robot, Eigen::Matrix3d::Zero()},
-                  time_s,
-                  observe ? &seen : nullptr,
-                  speed_reduction_ratio};
-  world.T_map_start = T_map_start;
-  Status status = behaviour.tick(world, *this);
+  Status status = behaviour.tick(view(observe ? &seen : nullptr), *this);
   const Twist allowed = collision_monitor ? collision_monitor(T_map_robot, wanted_) : wanted_;
   speed_reduction_ratio = 0.0;
   if (wanted_.v_mps != 0.0)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "framework/contracts/behaviour.hpp"
+#include "plugins/pursuit_dwa/pursuit_dwa.hpp"
 
 namespace cairn::behaviours {
 
@@ -26,6 +27,8 @@ class FakeHost : public BehaviourContext {
   explicit FakeHost(const std::string& drawing, const FakeHostSettings& settings = {});
 
   void drive(const Twist& wanted) override { wanted_ = wanted; }
+  // By `controller`, pursuit_dwa unless set.
+  ControlResult control(const ControlRequest& request) override;
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override {
     saved.push_back(file_name);
@@ -41,11 +44,16 @@ class FakeHost : public BehaviourContext {
     return {Progress::success, "wrote " + output.file_name};
   }
   void say(const std::string& sentence) override { said.push_back(sentence); }
+  std::optional<Place> input(const std::string& name) override {
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional(found->second);
+  }
+  void output(const std::string& name, const Place& place) override { values[name] = place; }
 
   // Ticks until the behaviour ends or the time is up (then its status is still running).
   Status run(Behaviour& behaviour, double at_most_s);
   Status tick(Behaviour& behaviour);
-  // Ticks until it tells how long it still takes; none when it ends or the time is up before.
+  // Ticks until it says how long it still takes; none when it ends or the time is up before.
   std::optional<double> first_left_s(Behaviour& behaviour, double at_most_s);
 
   [[nodiscard]] bool is_solid(const Point& p) const;
@@ -64,10 +72,13 @@ class FakeHost : public BehaviourContext {
   std::function<Observation(const FakeHost&)> observe;
   double time_s = 0.0;
   double speed_reduction_ratio = 0.0;
-  // What the stop layer lets through; all of it by default.
+  // What the collision monitor lets through; all of it by default.
   std::function<Twist(const Pose2& T_map_robot, const Twist& wanted)> collision_monitor;
-  // Answers plan(); by default the shortest way over the grid.
+  // Answers plan(); by default the shortest path over the grid.
   std::function<PlanResult(const PlanRequest&)> planner;
+
+  std::shared_ptr<Controller> controller = std::make_shared<pursuit_dwa::PursuitDwa>(pursuit_dwa::PursuitDwaConfig{});
+  std::map<std::string, Place> values;  // that steps hand over
 
   std::vector<Pose2> driven;  // every tick
   std::vector<PlanRequest> planned;
@@ -79,6 +90,7 @@ class FakeHost : public BehaviourContext {
   double nearest_solid_m = 1e9;  // over the whole run
 
  private:
+  [[nodiscard]] WorldView view(const Observation* seen) const;
   void reveal();
   void move(const Twist& twist);
   [[nodiscard]] bool can_stand(const Point& p) const;

@@ -12,7 +12,7 @@ Config config_of(const std::string& yaml) {
   return load_config<Config>(parse_config_text(yaml, "mission.yaml"), "plugin step");
 }
 
-// What is told of wrong settings.
+// What is reported about wrong settings.
 template <class Make>
 std::string error_of(const Make& make) {
   try {
@@ -23,8 +23,10 @@ std::string error_of(const Make& make) {
   return "no error";
 }
 
-inline Landmark landmark_at(const std::string& category, const Pose2& pose, const Pose2& access) {
+inline Landmark landmark_at(const std::string& category, const Pose2& pose, const Pose2& access,
+                            const std::string& name = "") {
   Landmark landmark;
+  landmark.name = name;
   landmark.category = category;
   landmark.T_map_landmark = pose;
   landmark.access = access;

@@ -22,8 +22,8 @@ const std::string kYard = R"(
 // Turns on the spot and hears: echoes of a ring at 0.6 m as long as there are any.
 class Hearing : public Behaviour {
  public:
-  Status tick(const WorldView& world, BehaviourContext& orders) override {
-    orders.drive({0.0, 1.0});
+  Status tick(const WorldView& world, BehaviourContext& context) override {
+    context.drive({0.0, 1.0});
     if (forgets)
       echoes.forget(world);
     else

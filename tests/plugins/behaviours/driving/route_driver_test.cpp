@@ -42,7 +42,7 @@ const Place kOtherRoom{Pose2{3.3, 0.5, 0.0}, false, {}};
 class Driving : public Behaviour {
  public:
   explicit Driving(const RouteSettings& settings, const Place& goal) : driver(settings, 1), goal_(goal) {}
-  Status tick(const WorldView& world, BehaviourContext& orders) override { return driver.tick(goal_, world, orders); }
+  Status tick(const WorldView& world, BehaviourContext& context) override { return driver.tick(goal_, world, context); }
   void halt() override { driver.restart(); }
   RouteDriver driver;
 
@@ -123,7 +123,7 @@ TEST(RouteDriver, WaitsFirstAndThenClimbsTheLadder) {
   const Status status = host.run(driving, 300.0);
   EXPECT_EQ(status.progress, Progress::failure);
   EXPECT_GT(host.time_s, held_s + 6.0);
-  EXPECT_THAT(status.reason, HasSubstr("held back at ("));
+  EXPECT_THAT(status.reason, HasSubstr("blocked at ("));
   EXPECT_THAT(status.reason, HasSubstr("waited, backed up, looked and planned again 2 times"));
   EXPECT_LT(host.T_map_robot.x_m, x_m - 0.1) << "has backed up";
   EXPECT_THAT(host.said, Contains(HasSubstr("(1 of 2)")));
@@ -176,7 +176,7 @@ std::function<Observation(const FakeHost&)> sonars_before_leaf(const bool& is_cl
   };
 }
 
-// Ticks until it looks whether the way is free (or no longer does), for so long at most.
+// Ticks until it looks whether the path is free (or no longer does), for so long at most.
 void run_until_look(FakeHost& host, Driving& driving, bool looks, double at_most_s) {
   const double until_s = host.time_s + at_most_s;
   Status status;
@@ -229,7 +229,7 @@ TEST(RouteDriver, ACarBacksUpInsteadOfYielding) {
     };
     EXPECT_EQ(host.run(driving, 600.0).progress, Progress::failure);
     const bool yielded =
-        std::ranges::any_of(host.said, [](const std::string& text) { return text.ends_with("makes way"); });
+        std::ranges::any_of(host.said, [](const std::string& text) { return text.ends_with("yields"); });
     EXPECT_EQ(yielded, !is_car);
   }
 }

@@ -27,8 +27,8 @@ TEST(Specks, AreSmallGroupsThatStandAlone) {
 
 TEST(Specks, LargerOnesAreWhenTheyAreAllowedToBe) {
   const AsciiGrid map(kRoom);
-  EXPECT_EQ(speckles_of(map.grid, map.grid.bounds(), 12, 80).size(), 4U + 12U);
-  EXPECT_EQ(speckles_of(map.grid, map.grid.bounds(), 4, 3).size(), 0U) << "four cells in all";
+  EXPECT_EQ(speckles_of(map.grid, map.grid.bounds(), {12, 80}).size(), 4U + 12U);
+  EXPECT_EQ(speckles_of(map.grid, map.grid.bounds(), {4, 3}).size(), 0U) << "four cells in all";
 }
 
 TEST(Specks, WhatReachesTheRimOfTheBoxIsNone) {

@@ -200,7 +200,7 @@ TEST(Dock, FailsWhereTheSideIsBlocked) {
   Dock step = dock("{landmark: L1, side: back}");
   const Status status = host.run(step, 60.0);
   EXPECT_EQ(status, (Status{Progress::failure,
-                            "the back side of L1 (square) is blocked: there is no free way to it on the map"}));
+                            "the back side of L1 (square) is blocked: there is no free path to it on the map"}));
   EXPECT_EQ(host.driven_m, 0.0);
 }
 
@@ -212,7 +212,7 @@ TEST(Dock, FailsWhenItIsBlocked) {
   Dock step = dock("{landmark: L1, side: right, patience_s: 3}");
   const Status status = host.run(step, 120.0);
   EXPECT_EQ(status.progress, Progress::failure);
-  EXPECT_THAT(status.reason, HasSubstr("held back 0.5"));
+  EXPECT_THAT(status.reason, HasSubstr("blocked 0.5"));
   EXPECT_THAT(status.reason, HasSubstr("before the right side of L1 (square), not at 0.40 m"));
 }
 

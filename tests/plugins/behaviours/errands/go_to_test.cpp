@@ -37,19 +37,10 @@ const std::string kRoom = R"(
 )";
 const FakeHostSettings kKnown{.all_known = true};
 
-Landmark landmark(const std::string& category, const Pose2& at, const Pose2& access, const std::string& name = "") {
-  Landmark l;
-  l.category = category;
-  l.name = name;
-  l.T_map_landmark = at;
-  l.access = access;
-  return l;
-}
-
 FakeHost host_with_landmarks() {
   FakeHost host(kRoom, kKnown);
-  host.graph.add(landmark("circle", {0.5, 0.5, 0}, {0.5, 0.5, 0}));
-  host.graph.add(landmark("square", {2.5, 1.2, 0}, {2.2, 0.8, 0}, "desk"));
+  host.graph.add(landmark_at("circle", {0.5, 0.5, 0}, {0.5, 0.5, 0}));
+  host.graph.add(landmark_at("square", {2.5, 1.2, 0}, {2.2, 0.8, 0}, "desk"));
   return host;
 }
 
@@ -95,7 +86,7 @@ TEST(GoTo, FacesTheLandmarkInTheEnd) {
 
 TEST(GoTo, AsksForAllLandmarksOfTheNearestCategory) {
   FakeHost host = host_with_landmarks();
-  host.graph.add(landmark("square", {0.5, 1.5, 0}, {0.5, 1.2, 0}));
+  host.graph.add(landmark_at("square", {0.5, 1.5, 0}, {0.5, 1.2, 0}));
   GoTo go(config_for("nearest square"), 5);
   EXPECT_EQ(host.tick(go).progress, Progress::running);
   ASSERT_EQ(host.planned.size(), 1U);
@@ -107,7 +98,7 @@ TEST(GoTo, AsksForAllLandmarksOfTheNearestCategory) {
 // As planners do: a place that names an unknown landmark is refused as a whole.
 TEST(GoTo, LooksItsGoalUpAgainWhenOneOfItsLandmarksIsRetired) {
   FakeHost host = host_with_landmarks();
-  host.graph.add(landmark("square", {0.5, 1.5, 0}, {0.5, 1.2, 0}));
+  host.graph.add(landmark_at("square", {0.5, 1.5, 0}, {0.5, 1.2, 0}));
   GoTo go(config_for("nearest square"), 5);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(host.tick(go).progress, Progress::running);
   host.graph.retire(3, "merged into L2");
@@ -198,7 +189,7 @@ TEST(GoTo, GivesUpAfterBeingBlockedAgainAndAgain) {
   GoTo go(config_at({2.4, 1.4}), 1);
   const Status status = host.run(go, 600.0);
   EXPECT_EQ(status.progress, Progress::failure);
-  EXPECT_THAT(status.reason, StartsWith("held back at ("));
+  EXPECT_THAT(status.reason, StartsWith("blocked at ("));
   EXPECT_THAT(status.reason, HasSubstr("on the way to (2.40, 1.40)"));
 }
 
@@ -232,6 +223,19 @@ TEST(GoTo, NeedsExactlyOneGoal) {
     EXPECT_THAT(error_of([&] { GoTo(config_of<GoToConfig>(std::string("landmark: ") + nothing), 1); }),
                 AllOf(StartsWith("mission.yaml:1:11: landmark: "), HasSubstr(" is no landmark; one is an id (L3), a")))
         << nothing;
+}
+
+TEST(GoTo, GoesToThePlaceThatAnEarlierStepGives) {
+  FakeHost host(kRoom, kKnown);
+  GoToConfig config;
+  config.input = "found";
+  GoTo there(config, 1);
+  EXPECT_THAT(host.run(there, 1.0).reason, HasSubstr("no step has given the place \"found\" yet"));
+  there.halt();
+  host.values["found"] = Place{Pose2{1.5, 0.5, 0.0}, false, {}, {}};
+  const Status status = host.run(there, 60.0);
+  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.reason, "at the place \"found\"");
 }
 
 TEST(GoTo, BeginsAfreshAfterAHalt) {

@@ -195,7 +195,7 @@ TEST(Explore, FailsWhenTheStopLayerNeverLetsItGo) {
   Explore explore({});
   const Status status = host.run(explore, 600.0);
   EXPECT_EQ(status.progress, Progress::failure);
-  EXPECT_THAT(status.reason, HasSubstr("held back"));
+  EXPECT_THAT(status.reason, HasSubstr("blocked wherever it turns"));
 }
 
 TEST(Explore, IsNotTrappedByAPlaceWhereItIsBlocked) {

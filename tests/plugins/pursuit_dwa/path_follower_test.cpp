@@ -1,10 +1,10 @@
-#include "plugins/behaviours/driving/path_follower.hpp"
+#include "plugins/pursuit_dwa/path_follower.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-namespace cairn::behaviours {
+namespace cairn::pursuit_dwa {
 namespace {
 
 struct Driven {
@@ -17,7 +17,7 @@ struct Driven {
 
 Driven drive(Pose2 pose, const std::vector<Point>& path, const FollowLimits& limits, double at_most_s = 120.0) {
   Driven run;
-  FollowState state;
+  PathProgress state;
   while (run.seconds < at_most_s) {
     const FollowStep step = follow(pose, path, state, limits);
     state = step.state;
@@ -51,11 +51,12 @@ TEST(PathFollower, DrivesAStraightLineToItsEnd) {
 }
 
 TEST(PathFollower, TurnsInPlaceWhenThePathLeadsBack) {
-  const FollowStep step = follow({0, 0, std::numbers::pi}, {{0, 0}, {1, 0.1}}, {}, {});
+  const std::vector<Point> path{{0, 0}, {1, 0.1}};
+  const FollowStep step = follow({0, 0, std::numbers::pi}, path, {}, {});
   EXPECT_EQ(step.wanted.v_mps, 0.0);
   EXPECT_NE(step.wanted.w_radps, 0.0);
   EXPECT_TRUE(step.state.turning);
-  EXPECT_TRUE(drive({0, 0, std::numbers::pi}, {{0, 0}, {1, 0.1}}, {}).arrived);
+  EXPECT_TRUE(drive({0, 0, std::numbers::pi}, path, {}).arrived);
 }
 
 TEST(PathFollower, StaysNearAPathWithCorners) {
@@ -76,7 +77,7 @@ TEST(PathFollower, KeepsToItsSpeedAndTurnRate) {
   limits.speed_mps = 0.15;
   limits.max_w_radps = 0.4;
   Pose2 pose{0, 0, 1.0};
-  FollowState state;
+  PathProgress state;
   for (int i = 0; i < 2000; ++i) {
     const FollowStep step = follow(pose, circle(0.3, 12), state, limits);
     state = step.state;
@@ -87,17 +88,19 @@ TEST(PathFollower, KeepsToItsSpeedAndTurnRate) {
 }
 
 TEST(PathFollower, SlowsDownTowardsTheEnd) {
-  EXPECT_DOUBLE_EQ(follow({0, 0, 0}, {{0, 0}, {2, 0}}, {}, {}).wanted.v_mps, 0.2);
-  EXPECT_LT(follow({1.92, 0, 0}, {{0, 0}, {2, 0}}, {1.92, false}, {}).wanted.v_mps, 0.19);
+  const std::vector<Point> path{{0, 0}, {2, 0}};
+  EXPECT_DOUBLE_EQ(follow({0, 0, 0}, path, {}, {}).wanted.v_mps, 0.2);
+  EXPECT_LT(follow({1.92, 0, 0}, path, {1.92, false}, {}).wanted.v_mps, 0.19);
 }
 
 TEST(PathFollower, ACarNeverTurnsInPlaceOrTighterThanItCan) {
   FollowLimits limits;
   limits.min_turning_radius_m = 0.5;
+  const std::vector<Point> path{{0, 0}, {4, 0}};
   Pose2 pose{0, 0, 2.5};
-  FollowState state;
+  PathProgress state;
   for (int i = 0; i < 3000; ++i) {
-    const FollowStep step = follow(pose, {{0, 0}, {4, 0}}, state, limits);
+    const FollowStep step = follow(pose, path, state, limits);
     state = step.state;
     if (step.arrived) break;
     EXPECT_GT(step.wanted.v_mps, 0.0);
@@ -111,14 +114,5 @@ TEST(PathFollower, AnEmptyPathHasArrived) {
   EXPECT_TRUE(follow({}, {}, {}, {}).arrived);
 }
 
-TEST(PathFollower, FindsPointsAlongAPath) {
-  const std::vector<Point> path{{0, 0}, {1, 0}, {1, 2}};
-  EXPECT_DOUBLE_EQ(length_of(path), 3.0);
-  EXPECT_EQ(point_along(path, -1.0), Point(0, 0));
-  EXPECT_EQ(point_along(path, 0.5), Point(0.5, 0));
-  EXPECT_EQ(point_along(path, 2.0), Point(1, 1));
-  EXPECT_EQ(point_along(path, 9.0), Point(1, 2));
-}
-
 }  // namespace
-}  // namespace cairn::behaviours
+}  // namespace cairn::pursuit_dwa

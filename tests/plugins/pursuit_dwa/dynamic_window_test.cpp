@@ -1,11 +1,11 @@
-#include "plugins/behaviours/driving/local_planner.hpp"
+#include "plugins/pursuit_dwa/dynamic_window.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-namespace cairn::behaviours {
+namespace cairn::pursuit_dwa {
 namespace {
 
 const double kNever = std::numeric_limits<double>::infinity();
@@ -21,21 +21,21 @@ void add(std::vector<Point>& points, const std::vector<Point>& more) {
   points.insert(points.end(), more.begin(), more.end());
 }
 
-TEST(FreeWay, StraightAheadAndBack) {
+TEST(FreeDistance, StraightAheadAndBack) {
   EXPECT_NEAR(free_distance_m({0.2, 0.0}, {{1.0, 0.0}}, 0.3), 0.7, 1e-9);
   EXPECT_EQ(free_distance_m({0.2, 0.0}, {{1.0, 0.31}}, 0.3), kNever);
   EXPECT_EQ(free_distance_m({-0.2, 0.0}, {{1.0, 0.0}}, 0.3), kNever);
   EXPECT_NEAR(free_distance_m({-0.2, 0.0}, {{-1.0, 0.0}}, 0.3), 0.7, 1e-9);
 }
 
-TEST(FreeWay, WithinReachOnlyTheWayNearerIsBlocked) {
+TEST(FreeDistance, WithinReachOnlyWhatComesNearerIsBlocked) {
   EXPECT_EQ(free_distance_m({0.2, 0.0}, {{0.25, 0.0}}, 0.3), 0.0);
   EXPECT_EQ(free_distance_m({-0.2, 0.0}, {{0.25, 0.0}}, 0.3), kNever);
   EXPECT_EQ(free_distance_m({0.2, 0.0}, {{0.01, 0.29}}, 0.3), kNever);
 }
 
 // Against the disc's centre moved in tiny steps.
-TEST(FreeWay, AgreesWithTinyStepsOnRandomArcs) {
+TEST(FreeDistance, AgreesWithTinyStepsOnRandomArcs) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 500; ++i) {
@@ -60,43 +60,43 @@ TEST(FreeWay, AgreesWithTinyStepsOnRandomArcs) {
   }
 }
 
-TEST(LocalPlanner, TakesWhatTheFollowerPrefersInTheOpen) {
-  const LocalWish wish{{0.25, 0.3}, {0.3, 0.1}};
-  const LocalStep step = best_in_window({0.25, 0.0}, wish, {{2.0, 0.0}, {0.0, 0.5}}, {});
+TEST(DynamicWindow, TakesWhatTheFollowerPrefersInTheOpen) {
+  const Wish wish{{0.25, 0.3}, {0.3, 0.1}};
+  const WindowStep step = best_in_window({0.25, 0.0}, wish, {{2.0, 0.0}, {0.0, 0.5}}, {});
   EXPECT_EQ(step.target, wish.preferred);
   EXPECT_FALSE(step.blocked);
 }
 
-TEST(LocalPlanner, SteersRoundAPost) {
-  const LocalWish wish{{0.25, 0.0}, {0.8, 0.0}};
-  const LocalStep step = best_in_window({0.25, 0.0}, wish, {{0.45, 0.05}}, {});
+TEST(DynamicWindow, SteersRoundAPost) {
+  const Wish wish{{0.25, 0.0}, {0.8, 0.0}};
+  const WindowStep step = best_in_window({0.25, 0.0}, wish, {{0.45, 0.05}}, {});
   EXPECT_FALSE(step.blocked);
   EXPECT_LT(step.target.w_radps, -0.1) << "to the side with more room";
 }
 
-TEST(LocalPlanner, StopsBeforeAWall) {
-  const LocalWish wish{{0.25, 0.0}, {0.8, 0.0}};
-  const LocalStep step = best_in_window({0.1, 0.0}, wish, wall({0.26, -1.5}, {0.26, 1.5}), {});
+TEST(DynamicWindow, StopsBeforeAWall) {
+  const Wish wish{{0.25, 0.0}, {0.8, 0.0}};
+  const WindowStep step = best_in_window({0.1, 0.0}, wish, wall({0.26, -1.5}, {0.26, 1.5}), {});
   EXPECT_TRUE(step.blocked);
   EXPECT_EQ(step.target, Twist{});
 }
 
-TEST(LocalPlanner, PassesADoorOfSeventyCentimetres) {
+TEST(DynamicWindow, PassesADoorOfSeventyCentimetres) {
   std::vector<Point> jambs = wall({0.6, 0.35}, {0.6, 1.5});
   add(jambs, wall({0.6, -0.35}, {0.6, -1.5}));
   for (double x_m = 0.0; x_m < 1.2; x_m += 0.05) {
     std::vector<Point> seen;
     for (const Point& p : jambs) seen.push_back(p - Point(x_m, 0.0));
-    const LocalStep step = best_in_window({0.2, 0.0}, {{0.2, 0.0}, {0.4, 0.0}}, seen, {});
+    const WindowStep step = best_in_window({0.2, 0.0}, {{0.2, 0.0}, {0.4, 0.0}}, seen, {});
     EXPECT_GT(step.target.v_mps, 0.05) << "at " << x_m;
     EXPECT_LT(std::abs(step.target.w_radps), 0.2) << "at " << x_m;
   }
 }
 
-TEST(LocalPlanner, WhatItTakesIsAdmissible) {
+TEST(DynamicWindow, WhatItTakesIsAdmissible) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  const LocalLimits limits;
+  const WindowLimits limits;
   for (int i = 0; i < 500; ++i) {
     std::vector<Point> obstacles;
     for (int k = 0; k < 12; ++k) {
@@ -104,7 +104,7 @@ TEST(LocalPlanner, WhatItTakesIsAdmissible) {
       if (p.norm() > 0.35) obstacles.push_back(p);
     }
     const Twist now{0.125 + 0.125 * any(random), 0.5 * any(random)};
-    const LocalStep step = best_in_window(now, {{0.25, 0.0}, {0.5, 0.2 * any(random)}}, obstacles, limits);
+    const WindowStep step = best_in_window(now, {{0.25, 0.0}, {0.5, 0.2 * any(random)}}, obstacles, limits);
     if (step.blocked) {
       EXPECT_EQ(step.target, Twist{});
       continue;
@@ -113,50 +113,23 @@ TEST(LocalPlanner, WhatItTakesIsAdmissible) {
     EXPECT_LE(std::abs(step.target.w_radps), limits.max_w_radps + 1e-12);
     const double v = step.target.v_mps;
     EXPECT_GE(free_distance_m(step.target, obstacles, limits.radius_m + 0.03),
-              v * v / (2.0 * limits.acceleration_mps2));
+              v * v / (2.0 * limits.accelerations.forward_mps2));
   }
 }
 
-TEST(LocalPlanner, ACarKeepsItsTurningRadius) {
-  LocalLimits limits;
-  limits.min_turning_radius_m = 0.6;
+TEST(DynamicWindow, ACarKeepsItsTurningRadius) {
+  WindowLimits limits;
+  limits.accelerations.min_turning_radius_m = 0.6;
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   Twist now;
   for (int i = 0; i < 500; ++i) {
-    const LocalStep step =
+    const WindowStep step =
         best_in_window(now, {{0.25, 0.1}, {0.5, 0.0}}, {{0.6 + 0.2 * any(random), 0.3 * any(random)}}, limits);
-    now = approached(now, step.target, 0.04, limits);
+    now = motion::approached(now, step.target, 0.04, limits.accelerations);
     EXPECT_LE(std::abs(now.w_radps) * 0.6, std::abs(now.v_mps) + 1e-9);
   }
 }
 
-TEST(LocalPlanner, ApproachesWithinTheAccelerations) {
-  const LocalLimits limits;
-  const Twist next = approached({0.0, 0.0}, {0.25, -0.9}, 0.04, limits);
-  EXPECT_NEAR(next.v_mps, 0.02, 1e-12);
-  EXPECT_NEAR(next.w_radps, -0.14, 1e-12);
-  EXPECT_EQ(approached({0.24, 0.1}, {0.25, 0.1}, 0.04, limits), (Twist{0.25, 0.1}));
-}
-
-TEST(LocalPlanner, WhatALiveEchoComesThroughIsNotInTheWay) {
-  OccupancyGrid grid(0.05);
-  grid.set_log_odds(grid.cell_at({0.6, 0.0}), 600);  // somebody who has gone on
-  const LandmarkGraph graph;
-  const RobotModel robot;
-  const NearEchoes near_echoes(grid);
-  const auto obstacles_with = [&](double range_m) {
-    Observation observation;
-    observation.ranges = {{{0.1, 0.0, 0.0}, radians(15.0), 0.1, 5.0, range_m, 0}};
-    LocalPlanner planner;
-    planner.see({grid, graph, robot, {Pose2{}, Eigen::Matrix3d::Zero()}, 1.0, &observation}, near_echoes);
-    return planner.obstacles().size();
-  };
-  EXPECT_EQ(obstacles_with(kNever), 1U) << "silence says nothing";
-  EXPECT_EQ(obstacles_with(2.0), 0U);
-  EXPECT_EQ(obstacles_with(0.5), 1U) << "the echo came from there";
-  EXPECT_GT(obstacles_with(0.3), 1U) << "something else: its whole arc besides";
-}
-
 }  // namespace
-}  // namespace cairn::behaviours
+}  // namespace cairn::pursuit_dwa
