@@ -10,9 +10,9 @@ namespace cairn {
 enum class PluginKind { sensor, localizer, map, detector, planner, behaviour, path_planner, route_planner, controller };
 // In the order in which people read them.
 inline constexpr PluginKind kPluginKinds[] = {
-    PluginKind::sensor,  PluginKind::localizer,    PluginKind::map,           PluginKind::detector,
-    PluginKind::planner, PluginKind::path_planner, PluginKind::route_planner, PluginKind::controller,
-    PluginKind::behaviour,
+    PluginKind::sensor,        PluginKind::localizer,  PluginKind::map,
+    PluginKind::detector,      PluginKind::planner,    PluginKind::path_planner,
+    PluginKind::route_planner, PluginKind::controller, PluginKind::behaviour,
 };
 [[nodiscard]] std::string_view name_of(PluginKind kind);
 

@@ -35,8 +35,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
               world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
       steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller},
-             modules_.behaviours,
-             TextFiles(options.out, options.resume != nullptr)) {
+             modules_.behaviours, TextFiles(options.out, options.resume != nullptr)) {
   world_.pose.T_map_robot = modules_.T_map_start;
   if (options.resume != nullptr) restore(*options.resume);
 }
