@@ -8,7 +8,7 @@ namespace {
 
 void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Planner, cairn::HybridConfig>(
-      "hybrid", "landmarks first, then routes on the grid between them",
+      "hybrid", "landmarks first, then paths on the grid between them",
       [](const cairn::HybridConfig& config, const cairn::ModuleContext& context) {
         if (context.modules == nullptr) throw std::invalid_argument("hybrid: no maker of modules in its context");
         return std::make_unique<cairn::HybridPlanner>(

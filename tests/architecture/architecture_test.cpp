@@ -142,6 +142,17 @@ TEST(Architecture, ModulesKnowContractsFilesAndMapsButNeverEachOtherNorTheHost) 
   }
 }
 
+// So the author of one kind compiles the contract of that kind only.
+TEST(Architecture, WhatAllKindsOfModulesShareIncludesNoContract) {
+  const std::vector<std::string> shared = {"framework/contracts/registrar.hpp",
+                                           "framework/contracts/module_context.hpp",
+                                           "framework/contracts/plugin_kind.hpp"};
+  for (const Include& include : includes()) {
+    if (!starts_with_any(include.file, shared) || !include.header.starts_with("framework/contracts/")) continue;
+    EXPECT_TRUE(starts_with_any(include.header, shared)) << include.file << " includes " << include.header;
+  }
+}
+
 TEST(Architecture, TheProgramLinksNoModule) {
   for (const Include& include : includes())
     if (include.file.starts_with("framework/")) {
