@@ -226,16 +226,16 @@ class BadWorlds : public testing::Test {
 };
 
 TEST_F(BadWorlds, MoreLandmarksAtLeastThanAtMostAreRefused) {
-  expect_refused("max_landmarks: 2, min_landmarks: 5", "46",
+  expect_refused("max_landmarks: 2, min_landmarks: 5", "43",
                  "min_landmarks must be at most max_landmarks, found 5 and 2");
-  expect_refused("min_landmarks: 7", "27", "found 7 and 6");
-  expect_refused("max_landmarks: 0", "26", "found 1 and 0");
+  expect_refused("min_landmarks: 7", "25", "found 7 and 6");
+  expect_refused("max_landmarks: 0", "25", "found 1 and 0");
 }
 
 TEST_F(BadWorlds, RoomsThatCannotBeAreRefused) {
-  expect_refused("largest_room_m: [-3, 5]", "27", "x of largest_room_m must be a number from 1 to 100 m, found \"-3\"");
+  expect_refused("largest_room_m: [-3, 5]", "25", "x of largest_room_m must be a number from 1 to 100 m, found \"-3\"");
   expect_refused("largest_room_m: [8, 1e9]", "30", "y of largest_room_m must be a number from 1 to 100 m");
-  expect_refused("smallest_room_m: [9, 4]", "27",
+  expect_refused("smallest_room_m: [9, 4]", "25",
                  "x of smallest_room_m must be at most that of largest_room_m, found 9 and 8");
   expect_refused("start_m: [2, 5]", "19", "start_m must lie within the smallest room: its y is 5");
 }

@@ -107,14 +107,14 @@ TEST(Experiment, OfPlacesReportsTheDegreesThere) {
   EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
 }
 
-TEST(Experiment, OfALapDrawsCategoriesAndTemplates) {
+TEST(Experiment, OfAnOrbitDrawsCategoriesAndTemplates) {
   const auto folder = fresh_folder("experiment_orbit");
   (void)two_places(folder, "square");
-  write_text(folder / "lap.yaml",
+  write_text(folder / "orbit.yaml",
              "experiment: orbit\nmissions: [round.yaml]\nseeds: {from: 5, count: 1}\ncategories: [circle, square]\n"
-             "lap: {around: square, bin_deg: 45}\nset: [detector.degrees=each_template]\n");
+             "orbit: {around: square, bin_deg: 45}\nset: [detector.degrees=each_template]\n");
   const Finished finished =
-      run_cairn({"experiment", (folder / "lap.yaml").string(), "--out", (folder / "out").string(), "--json"});
+      run_cairn({"experiment", (folder / "orbit.yaml").string(), "--out", (folder / "out").string(), "--json"});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
   const auto orbit = nlohmann::json::parse(finished.out)["rows"][0]["orbit"];
   ASSERT_GT(orbit.size(), 3U);

@@ -78,7 +78,7 @@ TEST(Trials, BadFilesAreReportedWithTheirPlace) {
   EXPECT_THAT(bad.err, HasSubstr("max_goals"));
   bad = with("trials_bad", "experiment: trials\ntrials:\n" + robots + "  min_goals: 9\n");
   EXPECT_EQ(bad.exit_status, 2);
-  EXPECT_THAT(bad.err, HasSubstr("trials.yaml:5:16: min_goals must be at most max_goals, found 9 and 6"));
+  EXPECT_THAT(bad.err, HasSubstr("trials.yaml:5:14: min_goals must be at most max_goals, found 9 and 6"));
   bad = with("trials_bad", "experiment: trials\nmissions: [a.yaml]\ntrials:\n" + robots);
   EXPECT_EQ(bad.exit_status, 2);
   EXPECT_THAT(bad.err, HasSubstr("trials.yaml:2:11: an experiment of trials draws its missions and lists none"));

@@ -148,7 +148,7 @@ std::string Drawing::go_to_landmark() {
       categories[static_cast<std::size_t>(chance_.whole(0, static_cast<int>(categories.size()) - 1))];
   // Who wants to go to one looks for it first: search is done at once where one is known.
   return fmt::format(
-      "sequence: [{{always: {{search: {{category: {}, at_most_s: {:g}}}}}}}, {{goto: {{landmark: nearest {}, "
+      "sequence: [{{force_success: {{search: {{category: {}, at_most_s: {:g}}}}}}}, {{goto: {{landmark: nearest {}, "
       "at_most_s: {:g}}}}}]",
       category, config_.goal_at_most_s, category, config_.goal_at_most_s);
 }
@@ -203,14 +203,14 @@ std::string Drawing::step() {
 }
 
 std::string Drawing::steps() {
-  std::string text =
-      fmt::format("  - always: {{explore: {{until_known_ratio: 0.97, at_most_s: {:g}}}}}\n", config_.explore_at_most_s);
+  std::string text = fmt::format("  - force_success: {{explore: {{until_known_ratio: 0.97, at_most_s: {:g}}}}}\n",
+                                 config_.explore_at_most_s);
   const int goals = chance_.whole(config_.min_goals, std::max(config_.min_goals, config_.max_goals));
   for (int i = 0; i < goals; ++i) {
     text += "  - " + step() + "\n";
     if (chance_.share() < 0.2) text += fmt::format("  - wait: {:.1f}\n", chance_.between(1.0, 20.0));
   }
-  return text + fmt::format("  - always: {{return_home: {{at_most_s: {:g}}}}}\n", config_.goal_at_most_s);
+  return text + fmt::format("  - force_success: {{return_home: {{at_most_s: {:g}}}}}\n", config_.goal_at_most_s);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST_F(MissionTreeFiles, EveryNodeIsReadWithItsSettingsAndPath) {
             "2/1/1/1        goto             nearest square\n"
             "2/1/2        wait\n"
             "3        repeat                 times: forever\n"
-            "3/1        always\n"
+            "3/1        force_success\n"
             "3/1/1        reactive_fallback\n"
             "3/1/1/1        at_place         at_m: [1, 2]\n"
             "3/1/1/2        landmark_known   L3\n");
@@ -135,7 +135,7 @@ TEST_F(MissionTreeFiles, WhatIsWrongIsReportedWithItsPlace) {
       {"- timeout: {after_s: -1, do: wait}", "main.yaml:1:22: after_s must be a number from 0.001"},
       {"- timeout: {after_s: soon, do: wait}", "main.yaml:1:22: after_s must be a number from 0.001"},
       {"- not:", "main.yaml:1:3: not needs one node, found nothing"},
-      {"- force_success: []", "main.yaml:1:11: force_success needs one node, found an empty list"},
+      {"- force_success: []", "main.yaml:1:18: force_success needs one node, found an empty list"},
       {"- landmark_known:", "main.yaml:1:3: landmark_known lacks the key \"landmark\""},
       {"- landmark_known: ''", "main.yaml:1:19: landmark_known needs a landmark or category, found an empty text"},
       {"- landmark_known: nearest", "main.yaml:1:19: landmark_known: \"nearest\" names no category"},
