@@ -233,9 +233,9 @@ TEST_F(BadWorlds, MoreLandmarksAtLeastThanAtMostAreRefused) {
 }
 
 TEST_F(BadWorlds, RoomsThatCannotBeAreRefused) {
-  expect_refused("largest_room_m: [-3, 5]", "25", "x of largest_room_m must be a number from 1 to 100 m, found \"-3\"");
+  expect_refused("largest_room_m: [-3, 5]", "27", "x of largest_room_m must be a number from 1 to 100 m, found \"-3\"");
   expect_refused("largest_room_m: [8, 1e9]", "30", "y of largest_room_m must be a number from 1 to 100 m");
-  expect_refused("smallest_room_m: [9, 4]", "25",
+  expect_refused("smallest_room_m: [9, 4]", "27",
                  "x of smallest_room_m must be at most that of largest_room_m, found 9 and 8");
   expect_refused("start_m: [2, 5]", "19", "start_m must lie within the smallest room: its y is 5");
 }
