@@ -17,7 +17,8 @@ std::shared_ptr<Interface> build(const ModuleLibrary& library, const PluginChoic
 ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, const MissionModules& built,
                           PluginKind kind, std::size_t index = 0) {
   ModuleContext context{mission.robot};
-  context.world = mission.world ? &*mission.world : nullptr;
+  // What really is there is for sensors only.
+  if (kind == PluginKind::sensor && mission.world) context.world = &*mission.world;
   context.T_map_start = built.T_map_start;
   context.seed = module_seed(mission.config.seed, kind, index);
   context.templates = built.templates;
