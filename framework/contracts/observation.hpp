@@ -20,22 +20,13 @@ struct RangeReading {
   int sensor = 0;  // index of the transducer
 };
 
-// The first tick of a touch, as the simulation knows it.
-struct Contact {
-  double speed_mps = 0.0;  // of the robot, towards what it touches; 0 when it stood, whatever came upon it
-  // That stood in the free beam of a transducer at some time in the last second, 0.3 s before the touch at the latest.
-  bool could_be_seen = false;
-};
-
 struct Observation {
   double stamp_s = 0.0;
   Pose2 T_odom_robot;                 // dead reckoning since the start, with its drift
   std::optional<double> compass_rad;  // heading in the map frame
   std::vector<RangeReading> ranges;
-  bool bumped = false;                    // the robot touches something, which stops it there
-  std::optional<double> battery_ratio;    // what is left of a full battery, where that is known
-  std::optional<Pose2> true_T_map_robot;  // simulation only; for reports, never for modules
-  std::optional<Contact> contact;         // the same
+  bool bumped = false;                  // the robot touches something, which stops it there
+  std::optional<double> battery_ratio;  // what is left of a full battery, where that is known
 };
 
 enum class SensorState { observation, end_of_data, fault };

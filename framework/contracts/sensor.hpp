@@ -7,6 +7,7 @@
 
 namespace cairn {
 
+class GroundTruthSource;
 struct World;
 
 class Drive {
@@ -26,6 +27,8 @@ class Sensor {
   virtual Drive* drive() { return nullptr; }
   // The first pose in the map frame when the source knows it (a log with poses).
   [[nodiscard]] virtual std::optional<Pose2> start() const { return std::nullopt; }
+  // Where it really is, for reports (framework/contracts/ground_truth.hpp); null when the source never knows.
+  [[nodiscard]] virtual const GroundTruthSource* truth() const { return nullptr; }
 };
 
 struct SensorContext : ModuleContext {

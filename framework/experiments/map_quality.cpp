@@ -130,9 +130,8 @@ MapQuality TrueCells::judge(const OccupancyGrid& grid) const {
 }
 
 void TruePath::on(const Event& event, const MissionView& view) {
-  const Observation* seen = view.world.observation;
-  if (!std::holds_alternative<TickDone>(event) || seen == nullptr || !seen->true_T_map_robot) return;
-  const Point at_m = seen->true_T_map_robot->position();
+  if (!std::holds_alternative<TickDone>(event) || !view.truth) return;
+  const Point at_m = view.truth->T_map_robot.position();
   if (places_m_.empty() || (at_m - places_m_.back()).norm() >= kPlaceEvery_m) places_m_.push_back(at_m);
 }
 

@@ -2,6 +2,7 @@
 // values and can never change what happens.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "framework/behaviour_tree/nodes.hpp"
 #include "framework/contracts/behaviour.hpp"
 #include "framework/contracts/detector.hpp"
+#include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/world_view.hpp"
 
 namespace cairn {
@@ -81,7 +83,8 @@ using Event =
 struct MissionView {
   const WorldView& world;
   const CoarseGrid* coarse = nullptr;
-  Twist commanded{};  // what the wheels were last ordered to do
+  Twist commanded{};                   // what the wheels were last ordered to do
+  std::optional<GroundTruth> truth{};  // with the world's observation, where it is known
 };
 
 class Listener {

@@ -16,12 +16,12 @@ double quantile(std::vector<double> values, double share) {
 
 }  // namespace
 
-void PoseErrors::note(const WorldView& world) {
+void PoseErrors::note(const WorldView& world, const std::optional<Pose2>& true_T_map_robot) {
   corrections_ += world.pose.sightings_used;
   refused_ += world.pose.sightings_refused;
-  if (world.observation == nullptr || !world.observation->true_T_map_robot) return;
+  if (!true_T_map_robot) return;
   if (!samples_.empty() && world.time_s < samples_.back().time_s + kEvery_s) return;
-  const Pose2& truth = *world.observation->true_T_map_robot;
+  const Pose2& truth = *true_T_map_robot;
   const Point off_m = truth.position() - world.pose.T_map_robot.position();
   const double off_rad = wrap_angle(truth.theta_rad - world.pose.T_map_robot.theta_rad);
   const Eigen::Vector3d off(off_m.x(), off_m.y(), off_rad);

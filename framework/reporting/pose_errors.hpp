@@ -29,8 +29,8 @@ struct PoseErrorFigures {
 
 class PoseErrors {
  public:
-  // Once a tick. Samples once a second.
-  void note(const WorldView& world);
+  // Once a tick, with the true pose where it is known. Samples once a second.
+  void note(const WorldView& world, const std::optional<Pose2>& true_T_map_robot);
 
   // None where the truth was never known.
   [[nodiscard]] std::optional<PoseErrorFigures> figures() const;

@@ -63,7 +63,8 @@ RunRecording::RunRecording(const std::filesystem::path& file, const Pose2& T_map
 }
 
 void RunRecording::on(const Event& event, const MissionView& view) {
-  if (std::holds_alternative<TickDone>(event) && view.world.observation != nullptr) write(*view.world.observation);
+  if (std::holds_alternative<TickDone>(event) && view.world.observation != nullptr)
+    write(*view.world.observation, view.truth);
 }
 
 void RunRecording::close() {
@@ -71,7 +72,7 @@ void RunRecording::close() {
   if (!out_) throw std::runtime_error(file_name_ + ": the recording cannot be written");
 }
 
-void RunRecording::write(const Observation& observation) {
+void RunRecording::write(const Observation& observation, const std::optional<GroundTruth>& truth) {
   std::string end;
   append(end, " ", {observation.stamp_s});
   end += " cairn";
@@ -82,9 +83,9 @@ void RunRecording::write(const Observation& observation) {
   text_ += "ODOM";
   append(text_, " ", observation.T_odom_robot);
   text_ += " 0 0 0" + end;
-  if (observation.true_T_map_robot) {
+  if (truth) {
     text_ += "TRUEPOS";
-    append(text_, " ", *observation.true_T_map_robot);
+    append(text_, " ", truth->T_map_robot);
     append(text_, " ", observation.T_odom_robot);
     text_ += end;
   }

@@ -22,7 +22,7 @@ class RunRecording : public Listener {
   void close();
 
  private:
-  void write(const Observation& observation);
+  void write(const Observation& observation, const std::optional<GroundTruth>& truth);
   void write_new_sensors(const Observation& observation, std::string_view end);
   void write_sonars(const Observation& observation, std::string_view end);
   void flush_text();

@@ -176,9 +176,8 @@ std::string at_time(double time_s, const std::string& sentence) {
   return out.str();
 }
 
-Pose2 true_pose(const WorldView& world) {
-  const bool is_known = world.observation != nullptr && world.observation->true_T_map_robot;
-  return is_known ? *world.observation->true_T_map_robot : world.pose.T_map_robot;
+std::optional<Pose2> true_pose(const MissionView& view) {
+  return view.truth ? std::optional(view.truth->T_map_robot) : std::nullopt;
 }
 
 struct Sentence {
@@ -229,17 +228,16 @@ void RunReport::on(const Event& event, const MissionView& view) {
   if (const auto* done = std::get_if<MatchingDone>(&event)) {
     const Matching& matching = done->matching;
     degrees_.push_back({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
-                        true_pose(view.world).position()});
+                        true_pose(view).value_or(view.world.pose.T_map_robot).position()});
   }
-  if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world);
+  if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world, true_pose(view));
   if (std::holds_alternative<Bumped>(event)) note_contact(view);
   const std::string sentence = std::visit(Sentence{}, event);
   if (!sentence.empty()) events_.push_back(at_time(view.world.time_s, sentence));
 }
 
 void RunReport::note_contact(const MissionView& view) {
-  if (view.world.observation != nullptr && view.world.observation->contact)
-    contacts_.push_back({view.world.time_s, *view.world.observation->contact});
+  if (view.truth && view.truth->contact) contacts_.push_back({view.world.time_s, *view.truth->contact});
 }
 
 std::string RunReport::report_json(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,

@@ -100,15 +100,14 @@ SensorStep SimulatedRobot::next(const Budget&) {
     return step;
   }
   move();
+  has_observed_ = true;
   step.state = SensorState::observation;
   Observation& seen = step.observation;
   seen.stamp_s = static_cast<double>(ticks_) * period_s_;
   seen.T_odom_robot = odometer_.T_odom_robot();
   if (config_.compass) seen.compass_rad = wrap_angle(compass_.read(T_map_robot_) + faults_.compass_jump_rad());
   seen.bumped = bumped_;
-  seen.contact = contact_;
   if (config_.battery) seen.battery_ratio = battery_ratio_;
-  seen.true_T_map_robot = T_map_robot_;
   if (fire_all_) {
     for (const int sonar : firing_order_) fire_into(seen.ranges, sonar);
   } else if (!firing_order_.empty()) {
@@ -116,6 +115,11 @@ SensorStep SimulatedRobot::next(const Budget&) {
     fire_into(seen.ranges, firing_order_[turn]);
   }
   return step;
+}
+
+std::optional<GroundTruth> SimulatedRobot::last_truth() const {
+  if (!has_observed_) return std::nullopt;
+  return GroundTruth{T_map_robot_, contact_};
 }
 
 Twist SimulatedRobot::towards_wanted() const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
 #include "framework/contracts/world.hpp"
@@ -24,7 +25,7 @@
 
 namespace cairn {
 
-class SimulatedRobot final : public Sensor, public Drive {
+class SimulatedRobot final : public Sensor, public Drive, public GroundTruthSource {
  public:
   // begin_s: the clock to begin with. Doors, movers and faults are then as if the robot had stood at its start so long;
   // the battery is full, and what put the robot elsewhere has done so.
@@ -38,6 +39,8 @@ class SimulatedRobot final : public Sensor, public Drive {
   // Never ends. A start inside a wall or an object is a fault, in every call.
   SensorStep next(const Budget& budget) override;
   Drive* drive() override { return this; }
+  [[nodiscard]] const GroundTruthSource* truth() const override { return this; }
+  [[nodiscard]] std::optional<GroundTruth> last_truth() const override;
 
   // Throws std::invalid_argument when not finite.
   void command(const Twist& twist) override;
@@ -67,6 +70,7 @@ class SimulatedRobot final : public Sensor, public Drive {
   std::string fault_;
 
   Pose2 T_map_robot_;
+  bool has_observed_ = false;
   Twist wanted_;
   Twist twist_;
   bool bumped_ = false;

@@ -8,7 +8,7 @@
 
 #include <deque>
 
-#include "framework/contracts/observation.hpp"
+#include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "plugins/simulated_robot/body.hpp"
 #include "plugins/simulated_robot/traffic.hpp"

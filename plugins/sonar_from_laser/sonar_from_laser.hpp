@@ -9,7 +9,7 @@
 //   no beam in the cone                the sonar is left out: the laser cannot see there
 // A beam is in the cone when its echo is; without an echo, when it crosses the cone's arc at max_m. Bad
 // readings (NaN) and those nearer than the laser can tell count as no beam. All sonars of a scan fire at
-// once. Stamps, odometry, compass, start and drive are the source's own.
+// once. Stamps, odometry, compass, start, drive and ground truth are the source's own.
 #pragma once
 
 #include <memory>
@@ -35,6 +35,7 @@ class SonarFromLaser final : public Sensor {
   SensorStep next(const Budget& budget) override;
   Drive* drive() override { return source_->drive(); }
   [[nodiscard]] std::optional<Pose2> start() const override { return source_->start(); }
+  [[nodiscard]] const GroundTruthSource* truth() const override { return source_->truth(); }
 
  private:
   std::shared_ptr<Sensor> source_;

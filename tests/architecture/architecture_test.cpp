@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -150,6 +151,58 @@ TEST(Architecture, WhatAllKindsOfModulesShareIncludesNoContract) {
   for (const Include& include : includes()) {
     if (!starts_with_any(include.file, shared) || !include.header.starts_with("framework/contracts/")) continue;
     EXPECT_TRUE(starts_with_any(include.header, shared)) << include.file << " includes " << include.header;
+  }
+}
+
+constexpr const char* kTruthHeader = "framework/contracts/ground_truth.hpp";
+
+// Files of the project that a file includes, and those that they include.
+std::set<std::string> reachable_from(const std::string& file) {
+  static const std::multimap<std::string, std::string> direct = [] {
+    std::multimap<std::string, std::string> found;
+    for (const Include& include : includes())
+      if (!include.angled) found.emplace(include.file, include.header);
+    return found;
+  }();
+  std::set<std::string> reached;
+  std::vector<std::string> open{file};
+  while (!open.empty()) {
+    const std::string here = open.back();
+    open.pop_back();
+    const auto [begin, end] = direct.equal_range(here);
+    for (auto at = begin; at != end; ++at)
+      if (reached.insert(at->second).second) open.push_back(at->second);
+  }
+  return reached;
+}
+
+TEST(Architecture, NothingThatALocalizerMapperDetectorPlannerOrBehaviourGetsMentionsTheTruth) {
+  static const std::regex truth(R"((ground.?|_|\b)truth|true_T_|\bContact\b)", std::regex::icase);
+  for (const char* kind : {"localizer", "mapper", "detector", "planner", "path_planner", "route_planner", "controller",
+                           "behaviour", "world_view"}) {
+    std::set<std::string> headers = reachable_from(std::string("framework/contracts/") + kind + ".hpp");
+    headers.insert(std::string("framework/contracts/") + kind + ".hpp");
+    EXPECT_THAT(headers, testing::Not(testing::Contains(kTruthHeader)));
+    for (const Source& source : sources()) {
+      if (!headers.contains(source.file) || !source.file.starts_with("framework/")) continue;
+      for (const std::string& line : source.lines) {
+        EXPECT_FALSE(std::regex_search(line, truth)) << source.file << " (" << kind << "): " << line;
+      }
+    }
+  }
+}
+
+TEST(Architecture, OnlyModulesThatAreSensorsReachTheTruth) {
+  std::set<std::string> sensors{"plugins/common/logs"};
+  for (const Source& source : sources())
+    for (const std::string& line : source.lines)
+      if (source.file.starts_with("plugins/") && line.find("add<cairn::Sensor") != std::string::npos)
+        sensors.insert(module_of(source.file));
+  EXPECT_THAT(sensors, testing::Contains("plugins/simulated_robot"));
+  for (const Source& source : sources()) {
+    const std::string room = room_of(source.file);
+    if ((room != "plugins" && room != "planners") || sensors.contains(module_of(source.file))) continue;
+    EXPECT_THAT(reachable_from(source.file), testing::Not(testing::Contains(kTruthHeader))) << source.file;
   }
 }
 

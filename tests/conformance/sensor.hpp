@@ -8,6 +8,7 @@
 // The source must give at least one observation; a log should be short.
 #pragma once
 
+#include "framework/contracts/ground_truth.hpp"
 #include "tests/conformance/allocations.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/subject.hpp"
@@ -109,6 +110,27 @@ TEST_P(SensorConformance, StartAndDriveAreTheSameAllTheTime) {
   (void)steps_of(*sensor, 20);
   EXPECT_EQ(sensor->start(), start) << "the start is known before the first observation and does not move";
   EXPECT_EQ(sensor->drive(), drive);
+}
+
+TEST_P(SensorConformance, TheTruthIsThatOfTheLastObservationAndTheSameForTheSameSeed) {
+  const auto sensor = make(7);
+  const auto again = make(7);
+  const GroundTruthSource* const truth = sensor->truth();
+  ASSERT_EQ(truth == nullptr, again->truth() == nullptr);
+  if (truth == nullptr) return;  // a source that never knows
+  EXPECT_FALSE(truth->last_truth()) << "nothing is known before the first observation";
+  for (int i = 0; i < 50; ++i) {
+    if (steps_of(*sensor, 1).back().state != SensorState::observation) break;
+    (void)steps_of(*again, 1);
+    const std::optional<GroundTruth> here = truth->last_truth();
+    const std::optional<GroundTruth> there = again->truth()->last_truth();
+    ASSERT_EQ(here.has_value(), there.has_value());
+    if (!here) continue;
+    ASSERT_TRUE(is_finite(here->T_map_robot));
+    ASSERT_EQ(here->T_map_robot, there->T_map_robot) << "the answer must depend on config, seed and commands only";
+    ASSERT_EQ(truth->last_truth()->T_map_robot, here->T_map_robot) << "to ask changes nothing";
+  }
+  EXPECT_EQ(sensor->truth(), truth);
 }
 
 TEST_P(SensorConformance, TheSameSeedGivesTheSameObservations) {

@@ -40,8 +40,8 @@ std::vector<KnownLandmark> TrialRecord::landmarks_at_end(const std::string& path
 void TrialRecord::note_tick(const MissionView& view) {
   const Observation& observation = *view.world.observation;
   note_silence(observation, view.commanded);
-  if (!observation.true_T_map_robot) return;
-  const Pose2& truth = *observation.true_T_map_robot;
+  if (!view.truth) return;
+  const Pose2& truth = view.truth->T_map_robot;
   const Pose2& estimate = view.world.pose.T_map_robot;
   moments_.push_back({view.world.time_s, truth, (estimate.position() - truth.position()).norm(),
                       std::abs(wrap_angle(estimate.theta_rad - truth.theta_rad)),

@@ -79,6 +79,7 @@ void MissionLoop::restore(const SavedMap& map) {
   clock_.restore(progress.time_s, paused_before(map));
   counts_.restore({progress.readings, progress.matchings, progress.collisions, progress.distance_m});
   world_.time_s = progress.time_s;
+  if (progress.true_T_map_robot) world_.truth = GroundTruth{*progress.true_T_map_robot};
   if (!map.driven_path.empty()) world_.T_map_start = map.driven_path.front();
   steps_.restore(map);
 }
@@ -87,7 +88,7 @@ SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
   MissionProgress progress;
   progress.time_s = clock_.time_s();
   progress.T_map_robot = world_.pose.T_map_robot;
-  progress.true_T_map_robot = world_.observation.true_T_map_robot;
+  if (world_.truth) progress.true_T_map_robot = world_.truth->T_map_robot;
   progress.distance_m = counts_.figures().distance_m;
   progress.readings = counts_.figures().readings;
   progress.matchings = counts_.figures().matchings;

@@ -45,6 +45,7 @@ void MissionLoop::run() {
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
     world_.grid = &perception_.begin();
+    perception_.show_earlier_map();
     world_.coarse = perception_.coarse_grid();
     ending_ = loop();
   } catch (const GivenUp&) {
@@ -65,28 +66,32 @@ MissionLoop::Ending MissionLoop::loop() {
   while (true) {
     wait_while_paused();
     if (budget_.cancelled()) return {MissionOutcome::cancelled, "cancelled by the user"};
-    SensorStep step = sense();
-    if (step.state == SensorState::fault) return {MissionOutcome::sensor_fault, step.reason};
-    if (step.state == SensorState::end_of_data) return at_end_of_data(step.reason);
-    if (is_known_already(step.observation)) continue;
+    Sensed sensed = sense();
+    if (sensed.step.state == SensorState::fault) return {MissionOutcome::sensor_fault, sensed.step.reason};
+    if (sensed.step.state == SensorState::end_of_data) return at_end_of_data(sensed.step.reason);
+    if (is_known_already(sensed.step.observation)) continue;
     const WallClock::Time begin = options_.wall_clock->now();
-    tick(std::move(step.observation));
+    tick(std::move(sensed));
     if (!pace_.is_kept()) modules_.clock.add_time(modules_.tick, options_.wall_clock->now() - begin);
     if (const auto ending = ending_after_tick()) return *ending;
   }
 }
 
-SensorStep MissionLoop::sense() {
-  SensorStep step = modules_.sensor.call([&](Sensor& sensor) { return sensor.next(budget_); });
-  if (step.state == SensorState::observation && !is_finite(step.observation))
+MissionLoop::Sensed MissionLoop::sense() {
+  Sensed sensed = modules_.sensor.call([&](Sensor& sensor) -> Sensed {
+    SensorStep step = sensor.next(budget_);
+    const GroundTruthSource* truth = sensor.truth();
+    return {std::move(step), truth == nullptr ? std::nullopt : truth->last_truth()};
+  });
+  if (sensed.step.state == SensorState::observation && !is_finite(sensed.step.observation))
     throw modules_.sensor.fault("returned a stamp or an odometry that is not finite");
-  return step;
+  return sensed;
 }
 
 // One tick: each sentence takes values and hands a value on. The world shows them to those who look on.
-void MissionLoop::tick(Observation seen) {
-  world_.time_s = clock_.advance(seen.stamp_s, pauses_.is_paused());
-  world_.observe(std::move(seen));
+void MissionLoop::tick(Sensed sensed) {
+  world_.time_s = clock_.advance(sensed.step.observation.stamp_s, pauses_.is_paused());
+  world_.observe(std::move(sensed.step.observation), sensed.truth);
   const Observation& observation = world_.observation;
   keep_pace();
   if (counts_.count(observation)) publisher_.publish(Bumped{});

@@ -40,14 +40,18 @@ class MissionLoop {
   [[nodiscard]] const std::vector<std::string>& listener_faults() const { return publisher_.listener_faults(); }
 
  private:
+  struct Sensed {
+    SensorStep step;
+    std::optional<GroundTruth> truth{};  // of the step's observation, for listeners only
+  };
   struct Ending {
     MissionOutcome outcome = MissionOutcome::done;
     std::string reason{};
   };
 
   Ending loop();
-  SensorStep sense();
-  void tick(Observation seen);
+  Sensed sense();
+  void tick(Sensed sensed);
   void keep_pace();
   [[nodiscard]] std::optional<Ending> ending_after_tick() const;
   [[nodiscard]] Ending at_end_of_data(const std::string& reason) const;

@@ -32,13 +32,16 @@ void Perception::restore(const SavedMap& map) {
 
 const OccupancyGrid& Perception::begin() {
   grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
-  if (!is_resumed_ || !modules_.detector || grid_->bounds().empty()) return *grid_;
-  // It is no change: a budget that allows no matching keeps old evidence from counting twice.
+  return *grid_;
+}
+
+// It is no change: a budget that allows no matching keeps old evidence from counting twice.
+void Perception::show_earlier_map() {
+  if (!is_resumed_ || !modules_.detector || grid_->bounds().empty()) return;
   const std::atomic<bool> cancelled = true;
   Budget nothing;
   nothing.cancel = &cancelled;
   (void)detect(everything_in(grid_->bounds()), nothing);
-  return *grid_;
 }
 
 // Of the first observation nothing says where the odometry begins.

@@ -27,9 +27,10 @@ class Perception {
 
   // Goes on from what an earlier run has known. Before begin().
   void restore(const SavedMap& map);
-  // Once, before all below: asks the mapper for its grid. What an earlier run has mapped is shown to the detector.
-  // Throws ModuleFault, as the stages do.
+  // Once, before all below: asks the mapper for its grid. Throws ModuleFault, as all below do.
   const OccupancyGrid& begin();
+  // Once, then: shows the detector what an earlier run has mapped.
+  void show_earlier_map();
 
   // The stages of a tick, in their order. before: the estimate of the observation before.
   [[nodiscard]] PoseEstimate localize(const Observation& observation, const PoseEstimate& before);

@@ -5,7 +5,7 @@ namespace cairn {
 void Publisher::publish(const Event& event) {
   if (world_.grid == nullptr) return;
   const WorldView world = world_.view();
-  const MissionView seen{world, world_.coarse, world_.driven.commanded};
+  const MissionView seen{world, world_.coarse, world_.driven.commanded, world_.truth};
   std::erase_if(listeners_, [&](Listener* listener) {
     try {
       listener->on(event, seen);

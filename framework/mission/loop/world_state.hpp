@@ -4,6 +4,7 @@
 // themselves get values and return them.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "framework/contracts/world_view.hpp"
@@ -20,12 +21,14 @@ struct WorldState {
   const CoarseGrid* coarse = nullptr;   // of the detector; may be null
   Observation observation{};
   bool has_observation = false;
+  std::optional<GroundTruth> truth{};  // with the observation; in no view for modules
   PoseEstimate pose{};
   double time_s = 0.0;
   DriveCommand driven{};
 
-  void observe(Observation seen) {
+  void observe(Observation seen, const std::optional<GroundTruth>& truth_then) {
     observation = std::move(seen);
+    truth = truth_then;
     has_observation = true;
   }
   // There must be a grid.

@@ -115,10 +115,14 @@ Observation ScanLog::observation(std::size_t i) const {
   seen.T_odom_robot = scan.T_odom_robot;
   seen.compass_rad = scan.compass_rad;
   seen.bumped = scan.bumped;
-  seen.true_T_map_robot = scan.true_T_map_robot;
   seen.ranges = sources_[scan.source];
   for (std::size_t k = 0; k < seen.ranges.size(); ++k) seen.ranges[k].range_m = ranges_m_[scan.first_range + k];
   return seen;
+}
+
+std::optional<GroundTruth> ScanLog::truth(std::size_t i) const {
+  if (!scans_[i].true_T_map_robot) return std::nullopt;
+  return GroundTruth{*scans_[i].true_T_map_robot};
 }
 
 std::string ScanLog::end_sentence() const {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
+#include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/sensor.hpp"
 
 namespace cairn::log_common {
@@ -105,6 +106,7 @@ class ScanLog {
   // After finish().
   [[nodiscard]] std::size_t size() const { return scans_.size(); }
   [[nodiscard]] Observation observation(std::size_t i) const;
+  [[nodiscard]] std::optional<GroundTruth> truth(std::size_t i) const;
   [[nodiscard]] const std::optional<Pose2>& start() const { return start_; }
   // "end of x.log after 3 observations; ..." with all that was counted.
   [[nodiscard]] std::string end_sentence() const;
@@ -132,13 +134,17 @@ class ScanLog {
 };
 
 // A sensor that plays such a log.
-class ScanPlayer : public Sensor {
+class ScanPlayer : public Sensor, public GroundTruthSource {
  public:
   explicit ScanPlayer(ScanLog log) : log_(std::move(log)) {}
 
   SensorStep next(const Budget& budget) override;
   // The log's first pose in the log's frame, which is the map's; nothing without poses.
   [[nodiscard]] std::optional<Pose2> start() const override { return log_.start(); }
+  [[nodiscard]] const GroundTruthSource* truth() const override { return this; }
+  [[nodiscard]] std::optional<GroundTruth> last_truth() const override {
+    return next_ == 0 ? std::nullopt : log_.truth(next_ - 1);
+  }
 
  private:
   ScanLog log_;

@@ -1,13 +1,17 @@
 // A running mission that is paused, asked and cancelled by another thread.
 
+#include "framework/mission/run_control.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <stdexcept>
 #include <thread>
 
-#include "framework/behaviour_tree/node_runs.hpp"
 #include "tests/framework/mission/still_modules.hpp"
+#include "tests/framework/modules/test_clock.hpp"
 
 namespace cairn {
 namespace {
@@ -30,6 +34,7 @@ class MissionControl : public testing::Test {
     RunOptions options{folder_};
     options.cancel = &flags_.cancel;
     options.control = &control_;
+    options.wall_clock = std::make_shared<TestClock>();
     MissionRunner runner(still::mission(ticks), library_, options);
     return runner.run();
   }
@@ -62,7 +67,7 @@ TEST_F(MissionControl, APausedMissionIsCancelledAndSaysHowItStood) {
     flags_.cancel = true;
     ended = control_.status_in(RunState::ended, std::chrono::seconds(20));
   });
-  const MissionResult result = run(1000000, nullptr);
+  const MissionResult result = run(1000000000, nullptr);
   asker.join();
   EXPECT_EQ(result.outcome, MissionOutcome::cancelled);
   EXPECT_EQ(paused.state, RunState::paused);
@@ -73,37 +78,54 @@ TEST_F(MissionControl, APausedMissionIsCancelledAndSaysHowItStood) {
   EXPECT_EQ(result.time_s, 0.0);
 }
 
-NodeReport report_of(double end_s, Progress progress) {
-  NodeReport report;
-  report.end_s = end_s;
-  report.status.progress = progress;
-  return report;
+TEST(RunControl, BeforeTheMissionStartsAndAfterItsEndTheLastStatusIsTheAnswerAtOnce) {
+  ControlFlags flags;
+  RunControl control(flags, "held");
+  const RunStatus starting = control.status(std::chrono::hours(1));
+  EXPECT_EQ(starting.state, RunState::starting);
+  EXPECT_EQ(starting.mission, "held");
+  RunStatus ended;
+  ended.state = RunState::ended;
+  ended.outcome = "done";
+  control.publish(ended);
+  EXPECT_EQ(control.status(std::chrono::hours(1)).outcome, "done");
+  EXPECT_EQ(control.status_in(RunState::paused, std::chrono::hours(1)).state, RunState::ended);
 }
 
-TEST(NodeRuns, KeepEachRunAndJoinAnswersGivenAtOnceAgainAndAgain) {
-  TreeNode node;
-  node.path = "1/1";
-  NodeRuns runs;
-  for (int i = 0; i < 5; ++i) runs.add(node, report_of(0.04 * i, Progress::failure), 0.04 * i);
-  runs.add(node, report_of(0.2, Progress::success), 0.2);
-  runs.add(node, report_of(3.0, Progress::success), 1.0);
-  ASSERT_EQ(runs.runs().size(), 3U);
-  EXPECT_EQ(runs.runs()[0].runs, 5);
-  EXPECT_DOUBLE_EQ(runs.runs()[0].end_s, 0.16);
-  EXPECT_EQ(runs.runs()[1].end, RunEnd::success);
-  EXPECT_DOUBLE_EQ(runs.runs()[2].begin_s, 1.0);
+TEST(RunControl, AMissionThatDoesNotTickAnswersWithItsLastStatus) {
+  ControlFlags flags;
+  RunControl control(flags, "held");
+  RunStatus running;
+  running.state = RunState::running;
+  running.time_s = 3.0;
+  control.publish(running);
+  EXPECT_EQ(control.status(std::chrono::milliseconds(0)).time_s, 3.0);
 }
 
-TEST(NodeRuns, AreNoMoreThanTheirMostAndSayHowManyAreLeftOut) {
-  TreeNode node;
-  node.path = "1";
-  NodeRuns runs;
-  for (std::size_t i = 0; i < kMaxNodeRuns + 7; ++i) {
-    const double begun_s = 2.0 * static_cast<double>(i);
-    runs.add(node, report_of(begun_s + 1.0, Progress::success), begun_s);
-  }
-  EXPECT_EQ(runs.runs().size(), kMaxNodeRuns);
-  EXPECT_EQ(runs.left_out(), 7);
+TEST(RunControl, TheMissionIsLookedAtOnlyWhenSomebodyWaits) {
+  ControlFlags flags;
+  RunControl control(flags, "held");
+  RunStatus running;
+  running.state = RunState::running;
+  control.publish(running);
+  control.tick([]() -> RunStatus { throw std::logic_error("nobody asked"); });
+  RunStatus seen;
+  std::atomic<bool> is_answered{false};
+  std::thread asker([&] {
+    seen = control.status(std::chrono::hours(1));
+    is_answered = true;
+  });
+  running.time_s = 5.0;
+  while (!is_answered) control.tick([&] { return running; });
+  asker.join();
+  EXPECT_EQ(seen.time_s, 5.0);
+}
+
+TEST(RunControl, EachStateHasAName) {
+  EXPECT_EQ(name_of(RunState::starting), "starting");
+  EXPECT_EQ(name_of(RunState::running), "running");
+  EXPECT_EQ(name_of(RunState::paused), "paused");
+  EXPECT_EQ(name_of(RunState::ended), "ended");
 }
 
 }  // namespace

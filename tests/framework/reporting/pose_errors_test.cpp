@@ -16,18 +16,19 @@ const RobotModel kRobot;
 void note(PoseErrors& errors, double time_s, double off_m, double off_rad = 0.0, bool truth_is_known = true) {
   Observation seen;
   const Pose2 estimate{1.0, 2.0, std::numbers::pi - 0.01};
-  if (truth_is_known) seen.true_T_map_robot = Pose2{1.0 + off_m, 2.0, wrap_angle(estimate.theta_rad + off_rad)};
+  std::optional<Pose2> truth;
+  if (truth_is_known) truth = Pose2{1.0 + off_m, 2.0, wrap_angle(estimate.theta_rad + off_rad)};
   PoseEstimate pose{estimate, 0.01 * Eigen::Matrix3d::Identity()};
   pose.sightings_used = 2;
   pose.sightings_refused = 1;
-  errors.note({kGrid, kGraph, kRobot, pose, time_s, &seen});
+  errors.note({kGrid, kGraph, kRobot, pose, time_s, &seen}, truth);
 }
 
 TEST(PoseErrors, ThereAreNoneWhereTheTruthIsNotKnown) {
   PoseErrors errors;
   note(errors, 0.0, 0.1, 0.0, false);
   EXPECT_FALSE(errors.figures());
-  errors.note({kGrid, kGraph, kRobot, {}, 1.0, nullptr});
+  errors.note({kGrid, kGraph, kRobot, {}, 1.0, nullptr}, std::nullopt);
   EXPECT_FALSE(errors.figures());
 }
 

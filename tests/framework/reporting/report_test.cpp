@@ -63,8 +63,9 @@ TEST(RunReport, ListsTheContactsThatTheSimulationJudged) {
   WorldView world{grid, graph, robot, {}, 12.5, &observation};
   RunReport report;
   report.on(Bumped{}, {world});  // of a log
-  observation.contact = Contact{0.25, true};
-  report.on(Bumped{}, {world});
+  MissionView view{world};
+  view.truth = GroundTruth{{}, Contact{0.25, true}};
+  report.on(Bumped{}, view);
   ASSERT_EQ(report.contacts().size(), 1U);
   MissionResult result;
   result.collisions = 2;

@@ -15,15 +15,21 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void record(const std::filesystem::path& file, const Pose2& T_map_start, const std::vector<Observation>& observations) {
+struct Recorded : Observation {
+  std::optional<Pose2> true_T_map_robot{};
+};
+
+void record(const std::filesystem::path& file, const Pose2& T_map_start, const std::vector<Recorded>& observations) {
   const OccupancyGrid grid(0.05, 4.0);
   const LandmarkGraph graph;
   const RobotModel robot;
   RunRecording recording(file, T_map_start);
-  for (const Observation& observation : observations) {
+  for (const Recorded& observation : observations) {
     const WorldView world{grid, graph, robot, {}, observation.stamp_s, &observation};
-    recording.on(TickDone{}, {world});
-    recording.on(Message{"not written"}, {world});
+    MissionView view{world};
+    if (observation.true_T_map_robot) view.truth = GroundTruth{*observation.true_T_map_robot};
+    recording.on(TickDone{}, view);
+    recording.on(Message{"not written"}, view);
   }
   recording.close();
 }
@@ -40,11 +46,11 @@ bool same_bits(const RangeReading& a, const RangeReading& b) {
          a.sensor == b.sensor;
 }
 
-void expect_same(const std::vector<Observation>& actual, const std::vector<Observation>& expected) {
+void expect_same(const std::vector<Recorded>& actual, const std::vector<Recorded>& expected) {
   ASSERT_EQ(actual.size(), expected.size());
   for (std::size_t i = 0; i < actual.size(); ++i) {
-    const Observation& a = actual[i];
-    const Observation& e = expected[i];
+    const Recorded& a = actual[i];
+    const Recorded& e = expected[i];
     EXPECT_TRUE(same_bits(a.stamp_s, e.stamp_s)) << i;
     EXPECT_TRUE(same_bits(a.T_odom_robot, e.T_odom_robot)) << i;
     EXPECT_EQ(a.compass_rad.has_value(), e.compass_rad.has_value());
@@ -56,18 +62,22 @@ void expect_same(const std::vector<Observation>& actual, const std::vector<Obser
   }
 }
 
-std::vector<Observation> played(const std::filesystem::path& file, std::optional<Pose2>& start) {
+std::vector<Recorded> played(const std::filesystem::path& file, std::optional<Pose2>& start) {
   Config config;
   config.file = file;
   config.compass_from_pose = true;  // must not touch a recorded compass
   log_common::ScanPlayer player(read_carmen_log(config));
   start = player.start();
-  std::string reason;
-  return log_files::play(player, reason);
+  std::vector<Recorded> seen;
+  for (SensorStep step = player.next({}); step.state == SensorState::observation; step = player.next({})) {
+    const std::optional<GroundTruth> truth = player.truth()->last_truth();
+    seen.push_back({std::move(step.observation), truth ? std::optional(truth->T_map_robot) : std::nullopt});
+  }
+  return seen;
 }
 
 // Numbers with all their bits; some sensors alike but for one value, one ray among the cones.
-std::vector<Observation> random_observations() {
+std::vector<Recorded> random_observations() {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> anything(-3.14, 3.14);
   std::vector<RangeReading> sensors(6);
@@ -81,9 +91,9 @@ std::vector<Observation> random_observations() {
   sensors[3] = sensors[2];
   sensors[3].max_m = 6.0;
   sensors[5].T_robot_sensor = sensors[0].T_robot_sensor;
-  std::vector<Observation> observations;
+  std::vector<Recorded> observations;
   for (int i = 0; i < 200; ++i) {
-    Observation seen;
+    Recorded seen;
     seen.stamp_s = 0.04 * i;
     seen.T_odom_robot = {anything(random), anything(random) * 1e-9, anything(random)};
     if (random() % 2 == 0) seen.compass_rad = anything(random);
@@ -103,7 +113,7 @@ std::vector<Observation> random_observations() {
 TEST(Recording, GivesEveryObservationBackToTheLastBit) {
   const log_files::LogFolder folder;
   const auto file = folder.write("a.log", "");
-  const std::vector<Observation> observations = random_observations();
+  const std::vector<Recorded> observations = random_observations();
   const Pose2 begun{0.1 + 0.2, -1.0 / 3.0, 2.9};
   record(file, begun, observations);
   std::optional<Pose2> start;
@@ -114,7 +124,7 @@ TEST(Recording, GivesEveryObservationBackToTheLastBit) {
 
 TEST(Recording, ASensorWithoutANearestDistanceKeepsItsTooNear) {
   const log_files::LogFolder folder;
-  Observation seen;
+  Recorded seen;
   seen.ranges.push_back({{}, 0.2, 0.0, 5.0, -kInfinity, 0});
   seen.ranges.push_back({{}, 0.2, 0.0, 5.0, 0.0, 0});
   const auto file = folder.write("a.log", "");
@@ -125,7 +135,7 @@ TEST(Recording, ASensorWithoutANearestDistanceKeepsItsTooNear) {
 
 TEST(Recording, IsACarmenLogForReadersThatKnowNoCairnLines) {
   const log_files::LogFolder folder;
-  Observation seen;
+  Recorded seen;
   seen.stamp_s = 2.5;
   seen.T_odom_robot = {1.0, 2.0, 0.5};
   seen.ranges = {{{0.1, 0.2, 0.25}, 0.25, 0.1, 5.0, 1.5, 0}, {{0.1, -0.2, -0.25}, 0.25, 0.1, 5.0, kInfinity, 1}};

@@ -7,6 +7,7 @@
 
 #include "plugins/simulated_robot/simulated_robot.hpp"
 #include "tests/plugins/simulated_robot/test_worlds.hpp"
+#include "tests/plugins/simulated_robot/witnessed.hpp"
 
 namespace cairn {
 namespace {
@@ -14,8 +15,8 @@ namespace {
 using testing::exact_robot;
 using ::testing::HasSubstr;
 using testing::room;
+using testing::Witnessed;
 
-constexpr Budget kNoLimit{};
 constexpr double kTick_s = 0.04;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
@@ -44,14 +45,14 @@ RobotModel two_sonars() {
 }
 
 // What a robot observes that drives as told, every transducer at every tick; by tick, from 1.
-std::vector<Observation> run(SimulatedRobotConfig config, const Twist& twist, double time_s,
-                             const RobotModel& robot = two_sonars(), std::uint64_t seed = 1,
-                             const World& world = room(6.0, 5.0)) {
+std::vector<Witnessed> run(SimulatedRobotConfig config, const Twist& twist, double time_s,
+                           const RobotModel& robot = two_sonars(), std::uint64_t seed = 1,
+                           const World& world = room(6.0, 5.0)) {
   config.fire_all = true;
   SimulatedRobot sensor(config, robot, &world, {1.5, 2.5, 0.0}, seed);
   sensor.command(twist);
-  std::vector<Observation> seen{{}};
-  for (int i = 0; i < std::lround(time_s / kTick_s); ++i) seen.push_back(sensor.next(kNoLimit).observation);
+  std::vector<Witnessed> seen{{}};
+  for (int i = 0; i < std::lround(time_s / kTick_s); ++i) seen.push_back(testing::observe(sensor));
   return seen;
 }
 
@@ -100,7 +101,7 @@ TEST(Faults, ACompassJumpLastsAsLongAsItSays) {
 }
 
 TEST(Faults, WheelsThatSlipCountMoreThanTheRobotGoes) {
-  const auto way_m = [](const std::vector<Observation>& seen, std::size_t from, std::size_t to) {
+  const auto way_m = [](const std::vector<Witnessed>& seen, std::size_t from, std::size_t to) {
     return std::pair{seen[to].T_odom_robot.x_m - seen[from].T_odom_robot.x_m,
                      seen[to].true_T_map_robot->x_m - seen[from].true_T_map_robot->x_m};
   };

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tests/plugins/simulated_robot/test_worlds.hpp"
+#include "tests/plugins/simulated_robot/witnessed.hpp"
 
 namespace cairn {
 namespace {
@@ -15,21 +16,17 @@ namespace {
 using testing::circle_at;
 using testing::exact_robot;
 using ::testing::HasSubstr;
+using testing::observe;
 using testing::room;
 using testing::square_at;
 using testing::tilted_wall;
+using testing::Witnessed;
 
 constexpr Budget kNoLimit{};
 
-Observation observe(SimulatedRobot& robot) {
-  SensorStep step = robot.next(kNoLimit);
-  EXPECT_EQ(step.state, SensorState::observation) << step.reason;
-  return step.observation;
-}
-
-Observation drive_for(SimulatedRobot& robot, const Twist& twist, double time_s) {
+Witnessed drive_for(SimulatedRobot& robot, const Twist& twist, double time_s) {
   robot.command(twist);
-  Observation last;
+  Witnessed last;
   for (int i = 0; i < std::lround(time_s / 0.04); ++i) last = observe(robot);
   return last;
 }
@@ -75,7 +72,7 @@ TEST(SimulatedRobot, FiresOneTransducerEachPeriodInItsOrder) {
   const World world = room(6.0, 5.0);
   SimulatedRobot sensor({}, robot, &world, {3.0, 2.5, 0.0}, 1);
   for (int i = 0; i < 7; ++i) {
-    const Observation seen = observe(sensor);
+    const Witnessed seen = observe(sensor);
     EXPECT_DOUBLE_EQ(seen.stamp_s, 0.04 * (i + 1));
     ASSERT_EQ(seen.ranges.size(), 1U);
     EXPECT_EQ(seen.ranges[0].sensor, robot.firing_order[i % 3]);
@@ -139,7 +136,7 @@ TEST(SimulatedRobot, DropsEchoesAndMakesThemUpInTheSharesAsked) {
 TEST(SimulatedRobot, DrivesArcsWithinItsLimits) {
   const World world;
   SimulatedRobot sensor({}, exact_robot(), &world, {1.0, 2.0, radians(90.0)}, 1);
-  const Observation seen = drive_for(sensor, {9.0, 0.0}, 10.0);
+  const Witnessed seen = drive_for(sensor, {9.0, 0.0}, 10.0);
   EXPECT_NEAR(sensor.twist().v_mps, 0.4, 1e-12);
   // 0.8 s to full speed covers 0.16 m, then 9.2 s at 0.4 m/s.
   EXPECT_NEAR(seen.true_T_map_robot->y_m - 2.0, 0.16 + 9.2 * 0.4, 1e-9);
@@ -186,7 +183,7 @@ TEST(SimulatedRobot, RefusesACommandThatIsNotFinite) {
 TEST(SimulatedRobot, StopsAtAWallCountsTheTouchOnceAndDrivesAway) {
   const World world = tilted_wall(1.0, 0.0);
   SimulatedRobot sensor({}, exact_robot(), &world, {}, 1);
-  Observation seen = drive_for(sensor, {0.4, 0.0}, 5.0);
+  Witnessed seen = drive_for(sensor, {0.4, 0.0}, 5.0);
   EXPECT_TRUE(seen.bumped);
   EXPECT_NEAR(seen.true_T_map_robot->x_m, 1.0 - 0.22, 1e-6);
   EXPECT_LE(seen.true_T_map_robot->x_m, 1.0 - 0.22);
@@ -235,7 +232,7 @@ TEST(SimulatedRobot, APolygonFootprintPassesWhereItsDiscWouldNot) {
   robot.radius_m = 0.23;
   robot.polygon_m = {{-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}, {-0.2, 0.1}};
   SimulatedRobot sensor({}, robot, &world, {0.0, 0.0, 0.0}, 1);
-  Observation seen = drive_for(sensor, {0.4, 0.0}, 4.0);
+  Witnessed seen = drive_for(sensor, {0.4, 0.0}, 4.0);
   EXPECT_FALSE(seen.bumped);
   EXPECT_GT(seen.true_T_map_robot->x_m, 1.4);
   drive_for(sensor, {0.0, 0.0}, 1.0);
@@ -261,10 +258,10 @@ TEST(SimulatedRobot, SaysWhatTheStartOverlaps) {
   EXPECT_THAT(reason_at({3.0, 2.5}), HasSubstr("object 3 (square)")) << "far from every face, but inside";
 }
 
-std::vector<Observation> wander(const RobotModel& robot, std::uint64_t seed) {
+std::vector<Witnessed> wander(const RobotModel& robot, std::uint64_t seed) {
   const World world = furnished_room();
   SimulatedRobot sensor({}, robot, &world, {3.0, 2.5, 0.0}, seed);
-  std::vector<Observation> seen;
+  std::vector<Witnessed> seen;
   for (int i = 0; i < 400; ++i) {
     if (i % 50 == 0) sensor.command({0.3, 0.5 * std::sin(i)});
     seen.push_back(observe(sensor));

@@ -6,12 +6,14 @@
 
 #include "plugins/simulated_robot/simulated_robot.hpp"
 #include "tests/plugins/simulated_robot/test_worlds.hpp"
+#include "tests/plugins/simulated_robot/witnessed.hpp"
 
 namespace cairn {
 namespace {
 
 using testing::exact_robot;
 using testing::room;
+using testing::Witnessed;
 
 constexpr Budget kNoLimit{};
 constexpr double kTick_s = 0.04;
@@ -152,9 +154,9 @@ TEST(Traffic, NeverOverlapsARobotThatDrivesWildly) {
   }
 }
 
-Observation drive_for(SimulatedRobot& robot, const Twist& twist, double time_s) {
+Witnessed drive_for(SimulatedRobot& robot, const Twist& twist, double time_s) {
   robot.command(twist);
-  Observation last;
+  Witnessed last;
   for (int i = 0; i < std::lround(time_s / kTick_s); ++i) {
     SensorStep step = robot.next(kNoLimit);
     EXPECT_EQ(step.state, SensorState::observation) << step.reason;
@@ -175,7 +177,7 @@ TEST(Traffic, TheRobotBumpsIntoAClosedDoorAndPassesAnOpenOne) {
   const World world = with({door_at_x(2.0, {{0.0, 10.0}})}, {});
   SimulatedRobot robot({}, exact_robot(), &world, {1.0, 2.5, 0.0}, 1);
   EXPECT_TRUE(drive_for(robot, {0.4, 0.0}, 9.0).bumped);
-  const Observation seen = drive_for(robot, {0.4, 0.0}, 5.0);
+  const Witnessed seen = drive_for(robot, {0.4, 0.0}, 5.0);
   EXPECT_FALSE(seen.bumped);
   EXPECT_GT(seen.true_T_map_robot->x_m, 2.3);
 }
@@ -193,7 +195,7 @@ TEST(Traffic, IsTheSameToTheLastBitInEveryRun) {
     SimulatedRobot robot({}, exact_robot(), &world, {3.0, 3.5, 0.0}, 1);
     std::vector<double> seen;
     for (int i = 0; i < 500; ++i) {
-      const Observation o = drive_for(robot, {0.2 * std::sin(i * 0.1), 0.5 * std::cos(i * 0.05)}, kTick_s);
+      const Witnessed o = drive_for(robot, {0.2 * std::sin(i * 0.1), 0.5 * std::cos(i * 0.05)}, kTick_s);
       seen.insert(seen.end(), {o.true_T_map_robot->x_m, o.true_T_map_robot->y_m, o.ranges[0].range_m});
     }
     return seen;

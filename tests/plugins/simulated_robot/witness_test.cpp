@@ -6,6 +6,7 @@
 
 #include "plugins/simulated_robot/simulated_robot.hpp"
 #include "tests/plugins/simulated_robot/test_worlds.hpp"
+#include "tests/plugins/simulated_robot/witnessed.hpp"
 
 namespace cairn {
 namespace {
@@ -22,9 +23,8 @@ std::vector<Contact> contacts(const World& world, const Pose2& T_map_start, cons
   sensor.command(twist);
   std::vector<Contact> seen;
   for (int i = 0; i < std::lround(time_s / 0.04); ++i) {
-    const SensorStep step = sensor.next({});
-    EXPECT_EQ(step.state, SensorState::observation) << step.reason;
-    if (step.observation.contact) seen.push_back(*step.observation.contact);
+    const testing::Witnessed step = testing::observe(sensor);
+    if (step.contact) seen.push_back(*step.contact);
   }
   EXPECT_EQ(static_cast<int>(seen.size()), sensor.collisions()) << "one a touch";
   return seen;

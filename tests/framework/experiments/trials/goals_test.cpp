@@ -46,10 +46,11 @@ struct Trial {
   void drive(const std::vector<Point>& way, double off_m = 0.0) {
     for (const Point& at : way) {
       Observation observation;
-      observation.true_T_map_robot = Pose2{at.x(), at.y(), 0.0};
       WorldView world{grid, graph, mission.robot, {}, time_s, &observation};
       world.pose.T_map_robot = {at.x() + off_m, at.y(), 0.0};
-      record.on(TickDone{}, {world});
+      MissionView view{world};
+      view.truth = GroundTruth{{at.x(), at.y(), 0.0}};
+      record.on(TickDone{}, view);
       time_s += 1.0;
     }
   }

@@ -1,0 +1,168 @@
+#include "framework/mission/loop/perception.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/framework/mission/still_modules.hpp"
+
+namespace cairn {
+namespace {
+
+class OffsetLocalizer : public Localizer {
+ public:
+  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) override {
+    readings += observation.ranges.size();
+    seen_again += sightings.size();
+    PoseEstimate pose;
+    pose.T_map_robot = {observation.T_odom_robot.x_m + offset_m, 0.0, 0.0};
+    return pose;
+  }
+  double offset_m = 1.0;
+  std::size_t readings = 0;
+  std::size_t seen_again = 0;
+};
+
+class CountingMapper : public Mapper {
+ public:
+  CountingMapper() { grid_.set_log_odds({3, 3}, 500); }
+  const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override {
+    readings += observation.ranges.size();
+    at = pose.T_map_robot;
+    return changes_;
+  }
+  [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
+  std::size_t readings = 0;
+  Pose2 at;
+
+ private:
+  OccupancyGrid grid_{0.1};
+  CellChanges changes_;
+};
+
+class ScriptedDetector : public Detector {
+ public:
+  DetectionReport detect(const OccupancyGrid&, const CellChanges&, const Budget& budget) override {
+    if (budget.cancelled()) {
+      ++shown;
+      return {};
+    }
+    return std::exchange(next, {});
+  }
+  DetectionReport next;
+  int shown = 0;
+};
+
+Matching square_at(double x_m) {
+  Matching matching;
+  matching.degrees = {{"square", 0.9, 0.0, {x_m, 1.0}}};
+  matching.detection = Detection{"square", {x_m, 1.0, 0.0}, 0.9, {}};
+  return matching;
+}
+
+class PerceptionTest : public testing::Test {
+ protected:
+  PerceptionTest() {
+    mission_.steps.clear();
+    built_.localizer = localizer_;
+    built_.mapper = mapper_;
+    built_.detector = detector_;
+  }
+  Perception& perception() {
+    if (!perception_) {
+      modules_ = std::make_unique<StagedModules>(built_, mission_, std::make_shared<SteadyClock>());
+      perception_ = std::make_unique<Perception>(mission_, *modules_, Budget{});
+    }
+    return *perception_;
+  }
+  static Observation observation(std::size_t readings, double x_m = 0.0) {
+    Observation seen;
+    seen.T_odom_robot = {x_m, 0.0, 0.0};
+    seen.ranges.resize(readings, still::nothing_ahead());
+    return seen;
+  }
+  static std::vector<std::size_t> kinds_of(const Recognition& recognised) {
+    std::vector<std::size_t> kinds;
+    for (const Event& event : recognised.events) kinds.push_back(event.index());
+    return kinds;
+  }
+
+  Mission mission_ = still::mission(10);
+  MissionModules built_;
+  const std::shared_ptr<OffsetLocalizer> localizer_ = std::make_shared<OffsetLocalizer>();
+  const std::shared_ptr<CountingMapper> mapper_ = std::make_shared<CountingMapper>();
+  const std::shared_ptr<ScriptedDetector> detector_ = std::make_shared<ScriptedDetector>();
+  std::unique_ptr<StagedModules> modules_;
+  std::unique_ptr<Perception> perception_;
+};
+
+TEST_F(PerceptionTest, TheMapperGetsThePoseThatTheLocalizerReturned) {
+  (void)perception().begin();
+  const Observation seen = observation(2, 0.5);
+  const PoseEstimate pose = perception().localize(seen, {});
+  EXPECT_EQ(pose.T_map_robot, (Pose2{1.5, 0.0, 0.0}));
+  perception().map(seen, pose);
+  EXPECT_EQ(mapper_->at, pose.T_map_robot);
+  EXPECT_EQ(perception().tracker().driven_path().size(), 1U);
+}
+
+TEST_F(PerceptionTest, ReadingsThatAreHeldOutAreHiddenFromTheMapOnly) {
+  mission_.config.hold_out_every = 2;
+  (void)perception().begin();
+  for (int i = 0; i < 3; ++i) {
+    const Observation seen = observation(4);
+    perception().map(seen, perception().localize(seen, {}));
+  }
+  EXPECT_EQ(localizer_->readings, 12U);
+  EXPECT_EQ(mapper_->readings, 6U);
+}
+
+TEST_F(PerceptionTest, APoseThatIsNotFiniteIsAFaultOfTheLocalizer) {
+  (void)perception().begin();
+  localizer_->offset_m = std::numeric_limits<double>::infinity();
+  EXPECT_THROW((void)perception().localize(observation(0), {}), ModuleFault);
+}
+
+TEST_F(PerceptionTest, EachMatchingComesBeforeWhatItHasChanged) {
+  mission_.config.landmarks.confirm_sightings = 2;
+  (void)perception().begin();
+  detector_->next.matchings = {square_at(1.0), square_at(1.0), square_at(5.0)};
+  const Recognition recognised = perception().recognise({}, 0.5);
+  EXPECT_EQ(recognised.matchings, 3);
+  const std::size_t matching = Event(MatchingDone{}).index();
+  const std::size_t landmark = Event(LandmarkChanged{}).index();
+  EXPECT_EQ(kinds_of(recognised), (std::vector{matching, matching, landmark, matching}));
+  EXPECT_TRUE(std::get<LandmarkChanged>(recognised.events[2]).is_new);
+  EXPECT_EQ(perception().tracker().graph().landmarks().size(), 1U);
+}
+
+TEST_F(PerceptionTest, ADetectionThatIsNotFiniteIsAFaultAndNothingOfItsReportCounts) {
+  mission_.config.landmarks.confirm_sightings = 1;
+  (void)perception().begin();
+  detector_->next.matchings = {square_at(1.0), square_at(std::numeric_limits<double>::quiet_NaN())};
+  EXPECT_THROW((void)perception().recognise({}, 0.5), ModuleFault);
+  EXPECT_TRUE(perception().tracker().graph().landmarks().empty());
+}
+
+TEST_F(PerceptionTest, TheGridOfAnEarlierRunIsShownToTheDetectorWithoutAnyMatching) {
+  SavedMap map;
+  map.progress = MissionProgress{};
+  map.driven_path = {{1.0, 1.0, 0.0}};
+  perception().restore(map);
+  detector_->next.matchings = {square_at(1.0)};
+  (void)perception().begin();
+  perception().show_earlier_map();
+  EXPECT_EQ(detector_->shown, 1);
+  EXPECT_TRUE(perception().tracker().graph().landmarks().empty());
+  EXPECT_EQ(perception().tracker().driven_path(), map.driven_path);
+}
+
+TEST_F(PerceptionTest, WithoutADetectorNothingIsRecognised) {
+  built_.detector = nullptr;
+  (void)perception().begin();
+  EXPECT_TRUE(perception().recognise({}, 10.0).events.empty());
+  EXPECT_EQ(perception().coarse_grid(), nullptr);
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,88 @@
+#include "framework/mission/modules.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "framework/modules/fence.hpp"
+#include "tests/framework/mission/still_modules.hpp"
+
+namespace cairn {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class MissionModulesTest : public testing::Test {
+ protected:
+  [[nodiscard]] std::string error_of(const Mission& mission) const {
+    try {
+      (void)build_modules(mission, library_);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  const ModuleLibrary library_ = still::library();
+  Mission mission_ = still::mission(10);
+};
+
+TEST_F(MissionModulesTest, AreBuiltAsTheMissionNamesThem) {
+  mission_.config.start.at_m = {1.0, 2.0};
+  const MissionModules built = build_modules(mission_, library_);
+  EXPECT_NE(built.sensor, nullptr);
+  EXPECT_NE(built.localizer, nullptr);
+  EXPECT_NE(built.mapper, nullptr);
+  EXPECT_NE(built.detector, nullptr);
+  EXPECT_EQ(built.planner, nullptr) << "none is named";
+  EXPECT_EQ(built.behaviours.size(), 1U);
+  EXPECT_EQ(built.T_map_start, (Pose2{1.0, 2.0, 0.0}));
+  EXPECT_EQ(built.begin_s, 0.0);
+}
+
+TEST_F(MissionModulesTest, AnUnknownBehaviourNamesThoseThatThereAre) {
+  mission_.steps.front().choice.name = "still_stp";
+  EXPECT_THAT(error_of(mission_), HasSubstr("unknown behaviour plugin \"still_stp\" (did you mean \"still_step\"?); "
+                                            "known are: still_step; and these nodes: "));
+}
+
+TEST_F(MissionModulesTest, AMissionThatDrivesWithoutAWordOnStepsIsRefused) {
+  mission_.steps.clear();
+  EXPECT_THAT(error_of(mission_), HasSubstr("the mission has no steps, and still_sensor drives"));
+}
+
+TEST_F(MissionModulesTest, ACheckFindsEveryModuleThatIsWrong) {
+  EXPECT_TRUE(check_modules(mission_, library_).empty());
+  mission_.config.localizer.name = "no_localizer";
+  mission_.steps.front().choice.name = "no_step";
+  const std::vector<std::string> errors = check_modules(mission_, library_);
+  EXPECT_THAT(errors, ElementsAre(HasSubstr("no_localizer"), HasSubstr("no_step")));
+}
+
+TEST_F(MissionModulesTest, GoOnWithAMapThatTheMapModuleMustTakeOver) {
+  SavedMap map;
+  map.grid = OccupancyGrid(0.1);
+  map.properties = {{"mission", "still"},
+                    {"seed", "1"},
+                    {"robot", mission_.robot.name},
+                    {"robot_radius_m", std::to_string(mission_.robot.radius_m)}};
+  map.progress = MissionProgress{.time_s = 8.0, .step_name = mission_.steps.front().name, .T_map_robot = {3, 4, 0}};
+  const MissionModules built = build_modules(mission_, library_, &map);
+  EXPECT_EQ(built.begin_s, 8.0);
+  EXPECT_EQ(built.T_map_start, (Pose2{3.0, 4.0, 0.0}));
+  map.grid.set_log_odds({1, 1}, 500);
+  EXPECT_THROW((void)build_modules(mission_, library_, &map), StoreError) << "still_map begins with an empty grid";
+}
+
+TEST(ModuleSeed, IsAnotherForEachMissionKindAndIndex) {
+  std::set<std::uint64_t> seeds;
+  for (std::int64_t mission = 0; mission < 20; ++mission)
+    for (const PluginKind kind : {PluginKind::sensor, PluginKind::localizer, PluginKind::planner})
+      for (std::size_t index = 0; index < 3; ++index) seeds.insert(module_seed(mission, kind, index));
+  EXPECT_EQ(seeds.size(), 20U * 3U * 3U);
+  EXPECT_EQ(module_seed(7, PluginKind::sensor), module_seed(7, PluginKind::sensor, 0));
+}
+
+}  // namespace
+}  // namespace cairn
