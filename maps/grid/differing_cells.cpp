@@ -7,12 +7,12 @@
 namespace cairn {
 namespace {
 
-constexpr int kSide = OccupancyGrid::kTileSide;
+constexpr int kTile = OccupancyGrid::kTileSide;
 
 // Calls visit(tile, cells of a, cells of b), row-major, for each tile in which they differ.
 template <class Visit>
 void for_differing_tiles(const OccupancyGrid& a, const OccupancyGrid& b, Visit&& visit) {
-  static constexpr std::array<LogOdds, kSide * kSide> kUnknown{};
+  static constexpr std::array<LogOdds, kTile * kTile> kUnknown{};
   const CellBox bounds = united(a.bounds(), b.bounds());
   if (bounds.empty()) return;
   for (int y = bounds.min.y >> 6; y <= (bounds.max.y - 1) >> 6; ++y)
@@ -30,7 +30,7 @@ void for_differing_tiles(const OccupancyGrid& a, const OccupancyGrid& b, Visit&&
 CellBox differing_cells(const OccupancyGrid& a, const OccupancyGrid& b) {
   CellBox differing;
   for_differing_tiles(a, b, [&](Cell tile, auto, auto) {
-    differing = united(differing, {{tile.x * kSide, tile.y * kSide}, {(tile.x + 1) * kSide, (tile.y + 1) * kSide}});
+    differing = united(differing, {{tile.x * kTile, tile.y * kTile}, {(tile.x + 1) * kTile, (tile.y + 1) * kTile}});
   });
   return differing;
 }
@@ -39,10 +39,10 @@ std::vector<Point> centres_of_changed_states(const OccupancyGrid& before, const 
   constexpr OccupancyThresholds kThresholds;
   std::vector<Point> centres;
   for_differing_tiles(before, after, [&](Cell tile, std::span<const LogOdds> old, std::span<const LogOdds> now) {
-    for (int i = 0; i < kSide * kSide; ++i) {
+    for (int i = 0; i < kTile * kTile; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (old[at] == now[at] || kThresholds.state(old[at]) == kThresholds.state(now[at])) continue;
-      centres.push_back(after.centre_of({tile.x * kSide + i % kSide, tile.y * kSide + i / kSide}));
+      centres.push_back(after.centre_of({tile.x * kTile + i % kTile, tile.y * kTile + i / kTile}));
     }
   });
   return centres;

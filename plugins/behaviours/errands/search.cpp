@@ -118,7 +118,7 @@ Status Search::nothing_left(const std::string& found, const std::string& why, co
 Status Search::tick(const WorldView& world, BehaviourContext& context) {
   const std::vector<LandmarkId> found = world.graph.of_category(category_);
   if (found.size() >= static_cast<std::size_t>(config_.until)) {
-    if (!config_.output.empty()) context.output(config_.output, Place{std::nullopt, false, found, {}});
+    if (!config_.output.empty()) context.output(config_.output, Place{std::nullopt, false, found});
     return {Progress::success, "found " + category_ + ": " + labels_of(found, world.graph)};
   }
   if (!begun_s_) begun_s_ = world.time_s;

@@ -82,8 +82,8 @@ void Visits::ask_next_length(const WorldView& world, BehaviourContext& context) 
   PlanResult route;
   if (is_known(request.from) && is_known(request.to)) route = context.plan(request);
   const bool is_solved = route.outcome == PlanOutcome::solved;
-  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(route.cost_m, kOutOfReach_m) : kOutOfReach_m;
-  if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kOutOfReach_m;
+  cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(route.cost_m, kUnreached_m) : kUnreached_m;
+  if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kUnreached_m;
   // `nearest` is what is nearest from here: the other ways are to the same one.
   if (from_ == 0 && is_solved && !request.to.landmarks.empty() && !route.landmarks.empty())
     stop.chosen = route.landmarks.back();
