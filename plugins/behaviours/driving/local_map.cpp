@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "plugins/behaviours/driving/near_echoes.hpp"
 #include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
-constexpr double kFree = 0.1;           // probability of what is taken to be free
 constexpr int kMaxAcross_cells = 1000;  // a goal further off would need too large a map
 
 // Within what is known and about the goal.

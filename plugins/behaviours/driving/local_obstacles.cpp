@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace cairn::behaviours {
-namespace {
-
-constexpr int kMaxSensors = 4096;  // an index beyond it is an error of the source, not a transducer
-
-}  // namespace
 
 void LocalObstacleSettings::describe(Fields<LocalObstacleSettings>& fields) {
   using C = LocalObstacleSettings;

@@ -6,12 +6,6 @@
 #include <numbers>
 
 namespace cairn::behaviours {
-namespace {
-
-constexpr int kMaxSensors = 4096;  // an index beyond it is an error of the source, not a transducer
-constexpr double kFree = 0.1;      // probability of what is free by the votes, and of what is not occupied
-
-}  // namespace
 
 void NearEchoSettings::describe(Fields<NearEchoSettings>& fields) {
   using C = NearEchoSettings;

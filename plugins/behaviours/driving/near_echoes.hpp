@@ -14,6 +14,9 @@
 
 namespace cairn::behaviours {
 
+inline constexpr int kMaxSensors = 4096;  // an index beyond it is an error of the source, not a transducer
+inline constexpr double kFree = 0.1;      // probability of what is taken to be free; of what is occupied: 1 - kFree
+
 struct NearEchoSettings {
   double within_m = 1.0;
   double moved_m = 0.02;
