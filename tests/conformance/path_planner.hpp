@@ -87,11 +87,11 @@ TEST_P(PathPlannerConformance, TakesPosesAndLandmarksAsEnds) {
 TEST_P(PathPlannerConformance, NamesTheLandmarksThatItEndsAt) {
   const auto planner = make();
   const PathResult landmarks = planner->plan(between(1, 2), world_.view(), Budget{});
-  EXPECT_EQ(landmarks.from_landmark, 1U);
-  EXPECT_EQ(landmarks.to_landmark, 2U);
+  EXPECT_EQ(landmarks.from_landmark, 1);
+  EXPECT_EQ(landmarks.to_landmark, 2);
   const PathResult poses = planner->plan(between(world_.left, world_.right), world_.view(), Budget{});
-  EXPECT_EQ(poses.from_landmark, 0U);
-  EXPECT_EQ(poses.to_landmark, 0U);
+  EXPECT_EQ(poses.from_landmark, 0);
+  EXPECT_EQ(poses.to_landmark, 0);
 }
 
 TEST_P(PathPlannerConformance, ItsTraitsStayWhatTheyAre) {

@@ -47,7 +47,7 @@ class RoutePlannerConformance : public PlanningLaws<RoutePlanner, RouteRequest, 
     Landmark landmark;
     landmark.T_map_landmark = {2.1, 3.1, 0.0};
     landmark.access = landmark.T_map_landmark;
-    ASSERT_EQ(world_.graph.add(landmark), 4U);
+    ASSERT_EQ(world_.graph.add(landmark), 4);
     over_4_ = {add_route(1, 4, 0.5), add_route(4, 2, 0.5)};
   }
   [[nodiscard]] RouteResult plan_here(const RouteRequest& request) const {

@@ -108,9 +108,9 @@ TEST_F(LonePlanners, PassAPathOnAsAPlan) {
 TEST_F(LonePlanners, AskARoutePlannerForAllThatConcernsTheGraph) {
   (void)plan_routes();
   ASSERT_EQ(routes->asked.from.size(), 2U);
-  EXPECT_EQ(routes->asked.from[1].landmark, 2U);
+  EXPECT_EQ(routes->asked.from[1].landmark, 2);
   EXPECT_EQ(routes->asked.from[1].cost, 0.0);
-  EXPECT_EQ(routes->asked.to.front().landmark, 3U);
+  EXPECT_EQ(routes->asked.to.front().landmark, 3);
   EXPECT_EQ(routes->asked.radius_m, 0.3);
   EXPECT_EQ(routes->asked.cost, CostKind::time);
   EXPECT_EQ(routes->asked.avoid, request.avoid);

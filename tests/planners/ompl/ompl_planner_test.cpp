@@ -12,7 +12,6 @@ namespace cairn {
 namespace {
 
 using test::drawn_world;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 PathResult plan(const test::DrawnWorld& world, const PathRequest& request, const OmplConfig& config = {}) {
@@ -260,7 +259,7 @@ TEST(OmplPlanner, OfSeveralLandmarksTakesTheNearestByTravelThatCanBeReached) {
   request.to.landmarks = {beyond, below};
   const PathResult result = plan(world, request);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
-  EXPECT_EQ(result.from_landmark, 0U) << "a pose";
+  EXPECT_EQ(result.from_landmark, 0) << "a pose";
   EXPECT_EQ(result.to_landmark, below);
   request.to.landmarks = {99};
   EXPECT_EQ(plan(world, request).outcome, PlanOutcome::unknown_place);
