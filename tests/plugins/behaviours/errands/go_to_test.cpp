@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "plugins/common/motion/path.hpp"
 #include "tests/plugins/behaviours/fake_host.hpp"
 #include "tests/plugins/behaviours/written_config.hpp"
 
@@ -81,7 +82,7 @@ TEST(GoTo, FacesTheLandmarkInTheEnd) {
   GoTo go(config_for("desk"), 1);
   const Status status = host.run(go, 120.0);
   EXPECT_EQ(status, (Status{Progress::success, "at desk (square)"}));
-  EXPECT_LT(std::abs(heading_error(host.T_map_robot, {2.5, 1.2})), radians(4.0));
+  EXPECT_LT(std::abs(motion::heading_error(host.T_map_robot, {2.5, 1.2})), radians(4.0));
 }
 
 TEST(GoTo, AsksForAllLandmarksOfTheNearestCategory) {
