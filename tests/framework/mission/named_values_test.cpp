@@ -49,7 +49,6 @@ TEST(NamedValues, AreTheSameAfterTheyWereSaved) {
   values["here"].pose = Pose2{1.25, -0.1, 0.3};
   values["here"].heading_matters = true;
   values["found"].landmarks = {3, 7};
-  values["found"].costs = {0.5, 0.0};
   SavedMap map;
   add_named_values(map, values);
   const NamedValues again = saved_named_values(map);
@@ -57,7 +56,6 @@ TEST(NamedValues, AreTheSameAfterTheyWereSaved) {
   EXPECT_EQ(again.at("here").pose, values["here"].pose);
   EXPECT_TRUE(again.at("here").heading_matters);
   EXPECT_THAT(again.at("found").landmarks, ElementsAre(3, 7));
-  EXPECT_THAT(again.at("found").costs, ElementsAre(0.5, 0.0));
   EXPECT_FALSE(again.at("found").pose);
 }
 

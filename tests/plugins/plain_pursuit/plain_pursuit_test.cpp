@@ -40,7 +40,7 @@ TEST(PlainPursuit, WhatIsBesideOrBehindDoesNotStopIt) {
 }
 
 TEST(PlainPursuit, TurnsInPlaceWhereThePathLeadsBack) {
-  const ControlResult result = control({}, {1.0, 0.0, 3.0});
+  const ControlResult result = control({}, {0.0, 0.0, 3.0});
   EXPECT_EQ(result.twist.v_mps, 0.0);
   EXPECT_NE(result.twist.w_radps, 0.0);
   EXPECT_TRUE(result.progress.turning);

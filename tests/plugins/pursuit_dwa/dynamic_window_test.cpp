@@ -10,6 +10,14 @@ namespace {
 
 const double kNever = std::numeric_limits<double>::infinity();
 
+// With obstacles as a list.
+double free_m(const Twist& twist, const std::vector<Point>& obstacles, double reach_m) {
+  return free_distance_m(twist, obstacles, reach_m);
+}
+WindowStep best(const Twist& now, const Wish& wish, const std::vector<Point>& obstacles, const WindowLimits& limits) {
+  return best_in_window(now, wish, obstacles, limits);
+}
+
 std::vector<Point> wall(const Point& from, const Point& to) {
   std::vector<Point> points;
   const int count = static_cast<int>((to - from).norm() / 0.05) + 1;
@@ -22,16 +30,16 @@ void add(std::vector<Point>& points, const std::vector<Point>& more) {
 }
 
 TEST(FreeDistance, StraightAheadAndBack) {
-  EXPECT_NEAR(free_distance_m({0.2, 0.0}, {{1.0, 0.0}}, 0.3), 0.7, 1e-9);
-  EXPECT_EQ(free_distance_m({0.2, 0.0}, {{1.0, 0.31}}, 0.3), kNever);
-  EXPECT_EQ(free_distance_m({-0.2, 0.0}, {{1.0, 0.0}}, 0.3), kNever);
-  EXPECT_NEAR(free_distance_m({-0.2, 0.0}, {{-1.0, 0.0}}, 0.3), 0.7, 1e-9);
+  EXPECT_NEAR(free_m({0.2, 0.0}, {{1.0, 0.0}}, 0.3), 0.7, 1e-9);
+  EXPECT_EQ(free_m({0.2, 0.0}, {{1.0, 0.31}}, 0.3), kNever);
+  EXPECT_EQ(free_m({-0.2, 0.0}, {{1.0, 0.0}}, 0.3), kNever);
+  EXPECT_NEAR(free_m({-0.2, 0.0}, {{-1.0, 0.0}}, 0.3), 0.7, 1e-9);
 }
 
 TEST(FreeDistance, WithinReachOnlyWhatComesNearerIsBlocked) {
-  EXPECT_EQ(free_distance_m({0.2, 0.0}, {{0.25, 0.0}}, 0.3), 0.0);
-  EXPECT_EQ(free_distance_m({-0.2, 0.0}, {{0.25, 0.0}}, 0.3), kNever);
-  EXPECT_EQ(free_distance_m({0.2, 0.0}, {{0.01, 0.29}}, 0.3), kNever);
+  EXPECT_EQ(free_m({0.2, 0.0}, {{0.25, 0.0}}, 0.3), 0.0);
+  EXPECT_EQ(free_m({-0.2, 0.0}, {{0.25, 0.0}}, 0.3), kNever);
+  EXPECT_EQ(free_m({0.2, 0.0}, {{0.01, 0.29}}, 0.3), kNever);
 }
 
 // Against the disc's centre moved in tiny steps.
@@ -51,7 +59,7 @@ TEST(FreeDistance, AgreesWithTinyStepsOnRandomArcs) {
       pose = pose * Pose2{0, 0, 0.5 * twist.w_radps * dt} * Pose2{twist.v_mps * dt, 0, 0} *
              Pose2{0, 0, 0.5 * twist.w_radps * dt};
     }
-    const double way_m = free_distance_m(twist, {p}, 0.3);
+    const double way_m = free_m(twist, {p}, 0.3);
     if (oracle_m < 1.5) {
       EXPECT_NEAR(way_m, oracle_m, 0.02) << i;
     } else {
@@ -62,21 +70,21 @@ TEST(FreeDistance, AgreesWithTinyStepsOnRandomArcs) {
 
 TEST(DynamicWindow, TakesWhatTheFollowerPrefersInTheOpen) {
   const Wish wish{{0.25, 0.3}, {0.3, 0.1}};
-  const WindowStep step = best_in_window({0.25, 0.0}, wish, {{2.0, 0.0}, {0.0, 0.5}}, {});
+  const WindowStep step = best({0.25, 0.0}, wish, {{2.0, 0.0}, {0.0, 0.5}}, {});
   EXPECT_EQ(step.target, wish.preferred);
   EXPECT_FALSE(step.blocked);
 }
 
 TEST(DynamicWindow, SteersRoundAPost) {
   const Wish wish{{0.25, 0.0}, {0.8, 0.0}};
-  const WindowStep step = best_in_window({0.25, 0.0}, wish, {{0.45, 0.05}}, {});
+  const WindowStep step = best({0.25, 0.0}, wish, {{0.45, 0.05}}, {});
   EXPECT_FALSE(step.blocked);
   EXPECT_LT(step.target.w_radps, -0.1) << "to the side with more room";
 }
 
 TEST(DynamicWindow, StopsBeforeAWall) {
   const Wish wish{{0.25, 0.0}, {0.8, 0.0}};
-  const WindowStep step = best_in_window({0.1, 0.0}, wish, wall({0.26, -1.5}, {0.26, 1.5}), {});
+  const WindowStep step = best({0.1, 0.0}, wish, wall({0.26, -1.5}, {0.26, 1.5}), {});
   EXPECT_TRUE(step.blocked);
   EXPECT_EQ(step.target, Twist{});
 }
@@ -87,7 +95,7 @@ TEST(DynamicWindow, PassesADoorOfSeventyCentimetres) {
   for (double x_m = 0.0; x_m < 1.2; x_m += 0.05) {
     std::vector<Point> seen;
     for (const Point& p : jambs) seen.push_back(p - Point(x_m, 0.0));
-    const WindowStep step = best_in_window({0.2, 0.0}, {{0.2, 0.0}, {0.4, 0.0}}, seen, {});
+    const WindowStep step = best({0.2, 0.0}, {{0.2, 0.0}, {0.4, 0.0}}, seen, {});
     EXPECT_GT(step.target.v_mps, 0.05) << "at " << x_m;
     EXPECT_LT(std::abs(step.target.w_radps), 0.2) << "at " << x_m;
   }
@@ -104,7 +112,7 @@ TEST(DynamicWindow, WhatItTakesIsAdmissible) {
       if (p.norm() > 0.35) obstacles.push_back(p);
     }
     const Twist now{0.125 + 0.125 * any(random), 0.5 * any(random)};
-    const WindowStep step = best_in_window(now, {{0.25, 0.0}, {0.5, 0.2 * any(random)}}, obstacles, limits);
+    const WindowStep step = best(now, {{0.25, 0.0}, {0.5, 0.2 * any(random)}}, obstacles, limits);
     if (step.blocked) {
       EXPECT_EQ(step.target, Twist{});
       continue;
@@ -112,7 +120,7 @@ TEST(DynamicWindow, WhatItTakesIsAdmissible) {
     EXPECT_LE(step.target.v_mps, limits.max_v_mps + 1e-12);
     EXPECT_LE(std::abs(step.target.w_radps), limits.max_w_radps + 1e-12);
     const double v = step.target.v_mps;
-    EXPECT_GE(free_distance_m(step.target, obstacles, limits.radius_m + 0.03),
+    EXPECT_GE(free_m(step.target, obstacles, limits.radius_m + 0.03),
               v * v / (2.0 * limits.accelerations.forward_mps2));
   }
 }
@@ -125,7 +133,7 @@ TEST(DynamicWindow, ACarKeepsItsTurningRadius) {
   Twist now;
   for (int i = 0; i < 500; ++i) {
     const WindowStep step =
-        best_in_window(now, {{0.25, 0.1}, {0.5, 0.0}}, {{0.6 + 0.2 * any(random), 0.3 * any(random)}}, limits);
+        best(now, {{0.25, 0.1}, {0.5, 0.0}}, {{0.6 + 0.2 * any(random), 0.3 * any(random)}}, limits);
     now = motion::approached(now, step.target, 0.04, limits.accelerations);
     EXPECT_LE(std::abs(now.w_radps) * 0.6, std::abs(now.v_mps) + 1e-9);
   }

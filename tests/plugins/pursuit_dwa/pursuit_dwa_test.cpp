@@ -70,7 +70,7 @@ TEST(PursuitDwa, ComesToAStopWithinTheAccelerationsWhenItHasArrived) {
 }
 
 TEST(PursuitDwa, ItsSettingsCount) {
-  const std::vector<Point> post{{0.8, 0.32}};
+  const std::vector<Point> post{{0.5, 0.32}};
   ControlRequest request = request_for(kAhead);
   request.obstacles = post;
   PursuitDwaConfig config;

@@ -93,7 +93,9 @@ class HostFixture : public testing::Test {
                                             [this](ClusterTree clusters) { return content(std::move(clusters)); });
     return *saving_;
   }
-  HostParts host() { return {mission_, modules().clock, world_, publisher_, monitor_, planning(), saving()}; }
+  HostParts host() {
+    return {mission_, modules().clock, world_, publisher_, monitor_, planning(), saving(), modules().controller};
+  }
   void attach_drive() { monitor_.attach({drive_, modules().clock, modules().drive}); }
   [[nodiscard]] virtual SavedMap content(ClusterTree clusters) const {
     SavedMap map;

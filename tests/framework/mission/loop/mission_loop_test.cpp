@@ -173,8 +173,9 @@ class LoopOfSpies : public testing::Test {
     Registrar registrar;
     const auto add = [&]<class Interface>(std::type_identity<Interface>, const char* name, auto make) {
       registrar.add<Interface, NoConfig>(name, "writes down",
-                                         [&notes, name, make](const NoConfig&, const ModuleContext& context) {
-                                           if (context.world != nullptr) notes.made_with_the_world.emplace_back(name);
+                                         [&notes, name, make](const NoConfig&, const ContextOf<Interface>& context) {
+                                           if constexpr (requires { context.world; })
+                                             if (context.world != nullptr) notes.made_with_the_world.emplace_back(name);
                                            return make();
                                          });
     };

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/behaviours/driving/path_follower.hpp"
+#include "plugins/common/motion/path.hpp"
 #include "tests/plugins/behaviours/ascii_grid.hpp"
 
 namespace cairn::behaviours {

@@ -24,7 +24,7 @@ struct Asking : testing::Test {
     requests.tick(time_s);
     host.planned.clear();
     host.planner = [&](const PlanRequest&) { return answer; };
-    return requests.ask(Place{Pose2{0.4, 0.2, 0.0}, false, {}, {}}, world, host);
+    return requests.ask(Place{Pose2{0.4, 0.2, 0.0}, false, {}}, world, host);
   }
   FakeHost host{kYard};
   PlannerRequests requests{{}, 7};

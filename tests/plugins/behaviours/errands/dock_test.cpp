@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "plugins/common/motion/path.hpp"
 #include "tests/plugins/behaviours/fake_host.hpp"
 #include "tests/plugins/behaviours/written_config.hpp"
 
@@ -83,7 +84,7 @@ TEST(Dock, StopsAtTheDistanceOnEachSideAndFacesTheLandmark) {
     EXPECT_NEAR(gap_m(host), 0.2, 0.03 + 0.03) << side;  // the map knows the outline to half a cell
     const Point from_block = host.T_map_robot.position() - kCentre;
     EXPECT_GT(from_block.normalized().dot(outward), 0.99) << side << host.picture();
-    EXPECT_LT(std::abs(heading_error(host.T_map_robot, kCentre)), radians(6.0));
+    EXPECT_LT(std::abs(motion::heading_error(host.T_map_robot, kCentre)), radians(6.0));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "plugins/common/motion/path.hpp"
 #include "tests/plugins/behaviours/fake_host.hpp"
 #include "tests/plugins/behaviours/written_config.hpp"
 
@@ -81,7 +82,7 @@ TEST(GoTo, FacesTheLandmarkInTheEnd) {
   GoTo go(config_for("desk"), 1);
   const Status status = host.run(go, 120.0);
   EXPECT_EQ(status, (Status{Progress::success, "at desk (square)"}));
-  EXPECT_LT(std::abs(heading_error(host.T_map_robot, {2.5, 1.2})), radians(4.0));
+  EXPECT_LT(std::abs(motion::heading_error(host.T_map_robot, {2.5, 1.2})), radians(4.0));
 }
 
 TEST(GoTo, AsksForAllLandmarksOfTheNearestCategory) {
@@ -232,7 +233,7 @@ TEST(GoTo, GoesToThePlaceThatAnEarlierStepGives) {
   GoTo there(config, 1);
   EXPECT_THAT(host.run(there, 1.0).reason, HasSubstr("no step has given the place \"found\" yet"));
   there.halt();
-  host.values["found"] = Place{Pose2{1.5, 0.5, 0.0}, false, {}, {}};
+  host.values["found"] = Place{Pose2{1.5, 0.5, 0.0}, false, {}};
   const Status status = host.run(there, 60.0);
   EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
   EXPECT_EQ(status.reason, "at the place \"found\"");
