@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/landmarks/evidence.hpp"
+#include "maps/geometry/segments.hpp"
 #include "maps/grid/distance_field.hpp"
 #include "maps/grid/travel_field.hpp"
 
@@ -14,12 +15,6 @@ namespace {
 constexpr double kThinning_m = 0.05;
 constexpr double kVisit_m = 0.25;       // this near to a standing place counts as having been there
 constexpr double kAccessReach_m = 1.5;  // a standing place lies no further from the landmark's centre
-
-double length_of(const std::vector<Pose2>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i].position() - path[i - 1].position()).norm();
-  return length;
-}
 
 std::vector<Pose2> reversed(std::vector<Pose2> path) {
   std::reverse(path.begin(), path.end());

@@ -3,13 +3,10 @@
 #include <cmath>
 
 #include "framework/landmarks/evidence.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn {
 namespace {
-
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
 
 constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks
 

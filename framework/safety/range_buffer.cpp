@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -28,10 +30,6 @@ std::vector<Point> arc_of(const RangeReading& reading, const Pose2& T_odom_senso
     points.push_back(T_odom_sensor * Point(reading.range_m * std::cos(bearing), reading.range_m * std::sin(bearing)));
   }
   return points;
-}
-
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
 }
 
 double round_of(const RobotModel& robot) {

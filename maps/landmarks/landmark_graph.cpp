@@ -5,15 +5,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
 // Ids travel as JSON numbers, which are exact up to here only.
 constexpr std::int64_t kMaxId = (std::int64_t{1} << 53) - 1;
-
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
 
 std::string named(const char* kind, std::int64_t id) {
   return std::string(kind) + " " + std::to_string(id);

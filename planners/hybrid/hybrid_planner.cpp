@@ -1,10 +1,10 @@
 #include "planners/hybrid/hybrid_planner.hpp"
 
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "maps/base/text.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/hybrid_query.hpp"
@@ -19,10 +19,7 @@ UnknownPolicy unknown_policy_of(const PluginChoice& route) {
 
 double margin_m_of(const PluginChoice& route) {
   const ConfigValue* const margin = route.config.find("margin_m");
-  double margin_m = 0.0;
-  if (margin != nullptr)
-    (void)std::from_chars(margin->scalar.data(), margin->scalar.data() + margin->scalar.size(), margin_m);
-  return margin_m;
+  return margin == nullptr ? 0.0 : number_from<double>(margin->scalar).value_or(0.0);
 }
 
 HybridPlanner::HybridPlanner(HybridConfig config, std::shared_ptr<const Planner> route,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -85,8 +87,7 @@ void join_trajectories(PlanResult& result, const LandmarkGraph& graph) {
     append_trajectory(result.path, nullptr, *graph.find(result.landmarks.front()));
   for (std::size_t i = 0; i < result.routes.size(); ++i)
     append_trajectory(result.path, route_at(i), *graph.find(result.landmarks[i + 1]));
-  for (std::size_t i = 1; i < result.path.size(); ++i)
-    result.length_m += (result.path[i].position() - result.path[i - 1].position()).norm();
+  result.length_m = length_of(result.path);
 }
 
 double ms_between(Budget::Clock::time_point begin, Budget::Clock::time_point end) {

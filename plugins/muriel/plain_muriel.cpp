@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "maps/geometry/segments.hpp"
 #include "plugins/common/sonar_model/reading.hpp"
 
 namespace cairn::muriel {
@@ -67,7 +68,7 @@ void integrate_plainly(const Config& config, const PlacedReading& reading, Occup
 
 const CellChanges& PlainMuriel::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
-  if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
+  if (!is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges)
     if (const auto evidence = placed(config_, reading, pose.T_map_robot))
       integrate_plainly(config_, *evidence, grid_, log_, spans_, changes_.spans);

@@ -194,8 +194,4 @@ std::vector<Pose2> odd_poses() {
           {kHuge, 0.0, 0.0}, {0.0, -kHuge, 0.0}, {0.0, 0.0, kHuge}, {1e9, 1e9, 0.0}};
 }
 
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
-
 }  // namespace cairn::conformance

@@ -53,8 +53,6 @@ struct OddReading {
 // Poses with numbers that are not finite or beyond all maps.
 [[nodiscard]] std::vector<Pose2> odd_poses();
 
-[[nodiscard]] bool is_finite(const Pose2& pose);
-
 // A budget that is used up from the start, by its cancel flag or by its deadline.
 class UsedUpBudget {
  public:

@@ -11,6 +11,7 @@
 
 #include <thread>
 
+#include "maps/geometry/segments.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/planner_world.hpp"
 #include "tests/conformance/subject.hpp"

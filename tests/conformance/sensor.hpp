@@ -8,6 +8,7 @@
 // The source must give at least one observation; a log should be short.
 #pragma once
 
+#include "maps/geometry/segments.hpp"
 #include "tests/conformance/allocations.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/subject.hpp"

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/plan/saved_radius.hpp"
+#include "maps/base/text.hpp"
 #include "maps/edit/graph_lint.hpp"
 #include "maps/store/map_store.hpp"
 
@@ -38,10 +40,6 @@ void print(const std::vector<LintFinding>& findings) {
       std::cout << fmt::format("... and {} more of the kind {}; --json lists all\n", times - kMaxOfAKind, kind);
 }
 
-std::string counted(std::int64_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 }  // namespace
 
 int map_lint(const LintCommand& command, const CommonOptions& common) {
@@ -59,13 +57,11 @@ int map_lint(const LintCommand& command, const CommonOptions& common) {
   if (common.json) {
     ordered_json list = ordered_json::array();
     for (const LintFinding& finding : findings) list.push_back(json_of(finding, map.graph));
-    std::cout << ordered_json{{"file", command.map.string()},
-                              {"outcome", clean ? "clean" : "findings"},
-                              {"radius_m", options.radius_m},
-                              {"near_m", options.near_m},
-                              {"findings", list}}
-                     .dump()
-              << "\n";
+    print_json({{"file", command.map.string()},
+                {"outcome", clean ? "clean" : "findings"},
+                {"radius_m", options.radius_m},
+                {"near_m", options.near_m},
+                {"findings", list}});
   } else {
     print(findings);
     std::cout << fmt::format("{}: {}; {}, {}, {}, for a robot of {:g} m radius\n", command.map.string(),

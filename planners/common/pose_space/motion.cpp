@@ -5,16 +5,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
 // sin(x) / x
 double sinc(double x) {
   return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
-}
-
-bool is_finite(const Pose2& pose) {
-  return pose.position().allFinite() && std::isfinite(pose.theta_rad);
 }
 
 struct TurnDriveTurn {

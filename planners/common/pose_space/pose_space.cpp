@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "maps/geometry/segments.hpp"
 #include "planners/common/disc_space/field_box.hpp"
 
 namespace cairn {
@@ -71,10 +72,6 @@ double to_rim_m(const DiscSpace& space, const Point& p) {
   const DistanceField& field = space.field();
   const auto [low, high] = box_of(field, field.box());
   return std::min((p - low).minCoeff(), (high - p).minCoeff());
-}
-
-bool is_finite(const Pose2& pose) {
-  return pose.position().allFinite() && std::isfinite(pose.theta_rad);
 }
 
 }  // namespace

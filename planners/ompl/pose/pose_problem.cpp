@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "planners/ompl/search/mixed_seed.hpp"
+#include "maps/base/portable_random.hpp"
 
 namespace cairn {
 namespace {
@@ -30,7 +30,8 @@ class InformedPoseSampler : public ob::InformedSampler {
   InformedPoseSampler(const ob::ProblemDefinitionPtr& definition, const PoseProblem& problem)
       : InformedSampler(definition, kTries),
         problem_(problem),
-        sampler_(space_.get(), problem.poses.ground().field(), problem.draw, mixed(mixed(problem.seed) + kInformed)) {}
+        sampler_(space_.get(), problem.poses.ground().field(), problem.draw,
+                 mixed_seed(mixed_seed(problem.seed) + kInformed)) {}
 
   bool sampleUniform(ob::State* state, const ob::Cost& below) override {
     return sampleUniform(state, ob::Cost(0.0), below);

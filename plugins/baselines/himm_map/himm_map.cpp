@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
 #include "maps/grid/beam_cells.hpp"
 #include "plugins/common/sonar_model/reading.hpp"
 
@@ -49,7 +50,7 @@ void HimmMap::begin_with(const OccupancyGrid& grid) {
 
 const CellChanges& HimmMap::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
-  if (!sonar_model::is_finite(pose.T_map_robot)) return changes_;
+  if (!is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges) integrate_reading(reading, pose.T_map_robot);
   for (const Cell cell : cleared_footprint_.unknown_under(grid_, pose.T_map_robot))
     set_certainty(cell, free_certainty_);

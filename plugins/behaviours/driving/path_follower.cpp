@@ -110,12 +110,6 @@ double heading_error(const Pose2& T_map_robot, const Point& target_map) {
   return wrap_angle(std::atan2(to_target.y(), to_target.x()) - T_map_robot.theta_rad);
 }
 
-double length_of(const std::vector<Point>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) length_m += (path[i + 1] - path[i]).norm();
-  return length_m;
-}
-
 Point point_along(const std::vector<Point>& path, double along_m) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const double leg_m = (path[i + 1] - path[i]).norm();

@@ -8,6 +8,7 @@
 
 #include "framework/contracts/robot_model.hpp"
 #include "maps/geometry/pose.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn::behaviours {
 
@@ -45,7 +46,6 @@ struct FollowStep {
 [[nodiscard]] Twist turn_by(double heading_error_rad, double max_w_radps);
 [[nodiscard]] double heading_error(const Pose2& T_map_robot, const Point& target_map);
 
-[[nodiscard]] double length_of(const std::vector<Point>& path);
 // The point this far along the path; its ends beyond them. The path must not be empty.
 [[nodiscard]] Point point_along(const std::vector<Point>& path, double along_m);
 

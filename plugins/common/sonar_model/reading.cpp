@@ -4,11 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace cairn::sonar_model {
+#include "maps/geometry/segments.hpp"
 
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.theta_rad);
-}
+namespace cairn::sonar_model {
 
 Meaning meaning_of(const RangeReading& reading) {
   const bool sane = is_finite(reading.T_robot_sensor) && reading.half_beam_rad >= 0.0 &&

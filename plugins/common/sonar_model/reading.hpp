@@ -18,7 +18,6 @@ namespace cairn::sonar_model {
 enum class Meaning { ignored, echo, silence };
 
 [[nodiscard]] Meaning meaning_of(const RangeReading& reading);
-[[nodiscard]] bool is_finite(const Pose2& pose);
 
 // Makes spans what CellChanges promises: sorted, and joined where they overlap or meet.
 void tidy(std::vector<CellSpan>& spans);

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "tests/plugins/common/sonar_model/standing_room_law.hpp"
+#include "tests/plugins/common/sonar_model/cleared_footprint_law.hpp"
 #include "tests/plugins/muriel/test_readings.hpp"
 
 namespace cairn::muriel {
