@@ -228,9 +228,18 @@ bool SaysSomething(const float* evidence, const KernelScale& scale, int count) {
   return false;
 }
 
+// Of each lane's count, 0 to 3.
+HWY_INLINE Floats WeightOf(hn::Vec<WordTag> count, const float* weight_of_count) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::GatherIndex(Tag(), weight_of_count, hn::BitCast(IntTag(), count));
+#else
+  return hn::TableLookupLanes(hn::LoadDup128(Tag(), weight_of_count), hn::IndicesFromVec(Tag(), count));
+#endif
+}
+
 // The change after the log's weight; counts it there.
 template <bool two_planes>
-HWY_INLINE Floats Logged(const KernelLog& log, Floats off, Floats weight_of_count, std::uint16_t* counts,
+HWY_INLINE Floats Logged(const KernelLog& log, Floats off, const float* weight_of_count, std::uint16_t* counts,
                          Floats change) {
   const Tag d;
   const IntTag di;
@@ -243,7 +252,7 @@ HWY_INLINE Floats Logged(const KernelLog& log, Floats off, Floats weight_of_coun
   if constexpr (two_planes)
     words = words | hn::ShiftLeft<16>(hn::PromoteTo(dw, hn::LoadU(dc, counts + log.plane_step)));
   const auto count = (words >> shifts) & hn::Set(dw, 3U);
-  const Floats weight = hn::TableLookupLanes(weight_of_count, hn::IndicesFromVec(d, count));
+  const Floats weight = WeightOf(count, weight_of_count);
   const auto is_taken = hn::RebindMask(dw, hn::And(hn::Abs(change) >= All(0.5F), weight > hn::Zero(d)));
   words = words + hn::IfThenElseZero(is_taken, hn::Set(dw, 1U) << shifts);
   const auto low = hn::BitCast(di, words & hn::Set(dw, 0xffffU));
@@ -258,7 +267,6 @@ HWY_INLINE void Apply(const KernelScale& by, const KernelLog& log, const Block* 
                       const KernelCells& cells) {
   const Tag d;
   const ShortTag ds;
-  const Floats weight_of_count = hn::LoadDup128(d, by.weight_of_count);
   const auto highest = hn::Set(ds, static_cast<std::int16_t>(by.clamp));
   const auto lowest = hn::Neg(highest);
   for (int b = 0; b < count; ++b) {
@@ -268,7 +276,7 @@ HWY_INLINE void Apply(const KernelScale& by, const KernelLog& log, const Block* 
       const std::size_t at = static_cast<std::size_t>(b) * kBlock_cells + lane;
       Floats change = IncrementOf(cells.evidence + at, by.weight);
       if constexpr (has_log)
-        change = Logged<two_planes>(log, hn::LoadU(d, cells.off + at), weight_of_count, block.log + lane, change);
+        change = Logged<two_planes>(log, hn::LoadU(d, cells.off + at), by.weight_of_count, block.log + lane, change);
       const auto before = hn::LoadU(ds, block.cells + lane);
       const auto sum = before + hn::DemoteTo(ds, hn::NearestInt(change));
       const auto after = hn::Max(hn::Min(sum, highest), lowest);
