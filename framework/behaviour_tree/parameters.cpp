@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "maps/base/text.hpp"
+
 namespace cairn {
 namespace {
 
@@ -19,9 +21,7 @@ std::string referred(const ConfigValue& value) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return names.empty() ? "; it has none" : "; known: " + text;
+  return names.empty() ? "; it has none" : "; known: " + joined(names);
 }
 
 std::string unknown(const std::string& name, const std::string& file, const std::vector<std::string>& names) {

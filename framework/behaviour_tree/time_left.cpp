@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/base/text.hpp"
+
 namespace cairn {
 
 void add_unknown(TimeLeft& left, const std::string& what) {
@@ -25,8 +27,7 @@ TimeLeft cut(TimeLeft left, double max_s) {
 }
 
 std::string text_of(const TimeLeft& left) {
-  std::string without;
-  for (const std::string& what : left.without) without += (without.empty() ? "" : ", ") + what;
+  const std::string without = joined(left.without);
   const bool is_known = without.empty() || left.about_s >= 0.5;
   std::string text = is_known ? fmt::format("about {:.0f} s left", left.about_s) : std::string("time left unknown");
   if (is_known && !without.empty()) text += " without " + without;

@@ -6,6 +6,7 @@
 #include "framework/behaviour_tree/parameters.hpp"
 #include "framework/behaviour_tree/sub_mission_file.hpp"
 #include "framework/config/named_category.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 constexpr std::size_t kMaxValues = 1'000'000;
 constexpr const char* kName = "name";
 constexpr const char* kChild = "do";
-
-std::string counted(std::size_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
 
 // A file as messages call it.
 std::string called(const std::filesystem::path& file) {

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 
+#include "maps/base/text.hpp"
+
 namespace cairn {
 namespace {
-
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
-}
 
 std::string entries_text(const ConfigValue& map);
 

@@ -1,17 +1,12 @@
 #include "framework/config/config_value.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
+
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
-
-bool is_number_text(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && end == text.data() + text.size();
-}
 
 void set_places(ConfigValue& value, const SourcePlace& place) {
   value.place = place;
@@ -36,10 +31,8 @@ ConfigValue override_value(const std::string& text, const SourcePlace& place) {
 }
 
 ConfigValue& list_item(ConfigValue& list, const std::string& part, const SourcePlace& place) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  const bool is_index = error == std::errc{} && end == part.data() + part.size();
-  if (is_index && index < list.items.size()) return list.items[index];
+  const auto index = number_from<std::size_t>(part);
+  if (index && *index < list.items.size()) return list.items[*index];
   const std::string allowed =
       list.items.empty() ? "the list there is empty" : "allowed: 0 to " + std::to_string(list.items.size() - 1);
   throw ConfigError(place, shown(part) + " is not an item of the list at " + list.place.text() + "; " + allowed);
@@ -155,7 +148,7 @@ std::string ConfigValue::kind_name() const {
   }
   if (quoted) return "text";
   if (scalar == "true" || scalar == "false") return "a flag";
-  return is_number_text(scalar) ? "a number" : "text";
+  return number_from<double>(scalar) ? "a number" : "text";
 }
 
 void apply_override(ConfigValue& root, const std::string& assignment) {

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "maps/base/text.hpp"
+
 namespace cairn {
 namespace {
 
@@ -18,12 +20,6 @@ constexpr Range kCoordinateRange{-1e5, 1e5};
 constexpr std::size_t kMaxPoints = 10'000;
 // File systems end at 255; what is saved gets an ending.
 constexpr std::size_t kMaxFileName = 200;
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 std::string found_text(const ConfigValue& value) {
   if (value.kind != ConfigValue::Kind::scalar) return value.kind_name();
@@ -56,11 +52,9 @@ std::optional<Number> parsed(const ConfigValue& value) {
   if (value.kind != ConfigValue::Kind::scalar || value.quoted) return std::nullopt;
   std::string_view token = value.scalar;
   if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
-  Number number{};
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
-  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
+  const auto number = number_from<Number>(token);
   if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(number)) return std::nullopt;
+    if (number && !std::isfinite(*number)) return std::nullopt;
   }
   return number;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "maps/base/text.hpp"
+
 namespace cairn {
 namespace {
 
@@ -17,10 +19,9 @@ void check_category_is_known(const std::string& category, const SourcePlace& pla
                              const std::vector<std::string>& categories) {
   const bool is_known = categories.empty() || std::ranges::find(categories, category) != categories.end();
   if (is_known && !category.empty()) return;
-  std::string known;
-  for (const std::string& name : categories) known += (known.empty() ? "" : ", ") + name;
   throw ConfigError(place, what + ": the mission has no template of category " + shown(category) +
-                               did_you_mean(category, categories) + (known.empty() ? "" : "; it has " + known));
+                               did_you_mean(category, categories) +
+                               (categories.empty() ? "" : "; it has " + joined(categories)));
 }
 
 void check_named_categories(const ConfigValue& value, const std::string& what,

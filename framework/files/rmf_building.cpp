@@ -5,6 +5,7 @@
 #include "framework/config/fields.hpp"
 #include "framework/files/rmf_site.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn::rmf {
 namespace {
@@ -141,8 +142,7 @@ class Drawing {  // one level, in its own units, y upwards
                               (unused == 1 ? " vertex" : " vertices") +
                               " without name and lane, of walls and floors: no landmark");
     const std::size_t doors = list_in(level_, "doors").size();
-    if (doors > 0)
-      site.warnings.push_back("level " + shown(name_) + ": " + exchange::counted(doors, "door") + ", not read");
+    if (doors > 0) site.warnings.push_back("level " + shown(name_) + ": " + counted(doors, "door") + ", not read");
     return level;
   }
 
@@ -230,8 +230,7 @@ Site site_of_building(const ConfigValue& root) {
   const ConfigValue* name = root.find("building_name") != nullptr ? root.find("building_name") : root.find("name");
   if (name != nullptr) site.others.entries.emplace_back("building_name", *name);
   if (const ConfigValue* lifts = root.find("lifts"); lifts != nullptr && !lifts->entries.empty())
-    site.warnings.push_back(exchange::counted(lifts->entries.size(), "lift") +
-                            ", not read: no route leads from floor to floor");
+    site.warnings.push_back(counted(lifts->entries.size(), "lift") + ", not read: no route leads from floor to floor");
   return site;
 }
 

@@ -1,11 +1,11 @@
 #include "framework/files/rmf_site.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include "framework/config/fields.hpp"
+#include "maps/base/text.hpp"
 #include "maps/base/yaml_text.hpp"
 
 namespace cairn::rmf {
@@ -31,14 +31,8 @@ std::string json_of_scalar(const ConfigValue& value) {
   const std::string& text = value.scalar;
   if (value.quoted) return json_text(text);
   if (text == "true" || text == "false") return text;
-  const char* const end = text.data() + text.size();
-  std::int64_t whole = 0;
-  if (const auto [rest, error] = std::from_chars(text.data(), end, whole); error == std::errc{} && rest == end)
-    return std::to_string(whole);
-  double real = 0.0;
-  if (const auto [rest, error] = std::from_chars(text.data(), end, real);
-      error == std::errc{} && rest == end && std::isfinite(real))
-    return exchange::yaml_number(real);
+  if (const auto whole = number_from<std::int64_t>(text)) return std::to_string(*whole);
+  if (const auto real = number_from<double>(text); real && std::isfinite(*real)) return exchange::yaml_number(*real);
   return json_text(text);
 }
 

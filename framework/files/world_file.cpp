@@ -6,6 +6,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/files/world_moving.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -90,13 +91,9 @@ Contour contour_of_category(const std::string& category, const SourcePlace& plac
   const auto shape = std::ranges::find(shapes, category, &LandmarkShape::category);
   if (shape != shapes.end()) return shape->contour;
   std::vector<std::string> known;
-  std::string known_text;
-  for (const LandmarkShape& s : shapes) {
-    known.push_back(s.category);
-    known_text += (known_text.empty() ? "" : ", ") + s.category;
-  }
+  for (const LandmarkShape& s : shapes) known.push_back(s.category);
   throw ConfigError(place, "no template of the category " + shown(category) + did_you_mean(category, known) +
-                               "; known: " + (known.empty() ? "none" : known_text));
+                               "; known: " + (known.empty() ? "none" : joined(known)));
 }
 
 Contour contour_of(const ObjectConfig& config, const std::string& outline, const ConfigValue& value,

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "maps/geometry/segments.hpp"
 #include "maps/grid/differing_cells.hpp"
 #include "maps/grid/distance_field.hpp"
 #include "maps/grid/travel_field.hpp"
@@ -13,12 +14,6 @@ namespace cairn {
 namespace {
 
 constexpr double kAccessReach_m = 1.5;  // an approach pose lies no further from the landmark's centre
-
-double length_of(const std::vector<Pose2>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i].position() - path[i - 1].position()).norm();
-  return length;
-}
 
 // The reachable cell nearest to the landmark, looking at it.
 std::optional<Pose2> approach_pose(const DistanceField& space, const TravelField& reach, const Point& landmark) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -47,7 +49,7 @@ bool is_finite(const Matching& matching) {
       return false;
   if (!matching.detection) return true;
   const auto& [category, T_map_landmark, degree, templates] = *matching.detection;
-  return T_map_landmark.position().allFinite() && std::isfinite(T_map_landmark.theta_rad) && std::isfinite(degree);
+  return is_finite(T_map_landmark) && std::isfinite(degree);
 }
 
 bool add_evidence(Landmark& landmark, const Matching& matching, double within_m) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -36,8 +38,7 @@ void consider_face(const Point& a, const Point& b, Nearest& nearest) {
   const Point along = b - a;
   // Outlines run anticlockwise: outside is on the right.
   if (cross(along, nearest.from_m - a) >= 0.0) return;
-  const double share = std::clamp((nearest.from_m - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  nearest.consider(a + share * along);
+  nearest.consider(nearest_on_segment(nearest.from_m, a, b));
   // Where the rims cross the face, so that a face which leaves the cone is known to be nearest there.
   for (const double side : {-1.0, 1.0}) {
     const double c = std::cos(nearest.half_beam_rad);

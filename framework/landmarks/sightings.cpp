@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "framework/landmarks/outline_echo.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn {
 namespace {
@@ -65,8 +66,7 @@ std::span<const LandmarkSighting> LandmarkSightings::look(const Observation& obs
 
 void LandmarkSightings::take(const Observation& observation) {
   const Pose2& T_odom_robot = observation.T_odom_robot;
-  if (!std::isfinite(T_odom_robot.x_m) || !std::isfinite(T_odom_robot.y_m) || !std::isfinite(T_odom_robot.theta_rad))
-    return;
+  if (!is_finite(T_odom_robot)) return;
   if (begun_) driven_m_ += (T_odom_robot.position() - T_odom_last_.position()).norm();
   begun_ = true;
   T_odom_last_ = T_odom_robot;

@@ -5,6 +5,8 @@
 #include "framework/mission/resume.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/templates/sensed_templates.hpp"
+#include "maps/base/portable_random.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -66,20 +68,15 @@ std::shared_ptr<Controller> build_controller(const Mission& mission, const Modul
 
 // What is no behaviour may be meant for a node.
 [[noreturn]] void fail_unknown(const ModuleLibrary& library, const TreeNode& node) {
-  std::string known;
-  std::vector<std::string> names;
-  for (const ModuleEntry& entry : library.entries()) {
-    if (entry.module->kind != PluginKind::behaviour) continue;
-    names.push_back(entry.module->name);
-    known += (known.empty() ? "" : ", ") + names.back();
-  }
-  std::string nodes;
-  for (const std::string& name : node_names()) {
-    names.push_back(name);
-    nodes += (nodes.empty() ? "" : ", ") + name;
-  }
+  std::vector<std::string> known;
+  for (const ModuleEntry& entry : library.entries())
+    if (entry.module->kind == PluginKind::behaviour) known.push_back(entry.module->name);
+  const std::vector<std::string> nodes = node_names();
+  std::vector<std::string> names = known;
+  names.insert(names.end(), nodes.begin(), nodes.end());
   std::string sentence = "unknown behaviour plugin " + shown(node.choice.name) + did_you_mean(node.choice.name, names) +
-                         "; known are: " + (known.empty() ? "none" : known) + "; and these nodes: " + nodes;
+                         "; known are: " + (known.empty() ? "none" : joined(known)) +
+                         "; and these nodes: " + joined(nodes);
   for (const std::string& fault : library.faults()) sentence += "\n  not loaded: " + fault;
   throw ConfigError(node.place, sentence);
 }
@@ -124,13 +121,8 @@ std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const Module
 }  // namespace
 
 std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
-  // splitmix64: neighbouring mission seeds give unrelated module seeds.
-  std::uint64_t z =
-      static_cast<std::uint64_t>(mission_seed) * 1000003U + static_cast<std::uint64_t>(kind) * 101U + index;
-  z += 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
+  return mixed_seed(static_cast<std::uint64_t>(mission_seed) * 1000003U + static_cast<std::uint64_t>(kind) * 101U +
+                    index);
 }
 
 TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "framework/behaviour_tree/tree_text.hpp"
 #include "framework/mission/saved_content.hpp"
 #include "maps/base/fingerprint.hpp"
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -41,12 +40,9 @@ void require_same_steps(const MissionProgress& progress, const std::vector<TreeN
 }  // namespace
 
 std::int64_t seed_of(const SavedMap& map) {
-  const std::string text = property(map, "seed");
-  std::int64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc{} || end != text.data() + text.size())
-    throw StoreError("cannot be gone on from: it does not say with which seed it was made");
-  return seed;
+  const auto seed = number_from<std::int64_t>(property(map, "seed"));
+  if (!seed) throw StoreError("cannot be gone on from: it does not say with which seed it was made");
+  return *seed;
 }
 
 void check_resumable(const SavedMap& map, const Mission& mission) {
@@ -97,12 +93,11 @@ void add_pauses(SavedMap& map, double paused_s) {
 double paused_before(const SavedMap& map) {
   const std::string text = property(map, kPausedProperty);
   if (text.empty()) return 0.0;
-  double paused_s = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), paused_s);
-  if (error != std::errc() || end != text.data() + text.size() || !(paused_s >= 0.0 && paused_s <= kMaxPaused_s))
+  const auto paused_s = number_from<double>(text);
+  if (!paused_s || !(*paused_s >= 0.0 && *paused_s <= kMaxPaused_s))
     throw StoreError(fmt::format("cannot be gone on from: its property {} is {}, not a time in seconds",
                                  kPausedProperty, shown(text)));
-  return paused_s;
+  return *paused_s;
 }
 
 void check_same_cells(const OccupancyGrid& saved, const OccupancyGrid& of_mission) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "framework/contracts/lone_planners.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -79,10 +80,8 @@ const RegisteredModule& ModuleLibrary::find(PluginKind kind, const std::string& 
   if (entry != nullptr)
     throw ConfigError(
         place, "\"" + name + "\" is a " + std::string(name_of(entry->module->kind)) + " plugin, not a " + kind_text);
-  std::string known;
-  for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
   std::string sentence = "unknown " + kind_text + " plugin \"" + name + "\"" + did_you_mean(name, names) +
-                         "; known are: " + (known.empty() ? "none" : known);
+                         "; known are: " + (names.empty() ? "none" : joined(names));
   for (const std::string& fault : faults_) sentence += "\n  not loaded: " + fault;
   throw ConfigError(place, sentence);
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
 #include <vector>
 
 #include "framework/config/config_value.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -21,27 +21,13 @@ constexpr std::string_view kWhatAPlaceIs =
   throw MalformedPlace("place \"" + place + "\" " + why + "; " + std::string(kWhatAPlaceIs));
 }
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
-std::optional<double> number(const std::string& text) {
-  const std::string token = trimmed(text);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-  if (error != std::errc{} || end != token.data() + token.size()) return std::nullopt;
-  return value;
-}
-
 // All comma separated parts as numbers, or nothing when one is not a number.
 std::optional<std::vector<double>> numbers(const std::string& text) {
   std::vector<double> values;
   std::size_t begin = 0;
   while (true) {
     const std::size_t comma = text.find(',', begin);
-    const auto value = number(text.substr(begin, comma - begin));
+    const auto value = number_from<double>(trimmed(std::string_view(text).substr(begin, comma - begin)));
     if (!value) return std::nullopt;
     values.push_back(*value);
     if (comma == std::string::npos) return values;
@@ -52,7 +38,7 @@ std::optional<std::vector<double>> numbers(const std::string& text) {
 // "1,", "1,a", "1;2", "1 2": meant as x,y, and no name.
 bool begins_with_a_coordinate(const std::string& text) {
   const std::size_t end = text.find_first_of(",; \t");
-  if (end == std::string::npos || !number(text.substr(0, end))) return false;
+  if (end == std::string::npos || !number_from<double>(text.substr(0, end))) return false;
   const bool has_letters = std::ranges::any_of(text, [](unsigned char c) { return std::isalpha(c) != 0 || c > 127; });
   return text[end] == ',' || !has_letters;
 }
@@ -75,11 +61,9 @@ Place nearest_place(const std::string& category, const LandmarkGraph& graph) {
   std::set<std::string> known;
   for (const auto& [id, landmark] : graph.landmarks())
     if (!landmark.category.empty()) known.insert(landmark.category);
-  std::string list;
-  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   throw PlaceError("no landmark of category \"" + category + "\"" +
                    did_you_mean(category, {known.begin(), known.end()}) +
-                   "; the map holds: " + (list.empty() ? "none" : list));
+                   "; the map holds: " + (known.empty() ? "none" : joined(known)));
 }
 
 }  // namespace
@@ -90,8 +74,9 @@ bool reads_as_place(const std::string& text) {
 }
 
 Place parse_place(const std::string& text, const LandmarkGraph& graph) {
-  const std::string place_text = trimmed(text);
-  if (place_text.starts_with(kNearest)) return nearest_place(trimmed(place_text.substr(kNearest.size())), graph);
+  const std::string place_text(trimmed(text));
+  if (place_text.starts_with(kNearest))
+    return nearest_place(std::string(trimmed(std::string_view(place_text).substr(kNearest.size()))), graph);
   if (reads_as_place(place_text)) return place_of(*numbers(place_text), place_text);
   if (const Landmark* landmark = graph.find_by_name(place_text)) {
     Place place;
@@ -112,13 +97,10 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
 }
 
 RouteId parse_route(const std::string& text, const LandmarkGraph& graph) {
-  RouteId id = 0;
-  const std::string digits = text.starts_with('R') ? text.substr(1) : text;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
-  if (error != std::errc{} || end != digits.data() + digits.size())
-    throw MalformedPlace("route \"" + text + "\": a route is named by its number, as 12 or R12");
-  if (graph.find_route(id) == nullptr) throw PlaceError("the map has no route " + std::to_string(id));
-  return id;
+  const auto id = number_from<RouteId>(std::string_view(text).substr(text.starts_with('R') ? 1 : 0));
+  if (!id) throw MalformedPlace("route \"" + text + "\": a route is named by its number, as 12 or R12");
+  if (graph.find_route(*id) == nullptr) throw PlaceError("the map has no route " + std::to_string(*id));
+  return *id;
 }
 
 }  // namespace cairn

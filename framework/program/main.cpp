@@ -14,9 +14,8 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/contracts/abi_stamp.hpp"
-#include "framework/program/common/commands.hpp"
+#include "framework/program/common/command_line.hpp"
 #include "framework/program/common/mission_options.hpp"
-#include "framework/program/common/option_checks.hpp"
 #include "framework/program/map/file_options.hpp"
 
 namespace cairn {
@@ -26,171 +25,164 @@ CLI::Range seed_range() {
   return {std::int64_t{0}, std::int64_t{9000000000000000}};
 }
 
-void add_run(CLI::App& app, RunCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* sub = app.add_subcommand("run", "Run a mission: map, recognise, plan and drive");
-  sub->add_option("MISSION", c.mission, "mission file (config/missions/*.yaml)")->required();
-  sub->add_option("--out", c.out, "folder for map, pictures and report")->capture_default_str();
-  sub->add_option("--seed", c.seed, "seed, in place of the mission's")->check(seed_range());
-  sub->add_option("--set", c.overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
+void add_run(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] = add_command(app, line, run, "run", "Run a mission: map, recognise, plan and drive");
+  sub->add_option("MISSION", c->mission, "mission file (config/missions/*.yaml)")->required();
+  sub->add_option("--out", c->out, "folder for map, pictures and report")->capture_default_str();
+  sub->add_option("--seed", c->seed, "seed, in place of the mission's")->check(seed_range());
+  sub->add_option("--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
       ->allow_extra_args(false);
-  sub->add_option("--resume", c.resume, "saved or autosaved map of this mission (*.cairn) to go on from");
-  sub->add_flag("--other-world", c.other_world, "go on although the map was made in another world");
-  sub->add_flag("--realtime", c.realtime, "pace simulated time to the clock");
-  sub->callback([&] { action = [&] { return run(c, common); }; });
+  sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to go on from");
+  sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
+  sub->add_flag("--realtime", c->realtime, "pace simulated time to the clock");
 }
 
-void add_plan(CLI::App& app, PlanCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* sub = app.add_subcommand("plan", "Ask a saved map for a route");
-  sub->add_option("MAP", c.map, "saved map (*.cairn)")->required();
-  sub->add_option("--from", c.question.from, "x,y | x,y,angle_deg | L12 | a name | nearest CATEGORY");
-  sub->add_option("--to", c.question.to, "as --from");
-  sub->add_option("--via", c.question.via, "place to pass on the way (may be repeated; in this order)")
+void add_plan(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] = add_command(app, line, plan, "plan", "Ask a saved map for a route");
+  sub->add_option("MAP", c->map, "saved map (*.cairn)")->required();
+  sub->add_option("--from", c->question.from, "x,y | x,y,angle_deg | L12 | a name | nearest CATEGORY");
+  sub->add_option("--to", c->question.to, "as --from");
+  sub->add_option("--via", c->question.via, "place to pass on the way (may be repeated; in this order)")
       ->allow_extra_args(false);
-  sub->add_option("--avoid", c.question.avoid, "landmark or cluster not to pass (may be repeated)")
+  sub->add_option("--avoid", c->question.avoid, "landmark or cluster not to pass (may be repeated)")
       ->allow_extra_args(false);
-  sub->add_option("--close", c.question.closed, "route not to take, as 12 or R12 (may be repeated)")
+  sub->add_option("--close", c->question.closed, "route not to take, as 12 or R12 (may be repeated)")
       ->allow_extra_args(false);
-  sub->add_option("--alternatives", c.question.alternatives, "so many more ways over the landmarks")
+  sub->add_option("--alternatives", c->question.alternatives, "so many more ways over the landmarks")
       ->check(CLI::Range(0, 1000));
-  sub->add_option("--cost", c.question.cost, "what ways over the landmarks are compared by")
+  sub->add_option("--cost", c->question.cost, "what ways over the landmarks are compared by")
       ->check(CLI::IsMember({"length", "time", "clearance"}))
       ->capture_default_str();
-  sub->add_flag("--explain", c.question.explain, "say how the landmark graph gave the answer");
-  sub->add_flag("--trajectory", c.question.trajectory, "say when the robot is where, within its speeds");
-  sub->add_option("--queries", c.queries,
+  sub->add_flag("--explain", c->question.explain, "say how the landmark graph gave the answer");
+  sub->add_flag("--trajectory", c->question.trajectory, "say when the robot is where, within its speeds");
+  sub->add_option("--queries", c->queries,
                   "file of queries, one {\"id\",\"from\",\"to\"} a line, or - (docs/graphs.md)");
-  sub->add_option("--jobs", c.jobs, "answer so many queries at once (without it, as many as there are cores)")
+  sub->add_option("--jobs", c->jobs, "answer so many queries at once (without it, as many as there are cores)")
       ->check(CLI::Range(1, 256));
-  sub->add_option("--planner", c.planner, "planner module")->capture_default_str();
+  sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
   sub->add_option(
-         "--set", c.settings,
+         "--set", c->settings,
          "setting of the planner module (may be repeated): --set route.margin_m=0.05 or --set "
          "route.algorithm=RRTConnect, without route. when it is `--planner ompl`; `cairn plugins info ompl` lists them")
       ->allow_extra_args(false);
-  sub->add_option("--robot", c.robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
-  sub->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map or of the robot file")
+  sub->add_option("--robot", c->robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
+  sub->add_option("--radius-m", c->radius_m, "robot radius, in place of the one saved in the map or of the robot file")
       ->check(number_within(0.0, kMaxRadius_m));
-  sub->add_option("--budget-ms", c.budget_ms, "stop planning after this time")->check(number_within(0.0, 1e9));
-  sub->add_option("--seed", c.seed, "seed of the planner")->check(seed_range())->capture_default_str();
-  sub->add_option("--picture", c.picture, "draw the route into this PNG file");
-  sub->callback([&] { action = [&] { return plan(c, common); }; });
+  sub->add_option("--budget-ms", c->budget_ms, "stop planning after this time")->check(number_within(0.0, 1e9));
+  sub->add_option("--seed", c->seed, "seed of the planner")->check(seed_range())->capture_default_str();
+  sub->add_option("--picture", c->picture, "draw the route into this PNG file");
 }
 
-void add_map(CLI::App& app, MapCommand& c, const CommonOptions& common, Action& action) {
+void add_map(CLI::App& app, CommandLine& line) {
   CLI::App* map = app.add_subcommand("map", "Look at saved maps, import, export, name, merge, crop and compare");
   map->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, auto command) {
-    CLI::App* sub = map->add_subcommand(name, text);
-    sub->add_option("MAP", c.map, "saved map (*.cairn)")->required();
-    sub->callback([&c, &common, &action, command] { action = [&c, &common, command] { return command(c, common); }; });
-    return sub;
+    const auto added = add_command(*map, line, command, name, text);
+    added.app->add_option("MAP", added.options->map, "saved map (*.cairn)")->required();
+    return added;
   };
   add("info", "Size, landmarks and routes of a map", map_info);
   add("check", "Prove a map sound, or say exactly what is lost; exit status 2 when it is damaged", map_check);
-  add("repair", "Save what a damaged map still holds", map_repair)
-      ->add_option("-o,--out", c.repaired, "saved map to write; never the damaged one")
-      ->required();
-  CLI::App* render = add("render", "Draw a map into a PNG file", map_render);
-  render->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
+  const auto [repair, r] = add("repair", "Save what a damaged map still holds", map_repair);
+  repair->add_option("-o,--out", r->repaired, "saved map to write; never the damaged one")->required();
+  const auto [render, c] = add("render", "Draw a map into a PNG file", map_render);
+  render->add_option("-o,--out", c->picture, "picture to write")->capture_default_str();
 }
 
-void add_map_name(CLI::App& app, NameCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* name = app.get_subcommand("map")->add_subcommand("name", "Name a landmark or a cluster of a map");
-  name->add_option("MAP", c.map, "saved map (*.cairn), changed in place")->required();
-  name->add_option("WHAT", c.what, "L17, C1:L17, or the name so far")->required();
-  name->add_option("NAME", c.name, "the new name; an empty one takes it away")->required();
-  name->callback([&] { action = [&] { return map_name(c, common); }; });
+void add_map_name(CLI::App& app, CommandLine& line) {
+  const auto [name, c] =
+      add_command(*app.get_subcommand("map"), line, map_name, "name", "Name a landmark or a cluster of a map");
+  name->add_option("MAP", c->map, "saved map (*.cairn), changed in place")->required();
+  name->add_option("WHAT", c->what, "L17, C1:L17, or the name so far")->required();
+  name->add_option("NAME", c->name, "the new name; an empty one takes it away")->required();
 }
 
-void add_map_lint(CLI::App& app, LintCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* lint = app.get_subcommand("map")->add_subcommand(
-      "lint", "What is doubtful about a map's landmarks and routes; exit status 1 if anything but notes");
-  lint->add_option("MAP", c.map, "saved map (*.cairn)")->required();
-  lint->add_option("--radius-m", c.radius_m, "robot radius, in place of the one saved in the map")
+void add_map_lint(CLI::App& app, CommandLine& line) {
+  const auto [lint, c] =
+      add_command(*app.get_subcommand("map"), line, map_lint, "lint",
+                  "What is doubtful about a map's landmarks and routes; exit status 1 if anything but notes");
+  lint->add_option("MAP", c->map, "saved map (*.cairn)")->required();
+  lint->add_option("--radius-m", c->radius_m, "robot radius, in place of the one saved in the map")
       ->check(number_within(0.0, kMaxRadius_m));
-  lint->add_option("--near-m", c.near_m, "landmarks of one category this near to each other are taken for one")
+  lint->add_option("--near-m", c->near_m, "landmarks of one category this near to each other are taken for one")
       ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
-  lint->callback([&] { action = [&] { return map_lint(c, common); }; });
 }
 
-void add_template(CLI::App& app, TemplateCommand& c, const CommonOptions& common, Action& action) {
+void add_template(CLI::App& app, CommandLine& line) {
   CLI::App* templates = app.add_subcommand("template", "Look at landmark templates");
   templates->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, auto command) {
-    CLI::App* sub = templates->add_subcommand(name, text);
-    sub->add_option("FOLDER", c.folder, "folder of template files (config/templates)")->required();
-    sub->add_option("--cell-m", c.cell_m, "cell size of the map")
+    const auto [sub, c] = add_command(*templates, line, command, name, text);
+    sub->add_option("FOLDER", c->folder, "folder of template files (config/templates)")->required();
+    sub->add_option("--cell-m", c->cell_m, "cell size of the map")
         ->check(number_within(0.005, 1.0))
         ->capture_default_str();
-    sub->add_option("--step-deg", c.step_deg, "orientation step")
+    sub->add_option("--step-deg", c->step_deg, "orientation step")
         ->check(number_within(1.0, 90.0))
         ->capture_default_str();
-    sub->callback([&c, &common, &action, command] { action = [&c, &common, command] { return command(c, common); }; });
-    return sub;
+    return std::pair(sub, c);
   };
   add("list", "Categories, sizes and orientations", template_list);
-  add("check", "Which categories the sensed templates would mistake for which; exit status 1 if any", template_check)
-      ->add_option("--robot", c.robot, "robot file whose sonars sense the templates")
-      ->required();
-  CLI::App* preview = add("preview", "Draw every template of a folder into a PNG file", template_preview);
-  preview->add_option("--rendering", c.rendering, "sensed or ideal")
+  const auto [check, checked] = add(
+      "check", "Which categories the sensed templates would mistake for which; exit status 1 if any", template_check);
+  check->add_option("--robot", checked->robot, "robot file whose sonars sense the templates")->required();
+  const auto [preview, c] = add("preview", "Draw every template of a folder into a PNG file", template_preview);
+  preview->add_option("--rendering", c->rendering, "sensed or ideal")
       ->check(CLI::IsMember({"sensed", "ideal"}))
       ->capture_default_str();
-  preview->add_option("--robot", c.robot, "robot file whose sonars sense the templates");
-  preview->add_option("-o,--out", c.picture, "picture to write")->capture_default_str();
+  preview->add_option("--robot", c->robot, "robot file whose sonars sense the templates");
+  preview->add_option("-o,--out", c->picture, "picture to write")->capture_default_str();
 }
 
-void add_template_capture(CLI::App& app, CaptureCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* capture =
-      app.get_subcommand("template")->add_subcommand("capture", "Make a template file of a thing in a saved map");
-  capture->add_option("MAP", c.map, "saved map (*.cairn)")->required();
-  capture->add_option("--at", c.at, "where it is: x,y or a landmark")->required();
-  capture->add_option("--category", c.category, "what to call such landmarks")->required();
-  capture->add_option("--radius-m", c.radius_m, "everything that lies wholly within this of the place belongs to it")
+void add_template_capture(CLI::App& app, CommandLine& line) {
+  const auto [capture, c] = add_command(*app.get_subcommand("template"), line, template_capture, "capture",
+                                        "Make a template file of a thing in a saved map");
+  capture->add_option("MAP", c->map, "saved map (*.cairn)")->required();
+  capture->add_option("--at", c->at, "where it is: x,y or a landmark")->required();
+  capture->add_option("--category", c->category, "what to call such landmarks")->required();
+  capture->add_option("--radius-m", c->radius_m, "everything that lies wholly within this of the place belongs to it")
       ->check(number_within(0.05, 20.0))
       ->capture_default_str();
-  capture->add_option("-o,--out", c.out, "template file to write")->required();
-  capture->callback([&] { action = [&] { return template_capture(c, common); }; });
+  capture->add_option("-o,--out", c->out, "template file to write")->required();
 }
 
-void add_plugins(CLI::App& app, PluginsCommand& c, const CommonOptions& common, Action& action) {
+void add_plugins(CLI::App& app, CommandLine& line) {
   CLI::App* plugins = app.add_subcommand("plugins", "List the modules, or one module's settings");
   plugins->callback([&] {
-    if (!action) action = [&] { return plugins_list(common); };
+    if (!line.action) line.action = [&] { return plugins_list(line.common); };
   });
-  CLI::App* info = plugins->add_subcommand("info", "Settings of one module");
-  info->add_option("NAME", c.name, "module")->required();
-  info->callback([&] { action = [&] { return plugins_info(c.name, common); }; });
-  CLI::App* check = plugins->add_subcommand("check", "Whether a file is a module that this program can use");
-  check->add_option("FILE", c.file, "shared library (*.so)")->required();
-  check->callback([&] { action = [&] { return plugins_check(c.file, common); }; });
+  const auto [info, i] = add_command(*plugins, line, plugins_info, "info", "Settings of one module");
+  info->add_option("NAME", i->name, "module")->required();
+  const auto [check, c] =
+      add_command(*plugins, line, plugins_check, "check", "Whether a file is a module that this program can use");
+  check->add_option("FILE", c->file, "shared library (*.so)")->required();
 }
 
-void add_plugins_new(CLI::App& app, NewPluginCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* made = app.get_subcommand("plugins")->add_subcommand("new", "Write a small complete project for a module");
-  made->add_option("KIND", c.kind,
+void add_plugins_new(CLI::App& app, CommandLine& line) {
+  const auto [made, c] = add_command(*app.get_subcommand("plugins"), line, plugins_new, "new",
+                                     "Write a small complete project for a module");
+  made->add_option("KIND", c->kind,
                    "sensor, localizer, map, detector, planner, path_planner, route_planner, controller or behaviour")
       ->required();
-  made->add_option("NAME", c.name, "of the module, in lower_snake_case")->required();
-  made->add_option("--folder", c.folder, "of the new project; without it, NAME");
-  made->callback([&] { action = [&] { return plugins_new(c, common); }; });
+  made->add_option("NAME", c->name, "of the module, in lower_snake_case")->required();
+  made->add_option("--folder", c->folder, "of the new project; without it, NAME");
 }
 
-void add_reference(CLI::App& app, ReferenceCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* sub = app.get_subcommand("plugins")->add_subcommand("reference", "Every setting of every file and module");
-  sub->add_option("--markdown", c.markdown, "write the configuration reference into this file");
-  sub->add_option("--schema-folder", c.schema_folder, "write the JSON schemas for editors into this folder");
-  sub->callback([&] { action = [&] { return plugins_reference(c, common); }; });
+void add_reference(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] = add_command(*app.get_subcommand("plugins"), line, plugins_reference, "reference",
+                                    "Every setting of every file and module");
+  sub->add_option("--markdown", c->markdown, "write the configuration reference into this file");
+  sub->add_option("--schema-folder", c->schema_folder, "write the JSON schemas for editors into this folder");
 }
 
-void add_experiment(CLI::App& app, ExperimentCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* sub = app.add_subcommand("experiment", "Run an experiment over many seeds and write its table");
-  sub->add_option("FILE", c.file, "experiment file (config/experiments/*.yaml)")->required();
-  sub->add_option("--out", c.out, "folder for the table and reports")->capture_default_str();
-  sub->add_option("--set", c.overrides, "override a setting of the file, as seeds.count=20 (may be repeated)")
+void add_experiment(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] =
+      add_command(app, line, experiment, "experiment", "Run an experiment over many seeds and write its table");
+  sub->add_option("FILE", c->file, "experiment file (config/experiments/*.yaml)")->required();
+  sub->add_option("--out", c->out, "folder for the table and reports")->capture_default_str();
+  sub->add_option("--set", c->overrides, "override a setting of the file, as seeds.count=20 (may be repeated)")
       ->allow_extra_args(false);
-  sub->callback([&] { action = [&] { return experiment(c, common); }; });
 }
 
 // What the parser calls unexpected is most often a misspelt command.
@@ -246,43 +238,20 @@ int main_of(int argc, char** argv) {
   app.set_version_flag("--version", "cairn " CAIRN_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
-  CommonOptions common;
-  app.add_option("--plugins", common.plugin_folders, "further folder of modules (may be repeated)")
+  CommandLine line;
+  app.add_option("--plugins", line.common.plugin_folders, "further folder of modules (may be repeated)")
       ->allow_extra_args(false);
-  app.add_flag("--json", common.json, "JSON on standard output; text for people on standard error");
-  RunCommand run_options;
-  MissionOptions mission_options;
-  PlanCommand plan_options;
-  MapCommand map_options;
-  MapFileOptions map_file_options;
-  NameCommand name_options;
-  LintCommand lint_options;
-  TemplateCommand template_options;
-  CaptureCommand capture_options;
-  ExperimentCommand experiment_options;
-  PluginsCommand plugins_options;
-  NewPluginCommand new_plugin_options;
-  ReferenceCommand reference_options;
-  Action action;
-  add_run(app, run_options, common, action);
-  add_mission(app, mission_options, common, action);
-  add_plan(app, plan_options, common, action);
-  add_map(app, map_options, common, action);
-  add_map_files(app, map_file_options, common, action);
-  add_map_name(app, name_options, common, action);
-  add_map_lint(app, lint_options, common, action);
-  add_template(app, template_options, common, action);
-  add_template_capture(app, capture_options, common, action);
-  add_plugins(app, plugins_options, common, action);
-  add_plugins_new(app, new_plugin_options, common, action);
-  add_reference(app, reference_options, common, action);
-  add_experiment(app, experiment_options, common, action);
+  app.add_flag("--json", line.common.json, "JSON on standard output; text for people on standard error");
+  for (const auto add :
+       {add_run, add_mission, add_plan, add_map, add_map_files, add_map_name, add_map_lint, add_template,
+        add_template_capture, add_plugins, add_plugins_new, add_reference, add_experiment})
+    add(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return parse_error_sentence(app, error, argc, argv);
   }
-  const int status = action();
+  const int status = line.action();
   if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
   return status;
 }

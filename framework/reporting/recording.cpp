@@ -1,24 +1,17 @@
 #include "framework/reporting/recording.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
+
+#include "maps/base/source_text.hpp"
 
 namespace cairn {
 namespace {
 
-// The shortest text that reads back as the same number.
-void append(std::string& text, double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  text.append(buffer.data(), result.ptr);
-}
-
 void append(std::string& text, std::string_view separator, std::initializer_list<double> values) {
   for (const double value : values) {
     text += separator;
-    append(text, value);
+    exchange::append_number(text, value);
   }
 }
 
@@ -41,11 +34,11 @@ void append_range(std::string& text, const RangeReading& reading) {
   if (std::isnan(reading.range_m))
     text += "-1";
   else if (std::isinf(reading.range_m) && reading.range_m > 0.0)
-    append(text, beyond_m);
+    exchange::append_number(text, beyond_m);
   else if (std::isinf(reading.range_m))
     text += reading.min_m > 0.0 ? "0" : "-inf";
   else
-    append(text, reading.range_m);
+    exchange::append_number(text, reading.range_m);
 }
 
 }  // namespace
@@ -56,7 +49,7 @@ RunRecording::RunRecording(const std::filesystem::path& file, const Pose2& T_map
       "# CARMEN log, written by cairn\n"
       "# message formats: PARAM ODOM TRUEPOS SONAR; what the PARAM cairn_ lines say: docs/logs.md\n"
       "PARAM cairn_start ";
-  append(text_, T_map_start.x_m);
+  exchange::append_number(text_, T_map_start.x_m);
   append(text_, ",", {T_map_start.y_m, T_map_start.theta_rad});
   text_ += " 0 cairn 0\n";
   flush_text();
@@ -91,7 +84,7 @@ void RunRecording::write(const Observation& observation, const std::optional<Gro
   }
   text_ += observation.bumped ? "PARAM cairn_observation 1," : "PARAM cairn_observation 0,";
   if (observation.compass_rad)
-    append(text_, *observation.compass_rad);
+    exchange::append_number(text_, *observation.compass_rad);
   else
     text_ += "none";
   for (std::size_t i = 0; i < fired_.size(); ++i) {

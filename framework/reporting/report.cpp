@@ -1,10 +1,10 @@
 #include "framework/reporting/report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace cairn {
 namespace {
@@ -171,9 +171,7 @@ ordered_json json_of(const std::vector<PoseErrorSample>& samples) {
 }
 
 std::string at_time(double time_s, const std::string& sentence) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(2) << time_s << " s: " << sentence;
-  return out.str();
+  return fmt::format("{:.2f} s: {}", time_s, sentence);
 }
 
 std::optional<Pose2> true_pose(const MissionView& view) {
@@ -184,11 +182,10 @@ struct Sentence {
   std::string operator()(const TickDone&) const { return {}; }
   std::string operator()(const MatchingDone&) const { return {}; }
   std::string operator()(const LandmarkChanged& e) const {
-    std::ostringstream out;
-    out << (e.is_new ? "found " : "improved ") << label_of(e.landmark) << ", " << e.landmark.category << " at ("
-        << std::fixed << std::setprecision(2) << e.landmark.T_map_landmark.x_m << ", " << e.landmark.T_map_landmark.y_m
-        << "), degree " << e.landmark.degree;
-    return out.str();
+    const Pose2& T_map_landmark = e.landmark.T_map_landmark;
+    return fmt::format("{} {}, {} at ({:.2f}, {:.2f}), degree {:.2f}", e.is_new ? "found" : "improved",
+                       label_of(e.landmark), e.landmark.category, T_map_landmark.x_m, T_map_landmark.y_m,
+                       e.landmark.degree);
   }
   std::string operator()(const LandmarkRetired& e) const {
     return "retired " + label_of(e.landmark) + ", " + e.landmark.category + ": " + e.reason;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 

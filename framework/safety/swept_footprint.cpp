@@ -3,30 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
 // What is within the margin already may be passed along: nearer by less than this on the first metres of the arc.
 constexpr double kSoon_m = 0.05;
 constexpr double kNearer_m = 0.01;
-
-double distance_to_segment_m(const Point& p, const Point& a, const Point& b) {
-  const Point along = b - a;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (a + t * along - p).norm();
-}
-
-bool is_inside(const std::vector<Point>& polygon, const Point& p) {
-  bool inside = false;
-  for (std::size_t i = 0, k = polygon.size() - 1; i < polygon.size(); k = i++) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[k];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
-      inside = !inside;
-  }
-  return inside;
-}
 
 // Where the robot is after so many seconds of a constant twist.
 Pose2 after(const Twist& twist, double time_s) {
@@ -40,11 +24,8 @@ Pose2 after(const Twist& twist, double time_s) {
 
 double distance_to_footprint_m(const RobotModel& robot, const Point& p) {
   if (robot.polygon_m.empty()) return p.norm() - robot.radius_m;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  const std::vector<Point>& corners = robot.polygon_m;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    nearest_m = std::min(nearest_m, distance_to_segment_m(p, corners[i], corners[(i + 1) % corners.size()]));
-  return is_inside(corners, p) ? -nearest_m : nearest_m;
+  const double nearest_m = distance_to_outline_m(robot.polygon_m, p);
+  return is_inside(robot.polygon_m, p) ? -nearest_m : nearest_m;
 }
 
 double reach_of_m(const RobotModel& robot) {

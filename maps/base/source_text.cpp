@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "maps/base/text.hpp"
+
 namespace cairn::exchange {
 namespace {
 
@@ -115,10 +117,6 @@ std::string number_text(double value) {
   std::string text;
   append_number(text, value);
   return text;
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 void warn_of(std::size_t count, const std::string& noun, const std::string& sentence,

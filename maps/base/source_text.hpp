@@ -58,8 +58,6 @@ class SourceText {
 void append_number(std::string& text, double value);
 [[nodiscard]] std::string number_text(double value);
 
-// "1 landmark", "3 landmarks"
-[[nodiscard]] std::string counted(std::size_t count, const std::string& noun);
 // "2 routes: SENTENCE" as one warning more, nothing when there is none.
 void warn_of(std::size_t count, const std::string& noun, const std::string& sentence,
              std::vector<std::string>& warnings);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/hierarchy/hierarchy.hpp"
 
 namespace cairn {
@@ -100,9 +101,9 @@ CroppedMap crop_map(const SavedMap& map, const Point& corner_m, const Point& opp
   const auto named = static_cast<std::size_t>(
       std::ranges::count_if(map.clusters.clusters, [](const auto& entry) { return !entry.second.name.empty(); }));
   if (accesses > 0)
-    cropped.warnings.push_back(exchange::counted(accesses, "landmark") +
+    cropped.warnings.push_back(counted(accesses, "landmark") +
                                ": where a robot stands at it lies outside and is forgotten");
-  if (named > 0) cropped.warnings.push_back(exchange::counted(named, "cluster") + ": made anew, the name is lost");
+  if (named > 0) cropped.warnings.push_back(counted(named, "cluster") + ": made anew, the name is lost");
   return cropped;
 }
 

@@ -1,12 +1,12 @@
 #include "maps/edit/merge.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/grid/grid_overlay.hpp"
 #include "maps/hierarchy/hierarchy.hpp"
 #include "maps/landmarks/landmark_pairs.hpp"
@@ -159,10 +159,8 @@ class Merger {
         merged_.map.shapes.push_back(shape);
     static const std::string kRadius = "robot_radius_m";
     const auto radius_of = [&](const SavedMap& map) {
-      double radius_m = -1.0;
-      if (const auto found = map.properties.find(kRadius); found != map.properties.end())
-        std::from_chars(found->second.data(), found->second.data() + found->second.size(), radius_m);
-      return radius_m;
+      const auto found = map.properties.find(kRadius);
+      return found == map.properties.end() ? -1.0 : number_from<double>(found->second).value_or(-1.0);
     };
     if (radius_of(b_) > radius_of(a_)) merged_.map.properties[kRadius] = b_.properties.at(kRadius);
   }

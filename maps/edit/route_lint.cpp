@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
 #include "maps/grid/swept_disc.hpp"
 
 namespace cairn {
@@ -13,12 +14,6 @@ namespace {
 constexpr double kEnds_m = 0.1;          // a trajectory's end may be this far from its landmark's standing place
 constexpr double kRounding = 1e-9;       // relative, of costs
 constexpr int kFarOutside_cells = 1024;  // what is farther from the grid is not swept: it is unknown
-
-double along(const Point& p, const Point& from, const Point& to) {
-  const Point way = to - from;
-  const double squared = way.squaredNorm();
-  return squared > 0.0 ? std::clamp((p - from).dot(way) / squared, 0.0, 1.0) : 0.0;
-}
 
 // The earliest blocked cells of one leg, one a state.
 struct LegBlockages {
@@ -36,7 +31,7 @@ LegBlockages blockages_on_leg(const OccupancyGrid& grid, const Point& from, cons
     const CellState state = grid.state(cell);
     if (state == CellState::free) return false;
     const Point at_m = lattice.centre_of(cell);
-    const double t = along(at_m, from, to);
+    const double t = share_along(at_m, from, to);
     double& first_at = state == CellState::occupied ? occupied_at : unknown_at;
     if (t >= first_at || distance_to_square_m(from, to, at_m, lattice.cell_m) >= reach_m) return false;
     first_at = t;

@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
 // Twice the signed area of the triangle a, b, c: positive when c lies left of a -> b.
 double cross(const Point& a, const Point& b, const Point& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+  return cairn::cross(b - a, c - a);
 }
 
 std::string text_of(const Point& p) {
@@ -106,32 +108,6 @@ double squared_extent(const std::vector<Point>& corners) {
   double extent = 0.0;
   for (const Point& p : corners) extent = std::max(extent, (p - corners.front()).squaredNorm());
   return extent;
-}
-
-double distance_to_segment(const Point& p, const Point& a, const Point& b) {
-  const Point along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).norm();
-}
-
-double distance_to_outline(const std::vector<Point>& corners, const Point& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    nearest = std::min(nearest, distance_to_segment(p, corners[i], corners[(i + 1) % corners.size()]));
-  }
-  return nearest;
-}
-
-bool is_inside(const std::vector<Point>& corners, const Point& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
-    const Point& a = corners[i];
-    const Point& b = corners[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) {
-      inside = !inside;
-    }
-  }
-  return inside;
 }
 
 bool outlines_meet(const std::vector<Point>& p, const std::vector<Point>& q) {
@@ -255,7 +231,7 @@ double Contour::signed_distance(const Point& p) const {
   // The parts stand apart, so that a point is inside of at most one.
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::vector<Point>& corners : polygons_m) {
-    const double distance = distance_to_outline(corners, p);
+    const double distance = distance_to_outline_m(corners, p);
     nearest = std::min(nearest, is_inside(corners, p) ? -distance : distance);
   }
   return nearest;

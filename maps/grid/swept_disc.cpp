@@ -1,14 +1,9 @@
 #include "maps/grid/swept_disc.hpp"
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
-
-double distance_to_segment_m(const Point& p, const Point& from, const Point& to) {
-  const Point along = to - from;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((p - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (from + t * along - p).norm();
-}
 
 double distance_to_box_m(const Point& p, double half_m) {
   return std::hypot(std::max(std::abs(p.x()) - half_m, 0.0), std::max(std::abs(p.y()) - half_m, 0.0));

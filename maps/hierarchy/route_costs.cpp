@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "maps/geometry/segments.hpp"
 #include "maps/grid/distance_field.hpp"
 
 namespace cairn {
@@ -11,13 +12,6 @@ namespace {
 
 constexpr double kRoomy_m = 0.5;       // clearance of the robot's edge from which a metre counts as one
 constexpr double kNarrowWeight = 4.0;  // what a metre without any room counts on top
-
-double length_of(const std::vector<Pose2>& trajectory) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < trajectory.size(); ++i)
-    length_m += (trajectory[i].position() - trajectory[i - 1].position()).norm();
-  return length_m;
-}
 
 double turning_of(const std::vector<Pose2>& trajectory) {
   double turning_rad = 0.0;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "maps/base/text.hpp"
 #include "maps/pictures/drawing/colours.hpp"
 #include "maps/pictures/graph_layer.hpp"
 #include "maps/pictures/robot_layer.hpp"
@@ -169,10 +170,6 @@ std::vector<LegendEntry> legend_of(const MapPicture& picture, const GraphLayer& 
   if (picture.robot)
     entries.push_back({"robot", [](Canvas& canvas, const Pixel& at) { draw_robot(canvas, at, 8.0, 0.0); }});
   return entries;
-}
-
-std::string counted(std::size_t n, const std::string& thing) {
-  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
 std::string subtitle_of(const MapPicture& picture) {

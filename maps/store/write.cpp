@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "maps/base/source_text.hpp"
 #include "maps/store/codec.hpp"
 #include "maps/store/tables.hpp"
 #include "maps/store/trajectory.hpp"
@@ -120,22 +121,15 @@ void write_next_ids(Database& database, const SavedMap& map) {
   next.bind_text("route").bind(map.graph.next_route_id()).run();
 }
 
-// The shortest text that reads back as the same double.
-std::string text_of(double value) {
-  char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), value);
-  return {buffer, end};
-}
-
 // "diameter", or "x,y x,y ..." with ";" between polygons.
 std::string parameters_of(const Contour& contour) {
-  if (contour.is_circle()) return text_of(contour.circle_diameter_m);
+  if (contour.is_circle()) return exchange::number_text(contour.circle_diameter_m);
   std::string parameters;
   for (const std::vector<Point>& corners : contour.polygons_m) {
     if (!parameters.empty()) parameters += ';';
     for (const Point& corner : corners) {
       if (&corner != &corners.front()) parameters += ' ';
-      parameters += text_of(corner.x()) + ',' + text_of(corner.y());
+      parameters += exchange::number_text(corner.x()) + ',' + exchange::number_text(corner.y());
     }
   }
   return parameters;

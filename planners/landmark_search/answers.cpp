@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 

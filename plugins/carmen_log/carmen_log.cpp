@@ -7,13 +7,11 @@
 
 #include "plugins/carmen_log/lasers.hpp"
 #include "plugins/carmen_log/recording.hpp"
-#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::carmen_log {
 namespace {
 
 using log_common::LogLine;
-using log_common::LogText;
 using log_common::ScanLog;
 
 constexpr std::array<std::string_view, 5> kRangeKinds = {"FLASER", "RLASER", "ROBOTLASER1", "ROBOTLASER2", "SONAR"};
@@ -41,7 +39,6 @@ class Reader {
   std::optional<Pose2> truth_;
   std::array<std::optional<Pose2>, 2> T_robot_said_;  // front and rear laser
   int next_sensor_ = 0;                               // transducers are numbered in the order of their sources
-  std::vector<double> ranges_m_;
 };
 
 void check(const Config& config) {
@@ -60,20 +57,7 @@ Reader::Reader(const Config& config) : config_(config), scans_(config.file.strin
 }
 
 ScanLog Reader::read() {
-  LogText text(config_.file);
-  LogLine line(text.name());
-  std::string_view content;
-  for (bool more = true; more;) {
-    try {
-      more = text.next(content);
-      if (!more) break;
-      line.cut(content, text.line_number());
-      if (line.size() > 0) read_line(line);
-    } catch (const ConfigError& error) {
-      scans_.bad_line(error);
-    }
-  }
-  recording_.check_complete({text.name(), text.line_number(), 1});
+  recording_.check_complete(scans_.read_lines(config_.file, [this](const LogLine& line) { read_line(line); }));
   scans_.finish();
   return std::move(scans_);
 }
@@ -168,16 +152,13 @@ std::vector<RangeReading> Reader::sonars_of(const LogLine& line, std::size_t cou
 
 void Reader::add_scan(const LogLine& line, double stamp_s, const Pose2& T_log_robot, std::size_t source,
                       std::size_t first_range) {
-  const std::vector<RangeReading>& readings = scans_.readings_of(source);
-  ranges_m_.clear();
-  for (std::size_t i = 0; i < readings.size(); ++i)
-    ranges_m_.push_back(log_common::recorded_range(line.range_m(first_range + i), config_, readings[i]));
+  std::vector<double> ranges = line.ranges_m(first_range, scans_.readings_of(source).size());
   log_common::Scan scan;
   scan.stamp_s = stamp_s;
   scan.line = line.line();
   scan.true_T_map_robot = truth_;
   scans_.set_pose(T_log_robot, scan);
-  scans_.add(scan, source, ranges_m_);
+  scans_.add_recorded(scan, source, std::move(ranges));
 }
 
 }  // namespace

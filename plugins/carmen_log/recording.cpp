@@ -1,10 +1,10 @@
 #include "plugins/carmen_log/recording.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "maps/base/text.hpp"
 #include "plugins/common/logs/range_rule.hpp"
 
 namespace cairn::carmen_log {
@@ -35,11 +35,10 @@ std::array<double, kCount> numbers_in(std::string_view text, const SourcePlace& 
 }
 
 int whole_number(std::string_view text, const SourcePlace& place) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || number < 0 || number >= kMaxSensors)
+  const auto number = number_from<int>(text);
+  if (!number || *number < 0 || *number >= kMaxSensors)
     throw ConfigError(place, "the number of a sensor must be whole and less than 1000000, not " + shown(text));
-  return number;
+  return *number;
 }
 
 RangeReading sensor_in(std::string_view text, const SourcePlace& place) {

@@ -43,7 +43,6 @@ class Reader {
 
   const Config& config_;
   ScanLog scans_;
-  std::vector<double> ranges_m_;
 };
 
 double number_in(const json& value, const std::string& what) {
@@ -89,21 +88,16 @@ void Reader::read_scan(double stamp_s, const json& scan) {
   if (!ranges.is_array()) throw std::runtime_error("\"range\" must be a list");
   const Pose2 T_log_laser{number_in(member(scan, "x"), "x"), number_in(member(scan, "y"), "y"),
                           wrap_angle(number_in(member(scan, "theta"), "theta"))};
-  log_common::Fan fan;
-  fan.T_robot_laser = config_.laser.placed({});
-  fan.step_rad = log_common::usual_step(ranges.size());
-  fan.max_m = config_.laser.max_m.value_or(log_common::kUsualLaserMax_m);
+  const log_common::Fan fan = log_common::usual_fan(config_.laser, ranges.size());
   const std::size_t source = scans_.source(log_common::key_of(fan, ranges.size()), [&] {
     return log_common::readings_of(fan, ranges.size(), config_.laser, 0);
   });
-  ranges_m_.clear();
-  for (const json& range : ranges)
-    ranges_m_.push_back(
-        log_common::recorded_range(number_in(range, "a range"), config_, scans_.readings_of(source)[ranges_m_.size()]));
+  std::vector<double> values;
+  for (const json& range : ranges) values.push_back(number_in(range, "a range"));
   log_common::Scan kept;
   kept.stamp_s = stamp_s;
   scans_.set_pose(T_log_laser * inverse(fan.T_robot_laser), kept);
-  scans_.add(kept, source, ranges_m_);
+  scans_.add_recorded(kept, source, std::move(values));
 }
 
 }  // namespace

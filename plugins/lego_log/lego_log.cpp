@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "plugins/common/logs/log_line.hpp"
-#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::lego_log {
 namespace {
@@ -31,8 +30,7 @@ class Reader {
 
  private:
   // Calls take with each line of this kind.
-  template <class Take>
-  void read_lines(const std::filesystem::path& file, std::string_view kind, Take take);
+  void read_lines(const std::filesystem::path& file, std::string_view kind, void (Reader::*take)(const LogLine&));
   void take_motors(const LogLine& line);
   void take_scan(const LogLine& line);
   std::size_t source_of(std::size_t beams);
@@ -65,24 +63,14 @@ double range_in(const LogLine& line, std::size_t word) {
   return range_m;
 }
 
-template <class Take>
-void Reader::read_lines(const std::filesystem::path& file, std::string_view kind, Take take) {
-  log_common::LogText text(file);
-  LogLine line(text.name());
-  std::string_view content;
-  while (true) {
-    try {
-      if (!text.next(content)) return;
-      line.cut(content, text.line_number());
-      if (line.size() == 0) continue;
-      if (line.word(0) == kind)
-        take(line);
-      else
-        scans_.unknown_line(line.word(0));
-    } catch (const ConfigError& error) {
-      scans_.bad_line(error);
-    }
-  }
+void Reader::read_lines(const std::filesystem::path& file, std::string_view kind,
+                        void (Reader::*take)(const LogLine&)) {
+  static_cast<void>(scans_.read_lines(file, [&](const LogLine& line) {
+    if (line.word(0) == kind)
+      (this->*take)(line);
+    else
+      scans_.unknown_line(line.word(0));
+  }));
 }
 
 void Reader::take_motors(const LogLine& line) {
@@ -95,10 +83,7 @@ void Reader::take_motors(const LogLine& line) {
 }
 
 std::size_t Reader::source_of(std::size_t beams) {
-  log_common::Fan fan;
-  fan.T_robot_laser = config_.laser.placed({});
-  fan.step_rad = log_common::usual_step(beams);
-  fan.max_m = config_.laser.max_m.value_or(log_common::kUsualLaserMax_m);
+  const log_common::Fan fan = log_common::usual_fan(config_.laser, beams);
   return scans_.source(log_common::key_of(fan, beams),
                        [&] { return log_common::readings_of(fan, beams, config_.laser, 0); });
 }
@@ -136,9 +121,9 @@ void Reader::take_scan(const LogLine& line) {
 }
 
 ScanLog Reader::read() {
-  read_lines(config_.motors, "M", [this](const LogLine& line) { take_motors(line); });
+  read_lines(config_.motors, "M", &Reader::take_motors);
   if (wheel_path_.empty()) throw ConfigError({config_.motors.string(), 0, 0}, "the log holds no line of the motors");
-  read_lines(config_.file, "S", [this](const LogLine& line) { take_scan(line); });
+  read_lines(config_.file, "S", &Reader::take_scan);
   scans_.finish();
   return std::move(scans_);
 }

@@ -1,7 +1,6 @@
 // The inner loops of the fast evaluation: docs/method.md 2.1 over blocks of eight cells, in single precision.
 //
-// Compiled for several instruction sets, chosen when the program starts; all give the same bits. Plain arrays, for
-// what a file compiled for one set shares with others must not hold functions.
+// Compiled for several instruction sets (Highway), the machine's best is chosen at run time; all give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -79,9 +78,9 @@ struct SectorTargets {
 
 // How news becomes a change: round(weight of the cell's count * 256 ln(1 + weight news)), quanta.
 struct KernelScale {
-  float weight = 1.0F;                       // 1 - s
-  int clamp = 1024;                          // of the grid, at most 100 nat
-  float weight_of_count[kBlock_cells] = {};  // counts 0 to 3; the rest is filling
+  float weight = 1.0F;            // 1 - s
+  int clamp = 1024;               // of the grid, at most 100 nat
+  float weight_of_count[4] = {};  // counts 0 to 3
 };
 
 // Where a reading's counts stand in the log: the first and, plane_step on, the second plane of 16 bits a
@@ -94,23 +93,18 @@ struct KernelLog {
   float buckets_to_axis = 0.0F;  // from the beginning of the first bucket
 };
 
-struct Kernels {
-  // News as if no echo were near, and the lists.
-  ListLengths (*place_blocks)(const KernelReading& reading, const Block* blocks, int count, const KernelCells& cells);
-  // Between place_blocks() and compare_blocks(). The entries up to reading.sectors.
-  void (*find_targets)(const KernelReading& reading, const Block* blocks, int known, const KernelCells& cells,
-                       SectorTargets& best);
-  // The echo, or its absence, in the near blocks' news.
-  void (*compare_blocks)(const KernelReading& reading, int near, const KernelCells& cells);
-  // Whether any of `count` cells gets an increment that does not round to 0.
-  bool (*says_something)(const float* evidence, const KernelScale& scale, int count);
-  // Changes the blocks' cells and counts the reading in their logs.
-  void (*apply_blocks)(const KernelScale& scale, const KernelLog& log, const Block* blocks, int count,
-                       const KernelCells& cells);
-};
-
-// The best for this machine, and those for any.
-[[nodiscard]] const Kernels& kernels();
-[[nodiscard]] const Kernels& base_kernels();
+// News as if no echo were near, and the lists.
+[[nodiscard]] ListLengths place_blocks(const KernelReading& reading, const Block* blocks, int count,
+                                       const KernelCells& cells);
+// Between place_blocks() and compare_blocks(). The entries up to reading.sectors.
+void find_targets(const KernelReading& reading, const Block* blocks, int known, const KernelCells& cells,
+                  SectorTargets& best);
+// The echo, or its absence, in the near blocks' news.
+void compare_blocks(const KernelReading& reading, int near, const KernelCells& cells);
+// Whether any of `count` cells gets an increment that does not round to 0.
+[[nodiscard]] bool says_something(const float* evidence, const KernelScale& scale, int count);
+// Changes the blocks' cells and counts the reading in their logs.
+void apply_blocks(const KernelScale& scale, const KernelLog& log, const Block* blocks, int count,
+                  const KernelCells& cells);
 
 }  // namespace cairn::muriel

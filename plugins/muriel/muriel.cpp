@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "maps/geometry/segments.hpp"
 #include "plugins/common/sonar_model/reading.hpp"
 #include "plugins/muriel/plain_muriel.hpp"
 
@@ -26,9 +27,8 @@ int plane_of(int bucket) {
 
 }  // namespace
 
-Muriel::Muriel(const Config& config, const Kernels& kernels)
+Muriel::Muriel(const Config& config)
     : config_(config),
-      kernels_(kernels),
       weights_(weights_of(config)),
       believed_(log_odds_of(config.believed_p)),
       grid_(config.cell_m, config.clamp_nat) {}
@@ -55,13 +55,13 @@ void Muriel::integrate_reading(const PlacedReading& reading) {
   find_runs(reading.beam);
   find_blocks(reading.beam, plane_of(first_bucket));
   const KernelReading kernel = kernel_reading(reading);
-  const ListLengths lists = kernels_.place_blocks(kernel, blocks_.data(), block_count_, cells_);
+  const ListLengths lists = place_blocks(kernel, blocks_.data(), block_count_, cells_);
   const double s = config_.specular ? specular_p(kernel, lists.known) : 0.0;
-  kernels_.compare_blocks(kernel, lists.near, cells_);
+  compare_blocks(kernel, lists.near, cells_);
   KernelScale scale{static_cast<float>(1.0 - s), grid_.clamp_quanta(), {}};
   std::ranges::copy(weights_, scale.weight_of_count);
   open_unseen(scale, plane_of(first_bucket));
-  kernels_.apply_blocks(scale, *log, blocks_.data(), block_count_, cells_);
+  apply_blocks(scale, *log, blocks_.data(), block_count_, cells_);
   note_changes();
 }
 
@@ -191,7 +191,7 @@ void Muriel::make_room() {
 
 double Muriel::specular_p(const KernelReading& reading, int known) const {
   SectorTargets found;
-  kernels_.find_targets(reading, blocks_.data(), known, cells_, found);
+  find_targets(reading, blocks_.data(), known, cells_, found);
   KnownTargets targets(config_.specular_sectors);
   for (int k = 0; k < config_.specular_sectors; ++k) {
     targets.add_blocker_in(k, found.blocking[k]);
@@ -206,7 +206,7 @@ void Muriel::open_unseen(const KernelScale& scale, int first_plane) {
   for (const Run& run : runs_) {
     if (run.is_seen) continue;
     const int at = run.first_block * kBlock_cells;
-    if (!kernels_.says_something(cells_.evidence + at, scale, run.blocks * kBlock_cells)) continue;
+    if (!says_something(cells_.evidence + at, scale, run.blocks * kBlock_cells)) continue;
     const Cell tile = sonar_model::tile_holding(run.first);
     const std::size_t place = sonar_model::place_in_tile(run.first);
     LogOdds* cells = grid_.cells_of_tile_for_writing(tile) + place;

@@ -29,8 +29,7 @@ namespace cairn::muriel {
 
 class Muriel final : public Mapper {
  public:
-  // kernels: for tests of those that this machine would not choose.
-  explicit Muriel(const Config& config, const Kernels& kernels = muriel::kernels());
+  explicit Muriel(const Config& config);
 
   // One span a row, from the first cell whose log-odds changed to the last. O(cells in the beams).
   const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
@@ -70,7 +69,6 @@ class Muriel final : public Mapper {
   void join_rows();
 
   Config config_;
-  const Kernels& kernels_;
   Weights weights_;
   LogOdds believed_;
   OccupancyGrid grid_;

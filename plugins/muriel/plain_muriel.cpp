@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "maps/geometry/segments.hpp"
 #include "plugins/common/sonar_model/reading.hpp"
 
 namespace cairn::muriel {

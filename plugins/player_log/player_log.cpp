@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "plugins/common/logs/log_line.hpp"
-#include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::player_log {
 namespace {
 
 using log_common::LogLine;
+using log_common::RefusedLine;
 using log_common::ScanLog;
 
 constexpr std::array<std::string_view, 2> kRangeInterfaces = {"sonar", "laser"};
@@ -40,7 +40,7 @@ class Reader {
   void read_sonar_geometry(const LogLine& line);
   void read_sonar_ranges(const LogLine& line);
   void read_laser_scan(const LogLine& line);
-  void add_scan(const LogLine& line, std::size_t source);
+  void add_scan(const LogLine& line, std::size_t source, std::vector<double> ranges);
   [[nodiscard]] bool wants(std::string_view interface) const;
 
   const Config& config_;
@@ -50,7 +50,6 @@ class Reader {
   std::optional<Pose2> T_robot_laser_;
   std::optional<Pose2> T_log_robot_;
   int next_sensor_ = 0;  // transducers are numbered in the order of their sources
-  std::vector<double> ranges_m_;
 };
 
 // The words behind the count must be `each` for each of them.
@@ -64,13 +63,14 @@ std::size_t counted_words(const LogLine& line, std::size_t at, std::size_t each,
   return count;
 }
 
-void check_version(const LogLine& line, std::string_view comment) {
+void check_version(const LogLine& line) {
+  const std::string_view comment = line.text();
   const std::size_t mark = comment.find(kVersionMark);
   if (mark == std::string_view::npos) return;
   const std::size_t begin = comment.find_first_not_of(' ', mark + kVersionMark.size());
   const std::string_view version = comment.substr(std::min(begin, comment.size()));
   if (!version.starts_with(kVersion))
-    throw ConfigError(line.place(0), "a Player log of file version " + shown(version) + "; 0.3.0 can be read");
+    throw RefusedLine(line.place(0), "a Player log of file version " + shown(version) + "; 0.3.0 can be read");
 }
 
 Reader::Reader(const Config& config, const RobotModel& robot) : config_(config), scans_(config.file.string(), config) {
@@ -85,29 +85,7 @@ Reader::Reader(const Config& config, const RobotModel& robot) : config_(config),
 }
 
 ScanLog Reader::read() {
-  log_common::LogText text(config_.file);
-  LogLine line(text.name());
-  std::string_view content;
-  for (bool more = true; more;) {
-    try {
-      more = text.next(content);
-      if (!more) break;
-      line.cut(content, text.line_number());
-    } catch (const ConfigError& error) {
-      scans_.bad_line(error);
-      continue;
-    }
-    if (line.size() == 0) continue;
-    if (line.word(0).starts_with('#')) {
-      check_version(line, content);
-      continue;
-    }
-    try {
-      read_line(line);
-    } catch (const ConfigError& error) {
-      scans_.bad_line(error);
-    }
-  }
+  static_cast<void>(scans_.read_lines(config_.file, [this](const LogLine& line) { read_line(line); }));
   scans_.finish();
   return std::move(scans_);
 }
@@ -118,6 +96,7 @@ bool Reader::wants(std::string_view interface) const {
 }
 
 void Reader::read_line(const LogLine& line) {
+  if (line.word(0).starts_with('#')) return check_version(line);
   if (line.size() < kPayload)
     throw ConfigError(line.place(line.size()),
                       "the line ends before its payload: time host robot interface index type subtype payload");
@@ -168,9 +147,7 @@ void Reader::read_sonar_ranges(const LogLine& line) {
       readings.push_back({pose, sonar.half_beam_rad, sonar.min_m, sonar.max_m, 0.0, next_sensor_++});
     return readings;
   });
-  ranges_m_.clear();
-  for (std::size_t i = 0; i < count; ++i) ranges_m_.push_back(line.range_m(kPayload + 1 + i));
-  add_scan(line, source);
+  add_scan(line, source, line.ranges_m(kPayload + 1, count));
 }
 
 // id min_angle max_angle resolution max_range count (range intensity)...
@@ -187,21 +164,16 @@ void Reader::read_laser_scan(const LogLine& line) {
     next_sensor_ += static_cast<int>(count);
     return log_common::readings_of(fan, count, config_.laser, first);
   });
-  ranges_m_.clear();
-  for (std::size_t i = 0; i < count; ++i) ranges_m_.push_back(line.range_m(kPayload + 6 + 2 * i));
-  add_scan(line, source);
+  add_scan(line, source, line.ranges_m(kPayload + 6, count, 2));
 }
 
-void Reader::add_scan(const LogLine& line, std::size_t source) {
+void Reader::add_scan(const LogLine& line, std::size_t source, std::vector<double> ranges) {
   if (!T_log_robot_) throw ConfigError(line.place(0), "no position2d line before this one says where the robot is");
-  const std::vector<RangeReading>& readings = scans_.readings_of(source);
-  for (std::size_t i = 0; i < ranges_m_.size(); ++i)
-    ranges_m_[i] = log_common::recorded_range(ranges_m_[i], config_, readings[i]);
   log_common::Scan scan;
   scan.stamp_s = line.finite(0, "time");
   scan.line = line.line();
   scans_.set_pose(*T_log_robot_, scan);
-  scans_.add(scan, source, ranges_m_);
+  scans_.add_recorded(scan, source, std::move(ranges));
 }
 
 }  // namespace

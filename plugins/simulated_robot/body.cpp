@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -15,8 +17,8 @@ double distance_between(const Point& a, const Point& b, const Point& c, const Po
     return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
   };
   if (side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0) return -kCreep_m;  // they cross
-  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
-                   distance_to_segment(d, a, b)});
+  return std::min({distance_to_segment_m(a, c, d), distance_to_segment_m(b, c, d), distance_to_segment_m(c, a, b),
+                   distance_to_segment_m(d, a, b)});
 }
 
 }  // namespace
@@ -37,7 +39,7 @@ double Body::clearance_m(const Pose2& T_map_robot) const {
   const Point at_m = T_map_robot.position();
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const Face& face : scene_.faces())
-    nearest_m = std::min(nearest_m, distance_to_segment(at_m, face.a_m, face.b_m));
+    nearest_m = std::min(nearest_m, distance_to_segment_m(at_m, face.a_m, face.b_m));
   for (const RoundFace& face : scene_.round_faces()) {
     nearest_m = std::min(nearest_m, (face.centre_m - at_m).norm() - face.radius_m);
   }
@@ -55,7 +57,7 @@ double Body::footprint_clearance_m(const Pose2& T_map_robot) const {
     const Point& b = corners_m[(i + 1) % corners_m.size()];
     for (const Face& face : scene_.faces()) nearest_m = std::min(nearest_m, distance_between(a, b, face.a_m, face.b_m));
     for (const RoundFace& face : scene_.round_faces()) {
-      nearest_m = std::min(nearest_m, distance_to_segment(face.centre_m, a, b) - face.radius_m);
+      nearest_m = std::min(nearest_m, distance_to_segment_m(face.centre_m, a, b) - face.radius_m);
     }
   }
   return nearest_m;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -41,17 +43,6 @@ double along_ray_to_round(const Point& from, const Point& direction, const Round
 }
 
 }  // namespace
-
-Point nearest_on_segment(const Point& p_m, const Point& a_m, const Point& b_m) {
-  const Point edge = b_m - a_m;
-  const double length_squared = edge.squaredNorm();
-  const double share = length_squared > 0.0 ? std::clamp((p_m - a_m).dot(edge) / length_squared, 0.0, 1.0) : 0.0;
-  return a_m + share * edge;
-}
-
-double distance_to_segment(const Point& p_m, const Point& a_m, const Point& b_m) {
-  return (nearest_on_segment(p_m, a_m, b_m) - p_m).norm();
-}
 
 VertexLook Vertex::look_from(const Point& eye_m) const {
   const double eye = bearing(eye_m - at_m);
@@ -132,7 +123,7 @@ void Scene::collect_vertices() {
       Vertex vertex{end, {}};
       // A face that only touches with its middle leaves in both directions: a wall built onto another.
       for (const Face& other : faces_) {
-        if (distance_to_segment(end, other.a_m, other.b_m) >= kSamePlace_m) continue;
+        if (distance_to_segment_m(end, other.a_m, other.b_m) >= kSamePlace_m) continue;
         for (const Point& far_end : {other.a_m, other.b_m}) {
           if ((far_end - end).norm() >= kSamePlace_m) vertex.arms.push_back({bearing(far_end - end), other.rough});
         }

@@ -82,7 +82,4 @@ class Scene {
   std::size_t fixed_vertices_ = 0;
 };
 
-[[nodiscard]] Point nearest_on_segment(const Point& p_m, const Point& a_m, const Point& b_m);
-[[nodiscard]] double distance_to_segment(const Point& p_m, const Point& a_m, const Point& b_m);
-
 }  // namespace cairn

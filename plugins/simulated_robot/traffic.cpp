@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -42,7 +44,7 @@ Traffic::Traffic(const World& world, const RobotModel& robot, const Pose2& T_map
 }
 
 bool Traffic::is_clear_of(const WorldDoor& door, const Point& robot_m) const {
-  return distance_to_segment(robot_m, door.from_m, door.to_m) >= reach_m_ + kClearOfLeaf_m;
+  return distance_to_segment_m(robot_m, door.from_m, door.to_m) >= reach_m_ + kClearOfLeaf_m;
 }
 
 void Traffic::advance(double time_s, double period_s, const Pose2& T_map_robot) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 

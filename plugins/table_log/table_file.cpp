@@ -1,20 +1,15 @@
 #include "plugins/table_log/table_file.hpp"
 
-#include <charconv>
 #include <cmath>
 
+#include "maps/base/text.hpp"
+#include "plugins/common/logs/log_line.hpp"
 #include "plugins/common/logs/log_text.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr std::string_view kBlank = " \t";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return text.substr(text.size());
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 TableField field_at(std::string_view line, std::size_t begin, std::size_t end) {
   const std::string_view text = trimmed(line.substr(begin, end - begin));
@@ -42,11 +37,6 @@ std::vector<TableField> cut(std::string_view line, Separator separator) {
   }
 }
 
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  return "\"" + std::string(text.substr(0, kLongest)) + (text.size() > kLongest ? "...\"" : "\"");
-}
-
 }  // namespace
 
 SourcePlace TableRow::place(int column) const {
@@ -61,13 +51,11 @@ double TableRow::number(int column, const std::string& what) const {
     throw ConfigError(place(column), "the line has " + std::to_string(fields_.size()) + " columns, but column " +
                                          std::to_string(column) + " is to be the " + what);
   }
-  std::string_view text = fields_[column - 1].text;
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  const std::string_view text = fields_[column - 1].text;
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) {
+  if (!log_common::read_number(text, value)) {
     throw ConfigError(place(column), "the " + what + " (column " + std::to_string(column) + ") must be a number, not " +
-                                         quoted(fields_[column - 1].text));
+                                         shown(fields_[column - 1].text));
   }
   return value;
 }
@@ -76,7 +64,7 @@ double TableRow::finite_number(int column, const std::string& what) const {
   const double value = number(column, what);
   if (!std::isfinite(value)) {
     throw ConfigError(place(column), "the " + what + " (column " + std::to_string(column) + ") must be finite, not " +
-                                         quoted(fields_[column - 1].text));
+                                         shown(fields_[column - 1].text));
   }
   return value;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
 #include "maps/grid/travel_field.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/texts.hpp"

@@ -8,6 +8,7 @@
 // The detector gets ideal templates of a circle, a square and a triangle, and grids with one of them drawn.
 #pragma once
 
+#include "maps/geometry/segments.hpp"
 #include "tests/conformance/allocations.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/subject.hpp"

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "maps/geometry/segments.hpp"
 #include "tests/conformance/allocations.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/subject.hpp"

@@ -125,10 +125,4 @@ double distance_to_occupied_m(const OccupancyGrid& grid, const std::vector<Pose2
   return min_m;
 }
 
-double length_of(const std::vector<Pose2>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i].position() - path[i - 1].position()).norm();
-  return length_m;
-}
-
 }  // namespace cairn::conformance

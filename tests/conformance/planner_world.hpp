@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/contracts/world_view.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn::conformance {
 
@@ -37,6 +38,5 @@ struct PlannerWorld {
 
 // Least distance from the points of a path, looked at every centimetre, to an occupied cell's square.
 [[nodiscard]] double distance_to_occupied_m(const OccupancyGrid& grid, const std::vector<Pose2>& path);
-[[nodiscard]] double length_of(const std::vector<Pose2>& path);
 
 }  // namespace cairn::conformance

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "framework/contracts/ground_truth.hpp"
+#include "maps/geometry/segments.hpp"
 #include "tests/conformance/allocations.hpp"
 #include "tests/conformance/fixtures.hpp"
 #include "tests/conformance/subject.hpp"

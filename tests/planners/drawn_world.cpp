@@ -112,10 +112,4 @@ double distance_by_brute_force(const OccupancyGrid& grid, const std::vector<Pose
   return best_m;
 }
 
-double length_of(const std::vector<Pose2>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i].position() - path[i - 1].position()).norm();
-  return length_m;
-}
-
 }  // namespace cairn::test

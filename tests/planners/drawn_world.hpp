@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/contracts/path_planner.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn::test {
 
@@ -35,6 +36,5 @@ struct DrawnWorld {
 // brute force over all cells and closely spaced points: an oracle within step_m.
 [[nodiscard]] double distance_by_brute_force(const OccupancyGrid& grid, const std::vector<Pose2>& path,
                                              bool only_occupied = false, double step_m = 0.005);
-[[nodiscard]] double length_of(const std::vector<Pose2>& path);
 
 }  // namespace cairn::test

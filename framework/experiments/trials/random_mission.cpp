@@ -9,6 +9,7 @@
 
 #include "framework/experiments/trials/true_space.hpp"
 #include "maps/base/portable_random.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn {
 namespace {
@@ -75,7 +76,7 @@ Point Drawing::with_room() {
 
 bool Drawing::is_clear_of_traffic(const Point& p_m) const {
   const auto near_door = [&](const WorldDoor& door) {
-    return segment_distance_m(p_m, door.from_m, door.to_m) < robot_.radius_m + config_.room_m;
+    return distance_to_segment_m(p_m, door.from_m, door.to_m) < robot_.radius_m + config_.room_m;
   };
   const auto near_mover = [&](const WorldMover& mover) { return (mover.path_m.front() - p_m).norm() < kFromMover_m; };
   return std::ranges::none_of(world_.doors, near_door) && std::ranges::none_of(world_.movers, near_mover);

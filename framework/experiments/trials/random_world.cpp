@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "maps/base/portable_random.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn {
 namespace {
@@ -68,11 +69,6 @@ bool place_all(const RandomWorldConfig& config, const Point& room_m, std::vector
   return true;
 }
 
-double distance_to_way(const Point& p, const Point& a, const Point& b) {
-  const Point way = b - a;
-  return (a + std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0) * way - p).norm();
-}
-
 // A line of the world file, or none where no way is free.
 std::string mover(const RandomWorldConfig& config, const Point& room_m, const std::vector<Thing>& things, int number,
                   PortableRandom& chance) {
@@ -94,7 +90,7 @@ std::string mover(const RandomWorldConfig& config, const Point& room_m, const st
     if ((to_m - from_m).norm() < kShortest_m) continue;
     if ((from_m - config.start_m).norm() < kRadius_m + config.start_gap_m + kShortest_m) continue;
     const bool free = std::ranges::all_of(things, [&](const Thing& thing) {
-      return distance_to_way(thing.at_m, from_m, to_m) > thing.radius_m + kRadius_m + kClear_m;
+      return distance_to_segment_m(thing.at_m, from_m, to_m) > thing.radius_m + kRadius_m + kClear_m;
     });
     if (free)
       return fmt::format(

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -14,13 +16,6 @@ double object_distance_m(const WorldObject& object, const Point& p_m) {
 }
 
 }  // namespace
-
-double segment_distance_m(const Point& p_m, const Point& a_m, const Point& b_m) {
-  const Point way = b_m - a_m;
-  const double squared = way.squaredNorm();
-  const double share = squared > 0.0 ? std::clamp((p_m - a_m).dot(way) / squared, 0.0, 1.0) : 0.0;
-  return (a_m + share * way - p_m).norm();
-}
 
 TrueSpace::TrueSpace(const World& world, double radius_m) : world_(world), radius_m_(radius_m) {
   const Point size_m = world.max_m - world.min_m;
@@ -34,7 +29,7 @@ bool TrueSpace::has_room(const Point& p_m) const {
   if ((p_m.array() < world_.min_m.array()).any() || (p_m.array() > world_.max_m.array()).any()) return false;
   for (const WorldWall& wall : world_.walls)
     for (std::size_t i = 1; i < wall.points_m.size(); ++i)
-      if (segment_distance_m(p_m, wall.points_m[i - 1], wall.points_m[i]) < radius_m_) return false;
+      if (distance_to_segment_m(p_m, wall.points_m[i - 1], wall.points_m[i]) < radius_m_) return false;
   return std::ranges::none_of(world_.objects,
                               [&](const WorldObject& object) { return object_distance_m(object, p_m) < radius_m_; });
 }
@@ -80,8 +75,8 @@ const std::vector<int>& TrueSpace::parts(const Doors& closed) {
   for (std::size_t cell = 0; cell < free_.size(); ++cell) {
     bool is_free = free_[cell];
     for (std::size_t i = 0; i < closed.size() && is_free; ++i)
-      is_free =
-          !closed[i] || segment_distance_m(centre_of(cell), world_.doors[i].from_m, world_.doors[i].to_m) >= radius_m_;
+      is_free = !closed[i] ||
+                distance_to_segment_m(centre_of(cell), world_.doors[i].from_m, world_.doors[i].to_m) >= radius_m_;
     part[cell] = is_free ? kNotYet : 0;
   }
   int number = 0;

@@ -44,7 +44,4 @@ class TrueSpace {
   std::map<Doors, std::vector<int>> parts_;  // of each cell: from 1; 0 no room
 };
 
-// Distance of a point to a segment.
-[[nodiscard]] double segment_distance_m(const Point& p_m, const Point& a_m, const Point& b_m);
-
 }  // namespace cairn

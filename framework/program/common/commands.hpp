@@ -177,8 +177,8 @@ struct PluginsCommand {
   std::filesystem::path file;
 };
 int plugins_list(const CommonOptions& common);
-int plugins_info(const std::string& name, const CommonOptions& common);
-int plugins_check(const std::filesystem::path& file, const CommonOptions& common);
+int plugins_info(const PluginsCommand& command, const CommonOptions& common);
+int plugins_check(const PluginsCommand& command, const CommonOptions& common);
 
 struct NewPluginCommand {
   std::string kind;

@@ -2,8 +2,9 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/planning/place.hpp"
-#include "framework/program/map/exchange_report.hpp"
+#include "framework/program/common/print.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
@@ -36,7 +37,7 @@ int set_closed(const CloseCommand& command, bool closed, const CommonOptions& co
   if (!list.empty()) save_map(command.map, map);
   const char* now = closed ? "closed" : "open";
   print_text(list.empty() ? std::string("nothing to do: already ") + now
-                          : exchange::counted(list.size(), "route") + " " + now + ": " + changed,
+                          : counted(list.size(), "route") + " " + now + ": " + changed,
              {}, common);
   if (common.json) print_json({{"map", command.map.string()}, {"changed", list}, {"closed", closed}});
   return kExitDone;

@@ -3,9 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/common/commands.hpp"
-#include "framework/program/map/exchange_report.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/map/number_list.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/edit/crop.hpp"
 
 namespace cairn {
@@ -26,12 +27,12 @@ int map_crop(const CropCommand& command, const CommonOptions& common) {
   const CellBox cells = cropped.map.grid.bounds();
   std::vector<std::string> warnings;
   if (cropped.landmarks_dropped > 0)
-    warnings.push_back(exchange::counted(cropped.landmarks_dropped, "landmark") + " outside: dropped");
+    warnings.push_back(counted(cropped.landmarks_dropped, "landmark") + " outside: dropped");
   if (cropped.routes_dropped > 0)
-    warnings.push_back(exchange::counted(cropped.routes_dropped, "route") + " to the outside or through it: dropped");
+    warnings.push_back(counted(cropped.routes_dropped, "route") + " to the outside or through it: dropped");
   warnings.insert(warnings.end(), cropped.warnings.begin(), cropped.warnings.end());
   print_text(fmt::format("wrote {}: {} x {} cells, {}, {}", command.out.string(), cells.width(), cells.height(),
-                         exchange::counted(landmarks, "landmark"), exchange::counted(routes, "route")),
+                         counted(landmarks, "landmark"), counted(routes, "route")),
              warnings, common);
   if (common.json)
     print_json({{"map", command.out.string()},

@@ -4,15 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/map/exchange_report.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/edit/difference.hpp"
 #include "maps/pictures/difference_picture.hpp"
 
 namespace cairn {
 namespace {
 
-using exchange::counted;
 using nlohmann::ordered_json;
 
 constexpr std::size_t kMaxDifferences = 30;

@@ -8,6 +8,7 @@
 #include "framework/files/map_server_file.hpp"
 #include "framework/files/rmf_file.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/map/exchange_report.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/exchange/graphs/graph_file.hpp"

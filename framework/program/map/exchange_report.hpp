@@ -2,11 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
-
-#include "framework/program/common/commands.hpp"
 
 namespace cairn {
 
@@ -15,8 +12,5 @@ namespace cairn {
                                  const std::vector<std::string>& known);
 // Warnings with the file that they are about in front.
 [[nodiscard]] std::vector<std::string> about(const std::filesystem::path& file, std::vector<std::string> warnings);
-// The line and the warnings; with --json on standard error, where warnings go anyway.
-void print_text(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common);
-void print_json(const nlohmann::ordered_json& json);
 
 }  // namespace cairn

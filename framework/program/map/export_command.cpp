@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/common/output_files.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/map/exchange_report.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/exchange/graphs/graph_file.hpp"
 #include "maps/exchange/graphs/rmf_nav_graph.hpp"
 #include "maps/exchange/grids/grey_picture_write.hpp"
@@ -48,8 +50,8 @@ PictureFormat picture_format_of(const std::string& name) {
 // What a grid's file leaves away of the map.
 void warn_of_graph(const LandmarkGraph& graph, std::vector<std::string>& warnings) {
   if (graph.landmarks().empty()) return;
-  warnings.push_back(exchange::counted(graph.landmarks().size(), "landmark") + ", " +
-                     exchange::counted(graph.routes().size(), "route") + ": not written, the file holds the grid only");
+  warnings.push_back(counted(graph.landmarks().size(), "landmark") + ", " + counted(graph.routes().size(), "route") +
+                     ": not written, the file holds the grid only");
 }
 
 Written write_map_server(const ExchangeCommand& command, const SavedMap& map) {

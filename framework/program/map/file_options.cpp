@@ -3,72 +3,68 @@
 namespace cairn {
 namespace {
 
-void add_exchange(CLI::App& map, ExchangeCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* in = map.add_subcommand("import", "Make a map of another tool's landmark graph or occupancy grid");
-  in->add_option("FILE", c.from,
+void add_exchange(CLI::App& map, CommandLine& line) {
+  const auto [in, c] =
+      add_command(map, line, map_import, "import", "Make a map of another tool's landmark graph or occupancy grid");
+  in->add_option("FILE", c->from,
                  "*.graph, nav2 routes (*.geojson, *.json), *.graphml, Open-RMF building or navigation graph (*.yaml), "
                  "Moving AI grid (*.map) or map_server (*.yaml)")
       ->required();
-  in->add_option("-o,--out", c.to, "saved map to write (*.cairn)")->required();
-  in->add_option("--cell-m", c.cell_m, "cell size of a Moving AI grid (without it 1)")
+  in->add_option("-o,--out", c->to, "saved map to write (*.cairn)")->required();
+  in->add_option("--cell-m", c->cell_m, "cell size of a Moving AI grid (without it 1)")
       ->check(number_within(0.001, 1000.0));
-  in->add_flag("--allow-outside", c.allow_outside, "read a picture that is outside the folder of the file");
-  in->callback([&] { action = [&] { return map_import(c, common); }; });
-  CLI::App* out = map.add_subcommand("export", "Write a map's landmark graph or grid for other tools, or its picture");
-  out->add_option("MAP", c.from, "saved map (*.cairn)")->required();
+  in->add_flag("--allow-outside", c->allow_outside, "read a picture that is outside the folder of the file");
+  const auto [out, e] = add_command(map, line, map_export, "export",
+                                    "Write a map's landmark graph or grid for other tools, or its picture");
+  out->add_option("MAP", e->from, "saved map (*.cairn)")->required();
   out->add_option(
-         "-o,--out", c.to,
+         "-o,--out", e->to,
          "file to write: *.graph, *.geojson, *.json, *.graphml, Open-RMF (*.nav.yaml), map_server (*.yaml and its "
          "picture) or *.png")
       ->required();
-  out->add_option("--mode", c.mode, "how map_server is to read the picture: trinary (without it), scale or raw")
+  out->add_option("--mode", e->mode, "how map_server is to read the picture: trinary (without it), scale or raw")
       ->check(CLI::IsMember({"trinary", "scale", "raw"}));
-  out->add_option("--picture", c.picture, "map_server's picture: pgm, png or bmp (without it pgm, in mode scale png)")
+  out->add_option("--picture", e->picture, "map_server's picture: pgm, png or bmp (without it pgm, in mode scale png)")
       ->check(CLI::IsMember({"pgm", "png", "bmp"}));
-  out->add_option("--scale", c.px_per_cell, "a *.png of the bare grid with so many pixels a cell, 0.25 or 3")
+  out->add_option("--scale", e->px_per_cell, "a *.png of the bare grid with so many pixels a cell, 0.25 or 3")
       ->check(number_within(1e-6, 65536.0));
-  out->callback([&] { action = [&] { return map_export(c, common); }; });
 }
 
-void add_merge(CLI::App& map, MergeCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* merge = map.add_subcommand("merge", "Lay a second map into the frame of a first");
-  merge->add_option("A", c.a, "saved map (*.cairn), whose frame counts")->required();
-  merge->add_option("B", c.b, "saved map to lay into it")->required();
-  merge->add_option("--transform", c.transform, "x,y,deg: where B's frame lies in A's")->required();
-  merge->add_option("--near-m", c.near_m, "landmarks of one category this near to each other are one")
+void add_merge(CLI::App& map, CommandLine& line) {
+  const auto [merge, c] = add_command(map, line, map_merge, "merge", "Lay a second map into the frame of a first");
+  merge->add_option("A", c->a, "saved map (*.cairn), whose frame counts")->required();
+  merge->add_option("B", c->b, "saved map to lay into it")->required();
+  merge->add_option("--transform", c->transform, "x,y,deg: where B's frame lies in A's")->required();
+  merge->add_option("--near-m", c->near_m, "landmarks of one category this near to each other are one")
       ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
-  merge->add_option("-o,--out", c.out, "saved map to write")->required();
-  merge->callback([&] { action = [&] { return map_merge(c, common); }; });
+  merge->add_option("-o,--out", c->out, "saved map to write")->required();
 }
 
-void add_crop(CLI::App& map, CropCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* crop = map.add_subcommand("crop", "Cut a part out of a map");
-  crop->add_option("MAP", c.map, "saved map (*.cairn)")->required();
-  crop->add_option("--box", c.box, "x0,y0,x1,y1: two opposite corners, in metres")->required();
-  crop->add_option("-o,--out", c.out, "saved map to write")->required();
-  crop->callback([&] { action = [&] { return map_crop(c, common); }; });
+void add_crop(CLI::App& map, CommandLine& line) {
+  const auto [crop, c] = add_command(map, line, map_crop, "crop", "Cut a part out of a map");
+  crop->add_option("MAP", c->map, "saved map (*.cairn)")->required();
+  crop->add_option("--box", c->box, "x0,y0,x1,y1: two opposite corners, in metres")->required();
+  crop->add_option("-o,--out", c->out, "saved map to write")->required();
 }
 
-void add_diff(CLI::App& map, DiffCommand& c, const CommonOptions& common, Action& action) {
-  CLI::App* diff =
-      map.add_subcommand("diff", "What differs between two maps of one frame; exit status 0 the same, 1 different");
-  diff->add_option("A", c.a, "saved map (*.cairn)")->required();
-  diff->add_option("B", c.b, "saved map to compare with it")->required();
-  diff->add_option("--near-m", c.near_m, "landmarks of one category this near to each other are taken for one")
+void add_diff(CLI::App& map, CommandLine& line) {
+  const auto [diff, c] = add_command(map, line, map_diff, "diff",
+                                     "What differs between two maps of one frame; exit status 0 the same, 1 different");
+  diff->add_option("A", c->a, "saved map (*.cairn)")->required();
+  diff->add_option("B", c->b, "saved map to compare with it")->required();
+  diff->add_option("--near-m", c->near_m, "landmarks of one category this near to each other are taken for one")
       ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
-  diff->add_option("--picture", c.picture, "draw what is new, gone and the same into this PNG file");
-  diff->callback([&] { action = [&] { return map_diff(c, common); }; });
+  diff->add_option("--picture", c->picture, "draw what is new, gone and the same into this PNG file");
 }
 
-void add_close(CLI::App& map, CloseCommand& c, const CommonOptions& common, Action& action) {
+void add_close(CLI::App& map, CommandLine& line) {
   const auto add = [&](const char* name, const char* text, auto command) {
-    CLI::App* sub = map.add_subcommand(name, text);
-    sub->add_option("MAP", c.map, "saved map (*.cairn), changed in place")->required();
-    sub->add_option("ROUTE", c.routes, "numbers of routes, 12 or R12")->required();
-    sub->add_flag("--both-ways", c.both_ways, "the routes that lead back, too");
-    sub->callback([&c, &common, &action, command] { action = [&c, &common, command] { return command(c, common); }; });
+    const auto [sub, c] = add_command(map, line, command, name, text);
+    sub->add_option("MAP", c->map, "saved map (*.cairn), changed in place")->required();
+    sub->add_option("ROUTE", c->routes, "numbers of routes, 12 or R12")->required();
+    sub->add_flag("--both-ways", c->both_ways, "the routes that lead back, too");
   };
   add("close", "Close routes of a map: no plan takes them", map_close);
   add("open", "Open closed routes of a map again", map_open);
@@ -76,13 +72,9 @@ void add_close(CLI::App& map, CloseCommand& c, const CommonOptions& common, Acti
 
 }  // namespace
 
-void add_map_files(CLI::App& app, MapFileOptions& options, const CommonOptions& common, Action& action) {
+void add_map_files(CLI::App& app, CommandLine& line) {
   CLI::App& map = *app.get_subcommand("map");
-  add_exchange(map, options.exchange, common, action);
-  add_merge(map, options.merge, common, action);
-  add_crop(map, options.crop, common, action);
-  add_diff(map, options.diff, common, action);
-  add_close(map, options.close, common, action);
+  for (const auto add : {add_exchange, add_merge, add_crop, add_diff, add_close}) add(map, line);
 }
 
 }  // namespace cairn

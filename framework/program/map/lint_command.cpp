@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/plan/saved_radius.hpp"
-#include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/edit/graph_lint.hpp"
 #include "maps/store/map_store.hpp"
 
@@ -56,19 +57,16 @@ int map_lint(const LintCommand& command, const CommonOptions& common) {
   if (common.json) {
     ordered_json list = ordered_json::array();
     for (const LintFinding& finding : findings) list.push_back(json_of(finding, map.graph));
-    std::cout << ordered_json{{"file", command.map.string()},
-                              {"outcome", clean ? "clean" : "findings"},
-                              {"radius_m", options.radius_m},
-                              {"near_m", options.near_m},
-                              {"findings", list}}
-                     .dump()
-              << "\n";
+    print_json({{"file", command.map.string()},
+                {"outcome", clean ? "clean" : "findings"},
+                {"radius_m", options.radius_m},
+                {"near_m", options.near_m},
+                {"findings", list}});
   } else {
     print(findings);
     std::cout << fmt::format("{}: {}; {}, {}, {}, for a robot of {:g} m radius\n", command.map.string(),
-                             clean ? "clean" : "findings", exchange::counted(errors, "error"),
-                             exchange::counted(warnings, "warning"),
-                             exchange::counted(count(LintSeverity::note), "note"), options.radius_m);
+                             clean ? "clean" : "findings", counted(errors, "error"), counted(warnings, "warning"),
+                             counted(count(LintSeverity::note), "note"), options.radius_m);
   }
   return clean ? kExitDone : kExitNotSolved;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/hierarchy/cluster_levels.hpp"
 #include "maps/store/repair.hpp"
@@ -68,7 +69,7 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
   const SavedMap map = load_map(command.map);
   const int schema = schema_version_of(command.map);
   if (common.json) {
-    std::cout << json_of(map, schema).dump() << "\n";
+    print_json(json_of(map, schema));
     return kExitDone;
   }
   std::cout << fmt::format("{}: schema {}, {}\n", command.map.string(), schema, text_of_grid(map.grid));
@@ -97,10 +98,7 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
 
 int map_render(const MapCommand& command, const CommonOptions& common) {
   draw_saved_map(command.picture, load_map(command.map), command.map.filename().string());
-  if (common.json)
-    std::cout << ordered_json{{"picture", command.picture.string()}}.dump() << "\n";
-  else
-    std::cout << "wrote " << command.picture.string() << "\n";
+  print({{"picture", command.picture.string()}}, "wrote " + command.picture.string() + "\n", common);
   return kExitDone;
 }
 

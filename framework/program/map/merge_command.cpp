@@ -3,9 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/common/commands.hpp"
-#include "framework/program/map/exchange_report.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/map/number_list.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/edit/merge.hpp"
 
 namespace cairn {
@@ -32,9 +33,9 @@ int map_merge(const MergeCommand& command, const CommonOptions& common) {
   const std::size_t routes = merged.map.graph.routes().size();
   const CellBox box = merged.map.grid.bounds();
   print_text(fmt::format("wrote {}: {} x {} cells, {}, {}; {} and {} of the second map are also in the first",
-                         command.out.string(), box.width(), box.height(), exchange::counted(landmarks, "landmark"),
-                         exchange::counted(routes, "route"), exchange::counted(merged.joined_landmarks, "landmark"),
-                         exchange::counted(merged.joined_routes, "route")),
+                         command.out.string(), box.width(), box.height(), counted(landmarks, "landmark"),
+                         counted(routes, "route"), counted(merged.joined_landmarks, "landmark"),
+                         counted(merged.joined_routes, "route")),
              merged.warnings, common);
   if (common.json)
     print_json({{"map", command.out.string()},

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "framework/planning/place.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/hierarchy/cluster_tree.hpp"
@@ -60,13 +60,8 @@ int map_name(const NameCommand& command, const CommonOptions& common) {
   if (!command.name.empty()) check_name(map, named, command.name);
   *named.name = command.name;
   save_map(command.map, map);
-  if (common.json)
-    std::cout << nlohmann::ordered_json{{"map", command.map.string()}, {"id", named.id}, {"name", command.name}}.dump()
-              << "\n";
-  else if (command.name.empty())
-    std::cout << named.id << " has no name any more\n";
-  else
-    std::cout << named.id << " is " << command.name << "\n";
+  print({{"map", command.map.string()}, {"id", named.id}, {"name", command.name}},
+        named.id + (command.name.empty() ? " has no name any more" : " is " + command.name) + "\n", common);
   return kExitDone;
 }
 

@@ -1,12 +1,12 @@
 #include "framework/program/map/number_list.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 
@@ -19,13 +19,9 @@ std::vector<double> number_list(std::string_view text, std::string_view names, c
   std::vector<double> numbers;
   for (std::string_view rest = text;;) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
-    std::string_view word = rest.substr(0, comma);
-    word.remove_prefix(std::min(word.find_first_not_of(' '), word.size()));
-    word = word.substr(0, word.find_last_not_of(' ') + 1);
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc{} || end != word.data() + word.size() || !(std::abs(number) <= most)) fail();
-    numbers.push_back(number);
+    const auto number = number_from<double>(trimmed(rest.substr(0, comma), " "));
+    if (!number || !(std::abs(*number) <= most)) fail();
+    numbers.push_back(*number);
     if (comma == rest.size()) break;
     rest.remove_prefix(comma + 1);
   }

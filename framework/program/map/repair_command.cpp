@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/program/common/commands.hpp"
-#include "framework/program/map/exchange_report.hpp"
+#include "framework/program/common/print.hpp"
 #include "maps/store/repair.hpp"
 
 namespace cairn {

@@ -7,6 +7,7 @@
 
 #include "framework/behaviour_tree/time_left.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/program/mission/control_socket.hpp"
 
 namespace cairn {
@@ -144,8 +145,8 @@ int mission_control(const MissionControlCommand& command, const CommonOptions& c
   if (reached.reached == Reached::nobody) fail_nobody(command.out);
   const ordered_json answer = parsed(command.out, reached.line);
   const auto [text, is_done] = reported(command.command, answer);
-  (common.json ? std::cerr : std::cout) << text << "\n";
-  if (common.json) std::cout << answer.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+  print_text(text, {}, common);
+  if (common.json) print_json(answer);
   return is_done ? kExitDone : kExitNotSolved;
 }
 
@@ -156,7 +157,7 @@ int mission_status(const MissionControlCommand& command, const CommonOptions& co
                                   ? parsed(command.out, reached.line)
                                   : status_without_answer(command.out, reached.reached);
   if (common.json)
-    std::cout << status.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+    print_json(status);
   else if (text_in(status, "state") == "cut_short")
     std::cout << cut_short_text(command.out) << "\n";
   else

@@ -6,7 +6,8 @@
 #include "framework/behaviour_tree/tree_text.hpp"
 #include "framework/mission/check.hpp"
 #include "framework/program/common/commands.hpp"
-#include "maps/base/source_text.hpp"
+#include "framework/program/common/print.hpp"
+#include "maps/base/text.hpp"
 #include "maps/pictures/tree_picture.hpp"
 
 namespace cairn {
@@ -57,7 +58,7 @@ std::vector<TreeBox> boxes_of(const std::vector<TreeNode>& nodes) {
 }
 
 std::string size_text(std::size_t steps, std::size_t nodes) {
-  return exchange::counted(steps, "step") + ", " + exchange::counted(nodes, "node");
+  return counted(steps, "step") + ", " + counted(nodes, "node");
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ int mission_check(const MissionCheckCommand& command, const CommonOptions& commo
     if (!common.json)
       std::cout << fmt::format(
           "{}: {}\n", file.string(),
-          is_fine ? "fine, " + size_text(check.steps, check.nodes) : exchange::counted(check.errors.size(), "error"));
+          is_fine ? "fine, " + size_text(check.steps, check.nodes) : counted(check.errors.size(), "error"));
     rows.push_back({{"file", file.string()},
                     {"mission", check.mission},
                     {"outcome", is_fine ? "fine" : "errors"},
@@ -83,7 +84,7 @@ int mission_check(const MissionCheckCommand& command, const CommonOptions& commo
                     {"steps", check.steps},
                     {"nodes", check.nodes}});
   }
-  if (common.json) std::cout << ordered_json{{"missions", rows}}.dump() << "\n";
+  if (common.json) print_json({{"missions", rows}});
   return all_fine ? kExitDone : kExitBadInput;
 }
 
@@ -93,14 +94,8 @@ int mission_show(const MissionShowCommand& command, const CommonOptions& common)
   if (!command.picture.empty())
     write_tree_picture(command.picture, {mission.config.mission, "", BoxKind::branch, boxes_of(mission.steps)},
                        "mission " + mission.config.mission, size);
-  if (common.json)
-    std::cout << ordered_json{{"mission", mission.config.mission},
-                              {"picture", command.picture.string()},
-                              {"steps", json_of(mission.steps)}}
-                     .dump(-1, ' ', false, ordered_json::error_handler_t::replace)
-              << "\n";
-  else
-    std::cout << fmt::format("mission {}: {}\n", mission.config.mission, size) << tree_text(mission.steps);
+  print({{"mission", mission.config.mission}, {"picture", command.picture.string()}, {"steps", json_of(mission.steps)}},
+        fmt::format("mission {}: {}\n", mission.config.mission, size) + tree_text(mission.steps), common);
   return kExitDone;
 }
 

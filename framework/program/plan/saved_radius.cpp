@@ -1,21 +1,19 @@
 #include "framework/program/plan/saved_radius.hpp"
 
-#include <charconv>
-
 #include "framework/contracts/robot_model.hpp"
 #include "framework/program/common/commands.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 
 double saved_radius_m(const SavedMap& map, const std::filesystem::path& file) {
   const auto found = map.properties.find("robot_radius_m");
   if (found == map.properties.end()) return RobotModel{}.radius_m;
-  double radius_m = -1.0;
   const std::string& text = found->second;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), radius_m).ptr;
-  if (end != text.data() + text.size() || !(radius_m >= 0.0 && radius_m <= kMaxRadius_m))
+  const auto radius_m = number_from<double>(text);
+  if (!radius_m || !(*radius_m >= 0.0 && *radius_m <= kMaxRadius_m))
     throw StoreError(file.string() + ": robot_radius_m must be a number of 0 to 10 m, is \"" + text + "\"");
-  return radius_m;
+  return *radius_m;
 }
 
 }  // namespace cairn

@@ -9,6 +9,8 @@
 #include "framework/modules/module_library.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/output_files.hpp"
+#include "framework/program/common/print.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -62,10 +64,8 @@ void check_kind(const std::string& kind) {
   std::vector<std::string> kinds;
   for (const PluginKind known : kPluginKinds) kinds.emplace_back(name_of(known));
   if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
-  std::string all;
-  for (const std::string& known : kinds) all += (all.empty() ? "" : ", ") + known;
   throw std::runtime_error("there is no kind of module " + shown(kind) + did_you_mean(kind, kinds) +
-                           "; known are: " + all);
+                           "; known are: " + joined(kinds));
 }
 
 void check_name(const std::string& name, const CommonOptions& common) {
@@ -127,15 +127,8 @@ int plugins_new(const NewPluginCommand& command, const CommonOptions& common) {
     names.push_back(file.file.string());
     if (!common.json) std::cout << (folder / file.file).string() << "\n";
   }
-  if (common.json)
-    std::cout << nlohmann::ordered_json{{"kind", command.kind},
-                                        {"name", command.name},
-                                        {"folder", folder.string()},
-                                        {"files", names}}
-                     .dump()
-              << "\n";
-  else
-    std::cout << "Next: " << (folder / "README.md").string() << " says how to build, test and run it.\n";
+  print({{"kind", command.kind}, {"name", command.name}, {"folder", folder.string()}, {"files", names}},
+        "Next: " + (folder / "README.md").string() + " says how to build, test and run it.\n", common);
   return kExitDone;
 }
 

@@ -8,6 +8,8 @@
 
 #include "framework/modules/module_library.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -15,9 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string allowed_text(const FieldSpec& field) {
-  std::string text;
-  for (const std::string& choice : field.choices) text += (text.empty() ? "" : " | ") + choice;
-  if (!text.empty()) return text;
+  if (!field.choices.empty()) return joined(field.choices, " | ");
   const bool low = std::isfinite(field.range.min);
   const bool high = std::isfinite(field.range.max);
   if (low && high) return fmt::format("{:g} .. {:g}", field.range.min, field.range.max);
@@ -97,17 +97,17 @@ int plugins_list(const CommonOptions& common) {
       std::cout << fmt::format("{:<13} {:<18} {:<22} {:<8} {}\n", kind, entry.module->name, file,
                                std::string(entry.plugin->stamp.cairn_version), entry.module->summary);
   }
-  if (common.json) std::cout << ordered_json{{"modules", list}, {"faults", library.faults()}}.dump() << "\n";
+  if (common.json) print_json({{"modules", list}, {"faults", library.faults()}});
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   return library.faults().empty() ? kExitDone : kExitNotSolved;
 }
 
-int plugins_check(const std::filesystem::path& file, const CommonOptions& common) {
-  ordered_json answer = {{"file", file.string()}, {"stamp", ""}, {"modules", ordered_json::array()}};
+int plugins_check(const PluginsCommand& command, const CommonOptions& common) {
+  ordered_json answer = {{"file", command.file.string()}, {"stamp", ""}, {"modules", ordered_json::array()}};
   std::vector<std::string> faults;
   std::string text;
   try {
-    const LoadedPlugin plugin = load_plugin(file);
+    const LoadedPlugin plugin = load_plugin(command.file);
     answer["stamp"] = text_of(plugin.stamp);
     text = "symbols   cairn_abi_stamp, cairn_register_module\nstamp     " + text_of(plugin.stamp) + "\n";
     for (const RegisteredModule& module : plugin.modules) {
@@ -120,7 +120,7 @@ int plugins_check(const std::filesystem::path& file, const CommonOptions& common
     faults.emplace_back(error.what());
   }
   answer["faults"] = faults;
-  if (common.json) std::cout << answer.dump() << "\n";
+  if (common.json) print_json(answer);
   std::ostream& people = common.json ? std::cerr : std::cout;
   people << text;
   for (const std::string& fault : faults) people << "wrong     " << fault << "\n";
@@ -128,7 +128,8 @@ int plugins_check(const std::filesystem::path& file, const CommonOptions& common
   return faults.empty() ? kExitDone : kExitNotSolved;
 }
 
-int plugins_info(const std::string& name, const CommonOptions& common) {
+int plugins_info(const PluginsCommand& command, const CommonOptions& common) {
+  const std::string& name = command.name;
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   const ModuleEntry* entry = library.find_any(name);
   if (entry == nullptr) {
@@ -138,13 +139,11 @@ int plugins_info(const std::string& name, const CommonOptions& common) {
   }
   const RegisteredModule& module = *entry->module;
   if (common.json) {
-    std::cout << ordered_json{{"kind", std::string(name_of(module.kind))},
-                              {"name", module.name},
-                              {"summary", module.summary},
-                              {"file", entry->plugin->file.string()},
-                              {"fields", json_of(module.schema.fields)}}
-                     .dump()
-              << "\n";
+    print_json({{"kind", std::string(name_of(module.kind))},
+                {"name", module.name},
+                {"summary", module.summary},
+                {"file", entry->plugin->file.string()},
+                {"fields", json_of(module.schema.fields)}});
     return kExitDone;
   }
   std::cout << module.name << ": " << name_of(module.kind) << "\n"

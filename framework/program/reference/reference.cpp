@@ -9,6 +9,7 @@
 #include "framework/files/template_file.hpp"
 #include "framework/files/world_file.hpp"
 #include "framework/mission/mission.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -32,10 +33,8 @@ std::string code(const std::string& text) {
   return "`" + text + "`";
 }
 
-std::string joined(const std::vector<std::string>& keys) {
-  std::string text;
-  for (const std::string& key : keys) text += (text.empty() ? "" : ", ") + code(key);
-  return text;
+std::string codes(const std::vector<std::string>& keys) {
+  return "`" + joined(keys, "`, `") + "`";
 }
 
 // A bar would end the cell of the table.
@@ -46,7 +45,7 @@ std::string in_cell(const std::string& text) {
 }
 
 std::string range_text(const FieldSpec& field) {
-  if (!field.choices.empty()) return joined(field.choices);
+  if (!field.choices.empty()) return codes(field.choices);
   const bool has_min = std::isfinite(field.range.min);
   const bool has_max = std::isfinite(field.range.max);
   const std::string min = config_detail::number_text(field.range.min);
@@ -68,7 +67,7 @@ std::string default_text(const FieldSpec& field) {
 std::string meaning_text(const FieldSpec& field) {
   std::string text = field.meaning;
   if (!field.shared.empty()) text += ": [" + field.shared + "](#" + field.shared + ")";
-  if (!field.one_of.empty()) text += "; exactly one of " + joined(field.one_of);
+  if (!field.one_of.empty()) text += "; exactly one of " + codes(field.one_of);
   if (!field.shorthand.empty()) text += "; a bare value stands for " + code(field.shorthand);
   return text;
 }
@@ -89,7 +88,7 @@ std::string table_of(const Schema& schema) {
   if (schema.fields.empty()) return "It has no settings.\n";
   std::string text = "| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
   add_rows(text, schema.fields, "");
-  if (!schema.one_of.empty()) text += "\nExactly one of " + joined(schema.one_of) + " must be given.\n";
+  if (!schema.one_of.empty()) text += "\nExactly one of " + codes(schema.one_of) + " must be given.\n";
   return text;
 }
 

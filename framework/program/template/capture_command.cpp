@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "framework/files/template_file.hpp"
 #include "framework/planning/place.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
+#include "maps/base/text.hpp"
 #include "maps/landmarks/captured_outline.hpp"
 #include "maps/store/map_store.hpp"
 
@@ -50,19 +51,19 @@ int template_capture(const CaptureCommand& command, const CommonOptions& common)
   const LandmarkShape shape =
       write_template(command.out, template_text(command.category, captured, command.map.filename().string()));
   const double diameter_m = shape.contour.outer_diameter_m();
-  if (common.json)
-    std::cout << nlohmann::ordered_json{{"file", command.out.string()}, {"category", shape.category},
-                                        {"x_m", captured.at_m.x()},     {"y_m", captured.at_m.y()},
-                                        {"diameter_m", diameter_m},     {"parts", shape.contour.polygons_m.size()}}
-                     .dump()
-              << "\n";
-  else
-    std::cout << fmt::format(
-        "wrote {}: {}, {:.2f} m across, {} part{}\n"
-        "It is what lies within {:g} m, as large as the sensors saw it: correct it by hand where you know better{}.\n",
-        command.out.string(), shape.category, diameter_m, shape.contour.polygons_m.size(),
-        shape.contour.polygons_m.size() == 1 ? "" : "s", command.radius_m,
-        shape.contour.polygons_m.size() == 1 ? "" : ", or take fewer things with a smaller --radius-m");
+  const std::size_t parts = shape.contour.polygons_m.size();
+  print({{"file", command.out.string()},
+         {"category", shape.category},
+         {"x_m", captured.at_m.x()},
+         {"y_m", captured.at_m.y()},
+         {"diameter_m", diameter_m},
+         {"parts", parts}},
+        fmt::format("wrote {}: {}, {:.2f} m across, {}\n"
+                    "It is what lies within {:g} m, as large as the sensors saw it: correct it by hand where you know "
+                    "better{}.\n",
+                    command.out.string(), shape.category, diameter_m, counted(parts, "part"), command.radius_m,
+                    parts == 1 ? "" : ", or take fewer things with a smaller --radius-m"),
+        common);
   return kExitDone;
 }
 

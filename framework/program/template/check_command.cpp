@@ -8,6 +8,7 @@
 #include "framework/mission/modules.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
 #include "framework/templates/template_check.hpp"
 
 namespace cairn {
@@ -100,7 +101,7 @@ int template_check(const TemplateCommand& command, const CommonOptions& common) 
   const TemplateCheck check =
       fenced("template check", detector.quick.name, [&] { return check_templates(set, detector, crew); });
   if (common.json)
-    std::cout << json_of(check, command).dump() << "\n";
+    print_json(json_of(check, command));
   else
     print_check(check, command);
   return check.has_mistakes() ? kExitNotSolved : kExitDone;

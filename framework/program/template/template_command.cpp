@@ -9,6 +9,8 @@
 #include "framework/mission/modules.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/print.hpp"
+#include "maps/base/text.hpp"
 #include "maps/pictures/template_sheet.hpp"
 
 namespace cairn {
@@ -51,11 +53,11 @@ int template_list(const TemplateCommand& command, const CommonOptions& common) {
                       {"diameter_m", shape.contour.outer_diameter_m()},
                       {"orientations", orientations}});
     else
-      std::cout << fmt::format("{:<16} {:<9} diameter {:.2f} m, {} orientation{} at {:g} degree steps\n",
-                               shape.category, outline, shape.contour.outer_diameter_m(), orientations,
-                               orientations == 1 ? "" : "s", command.step_deg);
+      std::cout << fmt::format("{:<16} {:<9} diameter {:.2f} m, {} at {:g} degree steps\n", shape.category, outline,
+                               shape.contour.outer_diameter_m(), counted(orientations, "orientation"),
+                               command.step_deg);
   }
-  if (common.json) std::cout << nlohmann::ordered_json{{"templates", list}}.dump() << "\n";
+  if (common.json) print_json({{"templates", list}});
   return kExitDone;
 }
 
@@ -65,12 +67,8 @@ int template_preview(const TemplateCommand& command, const CommonOptions& common
   const TemplateSet set =
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); });
   write_template_sheet(command.picture, set, command.folder.string() + ", " + command.rendering);
-  if (common.json)
-    std::cout
-        << nlohmann::ordered_json{{"picture", command.picture.string()}, {"templates", set.templates.size()}}.dump()
-        << "\n";
-  else
-    std::cout << fmt::format("wrote {} templates to {}\n", set.templates.size(), command.picture.string());
+  print({{"picture", command.picture.string()}, {"templates", set.templates.size()}},
+        fmt::format("wrote {} templates to {}\n", set.templates.size(), command.picture.string()), common);
   return kExitDone;
 }
 

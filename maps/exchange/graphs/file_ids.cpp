@@ -1,11 +1,11 @@
 #include "maps/exchange/graphs/file_ids.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn::exchange {
 
@@ -56,12 +56,10 @@ std::optional<std::vector<std::int64_t>> numbers_of(const std::vector<std::strin
     const std::size_t first = std::min(id.find_first_of("0123456789"), id.size());
     if (numbers.empty()) letters = id.substr(0, first);
     const std::string_view digits = id.substr(first);
-    std::int64_t number = 0;
-    const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool is_whole = error == std::errc{} && rest == digits.data() + digits.size();
+    const auto number = number_from<std::int64_t>(digits);
     const bool is_plain = !digits.empty() && (digits.size() == 1 || digits.front() != '0');
-    if (!is_whole || !is_plain || number > kMaxFileId || id.substr(0, first) != letters) return std::nullopt;
-    numbers.push_back(number);
+    if (!number || !is_plain || *number > kMaxFileId || id.substr(0, first) != letters) return std::nullopt;
+    numbers.push_back(*number);
   }
   const bool are_letters =
       std::ranges::all_of(letters, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; });

@@ -6,6 +6,7 @@
 
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 #include "maps/exchange/graphs/file_ids.hpp"
 #include "maps/exchange/graphs/losses.hpp"
 
@@ -79,12 +80,11 @@ class Cursor {
 
   std::int64_t id(const char* what, const char* line) {
     const std::string_view text = required(what, line);
-    std::uint64_t id = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), id);
-    if (error != std::errc{} || rest != text.data() + text.size() || id > exchange::kMaxFileId)
+    const auto id = number_from<std::uint64_t>(text);
+    if (!id || *id > exchange::kMaxFileId)
       fail(std::string(what) + " " + shown(text) + " is no whole number of 0 to " +
            std::to_string(exchange::kMaxFileId));
-    return static_cast<std::int64_t>(id);
+    return static_cast<std::int64_t>(*id);
   }
 
   double coordinate_m(const char* what, const char* line) {
@@ -233,8 +233,7 @@ ImportedGraph parse_graph_list(std::string_view text, const std::string& file_na
 ExportedGraph graph_list_of(const LandmarkGraph& graph) {
   ExportedGraph exported;
   std::string& text = exported.text;
-  text = "# " + exchange::counted(graph.landmarks().size(), "landmark") + ", " +
-         exchange::counted(graph.routes().size(), "route") + "\n";
+  text = "# " + counted(graph.landmarks().size(), "landmark") + ", " + counted(graph.routes().size(), "route") + "\n";
   std::size_t nameless = 0;
   for (const auto& [id, landmark] : graph.landmarks()) {
     text += "node " + std::to_string(id) + ' ';
@@ -256,7 +255,7 @@ ExportedGraph graph_list_of(const LandmarkGraph& graph) {
   }
   exported.warnings = exchange::warnings_of_loss(graph, {});
   if (nameless > 0)
-    exported.warnings.push_back(exchange::counted(nameless, "landmark") +
+    exported.warnings.push_back(counted(nameless, "landmark") +
                                 ": the name does not fit on a line of the list and is not written");
   return exported;
 }

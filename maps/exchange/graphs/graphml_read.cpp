@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 #include "maps/exchange/graphs/crs.hpp"
 #include "maps/exchange/graphs/file_ids.hpp"
 #include "maps/exchange/graphs/graphml.hpp"
@@ -123,7 +124,7 @@ class GraphmlReader {
                              middle.cwiseAbs().maxCoeff() <= exchange::kMaxCoordinate_m;
       const std::string_view label = shape.child("y:NodeLabel").child_value();
       exchange::check_text(source_, label, offset_of(shape));
-      return {is_placed ? std::optional(middle) : std::nullopt, exchange::trimmed(label)};
+      return {is_placed ? std::optional(middle) : std::nullopt, std::string(trimmed(label, exchange::kXmlBlanks))};
     }
     return {};
   }
@@ -268,10 +269,10 @@ class GraphmlReader {
 
   void warn() {
     if (unset_costs_ > 0)
-      imported_.warnings.push_back(exchange::counted(unset_costs_, "edge") +
+      imported_.warnings.push_back(counted(unset_costs_, "edge") +
                                    ": no cost (cost, weight or length), the straight length is taken");
     if (drawn_ > 0)
-      imported_.warnings.push_back(exchange::counted(drawn_, "node") +
+      imported_.warnings.push_back(counted(drawn_, "node") +
                                    ": no x and y, the place in yEd's drawing is taken as metres, y upwards");
     exchange::warn_of_shared_names(imported_.graph, imported_.warnings);
   }

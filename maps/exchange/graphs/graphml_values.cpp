@@ -1,12 +1,12 @@
 #include "maps/exchange/graphs/graphml_values.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "maps/base/json_text.hpp"
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 #include "maps/exchange/graphs/file_ids.hpp"
 
 namespace cairn::exchange {
@@ -22,12 +22,6 @@ constexpr double kMaxExact = static_cast<double>(kMaxFileId);
 void check_text(const SourceText& source, std::string_view text, std::size_t offset) {
   if (first_not_utf8(text) != std::string_view::npos)
     source.fail(offset, "the text names a character that does not exist (&#...;)");
-}
-
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1));
 }
 
 GraphmlValues::GraphmlValues(const SourceText& source, std::vector<GraphmlValue> values)
@@ -47,12 +41,11 @@ std::optional<GraphmlValue> GraphmlValues::take(const Names& names) {
 }
 
 double GraphmlValues::number(const GraphmlValue& value) const {
-  const std::string text = trimmed(value.text);
-  double number = 0.0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || rest != text.data() + text.size() || !std::isfinite(number))
+  const std::string_view text = trimmed(value.text, kXmlBlanks);
+  const auto number = number_from<double>(text);
+  if (!number || !std::isfinite(*number))
     source_.fail(value.offset, std::string(value.name) + " " + shown(text) + " is no finite number");
-  return number;
+  return *number;
 }
 
 std::optional<double> GraphmlValues::take_number(const Names& names) {
@@ -69,7 +62,7 @@ std::optional<double> GraphmlValues::take_coordinate(const Names& names) {
 }
 
 bool GraphmlValues::flag(const GraphmlValue& value) const {
-  std::string text = trimmed(value.text);
+  std::string text(trimmed(value.text, kXmlBlanks));
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (text != "true" && text != "false" && text != "1" && text != "0")

@@ -12,7 +12,7 @@ namespace cairn::exchange {
 
 // A reference like "&#xD800;" makes a text that is no UTF-8: throws ExchangeError.
 void check_text(const SourceText& source, std::string_view text, std::size_t offset);
-[[nodiscard]] std::string trimmed(std::string_view text);
+inline constexpr std::string_view kXmlBlanks = " \t\r\n";
 
 struct GraphmlValue {
   std::string_view name;  // attr.name of its key

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/exchange/graphs/graphml.hpp"
 #include "maps/exchange/graphs/losses.hpp"
 
@@ -38,7 +39,7 @@ class GraphmlWriter {
     holds.driven = holds.closed = holds.route_ids = true;
     ExportedGraph exported{std::move(text_), exchange::warnings_of_loss(graph, holds)};
     if (changed_ > 0)
-      exported.warnings.push_back(exchange::counted(changed_, "text") +
+      exported.warnings.push_back(counted(changed_, "text") +
                                   ": what XML cannot hold (control characters) is written as \"?\"");
     return exported;
   }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn::exchange {
 namespace {

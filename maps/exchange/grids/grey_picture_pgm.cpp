@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <charconv>
 
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 #include "maps/exchange/grids/grey_picture_readers.hpp"
 
 namespace cairn::exchange {
@@ -21,13 +21,12 @@ class Numbers {
     const std::size_t end = std::min(source_.bytes.find_first_of(" \t\r\n\v\f#", at_), source_.bytes.size());
     const std::string_view text = source_.bytes.substr(at_, end - at_);
     if (text.empty()) fail(std::string(what) + " is missing; the file ends here, it may have been cut");
-    unsigned value = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || rest != text.data() + text.size() || value < least || value > most)
+    const auto value = number_from<unsigned>(text);
+    if (!value || *value < least || *value > most)
       fail(std::string(what) + " " + shown(text) + " is no whole number of " + std::to_string(least) + " to " +
            std::to_string(most));
     at_ = end;
-    return value;
+    return *value;
   }
   [[noreturn]] void fail(const std::string& sentence) const {
     const std::string_view before = source_.bytes.substr(0, at_);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/base/yaml_text.hpp"
 
 namespace cairn {
@@ -75,11 +76,11 @@ ExportedGrid map_server_of(const OccupancyGrid& grid, MapServerMode mode) {
     }
   }
   if (mode == MapServerMode::trinary && doubtful > 0)
-    exported.warnings.push_back(exchange::counted(doubtful, "cell") +
+    exported.warnings.push_back(counted(doubtful, "cell") +
                                 ": seen, but neither free nor occupied (0.35 to 0.65), and so written as unknown; "
                                 "scale and raw keep the percent");
   if (mode != MapServerMode::trinary && even > 0)
-    exported.warnings.push_back(exchange::counted(even, "cell") +
+    exported.warnings.push_back(counted(even, "cell") +
                                 ": seen, and as likely free as occupied (50 %); read back they are unseen");
   return exported;
 }

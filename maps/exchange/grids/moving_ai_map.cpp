@@ -1,10 +1,10 @@
 #include "maps/exchange/grids/moving_ai_map.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -59,12 +59,11 @@ Line value_of(const SourceText& source, const Line& line, std::size_t key_length
 
 int side_of(const SourceText& source, const Line& value, std::string_view key) {
   constexpr int kMax = OccupancyGrid::kLargestCellIndex;
-  int side = 0;
-  const auto [end, error] = std::from_chars(value.text.data(), value.text.data() + value.text.size(), side);
-  if (error != std::errc{} || end != value.text.data() + value.text.size() || side < 1 || side > kMax)
+  const auto side = number_from<int>(value.text);
+  if (!side || *side < 1 || *side > kMax)
     source.fail(value.offset,
                 std::string(key) + " " + shown(value.text) + " is no whole number of 1 to " + std::to_string(kMax));
-  return side;
+  return *side;
 }
 
 struct Header {
@@ -126,8 +125,8 @@ void take_row(const SourceText& source, const Line& line, const Header& header, 
     grid.set_log_odds({static_cast<int>(x), y}, is_free ? static_cast<LogOdds>(-clamp) : clamp);
   }
   if (line.text.size() != width)
-    source.fail(line.offset + count, "the row has " + exchange::counted(line.text.size(), "cell") + ", width says " +
-                                         std::to_string(header.width));
+    source.fail(line.offset + count,
+                "the row has " + counted(line.text.size(), "cell") + ", width says " + std::to_string(header.width));
 }
 
 }  // namespace
@@ -139,7 +138,7 @@ ImportedGrid parse_moving_ai_map(std::string_view text, const std::string& file_
   ImportedGrid imported{OccupancyGrid(cell_m), {}};
   for (int row = 0; row < header.height; ++row) {
     if (lines.at_end())
-      source.fail_cut(source.text().size(), "the map has " + exchange::counted(static_cast<std::size_t>(row), "row") +
+      source.fail_cut(source.text().size(), "the map has " + counted(static_cast<std::size_t>(row), "row") +
                                                 ", height says " + std::to_string(header.height));
     take_row(source, lines.next(), header, header.height - 1 - row, imported.grid);
   }

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "maps/base/source_text.hpp"
+
 extern char** environ;
 
 namespace cairn {
@@ -48,12 +50,6 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string text_of(double value) {
-  char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), value);
-  return {buffer, end};
-}
-
 const char* style_of(SeriesStyle style) {
   switch (style) {
     case SeriesStyle::points:
@@ -76,7 +72,8 @@ std::string data_of(const Series& series, std::size_t number) {
     const Point& p = series.points[i];
     any = any || p.allFinite();
     if (p.allFinite())
-      data += text_of(p.x()) + " " + text_of(p.y()) + (bars ? " " + text_of(series.half_widths[i]) : "");
+      data += exchange::number_text(p.x()) + " " + exchange::number_text(p.y()) +
+              (bars ? " " + exchange::number_text(series.half_widths[i]) : "");
     data += "\n";
   }
   if (!any) data += bars ? "NaN NaN NaN\n" : "NaN NaN\n";
@@ -95,8 +92,8 @@ std::string plot_of(const Chart& chart) {
   }
   for (const HorizontalLine& line : chart.horizontal_lines)
     if (std::isfinite(line.y))
-      plot += text_of(line.y) + " with lines dashtype 2 linewidth 1.5 linecolor '#5f6b73' title " + quoted(line.name) +
-              ", ";
+      plot += exchange::number_text(line.y) + " with lines dashtype 2 linewidth 1.5 linecolor '#5f6b73' title " +
+              quoted(line.name) + ", ";
   return plot + "NaN notitle\n";
 }
 
@@ -168,7 +165,7 @@ std::string gnuplot_script(const Chart& chart) {
   script += "set xlabel " + quoted(chart.x_label) + " noenhanced textcolor '#26323a'\n";
   script += "set ylabel " + quoted(chart.y_label) + " noenhanced textcolor '#26323a'\n";
   if (!chart.x_names.empty()) {
-    script += "set xrange [-0.5:" + text_of(static_cast<double>(chart.x_names.size()) - 0.5) +
+    script += "set xrange [-0.5:" + exchange::number_text(static_cast<double>(chart.x_names.size()) - 0.5) +
               "]\nset xtics rotate by -20 noenhanced (";
     for (std::size_t i = 0; i < chart.x_names.size(); ++i)
       script += (i == 0 ? "" : ", ") + quoted(chart.x_names[i]) + " " + std::to_string(i);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -81,7 +83,7 @@ Refusal too_narrow(const Place& goal, const LandmarkGraph& graph, double radius_
 
 std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph& graph, const std::string& end) {
   if (place.pose) {
-    if (place.pose->position().allFinite() && std::isfinite(place.pose->theta_rad)) return std::nullopt;
+    if (is_finite(*place.pose)) return std::nullopt;
     return Refusal{PlanOutcome::unknown_place, "the " + end + " is not a place: its numbers are not finite"};
   }
   if (place.landmarks.empty()) return Refusal{PlanOutcome::unknown_place, "the request names no " + end};

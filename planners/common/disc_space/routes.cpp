@@ -111,12 +111,6 @@ class CornerCutter {
 
 }  // namespace
 
-double length_of(const std::vector<Point>& route) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i] - route[i - 1]).norm();
-  return length_m;
-}
-
 std::vector<Point> points_of(const std::vector<PartedPoint>& route) {
   std::vector<Point> points;
   for (const PartedPoint& point : route) points.push_back(point.at);

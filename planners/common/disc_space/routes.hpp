@@ -4,11 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "maps/geometry/segments.hpp"
 #include "planners/common/disc_space/places.hpp"
 
 namespace cairn {
-
-[[nodiscard]] double length_of(const std::vector<Point>& route);
 
 // A point of a route, and which part of the route the straight segment that ends there belongs to.
 struct PartedPoint {

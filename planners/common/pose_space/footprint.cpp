@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
@@ -11,13 +13,6 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kStripsPerWidth = 2.0;  // along the longer side of the cover; each strip gets a disc
 constexpr double kMaxStrips = 8.0;
 constexpr double kFurthest_m = 1000.0;  // work grows with size: beyond it something else is wrong
-
-double distance_to_segment_m(const Point& p, const Point& a, const Point& b) {
-  const Point along = b - a;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (a + t * along - p).norm();
-}
 
 // Shared points count, also of segments that lie on one line.
 bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 

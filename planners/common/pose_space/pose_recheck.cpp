@@ -4,28 +4,25 @@
 #include <stdexcept>
 #include <string>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn {
 namespace {
 
 using Corners = std::vector<Point>;
 
-double from_segment_m(const Point& p, const Point& a, const Point& b) {
-  const double squared = (b - a).squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * (b - a)).norm();
-}
-
 double between_segments_m(const Point& a, const Point& b, const Point& c, const Point& d) {
   const bool cross_each_other = cross(b - a, c - a) * cross(b - a, d - a) < 0.0 &&  //
                                 cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
   if (cross_each_other) return 0.0;
-  return std::min({from_segment_m(a, c, d), from_segment_m(b, c, d), from_segment_m(c, a, b), from_segment_m(d, a, b)});
+  return std::min({distance_to_segment_m(a, c, d), distance_to_segment_m(b, c, d), distance_to_segment_m(c, a, b),
+                   distance_to_segment_m(d, a, b)});
 }
 
 double from_rim_m(const Corners& corners, const Point& p) {
-  double min_m = from_segment_m(p, corners.back(), corners.front());
+  double min_m = distance_to_segment_m(p, corners.back(), corners.front());
   for (std::size_t i = 1; i < corners.size(); ++i)
-    min_m = std::min(min_m, from_segment_m(p, corners[i - 1], corners[i]));
+    min_m = std::min(min_m, distance_to_segment_m(p, corners[i - 1], corners[i]));
   return min_m;
 }
 

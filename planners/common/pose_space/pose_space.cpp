@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "maps/geometry/segments.hpp"
 #include "planners/common/disc_space/field_box.hpp"
 
 namespace cairn {

@@ -11,8 +11,10 @@
 #include <numbers>
 #include <random>
 
+#include "maps/base/portable_random.hpp"
+#include "maps/geometry/segments.hpp"
 #include "planners/common/disc_space/field_box.hpp"
-#include "planners/ompl/search/mixed_seed.hpp"
+#include "planners/ompl/search/travel_cost.hpp"
 
 namespace cairn {
 namespace {
@@ -145,7 +147,8 @@ class TravelObjective : public ob::OptimizationObjective {
   }
   [[nodiscard]] ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& definition,
                                                                  unsigned) const override {
-    return std::make_shared<InformedCellSampler>(definition, problem_, mixed(mixed(problem_.seed) + kInformedStream));
+    return std::make_shared<InformedCellSampler>(definition, problem_,
+                                                 mixed_seed(mixed_seed(problem_.seed) + kInformedStream));
   }
 
  private:
@@ -177,7 +180,7 @@ ob::SpaceInformationPtr space_information(const DiscProblem& problem) {
   space->setBounds(bounds);
   auto samplers = std::make_shared<std::uint64_t>(0);
   space->setStateSamplerAllocator([&problem, samplers](const ob::StateSpace* plane) {
-    return std::make_shared<CellSampler>(plane, problem.samples, mixed(mixed(problem.seed) + ++*samplers));
+    return std::make_shared<CellSampler>(plane, problem.samples, mixed_seed(mixed_seed(problem.seed) + ++*samplers));
   });
   auto info = std::make_shared<ob::SpaceInformation>(space);
   info->setStateValidityChecker(
@@ -206,8 +209,7 @@ ob::ProblemDefinitionPtr definition_of(const DiscProblem& problem, const ob::Spa
 
 void add_route(KnownStates& states, const std::vector<Point>& route) {
   constexpr double kMaxSteps = 40.0;
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < route.size(); ++i) length_m += (route[i] - route[i - 1]).norm();
+  const double length_m = length_of(route);
   for (std::size_t i = 0; i < route.size(); ++i) {
     const Point before = route[i == 0 ? 0 : i - 1];
     const int steps =

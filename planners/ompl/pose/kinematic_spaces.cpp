@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "maps/base/portable_random.hpp"
 #include "planners/common/disc_space/field_box.hpp"
 #include "planners/common/pose_space/dubins.hpp"
-#include "planners/ompl/search/mixed_seed.hpp"
 
 namespace cairn {
 namespace {
@@ -188,7 +188,7 @@ ob::SpaceInformationPtr kinematic_information(const KinematicRules& rules, const
   const auto space = make_kinematic_space(rules, field);
   auto samplers = std::make_shared<std::uint64_t>(0);
   space->setStateSamplerAllocator([&field, &draw, seed, samplers](const ob::StateSpace* of) {
-    return std::make_shared<PoseSampler>(of, field, draw, mixed(mixed(seed) + ++*samplers));
+    return std::make_shared<PoseSampler>(of, field, draw, mixed_seed(mixed_seed(seed) + ++*samplers));
   });
   auto info = std::make_shared<ob::SpaceInformation>(space);
   info->setStateValidityChecker([&poses](const ob::State* state) { return poses.fits(pose_of(state)); });

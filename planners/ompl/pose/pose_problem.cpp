@@ -7,7 +7,8 @@
 
 #include <algorithm>
 
-#include "planners/ompl/search/mixed_seed.hpp"
+#include "maps/base/portable_random.hpp"
+#include "planners/ompl/search/travel_cost.hpp"
 
 namespace cairn {
 namespace {
@@ -30,7 +31,7 @@ class InformedPoseSampler : public ob::InformedSampler {
       : InformedSampler(definition, kTries),
         problem_(problem),
         sampler_(space_.get(), problem.poses.ground().field(), problem.draw,
-                 mixed(mixed(problem.seed) + kInformedStream)) {}
+                 mixed_seed(mixed_seed(problem.seed) + kInformedStream)) {}
 
   bool sampleUniform(ob::State* state, const ob::Cost& below) override {
     return sampleUniform(state, ob::Cost(0.0), below);

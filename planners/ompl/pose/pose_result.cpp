@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "maps/geometry/segments.hpp"
 #include "planners/common/pose_space/pose_recheck.hpp"
 
 namespace cairn {
@@ -55,8 +56,7 @@ PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const W
   PathResult result;
   result.outcome = PlanOutcome::solved;
   result.path = path_along(motions, start.pose);
-  for (std::size_t i = 1; i < result.path.size(); ++i)
-    result.length_m += (result.path[i].position() - result.path[i - 1].position()).norm();
+  result.length_m = length_of(result.path);
   result.cost_m = result.length_m;
   if (!problem.cost.is_length() && problem.cost.is_in_metres()) {
     result.cost_m = 0.0;

@@ -9,9 +9,9 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "maps/base/portable_random.hpp"
 #include "planners/ompl/disc/seeded_rrt_star.hpp"
 #include "planners/ompl/search/algorithm_factory.hpp"
-#include "planners/ompl/search/mixed_seed.hpp"
 
 namespace cairn {
 namespace {
@@ -64,7 +64,7 @@ class Simplifier : public og::PathSimplifier {
  public:
   Simplifier(const ob::SpaceInformationPtr& space, const ob::ProblemDefinitionPtr& problem, std::uint64_t seed)
       : PathSimplifier(space, ob::GoalPtr(), problem->getOptimizationObjective()) {
-    rng_.setLocalSeed(static_cast<std::uint_fast32_t>(1 + mixed(seed) % 1'000'000'000U));
+    rng_.setLocalSeed(static_cast<std::uint_fast32_t>(1 + mixed_seed(seed) % 1'000'000'000U));
   }
 
   void simplify_within(og::PathGeometric& path, const Budget& budget) {
@@ -114,7 +114,7 @@ SearchAnswer search(const ob::SpaceInformationPtr& space, const ob::ProblemDefin
   }
   const OmplTurn turn(budget);
   if (!turn.is_mine()) return {nullptr, false, true};
-  ompl::RNG::setSeed(1 + mixed(rules.seed) % 1'000'000'000U);
+  ompl::RNG::setSeed(1 + mixed_seed(rules.seed) % 1'000'000'000U);
   return search_by(*make_algorithm(rules.algorithm, space), problem, rules, budget);
 }
 

@@ -7,6 +7,9 @@
 
 namespace cairn {
 
+// Added to the seed of an informed sampler: apart from the numbers of the plain samplers.
+inline constexpr std::uint64_t kInformedStream = 0x1000;
+
 enum class Objective : std::uint8_t {
   length,     // metres
   time,       // seconds at the robot's greatest speed

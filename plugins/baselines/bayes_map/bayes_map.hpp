@@ -6,31 +6,20 @@
 // observation under a pose that is not finite. half_beam 0 is a ray.
 #pragma once
 
-#include "framework/contracts/mapper.hpp"
 #include "plugins/baselines/bayes_map/config.hpp"
-#include "plugins/common/sonar_model/cleared_footprint.hpp"
+#include "plugins/common/sonar_model/reading_map.hpp"
 
 namespace cairn::bayes_map {
 
-class BayesMap final : public Mapper {
+class BayesMap final : public sonar_model::ReadingMap {
  public:
-  explicit BayesMap(const Config& config);
-
-  // The spans cover the cells whose log-odds really changed. O(cells in the beams).
-  const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
-  [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
-  void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
-  // Whose room is free where it stands.
-  void clear_under(const RobotModel& robot) { cleared_footprint_ = sonar_model::ClearedFootprint(robot); }
+  explicit BayesMap(const Config& config)
+      : ReadingMap(OccupancyGrid(config.cell_m, config.clamp_nat)), beam_model_(config) {}
 
  private:
-  void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);
+  void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot) override;
 
   sonar_model::BeamModel beam_model_;
-  OccupancyGrid grid_;
-  CellChanges changes_;  // of the latest call
-  sonar_model::ClearedFootprint cleared_footprint_;
-  std::vector<CellSpan> spans_;  // kept for its memory only
 };
 
 }  // namespace cairn::bayes_map

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
 #include "maps/grid/beam_cells.hpp"
 #include "plugins/common/sonar_model/reading.hpp"
 

@@ -10,11 +10,8 @@
 // an even prior. What a reading means stands in sonar_model/reading.hpp; a ray has (b - |a|) / b = 1.
 #pragma once
 
-#include <vector>
-
-#include "framework/contracts/mapper.hpp"
 #include "plugins/baselines/murphy_map/config.hpp"
-#include "plugins/common/sonar_model/cleared_footprint.hpp"
+#include "plugins/common/sonar_model/reading_map.hpp"
 
 namespace cairn::murphy_map {
 
@@ -22,24 +19,15 @@ namespace cairn::murphy_map {
 [[nodiscard]] double occupied_p(const Config& config, double cell_range_m, double bearing_rad, double half_beam_rad,
                                 double echo_m, double range_m);
 
-class MurphyMap final : public Mapper {
+class MurphyMap final : public sonar_model::ReadingMap {
  public:
-  explicit MurphyMap(const Config& config) : config_(config), grid_(config.cell_m, config.clamp_nat) {}
-
-  const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) override;
-  [[nodiscard]] const OccupancyGrid& grid() const override { return grid_; }
-  void begin_with(const OccupancyGrid& grid) { grid_ = grid; }
-  // Whose room is free where it stands.
-  void clear_under(const RobotModel& robot) { cleared_footprint_ = sonar_model::ClearedFootprint(robot); }
+  explicit MurphyMap(const Config& config)
+      : ReadingMap(OccupancyGrid(config.cell_m, config.clamp_nat)), config_(config) {}
 
  private:
-  void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot);
+  void integrate_reading(const RangeReading& reading, const Pose2& T_map_robot) override;
 
   Config config_;
-  OccupancyGrid grid_;
-  CellChanges changes_;  // of the latest call
-  sonar_model::ClearedFootprint cleared_footprint_;
-  std::vector<CellSpan> spans_;  // kept for its memory only
 };
 
 }  // namespace cairn::murphy_map

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 
+#include "maps/base/text.hpp"
 #include "plugins/behaviours/errands/visiting_order.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
 constexpr double kUnreached_m = 1e6;  // such places come last
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
-}
 
 }  // namespace
 

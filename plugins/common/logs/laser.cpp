@@ -28,6 +28,14 @@ double usual_step(std::size_t beams) {
   return beams > 1 ? std::numbers::pi / static_cast<double>(beams - 1) : 0.0;
 }
 
+Fan usual_fan(const LaserConfig& config, std::size_t beams) {
+  Fan fan;
+  fan.T_robot_laser = config.placed({});
+  fan.step_rad = usual_step(beams);
+  fan.max_m = config.max_m.value_or(kUsualLaserMax_m);
+  return fan;
+}
+
 std::vector<RangeReading> readings_of(const Fan& fan, std::size_t beams, const LaserConfig& config, int first_sensor) {
   const double first_rad = config.first_angle_rad.value_or(fan.first_angle_rad);
   const double step_rad = config.step_rad.value_or(fan.step_rad);

@@ -41,6 +41,9 @@ struct Fan {
 // 361, otherwise so that the last beam is at 90.
 [[nodiscard]] double usual_step(std::size_t beams);
 
+// Of a laser of which the log says nothing.
+[[nodiscard]] Fan usual_fan(const LaserConfig& config, std::size_t beams);
+
 // One reading a beam, without ranges, numbered from first_sensor; the settings win over the fan's angles.
 [[nodiscard]] std::vector<RangeReading> readings_of(const Fan& fan, std::size_t beams, const LaserConfig& config,
                                                     int first_sensor);

@@ -73,6 +73,12 @@ double LogLine::range_m(std::size_t i) const {
   return std::isfinite(value) ? metres(i, "range") : value;
 }
 
+std::vector<double> LogLine::ranges_m(std::size_t first, std::size_t count, std::size_t step) const {
+  std::vector<double> ranges_m(count);
+  for (std::size_t i = 0; i < count; ++i) ranges_m[i] = range_m(first + step * i);
+  return ranges_m;
+}
+
 std::size_t LogLine::count(std::size_t i, std::string_view what) const {
   const double value = number(i, what);
   if (!(value >= 0.0 && value <= kLargestCount) || value != std::floor(value))

@@ -25,6 +25,7 @@ class LogLine {
   void cut(std::string_view text, int line);
 
   [[nodiscard]] int line() const { return line_; }
+  [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] std::size_t size() const { return words_.size(); }
   [[nodiscard]] std::string_view word(std::size_t i) const { return words_[i]; }
   // Where a word stands, or where it would have to begin.
@@ -41,6 +42,8 @@ class LogLine {
   [[nodiscard]] Pose2 pose(std::size_t i) const;
   // Any number but a finite one beyond kFarthest_m.
   [[nodiscard]] double range_m(std::size_t i) const;
+  // So many of them, `step` words apart.
+  [[nodiscard]] std::vector<double> ranges_m(std::size_t first, std::size_t count, std::size_t step = 1) const;
   // A whole number from 0 to 1,000,000.
   [[nodiscard]] std::size_t count(std::size_t i, std::string_view what) const;
 

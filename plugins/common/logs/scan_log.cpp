@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "maps/base/text.hpp"
+#include "plugins/common/logs/log_text.hpp"
 #include "plugins/common/logs/range_rule.hpp"
 
 namespace cairn::log_common {
@@ -14,10 +16,6 @@ constexpr std::size_t kKindsNamed = 8;
 constexpr std::size_t kLongestKind = 32;
 constexpr std::size_t kFewestToJudge = 10;
 constexpr double kMinChangingRatio = 0.1;
-
-std::string counted(int count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 }  // namespace
 
@@ -34,6 +32,30 @@ void ScanLog::add(const Scan& scan, std::size_t source, std::span<const double> 
   kept.first_range = ranges_m_.size();
   ranges_m_.insert(ranges_m_.end(), ranges_m.begin(), ranges_m.end());
   scans_.push_back(kept);
+}
+
+void ScanLog::add_recorded(const Scan& scan, std::size_t source, std::vector<double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = recorded_range(values[i], rules_, sources_[source][i]);
+  add(scan, source, values);
+}
+
+SourcePlace ScanLog::read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take) {
+  LogText text(file);
+  LogLine line(text.name());
+  std::string_view content;
+  for (bool more = true; more;) {
+    try {
+      more = text.next(content);
+      if (!more) break;
+      line.cut(content, text.line_number());
+      if (line.size() > 0) take(line);
+    } catch (const RefusedLine&) {
+      throw;
+    } catch (const ConfigError& error) {
+      bad_line(error);
+    }
+  }
+  return {text.name(), text.line_number(), 1};
 }
 
 void ScanLog::set_pose(const Pose2& T_log_robot, Scan& scan) {

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -19,6 +21,7 @@
 #include "framework/config/fields.hpp"
 #include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/sensor.hpp"
+#include "plugins/common/logs/log_line.hpp"
 
 namespace cairn::log_common {
 
@@ -70,6 +73,12 @@ struct Scan {
   std::optional<Pose2> true_T_map_robot;
 };
 
+// A line that is refused whatever the rule for bad lines.
+class RefusedLine : public ConfigError {
+ public:
+  using ConfigError::ConfigError;
+};
+
 // What a recorded number means as a range of this reading: range_from() with these rules.
 [[nodiscard]] double recorded_range(double value, const LogRules& rules, const RangeReading& reading);
 
@@ -90,10 +99,15 @@ class ScanLog {
   [[nodiscard]] const std::vector<RangeReading>& readings_of(std::size_t source) const { return sources_[source]; }
 
   void add(const Scan& scan, std::size_t source, std::span<const double> ranges_m);
+  // The same with ranges as they stand in the log.
+  void add_recorded(const Scan& scan, std::size_t source, std::vector<double> values);
   // Odometry as counted from the first pose of the log; sets compass and start, too.
   void set_pose(const Pose2& T_log_robot, Scan& scan);
   void set_start(const Pose2& T_map_start) { start_ = T_map_start; }
 
+  // Takes every line of a file that is not blank; one at which take throws ConfigError is a bad line. Returns the place
+  // of the last.
+  SourcePlace read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take);
   // Refuses or counts, by the rule.
   void bad_line(const ConfigError& error);
   void unknown_line(std::string_view kind);

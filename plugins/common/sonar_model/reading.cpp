@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "maps/geometry/segments.hpp"
+
 namespace cairn::sonar_model {
 
 Meaning meaning_of(const RangeReading& reading) {

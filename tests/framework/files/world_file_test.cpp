@@ -6,6 +6,7 @@
 #include <random>
 
 #include "framework/files/template_file.hpp"
+#include "maps/geometry/segments.hpp"
 #include "tests/framework/config/config_test_support.hpp"
 
 namespace cairn {
@@ -34,18 +35,12 @@ std::string error_in(const std::string& text) {
 
 const std::string kBounds = "bounds_m: [[0, 0], [6, 5]]\n";
 
-double distance_to_segment(const Point& p, const Point& a, const Point& b) {
-  const Point along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).norm();
-}
-
 // Free space round a point: to walls and to every object but one.
 double clearance_m(const World& world, const Point& p, const WorldObject* but = nullptr) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const WorldWall& wall : world.walls) {
     for (std::size_t i = 1; i < wall.points_m.size(); ++i) {
-      nearest = std::min(nearest, distance_to_segment(p, wall.points_m[i - 1], wall.points_m[i]));
+      nearest = std::min(nearest, distance_to_segment_m(p, wall.points_m[i - 1], wall.points_m[i]));
     }
   }
   for (const WorldObject& object : world.objects) {

@@ -28,7 +28,7 @@ TEST_F(Hybrid, AnApproximateAnswerIsReportedAsItIsAlsoFromATightStart) {
       ++approximate;
       EXPECT_EQ(result.path.front().position(), asked.from.pose->position());
       EXPECT_NE(result.path.back().position(), world.places['D']);
-      EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9) << result.reason;
+      EXPECT_NEAR(result.length_m, length_of(result.path), 1e-9) << result.reason;
       EXPECT_THAT(result.reason, ::testing::HasSubstr("short of the goal"));
       EXPECT_FALSE(result.length_lower_bound_m);
       expect_segments_add_up(result);

@@ -172,7 +172,7 @@ TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeI
       for (const Point& p : routes.route(world.places.at('A'), world.places.at('B'), {}).route)
         plain.push_back({p.x(), p.y(), 0.0});
       double before =
-          objective == WantedObjective::length ? test::length_of(plain) : counted(world, plain, clearance_rules());
+          objective == WantedObjective::length ? length_of(plain) : counted(world, plain, clearance_rules());
       const double at_first = before;
       for (const std::int64_t iterations : {0, 25, 50, 100, 200, 400, 800}) {
         const double cost = cost_after(iterations);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "maps/geometry/segments.hpp"
 #include "tests/plugins/simulated_robot/test_worlds.hpp"
 
 namespace cairn {
@@ -129,7 +130,7 @@ TEST(SonarEcho, NeverReadsShorterThanTheNearestPointOfTheWorld) {
     const Point at_m(0.3 + 3.4 * std::fmod(i * 0.618034, 1.0), 0.3 + 2.4 * std::fmod(i * 0.754878, 1.0));
     double nearest_m = 1e9;
     for (const Face& face : scene.faces())
-      nearest_m = std::min(nearest_m, distance_to_segment(at_m, face.a_m, face.b_m));
+      nearest_m = std::min(nearest_m, distance_to_segment_m(at_m, face.a_m, face.b_m));
     nearest_m = std::min(nearest_m, (at_m - Point(2.0, 1.5)).norm() - 0.25);
     if (nearest_m < 0.0) continue;
     const auto way_m = sonar.first_echo({at_m.x(), at_m.y(), wrap_angle(radians(37.0 * i))}, 5.0);

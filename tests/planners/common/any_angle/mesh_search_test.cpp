@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "maps/geometry/segments.hpp"
 #include "tests/planners/common/any_angle/plain_paths.hpp"
 
 namespace cairn {
@@ -13,12 +14,6 @@ using test::drawing_of;
 using test::drawn_cells;
 using test::OpenCells;
 using test::random_cells;
-
-double length_of(const std::vector<Point>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  return length;
-}
 
 // Compares with the oracle; what is wrong, or empty.
 std::string fault_of(const OpenCells& cells, const CellMesh& mesh, const Point& from, const Point& to) {

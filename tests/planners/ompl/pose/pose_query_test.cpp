@@ -139,7 +139,7 @@ TEST_P(PoseQueryOf, EveryWayIsFreeDrivableAndEndsWhereItShall) {
     if (request.to.heading_matters) {
       EXPECT_TRUE(are_alike(result.path.back(), *request.to.pose, 1e-8));
     }
-    EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9);
+    EXPECT_NEAR(result.length_m, length_of(result.path), 1e-9);
     EXPECT_GT(result.clearance_m, 0.0);
     ASSERT_TRUE(result.length_lower_bound_m);
     EXPECT_LE(*result.length_lower_bound_m, result.length_m + 1e-9);

@@ -31,7 +31,7 @@ TEST_P(EveryAlgorithm, FindsItsOwnWayRoundTheWalls) {
       << test::drawing_of(world.grid, result.path);
   EXPECT_EQ(result.path.front().position(), world.places.at('A'));
   EXPECT_EQ(result.path.back().position(), world.places.at('B'));
-  EXPECT_NEAR(result.length_m, test::length_of(result.path), 1e-9);
+  EXPECT_NEAR(result.length_m, length_of(result.path), 1e-9);
   EXPECT_EQ(result.cost_m, result.length_m);
   EXPECT_LT(result.length_m, 2.9) << test::drawing_of(world.grid, result.path);
 }
