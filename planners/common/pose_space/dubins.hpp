@@ -1,7 +1,7 @@
 // The shortest forward path on straight lines and circles of one radius (Dubins 1957).
 //
-// OMPL's DubinsStateSpace has the same words, but its motions may end micrometres beside their goals (shown by
-// tests/planners/ompl/pose/kinematic_spaces_test.cpp), so a path cut in parts would not be the path that was checked.
+// OMPL 1.5.2's DubinsStateSpace has the same words, but ends the program by an assertion on long motions whose turns
+// nearly vanish (shown by tests/planners/ompl/pose/kinematic_spaces_test.cpp).
 #pragma once
 
 #include "planners/common/pose_space/motion.hpp"
