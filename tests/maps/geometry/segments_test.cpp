@@ -61,5 +61,11 @@ TEST(Segments, APoseIsFiniteWhenAllItsNumbersAre) {
     EXPECT_FALSE(is_finite(pose));
 }
 
+TEST(SegmentDistance, IsToTheNearestPlaceOfTheSegment) {
+  EXPECT_DOUBLE_EQ(distance_to_segment_m({1, 1}, {0, 0}, {2, 0}), 1.0);
+  EXPECT_DOUBLE_EQ(distance_to_segment_m({5, 4}, {0, 0}, {2, 0}), 5.0);
+  EXPECT_DOUBLE_EQ(distance_to_segment_m({3, 4}, {0, 0}, {0, 0}), 5.0) << "a point";
+}
+
 }  // namespace
 }  // namespace cairn

@@ -65,11 +65,5 @@ TEST(TrueSpace, CellsBesideAThingTouchItWithinTheGivenDistance) {
   EXPECT_TRUE(same.joined(beside, same.cells_near({1.2, 1.0}, 0.1), {true}));
 }
 
-TEST(SegmentDistance, IsToTheNearestPlaceOfTheSegment) {
-  EXPECT_DOUBLE_EQ(segment_distance_m({1, 1}, {0, 0}, {2, 0}), 1.0);
-  EXPECT_DOUBLE_EQ(segment_distance_m({5, 4}, {0, 0}, {2, 0}), 5.0);
-  EXPECT_DOUBLE_EQ(segment_distance_m({3, 4}, {0, 0}, {0, 0}), 5.0) << "a point";
-}
-
 }  // namespace
 }  // namespace cairn
