@@ -1,6 +1,6 @@
 // The exact cheapest path over a hierarchy: both ends search towards each other, and pass every cluster that holds
-// nothing of the query by its shortest paths through it (docs/method.md 9.4). On a graph without levels this is Dijkstra from
-// both ends.
+// nothing of the query by its shortest paths through it (docs/method.md 9.4). On a graph without levels this is
+// Dijkstra from both ends.
 #pragma once
 
 #include <array>
