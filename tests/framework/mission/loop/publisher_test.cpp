@@ -24,8 +24,8 @@ class Collecting : public Listener {
 class PublisherTest : public testing::Test {
  protected:
   const OccupancyGrid grid_{0.1};
-  const LandmarkGraph graph_;
-  const RobotModel robot_;
+  const LandmarkGraph graph_{};
+  const RobotModel robot_{};
   WorldState world_{robot_, graph_, Pose2{}, &grid_};
   Publisher publisher_{world_};
   Collecting first_, second_;
