@@ -12,7 +12,6 @@ void LandmarksConfig::describe(Fields<LandmarksConfig>& fields) {
   fields.integer("routes_per_landmark", &C::routes_per_landmark, {0.0, 100.0}, "joined to this many nearest others");
   fields.number("driven_detour_ratio", &C::driven_detour_ratio, {1.0, 100.0}, "",
                 "a driven path is kept when it is at most this much longer than the planned one");
-  fields.flag("correct_pose", &C::correct_pose, "landmarks that are seen again correct the pose");
   fields.number("access_margin_m", &C::access_margin_m, {0.0, 1.0}, "m",
                 "free space kept round the robot at a landmark's approach pose");
 }

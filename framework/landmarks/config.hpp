@@ -11,7 +11,6 @@ struct LandmarksConfig {
   double freed_ratio = 0.8;          // of the cells inside its outline: seen free, a landmark is retired
   int routes_per_landmark = 3;       // joined to this many nearest others
   double driven_detour_ratio = 1.3;  // a driven path is kept when it is at most this much longer than the planned one
-  bool correct_pose = true;          // landmarks seen again correct the pose
   double access_margin_m = 0.05;     // free space kept round the robot at an approach pose
   static void describe(Fields<LandmarksConfig>& fields);
 };

@@ -33,7 +33,7 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
 std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
                                            const MissionModules& built) {
   return build<Localizer>(library, mission.config.localizer,
-                          {context_for(mission, library, PluginKind::localizer), built.T_map_start});
+                          {context_for(mission, library, PluginKind::localizer), built.T_map_start, mission.shapes});
 }
 
 std::shared_ptr<Mapper> build_mapper(const Mission& mission, const ModuleLibrary& library,

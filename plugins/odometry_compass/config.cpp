@@ -33,6 +33,7 @@ void Config::describe(Fields<Config>& fields) {
   fields.flag("use_walls", &Config::use_walls, "straight walls that sonars meet again correct the pose");
   fields.number("wall_gate_sigmas", &Config::wall_gate_sigmas, {1.0, 100.0}, "",
                 "known walls further off than this (Mahalanobis distance) are refused");
+  fields.flag("use_landmarks", &Config::use_landmarks, "known landmarks that are seen again correct the pose");
   fields.number("landmark_noise_m", &Config::landmark_noise_m, {0.0, 10.0}, "m",
                 "added to every landmark sighting: how well the map knows where the landmark is");
   fields.number("landmark_gate_sigmas", &Config::landmark_gate_sigmas, {1.0, 100.0}, "",

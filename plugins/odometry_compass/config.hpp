@@ -26,6 +26,7 @@ struct Config {
   bool use_walls = true;
   double wall_gate_sigmas = 3.5;
   // Landmarks.
+  bool use_landmarks = true;
   double landmark_noise_m = 0.02;
   double landmark_gate_sigmas = 3.5;
   bool use_landmark_heading = true;

@@ -10,7 +10,7 @@ void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Localizer, Config>(
       "odometry_compass", "Kalman filter over odometry, compass and known landmarks, with an honest covariance",
       [](const Config& config, const cairn::LocalizerContext& context) {
-        return std::make_unique<OdometryCompass>(config, context.robot, context.T_map_start);
+        return std::make_unique<OdometryCompass>(config, context.robot, context.T_map_start, context.landmark_shapes);
       });
 }
 

@@ -53,7 +53,8 @@ WallFinderRules wall_rules_of(const MotionNoise& noise, double compass_noise_rad
 
 }  // namespace
 
-OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start)
+OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start,
+                                 std::span<const LandmarkShape> shapes)
     : config_(config),
       motion_noise_(motion_noise_of(config, robot)),
       compass_noise_rad_(std::max(config.min_compass_noise_rad, robot.compass_error.noise_rad)),
@@ -61,9 +62,20 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
       about_half_track_m_(robot.kinematics == Kinematics::differential ? robot.radius_m : 0.0),
       filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
                             motion_noise_.bias_rad}),
-      wall_finder_(wall_rules_of(motion_noise_, config.use_compass ? compass_noise_rad_ : 0.0)) {}
+      wall_finder_(wall_rules_of(motion_noise_, config.use_compass ? compass_noise_rad_ : 0.0)),
+      landmark_sightings_({shapes.begin(), shapes.end()}) {}
 
-PoseEstimate OdometryCompass::update(const Observation& observation, std::span<const LandmarkSighting> sightings) {
+PoseEstimate OdometryCompass::update(const Observation& observation, const KnownMap& known) {
+  return update_by(observation, see_again(observation, known));
+}
+
+// Of the first observation nothing says where the odometry begins.
+std::span<const LandmarkSighting> OdometryCompass::see_again(const Observation& observation, const KnownMap& known) {
+  if (!T_odom_robot_ || !config_.use_landmarks) return {};
+  return landmark_sightings_.look(observation, filter_.estimate(), *T_odom_robot_, known);
+}
+
+PoseEstimate OdometryCompass::update_by(const Observation& observation, std::span<const LandmarkSighting> sightings) {
   follow_odometry(observation.T_odom_robot);
   if (config_.use_compass && observation.compass_rad) follow_compass(*observation.compass_rad, observation.stamp_s);
   int used = config_.use_walls ? follow_walls(observation) : 0;

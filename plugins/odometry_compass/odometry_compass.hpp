@@ -1,4 +1,4 @@
-// Localizer: odometry for the way, compass for the heading, known landmarks against the drift.
+// Localizer: odometry for the motion, compass for the heading, known walls and landmarks against the drift.
 //
 // Promises a covariance that is honest for the errors the robot's file states (docs/method.md 11): white and
 // constant odometry errors, white compass noise, and a compass bias that wanders from place to place.
@@ -23,6 +23,7 @@
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "plugins/odometry_compass/config.hpp"
+#include "plugins/odometry_compass/landmark_sightings.hpp"
 #include "plugins/odometry_compass/pose_filter.hpp"
 #include "plugins/odometry_compass/wall_finder.hpp"
 
@@ -30,9 +31,12 @@ namespace cairn::odometry_compass {
 
 class OdometryCompass final : public Localizer {
  public:
-  OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start);
+  OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start,
+                  std::span<const LandmarkShape> shapes = {});
 
-  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) override;
+  PoseEstimate update(const Observation& observation, const KnownMap& known) override;
+  // The same with what has been seen again.
+  PoseEstimate update_by(const Observation& observation, std::span<const LandmarkSighting> sightings);
 
  private:
   void follow_odometry(const Pose2& T_odom_robot);
@@ -41,6 +45,7 @@ class OdometryCompass final : public Localizer {
   [[nodiscard]] bool has_jumped(double compass_rad) const;
   [[nodiscard]] bool is_drifting() const;
   [[nodiscard]] bool could_slip(double turned_rad) const;
+  [[nodiscard]] std::span<const LandmarkSighting> see_again(const Observation& observation, const KnownMap& known);
   int follow_walls(const Observation& observation);
   bool follow_landmark(const LandmarkSighting& sighting);
   [[nodiscard]] bool correct_by(const LandmarkSighting& sighting);
@@ -52,6 +57,7 @@ class OdometryCompass final : public Localizer {
   double about_half_track_m_;  // of a differential robot; 0: of another
   PoseFilter filter_;
   WallFinder wall_finder_;
+  LandmarkSightings landmark_sightings_;
   std::optional<Pose2> T_odom_robot_;      // the last good one
   Pose2 last_step_;                        // as odometry saw it
   std::optional<double> compass_rad_;      // the last reading

@@ -32,7 +32,7 @@ ScanToMap::ScanToMap(const Config& config, const RobotModel& robot, const Pose2&
       T_map_robot_(T_map_start),
       map_(config.cell_m) {}
 
-PoseEstimate ScanToMap::update(const Observation& observation, std::span<const LandmarkSighting>) {
+PoseEstimate ScanToMap::update(const Observation& observation, const KnownMap&) {
   predict(observation.T_odom_robot);
   gather_points(observation);
   if (correct()) extend_map();

@@ -12,7 +12,7 @@
 //   min_pairs
 //   a correction that odometry rules    odometry alone, and the echoes do not join the map
 //   out
-// The compass and landmark sightings are not used. The covariance holds the start's uncertainty and the
+// The compass and the known map are not used. The covariance holds the start's uncertainty and the
 // map's drift besides the match's own: agreement with the map is no agreement with the world. Allocates only where its
 // map grows.
 #pragma once
@@ -32,7 +32,7 @@ class ScanToMap final : public Localizer {
  public:
   ScanToMap(const Config& config, const RobotModel& robot, const Pose2& T_map_start);
 
-  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) override;
+  PoseEstimate update(const Observation& observation, const KnownMap& known) override;
 
  private:
   struct Normal {

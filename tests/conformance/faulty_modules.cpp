@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Faulty, MapperConformance,
 class SureLocalizer : public Localizer {
  public:
   explicit SureLocalizer(const Pose2& T_map_start) : T_map_start_(T_map_start) {}
-  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting>) override {
+  PoseEstimate update(const Observation& observation, const KnownMap&) override {
     return {T_map_start_ * observation.T_odom_robot, 1e-4 * Eigen::Matrix3d::Identity()};
   }
 
@@ -103,8 +103,8 @@ class SureLocalizer : public Localizer {
 class LopsidedLocalizer : public SureLocalizer {
  public:
   using SureLocalizer::SureLocalizer;
-  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) override {
-    PoseEstimate estimate = SureLocalizer::update(observation, sightings);
+  PoseEstimate update(const Observation& observation, const KnownMap& known) override {
+    PoseEstimate estimate = SureLocalizer::update(observation, known);
     estimate.covariance(0, 1) = 1e-2;
     return estimate;
   }
@@ -114,7 +114,7 @@ class LopsidedLocalizer : public SureLocalizer {
 class SharedLocalizer : public Localizer {
  public:
   explicit SharedLocalizer(const Pose2&) {}
-  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting>) override {
+  PoseEstimate update(const Observation& observation, const KnownMap&) override {
     static double travelled_m = 0.0;
     travelled_m += 0.1;
     return {{observation.T_odom_robot.x_m + travelled_m, 0.0, 0.0}, travelled_m * Eigen::Matrix3d::Identity()};

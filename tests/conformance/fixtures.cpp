@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kRoomX_m = 6.0;
 constexpr double kRoomY_m = 5.0;
-constexpr double kPostRadius_m = 0.25;
-const Point kPost_m{3.0, 2.5};
+constexpr double kPostRadius_m = 0.5 * kPostDiameter_m;
+const Point kPost_m = kPostOfRoom.position();
 constexpr double kStep_m = 0.1;
 constexpr double kStep_rad = radians(30.0);
 constexpr double kSpeed_mps = 0.2;

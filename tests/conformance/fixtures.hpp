@@ -22,6 +22,8 @@ inline constexpr double kPromptly_s = 5.0;
 // 6 x 5 m with a round post of 0.5 m in the middle.
 [[nodiscard]] World room();
 inline constexpr Pose2 kRoomStart{1.0, 1.0, 0.0};
+inline constexpr Pose2 kPostOfRoom{3.0, 2.5, 0.0};
+inline constexpr double kPostDiameter_m = 0.5;
 // The room as a finished grid: the floor free, post and walls occupied, unknown beyond them.
 [[nodiscard]] OccupancyGrid grid_of_room(double cell_m);
 

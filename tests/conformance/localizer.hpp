@@ -20,9 +20,16 @@ class LocalizerConformance : public Conformance<Localizer> {
  protected:
   [[nodiscard]] std::vector<DriveStep> drive() const { return drive_through_room(setup().robot); }
 
-  static std::vector<PoseEstimate> follow(Localizer& localizer, const std::vector<DriveStep>& steps) {
+  [[nodiscard]] KnownMap nothing_known() const { return {unknown_grid_, no_landmarks_}; }
+  // The room as it is, with its post as a landmark.
+  [[nodiscard]] KnownMap room_known() const { return {room_grid_, post_}; }
+  [[nodiscard]] std::vector<PoseEstimate> follow(Localizer& localizer, const std::vector<DriveStep>& steps) const {
+    return follow(localizer, steps, nothing_known());
+  }
+  static std::vector<PoseEstimate> follow(Localizer& localizer, const std::vector<DriveStep>& steps,
+                                          const KnownMap& known) {
     std::vector<PoseEstimate> estimates;
-    for (const DriveStep& step : steps) estimates.push_back(localizer.update(step.observation, {}));
+    for (const DriveStep& step : steps) estimates.push_back(localizer.update(step.observation, known));
     return estimates;
   }
   // What is wrong with an estimate, or empty.
@@ -41,32 +48,13 @@ class LocalizerConformance : public Conformance<Localizer> {
              text_of(estimate);
     return {};
   }
-  // The robot at the start sees a landmark one metre ahead.
-  static LandmarkSighting sighting() {
-    LandmarkSighting seen;
-    seen.landmark = 1;
-    seen.T_map_landmark = kRoomStart * Pose2{1.0, 0.0, 0.0};
-    seen.T_robot_landmark = {1.0, 0.0, 0.0};
-    seen.covariance = 0.01 * Eigen::Matrix3d::Identity();
-    return seen;
-  }
-  static std::vector<LandmarkSighting> odd_sightings() {
-    std::vector<LandmarkSighting> odd;
-    for (const Pose2& pose : odd_poses()) {
-      odd.push_back(sighting());
-      odd.back().T_map_landmark = pose;
-      odd.push_back(sighting());
-      odd.back().T_robot_landmark = pose;
-    }
-    for (const double variance : {0.0, -1.0, kNan, kInfinity, kHuge}) {
-      odd.push_back(sighting());
-      odd.back().covariance = variance * Eigen::Matrix3d::Identity();
-    }
-    odd.push_back(sighting());
-    odd.back().covariance = Eigen::Matrix3d::Ones();  // singular
-    odd.push_back(sighting());
-    odd.back().covariance(0, 1) = 5.0;  // neither symmetric nor positive
-    return odd;
+  static LandmarkGraph landmark_at(const Pose2& T_map_landmark) {
+    LandmarkGraph graph;
+    Landmark landmark;
+    landmark.category = "post";
+    landmark.T_map_landmark = T_map_landmark;
+    (void)graph.add(landmark);
+    return graph;
   }
   static std::vector<Observation> odd_observations() {
     std::vector<Observation> odd;
@@ -87,6 +75,12 @@ class LocalizerConformance : public Conformance<Localizer> {
     }
     return odd;
   }
+
+ private:
+  const OccupancyGrid unknown_grid_{0.05};
+  const LandmarkGraph no_landmarks_;
+  const OccupancyGrid room_grid_ = grid_of_room(0.05);
+  const LandmarkGraph post_ = landmark_at(kPostOfRoom);
 };
 
 TEST_P(LocalizerConformance, IsMadeTwiceAndDestroyedUnused) {
@@ -122,21 +116,18 @@ TEST_P(LocalizerConformance, UncertaintyGrowsWithDriving) {
   const std::vector<PoseEstimate> estimates = follow(*localizer, drive());
   const auto spread = [](const PoseEstimate& e) { return e.covariance(0, 0) + e.covariance(1, 1); };
   EXPECT_GT(spread(estimates.back()), spread(estimates.front()))
-      << "after 14 m without a landmark the position cannot be as certain as at the start";
+      << "after 14 m with nothing known of the map the position cannot be as certain as at the start";
 }
 
-TEST_P(LocalizerConformance, ALandmarkSeenAgainDoesNotSpoilTheEstimate) {
+TEST_P(LocalizerConformance, AKnownMapDoesNotSpoilTheEstimate) {
   const auto localizer = make();
-  Observation seen;
-  seen.compass_rad = kRoomStart.theta_rad;
-  PoseEstimate estimate;
-  for (int i = 0; i < 20; ++i) {
-    seen.stamp_s = 0.1 * i;
-    estimate = localizer->update(seen, std::vector{sighting(), sighting()});
-    ASSERT_EQ(fault_of(estimate), "");
+  const std::vector<DriveStep> steps = drive();
+  const std::vector<PoseEstimate> estimates = follow(*localizer, steps, room_known());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    ASSERT_EQ(fault_of(estimates[i]), "");
+    ASSERT_LT((inverse(steps[i].T_map_robot) * estimates[i].T_map_robot).position().norm(), 0.2)
+        << "at " << steps[i].observation.stamp_s << " s; the map, with its landmark, and the drive are without error";
   }
-  EXPECT_LT((inverse(kRoomStart) * estimate.T_map_robot).position().norm(), 0.1)
-      << "the robot stands at its start and a known landmark confirms it";
 }
 
 TEST_P(LocalizerConformance, TheSameDriveGivesTheSameEstimates) {
@@ -154,8 +145,8 @@ TEST_P(LocalizerConformance, TwoObjectsShareNothing) {
   const auto other = make(7);
   std::vector<PoseEstimate> estimates;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    (void)other->update(steps[steps.size() - 1 - i].observation, std::vector{sighting()});
-    estimates.push_back(localizer->update(steps[i].observation, {}));
+    (void)other->update(steps[steps.size() - 1 - i].observation, room_known());
+    estimates.push_back(localizer->update(steps[i].observation, nothing_known()));
   }
   EXPECT_EQ(text_of(estimates), text_of(expected)) << "another object of the module changed this one's estimate";
 }
@@ -163,30 +154,30 @@ TEST_P(LocalizerConformance, TwoObjectsShareNothing) {
 TEST_P(LocalizerConformance, OddObservationsLeaveAFiniteEstimate) {
   for (const Observation& odd : odd_observations()) {
     const auto localizer = make();
-    (void)localizer->update(Observation{}, {});
+    (void)localizer->update(Observation{}, nothing_known());
     SensorStep step;
     step.state = SensorState::observation;
     step.observation = odd;
-    ASSERT_EQ(fault_of(localizer->update(odd, {})), "") << "after " << text_of(step);
-    ASSERT_EQ(fault_of(localizer->update(Observation{}, {})), "") << "one step after " << text_of(step);
+    ASSERT_EQ(fault_of(localizer->update(odd, nothing_known())), "") << "after " << text_of(step);
+    ASSERT_EQ(fault_of(localizer->update(Observation{}, nothing_known())), "") << "one step after " << text_of(step);
   }
 }
 
 TEST_P(LocalizerConformance, AnOddFirstObservationLeavesAFiniteEstimate) {
   for (const Observation& odd : odd_observations()) {
     const auto localizer = make();
-    ASSERT_EQ(fault_of(localizer->update(odd, {})), "");
+    ASSERT_EQ(fault_of(localizer->update(odd, nothing_known())), "");
     ASSERT_EQ(fault_of(follow(*localizer, drive()).back()), "");
   }
 }
 
-TEST_P(LocalizerConformance, OddSightingsLeaveAFiniteEstimate) {
-  for (const LandmarkSighting& odd : odd_sightings()) {
+TEST_P(LocalizerConformance, ALandmarkAtAnOddPlaceLeavesAFiniteEstimate) {
+  for (const Pose2& odd : {Pose2{kHuge, 0.0, 0.0}, Pose2{0.0, -kHuge, 1.0}, Pose2{1e18, 1e18, kHuge}, kRoomStart}) {
     const auto localizer = make();
-    (void)localizer->update(Observation{}, {});
-    ASSERT_EQ(fault_of(localizer->update(Observation{}, std::vector{odd})), "")
-        << "landmark at " << text_of(odd.T_map_landmark) << ", seen at " << text_of(odd.T_robot_landmark)
-        << ", covariance " << odd.covariance;
+    const LandmarkGraph graph = landmark_at(odd);
+    const KnownMap known{room_known().grid, graph};
+    for (const PoseEstimate& estimate : follow(*localizer, drive(), known))
+      ASSERT_EQ(fault_of(estimate), "") << "with a landmark at " << text_of(odd);
   }
 }
 
@@ -205,10 +196,9 @@ TEST_P(LocalizerConformance, FollowsOnAfterReadingsThatAreNotFinite) {
 TEST_P(LocalizerConformance, AllocatesNothing) {
   const auto localizer = make();
   const std::vector<DriveStep> steps = drive();
-  const std::vector<LandmarkSighting> sightings{sighting()};
-  for (const DriveStep& step : steps) (void)localizer->update(step.observation, sightings);
+  for (const DriveStep& step : steps) (void)localizer->update(step.observation, room_known());
   const AllocationCount allocations;
-  for (const DriveStep& step : steps) (void)localizer->update(step.observation, sightings);
+  for (const DriveStep& step : steps) (void)localizer->update(step.observation, room_known());
   EXPECT_EQ(allocations.count(), 0) << "update() is hot: keep its buffers as members";
 }
 

@@ -11,6 +11,7 @@ Setup default_setup(PluginKind kind) {
   setup.robot = eight_sonar_robot();
   setup.world = std::make_shared<World>(room());
   setup.T_map_start = kRoomStart;
+  setup.landmark_shapes = {{"post", Contour::circle(kPostDiameter_m)}};
   if (kind == PluginKind::detector) setup.templates = std::make_shared<TemplateSet>(three_templates());
   return setup;
 }

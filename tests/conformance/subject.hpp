@@ -30,6 +30,7 @@ struct Setup {
   std::shared_ptr<const World> world;
   std::shared_ptr<const TemplateSet> templates;
   Pose2 T_map_start;
+  std::vector<LandmarkShape> landmark_shapes;        // for localizers
   std::shared_ptr<const OccupancyGrid> grid_so_far;  // for maps; null: none
 };
 
@@ -122,7 +123,7 @@ class Subject {
     if constexpr (std::is_same_v<Context, SensorContext>)
       return {common, setup_.world.get(), setup_.T_map_start};
     else if constexpr (std::is_same_v<Context, LocalizerContext>)
-      return {common, setup_.T_map_start};
+      return {common, setup_.T_map_start, setup_.landmark_shapes};
     else if constexpr (std::is_same_v<Context, MapperContext>)
       return {common, setup_.grid_so_far.get()};
     else if constexpr (std::is_same_v<Context, DetectorContext>)

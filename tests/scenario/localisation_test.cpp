@@ -41,7 +41,7 @@ Errors run_patrols(const std::string& name, const std::vector<std::string>& sett
 TEST(Localisation, HoldsBetterWithWhatIsSeenAgain) {
   const Errors with = run_patrols("localisation_with", {});
   const Errors without =
-      run_patrols("localisation_without", {"landmarks.correct_pose=false", "localizer.use_walls=false"});
+      run_patrols("localisation_without", {"localizer.use_landmarks=false", "localizer.use_walls=false"});
   EXPECT_LT(with.mean_median_m, 0.8 * without.mean_median_m)
       << "with " << with.mean_median_m << " m, without " << without.mean_median_m << " m";
 }

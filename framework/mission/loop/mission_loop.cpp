@@ -96,7 +96,7 @@ void MissionLoop::tick(Sensed sensed) {
   keep_pace();
   if (counts_.count(observation)) publisher_.publish(Bumped{});
 
-  world_.pose = perception_.localize(observation, world_.pose);
+  world_.pose = perception_.localize(observation);
   const CellChanges& cells = perception_.map(observation, world_.pose);
   const Recognition recognised = perception_.recognise(cells, world_.time_s);
   world_.coarse = perception_.coarse_grid();
@@ -135,7 +135,7 @@ bool MissionLoop::is_known_already(const Observation& observation) {
   if (monitor_.has_drive() || !clock_.resumed_s() || clock_.has_begun()) return false;
   const double time_s = clock_.replay(observation.stamp_s);
   if (time_s > *clock_.resumed_s()) return false;
-  if (time_s == *clock_.resumed_s()) world_.pose = perception_.localize(observation, world_.pose);
+  if (time_s == *clock_.resumed_s()) world_.pose = perception_.localize(observation);
   return true;
 }
 

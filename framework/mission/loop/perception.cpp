@@ -21,7 +21,6 @@ Perception::Perception(const Mission& mission, const StagedModules& modules, con
       modules_(modules),
       budget_(budget),
       tracker_(mission.config.landmarks, mission.robot, mission.shapes),
-      sightings_(mission.shapes),
       hold_out_(mission.config.hold_out_every, mission.config.seed) {}
 
 void Perception::restore(const SavedMap& map) {
@@ -44,17 +43,10 @@ void Perception::show_earlier_map() {
   (void)detect(everything_in(grid_->bounds()), nothing);
 }
 
-// Of the first observation nothing says where the odometry begins.
-std::span<const LandmarkSighting> Perception::see_again(const Observation& observation, const PoseEstimate& before) {
-  if (!T_odom_localized_ || !config_.landmarks.correct_pose) return {};
-  return sightings_.look(observation, before, *T_odom_localized_, tracker_.graph(), *grid_);
-}
-
-PoseEstimate Perception::localize(const Observation& observation, const PoseEstimate& before) {
-  const std::span<const LandmarkSighting> seen = see_again(observation, before);
+PoseEstimate Perception::localize(const Observation& observation) {
+  const KnownMap known{*grid_, tracker_.graph()};
   PoseEstimate pose =
-      modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, seen); });
-  T_odom_localized_ = observation.T_odom_robot;
+      modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, known); });
   if (!is_finite(pose)) throw modules_.localizer.fault("returned a pose that is not finite");
   return pose;
 }

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "framework/landmarks/sightings.hpp"
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/held_out.hpp"
@@ -32,8 +31,8 @@ class Perception {
   // Once, then: shows the detector what an earlier run has mapped.
   void show_earlier_map();
 
-  // The stages of a tick, in their order. before: the estimate of the observation before.
-  [[nodiscard]] PoseEstimate localize(const Observation& observation, const PoseEstimate& before);
+  // The stages of a tick, in their order.
+  [[nodiscard]] PoseEstimate localize(const Observation& observation);
   // Which cells may have changed; valid until the next call.
   const CellChanges& map(const Observation& observation, const PoseEstimate& pose);
   [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s);
@@ -43,7 +42,6 @@ class Perception {
   [[nodiscard]] const LandmarkTracker& tracker() const { return tracker_; }
 
  private:
-  [[nodiscard]] std::span<const LandmarkSighting> see_again(const Observation& observation, const PoseEstimate& before);
   [[nodiscard]] DetectionReport detect(const CellChanges& changes, const Budget& budget);
   void add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const;
 
@@ -51,12 +49,10 @@ class Perception {
   const StagedModules& modules_;
   const Budget budget_;
   LandmarkTracker tracker_;
-  LandmarkSightings sightings_;
   HoldOut hold_out_;
   Observation for_map_;  // without what is held out; a member for its memory only
   const OccupancyGrid* grid_ = nullptr;
   const CoarseGrid* coarse_ = nullptr;
-  std::optional<Pose2> T_odom_localized_;  // odometry of the last estimate; none: where it begins is not known
   double last_freed_check_s_ = 0.0;
   bool is_resumed_ = false;
 };

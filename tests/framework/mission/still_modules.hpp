@@ -58,7 +58,7 @@ class Sensor : public cairn::Sensor, public Drive {
 
 class Localizer : public cairn::Localizer {
  public:
-  PoseEstimate update(const Observation&, std::span<const LandmarkSighting>) override { return {}; }
+  PoseEstimate update(const Observation&, const KnownMap&) override { return {}; }
 };
 
 class Mapper : public cairn::Mapper {

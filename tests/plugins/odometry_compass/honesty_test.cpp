@@ -62,7 +62,7 @@ Ending drive(const RobotModel& robot, double way_m, std::uint64_t seed, bool com
   OdometryCompass localizer(config, robot, T_map_start);
 
   Pose2 T_odom_robot;
-  PoseEstimate estimate = localizer.update({}, {});
+  PoseEstimate estimate = localizer.update_by({}, {});
   double turn_radps = 0.0;
   for (double driven_m = 0.0; driven_m < way_m;) {
     if (random() % 100 == 0) turn_radps = 0.4 * normal(random);
@@ -78,7 +78,7 @@ Ending drive(const RobotModel& robot, double way_m, std::uint64_t seed, bool com
     const double seen_rad =
         truth.theta_rad + field.bias_rad(truth.position()) + robot.compass_error.noise_rad * normal(random);
     if (compass) observation.compass_rad = wrap_angle(seen_rad);
-    estimate = localizer.update(observation, {});
+    estimate = localizer.update_by(observation, {});
   }
   Eigen::Vector3d off(truth.x_m - estimate.T_map_robot.x_m, truth.y_m - estimate.T_map_robot.y_m,
                       wrap_angle(truth.theta_rad - estimate.T_map_robot.theta_rad));

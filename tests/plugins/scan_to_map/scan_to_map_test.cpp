@@ -10,6 +10,12 @@
 namespace cairn::scan_to_map {
 namespace {
 
+KnownMap nothing_known() {
+  static const OccupancyGrid grid(0.05);
+  static const LandmarkGraph landmarks;
+  return {grid, landmarks};
+}
+
 constexpr double kWidth_m = 3.0;  // a room from (0, 0), with a box in its north-east corner
 constexpr double kHeight_m = 2.0;
 constexpr double kBox_m = 0.5;
@@ -56,7 +62,7 @@ double error_after_a_round(ScanToMap& localizer, double range_offset_m = 0.0) {
   Pose2 T_odom_robot;
   double worst_m = 0.0;
   for (int i = 0; i < 100; ++i) {
-    const Pose2 estimate = localizer.update(scan(T_map_robot, T_odom_robot, range_offset_m), {}).T_map_robot;
+    const Pose2 estimate = localizer.update(scan(T_map_robot, T_odom_robot, range_offset_m), nothing_known()).T_map_robot;
     worst_m = std::max(worst_m, (estimate.position() - T_map_robot.position()).norm());
     T_map_robot = T_map_robot * Pose2{0.03, 0.0, radians(3.6)};
     T_odom_robot = T_odom_robot * Pose2{0.03 * 1.05, 0.0, radians(3.6) * 1.1};
@@ -86,7 +92,7 @@ TEST(ScanToMap, ItsOwnRangeOffsetIsAddedToTheEchoes) {
 
 TEST(ScanToMap, BeginsWhereTheMissionSaysWhateverTheOdometrysOrigin) {
   ScanToMap at({}, RobotModel{}, kStart);
-  EXPECT_EQ(at.update(scan(kStart, {100.0, -50.0, 2.0}), {}).T_map_robot, kStart);
+  EXPECT_EQ(at.update(scan(kStart, {100.0, -50.0, 2.0}), nothing_known()).T_map_robot, kStart);
 }
 
 TEST(ScanToMap, WideBeamsAndLostEchoesLeaveOdometryAlone) {
@@ -99,7 +105,7 @@ TEST(ScanToMap, WideBeamsAndLostEchoesLeaveOdometryAlone) {
       seen.ranges[k].half_beam_rad = k % 2 == 0 ? radians(15.0) : 0.0;
       if (k % 2 == 1) seen.ranges[k].range_m = k % 4 == 1 ? std::nan("") : std::numeric_limits<double>::infinity();
     }
-    estimate = at.update(seen, {});
+    estimate = at.update(seen, nothing_known());
     T_odom_robot = T_odom_robot * Pose2{0.1, 0.0, 0.0};
   }
   EXPECT_NEAR((inverse(kStart) * estimate.T_map_robot).x_m, 0.9, 1e-9);
@@ -111,19 +117,19 @@ TEST(ScanToMap, AScanOfAnotherPlaceNeitherMovesThePoseNorJoinsTheMap) {
   config.min_distance_ratio = 0.001;
   config.min_heading_rad_per_m = radians(0.1);
   ScanToMap at(config, RobotModel{}, kStart);
-  for (int i = 0; i < 5; ++i) (void)at.update(scan(kStart, {}), {});
+  for (int i = 0; i < 5; ++i) (void)at.update(scan(kStart, {}), nothing_known());
   const Pose2 elsewhere{0.75, 0.7, 0.35};
-  const Pose2 after = at.update(scan(elsewhere, {}), {}).T_map_robot;
+  const Pose2 after = at.update(scan(elsewhere, {}), nothing_known()).T_map_robot;
   EXPECT_LT((after.position() - kStart.position()).norm(), 1e-3) << "the robot has not moved, its wheels say";
-  EXPECT_LT((at.update(scan(kStart, {}), {}).T_map_robot.position() - kStart.position()).norm(), 1e-3);
+  EXPECT_LT((at.update(scan(kStart, {}), nothing_known()).T_map_robot.position() - kStart.position()).norm(), 1e-3);
 }
 
 TEST(ScanToMap, AgreementWithTheMapIsNoCertaintyOfThePlace) {
   ScanToMap at({}, RobotModel{}, kStart);
-  const PoseEstimate first = at.update(scan(kStart, {}), {});
+  const PoseEstimate first = at.update(scan(kStart, {}), nothing_known());
   EXPECT_GE(first.covariance(0, 0), 0.01 * 0.01);
   (void)error_after_a_round(at);
-  const PoseEstimate last = at.update(scan(kStart, {}), {});
+  const PoseEstimate last = at.update(scan(kStart, {}), nothing_known());
   EXPECT_GT(last.covariance(0, 0), first.covariance(0, 0));
 }
 

@@ -85,7 +85,7 @@ class SpySensor : public Sensor, public Drive, public GroundTruthSource {
 class SpyLocalizer : public Localizer {
  public:
   explicit SpyLocalizer(Notes& notes) : notes_(notes) {}
-  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting>) override {
+  PoseEstimate update(const Observation& observation, const KnownMap&) override {
     notes_.calls.emplace_back("localizer");
     notes_.seen.push_back(text_of(observation));
     PoseEstimate pose;

@@ -11,16 +11,16 @@ namespace {
 
 class OffsetLocalizer : public Localizer {
  public:
-  PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings) override {
+  PoseEstimate update(const Observation& observation, const KnownMap& known) override {
     readings += observation.ranges.size();
-    seen_again += sightings.size();
+    landmarks_known = known.landmarks.landmarks().size();
     PoseEstimate pose;
     pose.T_map_robot = {observation.T_odom_robot.x_m + offset_m, 0.0, 0.0};
     return pose;
   }
   double offset_m = 1.0;
   std::size_t readings = 0;
-  std::size_t seen_again = 0;
+  std::size_t landmarks_known = 0;
 };
 
 class CountingMapper : public Mapper {
@@ -99,11 +99,22 @@ class PerceptionTest : public testing::Test {
 TEST_F(PerceptionTest, TheMapperGetsThePoseThatTheLocalizerReturned) {
   (void)perception().begin();
   const Observation seen = observation(2, 0.5);
-  const PoseEstimate pose = perception().localize(seen, {});
+  const PoseEstimate pose = perception().localize(seen);
   EXPECT_EQ(pose.T_map_robot, (Pose2{1.5, 0.0, 0.0}));
   perception().map(seen, pose);
   EXPECT_EQ(mapper_->at, pose.T_map_robot);
   EXPECT_EQ(perception().tracker().driven_path().size(), 1U);
+}
+
+TEST_F(PerceptionTest, TheLocalizerKnowsTheLandmarksThatEarlierObservationsHaveShown) {
+  mission_.config.landmarks.confirm_sightings = 1;
+  (void)perception().begin();
+  (void)perception().localize(observation(0));
+  EXPECT_EQ(localizer_->landmarks_known, 0U);
+  detector_->next.matchings = {square_at(1.0)};
+  (void)perception().recognise({}, 0.5);
+  (void)perception().localize(observation(0));
+  EXPECT_EQ(localizer_->landmarks_known, 1U);
 }
 
 TEST_F(PerceptionTest, ReadingsThatAreHeldOutAreHiddenFromTheMapOnly) {
@@ -111,7 +122,7 @@ TEST_F(PerceptionTest, ReadingsThatAreHeldOutAreHiddenFromTheMapOnly) {
   (void)perception().begin();
   for (int i = 0; i < 3; ++i) {
     const Observation seen = observation(4);
-    perception().map(seen, perception().localize(seen, {}));
+    perception().map(seen, perception().localize(seen));
   }
   EXPECT_EQ(localizer_->readings, 12U);
   EXPECT_EQ(mapper_->readings, 6U);
@@ -120,7 +131,7 @@ TEST_F(PerceptionTest, ReadingsThatAreHeldOutAreHiddenFromTheMapOnly) {
 TEST_F(PerceptionTest, APoseThatIsNotFiniteIsAFaultOfTheLocalizer) {
   (void)perception().begin();
   localizer_->offset_m = std::numeric_limits<double>::infinity();
-  EXPECT_THROW((void)perception().localize(observation(0), {}), ModuleFault);
+  EXPECT_THROW((void)perception().localize(observation(0)), ModuleFault);
 }
 
 TEST_F(PerceptionTest, EachMatchingComesBeforeWhatItHasChanged) {

@@ -7,7 +7,7 @@
 
 #include "maps/geometry/pose.hpp"
 
-namespace cairn {
+namespace cairn::odometry_compass {
 
 // One reading compared with what it should have been.
 struct RangeResidual {
@@ -43,4 +43,4 @@ struct AlignmentLimits {
     const Pose2& T_map_robot, int readings,
     const std::function<std::optional<RangeResidual>(int, const Pose2&)>& compare, const AlignmentLimits& limits = {});
 
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

@@ -1,4 +1,4 @@
-// Known landmarks seen again in fresh readings, for the localizer.
+// Known landmarks seen again in fresh readings.
 //
 // Readings are kept with the odometry they were taken at. One belongs to the landmark whose outline it should have met
 // first, if it is about as long as that says, nothing that the map holds stands in front and no other landmark is
@@ -16,11 +16,20 @@
 #include <vector>
 
 #include "framework/contracts/localizer.hpp"
-#include "framework/landmarks/range_alignment.hpp"
 #include "maps/geometry/contour.hpp"
 #include "maps/grid/occupancy_grid.hpp"
+#include "plugins/odometry_compass/range_alignment.hpp"
 
-namespace cairn {
+namespace cairn::odometry_compass {
+
+// A known landmark seen again in fresh readings.
+struct LandmarkSighting {
+  LandmarkId landmark = 0;
+  Pose2 T_map_landmark;    // as it was when it became known
+  Pose2 T_robot_landmark;  // as just measured
+  // Of T_robot_landmark: x_m, y_m, theta_rad. Large in the directions that the readings do not determine.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+};
 
 class LandmarkSightings {
  public:
@@ -32,8 +41,7 @@ class LandmarkSightings {
   // Takes in the readings of one observation and says what they and those before have shown. `pose` is that of the
   // observation before, whose odometry was T_odom_before. Valid until the next call.
   [[nodiscard]] std::span<const LandmarkSighting> look(const Observation& observation, const PoseEstimate& pose,
-                                                       const Pose2& T_odom_before, const LandmarkGraph& graph,
-                                                       const OccupancyGrid& grid);
+                                                       const Pose2& T_odom_before, const KnownMap& known);
 
  private:
   struct FreshReading {
@@ -58,7 +66,7 @@ class LandmarkSightings {
   void assign(const FreshReading& reading, const Scene& scene, const OccupancyGrid& grid);
   void find(LandmarkId id, Anchor& anchor, const Scene& scene);
   [[nodiscard]] double deviation_of(const FreshReading& reading) const;
-  void tell(LandmarkId id, const Anchor& anchor, const Scene& scene, const Alignment& found);
+  void report(LandmarkId id, const Anchor& anchor, const Scene& scene, const Alignment& found);
 
   std::vector<LandmarkShape> shapes_;
   std::map<LandmarkId, Anchor> anchors_;
@@ -69,4 +77,4 @@ class LandmarkSightings {
   double driven_m_ = 0.0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

@@ -1,21 +1,21 @@
-#include "framework/landmarks/sightings.hpp"
+#include "plugins/odometry_compass/landmark_sightings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "framework/landmarks/outline_echo.hpp"
 #include "maps/geometry/segments.hpp"
+#include "plugins/odometry_compass/outline_echo.hpp"
 
-namespace cairn {
+namespace cairn::odometry_compass {
 namespace {
 
-constexpr std::size_t kBatch = 15;  // readings that are looked at together
+constexpr std::size_t kReadingsTogether = 15;  // readings that are looked at together
 constexpr double kKept_s = 4.0;
 constexpr double kKept_m = 1.0;
 constexpr std::size_t kMinReadings = 8;  // of one landmark
 constexpr double kReach_m = 4.0;         // further away sonars hear landmarks seldom
-constexpr double kGate_m = 0.35;         // a reading further off than this is of something else
+constexpr double kOutlineGate_m = 0.35;  // a reading further off than this is of something else
 constexpr double kInFront_m = 0.2;       // what stands so much nearer hides the rest
 constexpr double kApart_m = 0.3;         // two landmarks nearer to each other in range compete
 
@@ -49,16 +49,15 @@ struct LandmarkSightings::Scene {
 };
 
 std::span<const LandmarkSighting> LandmarkSightings::look(const Observation& observation, const PoseEstimate& pose,
-                                                          const Pose2& T_odom_before, const LandmarkGraph& graph,
-                                                          const OccupancyGrid& grid) {
+                                                          const Pose2& T_odom_before, const KnownMap& known) {
   reported_.clear();
-  anchor_landmarks(graph, pose);
+  anchor_landmarks(known.landmarks, pose);
   take(observation);
-  if (window_.size() < kBatch) return {};
+  if (window_.size() < kReadingsTogether) return {};
   const double spread_m = std::sqrt(std::max(0.0, pose.covariance(0, 0) + pose.covariance(1, 1)));
   const Scene scene{pose.T_map_robot * (inverse(T_odom_before) * observation.T_odom_robot), observation.T_odom_robot,
-                    observation.stamp_s, std::min(kGate_m + spread_m, 2.0 * kGate_m)};
-  for (const FreshReading& reading : window_) assign(reading, scene, grid);
+                    observation.stamp_s, std::min(kOutlineGate_m + spread_m, 2.0 * kOutlineGate_m)};
+  for (const FreshReading& reading : window_) assign(reading, scene, known.grid);
   window_.clear();
   for (auto& [id, anchor] : anchors_) find(id, anchor, scene);
   return reported_;
@@ -139,11 +138,11 @@ void LandmarkSightings::find(LandmarkId id, Anchor& anchor, const Scene& scene) 
                          deviation_of(reading)};
   };
   if (const auto found = align(scene.T_map_robot, static_cast<int>(anchor.readings.size()), compare))
-    tell(id, anchor, scene, *found);
+    report(id, anchor, scene, *found);
   anchor.readings.clear();
 }
 
-void LandmarkSightings::tell(LandmarkId id, const Anchor& anchor, const Scene& scene, const Alignment& found) {
+void LandmarkSightings::report(LandmarkId id, const Anchor& anchor, const Scene& scene, const Alignment& found) {
   LandmarkSighting seen;
   seen.landmark = id;
   seen.T_map_landmark = anchor.T_map_landmark;
@@ -159,4 +158,4 @@ void LandmarkSightings::tell(LandmarkId id, const Anchor& anchor, const Scene& s
   reported_.push_back(seen);
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

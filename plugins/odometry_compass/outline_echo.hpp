@@ -6,7 +6,7 @@
 #include "maps/geometry/contour.hpp"
 #include "maps/geometry/pose.hpp"
 
-namespace cairn {
+namespace cairn::odometry_compass {
 
 struct ExpectedEcho {
   double range_m = 0.0;
@@ -21,4 +21,4 @@ struct ExpectedEcho {
 [[nodiscard]] std::optional<ExpectedEcho> expected_echo(const Contour& contour, const Pose2& T_contour_sensor,
                                                         double half_beam_rad);
 
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

@@ -1,10 +1,10 @@
-#include "framework/landmarks/outline_echo.hpp"
+#include "plugins/odometry_compass/outline_echo.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace cairn {
+namespace cairn::odometry_compass {
 namespace {
 
 constexpr double kHalfBeam_rad = radians(15.0);
@@ -67,4 +67,4 @@ TEST(OutlineEcho, ChangesAsItsSlopesSay) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

@@ -1,4 +1,4 @@
-#include "framework/landmarks/outline_echo.hpp"
+#include "plugins/odometry_compass/outline_echo.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "maps/geometry/segments.hpp"
 
-namespace cairn {
+namespace cairn::odometry_compass {
 namespace {
 
 constexpr double kRimRatio = 0.9;      // of the half-beam: beyond it an echo is a matter of loudness
@@ -112,4 +112,4 @@ std::optional<ExpectedEcho> expected_echo(const Contour& contour, const Pose2& T
                              : ray_echo(contour, T_contour_sensor);
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

@@ -1,4 +1,4 @@
-#include "framework/landmarks/sightings.hpp"
+#include "plugins/odometry_compass/landmark_sightings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <optional>
 #include <random>
 
-#include "framework/landmarks/outline_echo.hpp"
+#include "plugins/odometry_compass/outline_echo.hpp"
 
-namespace cairn {
+namespace cairn::odometry_compass {
 namespace {
 
 constexpr double kSigma_m = 0.01;
@@ -24,7 +24,7 @@ class LandmarkSightingsTest : public testing::Test {
     landmark.category = category;
     landmark.T_map_landmark = T_map_landmark;
     const LandmarkId id = graph_.add(landmark);
-    (void)sightings_.look({}, pose_, {}, graph_, grid_);  // becomes known at this pose's covariance
+    (void)sightings_.look({}, pose_, {}, {grid_, graph_});  // becomes known at this pose's covariance
     return id;
   }
 
@@ -52,7 +52,7 @@ class LandmarkSightingsTest : public testing::Test {
       seen.ranges.push_back(reading);
     }
     pose_.T_map_robot = believed;
-    const auto reported = sightings_.look(seen, pose_, seen.T_odom_robot, graph_, grid_);
+    const auto reported = sightings_.look(seen, pose_, seen.T_odom_robot, {grid_, graph_});
     return {reported.begin(), reported.end()};
   }
   static Pose2 measured(const LandmarkSighting& seen) { return seen.T_map_landmark * inverse(seen.T_robot_landmark); }
@@ -119,7 +119,7 @@ TEST_F(LandmarkSightingsTest, CountFromWhereTheLandmarkWasWhenItBecameKnown) {
   const Pose2 before = graph_.find(1)->T_map_landmark;
   pose_.covariance *= 4.0;
   graph_.find(1)->T_map_landmark.x_m += 0.1;  // refined by a robot that has drifted
-  (void)sightings_.look({}, pose_, {}, graph_, grid_);
+  (void)sightings_.look({}, pose_, {}, {grid_, graph_});
   graph_.find(1)->T_map_landmark = before;  // for the simulated readings
   auto reported = look({1.5, 1.0, 0.0}, {1.45, 1.0, 0.0});
   ASSERT_EQ(reported.size(), 1U);
@@ -161,4 +161,4 @@ TEST_F(LandmarkSightingsTest, HaveAnHonestCovariance) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

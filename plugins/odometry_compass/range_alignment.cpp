@@ -1,11 +1,11 @@
-#include "framework/landmarks/range_alignment.hpp"
+#include "plugins/odometry_compass/range_alignment.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry_compass {
 namespace {
 
 constexpr double kOutlier_sigmas = 3.0;
@@ -80,4 +80,4 @@ std::optional<Alignment> align(const Pose2& T_map_robot, int readings,
   return found;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry_compass

@@ -1,4 +1,4 @@
-#include "framework/landmarks/range_alignment.hpp"
+#include "plugins/odometry_compass/range_alignment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace cairn {
+namespace cairn::odometry_compass {
 namespace {
 
 // Rays all round in a room of 4 x 3 m whose middle is the origin; the last few go astray.
@@ -109,4 +109,4 @@ TEST_F(RangeAlignmentTest, KeepsWhatNoReadingSpeaksOf) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry_compass
