@@ -56,12 +56,12 @@ class NanSensor : public CountingSensor {
 
 class StillLocalizer : public Localizer {
  public:
-  PoseEstimate update(const Observation&, std::span<const LandmarkSighting>) override { return {}; }
+  PoseEstimate update(const Observation&, const KnownMap&) override { return {}; }
 };
 
 class NanLocalizer : public Localizer {
  public:
-  PoseEstimate update(const Observation&, std::span<const LandmarkSighting>) override {
+  PoseEstimate update(const Observation&, const KnownMap&) override {
     PoseEstimate pose;
     pose.T_map_robot.x_m = std::numeric_limits<double>::quiet_NaN();
     return pose;

@@ -126,7 +126,9 @@ TEST(ModuleLibrary, AnObjectOutlivesTheLibraryThatLoadedIt) {
     const RobotModel robot;
     localizer = library.make<Localizer>(choice_of("still_localizer"), {{robot}});
   }
-  EXPECT_EQ(localizer->update({}, {}).T_map_robot, Pose2{});
+  const OccupancyGrid grid(0.05);
+  const LandmarkGraph landmarks;
+  EXPECT_EQ(localizer->update({}, {grid, landmarks}).T_map_robot, Pose2{});
 }
 
 TEST(ModuleLibrary, UnknownConfigKeysAreRefused) {
