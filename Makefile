@@ -23,7 +23,7 @@ build: configure
 # The program and the modules of this mission alone.
 demo: configure
 	@cmake --build --preset release --target cairn simulated_robot odometry_compass muriel template_matcher \
-	  hybrid landmark_search ompl behaviours
+	  hybrid landmark_search ompl pursuit_dwa behaviours
 	$(CAIRN) run config/missions/office.yaml --out out/demo
 	$(CAIRN) plan out/demo/office.cairn --from 0.6,0.6 --to "nearest square" --picture out/demo/route.png
 	@echo "Look at out/demo/map.png and out/demo/route.png"

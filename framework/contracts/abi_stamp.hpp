@@ -9,6 +9,7 @@
 #include "framework/contracts/behaviour.hpp"
 #include "framework/contracts/controller.hpp"
 #include "framework/contracts/detector.hpp"
+#include "framework/contracts/localizer.hpp"
 #include "framework/contracts/mapper.hpp"
 #include "framework/contracts/path_planner.hpp"
 #include "framework/contracts/planner.hpp"
@@ -28,9 +29,12 @@ struct AbiStamp {
   char compiler[48];
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
-  std::uint32_t sizes[26];  // of the exchanged types, as this_abi_stamp() lists them
+  std::uint32_t contracts;  // kContractsVersion
+  std::uint32_t sizes[30];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
+// Raised whenever the signature of an interface's function changes: sizes do not show that.
+inline constexpr std::uint32_t kContractsVersion = 1;
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
 
 namespace abi_detail {
@@ -56,33 +60,18 @@ constexpr void copy(char (&out)[N], std::string_view text) {
   abi_detail::copy(stamp.build, "debug");
 #endif
   stamp.eigen_align = EIGEN_MAX_ALIGN_BYTES;
+  stamp.contracts = kContractsVersion;
   const std::uint32_t sizes[] = {
-      sizeof(Observation),
-      sizeof(OccupancyGrid),
-      sizeof(LandmarkGraph),
-      sizeof(PlanResult),
-      sizeof(PlanRequest),
-      sizeof(PathResult),
-      sizeof(PathRequest),
-      sizeof(PlannerTraits),
-      sizeof(RouteResult),
-      sizeof(RouteRequest),
-      sizeof(RouteEnd),
-      sizeof(DetectionReport),
-      sizeof(Matching),
-      sizeof(WorldView),
-      sizeof(RobotModel),
-      sizeof(World),
-      sizeof(RegisteredModule),
-      sizeof(FieldSpec),
-      sizeof(ModuleContext),
-      sizeof(SensorContext),
-      sizeof(MapperContext),
-      sizeof(DetectorContext),
-      sizeof(BehaviourFactoryContext),
-      sizeof(Status),
-      sizeof(ControlRequest),
-      sizeof(ControlResult),
+      sizeof(Observation),   sizeof(RangeReading),     sizeof(PoseEstimate),
+      sizeof(KnownMap),      sizeof(OccupancyGrid),    sizeof(LandmarkGraph),
+      sizeof(PlanResult),    sizeof(PlanRequest),      sizeof(PathResult),
+      sizeof(PathRequest),   sizeof(PlannerTraits),    sizeof(RouteResult),
+      sizeof(RouteRequest),  sizeof(RouteEnd),         sizeof(DetectionReport),
+      sizeof(Matching),      sizeof(WorldView),        sizeof(RobotModel),
+      sizeof(World),         sizeof(RegisteredModule), sizeof(FieldSpec),
+      sizeof(ModuleContext), sizeof(SensorContext),    sizeof(LocalizerContext),
+      sizeof(MapperContext), sizeof(DetectorContext),  sizeof(BehaviourFactoryContext),
+      sizeof(Status),        sizeof(ControlRequest),   sizeof(ControlResult),
   };
   static_assert(sizeof sizes == sizeof stamp.sizes);
   for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];

@@ -13,7 +13,8 @@ namespace cairn {
 // The first tick of a touch, as the simulation knows it.
 struct Contact {
   double speed_mps = 0.0;  // of the robot, towards what it touches; 0 when it stood, whatever came upon it
-  // That stood in the free beam of a transducer at some time in the last second, 0.3 s before the touch at the latest.
+  // A transducer had it in range and in its beam, with nothing in front, early enough for the robot to stop
+  // (docs/method.md 14.3).
   bool could_be_seen = false;
 };
 

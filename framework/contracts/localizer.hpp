@@ -30,7 +30,8 @@ class Localizer {
  public:
   virtual ~Localizer() = default;
   // Numbers that are not finite, or beyond all maps, do not spoil the estimate: it stays finite and its
-  // covariance symmetric and positive semi-definite; nor do landmarks whose places are. Hot: no allocation.
+  // covariance symmetric and positive semi-definite; nor do landmarks whose places are. Hot: no allocation
+  // while the known landmarks stay the same.
   virtual PoseEstimate update(const Observation& observation, const KnownMap& known) = 0;
 };
 

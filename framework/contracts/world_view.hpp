@@ -20,7 +20,7 @@ struct WorldView {
   PoseEstimate pose;
   double time_s = 0.0;                       // of the mission's clock
   const Observation* observation = nullptr;  // the latest, null when planning against a saved map
-  // The stop layer has cut this share of the last wanted speed: 0 none, 1 all.
+  // The collision monitor has cut this share of the last wanted speed: 0 none, 1 all.
   double speed_reduction_ratio = 0.0;
   const Hierarchies* hierarchies = nullptr;  // of the graph; null: searches take the graph as it is
   // Where this is the same number and not 0, so is what the grid holds. Never the same for two grids that one planner

@@ -72,7 +72,7 @@ struct Bumped {};
 // The mission's clock stands from here on: the robot is stopped, readings still come.
 struct Paused {};
 struct Resumed {
-  double paused_s = 0.0;  // by the robot's clock
+  std::optional<double> paused_s;  // by the robot's clock; none for a log, whose clock stood
 };
 
 using Event =

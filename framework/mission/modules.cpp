@@ -121,8 +121,12 @@ std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const Module
 }  // namespace
 
 std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
-  return mixed_seed(static_cast<std::uint64_t>(mission_seed) * 1000003U + static_cast<std::uint64_t>(kind) * 101U +
-                    index);
+  // The first modules of a kind lie side by side, the kinds one behind the other; the rest lie behind all kinds.
+  constexpr std::uint64_t kSideBySide = 101;
+  const std::uint64_t row = index / kSideBySide;
+  return mixed_seed(static_cast<std::uint64_t>(mission_seed) * 1000003U +
+                    (static_cast<std::uint64_t>(kind) + row * std::size(kPluginKinds)) * kSideBySide +
+                    index % kSideBySide);
 }
 
 TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {

@@ -19,7 +19,7 @@ void RunTimeline::on(const Event& event, const MissionView& view) {
   if (std::holds_alternative<TickDone>(event)) note_stop(view.world.speed_reduction_ratio, time_s);
   if (std::holds_alternative<Bumped>(event)) add(bumps_s_, time_s);
   if (std::holds_alternative<MapSaved>(event)) add(saves_s_, time_s);
-  if (const auto* on = std::get_if<Resumed>(&event)) add(pauses_, PauseSpan{time_s, on->paused_s});
+  if (const auto* on = std::get_if<Resumed>(&event)) add(pauses_, PauseSpan{time_s, on->paused_s.value_or(0.0)});
 }
 
 void RunTimeline::note_stop(double speed_reduction_ratio, double time_s) {

@@ -27,7 +27,7 @@ class RunTimeline : public Listener {
   void on(const Event& event, const MissionView& view) override;
 
   [[nodiscard]] const std::vector<PauseSpan>& pauses() const { return pauses_; }
-  // While the stop layer allowed nothing of a wanted speed.
+  // While the collision monitor allowed nothing of a wanted speed.
   [[nodiscard]] const std::vector<RunSpan>& stops() const { return stops_; }
   [[nodiscard]] const std::vector<double>& bumps_s() const { return bumps_s_; }
   [[nodiscard]] const std::vector<double>& saves_s() const { return saves_s_; }  // of maps, by the mission itself

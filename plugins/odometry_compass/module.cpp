@@ -8,7 +8,7 @@ void register_module(cairn::Registrar& registrar) {
   using cairn::odometry_compass::Config;
   using cairn::odometry_compass::OdometryCompass;
   registrar.add<cairn::Localizer, Config>(
-      "odometry_compass", "Kalman filter over odometry, compass and known landmarks, with an honest covariance",
+      "odometry_compass", "Kalman filter over odometry, compass, walls and known landmarks, with a covariance",
       [](const Config& config, const cairn::LocalizerContext& context) {
         return std::make_unique<OdometryCompass>(config, context.robot, context.T_map_start, context.landmark_shapes);
       });

@@ -11,10 +11,8 @@
 //   compass that parts from the       wheels slip: the heading is the suspect
 //   heading little by little
 //   landmark beyond the gate          refused (the wrong landmark, most likely)
-//   landmark not finite, or without   refused
-//   a symmetric, positive definite
-//   covariance
-// Landmarks are taken in the order given, after the compass.
+//   landmark further than 1000 km     refused
+// Walls come after the compass, landmarks after walls.
 #pragma once
 
 #include <optional>

@@ -107,4 +107,18 @@ TEST(Documents, EverySectionOfTheMethodThatACommentNamesExists) {
   EXPECT_GT(references, 30);
 }
 
+// "`framework/safety/velocity_limiter.cpp` (`cut`, `is_stale`)" in a page.
+TEST(Documents, SourcesThatPagesNameAreThereAndHoldTheNamedFunctions) {
+  static const std::regex source(
+      R"(`((?:maps|framework|plugins|planners)/[a-z0-9_/]+\.[ch]pp)`(?: \(((?:`\w+`(?:, )?)+)\))?)");
+  static const std::regex name(R"(`(\w+)`)");
+  for (const fs::path& page : pages())
+    for (const auto& groups : matches(text_of(page), source)) {
+      const fs::path file = kProject / groups[1];
+      ASSERT_TRUE(fs::exists(file)) << page << " names " << groups[1];
+      for (const auto& function : matches(groups[2], name))
+        EXPECT_THAT(text_of(file), testing::HasSubstr(function[1] + "(")) << page << " names it in " << groups[1];
+    }
+}
+
 }  // namespace

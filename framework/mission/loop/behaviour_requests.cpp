@@ -15,6 +15,8 @@ bool is_finite(const Twist& twist) {
   return std::isfinite(twist.v_mps) && std::isfinite(twist.w_radps);
 }
 
+constexpr std::size_t kQuestionSeed = 2;  // 0: the planner itself, 1: joining landmarks
+
 }  // namespace
 
 void BehaviourRequests::begin(const TreeNode& leaf) {
@@ -60,7 +62,8 @@ PlanResult BehaviourRequests::plan(const PlanRequest& request) {
 }
 
 Status BehaviourRequests::answer(const PlanQuestion& question, const std::string& file_name) {
-  host_.planning.update();
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  host_.monitor.stop();
   const bool names_clusters = !question.avoid.empty() || question.explain;
   const ClusterTree clusters = names_clusters ? host_.planning.clusters() : ClusterTree{};
   PlanTask task;
@@ -70,7 +73,7 @@ Status BehaviourRequests::answer(const PlanQuestion& question, const std::string
     return {Progress::failure, error.what()};
   }
   task.request.radius_m = host_.mission.robot.radius_m;
-  task.request.seed = module_seed(host_.mission.config.seed, PluginKind::planner, 2);
+  task.request.seed = module_seed(host_.mission.config.seed, PluginKind::planner, kQuestionSeed);
   const PlanResult result =
       plan_tour([&](const PlanRequest& request) { return plan(request); }, task.request, task.via);
   const Status written = write({file_name,

@@ -1,6 +1,11 @@
 #include "framework/mission/loop/planning.hpp"
 
 namespace cairn {
+namespace {
+
+constexpr std::size_t kJoiningSeed = 1;  // 0: the planner itself
+
+}  // namespace
 
 Planning::Planning(const Mission& mission, const StagedModules& modules, const LandmarkGraph& graph,
                    ClusterTree clusters, CollisionMonitor& monitor, const Budget& budget)
@@ -24,7 +29,7 @@ void Planning::connect(LandmarkTracker& tracker, const WorldView& world) {
   const auto plan = [&](const PlanRequest& request) {
     return modules_.routes.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
   };
-  tracker.connect(world, plan, module_seed(mission_.config.seed, PluginKind::planner, 1));
+  tracker.connect(world, plan, module_seed(mission_.config.seed, PluginKind::planner, kJoiningSeed));
 }
 
 ClusterTree Planning::clusters() {

@@ -20,9 +20,7 @@ class Planning {
   // Joins the landmarks by routes; nothing without a planner. Throws ModuleFault.
   void connect(LandmarkTracker& tracker, const WorldView& world);
 
-  // Brings the hierarchies in line with the graph.
-  void update() { hierarchies_.update(); }
-  // The same, and the clusters that come of it.
+  // Brings the hierarchies in line with the graph; the clusters that come of it.
   [[nodiscard]] ClusterTree clusters();
   // As they were last brought in line. When that is decides which ids the clusters get, so that what must change
   // nothing asks for these.

@@ -46,14 +46,14 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     out_ << std::flush;
   }
   if (const auto* e = std::get_if<AutosaveFailed>(&event))
-    report(time_s, "autosaving failed, the mission goes on: " + e->reason);
+    report(time_s, "autosave failed, the mission continues: " + e->reason);
   if (const auto* e = std::get_if<Message>(&event)) report(time_s, e->sentence);
   if (std::holds_alternative<Bumped>(event)) report(time_s, "bumped into something: stopped");
   if (std::holds_alternative<Paused>(event)) {
     report(time_s, "paused: `cairn mission resume` or SIGUSR2 lets it go on");
     out_ << std::flush;
   }
-  if (const auto* e = std::get_if<Resumed>(&event)) report(time_s, fmt::format("goes on after {:.1f} s", e->paused_s));
+  if (const auto* e = std::get_if<Resumed>(&event)) report(time_s, e->paused_s ? fmt::format("resumed after {:.1f} s", *e->paused_s) : "resumed");
 }
 
 // What control nodes and conditions make of it stands in the report.

@@ -82,5 +82,20 @@ TEST_F(MissionFile, AllThatIsWrongIsReportedNotOnlyTheFirst) {
   EXPECT_THAT(error_of("world: nowhere.yaml\n"), HasSubstr("nowhere.yaml"));
 }
 
+// `make demo` builds some modules only.
+TEST(Demo, BuildsTheModulesOfItsMission) {
+  const std::filesystem::path project = CAIRN_SOURCE_DIR;
+  const MissionConfig config = load_mission(project / "config/missions/office.yaml").config;
+  std::ifstream file(project / "Makefile");
+  const std::string makefile{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t begin = makefile.find("\ndemo:");
+  const std::string demo = makefile.substr(begin, makefile.find("office.yaml", begin) - begin);
+  // hybrid's own defaults are the last two.
+  for (const std::string& module :
+       {config.sensor.name, config.localizer.name, config.map.name, config.detector.name, config.planner.name,
+        config.controller.name, std::string("behaviours"), std::string("landmark_search"), std::string("ompl")})
+    EXPECT_THAT(demo, HasSubstr(" " + module)) << "the mission cannot run without it";
+}
+
 }  // namespace
 }  // namespace cairn
