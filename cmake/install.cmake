@@ -36,7 +36,8 @@ if(TARGET cairn_conformance)
   target_include_directories(cairn_conformance INTERFACE $<INSTALL_INTERFACE:include/cairn>)
   install(TARGETS cairn_conformance EXPORT cairn_conformance ARCHIVE DESTINATION lib OPTIONAL)
   install(EXPORT cairn_conformance NAMESPACE cairn:: FILE cairnConformanceTargets.cmake DESTINATION ${package_folder})
-  install(DIRECTORY tests/conformance DESTINATION include/cairn/tests FILES_MATCHING PATTERN *.hpp)
+  install(DIRECTORY tests/conformance DESTINATION include/cairn/tests FILES_MATCHING PATTERN *.hpp
+          PATTERN shipped EXCLUDE PATTERN faulty EXCLUDE)
 endif()
 
 set(CPACK_GENERATOR DEB)

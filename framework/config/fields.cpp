@@ -160,6 +160,11 @@ std::string to_text(const ConfigValue& value, const std::string& key) {
   return value.scalar;
 }
 
+std::filesystem::path to_path(const ConfigValue& value, const std::string& key) {
+  (void)to_text(value, key);
+  return resolve_path(value);
+}
+
 std::string to_file_name(const ConfigValue& value, const std::string& key) {
   const std::string name = to_text(value, key);
   const auto is_kept_out = [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' '; };

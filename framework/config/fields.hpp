@@ -55,6 +55,8 @@ namespace config_detail {
 [[nodiscard]] std::int64_t to_integer(const ConfigValue& value, const std::string& key, const Range& range);
 [[nodiscard]] bool to_flag(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::string to_text(const ConfigValue& value, const std::string& key);
+// Text that is a path, resolved against the folder of the file that names it.
+[[nodiscard]] std::filesystem::path to_path(const ConfigValue& value, const std::string& key);
 // Text that names a file or folder within a folder, and nothing outside it.
 [[nodiscard]] std::string to_file_name(const ConfigValue& value, const std::string& key);
 // The name of a place that steps hand over: letters, digits and _.
@@ -68,6 +70,15 @@ namespace config_detail {
 // usual: the module when the map names none; empty: it must.
 [[nodiscard]] PluginChoice to_plugin(const ConfigValue& value, const std::string& key, const std::string& usual = "");
 [[nodiscard]] const std::vector<ConfigValue>& to_list(const ConfigValue& value, const std::string& key);
+// Reads a list, each of its items by `read`.
+template <class Read>
+[[nodiscard]] auto each_by(Read read) {
+  return [read](const ConfigValue& value, const std::string& key) {
+    std::vector<decltype(read(value, key))> out;
+    for (const ConfigValue& item : to_list(value, key)) out.push_back(read(item, key));
+    return out;
+  };
+}
 [[nodiscard]] std::string number_text(double value);
 // Which one of the keys the map holds. Throws ConfigError when it holds none or several.
 [[nodiscard]] std::string exactly_one_of(const ConfigValue& map, const std::vector<std::string>& keys,
@@ -89,13 +100,11 @@ class Fields {
   FieldSpec& number(std::string key, Number Owner::*member, Range range, std::string unit, std::string meaning) {
     std::string default_text;
     if constexpr (std::is_same_v<Number, double>) default_text = config_detail::number_text(defaults_.*member);
-    FieldSpec& f = add(std::move(key), "number", std::move(meaning), std::move(default_text));
-    f.unit = std::move(unit);
-    f.range = range;
-    f.load = [member, key = f.key, range, unit = f.unit](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_number(v, key, range, unit);
+    const auto read = [range, unit](const ConfigValue& v, const std::string& name) {
+      return config_detail::to_number(v, name, range, unit);
     };
-    return f;
+    return measured(add(std::move(key), "number", std::move(meaning), std::move(default_text), member, read), unit,
+                    range);
   }
   // Degrees in the file, radians in the struct; the range is in degrees, the unit may be "deg/s" and the like.
   template <class Number, class Owner>
@@ -103,53 +112,38 @@ class Fields {
                    std::string unit = "deg") {
     std::string default_text;
     if constexpr (std::is_same_v<Number, double>) default_text = config_detail::number_text(degrees(defaults_.*member));
-    FieldSpec& f = add(std::move(key), "number", std::move(meaning), std::move(default_text));
-    f.unit = std::move(unit);
-    f.range = range_deg;
-    f.load = [member, key = f.key, range_deg, unit = f.unit](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = radians(config_detail::to_number(v, key, range_deg, unit));
+    const auto read = [range_deg, unit](const ConfigValue& v, const std::string& name) {
+      return radians(config_detail::to_number(v, name, range_deg, unit));
     };
-    return f;
+    return measured(add(std::move(key), "number", std::move(meaning), std::move(default_text), member, read), unit,
+                    range_deg);
   }
   template <class Integer>
   FieldSpec& integer(std::string key, Integer Config::*member, Range range, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "integer", std::move(meaning), std::to_string(defaults_.*member));
-    f.range = range;
-    f.load = [member, key = f.key, range](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member =
-          static_cast<Integer>(config_detail::to_integer(v, key, config_detail::within_type<Integer>(range)));
+    const auto read = [range](const ConfigValue& v, const std::string& name) {
+      return static_cast<Integer>(config_detail::to_integer(v, name, config_detail::within_type<Integer>(range)));
     };
-    return f;
+    return measured(add(std::move(key), "integer", std::move(meaning), std::to_string(defaults_.*member), member, read),
+                    "", range);
   }
   FieldSpec& flag(std::string key, bool Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "flag", std::move(meaning), defaults_.*member ? "true" : "false");
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_flag(v, key);
-    };
-    return f;
+    return add(std::move(key), "flag", std::move(meaning), defaults_.*member ? "true" : "false", member,
+               config_detail::to_flag);
   }
   FieldSpec& text(std::string key, std::string Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "text", std::move(meaning), defaults_.*member);
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_text(v, key);
-    };
-    return f;
+    return add(std::move(key), "text", std::move(meaning), defaults_.*member, member, config_detail::to_text);
   }
   // Text that is also the name of a file or folder.
   FieldSpec& file_name(std::string key, std::string Config::*member, std::string meaning) {
-    FieldSpec& f = text(std::move(key), member, std::move(meaning));
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_file_name(v, key);
-    };
-    return f;
+    return add(std::move(key), "text", std::move(meaning), defaults_.*member, member, config_detail::to_file_name);
   }
   // Of a behaviour: the name under which it takes a place from an earlier step, and gives one to later ones. The host
   // checks that a step before gives what another takes.
   FieldSpec& input(std::string key, std::string Config::*member, std::string meaning) {
-    return value_name(std::move(key), "input", member, std::move(meaning));
+    return add(std::move(key), "input", std::move(meaning), "", member, config_detail::to_value_name);
   }
   FieldSpec& output(std::string key, std::string Config::*member, std::string meaning) {
-    return value_name(std::move(key), "output", member, std::move(meaning));
+    return add(std::move(key), "output", std::move(meaning), "", member, config_detail::to_value_name);
   }
   template <class Enum>
   FieldSpec& choice(std::string key, Enum Config::*member, std::vector<std::pair<std::string, Enum>> options,
@@ -160,133 +154,82 @@ class Fields {
       names.push_back(name);
       if (value == defaults_.*member) default_text = name;
     }
-    FieldSpec& f = add(std::move(key), "choice", std::move(meaning), std::move(default_text));
+    FieldSpec& f = add(std::move(key), "choice", std::move(meaning), std::move(default_text), member,
+                       [options, names](const ConfigValue& v, const std::string& name) {
+                         return options[config_detail::to_choice(v, name, names)].second;
+                       });
     f.choices = names;
-    f.load = [member, key = f.key, options = std::move(options), names](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = options[config_detail::to_choice(v, key, names)].second;
-    };
     return f;
   }
   // A path, resolved against the folder of the file that names it.
   FieldSpec& file(std::string key, std::filesystem::path Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "file", std::move(meaning), (defaults_.*member).string());
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      (void)config_detail::to_text(v, key);
-      static_cast<Config*>(c)->*member = resolve_path(v);
-    };
-    return f;
+    return add(std::move(key), "file", std::move(meaning), (defaults_.*member).string(), member,
+               config_detail::to_path);
   }
   FieldSpec& files(std::string key, std::vector<std::filesystem::path> Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "list of files", std::move(meaning), "");
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      auto& out = static_cast<Config*>(c)->*member;
-      out.clear();
-      for (const ConfigValue& item : config_detail::to_list(v, key)) {
-        (void)config_detail::to_text(item, key);
-        out.push_back(resolve_path(item));
-      }
-    };
-    return f;
+    return add(std::move(key), "list of files", std::move(meaning), "", member,
+               config_detail::each_by(config_detail::to_path));
   }
   // The range is that of each coordinate.
   FieldSpec& point(std::string key, Point Config::*member, std::string unit, std::string meaning, Range range = {}) {
-    FieldSpec& f = add(std::move(key), "point", std::move(meaning),
-                       "[" + config_detail::number_text((defaults_.*member).x()) + ", " +
-                           config_detail::number_text((defaults_.*member).y()) + "]");
-    f.unit = std::move(unit);
-    f.range = range;
-    f.load = [member, key = f.key, range, unit = f.unit](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_point(v, key, range, unit);
+    const Point& at = defaults_.*member;
+    const std::string default_text =
+        "[" + config_detail::number_text(at.x()) + ", " + config_detail::number_text(at.y()) + "]";
+    const auto read = [range, unit](const ConfigValue& v, const std::string& name) {
+      return config_detail::to_point(v, name, range, unit);
     };
-    return f;
+    return measured(add(std::move(key), "point", std::move(meaning), default_text, member, read), unit, range);
   }
   FieldSpec& point(std::string key, std::optional<Point> Config::*member, std::string unit, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "point", std::move(meaning), "");
-    f.unit = std::move(unit);
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_point(v, key);
-    };
-    return f;
+    const auto read = [](const ConfigValue& v, const std::string& name) { return config_detail::to_point(v, name); };
+    return measured(add(std::move(key), "point", std::move(meaning), "", member, read), unit);
   }
   FieldSpec& points(std::string key, std::vector<Point> Config::*member, std::string unit, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "list of points", std::move(meaning), "");
-    f.unit = std::move(unit);
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_points(v, key);
-    };
-    return f;
+    return measured(add(std::move(key), "list of points", std::move(meaning), "", member, config_detail::to_points),
+                    unit);
   }
   FieldSpec& numbers(std::string key, std::vector<double> Config::*member, Range range, std::string unit,
                      std::string meaning) {
-    FieldSpec& f = add(std::move(key), "list of numbers", std::move(meaning), "");
-    f.unit = std::move(unit);
-    f.range = range;
-    f.load = [member, key = f.key, range](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_numbers(v, key, range);
+    const auto read = [range](const ConfigValue& v, const std::string& name) {
+      return config_detail::to_numbers(v, name, range);
     };
-    return f;
+    return measured(add(std::move(key), "list of numbers", std::move(meaning), "", member, read), unit, range);
   }
   FieldSpec& texts(std::string key, std::vector<std::string> Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "list of texts", std::move(meaning), "");
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      auto& out = static_cast<Config*>(c)->*member;
-      out.clear();
-      for (const ConfigValue& item : config_detail::to_list(v, key)) out.push_back(config_detail::to_text(item, key));
-    };
-    return f;
+    return add(std::move(key), "list of texts", std::move(meaning), "", member,
+               config_detail::each_by(config_detail::to_text));
   }
-  // A nested struct with its own describe().
+  // A nested struct with its own describe(); what the file leaves out stays as the outer struct has it.
   template <class Sub>
   FieldSpec& group(std::string key, Sub Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "map", std::move(meaning), "");
-    Schema schema = schema_of<Sub>();
-    take_nested(f, schema);
-    f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
+    FieldSpec& f = nested<Sub>(add(std::move(key), "map", std::move(meaning), "", member, loaded_by<Sub>()));
+    f.load = [member, key = f.key, schema = schema_of<Sub>()](void* c, const ConfigValue& v) {
       schema.load_into(&(static_cast<Config*>(c)->*member), v, key);
     };
     return f;
   }
   template <class Sub>
   FieldSpec& group(std::string key, std::optional<Sub> Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "map", std::move(meaning), "");
-    Schema schema = schema_of<Sub>();
-    take_nested(f, schema);
-    f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
-      Sub sub;
-      schema.load_into(&sub, v, key);
-      static_cast<Config*>(c)->*member = std::move(sub);
-    };
-    return f;
+    return nested<Sub>(add(std::move(key), "map", std::move(meaning), "", member, loaded_by<Sub>()));
   }
   template <class Sub>
   FieldSpec& list(std::string key, std::vector<Sub> Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "list of maps", std::move(meaning), "");
-    Schema schema = schema_of<Sub>();
-    take_nested(f, schema);
-    f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
-      auto& out = static_cast<Config*>(c)->*member;
-      out.clear();
-      for (const ConfigValue& item : config_detail::to_list(v, key)) {
-        out.emplace_back();
-        schema.load_into(&out.back(), item, key);
-      }
-    };
-    return f;
+    return nested<Sub>(
+        add(std::move(key), "list of maps", std::move(meaning), "", member, config_detail::each_by(loaded_by<Sub>())));
   }
   // A module of a kind (as name_of(PluginKind) says it) with its settings.
   FieldSpec& plugin(std::string key, PluginChoice Config::*member, std::string kind, std::string meaning) {
-    FieldSpec& f = add(std::move(key), "plugin", std::move(meaning), (defaults_.*member).name);
+    const std::string usual = (defaults_.*member).name;
+    FieldSpec& f = add(
+        std::move(key), "plugin", std::move(meaning), usual, member,
+        [usual](const ConfigValue& v, const std::string& name) { return config_detail::to_plugin(v, name, usual); });
     f.plugin_kind = std::move(kind);
-    f.load = [member, key = f.key, usual = f.default_text](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_plugin(v, key, usual);
-    };
     return f;
   }
   // Anything, kept as it stands (checked by whoever knows).
   FieldSpec& raw(std::string key, ConfigValue Config::*member, std::string type, std::string meaning) {
-    FieldSpec& f = add(std::move(key), std::move(type), std::move(meaning), "");
-    f.load = [member](void* c, const ConfigValue& v) { static_cast<Config*>(c)->*member = v; };
-    return f;
+    return add(std::move(key), std::move(type), std::move(meaning), "", member,
+               [](const ConfigValue& v, const std::string&) { return v; });
   }
   void shorthand(std::string key) { schema_.shorthand = std::move(key); }
   // Such a field has no default: what is left out does not apply.
@@ -299,28 +242,40 @@ class Fields {
   [[nodiscard]] Schema take() && { return std::move(schema_); }
 
  private:
-  FieldSpec& add(std::string key, std::string type, std::string meaning, std::string default_text) {
-    FieldSpec f;
+  // Sets the member to what `read` makes of the value and the key, which is for its errors.
+  template <class Member, class Read>
+  FieldSpec& add(std::string key, std::string type, std::string meaning, std::string default_text, Member member,
+                 Read read) {
+    FieldSpec& f = schema_.fields.emplace_back();
     f.key = std::move(key);
     f.type = std::move(type);
     f.meaning = std::move(meaning);
     f.default_text = std::move(default_text);
-    schema_.fields.push_back(std::move(f));
-    return schema_.fields.back();
-  }
-
-  FieldSpec& value_name(std::string key, std::string type, std::string Config::*member, std::string meaning) {
-    FieldSpec& f = add(std::move(key), std::move(type), std::move(meaning), "");
-    f.load = [member, key = f.key](void* c, const ConfigValue& v) {
-      static_cast<Config*>(c)->*member = config_detail::to_value_name(v, key);
+    f.load = [member, key = f.key, read = std::move(read)](void* c, const ConfigValue& v) {
+      static_cast<Config*>(c)->*member = read(v, key);
     };
     return f;
   }
-
-  static void take_nested(FieldSpec& field, const Schema& schema) {
-    field.fields = schema.fields;
-    field.shorthand = schema.shorthand;
-    field.one_of = schema.one_of;
+  static FieldSpec& measured(FieldSpec& field, const std::string& unit, const Range& range = {}) {
+    field.unit = unit;
+    field.range = range;
+    return field;
+  }
+  template <class Sub>
+  static auto loaded_by() {
+    return [schema = schema_of<Sub>()](const ConfigValue& v, const std::string& name) {
+      Sub sub;
+      schema.load_into(&sub, v, name);
+      return sub;
+    };
+  }
+  template <class Sub>
+  static FieldSpec& nested(FieldSpec& field) {
+    Schema schema = schema_of<Sub>();
+    field.fields = std::move(schema.fields);
+    field.shorthand = std::move(schema.shorthand);
+    field.one_of = std::move(schema.one_of);
+    return field;
   }
 
   Config defaults_{};

@@ -62,10 +62,7 @@ struct FiringConfig {
   }
 };
 
-struct OdometryConfig {
-  double distance_ratio = 0.0;
-  double distance_bias_ratio = 0.0;
-  double heading_rad_per_m = 0.0;
+struct OdometryConfig : OdometryError {
   static void describe(Fields<OdometryConfig>& fields) {
     fields.number("distance_ratio", &OdometryConfig::distance_ratio, {0.0, 1.0}, "",
                   "error of the distance driven, independent from metre to metre");
@@ -76,10 +73,7 @@ struct OdometryConfig {
   }
 };
 
-struct CompassConfig {
-  double noise_rad = 0.0;
-  double local_bias_rad = 0.0;
-  double local_bias_scale_m = 2.0;
+struct CompassConfig : CompassError {
   static void describe(Fields<CompassConfig>& fields) {
     fields.angle("noise_deg", &CompassConfig::noise_rad, {0.0, 180.0}, "error of each reading");
     fields.angle("local_bias_deg", &CompassConfig::local_bias_rad, {0.0, 180.0},
@@ -89,11 +83,7 @@ struct CompassConfig {
   }
 };
 
-struct RangesConfig {
-  double noise_m = RangeError{}.noise_m;
-  double noise_ratio = RangeError{}.noise_ratio;
-  double dropped_ratio = RangeError{}.dropped_ratio;
-  double crosstalk_ratio = RangeError{}.crosstalk_ratio;
+struct RangesConfig : RangeError {
   static void describe(Fields<RangesConfig>& fields) {
     fields.number("noise_m", &RangesConfig::noise_m, {0.0, 10.0}, "m", "error of a range");
     fields.number("noise_ratio", &RangesConfig::noise_ratio, {0.0, 1.0}, "", "further error, as a share of the range");
@@ -201,11 +191,9 @@ RobotModel load_robot(const std::filesystem::path& file) {
   set_motion(robot, config, root);
   set_sonars(robot, config, root);
   set_firing(robot, config.firing);
-  robot.odometry_error = {config.odometry.distance_ratio, config.odometry.distance_bias_ratio,
-                          config.odometry.heading_rad_per_m};
-  robot.compass_error = {config.compass.noise_rad, config.compass.local_bias_rad, config.compass.local_bias_scale_m};
-  robot.range_error = {config.ranges.noise_m, config.ranges.noise_ratio, config.ranges.dropped_ratio,
-                       config.ranges.crosstalk_ratio};
+  robot.odometry_error = config.odometry;
+  robot.compass_error = config.compass;
+  robot.range_error = config.ranges;
   return robot;
 }
 

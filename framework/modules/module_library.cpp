@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "framework/contracts/lone_planners.hpp"
+#include "framework/contracts/adapters/lone_planners.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {

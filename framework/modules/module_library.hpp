@@ -43,7 +43,7 @@ class ModuleLibrary : public ModuleMaker {
 };
 
 // Whether a module of kind `found` can be made where one of kind `wanted` is asked for: a path or route planner serves
-// as a planner by itself (lone_planners.hpp).
+// as a planner by itself (adapters/lone_planners.hpp).
 [[nodiscard]] bool serves_as(PluginKind found, PluginKind wanted);
 
 // Where modules are looked for: folders given, then CAIRN_PLUGIN_PATH (colon separated), then

@@ -30,8 +30,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   sub->add_option("MISSION", c->mission, "mission file (config/missions/*.yaml)")->required();
   sub->add_option("--out", c->out, "folder for map, pictures and report")->capture_default_str();
   sub->add_option("--seed", c->seed, "seed, in place of the mission's")->check(seed_range());
-  sub->add_option("--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)")
-      ->allow_extra_args(false);
+  add_repeatable(sub, "--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)");
   sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to go on from");
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
   sub->add_flag("--realtime", c->realtime, "pace simulated time to the clock");
@@ -42,12 +41,9 @@ void add_plan(CLI::App& app, CommandLine& line) {
   sub->add_option("MAP", c->map, "saved map (*.cairn)")->required();
   sub->add_option("--from", c->question.from, "x,y | x,y,angle_deg | L12 | a name | nearest CATEGORY");
   sub->add_option("--to", c->question.to, "as --from");
-  sub->add_option("--via", c->question.via, "place to pass on the way (may be repeated; in this order)")
-      ->allow_extra_args(false);
-  sub->add_option("--avoid", c->question.avoid, "landmark or cluster not to pass (may be repeated)")
-      ->allow_extra_args(false);
-  sub->add_option("--close", c->question.closed, "route not to take, as 12 or R12 (may be repeated)")
-      ->allow_extra_args(false);
+  add_repeatable(sub, "--via", c->question.via, "place to pass on the way (may be repeated; in this order)");
+  add_repeatable(sub, "--avoid", c->question.avoid, "landmark or cluster not to pass (may be repeated)");
+  add_repeatable(sub, "--close", c->question.closed, "route not to take, as 12 or R12 (may be repeated)");
   sub->add_option("--alternatives", c->question.alternatives, "so many more ways over the landmarks")
       ->check(CLI::Range(0, 1000));
   sub->add_option("--cost", c->question.cost, "what ways over the landmarks are compared by")
@@ -60,15 +56,14 @@ void add_plan(CLI::App& app, CommandLine& line) {
   sub->add_option("--jobs", c->jobs, "answer so many queries at once (without it, as many as there are cores)")
       ->check(CLI::Range(1, 256));
   sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
-  sub->add_option(
-         "--set", c->settings,
-         "setting of the planner module (may be repeated): --set route.margin_m=0.05 or --set "
-         "route.algorithm=RRTConnect, without route. when it is `--planner ompl`; `cairn plugins info ompl` lists them")
-      ->allow_extra_args(false);
+  add_repeatable(
+      sub, "--set", c->settings,
+      "setting of the planner module (may be repeated): --set route.margin_m=0.05 or --set "
+      "route.algorithm=RRTConnect, without route. when it is `--planner ompl`; `cairn plugins info ompl` lists them");
   sub->add_option("--robot", c->robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
-  sub->add_option("--radius-m", c->radius_m, "robot radius, in place of the one saved in the map or of the robot file")
-      ->check(number_within(0.0, kMaxRadius_m));
-  sub->add_option("--budget-ms", c->budget_ms, "stop planning after this time")->check(number_within(0.0, 1e9));
+  add_number(sub, "--radius-m", c->radius_m, "robot radius, in place of the one saved in the map or of the robot file",
+             0.0, kMaxRadius_m);
+  add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);
   sub->add_option("--seed", c->seed, "seed of the planner")->check(seed_range())->capture_default_str();
   sub->add_option("--picture", c->picture, "draw the route into this PNG file");
 }
@@ -102,11 +97,9 @@ void add_map_lint(CLI::App& app, CommandLine& line) {
       add_command(*app.get_subcommand("map"), line, map_lint, "lint",
                   "What is doubtful about a map's landmarks and routes; exit status 1 if anything but notes");
   lint->add_option("MAP", c->map, "saved map (*.cairn)")->required();
-  lint->add_option("--radius-m", c->radius_m, "robot radius, in place of the one saved in the map")
-      ->check(number_within(0.0, kMaxRadius_m));
-  lint->add_option("--near-m", c->near_m, "landmarks of one category this near to each other are taken for one")
-      ->check(number_within(0.0, 1000.0))
-      ->capture_default_str();
+  add_number(lint, "--radius-m", c->radius_m, "robot radius, in place of the one saved in the map", 0.0, kMaxRadius_m);
+  add_number(lint, "--near-m", c->near_m, "landmarks of one category this near to each other are taken for one", 0.0,
+             1000.0);
 }
 
 void add_template(CLI::App& app, CommandLine& line) {
@@ -115,12 +108,8 @@ void add_template(CLI::App& app, CommandLine& line) {
   const auto add = [&](const char* name, const char* text, auto command) {
     const auto [sub, c] = add_command(*templates, line, command, name, text);
     sub->add_option("FOLDER", c->folder, "folder of template files (config/templates)")->required();
-    sub->add_option("--cell-m", c->cell_m, "cell size of the map")
-        ->check(number_within(0.005, 1.0))
-        ->capture_default_str();
-    sub->add_option("--step-deg", c->step_deg, "orientation step")
-        ->check(number_within(1.0, 90.0))
-        ->capture_default_str();
+    add_number(sub, "--cell-m", c->cell_m, "cell size of the map", 0.005, 1.0);
+    add_number(sub, "--step-deg", c->step_deg, "orientation step", 1.0, 90.0);
     return std::pair(sub, c);
   };
   add("list", "Categories, sizes and orientations", template_list);
@@ -141,9 +130,8 @@ void add_template_capture(CLI::App& app, CommandLine& line) {
   capture->add_option("MAP", c->map, "saved map (*.cairn)")->required();
   capture->add_option("--at", c->at, "where it is: x,y or a landmark")->required();
   capture->add_option("--category", c->category, "what to call such landmarks")->required();
-  capture->add_option("--radius-m", c->radius_m, "everything that lies wholly within this of the place belongs to it")
-      ->check(number_within(0.05, 20.0))
-      ->capture_default_str();
+  add_number(capture, "--radius-m", c->radius_m, "everything that lies wholly within this of the place belongs to it",
+             0.05, 20.0);
   capture->add_option("-o,--out", c->out, "template file to write")->required();
 }
 
@@ -181,8 +169,7 @@ void add_experiment(CLI::App& app, CommandLine& line) {
       add_command(app, line, experiment, "experiment", "Run an experiment over many seeds and write its table");
   sub->add_option("FILE", c->file, "experiment file (config/experiments/*.yaml)")->required();
   sub->add_option("--out", c->out, "folder for the table and reports")->capture_default_str();
-  sub->add_option("--set", c->overrides, "override a setting of the file, as seeds.count=20 (may be repeated)")
-      ->allow_extra_args(false);
+  add_repeatable(sub, "--set", c->overrides, "override a setting of the file, as seeds.count=20 (may be repeated)");
 }
 
 // What the parser calls unexpected is most often a misspelt command.
@@ -239,8 +226,7 @@ int main_of(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   CommandLine line;
-  app.add_option("--plugins", line.common.plugin_folders, "further folder of modules (may be repeated)")
-      ->allow_extra_args(false);
+  add_repeatable(&app, "--plugins", line.common.plugin_folders, "further folder of modules (may be repeated)");
   app.add_flag("--json", line.common.json, "JSON on standard output; text for people on standard error");
   for (const auto add :
        {add_run, add_mission, add_plan, add_map, add_map_files, add_map_name, add_map_lint, add_template,

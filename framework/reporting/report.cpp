@@ -197,11 +197,9 @@ struct Sentence {
     return std::string(" ends: ") + (status.progress == Progress::success ? "success" : "failure") +
            (status.reason.empty() ? "" : ", " + status.reason);
   }
-  std::string operator()(const StepStarted& e) const {
-    return "step " + std::to_string(e.index + 1) + " (" + e.name + ") begins";
-  }
+  std::string operator()(const StepStarted& e) const { return fmt::format("step {} ({}) begins", e.index + 1, e.name); }
   std::string operator()(const StepEnded& e) const {
-    return "step " + std::to_string(e.index + 1) + " (" + e.name + ")" + ended(e.status);
+    return fmt::format("step {} ({})", e.index + 1, e.name) + ended(e.status);
   }
   std::string operator()(const NodeStarted& e) const { return "node " + e.path + " (" + e.name + ") begins"; }
   std::string operator()(const NodeEnded& e) const {

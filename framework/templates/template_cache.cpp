@@ -1,6 +1,7 @@
 #include "framework/templates/template_cache.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::string_view kMagic = "cairn templates 1\n";
 
-// FNV-1a.
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -168,9 +168,7 @@ void add_library_of(KeyText& key, const void* address) {
 }  // namespace
 
 std::filesystem::path TemplateCache::file_of(const std::string& key) const {
-  std::ostringstream name;
-  name << std::hex << hash_of(key) << ".templates";
-  return folder_ / name.str();
+  return folder_ / fmt::format("{:x}.templates", hash_of(key));
 }
 
 std::optional<std::vector<LandmarkTemplate>> TemplateCache::find(const std::string& key) const {
@@ -184,7 +182,7 @@ void TemplateCache::keep(const std::string& key, const std::vector<LandmarkTempl
   const std::filesystem::path file = file_of(key);
   // Several runs of one process may keep the same templates at once.
   static std::atomic<int> writes = 0;
-  const std::filesystem::path fresh = file.string() + "." + std::to_string(::getpid()) + "." + std::to_string(++writes);
+  const std::filesystem::path fresh = fmt::format("{}.{}.{}", file.string(), ::getpid(), ++writes);
   std::ofstream out(fresh, std::ios::binary);
   const std::string bytes = encoded(key, templates);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

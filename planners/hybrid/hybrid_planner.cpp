@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "framework/contracts/lone_planners.hpp"
+#include "framework/contracts/adapters/lone_planners.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/hybrid_query.hpp"

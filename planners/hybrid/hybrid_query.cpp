@@ -3,7 +3,7 @@
 #include <chrono>
 #include <set>
 
-#include "framework/contracts/lone_planners.hpp"
+#include "framework/contracts/adapters/lone_planners.hpp"
 #include "planners/common/any_angle/nearest_goals.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"

@@ -1,6 +1,6 @@
 #include "planners/hybrid/symbolic_path.hpp"
 
-#include "framework/contracts/lone_planners.hpp"
+#include "framework/contracts/adapters/lone_planners.hpp"
 
 namespace cairn {
 namespace {

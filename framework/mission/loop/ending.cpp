@@ -1,5 +1,7 @@
 // How a mission ends, what it leaves, and how it stands until then.
 
+#include <fmt/format.h>
+
 #include "framework/mission/loop/mission_loop.hpp"
 #include "framework/mission/saved_content.hpp"
 
@@ -18,10 +20,9 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   // From here on this thread is the only one that touches the mission; only what the lost call works
   // on may still change.
   ending_ = {MissionOutcome::module_fault,
-             "module " + modules_.clock.module_of(lost) + " has not returned from stage " +
-                 modules_.clock.stage_of(lost) + " for " +
-                 std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(longest).count()) +
-                 " ms and was given up"};
+             fmt::format("module {} has not returned from stage {} for {} ms and was given up",
+                         modules_.clock.module_of(lost), modules_.clock.stage_of(lost),
+                         std::chrono::duration_cast<std::chrono::milliseconds>(longest).count())};
   steps_.abandon(clock_.time_s(), ending_.reason);
   monitor_.stop_after_giving_up(lost, modules_.sensor.stage());
   if (lost == modules_.mapper.stage() || world_.grid == nullptr) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "framework/program/common/commands.hpp"
 
@@ -34,6 +35,12 @@ AddedCommand<Options> add_command(CLI::App& parent, CommandLine& line,
   return {command, options.get()};
 }
 
+// An option that takes one value each time it stands there.
+template <class List>
+void add_repeatable(CLI::App* command, const std::string& name, List& list, const std::string& about) {
+  command->add_option(name, list, about)->allow_extra_args(false);
+}
+
 // CLI::Range lets nan pass.
 inline CLI::Validator number_within(double min, double max) {
   const std::string range = "a number from " + CLI::detail::to_string(min) + " to " + CLI::detail::to_string(max);
@@ -43,6 +50,14 @@ inline CLI::Validator number_within(double min, double max) {
             return is_within ? std::string() : "must be " + range + ", found \"" + text + "\"";
           },
           "FLOAT in [" + CLI::detail::to_string(min) + " - " + CLI::detail::to_string(max) + "]", "number"};
+}
+
+// A double, whose default the help shows, or an optional one.
+template <class Number>
+void add_number(CLI::App* command, const std::string& name, Number& number, const std::string& about, double min,
+                double max) {
+  CLI::Option* option = command->add_option(name, number, about)->check(number_within(min, max));
+  if constexpr (std::is_same_v<Number, double>) option->capture_default_str();
 }
 
 }  // namespace cairn

@@ -31,8 +31,7 @@ void add_mission(CLI::App& app, CommandLine& line) {
   show->add_option("FILE", s->file, "mission file")->required();
   show->add_option("--picture", s->picture, "draw the tree into this PNG file");
   for (const auto& [sub, overrides] : {std::pair(check, &c->overrides), std::pair(show, &s->overrides)})
-    sub->add_option("--set", *overrides, "override a setting, as for `cairn run` (may be repeated)")
-        ->allow_extra_args(false);
+    add_repeatable(sub, "--set", *overrides, "override a setting, as for `cairn run` (may be repeated)");
   add_control(*mission, line);
 }
 

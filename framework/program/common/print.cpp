@@ -16,9 +16,11 @@ void print(const nlohmann::ordered_json& json, const std::string& text, const Co
     std::cout << text;
 }
 
-void print_text(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common) {
+void print_report(const nlohmann::ordered_json& json, const std::string& line, const std::vector<std::string>& warnings,
+                  const CommonOptions& common) {
   (common.json ? std::cerr : std::cout) << line << "\n";
   for (const std::string& warning : warnings) std::cerr << "  " << warning << "\n";
+  if (common.json) print_json(json);
 }
 
 }  // namespace cairn

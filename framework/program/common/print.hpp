@@ -13,7 +13,8 @@ namespace cairn {
 void print_json(const nlohmann::ordered_json& json);
 // The one that was asked for. The text ends with its line feed.
 void print(const nlohmann::ordered_json& json, const std::string& text, const CommonOptions& common);
-// The line and the warnings; with --json both on standard error, where warnings go anyway.
-void print_text(const std::string& line, const std::vector<std::string>& warnings, const CommonOptions& common);
+// The line and the warnings; with --json both on standard error, where warnings go anyway, and the object as well.
+void print_report(const nlohmann::ordered_json& json, const std::string& line, const std::vector<std::string>& warnings,
+                  const CommonOptions& common);
 
 }  // namespace cairn

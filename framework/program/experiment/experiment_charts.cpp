@@ -97,34 +97,36 @@ std::vector<NamedChart> map_charts(const ExperimentConfig& config, const std::ve
   return charts;
 }
 
-std::vector<NamedChart> orbit_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
-  std::vector<NamedChart> charts;
+// Draws the charts of each mission with each variant; the prefix of their names is empty when there is only one.
+template <class Draw>
+void for_each_variant(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows, Draw draw) {
   for (const std::string& mission : missions_of(rows))
     for (const ExperimentVariant& variant : config.variants) {
       const auto of_variant = rows_of(rows, mission, variant.name);
       const bool alone = of_variant.size() == rows.size();
-      const std::string name = alone ? "orbit" : mission + " " + variant.name;
-      charts.push_back({file_name_of(name + " categories"),
-                        orbit_chart(config, orbit_categories(config, of_variant), "Best degree of each category")});
-      const std::vector<OrbitSeries> templates = orbit_templates(config, of_variant);
-      if (!templates.empty())
-        charts.push_back(
-            {file_name_of(name + " templates"),
-             orbit_chart(config, templates, "Best degree of each template of the " + config.orbit->around)});
+      draw(of_variant, alone ? "" : mission + " " + variant.name + " ");
     }
+}
+
+std::vector<NamedChart> orbit_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::vector<NamedChart> charts;
+  for_each_variant(config, rows, [&](const auto& of_variant, const std::string& prefix) {
+    const std::string name = prefix.empty() ? "orbit " : prefix;
+    charts.push_back({file_name_of(name + "categories"),
+                      orbit_chart(config, orbit_categories(config, of_variant), "Best degree of each category")});
+    const std::vector<OrbitSeries> templates = orbit_templates(config, of_variant);
+    if (!templates.empty())
+      charts.push_back({file_name_of(name + "templates"),
+                        orbit_chart(config, templates, "Best degree of each template of the " + config.orbit->around)});
+  });
   return charts;
 }
 
 std::vector<NamedChart> curve_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   std::vector<NamedChart> charts;
-  for (const std::string& mission : missions_of(rows))
-    for (const ExperimentVariant& variant : config.variants) {
-      const auto of_variant = rows_of(rows, mission, variant.name);
-      const bool alone = of_variant.size() == rows.size();
-      if (!of_variant.empty())
-        charts.push_back({file_name_of(alone ? "curves" : mission + " " + variant.name + " curves"),
-                          curve_chart(config, of_variant)});
-    }
+  for_each_variant(config, rows, [&](const auto& of_variant, const std::string& prefix) {
+    if (!of_variant.empty()) charts.push_back({file_name_of(prefix + "curves"), curve_chart(config, of_variant)});
+  });
   return charts;
 }
 

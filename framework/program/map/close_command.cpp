@@ -36,10 +36,10 @@ int set_closed(const CloseCommand& command, bool closed, const CommonOptions& co
   }
   if (!list.empty()) save_map(command.map, map);
   const char* now = closed ? "closed" : "open";
-  print_text(list.empty() ? std::string("nothing to do: already ") + now
-                          : counted(list.size(), "route") + " " + now + ": " + changed,
-             {}, common);
-  if (common.json) print_json({{"map", command.map.string()}, {"changed", list}, {"closed", closed}});
+  print_report({{"map", command.map.string()}, {"changed", list}, {"closed", closed}},
+               list.empty() ? std::string("nothing to do: already ") + now
+                            : counted(list.size(), "route") + " " + now + ": " + changed,
+               {}, common);
   return kExitDone;
 }
 

@@ -4,6 +4,7 @@
 
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
+#include "framework/program/common/refusal.hpp"
 #include "framework/program/map/number_list.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/text.hpp"
@@ -14,12 +15,9 @@ namespace cairn {
 int map_crop(const CropCommand& command, const CommonOptions& common) {
   const std::vector<double> box = number_list(command.box, "x0,y0,x1,y1", "map crop: --box", kMaxCoordinate);
   const SavedMap map = load_map(command.map);
-  CroppedMap cropped;
-  try {
-    cropped = crop_map(map, {box[0], box[1]}, {box[2], box[3]});
-  } catch (const std::invalid_argument& refused) {
-    throw std::runtime_error("map crop: " + command.map.string() + ": " + refused.what());
-  }
+  CroppedMap cropped = refused_about("map crop: " + command.map.string(), [&] {
+    return crop_map(map, {box[0], box[1]}, {box[2], box[3]});
+  });
   cropped.map.properties["cropped_to"] = command.box;
   save_map(command.out, cropped.map);
   const std::size_t landmarks = cropped.map.graph.landmarks().size();
@@ -31,17 +29,16 @@ int map_crop(const CropCommand& command, const CommonOptions& common) {
   if (cropped.routes_dropped > 0)
     warnings.push_back(counted(cropped.routes_dropped, "route") + " to the outside or through it: dropped");
   warnings.insert(warnings.end(), cropped.warnings.begin(), cropped.warnings.end());
-  print_text(fmt::format("wrote {}: {} x {} cells, {}, {}", command.out.string(), cells.width(), cells.height(),
-                         counted(landmarks, "landmark"), counted(routes, "route")),
-             warnings, common);
-  if (common.json)
-    print_json({{"map", command.out.string()},
+  print_report({{"map", command.out.string()},
                 {"size_cells", {cells.width(), cells.height()}},
                 {"landmarks", landmarks},
                 {"routes", routes},
                 {"landmarks_dropped", cropped.landmarks_dropped},
                 {"routes_dropped", cropped.routes_dropped},
-                {"warnings", warnings}});
+                {"warnings", warnings}},
+               fmt::format("wrote {}: {} x {} cells, {}, {}", command.out.string(), cells.width(), cells.height(),
+                           counted(landmarks, "landmark"), counted(routes, "route")),
+               warnings, common);
   return kExitDone;
 }
 

@@ -5,6 +5,7 @@
 
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
+#include "framework/program/common/refusal.hpp"
 #include "framework/program/map/exchange_report.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/text.hpp"
@@ -117,12 +118,9 @@ int map_diff(const DiffCommand& command, const CommonOptions& common) {
     fail_extension(command.picture, "drawn into", {".png"});
   const SavedMap a = load_map(command.a);
   const SavedMap b = load_map(command.b);
-  MapDifference difference;
-  try {
-    difference = difference_of(a, b, command.near_m);
-  } catch (const std::invalid_argument& refused) {
-    throw std::runtime_error("map diff: " + command.a.string() + " and " + command.b.string() + ": " + refused.what());
-  }
+  const std::string both = command.a.string() + " and " + command.b.string();
+  const MapDifference difference =
+      refused_about("map diff: " + both, [&] { return difference_of(a, b, command.near_m); });
   if (!command.picture.empty())
     write_difference_picture(
         command.picture, {&a, &b, &difference, command.a.filename().string() + " -> " + command.b.filename().string()});
@@ -131,8 +129,7 @@ int map_diff(const DiffCommand& command, const CommonOptions& common) {
     if (!command.picture.empty()) json["picture"] = command.picture.string();
     print_json(json);
   } else {
-    std::cout << command.a.string() << " and " << command.b.string() << ": "
-              << (difference.is_same() ? "the same grid, landmarks and routes" : "different") << "\n";
+    std::cout << both << ": " << (difference.is_same() ? "the same grid, landmarks and routes" : "different") << "\n";
     if (!difference.is_same()) print(difference, a, b);
     if (!command.picture.empty()) std::cout << "wrote " << command.picture.string() << "\n";
   }

@@ -35,10 +35,9 @@ int import_graph(const ExchangeCommand& command, ImportedGraph imported, const C
   const std::vector<std::string> warnings = about(command.from, std::move(imported.warnings));
   const std::size_t landmarks = map.graph.landmarks().size();
   const std::size_t routes = map.graph.routes().size();
-  print_text(fmt::format("wrote {}: {} landmarks, {} routes", command.to.string(), landmarks, routes), warnings,
-             common);
-  if (common.json)
-    print_json({{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", warnings}});
+  print_report({{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", warnings}},
+               fmt::format("wrote {}: {} landmarks, {} routes", command.to.string(), landmarks, routes), warnings,
+               common);
   return kExitDone;
 }
 
@@ -56,19 +55,19 @@ int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
   map.properties["imported_from"] = command.from.filename().string();
   save_map(command.to, map);
   const CellBox box = map.grid.bounds();
-  print_text(fmt::format("wrote {}: {} x {} cells of {:g} m, {:.1f} % known within its outermost walls; no robot came "
-                         "with them: `cairn "
-                         "plan` takes one of {:g} m radius unless it is told --radius-m",
-                         command.to.string(), box.width(), box.height(), map.grid.cell_m(),
-                         100.0 * known_ratio(map.grid), RobotModel{}.radius_m),
-             imported.warnings, common);
-  if (common.json)
-    print_json({{"map", command.to.string()},
-                {"size_cells", {box.width(), box.height()}},
-                {"cell_m", map.grid.cell_m()},
-                {"landmarks", 0},
-                {"routes", 0},
-                {"warnings", imported.warnings}});
+  print_report(
+      {{"map", command.to.string()},
+       {"size_cells", {box.width(), box.height()}},
+       {"cell_m", map.grid.cell_m()},
+       {"landmarks", 0},
+       {"routes", 0},
+       {"warnings", imported.warnings}},
+      fmt::format("wrote {}: {} x {} cells of {:g} m, {:.1f} % known within its outermost walls; no robot came "
+                  "with them: `cairn "
+                  "plan` takes one of {:g} m radius unless it is told --radius-m",
+                  command.to.string(), box.width(), box.height(), map.grid.cell_m(), 100.0 * known_ratio(map.grid),
+                  RobotModel{}.radius_m),
+      imported.warnings, common);
   return kExitDone;
 }
 

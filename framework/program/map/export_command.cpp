@@ -5,6 +5,7 @@
 
 #include "framework/program/common/output_files.hpp"
 #include "framework/program/common/print.hpp"
+#include "framework/program/common/refusal.hpp"
 #include "framework/program/map/exchange_report.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/base/source_text.hpp"
@@ -85,12 +86,7 @@ Written write_map_server(const ExchangeCommand& command, const SavedMap& map) {
 Written write_scaled(const ExchangeCommand& command, const SavedMap& map) {
   const OccupancyGrid& grid = grid_of(map, command, "without --scale its landmarks and routes are drawn");
   Written written{{command.to}, {}};
-  GreyPicture picture;
-  try {
-    picture = grid_picture_of(grid, *command.px_per_cell);
-  } catch (const std::invalid_argument& refused) {
-    throw std::runtime_error("map export: " + std::string(refused.what()));
-  }
+  const GreyPicture picture = refused_about("map export", [&] { return grid_picture_of(grid, *command.px_per_cell); });
   warn_of_graph(map.graph, written.warnings);
   write_file(command.to, picture_text_of(picture, PictureFormat::png));
   return written;
@@ -149,12 +145,11 @@ int map_export(const ExchangeCommand& command, const CommonOptions& common) {
   written.warnings = about(command.to, std::move(written.warnings));
   std::string names = command.to.string();
   for (std::size_t i = 1; i < written.files.size(); ++i) names += " and " + written.files[i].string();
-  print_text("wrote " + names, written.warnings, common);
-  if (common.json)
-    print_json({{"file", command.to.string()},
+  print_report({{"file", command.to.string()},
                 {"landmarks", map.graph.landmarks().size()},
                 {"routes", map.graph.routes().size()},
-                {"warnings", written.warnings}});
+                {"warnings", written.warnings}},
+               "wrote " + names, written.warnings, common);
   return kExitDone;
 }
 

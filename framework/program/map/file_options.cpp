@@ -11,8 +11,7 @@ void add_exchange(CLI::App& map, CommandLine& line) {
                  "Moving AI grid (*.map) or map_server (*.yaml)")
       ->required();
   in->add_option("-o,--out", c->to, "saved map to write (*.cairn)")->required();
-  in->add_option("--cell-m", c->cell_m, "cell size of a Moving AI grid (without it 1)")
-      ->check(number_within(0.001, 1000.0));
+  add_number(in, "--cell-m", c->cell_m, "cell size of a Moving AI grid (without it 1)", 0.001, 1000.0);
   in->add_flag("--allow-outside", c->allow_outside, "read a picture that is outside the folder of the file");
   const auto [out, e] = add_command(map, line, map_export, "export",
                                     "Write a map's landmark graph or grid for other tools, or its picture");
@@ -26,8 +25,8 @@ void add_exchange(CLI::App& map, CommandLine& line) {
       ->check(CLI::IsMember({"trinary", "scale", "raw"}));
   out->add_option("--picture", e->picture, "map_server's picture: pgm, png or bmp (without it pgm, in mode scale png)")
       ->check(CLI::IsMember({"pgm", "png", "bmp"}));
-  out->add_option("--scale", e->px_per_cell, "a *.png of the bare grid with so many pixels a cell, 0.25 or 3")
-      ->check(number_within(1e-6, 65536.0));
+  add_number(out, "--scale", e->px_per_cell, "a *.png of the bare grid with so many pixels a cell, 0.25 or 3", 1e-6,
+             65536.0);
 }
 
 void add_merge(CLI::App& map, CommandLine& line) {
@@ -35,9 +34,7 @@ void add_merge(CLI::App& map, CommandLine& line) {
   merge->add_option("A", c->a, "saved map (*.cairn), whose frame counts")->required();
   merge->add_option("B", c->b, "saved map to lay into it")->required();
   merge->add_option("--transform", c->transform, "x,y,deg: where B's frame lies in A's")->required();
-  merge->add_option("--near-m", c->near_m, "landmarks of one category this near to each other are one")
-      ->check(number_within(0.0, 1000.0))
-      ->capture_default_str();
+  add_number(merge, "--near-m", c->near_m, "landmarks of one category this near to each other are one", 0.0, 1000.0);
   merge->add_option("-o,--out", c->out, "saved map to write")->required();
 }
 
@@ -53,9 +50,8 @@ void add_diff(CLI::App& map, CommandLine& line) {
                                      "What differs between two maps of one frame; exit status 0 the same, 1 different");
   diff->add_option("A", c->a, "saved map (*.cairn)")->required();
   diff->add_option("B", c->b, "saved map to compare with it")->required();
-  diff->add_option("--near-m", c->near_m, "landmarks of one category this near to each other are taken for one")
-      ->check(number_within(0.0, 1000.0))
-      ->capture_default_str();
+  add_number(diff, "--near-m", c->near_m, "landmarks of one category this near to each other are taken for one", 0.0,
+             1000.0);
   diff->add_option("--picture", c->picture, "draw what is new, gone and the same into this PNG file");
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -22,10 +24,9 @@ struct Named {
 
 Named find_named(SavedMap& map, const std::string& what) {
   if (const Landmark* landmark = map.graph.find_by_name(what))
-    return {"L" + std::to_string(landmark->id), &map.graph.find(landmark->id)->name};
+    return {fmt::format("L{}", landmark->id), &map.graph.find(landmark->id)->name};
   if (const Cluster* cluster = find_cluster(map.clusters, map.graph, what))
-    return {"C" + std::to_string(cluster->level) + ":L" + std::to_string(cluster->anchor),
-            &map.clusters.clusters.at(cluster->id).name};
+    return {fmt::format("C{}:L{}", cluster->level, cluster->anchor), &map.clusters.clusters.at(cluster->id).name};
   std::vector<std::string> known;
   for (const auto& [id, landmark] : map.graph.landmarks()) known.push_back(label_of(landmark));
   for (const auto& [id, cluster] : map.clusters.clusters) known.push_back(label_of(cluster, map.graph));
@@ -38,7 +39,7 @@ void check_name(const SavedMap& map, const Named& named, const std::string& name
   const auto fail = [&](const std::string& why) {
     throw std::runtime_error("the name " + shown(name) + " cannot be given: " + why);
   };
-  if (name.size() > kLongestName) fail("it is longer than " + std::to_string(kLongestName) + " bytes");
+  if (name.size() > kLongestName) fail(fmt::format("it is longer than {} bytes", kLongestName));
   if (exchange::first_not_utf8(name) != std::string::npos) fail("it is not UTF-8 text");
   if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }))
     fail("it holds a control character");
@@ -46,10 +47,10 @@ void check_name(const SavedMap& map, const Named& named, const std::string& name
   if (looks_like_id(name)) fail("it looks like an id");
   if (reads_as_place(name)) fail("it reads as a place: x,y or nearest CATEGORY");
   for (const auto& [id, landmark] : map.graph.landmarks())
-    if (&landmark.name != named.name && landmark.name == name) fail("landmark L" + std::to_string(id) + " has it");
+    if (&landmark.name != named.name && landmark.name == name) fail(fmt::format("landmark L{} has it", id));
   for (const auto& [id, cluster] : map.clusters.clusters)
     if (&cluster.name != named.name && cluster.name == name)
-      fail("cluster C" + std::to_string(cluster.level) + ":L" + std::to_string(cluster.anchor) + " has it");
+      fail(fmt::format("cluster C{}:L{} has it", cluster.level, cluster.anchor));
 }
 
 }  // namespace

@@ -145,8 +145,7 @@ int mission_control(const MissionControlCommand& command, const CommonOptions& c
   if (reached.reached == Reached::nobody) fail_nobody(command.out);
   const ordered_json answer = parsed(command.out, reached.line);
   const auto [text, is_done] = reported(command.command, answer);
-  print_text(text, {}, common);
-  if (common.json) print_json(answer);
+  print_report(answer, text, {}, common);
   return is_done ? kExitDone : kExitNotSolved;
 }
 

@@ -1,6 +1,7 @@
 #include "framework/program/mission/control_socket.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -35,7 +36,7 @@ struct Address {
 Address address_in(const std::filesystem::path& folder) {
   Address address{Descriptor(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC))};
   if (address.folder.get() < 0) fail(folder, "the folder cannot be opened: " + text_of_error(errno));
-  const std::string path = "/proc/self/fd/" + std::to_string(address.folder.get()) + "/" + kControlSocket;
+  const std::string path = fmt::format("/proc/self/fd/{}/{}", address.folder.get(), kControlSocket);
   address.name.sun_family = AF_UNIX;
   path.copy(address.name.sun_path, sizeof address.name.sun_path - 1);
   return address;

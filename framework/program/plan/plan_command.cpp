@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <thread>
 
 #include "framework/config/config_value.hpp"
@@ -36,11 +35,10 @@ std::string json_line_of(const PlanQuery& query, const PlanResult& result, const
 }
 
 std::string text_for_people(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {
-  std::ostringstream text;
-  print_text(text, query, result, planner.map(), clusters_for(planner, result));
+  std::string text = text_of(query, result, planner.map(), clusters_for(planner, result));
   if (const auto trajectory = trajectory_for(planner, query, result); !trajectory.empty())
-    text << fmt::format("  driven in {:.1f} s\n", trajectory.back().time_s);
-  return text.str();
+    text += fmt::format("  driven in {:.1f} s\n", trajectory.back().time_s);
+  return text;
 }
 
 struct QueryAnswer {

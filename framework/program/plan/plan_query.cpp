@@ -2,77 +2,76 @@
 
 #include <fmt/format.h>
 
-#include <ostream>
-
 namespace cairn {
 namespace {
 
-void report_explanation(std::ostream& out, const RouteExplanation& explanation, CostKind kind, const SavedMap& map,
+void report_explanation(std::string& out, const RouteExplanation& explanation, CostKind kind, const SavedMap& map,
                         const ClusterTree& clusters) {
   const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no way";
-  out << fmt::format("  by {}: {}; settled", name_of(kind), cost);
+  out += fmt::format("  by {}: {}; settled", name_of(kind), cost);
   for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level) {
     const std::int64_t settled = explanation.settled_of_level[level];
     if (level == 0)
-      out << fmt::format(" {} landmark{}", settled, settled == 1 ? "" : "s");
+      out += fmt::format(" {} landmark{}", settled, settled == 1 ? "" : "s");
     else
-      out << fmt::format(", {} at clusters of level {}", settled, level);
+      out += fmt::format(", {} at clusters of level {}", settled, level);
   }
-  out << "\n";
+  out += "\n";
   for (std::size_t level = explanation.clusters.size(); level-- > 0;) {
-    out << fmt::format("  level {}:", level + 1);
-    for (const ClusterId id : explanation.clusters[level]) out << ' ' << label_of(clusters.clusters.at(id), map.graph);
-    out << "\n";
+    out += fmt::format("  level {}:", level + 1);
+    for (const ClusterId id : explanation.clusters[level]) out += " " + label_of(clusters.clusters.at(id), map.graph);
+    out += "\n";
   }
   if (!explanation.cost_with_closed_open) return;
-  out << fmt::format("  with every closed route open it would be {:.2f} {}, over", *explanation.cost_with_closed_open,
+  out += fmt::format("  with every closed route open it would be {:.2f} {}, over", *explanation.cost_with_closed_open,
                      unit_of(kind));
-  for (const RouteId id : explanation.closed_in_the_way) out << " R" << id;
-  out << "\n";
+  for (const RouteId id : explanation.closed_in_the_way) out += fmt::format(" R{}", id);
+  out += "\n";
 }
 
 // What the path is made of, in its order.
-void report_segments(std::ostream& out, const PlanResult& result) {
+void report_segments(std::string& out, const PlanResult& result) {
   if (result.segments.empty()) return;
   const char* between = "  made of";
   for (const PathSegment& piece : result.segments) {
-    out << between << ' ' << name_of(piece.origin);
-    if (piece.route != 0) out << " R" << piece.route;
-    out << fmt::format(" {:.2f} m", piece.length_m);
+    out += fmt::format("{} {}", between, name_of(piece.origin));
+    if (piece.route != 0) out += fmt::format(" R{}", piece.route);
+    out += fmt::format(" {:.2f} m", piece.length_m);
     between = ",";
   }
   if (result.length_lower_bound_m)
-    out << fmt::format("; no path can be shorter than {:.2f} m", *result.length_lower_bound_m);
-  out << "\n";
+    out += fmt::format("; no path can be shorter than {:.2f} m", *result.length_lower_bound_m);
+  out += "\n";
 }
 
 }  // namespace
 
-void print_text(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
-                const ClusterTree& clusters) {
-  out << fmt::format("{} -> {}: {}", query.question.from, query.question.to, name_of(result.outcome));
+std::string text_of(const PlanQuery& query, const PlanResult& result, const SavedMap& map,
+                    const ClusterTree& clusters) {
+  std::string out = fmt::format("{} -> {}: {}", query.question.from, query.question.to, name_of(result.outcome));
   const bool on_grid = !map.grid.bounds().empty();
   if (result.outcome == PlanOutcome::solved)
-    out << (on_grid ? fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest, {:.1f} ms",
-                                  result.length_m, result.clearance_m, result.time_ms.total_ms)
-                    : fmt::format(", cost {:.2f} m, {:.3f} ms", result.cost_m, result.time_ms.total_ms));
+    out += on_grid ? fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest, {:.1f} ms",
+                                 result.length_m, result.clearance_m, result.time_ms.total_ms)
+                   : fmt::format(", cost {:.2f} m, {:.3f} ms", result.cost_m, result.time_ms.total_ms);
   const auto list = [&](const std::vector<LandmarkId>& landmarks) {
-    for (const LandmarkId id : landmarks) out << " L" << id;
+    for (const LandmarkId id : landmarks) out += fmt::format(" L{}", id);
   };
   if (!result.landmarks.empty()) {
-    out << ", by way of";
+    out += ", by way of";
     list(result.landmarks);
   }
-  if (!result.reason.empty()) out << "\n  " << result.reason;
-  out << "\n";
+  if (!result.reason.empty()) out += "\n  " + result.reason;
+  out += "\n";
   for (const RouteAlternative& other : result.alternatives) {
-    out << fmt::format("  or {:.2f} m:", other.cost_m);
+    out += fmt::format("  or {:.2f} m:", other.cost_m);
     list(other.landmarks);
-    out << "\n";
+    out += "\n";
   }
   if (query.question.explain) report_segments(out, result);
   if (result.explanation)
     report_explanation(out, *result.explanation, cost_kind_of(query.question.cost), map, clusters);
+  return out;
 }
 
 }  // namespace cairn

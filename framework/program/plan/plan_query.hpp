@@ -1,7 +1,6 @@
 // What `cairn plan` is asked, by options or by a line of a query file, and how it is answered for people.
 #pragma once
 
-#include <iosfwd>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -23,7 +22,8 @@ struct PlanQuery {
 [[nodiscard]] PlanQuery query_of_line(const std::string& line, const std::string& file, int number,
                                       const PlanQuestion& defaults);
 
-void print_text(std::ostream& out, const PlanQuery& query, const PlanResult& result, const SavedMap& map,
-                const ClusterTree& clusters);
+// For people; ends with its line feed.
+[[nodiscard]] std::string text_of(const PlanQuery& query, const PlanResult& result, const SavedMap& map,
+                                  const ClusterTree& clusters);
 
 }  // namespace cairn

@@ -84,10 +84,15 @@ void add_rows(std::string& text, const std::vector<FieldSpec>& fields, const std
   }
 }
 
+std::string table_of(const std::vector<FieldSpec>& fields) {
+  std::string text = "| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
+  add_rows(text, fields, "");
+  return text;
+}
+
 std::string table_of(const Schema& schema) {
   if (schema.fields.empty()) return "It has no settings.\n";
-  std::string text = "| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
-  add_rows(text, schema.fields, "");
+  std::string text = table_of(schema.fields);
   if (!schema.one_of.empty()) text += "\nExactly one of " + codes(schema.one_of) + " must be given.\n";
   return text;
 }
@@ -137,8 +142,7 @@ std::string shared_section(const ModuleLibrary& library) {
   std::string text;
   for (const auto& [name, field] : shared) {
     text += "\n### " + name + "\n\nSettings that several modules have, under " + code(field.key) + ".\n\n";
-    text += "| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
-    add_rows(text, field.fields, "");
+    text += table_of(field.fields);
   }
   return text;
 }

@@ -41,13 +41,21 @@ ordered_json number_or(const std::vector<std::string>& words) {
 
 ordered_json object_of(const std::vector<FieldSpec>& fields, const std::vector<std::string>& one_of, bool is_module);
 
-ordered_json with_shorthand(const ordered_json& object, const std::vector<FieldSpec>& fields,
-                            const std::string& shorthand);
+ordered_json schema_of_field(const FieldSpec& field);
+
+// Of a schema or a nested field: its map, or the bare value that its shorthand takes.
+template <class Described>
+ordered_json map_or_shorthand(const Described& described) {
+  const ordered_json object = object_of(described.fields, described.one_of, false);
+  for (const FieldSpec& field : described.fields)
+    if (field.key == described.shorthand) return {{"anyOf", {object, schema_of_field(field)}}};
+  return object;
+}
 
 ordered_json map_of(const FieldSpec& field) {
   if (!field.shared.empty()) return reference_to(kShared + field.shared);
   if (field.fields.empty()) return {{"type", {"object", "null"}}};
-  return with_shorthand(object_of(field.fields, field.one_of, false), field.fields, field.shorthand);
+  return map_or_shorthand(field);
 }
 
 ordered_json shape_of(const FieldSpec& field) {
@@ -106,13 +114,6 @@ ordered_json object_of(const std::vector<FieldSpec>& fields, const std::vector<s
   return schema;
 }
 
-ordered_json with_shorthand(const ordered_json& object, const std::vector<FieldSpec>& fields,
-                            const std::string& shorthand) {
-  for (const FieldSpec& field : fields)
-    if (field.key == shorthand) return {{"anyOf", {object, schema_of_field(field)}}};
-  return object;
-}
-
 std::string definition_of(const RegisteredModule& module) {
   return std::string(name_of(module.kind)) + "." + module.name;
 }
@@ -144,9 +145,7 @@ bool has_required(const Schema& schema) {
 
 ordered_json behind_node(const NodeType& type) {
   if (type.shape == NodeShape::nodes) return reference_to("nodes");
-  if (type.shape == NodeShape::one_node) return reference_to("child");
-  const Schema& schema = type.schema;
-  return with_shorthand(object_of(schema.fields, schema.one_of, false), schema.fields, schema.shorthand);
+  return type.shape == NodeShape::one_node ? reference_to("child") : map_or_shorthand(type.schema);
 }
 
 // `- name: settings`, or the bare name of a behaviour that needs none; `name` beside it is for people.
@@ -184,18 +183,14 @@ void add_nodes(ordered_json& definitions, const ModuleLibrary& library) {
 void add_shared(ordered_json& definitions, const ModuleLibrary& library) {
   for (const ModuleEntry& entry : library.entries())
     for (const FieldSpec& field : entry.module->schema.fields)
-      if (!field.shared.empty())
-        definitions[kShared + field.shared] =
-            with_shorthand(object_of(field.fields, field.one_of, false), field.fields, field.shorthand);
+      if (!field.shared.empty()) definitions[kShared + field.shared] = map_or_shorthand(field);
 }
 
 void add_behaviours(ordered_json& definitions, const ModuleLibrary& library) {
   add_shared(definitions, library);
   for (const ModuleEntry& entry : library.entries()) {
     const RegisteredModule& module = *entry.module;
-    if (module.kind != PluginKind::behaviour) continue;
-    definitions[definition_of(module)] = with_shorthand(object_of(module.schema.fields, module.schema.one_of, false),
-                                                        module.schema.fields, module.schema.shorthand);
+    if (module.kind == PluginKind::behaviour) definitions[definition_of(module)] = map_or_shorthand(module.schema);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
 #include "framework/program/common/output_files.hpp"
+#include "framework/program/common/refusal.hpp"
 #include "framework/program/mission/control_server.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "framework/program/run/progress_line.hpp"
@@ -79,22 +80,16 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
 std::optional<SavedMap> map_to_resume(const RunCommand& command, std::optional<std::int64_t>& seed) {
   if (command.resume.empty()) return std::nullopt;
   SavedMap map = load_map(command.resume);
-  try {
-    if (!seed) seed = seed_of(map);
-  } catch (const StoreError& error) {
-    throw StoreError(command.resume.string() + ": " + error.what());
-  }
+  if (!seed) seed = refused_about<StoreError>(command.resume.string(), [&] { return seed_of(map); });
   return map;
 }
 
 MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
                         const RunCommand& command) {
-  try {
+  return refused_about<StoreError>(command.resume.string(), [&] {
     if (options.resume != nullptr && !command.other_world) check_same_world(*options.resume, mission);
     return MissionRunner(mission, library, options);
-  } catch (const StoreError& error) {
-    throw StoreError(command.resume.string() + ": " + error.what());
-  }
+  });
 }
 
 // An autosave that this run does not go on from is all that is left of a run that was cut short.

@@ -7,6 +7,7 @@
 #include "framework/planning/place.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
+#include "framework/program/common/refusal.hpp"
 #include "maps/base/text.hpp"
 #include "maps/landmarks/captured_outline.hpp"
 #include "maps/store/map_store.hpp"
@@ -18,8 +19,8 @@ Point place_in(const SavedMap& map, const std::string& text) {
   const Place place = parse_place(text, map.graph);
   if (place.pose) return place.pose->position();
   if (place.landmarks.size() != 1)
-    throw std::runtime_error("template capture: --at \"" + text + "\" is " + std::to_string(place.landmarks.size()) +
-                             " landmarks; name one, such as L" + std::to_string(place.landmarks.front()));
+    throw std::runtime_error(fmt::format("template capture: --at \"{}\" is {} landmarks; name one, such as L{}", text,
+                                         place.landmarks.size(), place.landmarks.front()));
   return map.graph.find(place.landmarks.front())->T_map_landmark.position();
 }
 
@@ -42,12 +43,8 @@ LandmarkShape write_template(const std::filesystem::path& file, const std::strin
 
 int template_capture(const CaptureCommand& command, const CommonOptions& common) {
   const SavedMap map = load_map(command.map);
-  CapturedOutline captured;
-  try {
-    captured = captured_outline(map.grid, place_in(map, command.at), command.radius_m);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(command.map.string() + ": " + error.what());
-  }
+  const CapturedOutline captured = refused_about(
+      command.map.string(), [&] { return captured_outline(map.grid, place_in(map, command.at), command.radius_m); });
   const LandmarkShape shape =
       write_template(command.out, template_text(command.category, captured, command.map.filename().string()));
   const double diameter_m = shape.contour.outer_diameter_m();

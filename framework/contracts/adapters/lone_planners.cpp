@@ -1,4 +1,4 @@
-#include "framework/contracts/lone_planners.hpp"
+#include "framework/contracts/adapters/lone_planners.hpp"
 
 #include <chrono>
 

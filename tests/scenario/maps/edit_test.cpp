@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/scenario/map_files.hpp"
+#include "tests/scenario/maps/map_files.hpp"
 
 namespace cairn::testing_program {
 namespace {

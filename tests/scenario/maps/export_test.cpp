@@ -7,7 +7,7 @@
 
 #include "maps/exchange/grids/grey_picture.hpp"
 #include "maps/store/map_store.hpp"
-#include "tests/scenario/map_files.hpp"
+#include "tests/scenario/maps/map_files.hpp"
 
 namespace cairn::testing_program {
 namespace {
