@@ -1,4 +1,4 @@
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 
 #include <algorithm>
 
