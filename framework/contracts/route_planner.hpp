@@ -10,7 +10,7 @@
 #include "framework/contracts/module_context.hpp"
 #include "framework/contracts/plan_outcome.hpp"
 #include "framework/contracts/world_view.hpp"
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/hierarchy/route_costs.hpp"
 
 namespace cairn {

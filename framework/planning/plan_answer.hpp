@@ -7,7 +7,7 @@
 #include "framework/contracts/plan_question.hpp"
 #include "framework/contracts/planner.hpp"
 #include "framework/planning/trajectory.hpp"
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 
 namespace cairn {
 

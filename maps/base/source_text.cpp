@@ -1,5 +1,7 @@
 #include "maps/base/source_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -52,8 +54,7 @@ void SourceText::fail(std::size_t offset, const std::string& sentence) const {
   offset = std::min(offset, text_.size());
   const std::size_t line_end = offset == 0 ? std::string_view::npos : text_.rfind('\n', offset - 1);
   const std::size_t line_begin = line_end == std::string_view::npos ? 0 : line_end + 1;
-  throw ExchangeError(file_ + ":" + std::to_string(line_of(offset)) + ":" + std::to_string(offset - line_begin + 1) +
-                      ": " + sentence);
+  throw ExchangeError(fmt::format("{}:{}:{}: {}", file_, line_of(offset), offset - line_begin + 1, sentence));
 }
 
 void SourceText::fail(const std::string& sentence) const {

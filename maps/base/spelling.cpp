@@ -1,6 +1,10 @@
 #include "maps/base/spelling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -23,14 +27,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return d[a.size()][b.size()];
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
 }
 
 }  // namespace
@@ -58,7 +54,6 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
 }
 
 std::string shown(std::string_view text) {
-  constexpr std::string_view kHex = "0123456789abcdef";
   std::string out = "\"";
   std::size_t end = std::min(text.size(), kShownBytes);
   // Not in the middle of a UTF-8 character.
@@ -68,7 +63,7 @@ std::string shown(std::string_view text) {
     if (c == '\n') {
       out += "\\n";
     } else if (byte < 0x20U || byte == 0x7FU) {
-      out += std::string("\\x") + kHex[byte >> 4U] + kHex[byte & 15U];
+      out += fmt::format("\\x{:02x}", byte);
     } else {
       out += c;
     }

@@ -30,6 +30,14 @@ template <std::ranges::input_range Texts>
   return std::to_string(count).append(" ").append(noun).append(count == 1 ? "" : "s");
 }
 
+// With small letters for the capital ones of ASCII.
+[[nodiscard]] inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
 // Without the blanks (or what else is given) at both ends.
 [[nodiscard]] inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t") {
   const std::size_t begin = text.find_first_not_of(blanks);

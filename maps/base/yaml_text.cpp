@@ -1,9 +1,12 @@
 #include "maps/base/yaml_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
+
+#include "maps/base/text.hpp"
 
 namespace cairn::exchange {
 namespace {
@@ -16,10 +19,7 @@ bool is_letter(char c) {
 bool is_plain(std::string_view text) {
   static constexpr std::array<std::string_view, 12> kMeaning{"true", "false", "yes", "no",   "on",  "off",
                                                              "null", "y",     "n",   "none", "nan", "inf"};
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return !text.empty() && is_letter(text.front()) && std::ranges::find(kMeaning, lower) == kMeaning.end() &&
+  return !text.empty() && is_letter(text.front()) && std::ranges::find(kMeaning, lower_case(text)) == kMeaning.end() &&
          std::ranges::all_of(
              text, [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; });
 }
@@ -40,9 +40,7 @@ std::string yaml_text(std::string_view text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20U || byte == 0x7FU) {
-      std::array<char, 8> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\x%02X", static_cast<unsigned>(byte));
-      quoted += escape.data();
+      quoted += fmt::format("\\x{:02X}", byte);
       continue;
     }
     if (c == '"' || c == '\\') quoted += '\\';

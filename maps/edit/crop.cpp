@@ -1,5 +1,7 @@
 #include "maps/edit/crop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -22,8 +24,8 @@ struct Box {
 
 std::string text_of(const Box& box) {
   using exchange::number_text;
-  return number_text(box.min_m.x()) + "," + number_text(box.min_m.y()) + " to " + number_text(box.max_m.x()) + "," +
-         number_text(box.max_m.y());
+  return fmt::format("{},{} to {},{}", number_text(box.min_m.x()), number_text(box.min_m.y()),
+                     number_text(box.max_m.x()), number_text(box.max_m.y()));
 }
 
 void include(std::optional<Box>& all, const Point& p) {
@@ -41,20 +43,13 @@ std::optional<Box> extent_of(const SavedMap& map) {
 }
 
 OccupancyGrid cropped_grid(const OccupancyGrid& grid, const Box& box) {
-  OccupancyGrid part(grid.cell_m(), grid.clamp_nat(), grid.origin_m());
   constexpr double kRounding = 1e-9;  // of a cell
   const auto nearest_edge = [&](const Point& p, double bias) {
     const double half = grid.cell_m() * (0.5 + bias);
     return grid.cell_at(p + Point(half, half));
   };
   // A cell is inside when its centre is.
-  const CellBox cells =
-      intersected({nearest_edge(box.min_m, -kRounding), nearest_edge(box.max_m, kRounding)}, grid.bounds());
-  part.include(cells);
-  for (int y = cells.min.y; y < cells.max.y; ++y)
-    for (int x = cells.min.x; x < cells.max.x; ++x)
-      if (const LogOdds log_odds = grid.log_odds({x, y}); log_odds != 0) part.set_log_odds({x, y}, log_odds);
-  return part;
+  return part_of(grid, {nearest_edge(box.min_m, -kRounding), nearest_edge(box.max_m, kRounding)});
 }
 
 bool stays(const Route& route, const LandmarkGraph& kept, const Box& box) {

@@ -84,7 +84,7 @@ std::vector<std::vector<LandmarkId>> groups_of(const std::vector<const Landmark*
   things.reserve(landmarks.size());
   for (const Landmark* landmark : landmarks)
     things.push_back({landmark->T_map_landmark.position(),
-                      sorts.of(std::to_string(landmark->level) + (by_category ? " " + landmark->category : ""))});
+                      sorts.of(fmt::format("{} {}", landmark->level, by_category ? landmark->category : ""))});
   std::vector<std::vector<LandmarkId>> groups;
   for (const std::vector<std::size_t>& indices : near_groups(things, within_m)) {
     groups.emplace_back();
@@ -124,7 +124,7 @@ std::vector<LintFinding> lint_duplicates(const LandmarkGraph& graph, double near
 std::string misreading_of(const Landmark& landmark) {
   const std::string& name = landmark.name;
   if (name.size() > 1 && name.front() == 'L' && name.find_first_not_of("0123456789", 1) == std::string::npos)
-    return name == "L" + std::to_string(landmark.id) ? "" : "the id of a landmark";
+    return name == fmt::format("L{}", landmark.id) ? "" : "the id of a landmark";
   if (name.starts_with("nearest ")) return "a search for a category";
   if (!name.empty() && name.find_first_not_of("0123456789+-.,eE \t") == std::string::npos &&
       name.find_first_of("0123456789") != std::string::npos)

@@ -1,5 +1,7 @@
 #include "maps/edit/merge.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -101,7 +103,7 @@ class Merger {
   std::string free_name(const std::string& name) {
     if (name.empty() || !names_of_a_.contains(name)) return name;
     for (int number = 2;; ++number)
-      if (std::string other = name + "_" + std::to_string(number); names_.insert(other).second) {
+      if (std::string other = fmt::format("{}_{}", name, number); names_.insert(other).second) {
         ++renamed_;
         return other;
       }

@@ -162,8 +162,8 @@ std::vector<LintFinding> lint_routes(const LandmarkGraph& graph, const Occupancy
 }
 
 std::string full_label(const Landmark& landmark) {
-  const std::string id = "L" + std::to_string(landmark.id);
-  return landmark.name.empty() ? id : landmark.name + " (" + id + ")";
+  const std::string id = fmt::format("L{}", landmark.id);
+  return landmark.name.empty() ? id : fmt::format("{} ({})", landmark.name, id);
 }
 
 }  // namespace cairn

@@ -1,5 +1,7 @@
 #include "maps/geometry/contour.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -17,7 +19,7 @@ double cross(const Point& a, const Point& b, const Point& c) {
 }
 
 std::string text_of(const Point& p) {
-  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ")";
+  return fmt::format("({:f}, {:f})", p.x(), p.y());
 }
 
 // Whether p, known to be in line with a and b, lies between them.
@@ -38,17 +40,17 @@ bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& 
 
 void require_finite_and_distinct(const std::vector<Point>& corners) {
   if (corners.size() < 3) {
-    throw std::invalid_argument("a polygon needs at least 3 corners, this one has " + std::to_string(corners.size()));
+    throw std::invalid_argument(fmt::format("a polygon needs at least 3 corners, this one has {}", corners.size()));
   }
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (!corners[i].allFinite()) {
-      throw std::invalid_argument("corner " + std::to_string(i) + " of the polygon is not finite");
+      throw std::invalid_argument(fmt::format("corner {} of the polygon is not finite", i));
     }
     const std::size_t next = (i + 1) % corners.size();
     if (corners[i] == corners[next]) {
-      throw std::invalid_argument("corner " + std::to_string(next) + " of the polygon repeats corner " +
-                                  std::to_string(i) + " " + text_of(corners[i]) +
-                                  "; name each corner once, the last one joins the first");
+      throw std::invalid_argument(fmt::format(
+          "corner {} of the polygon repeats corner {} {}; name each corner once, the last one joins the first", next, i,
+          text_of(corners[i])));
     }
   }
 }
@@ -65,8 +67,8 @@ void require_simple(const std::vector<Point>& corners) {
     for (std::size_t j = i + 2; j < n; ++j) {
       if ((j + 1) % n == i) continue;
       if (segments_meet(a, b, corners[j], corners[(j + 1) % n])) {
-        throw std::invalid_argument("the polygon crosses itself: its sides from corner " + std::to_string(i) +
-                                    " and from corner " + std::to_string(j) + " meet");
+        throw std::invalid_argument(
+            fmt::format("the polygon crosses itself: its sides from corner {} and from corner {} meet", i, j));
       }
     }
   }
@@ -125,8 +127,8 @@ void require_apart(const std::vector<std::vector<Point>>& polygons) {
       const std::vector<Point>& p = polygons[i];
       const std::vector<Point>& q = polygons[later];
       if (!outlines_meet(p, q) && !is_inside(p, q.front()) && !is_inside(q, p.front())) continue;
-      throw std::invalid_argument("part " + std::to_string(later + 1) + " meets part " + std::to_string(i + 1) +
-                                  "; parts must stand apart, draw what touches as one outline");
+      throw std::invalid_argument(fmt::format(
+          "part {} meets part {}; parts must stand apart, draw what touches as one outline", later + 1, i + 1));
     }
   }
 }
@@ -156,7 +158,7 @@ std::vector<Point> regular_polygon(double radius_m, int corners) {
 
 Contour Contour::circle(double diameter_m) {
   if (!std::isfinite(diameter_m) || diameter_m <= 0.0) {
-    throw std::invalid_argument("a circle needs a diameter above 0 m, this one has " + std::to_string(diameter_m));
+    throw std::invalid_argument(fmt::format("a circle needs a diameter above 0 m, this one has {:f}", diameter_m));
   }
   Contour contour;
   contour.circle_diameter_m = diameter_m;
@@ -188,7 +190,7 @@ Contour Contour::parts_in_place(std::vector<std::vector<Point>> polygons_m) {
       contour.polygons_m.push_back(checked(std::move(polygons_m[i])));
     } catch (const std::invalid_argument& error) {
       if (polygons_m.size() == 1) throw;
-      throw std::invalid_argument("part " + std::to_string(i + 1) + ": " + error.what());
+      throw std::invalid_argument(fmt::format("part {}: {}", i + 1, error.what()));
     }
   }
   require_apart(contour.polygons_m);

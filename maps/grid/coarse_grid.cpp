@@ -1,9 +1,10 @@
 #include "maps/grid/coarse_grid.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -22,9 +23,8 @@ CellBox box_of(Cell c) {
 }  // namespace
 
 CoarseGrid::CoarseGrid(int n, double alpha) : n_(n), alpha_(alpha) {
-  if (n < 1 || n > kLargestN)
-    throw std::invalid_argument("CoarseGrid: n must be in [1, 1024], got " + std::to_string(n));
-  if (!(alpha > 1.0)) throw std::invalid_argument("CoarseGrid: alpha must be above 1, got " + std::to_string(alpha));
+  if (n < 1 || n > kLargestN) throw std::invalid_argument(fmt::format("CoarseGrid: n must be in [1, 1024], got {}", n));
+  if (!(alpha > 1.0)) throw std::invalid_argument(fmt::format("CoarseGrid: alpha must be above 1, got {:f}", alpha));
 }
 
 std::vector<Cell> CoarseGrid::update(const OccupancyGrid& grid, const CellChanges& changes) {

@@ -1,12 +1,13 @@
 #include "maps/grid/distance_field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -45,8 +46,7 @@ DistanceField::DistanceField(const CellBox& box, double cell_m, const Point& ori
     : box_(box.empty() ? CellBox{} : box), cell_m_(cell_m), origin_m_(origin_m) {
   const std::int64_t cells = std::int64_t{box_.width()} * box_.height();
   if (static_cast<std::int64_t>(free.size()) != cells)
-    throw std::invalid_argument("DistanceField: " + std::to_string(free.size()) + " marks for " +
-                                std::to_string(cells) + " cells");
+    throw std::invalid_argument(fmt::format("DistanceField: {} marks for {} cells", free.size(), cells));
   measure(std::move(free));
 }
 

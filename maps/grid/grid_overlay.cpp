@@ -1,7 +1,8 @@
 #include "maps/grid/grid_overlay.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -9,9 +10,7 @@ namespace cairn {
 namespace {
 
 std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.9g m", value);
-  return text;
+  return fmt::format("{:.9g} m", value);
 }
 
 }  // namespace

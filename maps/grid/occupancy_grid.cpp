@@ -1,9 +1,10 @@
 #include "maps/grid/occupancy_grid.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -31,7 +32,7 @@ int saturated_floor(double cells) {
 int checked_clamp(double clamp_nat) {
   constexpr double kMin = 1.0 / kLogOddsPerNat;
   if (!(clamp_nat >= kMin && clamp_nat <= 127.0))
-    throw std::invalid_argument("OccupancyGrid: clamp_nat must be in [1/256, 127], got " + std::to_string(clamp_nat));
+    throw std::invalid_argument(fmt::format("OccupancyGrid: clamp_nat must be in [1/256, 127], got {:f}", clamp_nat));
   return static_cast<int>(std::lround(clamp_nat * kLogOddsPerNat));
 }
 
@@ -68,7 +69,7 @@ LogOdds log_odds_of(double probability) {
   constexpr double kLow = std::numeric_limits<LogOdds>::min();
   constexpr double kHigh = std::numeric_limits<LogOdds>::max();
   if (!(probability >= 0.0 && probability <= 1.0))
-    throw std::invalid_argument("log_odds_of: a probability is in [0, 1], got " + std::to_string(probability));
+    throw std::invalid_argument(fmt::format("log_odds_of: a probability is in [0, 1], got {:f}", probability));
   const double nat = std::log(probability) - std::log1p(-probability);
   return static_cast<LogOdds>(std::lround(std::clamp(nat * kLogOddsPerNat, kLow, kHigh)));
 }
@@ -80,7 +81,7 @@ Cell cell_on_lattice(const Point& p_map, const Point& origin_m, double cell_m) {
 OccupancyGrid::OccupancyGrid(double cell_m, double clamp_nat, const Point& origin_m)
     : cell_m_(cell_m), clamp_(checked_clamp(clamp_nat)), origin_m_(origin_m) {
   if (!(cell_m > 0.0) || !std::isfinite(cell_m))
-    throw std::invalid_argument("OccupancyGrid: cell_m must be positive, got " + std::to_string(cell_m));
+    throw std::invalid_argument(fmt::format("OccupancyGrid: cell_m must be positive, got {:f}", cell_m));
   if (!origin_m.allFinite()) throw std::invalid_argument("OccupancyGrid: origin_m must be finite");
 }
 
@@ -111,10 +112,9 @@ void OccupancyGrid::include(const CellBox& box) {
   if (box.empty() || intersected(bounds_, box) == box) return;
   const CellBox all = united(bounds_, box);
   if (!is_allowed(all))
-    throw std::length_error("OccupancyGrid: the cells (" + std::to_string(all.min.x) + ", " +
-                            std::to_string(all.min.y) + ") to (" + std::to_string(all.max.x) + ", " +
-                            std::to_string(all.max.y) + ") are too many, at most " + std::to_string(kMaxCells) +
-                            " are possible, with indices up to " + std::to_string(kLargestCellIndex));
+    throw std::length_error(fmt::format(
+        "OccupancyGrid: the cells ({}, {}) to ({}, {}) are too many, at most {} are possible, with indices up to {}",
+        all.min.x, all.min.y, all.max.x, all.max.y, kMaxCells, kLargestCellIndex));
   bounds_ = all;
 }
 

@@ -1,5 +1,7 @@
 #include "maps/grid/travel_field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <numbers>
 #include <queue>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -52,8 +53,8 @@ class WeightCache {
   float checked(Cell cell) const {
     const double w = weight_(cell);
     if (w >= 1.0 && std::isfinite(w)) return static_cast<float>(w);
-    throw std::invalid_argument("TravelField: step_weight of cell (" + std::to_string(cell.x) + ", " +
-                                std::to_string(cell.y) + ") must be at least 1, got " + std::to_string(w));
+    throw std::invalid_argument(
+        fmt::format("TravelField: step_weight of cell ({}, {}) must be at least 1, got {:f}", cell.x, cell.y, w));
   }
 
   const std::function<double(Cell)>& weight_;

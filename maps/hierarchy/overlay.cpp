@@ -1,9 +1,10 @@
 #include "maps/hierarchy/overlay.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
-#include <string>
 
 #include "maps/base/in_parallel.hpp"
 #include "maps/hierarchy/inner_search.hpp"
@@ -43,8 +44,7 @@ void set_cost(std::vector<Arc>& arcs, RouteId route, double cost, std::uint32_t 
 
 std::uint32_t position_of(std::span<const std::uint32_t> rising, std::uint32_t v) {
   const auto at = std::lower_bound(rising.begin(), rising.end(), v);
-  if (at == rising.end() || *at != v)
-    throw std::logic_error("position_of: " + std::to_string(v) + " is not in the list");
+  if (at == rising.end() || *at != v) throw std::logic_error(fmt::format("position_of: {} is not in the list", v));
   return static_cast<std::uint32_t>(at - rising.begin());
 }
 
@@ -79,7 +79,7 @@ void Overlay::list_inner(const Clustering& clustering, ClusterIndex cluster) {
     passage.member_begin.push_back(static_cast<std::uint32_t>(passage.inner.size()));
   }
   if (passage.inner.size() > kMaxInner)
-    throw std::length_error("Overlay: cluster " + std::to_string(node.id) + " has too many inner vertices");
+    throw std::length_error(fmt::format("Overlay: cluster {} has too many inner vertices", node.id));
   for (const VertexIndex v : node.boundary)
     passage.at.push_back(static_cast<std::uint16_t>(inner_index(clustering, cluster, v)));
 }

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "maps/hierarchy/clustering.hpp"
+#include "maps/clustering/clustering.hpp"
 
 namespace cairn {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "maps/grid/occupancy_grid.hpp"
-#include "maps/hierarchy/network.hpp"
+#include "maps/clustering/network.hpp"
 
 namespace cairn {
 

@@ -1,5 +1,7 @@
 #include "maps/landmarks/landmark_graph.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,14 +16,14 @@ namespace {
 constexpr std::int64_t kMaxId = (std::int64_t{1} << 53) - 1;
 
 std::string named(const char* kind, std::int64_t id) {
-  return std::string(kind) + " " + std::to_string(id);
+  return fmt::format("{} {}", kind, id);
 }
 
 // Takes the next free id, or keeps the given one and moves the next beyond it.
 std::int64_t claim_id(const char* kind, std::int64_t id, std::int64_t& next) {
   if (id == 0) id = next;
   if (id < 0 || id > kMaxId)
-    throw std::invalid_argument(named(kind, id) + ": an id must be in 1.." + std::to_string(kMaxId));
+    throw std::invalid_argument(fmt::format("{}: an id must be in 1..{}", named(kind, id), kMaxId));
   next = std::max(next, id + 1);
   return id;
 }
@@ -37,8 +39,8 @@ LandmarkId id_in_label(const std::string& label) {
 
 void check_cost(RouteId id, double cost_m) {
   if (!std::isfinite(cost_m) || cost_m < 0.0)
-    throw std::invalid_argument(named("route", id) + ": cost_m must be finite and not negative, got " +
-                                std::to_string(cost_m));
+    throw std::invalid_argument(
+        fmt::format("{}: cost_m must be finite and not negative, got {:f}", named("route", id), cost_m));
 }
 
 void insert_sorted(std::vector<RouteId>& ids, RouteId id) {
@@ -151,8 +153,8 @@ void LandmarkGraph::set_cost(RouteId id, double cost_m) {
 
 void LandmarkGraph::reserve_ids(LandmarkId next_landmark, RouteId next_route) {
   if (next_landmark > kMaxId + 1 || next_route > kMaxId + 1)
-    throw std::invalid_argument("reserve_ids: ids end at " + std::to_string(kMaxId) + ", asked for " +
-                                std::to_string(next_landmark) + " and " + std::to_string(next_route));
+    throw std::invalid_argument(
+        fmt::format("reserve_ids: ids end at {}, asked for {} and {}", kMaxId, next_landmark, next_route));
   next_landmark_ = std::max(next_landmark_, next_landmark);
   next_route_ = std::max(next_route_, next_route);
 }
@@ -220,7 +222,7 @@ const Route* LandmarkGraph::route_between(LandmarkId from, LandmarkId to) const 
 }
 
 std::string label_of(const Landmark& landmark) {
-  return landmark.name.empty() ? std::string("L") + std::to_string(landmark.id) : landmark.name;
+  return landmark.name.empty() ? fmt::format("L{}", landmark.id) : landmark.name;
 }
 
 }  // namespace cairn

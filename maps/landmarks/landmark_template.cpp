@@ -1,5 +1,7 @@
 #include "maps/landmarks/landmark_template.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,7 +24,7 @@ constexpr std::uint8_t kOccupiedOl = 255;
 
 void require_positive(double value, const char* what) {
   if (!std::isfinite(value) || value <= 0.0) {
-    throw std::invalid_argument(std::string(what) + " must be above 0, not " + std::to_string(value));
+    throw std::invalid_argument(fmt::format("{} must be above 0, not {:f}", what, value));
   }
 }
 
@@ -126,8 +128,8 @@ std::shared_ptr<const TemplateSet> usable(std::shared_ptr<const TemplateSet> set
 
 void check_cell_size(const TemplateSet& set, double grid_cell_m) {
   if (std::abs(grid_cell_m - set.cell_m) > 1e-9)
-    throw std::invalid_argument("the grid's cells are " + std::to_string(grid_cell_m) +
-                                " m, the templates were rendered for " + std::to_string(set.cell_m) + " m");
+    throw std::invalid_argument(
+        fmt::format("the grid's cells are {:f} m, the templates were rendered for {:f} m", grid_cell_m, set.cell_m));
 }
 
 std::vector<double> distinct_orientations(const Contour& contour, double step_rad, double cell_m) {

@@ -1,10 +1,11 @@
 #include "maps/landmarks/outline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -33,12 +34,12 @@ void add_arc(std::vector<Point>& points, const Point& from, const Point& to, dou
 
 std::vector<Point> with_arcs(std::span<const Point> corners_m, std::span<const double> bulges) {
   if (bulges.size() != corners_m.size()) {
-    throw std::invalid_argument("needs one number for each corner's side, " + std::to_string(corners_m.size()) +
-                                ", found " + std::to_string(bulges.size()));
+    throw std::invalid_argument(
+        fmt::format("needs one number for each corner's side, {}, found {}", corners_m.size(), bulges.size()));
   }
   std::vector<Point> points;
   for (std::size_t i = 0; i < corners_m.size(); ++i) {
-    if (!std::isfinite(bulges[i])) throw std::invalid_argument("number " + std::to_string(i) + " is not finite");
+    if (!std::isfinite(bulges[i])) throw std::invalid_argument(fmt::format("number {} is not finite", i));
     points.push_back(corners_m[i]);
     const Point& to = corners_m[(i + 1) % corners_m.size()];
     if (bulges[i] != 0.0 && to != corners_m[i]) add_arc(points, corners_m[i], to, bulges[i]);

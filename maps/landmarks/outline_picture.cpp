@@ -1,9 +1,9 @@
 // Reads by libpng itself, as pictures are written: OpenCV's reader would load a hundred libraries.
+#include <fmt/format.h>
 #include <png.h>
 
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <string>
 
 #include "maps/landmarks/outline.hpp"
 
@@ -29,10 +29,8 @@ cv::Mat1b grey_picture(const std::filesystem::path& file) {
   if (png_image_begin_read_from_file(&image, file.c_str()) == 0)
     throw std::invalid_argument(file.string() + " is no PNG picture: " + image.message);
   if (image.width > kMaxPictureSide_px || image.height > kMaxPictureSide_px)
-    throw std::invalid_argument(file.string() + " has " + std::to_string(image.width) + " x " +
-                                std::to_string(image.height) + " pixels, at most " +
-                                std::to_string(kMaxPictureSide_px) + " x " + std::to_string(kMaxPictureSide_px) +
-                                " are read");
+    throw std::invalid_argument(fmt::format("{} has {} x {} pixels, at most {} x {} are read", file.string(),
+                                            image.width, image.height, kMaxPictureSide_px, kMaxPictureSide_px));
   image.format = PNG_FORMAT_GRAY;
   cv::Mat1b grey(static_cast<int>(image.height), static_cast<int>(image.width));
   const png_color white{255, 255, 255};
@@ -98,8 +96,8 @@ std::vector<std::vector<Point>> smoothed(const Traces& traces, double smoothing_
     count += corners.size();
   }
   if (count > kMaxPictureCorners)
-    throw std::invalid_argument("the picture's outline is too ragged: it has " + std::to_string(count) +
-                                " corners, at most " + std::to_string(kMaxPictureCorners) + " are taken");
+    throw std::invalid_argument(fmt::format(
+        "the picture's outline is too ragged: it has {} corners, at most {} are taken", count, kMaxPictureCorners));
   return outlines;
 }
 

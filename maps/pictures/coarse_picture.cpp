@@ -1,5 +1,7 @@
 #include "maps/pictures/coarse_picture.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -27,13 +29,11 @@ PixelBox block_of(const MapFrame& frame, const CoarsePicture& picture, Cell coar
 CellBox shown_box(const CoarsePicture& picture) {
   constexpr double kSurelyFreeOl = 30.0;
   constexpr double kOccupiedOl = 165.0;
-  CellBox shown;
   const CellBox bounds = picture.coarse->bounds();
-  for (int y = bounds.min.y; y < bounds.max.y; ++y)
-    for (int x = bounds.min.x; x < bounds.max.x; ++x) {
-      const double ol = picture.coarse->ol({x, y});
-      if (ol < kSurelyFreeOl || ol > kOccupiedOl) shown = united(shown, {{x, y}, {x + 1, y + 1}});
-    }
+  CellBox shown = box_where(bounds, [&](Cell cell) {
+    const double ol = picture.coarse->ol(cell);
+    return ol < kSurelyFreeOl || ol > kOccupiedOl;
+  });
   for (const Cell coarse : picture.region) shown = united(shown, {coarse, {coarse.x + 1, coarse.y + 1}});
   return shown.empty() ? bounds : intersected(shown.grown(1), bounds);
 }
@@ -60,9 +60,7 @@ void draw_block(Canvas& canvas, const MapFrame& frame, const CoarsePicture& pict
 
 void draw_trigger(Canvas& canvas, const PixelBox& box) {
   const Pixel rim(1.0, 1.0);
-  canvas.outline(std::array{Pixel(box.min + rim), Pixel(box.max.x() - 1.0, box.min.y() + 1.0), Pixel(box.max - rim),
-                            Pixel(box.min.x() + 1.0, box.max.y() - 1.0)},
-                 {kTrigger, 2.0});
+  canvas.outline(PixelBox{box.min + rim, box.max - rim}, {kTrigger, 2.0});
 }
 
 void draw_blocks(Canvas& canvas, const MapFrame& frame, const CoarsePicture& picture) {
@@ -82,8 +80,7 @@ void draw_value_bar(Canvas& canvas, const Pixel& upper_left) {
   for (int ol = 0; ol < 256; ++ol) ramp.colours.push_back(colour_of_ol(ol));
   const PixelBox bar{upper_left, upper_left + Pixel(kScaleBarPx, 16.0)};
   canvas.image(bar, ramp);
-  canvas.outline(std::array{bar.min, Pixel(bar.max.x(), bar.min.y()), bar.max, Pixel(bar.min.x(), bar.max.y())},
-                 {kFrame, 1.0});
+  canvas.outline(bar, {kFrame, 1.0});
   const auto mark = [&](double ol, const char* words, Align align) {
     const Pixel at(bar.min.x() + kScaleBarPx * ol / 255.0, bar.max.y());
     canvas.line(std::array{at, Pixel(at + Pixel(0.0, 4.0))}, {kFaintInk, 1.0});
@@ -107,10 +104,8 @@ std::vector<LegendEntry> legend_of(const CoarsePicture& picture) {
 
 std::string subtitle_of(const CoarsePicture& picture) {
   const int n = picture.coarse->n();
-  const std::string side = std::to_string(n);
-  return "weighted means of " + side + " x " + side + " cells,  blocks of " +
-         trimmed_text(n * picture.grid->cell_m(), 3) + " m,  weight of occupied cells " +
-         trimmed_text(picture.coarse->alpha(), 2);
+  return fmt::format("weighted means of {0} x {0} cells,  blocks of {1} m,  weight of occupied cells {2}", n,
+                     trimmed_text(n * picture.grid->cell_m(), 3), trimmed_text(picture.coarse->alpha(), 2));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "maps/pictures/difference_picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +26,6 @@ constexpr Colour kNewFree{196, 232, 205};
 constexpr Colour kGoneFree{250, 212, 206};
 constexpr Colour kMoved{25, 118, 210};
 constexpr int kDifferenceMarginCells = 3;
-constexpr int kMaxCellsAcross = 2000;
 constexpr double kDotPx = 5.0;
 constexpr std::size_t kMaxLabels = 60;
 
@@ -54,17 +55,12 @@ class Cells {
   [[nodiscard]] const OccupancyGrid& lattice() const { return lattice_; }
   [[nodiscard]] CellBox box() const { return box_; }
   [[nodiscard]] CellImage image() const {
-    const int block = 1 + (std::max(box_.width(), box_.height()) - 1) / kMaxCellsAcross;
-    CellImage image{(box_.width() + block - 1) / block, (box_.height() + block - 1) / block, {}};
-    for (int row = image.height - 1; row >= 0; --row)
-      for (int column = 0; column < image.width; ++column) {
-        Sign most = Sign::unknown;
-        for (int i = 0; i < block * block; ++i)
-          most =
-              std::max(most, sign_at({box_.min.x + column * block + i % block, box_.min.y + row * block + i / block}));
-        image.colours.push_back(colour_of(most));
-      }
-    return image;
+    return image_of(box_, [&](const CellBox& block) {
+      Sign most = Sign::unknown;
+      for (int y = block.min.y; y < block.max.y; ++y)
+        for (int x = block.min.x; x < block.max.x; ++x) most = std::max(most, sign_at({x, y}));
+      return colour_of(most);
+    });
   }
 
  private:
@@ -74,10 +70,7 @@ class Cells {
     return sign_of(thresholds.state(in_a), b_.state(cell_under(lattice_, cell, b_, {}), thresholds));
   }
   [[nodiscard]] CellBox shown_part() const {
-    CellBox part;
-    for (int y = box_.min.y; y < box_.max.y; ++y)
-      for (int x = box_.min.x; x < box_.max.x; ++x)
-        if (!part.contains({x, y}) && sign_at({x, y}) != Sign::unknown) part = united(part, {{x, y}, {x + 1, y + 1}});
+    const CellBox part = box_where(box_, [&](Cell cell) { return sign_at(cell) != Sign::unknown; });
     return part.empty() ? box_ : part.grown(kDifferenceMarginCells);
   }
 
@@ -195,10 +188,9 @@ class Drawing {
   }
 
   [[nodiscard]] std::string subtitle() const {
-    return std::to_string(difference_.cells_of_other_state()) + " cells of another state,  " +
-           std::to_string(difference_.only_in_b.size()) + " landmarks new,  " +
-           std::to_string(difference_.only_in_a.size()) + " gone,  " + std::to_string(difference_.moved.size()) +
-           " moved";
+    return fmt::format("{} cells of another state,  {} landmarks new,  {} gone,  {} moved",
+                       difference_.cells_of_other_state(), difference_.only_in_b.size(), difference_.only_in_a.size(),
+                       difference_.moved.size());
   }
 
   const DifferencePicture& picture_;

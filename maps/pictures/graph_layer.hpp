@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "maps/geometry/contour.hpp"
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/pictures/drawing/label_placer.hpp"
 #include "maps/pictures/drawing/legend.hpp"

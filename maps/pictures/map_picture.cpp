@@ -25,16 +25,12 @@ constexpr Stroke kMoverStroke{kGoal, 1.5, 0.6, 6.0};
 // The box of cells that are worth showing: occupied or surely free. Single stray readings leave faint
 // traces far behind the walls, which would only make the map small. Of a map without such cells, all.
 CellBox known_box(const OccupancyGrid& grid) {
-  CellBox known;
-  const CellBox bounds = grid.bounds();
   const double conservatively_free = -std::min(kSurelyFreeNat, grid.clamp_nat() / 2.0) * kLogOddsPerNat;
-  for (int y = bounds.min.y; y < bounds.max.y; ++y)
-    for (int x = bounds.min.x; x < bounds.max.x; ++x) {
-      const LogOdds value = grid.log_odds({x, y});
-      if (value < conservatively_free || OccupancyThresholds{}.state(value) == CellState::occupied)
-        known = united(known, {{x, y}, {x + 1, y + 1}});
-    }
-  return known.empty() ? bounds : known;
+  const CellBox known = box_where(grid.bounds(), [&](Cell cell) {
+    const LogOdds value = grid.log_odds(cell);
+    return value < conservatively_free || OccupancyThresholds{}.state(value) == CellState::occupied;
+  });
+  return known.empty() ? grid.bounds() : known;
 }
 
 RobotShape shape_of(const MapPicture& picture) {

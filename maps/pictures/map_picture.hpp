@@ -11,7 +11,7 @@
 
 #include "maps/geometry/contour.hpp"
 #include "maps/grid/occupancy_grid.hpp"
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {

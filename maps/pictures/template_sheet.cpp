@@ -1,5 +1,7 @@
 #include "maps/pictures/template_sheet.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,9 +121,8 @@ void write_template_sheet(const std::filesystem::path& file, const TemplateSet& 
   Canvas canvas(static_cast<int>(std::ceil(width_px)), static_cast<int>(std::ceil(layout.bottom_px + kLegendPx)),
                 kPaper);
   draw_title(canvas, title,
-             std::to_string(templates.templates.size()) + " templates,  steps of " +
-                 trimmed_text(degrees(templates.step_rad), 2) + " deg,  cells of " +
-                 trimmed_text(templates.cell_m * 100.0, 2) + " cm");
+             fmt::format("{} templates,  steps of {} deg,  cells of {} cm", templates.templates.size(),
+                         trimmed_text(degrees(templates.step_rad), 2), trimmed_text(templates.cell_m * 100.0, 2)));
   for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
     if (begins_category(templates, i))
       canvas.text(layout.tiles[i] - Pixel(0.0, kNamePx / 2.0), templates.templates[i].category, {kInk, 12.0});

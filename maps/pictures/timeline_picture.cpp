@@ -1,5 +1,7 @@
 #include "maps/pictures/timeline_picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,15 +45,6 @@ std::string cut_to(std::string text, double width_px) {
   if (Canvas::text_width_px(text, kLabel) <= width_px) return text;
   while (!text.empty() && Canvas::text_width_px(text + "...", kLabel) > width_px) text.pop_back();
   return text + "...";
-}
-
-// 1, 2 or 5 times a power of ten, so that the ticks have room.
-double tick_s(double span_s) {
-  const double min_s = span_s * kTicksApartPx / kPlotPx;
-  const double power = std::pow(10.0, std::floor(std::log10(min_s)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= min_s) return factor * power;
-  return 10.0 * power;
 }
 
 class Page {
@@ -100,15 +93,14 @@ class Page {
   }
 
   void draw_axis(Canvas& canvas) const {
-    const double step_s = tick_s(span_s_);
-    const int decimals = step_s < 1.0 ? static_cast<int>(std::ceil(-std::log10(step_s) - 1e-9)) : 0;
+    const double step_s = round_at_least(span_s_ * kTicksApartPx / kPlotPx);
     const double first = std::ceil(timeline_.begin_s / step_s - 1e-9);
     for (int i = 0;; ++i) {
       const double time_s = (first + i) * step_s;
       if (time_s > timeline_.begin_s + span_s_ + 1e-9) break;
       const double x = x_px(time_s);
       canvas.line(std::array{Pixel(x, kTimelineTopPx), Pixel(x, bottom_px_ + 4.0)}, {kFrame, 1.0, 0.5});
-      canvas.text({x, bottom_px_ + 15.0}, short_text(time_s, decimals), kTime);
+      canvas.text({x, bottom_px_ + 15.0}, short_text(time_s, decimals_for(step_s)), kTime);
     }
     canvas.text({left_px_ - kTimelineGapPx, bottom_px_ + 15.0}, "time, s", {kFaintInk, 11.0, Align::right});
     canvas.line(std::array{Pixel(left_px_, bottom_px_), Pixel(left_px_ + kPlotPx, bottom_px_)}, {kFrame, 1.0});
@@ -168,8 +160,8 @@ class Page {
 
 void write_timeline_picture(const std::filesystem::path& file, const Timeline& timeline) {
   if (timeline.rows.size() > kMaxTimelineRows)
-    throw std::runtime_error(file.string() + ": the timeline has " + std::to_string(timeline.rows.size()) +
-                             " rows; a picture holds at most " + std::to_string(kMaxTimelineRows));
+    throw std::runtime_error(fmt::format("{}: the timeline has {} rows; a picture holds at most {}", file.string(),
+                                         timeline.rows.size(), kMaxTimelineRows));
   Page(timeline).draw(file);
 }
 

@@ -1,5 +1,7 @@
 #include "maps/pictures/tree_picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,7 +52,7 @@ struct TreeLayout {
   std::size_t place(const TreeBox& box, std::size_t column) {
     const std::size_t at = boxes.size();
     boxes.push_back({cut(box.title), cut(box.detail), box.kind, column});
-    if (column == widths_px.size()) widths_px.push_back(0.0);
+    widths_px.resize(std::max(widths_px.size(), column + 1));
     const double width_px =
         std::max(Canvas::text_width_px(boxes[at].title, kTitle), Canvas::text_width_px(boxes[at].detail, kDetail));
     widths_px[column] = std::max(widths_px[column], std::ceil(width_px) + 2.0 * kInsidePx + kTreeBarPx);
@@ -85,8 +87,7 @@ void draw_edge(Canvas& canvas, const PixelBox& parent, const PixelBox& child) {
 
 void draw_box(Canvas& canvas, const PixelBox& box, const Placed& placed) {
   canvas.fill_box(box, {kWhite}, 5.0);
-  canvas.outline(std::array{box.min, Pixel(box.max.x(), box.min.y()), box.max, Pixel(box.min.x(), box.max.y())},
-                 {kFrame, 1.0});
+  canvas.outline(box, {kFrame, 1.0});
   canvas.fill_box({box.min, {box.min.x() + kTreeBarPx, box.max.y()}}, {colour_of(placed.kind)});
   const double left_px = box.min.x() + kTreeBarPx + kInsidePx;
   const double apart_px = placed.detail.empty() ? 0.0 : 8.0;
@@ -105,8 +106,8 @@ std::size_t rows_of(const TreeBox& box) {
 void write_tree_picture(const std::filesystem::path& file, const TreeBox& root, const std::string& title,
                         const std::string& subtitle) {
   if (const std::size_t rows = rows_of(root); rows > kMaxPictureRows)
-    throw std::runtime_error(file.string() + ": the tree has " + std::to_string(rows) +
-                             " rows; a picture holds at most " + std::to_string(kMaxPictureRows));
+    throw std::runtime_error(
+        fmt::format("{}: the tree has {} rows; a picture holds at most {}", file.string(), rows, kMaxPictureRows));
   TreeLayout layout;
   layout.place(root, 0);
   const double words_px = kPageMarginPx + std::max(Canvas::text_width_px(title, {kInk, 20.0, Align::left, true}),

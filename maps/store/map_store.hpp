@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "maps/grid/occupancy_grid.hpp"
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/landmarks/landmark_template.hpp"
 

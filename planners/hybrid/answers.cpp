@@ -1,5 +1,7 @@
 #include "planners/hybrid/answers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -32,9 +34,8 @@ PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Bud
   route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
   const std::vector<Point> points = points_of(route);
   if (!route_is_free(grid, rules.ground, points, rules.radius_m, start.escape))
-    throw std::logic_error("hybrid: the re-check refused a path of " + std::to_string(points.size()) + " points from " +
-                           text_of(points.front()) + " to " + text_of(points.back()) + ", radius " +
-                           std::to_string(rules.radius_m));
+    throw std::logic_error(fmt::format("hybrid: the re-check refused a path of {} points from {} to {}, radius {:f}",
+                                       points.size(), text_of(points.front()), text_of(points.back()), rules.radius_m));
   PlanResult result;
   result.outcome = PlanOutcome::solved;
   result.length_m = length_of(points);
@@ -51,9 +52,8 @@ PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, c
   result.cost_m = walk.cost_m;
   result.landmarks = path.landmarks;
   result.routes = path.routes;
-  result.reason = "over " + std::to_string(path.landmarks.size()) + " landmarks, by " +
-                  std::to_string(walk.stored_legs) + " stored and " + std::to_string(walk.planned_legs) +
-                  " newly planned legs" + goal.note + escape_text(start);
+  result.reason = fmt::format("over {} landmarks, by {} stored and {} newly planned legs{}{}", path.landmarks.size(),
+                              walk.stored_legs, walk.planned_legs, goal.note, escape_text(start));
   return result;
 }
 
@@ -83,12 +83,6 @@ PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const
     if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
   result.reason = planned.reason + (is_there ? goal.note : "") + escape_text(start);
   return result;
-}
-
-std::string escape_text(const StartPlace& start) {
-  if (!start.escape) return {};
-  return "; the start is too near to something and is left towards " + text_of(start.escape->to) +
-         " with less clearance than the robot's radius asks for";
 }
 
 }  // namespace cairn

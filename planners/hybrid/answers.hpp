@@ -1,7 +1,6 @@
 // Answers made of what was walked or planned: joined, shortened and re-checked.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "planners/common/disc_space/ends.hpp"
@@ -31,8 +30,5 @@ struct AnswerRules {
 // it touches something.
 [[nodiscard]] PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
                                     const GoalPlace& goal, const PlanResult& planned);
-
-// For the end of a reason, when the start is left by an escape.
-[[nodiscard]] std::string escape_text(const StartPlace& start);
 
 }  // namespace cairn

@@ -56,9 +56,7 @@ PlanResult HybridPlanner::plan_without_landmarks(const PlanRequest& request, con
 }
 
 PlanResult HybridPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
-  if (!(request.radius_m >= 0.0 && std::isfinite(request.radius_m)))
-    throw std::invalid_argument("hybrid: radius_m must be finite and not negative, got " +
-                                std::to_string(request.radius_m));
+  check_radius("hybrid", request.radius_m);
   if (!is_for_discs(traits_) && !world.grid.bounds().empty()) return plan_without_landmarks(request, world, budget);
   const auto begin = Budget::Clock::now();
   PlanResult result = answer_over_landmarks({config_, traits_, usual_, avoiding_, *path_planner_, route_planner_},

@@ -1,5 +1,7 @@
 #include "planners/hybrid/hybrid_query.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <set>
 
@@ -210,8 +212,8 @@ class Query {
 
   std::string text_of_route(RouteId id) const {
     const Route& route = *world_.graph.find_route(id);
-    return "route R" + std::to_string(id) + " (" + label_of(*world_.graph.find(route.from)) + " to " +
-           label_of(*world_.graph.find(route.to)) + ")";
+    return fmt::format("route R{} ({} to {})", id, label_of(*world_.graph.find(route.from)),
+                       label_of(*world_.graph.find(route.to)));
   }
 
   const OccupancyGrid& planned_grid(const StartPlace& start) const {

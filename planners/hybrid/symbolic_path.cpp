@@ -70,7 +70,7 @@ SymbolicSearch::SymbolicSearch(const SymbolicQuery& query, const RoutePlanner& r
 
 SymbolicAnswer SymbolicSearch::find(const std::set<RouteId>& blocked) const {
   SymbolicAnswer answer;
-  if (budget_.exhausted()) answer.stopped = budget_.cancelled() ? PlanOutcome::cancelled : PlanOutcome::out_of_budget;
+  if (budget_.exhausted()) answer.stopped = stop_outcome(budget_);
   if (answer.stopped || start_.empty() || goals_.empty()) return answer;
   RouteRequest request = route_request_of(query_.request);
   // Travel off the routes in the unit that these are counted in.

@@ -1,8 +1,10 @@
 #include "planners/landmark_search/answers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "maps/geometry/segments.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -11,14 +13,13 @@ std::string complaint_about_end(const std::vector<RouteEnd>& ends, const Landmar
                                 const std::string& name) {
   if (ends.empty()) return "the request names no " + name;
   for (const RouteEnd& end : ends)
-    if (graph.find(end.landmark) == nullptr)
-      return "the map has no landmark L" + std::to_string(end.landmark) + " (" + name + ")";
+    if (graph.find(end.landmark) == nullptr) return fmt::format("the map has no landmark L{} ({})", end.landmark, name);
   return {};
 }
 
 std::string labels_of(const std::vector<RouteEnd>& ends, const LandmarkGraph& graph) {
   std::string text = label_of(*graph.find(ends.front().landmark));
-  if (ends.size() > 1) text += " or " + std::to_string(ends.size() - 1) + " more";
+  if (ends.size() > 1) text += fmt::format(" or {} more", ends.size() - 1);
   return text;
 }
 
@@ -49,7 +50,7 @@ std::string no_route_text(const RouteRequest& request, const LandmarkGraph& grap
 }
 
 std::string by_routes_text(std::size_t routes) {
-  return "by " + std::to_string(routes) + " stored route" + (routes == 1 ? "" : "s");
+  return "by " + counted(routes, "stored route");
 }
 
 double cost_m_of(const std::vector<LandmarkId>& landmarks, const std::vector<RouteId>& routes,

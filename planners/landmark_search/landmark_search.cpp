@@ -1,9 +1,10 @@
 #include "planners/landmark_search/landmark_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include "maps/hierarchy/hierarchies.hpp"
 #include "planners/landmark_search/alternatives.hpp"
@@ -40,8 +41,8 @@ std::vector<SearchEnd> ends_of(const std::vector<RouteEnd>& asked, const Network
   for (const RouteEnd& end : asked) {
     const VertexIndex v = network.vertex_of(end.landmark);
     if (v == kNoVertex)
-      throw std::logic_error("landmark_search: the hierarchies lack L" + std::to_string(end.landmark) +
-                             "; they were not updated after the graph");
+      throw std::logic_error(fmt::format(
+          "landmark_search: the hierarchies lack L{}; they were not updated after the graph", end.landmark));
     ends.push_back({v, end.cost});
   }
   std::sort(ends.begin(), ends.end(), [](const SearchEnd& a, const SearchEnd& b) { return a.vertex < b.vertex; });

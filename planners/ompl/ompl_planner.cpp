@@ -13,11 +13,11 @@ namespace {
 
 void describe_cost(Fields<OmplConfig>& fields) {
   fields.choice("objective", &OmplConfig::objective,
-                {{"as_asked", WantedObjective::as_asked},
-                 {"length", WantedObjective::length},
-                 {"time", WantedObjective::time},
-                 {"clearance", WantedObjective::clearance},
-                 {"weighted", WantedObjective::weighted}},
+                {{"as_asked", Objective::as_asked},
+                 {"length", Objective::length},
+                 {"time", Objective::time},
+                 {"clearance", Objective::clearance},
+                 {"weighted", Objective::weighted}},
                 "what routes are counted by; as_asked: the request's cost");
   fields.number("length_weight", &OmplConfig::length_weight, {0.0, 1e6}, "1/m", "of `weighted`, a metre");
   fields.number("time_weight", &OmplConfig::time_weight, {0.0, 1e6}, "1/s", "of `weighted`, a second");
@@ -34,14 +34,14 @@ void describe_cost(Fields<OmplConfig>& fields) {
 void describe_motion(Fields<OmplConfig>& fields) {
   fields.choice(
       "kinematics", &OmplConfig::kinematics,
-      {{"disc", MotionKind::disc},
+      {{"disc", MotionKind::holonomic},
        {"differential", MotionKind::differential},
        {"dubins", MotionKind::dubins},
        {"reeds_shepp", MotionKind::reeds_shepp}},
       "how the robot moves: a disc in any direction; differential turns on the spot and drives straight; dubins drives "
       "forwards on circles and straight lines, reeds_shepp backwards too");
   fields.choice("footprint", &OmplConfig::footprint,
-                {{"disc", WantedFootprint::disc}, {"robot", WantedFootprint::robot}},
+                {{"disc", PlannerTraits::Shape::disc}, {"robot", PlannerTraits::Shape::outline}},
                 "what must fit: a disc of the request's radius, or the robot's own outline (not for kinematics disc)");
   fields.number("turning_radius_m", &OmplConfig::turning_radius_m, {0.0, 1e3}, "m",
                 "dubins and reeds_shepp: the tightest circle; 0: that of the robot's file");
@@ -96,9 +96,10 @@ void check_motion(const OmplConfig& config, const RobotModel& robot) {
     throw ConfigError(kPlace, "turning_radius_m " + config_detail::number_text(config.turning_radius_m) +
                                   " is tighter than the robot's own min_turning_radius_m " +
                                   config_detail::number_text(robot.min_turning_radius_m));
-  if (config.kinematics == MotionKind::disc && config.footprint == WantedFootprint::robot && !robot.polygon_m.empty())
+  if (config.kinematics == MotionKind::holonomic && config.footprint == PlannerTraits::Shape::outline &&
+      !robot.polygon_m.empty())
     throw ConfigError(kPlace, "the robot's outline is no disc; give kinematics differential, dubins or reeds_shepp");
-  if (config.footprint == WantedFootprint::robot && !robot.polygon_m.empty()) check_outline(robot);
+  if (config.footprint == PlannerTraits::Shape::outline && !robot.polygon_m.empty()) check_outline(robot);
   if (works_with(config.kinematics, config.algorithm)) return;
   std::string working;
   std::string chosen;
@@ -121,22 +122,8 @@ OmplPlanner::OmplPlanner(OmplConfig config, const RobotModel& robot)
 
 PlannerTraits OmplPlanner::traits() const {
   PlannerTraits traits;
-  traits.shape =
-      config_.footprint == WantedFootprint::disc ? PlannerTraits::Shape::disc : PlannerTraits::Shape::outline;
-  switch (config_.kinematics) {
-    case MotionKind::disc:
-      traits.kinematics = PlannerTraits::Kinematics::holonomic;
-      break;
-    case MotionKind::differential:
-      traits.kinematics = PlannerTraits::Kinematics::differential;
-      break;
-    case MotionKind::dubins:
-      traits.kinematics = PlannerTraits::Kinematics::dubins;
-      break;
-    case MotionKind::reeds_shepp:
-      traits.kinematics = PlannerTraits::Kinematics::reeds_shepp;
-      break;
-  }
+  traits.shape = config_.footprint;
+  traits.kinematics = config_.kinematics;
   traits.margin_m = config_.margin_m;
   traits.unknown = config_.unknown == UnknownGround::avoid ? UnknownPolicy::avoid : UnknownPolicy::allow;
   return traits;
@@ -145,7 +132,7 @@ PlannerTraits OmplPlanner::traits() const {
 void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
   if (world.grid.bounds().empty()) return;
   std::optional<PoseSetup> poses;
-  if (config_.kinematics != MotionKind::disc) poses.emplace(config_, radius_m, world.robot, world.grid);
+  if (config_.kinematics != MotionKind::holonomic) poses.emplace(config_, radius_m, world.robot, world.grid);
   const EndRules rules = poses ? poses->ends : end_rules_of(config_, radius_m);
   if (is_larger_than(world.grid, rules.radius_m)) return;
   const auto space = caches_.spaces.space_of(world.grid, rules.ground, world.grid_version);
@@ -159,12 +146,10 @@ void OmplPlanner::prepare(const WorldView& world, double radius_m) const {
 }
 
 PathResult OmplPlanner::plan(const PathRequest& request, const WorldView& world, const Budget& budget) const {
-  if (!(request.radius_m >= 0.0 && std::isfinite(request.radius_m)))
-    throw std::invalid_argument("ompl: radius_m must be finite and not negative, got " +
-                                std::to_string(request.radius_m));
+  check_radius("ompl", request.radius_m);
   const OmplTools tools{config_, parameters_, caches_};
-  return config_.kinematics == MotionKind::disc ? DiscQuery(tools, request, world, budget).answer()
-                                                : PoseQuery(tools, request, world, budget).answer();
+  return config_.kinematics == MotionKind::holonomic ? DiscQuery(tools, request, world, budget).answer()
+                                                     : PoseQuery(tools, request, world, budget).answer();
 }
 
 }  // namespace cairn

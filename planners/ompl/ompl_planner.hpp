@@ -14,25 +14,19 @@ namespace cairn {
 
 enum class UnknownGround : std::uint8_t { avoid, allow, cost };
 
-// What routes are counted by: `as_asked` is the request's cost.
-enum class WantedObjective : std::uint8_t { as_asked, length, time, clearance, weighted };
-
-// Of the request's radius, or as the robot's file describes it.
-enum class WantedFootprint : std::uint8_t { disc, robot };
-
 struct OmplConfig {
   Algorithm algorithm = Algorithm::any_angle_rrt_star;
   std::int64_t iterations = 3000;
   std::int64_t improve_iterations = 300;
   double good_enough_ratio = 1.01;
-  WantedObjective objective = WantedObjective::as_asked;
+  Objective objective = Objective::as_asked;
   double length_weight = 1.0;
   double time_weight = 1.0;
   double clearance_weight = 1.0;
   UnknownGround unknown = UnknownGround::avoid;
   double unknown_weight = 3.0;
-  MotionKind kinematics = MotionKind::disc;
-  WantedFootprint footprint = WantedFootprint::disc;
+  MotionKind kinematics = MotionKind::holonomic;
+  PlannerTraits::Shape footprint = PlannerTraits::Shape::disc;
   double turning_radius_m = 0.0;
   bool reverse = false;
   double spot_turn_m = 0.1;

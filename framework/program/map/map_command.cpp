@@ -7,7 +7,7 @@
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/run/pictures.hpp"
-#include "maps/hierarchy/cluster_levels.hpp"
+#include "maps/clustering/cluster_levels.hpp"
 #include "maps/store/repair.hpp"
 
 namespace cairn {

@@ -8,7 +8,7 @@
 #include "framework/program/common/print.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {

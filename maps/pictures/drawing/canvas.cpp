@@ -193,6 +193,10 @@ void Canvas::outline(std::span<const Pixel> corners, const Stroke& stroke) {
   line(closed, stroke);
 }
 
+void Canvas::outline(const PixelBox& box, const Stroke& stroke) {
+  outline(std::array{box.min, Pixel(box.max.x(), box.min.y()), box.max, Pixel(box.min.x(), box.max.y())}, stroke);
+}
+
 void Canvas::ring(const Pixel& centre, double radius_px, const Stroke& stroke) {
   paint(view_of(samples_, width_px_, height_px_), {centre, centre}, radius_px + stroke.width_px,
         {stroke.colour, stroke.opacity}, [&](cv::Mat& mask, const cv::Rect& part) {

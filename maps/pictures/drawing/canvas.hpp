@@ -72,6 +72,7 @@ class Canvas {
   void fill_disc(const Pixel& centre, double radius_px, const Fill& fill);
   void line(std::span<const Pixel> points, const Stroke& stroke);
   void outline(std::span<const Pixel> corners, const Stroke& stroke);
+  void outline(const PixelBox& box, const Stroke& stroke);
   void ring(const Pixel& centre, double radius_px, const Stroke& stroke);
   // The image stretched over the box: cells stay sharp when they grow, average when they shrink.
   void image(const PixelBox& box, const CellImage& cells);

@@ -1,24 +1,26 @@
 #include "maps/pictures/drawing/chart.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <boost/process/io.hpp>
+#include <boost/process/search_path.hpp>
+#include <boost/process/system.hpp>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "maps/base/source_text.hpp"
 
-extern char** environ;
-
 namespace cairn {
 namespace {
+
+using exchange::number_text;
+namespace process = boost::process;
 
 // The colours of the categories on the map pictures, in the same order.
 constexpr std::array kChartColours{"#d33c4b", "#1976d2", "#388e3c", "#8e44ad",
@@ -66,14 +68,13 @@ const char* style_of(SeriesStyle style) {
 // A data block a series; the script has no other file to read.
 std::string data_of(const Series& series, std::size_t number) {
   const bool bars = !series.half_widths.empty();
-  std::string data = "$data" + std::to_string(number) + " << END_OF_DATA\n";
+  std::string data = fmt::format("$data{} << END_OF_DATA\n", number);
   bool any = false;
   for (std::size_t i = 0; i < series.points.size(); ++i) {
     const Point& p = series.points[i];
     any = any || p.allFinite();
-    if (p.allFinite())
-      data += exchange::number_text(p.x()) + " " + exchange::number_text(p.y()) +
-              (bars ? " " + exchange::number_text(series.half_widths[i]) : "");
+    if (p.allFinite()) data += fmt::format("{} {}", number_text(p.x()), number_text(p.y()));
+    if (p.allFinite() && bars) data += " " + number_text(series.half_widths[i]);
     data += "\n";
   }
   if (!any) data += bars ? "NaN NaN NaN\n" : "NaN NaN\n";
@@ -84,91 +85,71 @@ std::string plot_of(const Chart& chart) {
   std::string plot = "plot ";
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const bool bars = !chart.series[i].half_widths.empty();
-    plot += "$data" + std::to_string(i) +
-            (bars ? " using 1:2:3 with yerrorbars pointsize 0.9 linewidth 1.5 pointtype " +
-                        std::to_string(kMarks[i / kChartColours.size() % kMarks.size()])
-                  : std::string(" using 1:2 with ") + style_of(chart.series[i].style)) +
-            " linecolor '" + kChartColours[i % kChartColours.size()] + "' title " + quoted(chart.series[i].name) + ", ";
+    const std::string with = bars ? fmt::format("1:2:3 with yerrorbars pointsize 0.9 linewidth 1.5 pointtype {}",
+                                                kMarks[i / kChartColours.size() % kMarks.size()])
+                                  : fmt::format("1:2 with {}", style_of(chart.series[i].style));
+    plot += fmt::format("$data{} using {} linecolor '{}' title {}, ", i, with, kChartColours[i % kChartColours.size()],
+                        quoted(chart.series[i].name));
   }
   for (const HorizontalLine& line : chart.horizontal_lines)
     if (std::isfinite(line.y))
-      plot += exchange::number_text(line.y) + " with lines dashtype 2 linewidth 1.5 linecolor '#5f6b73' title " +
-              quoted(line.name) + ", ";
+      plot += fmt::format("{} with lines dashtype 2 linewidth 1.5 linecolor '#5f6b73' title {}, ", number_text(line.y),
+                          quoted(line.name));
   return plot + "NaN notitle\n";
 }
 
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
 // The script and gnuplot's complaints go through memory, not pipes: neither side ever waits for the
 // other, and a gnuplot that dies early sends no signal here.
-class MemoryFile {
- public:
-  explicit MemoryFile(const char* name) : fd_(::memfd_create(name, MFD_CLOEXEC)) {}
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  [[nodiscard]] int fd() const { return fd_; }
-  [[nodiscard]] bool fill(const std::string& text) const {
-    return ::write(fd_, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-           ::lseek(fd_, 0, SEEK_SET) == 0;
-  }
-  [[nodiscard]] std::string first_line() const {
-    std::string text(300, '\0');
-    const ssize_t size = ::pread(fd_, text.data(), text.size(), 0);
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
-    const std::size_t start = std::min(text.find_first_not_of("\n "), text.size());
-    return text.substr(start, text.find('\n', start) - start);
-  }
+File memory_file(const char* name) {
+  return File(::fdopen(::memfd_create(name, MFD_CLOEXEC), "w+"));
+}
 
- private:
-  int fd_;
-};
-
-// gnuplot -d reads no start-up files of whoever runs it. Returns 0 or the error that kept it from starting.
-int start_gnuplot(int script, int picture, int complaints, pid_t& child) {
-  posix_spawn_file_actions_t files;
-  ::posix_spawn_file_actions_init(&files);
-  ::posix_spawn_file_actions_adddup2(&files, script, STDIN_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, picture, STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, complaints, STDERR_FILENO);
-  std::array<char*, 3> arguments{const_cast<char*>("gnuplot"), const_cast<char*>("-d"), nullptr};
-  const int error = ::posix_spawnp(&child, "gnuplot", &files, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&files);
-  return error;
+std::string first_line_of(std::FILE* file) {
+  std::rewind(file);
+  std::string text(300, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), file));
+  const std::size_t start = std::min(text.find_first_not_of("\n "), text.size());
+  return text.substr(start, text.find('\n', start) - start);
 }
 
 ChartOutcome failed(const std::string& what, int error) {
   return {false, what + ": " + std::strerror(error)};
 }
 
-ChartOutcome run_gnuplot(const std::string& script_text, int picture) {
-  const MemoryFile script("chart script");
-  const MemoryFile complaints("chart complaints");
-  if (script.fd() < 0 || complaints.fd() < 0 || !script.fill(script_text))
+// gnuplot -d reads no start-up files of whoever runs it.
+ChartOutcome run_gnuplot(const std::string& script_text, std::FILE* picture) {
+  const File script = memory_file("chart script");
+  const File complaints = memory_file("chart complaints");
+  if (!script || !complaints || std::fputs(script_text.c_str(), script.get()) < 0)
     return failed("no memory for a chart", errno);
-  pid_t child = 0;
-  const int error = start_gnuplot(script.fd(), picture, complaints.fd(), child);
-  if (error == ENOENT) return {false, "gnuplot is not installed, charts need it (package gnuplot-nox)"};
-  if (error != 0) return failed("gnuplot cannot be started", error);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return failed("gnuplot was lost", errno);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {true, ""};
-  return {false, "gnuplot failed: " + complaints.first_line()};
+  std::rewind(script.get());
+  const boost::filesystem::path gnuplot = process::search_path("gnuplot");
+  if (gnuplot.empty()) return {false, "gnuplot is not installed, charts need it (package gnuplot-nox)"};
+  std::error_code error;
+  const int status = process::system(gnuplot, "-d", (process::std_in < script.get()), (process::std_out > picture),
+                                     (process::std_err > complaints.get()), error);
+  if (error) return {false, "gnuplot cannot be started: " + error.message()};
+  return status == 0 ? ChartOutcome{true, ""}
+                     : ChartOutcome{false, "gnuplot failed: " + first_line_of(complaints.get())};
 }
 
 }  // namespace
 
 std::string gnuplot_script(const Chart& chart) {
   std::string script = kHead;
-  script += "set title " + quoted(chart.title) + " noenhanced font ',14' textcolor '#26323a'\n";
-  script += "set xlabel " + quoted(chart.x_label) + " noenhanced textcolor '#26323a'\n";
-  script += "set ylabel " + quoted(chart.y_label) + " noenhanced textcolor '#26323a'\n";
+  script += fmt::format("set title {} noenhanced font ',14' textcolor '#26323a'\n", quoted(chart.title));
+  script += fmt::format("set xlabel {} noenhanced textcolor '#26323a'\n", quoted(chart.x_label));
+  script += fmt::format("set ylabel {} noenhanced textcolor '#26323a'\n", quoted(chart.y_label));
   if (!chart.x_names.empty()) {
-    script += "set xrange [-0.5:" + exchange::number_text(static_cast<double>(chart.x_names.size()) - 0.5) +
-              "]\nset xtics rotate by -20 noenhanced (";
+    script += fmt::format("set xrange [-0.5:{}]\nset xtics rotate by -20 noenhanced (",
+                          number_text(static_cast<double>(chart.x_names.size()) - 0.5));
     for (std::size_t i = 0; i < chart.x_names.size(); ++i)
-      script += (i == 0 ? "" : ", ") + quoted(chart.x_names[i]) + " " + std::to_string(i);
+      script += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(chart.x_names[i]), i);
     script += ")\n";
   }
   if (chart.of_shares) script += "set xrange [0:1.01]\nset yrange [0:1.01]\n";
@@ -179,10 +160,10 @@ std::string gnuplot_script(const Chart& chart) {
 }
 
 ChartOutcome write_chart(const std::filesystem::path& file, const Chart& chart) {
-  const int picture = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (picture < 0) return failed(file.string() + " cannot be written", errno);
-  ChartOutcome outcome = run_gnuplot(gnuplot_script(chart), picture);
-  ::close(picture);
+  File picture(std::fopen(file.c_str(), "wbe"));
+  if (!picture) return failed(file.string() + " cannot be written", errno);
+  ChartOutcome outcome = run_gnuplot(gnuplot_script(chart), picture.get());
+  picture.reset();
   std::error_code ignored;
   if (outcome.drawn && std::filesystem::file_size(file, ignored) == 0) outcome = {false, "gnuplot drew nothing"};
   if (!outcome.drawn) std::filesystem::remove(file, ignored);

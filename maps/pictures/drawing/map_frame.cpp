@@ -1,9 +1,10 @@
 #include "maps/pictures/drawing/map_frame.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "maps/pictures/drawing/colours.hpp"
 
@@ -17,18 +18,6 @@ constexpr double kFrameLeftPx = 48.0;
 constexpr double kTickRoomPx = 22.0;
 constexpr double kMinTickDistancePx = 70.0;
 constexpr int kMaxImageSide = 2000;
-
-// 1, 2 or 5 times a power of ten, at least this large.
-double round_at_least(double value) {
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (step * decade >= value * (1.0 - 1e-9)) return step * decade;
-  return 10.0 * decade;
-}
-
-int decimals_for(double step) {
-  return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-}
 
 // Mean OL of a block of cells.
 double mean_ol(const OccupancyGrid& grid, const CellBox& block) {
@@ -55,6 +44,17 @@ void draw_ticks(Canvas& canvas, const MapFrame& frame, bool along_x) {
 }
 
 }  // namespace
+
+double round_at_least(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * decade >= value * (1.0 - 1e-9)) return step * decade;
+  return 10.0 * decade;
+}
+
+int decimals_for(double step) {
+  return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+}
 
 bool is_drawable(const Point& p_map) {
   return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < 1e6;
@@ -89,8 +89,7 @@ MapFrame frame_of(const Extent& extent, double cell_m) {
 
 void draw_border(Canvas& canvas, const MapFrame& frame) {
   const PixelBox& box = frame.box;
-  canvas.outline(std::array{box.min, Pixel(box.max.x(), box.min.y()), box.max, Pixel(box.min.x(), box.max.y())},
-                 {kFrame, 1.0});
+  canvas.outline(box, {kFrame, 1.0});
   draw_ticks(canvas, frame, true);
   draw_ticks(canvas, frame, false);
   constexpr double kBesideSubtitlePx = 480.0;  // a narrower map has no room for both
@@ -121,16 +120,20 @@ double below_frame_px(const MapFrame& frame) {
   return frame.box.max.y() + kTickRoomPx;
 }
 
-CellImage image_of(const OccupancyGrid& grid, const CellBox& box) {
+CellImage image_of(const CellBox& box, const std::function<Colour(const CellBox&)>& colour_of_block) {
   const int block = 1 + (std::max(box.width(), box.height()) - 1) / kMaxImageSide;
   CellImage image{(box.width() + block - 1) / block, (box.height() + block - 1) / block, {}};
   for (int row = image.height - 1; row >= 0; --row)
     for (int column = 0; column < image.width; ++column) {
       const Cell min{box.min.x + column * block, box.min.y + row * block};
       const CellBox cells = intersected({min, {min.x + block, min.y + block}}, box);
-      image.colours.push_back(colour_of_ol(mean_ol(grid, cells)));
+      image.colours.push_back(colour_of_block(cells));
     }
   return image;
+}
+
+CellImage image_of(const OccupancyGrid& grid, const CellBox& box) {
+  return image_of(box, [&](const CellBox& block) { return colour_of_ol(mean_ol(grid, block)); });
 }
 
 PixelBox pixel_box_of(const MapFrame& frame, const OccupancyGrid& grid, const CellBox& box) {
@@ -141,9 +144,7 @@ PixelBox pixel_box_of(const MapFrame& frame, const OccupancyGrid& grid, const Ce
 }
 
 std::string short_text(double value, int decimals) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value == 0.0 ? 0.0 : value);
-  return buffer;
+  return fmt::format("{:.{}f}", value == 0.0 ? 0.0 : value, decimals);
 }
 
 std::string trimmed_text(double value, int decimals) {

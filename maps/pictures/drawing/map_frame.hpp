@@ -2,6 +2,7 @@
 // along it, its scale bar; and the page about it.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,10 +53,25 @@ inline constexpr double kScaleBarRoomPx = 230.0;
 // Upper edge of what follows below the map.
 [[nodiscard]] double below_frame_px(const MapFrame& frame);
 
-// The cells of the box as colours, with y up; averaged down when the box is far larger than a picture.
+// The smallest box that holds all cells of another of which is_shown(Cell) is true.
+template <class IsShown>
+[[nodiscard]] CellBox box_where(const CellBox& bounds, IsShown is_shown) {
+  CellBox shown;
+  for (int y = bounds.min.y; y < bounds.max.y; ++y)
+    for (int x = bounds.min.x; x < bounds.max.x; ++x)
+      if (!shown.contains({x, y}) && is_shown(Cell{x, y})) shown = united(shown, {{x, y}, {x + 1, y + 1}});
+  return shown;
+}
+
+// The box as colours, with y up: one a cell, or one a block of cells when the box is far larger than a picture.
+[[nodiscard]] CellImage image_of(const CellBox& box, const std::function<Colour(const CellBox&)>& colour_of_block);
+// By the mean of the cells.
 [[nodiscard]] CellImage image_of(const OccupancyGrid& grid, const CellBox& box);
 [[nodiscard]] PixelBox pixel_box_of(const MapFrame& frame, const OccupancyGrid& grid, const CellBox& box);
 
+// 1, 2 or 5 times a power of ten, at least this large; and the decimals to write it with.
+[[nodiscard]] double round_at_least(double value);
+[[nodiscard]] int decimals_for(double step);
 // A number with this many decimals, and with at most this many.
 [[nodiscard]] std::string short_text(double value, int decimals);
 [[nodiscard]] std::string trimmed_text(double value, int decimals);

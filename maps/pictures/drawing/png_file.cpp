@@ -1,12 +1,12 @@
 // By libpng itself: OpenCV's writer would load a hundred libraries of other formats at every start.
 #include "maps/pictures/drawing/png_file.hpp"
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include <array>
 #include <fstream>
 #include <stdexcept>
-#include <string>
 
 namespace cairn::pictures {
 
@@ -26,8 +26,8 @@ void check_may_be_replaced(const std::filesystem::path& file) {
 
 void write_png_file(const std::filesystem::path& file, int width, int height, std::span<const std::uint8_t> rgb) {
   if (width <= 0 || height <= 0 || rgb.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3)
-    throw std::invalid_argument("write_png_file: " + std::to_string(rgb.size()) + " bytes are no picture of " +
-                                std::to_string(width) + " x " + std::to_string(height));
+    throw std::invalid_argument(
+        fmt::format("write_png_file: {} bytes are no picture of {} x {}", rgb.size(), width, height));
   check_may_be_replaced(file);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

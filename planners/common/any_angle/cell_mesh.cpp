@@ -1,10 +1,11 @@
 #include "planners/common/any_angle/cell_mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/biconnected_components.hpp>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -49,8 +50,7 @@ CellBox rectangle_at(Cell at, const CellBox& box, const IsFree& is_free) {
 CellMesh::CellMesh(const CellBox& box, std::span<const std::uint8_t> open) : box_(box.empty() ? CellBox{} : box) {
   const auto cells = static_cast<std::size_t>(box_.width()) * static_cast<std::size_t>(box_.height());
   if (open.size() != cells)
-    throw std::invalid_argument("CellMesh: " + std::to_string(open.size()) + " marks for a box of " +
-                                std::to_string(cells) + " cells");
+    throw std::invalid_argument(fmt::format("CellMesh: {} marks for a box of {} cells", open.size(), cells));
   cut_into_rectangles(open);
   join();
   find_blocks();

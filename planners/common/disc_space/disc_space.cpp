@@ -1,11 +1,12 @@
 #include "planners/common/disc_space/disc_space.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <limits>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 #include "maps/grid/connected_cells.hpp"
 
@@ -83,8 +84,7 @@ DiscSpace::DiscSpace(const DiscSpace& coarse, int parts)
 }
 
 DiscSpace DiscSpace::refined(int parts) const {
-  if (parts < 1)
-    throw std::invalid_argument("DiscSpace::refined: parts must be positive, got " + std::to_string(parts));
+  if (parts < 1) throw std::invalid_argument(fmt::format("DiscSpace::refined: parts must be positive, got {}", parts));
   return DiscSpace(*this, parts);
 }
 

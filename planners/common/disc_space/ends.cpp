@@ -1,7 +1,10 @@
 #include "planners/common/disc_space/ends.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "maps/geometry/segments.hpp"
 
@@ -40,7 +43,7 @@ std::string not_reached_text(const Place& goal, const LandmarkGraph& graph) {
   if (goal.pose) return "the goal " + text_of(goal.pose->position()) + " cannot be reached";
   const std::string first = label_of(*graph.find(goal.landmarks.front()));
   if (goal.landmarks.size() == 1) return first + " cannot be reached";
-  return "none of " + std::to_string(goal.landmarks.size()) + " goals (" + first + ", ...) can be reached";
+  return fmt::format("none of {} goals ({}, ...) can be reached", goal.landmarks.size(), first);
 }
 
 // No path at all, or none for a robot of this size?
@@ -71,6 +74,20 @@ Refusal stopped(PlanOutcome stop_outcome) {
   return {stop_outcome, "the budget was used up before a route was found"};
 }
 
+void check_radius(const std::string& planner, double radius_m) {
+  if (!(radius_m >= 0.0 && std::isfinite(radius_m)))
+    throw std::invalid_argument(
+        fmt::format("{}: radius_m must be finite and not negative, got {:f}", planner, radius_m));
+}
+
+std::string escape_text(const StartPlace& start) {
+  if (!start.escape) return {};
+  return fmt::format(
+      "; the start is too near to something and is left towards {} with less clearance than the robot's radius asks "
+      "for",
+      text_of(start.escape->to));
+}
+
 bool is_larger_than(const OccupancyGrid& grid, double radius_m) {
   const CellBox box = grid.bounds();
   return radius_m > std::hypot(box.width(), box.height()) * grid.cell_m();
@@ -89,7 +106,7 @@ std::optional<Refusal> refusal_of_place(const Place& place, const LandmarkGraph&
   if (place.landmarks.empty()) return Refusal{PlanOutcome::unknown_place, "the request names no " + end};
   for (const LandmarkId id : place.landmarks)
     if (graph.find(id) == nullptr)
-      return Refusal{PlanOutcome::unknown_place, "the map has no landmark L" + std::to_string(id) + " (" + end + ")"};
+      return Refusal{PlanOutcome::unknown_place, fmt::format("the map has no landmark L{} ({})", id, end)};
   return std::nullopt;
 }
 

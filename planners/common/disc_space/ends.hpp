@@ -30,6 +30,8 @@ template <class Result>
 // Of a call that its budget ended: `cancelled` or `out_of_budget`.
 [[nodiscard]] PlanOutcome stop_outcome(const Budget& budget);
 [[nodiscard]] Refusal stopped(PlanOutcome stop_outcome);
+// Throws std::invalid_argument, with the planner's name, unless it is finite and not negative.
+void check_radius(const std::string& planner, double radius_m);
 
 // The robot at the start. The grid is the world's, with the unknown ground under the robot made free
 // when it stands there now.
@@ -45,6 +47,9 @@ struct StartPlace {
     return patched_grid ? *patched_grid : world.grid;
   }
 };
+
+// For the end of a reason, when the start is left by an escape.
+[[nodiscard]] std::string escape_text(const StartPlace& start);
 
 struct GoalPlace {
   Pose2 pose;

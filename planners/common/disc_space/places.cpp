@@ -1,17 +1,11 @@
 #include "planners/common/disc_space/places.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace cairn {
 namespace {
 
 constexpr double kTie_m = 1e-9;
-
-std::string metres(double value_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value_m);
-  return text;
-}
 
 GroundRules only_occupied(GroundRules rules) {
   rules.unknown = UnknownPolicy::allow;
@@ -38,11 +32,11 @@ double distance_to_state_m(const OccupancyGrid& grid, const GroundRules& rules, 
 }  // namespace
 
 std::string metres_text(double value_m) {
-  return metres(value_m) + " m";
+  return fmt::format("{:.2f} m", value_m);
 }
 
 std::string text_of(const Point& p_map) {
-  return "(" + metres(p_map.x()) + ", " + metres(p_map.y()) + ")";
+  return fmt::format("({:.2f}, {:.2f})", p_map.x(), p_map.y());
 }
 
 std::optional<Point> nearest_fit(const DiscSpace& space, const Point& near_map, double radius_m, double within_m,
@@ -89,21 +83,19 @@ std::string why_blocked(const OccupancyGrid& grid, const DiscSpace& space, const
   if (unknown_m == 0.0) return "it lies in unknown space";
   const bool occupied = occupied_m <= unknown_m;
   if (std::min(occupied_m, unknown_m) > radius_m)  // the field keeps less than the squares do: by a cell's rounding
-    return "the map, to a cell's rounding, leaves less than the " + metres(radius_m) + " m that the robot needs";
-  return std::string(occupied ? "an occupied cell is " : "unknown space is ") +
-         metres(occupied ? occupied_m : unknown_m) + " m from its centre, and the robot needs " + metres(radius_m) +
-         " m";
+    return fmt::format("the map, to a cell's rounding, leaves less than the {:.2f} m that the robot needs", radius_m);
+  return fmt::format("{} is {:.2f} m from its centre, and the robot needs {:.2f} m",
+                     occupied ? "an occupied cell" : "unknown space", std::min(occupied_m, unknown_m), radius_m);
 }
 
 std::string nearest_free_text(const DiscSpace& space, const Point& p_map, double radius_m,
                               const std::function<bool(const Point&)>& accept) {
   constexpr double kTextSearch_m = 3.0;
   const std::optional<Point> free = nearest_fit(space, p_map, radius_m, kTextSearch_m, accept);
-  if (!free) return "; there is no free place for it within " + metres(kTextSearch_m) + " m";
+  if (!free) return fmt::format("; there is no free place for it within {:.2f} m", kTextSearch_m);
   // To the millimetre, so that what is printed is free too.
-  char place[64];
-  std::snprintf(place, sizeof place, "(%.3f, %.3f)", free->x(), free->y());
-  return std::string("; the nearest free place is ") + place + ", " + metres((*free - p_map).norm()) + " m away";
+  return fmt::format("; the nearest free place is ({:.3f}, {:.3f}), {:.2f} m away", free->x(), free->y(),
+                     (*free - p_map).norm());
 }
 
 bool robot_stands_at(const WorldView& world, const Point& p_map) {

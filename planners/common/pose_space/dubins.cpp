@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <boost/container/static_vector.hpp>
 
 namespace cairn {
 namespace {
@@ -29,12 +29,7 @@ struct Word {
   }
 };
 
-// Up to eight words, as they are found.
-struct Words {
-  std::array<Word, 8> found;
-  std::size_t count = 0;
-  void add(const Word& word) { found[count++] = word; }
-};
+using Words = boost::container::static_vector<Word, 8>;
 
 // To [0, 2 pi), where a hair less than a whole turn is none.
 double turned(double angle_rad) {
@@ -55,7 +50,7 @@ void add_with_straight(const Pose2& from, const Pose2& to, double side, double l
                        Words& words) {
   const Point between = centre_of_turn(to, last_side, radius_m) - centre_of_turn(from, side, radius_m);
   if (side == last_side && between.norm() < kRounding * radius_m) {  // one and the same circle
-    words.add({side, side, turned(side * (to.theta_rad - from.theta_rad)), 0.0, 0.0, 0.0});
+    words.push_back({side, side, turned(side * (to.theta_rad - from.theta_rad)), 0.0, 0.0, 0.0});
     return;
   }
   const double across_m = (side - last_side) * radius_m;
@@ -63,8 +58,8 @@ void add_with_straight(const Pose2& from, const Pose2& to, double side, double l
   if (squared < -kRounding * radius_m * radius_m) return;  // no tangent: the circles overlap
   const double straight_m = std::sqrt(std::max(squared, 0.0));
   const double heading_rad = angle_of(between) + std::atan2(across_m, straight_m);
-  words.add({side, last_side, turned(side * (heading_rad - from.theta_rad)), straight_m, 0.0,
-             turned(last_side * (to.theta_rad - heading_rad))});
+  words.push_back({side, last_side, turned(side * (heading_rad - from.theta_rad)), straight_m, 0.0,
+                   turned(last_side * (to.theta_rad - heading_rad))});
 }
 
 // Circle, a circle that touches both, circle.
@@ -79,9 +74,9 @@ void add_with_turn(const Pose2& from, const Pose2& to, double side, double radiu
     const Point middle = 0.5 * (first + last) + above * height_m * Point(-along.y(), along.x());
     const double first_heading_rad = angle_of(middle - first) + side * 0.5 * std::numbers::pi;
     const double last_heading_rad = angle_of(middle - last) + side * 0.5 * std::numbers::pi;
-    words.add({side, side, turned(side * (first_heading_rad - from.theta_rad)), 0.0,
-               turned(side * (first_heading_rad - last_heading_rad)),
-               turned(side * (to.theta_rad - last_heading_rad))});
+    words.push_back({side, side, turned(side * (first_heading_rad - from.theta_rad)), 0.0,
+                     turned(side * (first_heading_rad - last_heading_rad)),
+                     turned(side * (to.theta_rad - last_heading_rad))});
   }
 }
 
@@ -97,11 +92,11 @@ Word shortest_word(const Pose2& from, const Pose2& to, double radius_m, double t
     add_with_turn(from, to, side, radius_m, words);
   }
   const Word* shortest = nullptr;
-  for (const Word& word : std::span(words.found.data(), words.count))
+  for (const Word& word : words)
     if ((shortest == nullptr || word.length_m(radius_m) < shortest->length_m(radius_m)) &&
         leads(word, from, to, radius_m, tolerance))
       shortest = &word;
-  return shortest != nullptr ? *shortest : words.found.front();
+  return shortest != nullptr ? *shortest : words.front();
 }
 
 }  // namespace

@@ -22,8 +22,7 @@ class Footprint {
     double radius_m = 0.0;
   };
 
-  // Throw std::invalid_argument on numbers that are not finite, a negative radius, fewer than three
-  // corners, an outline that crosses or touches itself, or one without area.
+  // Throw std::invalid_argument on a radius that is negative or not finite, and on corners that are no Contour.
   [[nodiscard]] static Footprint disc(double radius_m);
   [[nodiscard]] static Footprint polygon(std::vector<Point> corners_m);
 
@@ -42,9 +41,6 @@ class Footprint {
   double circumscribed_m_ = 0.0;
   std::vector<Disc> cover_;
 };
-
-// Corners in order, in either direction; the rim may count as outside.
-[[nodiscard]] bool holds(std::span<const Point> corners, const Point& p);
 
 // Whether a solid polygon comes nearer than reach_m to a cell, or holds it.
 [[nodiscard]] bool is_near(std::span<const Point> corners, double reach_m, const Lattice& lattice, Cell cell);

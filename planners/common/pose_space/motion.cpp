@@ -1,9 +1,9 @@
 #include "planners/common/pose_space/motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "maps/geometry/segments.hpp"
 
@@ -66,7 +66,7 @@ bool are_alike(const Pose2& a, const Pose2& b, double within) {
 Motion::Motion(const Pose2& start, const std::vector<MotionElement>& elements, double spot_turn_m)
     : spot_turn_m_(spot_turn_m), starts_{start} {
   if (!(spot_turn_m > 0.0))
-    throw std::invalid_argument("Motion: spot_turn_m must be positive, got " + std::to_string(spot_turn_m));
+    throw std::invalid_argument(fmt::format("Motion: spot_turn_m must be positive, got {:f}", spot_turn_m));
   elements_.reserve(elements.size());
   starts_.reserve(elements.size() + 1);
   for (const MotionElement& element : elements) append(element);
@@ -86,12 +86,6 @@ double Motion::length_m() const {
   double sum_m = 0.0;
   for (const MotionElement& element : elements_) sum_m += std::abs(element.length_m);
   return sum_m;
-}
-
-double Motion::total_turn_rad() const {
-  double sum_rad = 0.0;
-  for (const MotionElement& element : elements_) sum_rad += std::abs(element.turn_rad);
-  return sum_rad;
 }
 
 double Motion::spot_turn_rad() const {
@@ -118,14 +112,6 @@ double Motion::extent_m() const {
   return sum_m;
 }
 
-double Motion::min_radius_m() const {
-  double min_m = std::numeric_limits<double>::infinity();
-  for (const MotionElement& element : elements_)
-    if (!element.is_turn_on_the_spot() && element.turn_rad != 0.0)
-      min_m = std::min(min_m, std::abs(element.signed_radius_m()));
-  return min_m;
-}
-
 Pose2 Motion::pose_at(double s_m) const {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const double extent_m = extent_of(elements_[i]);
@@ -133,18 +119,6 @@ Pose2 Motion::pose_at(double s_m) const {
     s_m -= extent_m;
   }
   return end();
-}
-
-Motion Motion::first_part(double s_m) const {
-  Motion part(start());
-  part.spot_turn_m_ = spot_turn_m_;
-  for (const MotionElement& element : elements_) {
-    const double extent_m = extent_of(element);
-    part.append(s_m < extent_m ? element.share(std::max(s_m, 0.0) / extent_m) : element);
-    s_m -= extent_m;
-    if (s_m < 0.0) break;
-  }
-  return part;
 }
 
 std::vector<Pose2> Motion::sampled(double step_m, double step_rad) const {

@@ -56,14 +56,11 @@ class Motion {
   [[nodiscard]] bool is_finite() const;
   [[nodiscard]] bool ends_at(const Pose2& pose, double within) const { return are_alike(end(), pose, within); }
 
-  [[nodiscard]] double length_m() const;        // driven, in either direction
-  [[nodiscard]] double total_turn_rad() const;  // of all elements, without signs
-  [[nodiscard]] double spot_turn_rad() const;   // of those on the spot
-  [[nodiscard]] int reversals() const;          // changes between forwards and backwards
-  [[nodiscard]] double extent_m() const;        // the s of the end
-  [[nodiscard]] double min_radius_m() const;    // of its arcs; infinite without one
+  [[nodiscard]] double length_m() const;       // driven, in either direction
+  [[nodiscard]] double spot_turn_rad() const;  // of those on the spot
+  [[nodiscard]] int reversals() const;         // changes between forwards and backwards
+  [[nodiscard]] double extent_m() const;       // the s of the end
   [[nodiscard]] Pose2 pose_at(double s_m) const;
-  [[nodiscard]] Motion first_part(double s_m) const;
 
   // Poses on the motion, at most step_m driven and step_rad turned apart; the ends of all elements are
   // among them.

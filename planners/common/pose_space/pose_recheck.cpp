@@ -1,8 +1,9 @@
 #include "planners/common/pose_space/pose_recheck.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <stdexcept>
-#include <string>
 
 #include "maps/geometry/segments.hpp"
 
@@ -133,7 +134,7 @@ std::optional<Touch> first_touch_on(const Looker& looker, const Motion& motion, 
 std::optional<Touch> first_touch(const OccupancyGrid& grid, const GroundRules& rules, const Footprint& footprint,
                                  const Motion& motion, double slack_m) {
   if (!(slack_m > 0.0))
-    throw std::invalid_argument("first_touch: slack_m must be positive, got " + std::to_string(slack_m));
+    throw std::invalid_argument(fmt::format("first_touch: slack_m must be positive, got {:f}", slack_m));
   if (!motion.is_finite()) return Touch{0.0, motion.start(), {}};
   const Looker looker(grid, rules, footprint);
   if (const auto cell = looker.blocked_near(motion.start(), kMinRadius_m)) return Touch{0.0, motion.start(), *cell};

@@ -36,20 +36,13 @@ struct Hull {
       const std::size_t first = size;
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Point& p = points[lower ? i : points.size() - 1 - i];
-        while (size >= first + 2 && !turns_left(corners[size - 2], corners[size - 1], p)) --size;
+        while (size >= first + 2 && cross(corners[size - 1] - corners[size - 2], p - corners[size - 2]) <= 0.0) --size;
         corners[size++] = p;
       }
       --size;  // the other chain begins with it
     }
   }
   [[nodiscard]] std::span<const Point> span() const { return {corners.data(), size}; }
-
- private:
-  static bool turns_left(const Point& a, const Point& b, const Point& c) {
-    const Point ab = b - a;
-    const Point ac = c - a;
-    return ab.x() * ac.y() - ab.y() * ac.x() > 0.0;
-  }
 };
 
 // No blocked cell is nearer than the field says.

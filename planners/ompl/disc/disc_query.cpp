@@ -1,5 +1,7 @@
 #include "planners/ompl/disc/disc_query.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -30,24 +32,10 @@ EndRules end_rules_of(const OmplConfig& config, double radius_m) {
 
 TravelCostRules cost_rules_of(const OmplConfig& config, const PathRequest& request, const RobotModel& robot,
                               double radius_m) {
-  const auto asked = [&] {
-    switch (config.objective) {
-      case WantedObjective::as_asked:
-        return request.cost == CostKind::length ? Objective::length
-               : request.cost == CostKind::time ? Objective::time
-                                                : Objective::clearance;
-      case WantedObjective::length:
-        return Objective::length;
-      case WantedObjective::time:
-        return Objective::time;
-      case WantedObjective::clearance:
-        return Objective::clearance;
-      case WantedObjective::weighted:
-        return Objective::weighted;
-    }
-    return Objective::length;
-  };
-  return {asked(),
+  const Objective asked = request.cost == CostKind::length ? Objective::length
+                          : request.cost == CostKind::time ? Objective::time
+                                                           : Objective::clearance;
+  return {config.objective == Objective::as_asked ? asked : config.objective,
           config.length_weight,
           config.time_weight,
           config.clearance_weight,
@@ -213,16 +201,15 @@ PathResult DiscQuery::checked(const StartPlace& start, const GoalPlace& goal, co
   if (found.impossible) return refused<PathResult>(too_narrow(request_.to, world_.graph, rules_.radius_m));
   if (found.route.size() < (found.exact ? 1U : 2U)) {
     return refused<PathResult>(
-        {PlanOutcome::out_of_budget, "no route was found in " +
-                                         std::to_string(std::min(tools_.config.iterations, budget_.iterations)) +
-                                         " iterations; if there is one, it is hardly wider than the robot"});
+        {PlanOutcome::out_of_budget,
+         fmt::format("no route was found in {} iterations; if there is one, it is hardly wider than the robot",
+                     std::min(tools_.config.iterations, budget_.iterations))});
   }
   std::vector<Point> route = found.route;
   if (start.escape) route.insert(route.begin(), start.pose.position());
   if (!route_is_free(start.grid_of(world_), rules_.ground, route, rules_.radius_m, start.escape))
-    throw std::logic_error("ompl: the re-check refused a route of " + std::to_string(route.size()) + " points from " +
-                           text_of(route.front()) + " to " + text_of(route.back()) + ", radius " +
-                           std::to_string(rules_.radius_m));
+    throw std::logic_error(fmt::format("ompl: the re-check refused a route of {} points from {} to {}, radius {:f}",
+                                       route.size(), text_of(route.front()), text_of(route.back()), rules_.radius_m));
   const TravelCost cost(start.grid_of(world_), *start.space,
                         cost_rules_of(tools_.config, request_, world_.robot, rules_.radius_m));
   return result_of(start, goal, found, route, cost);
@@ -242,9 +229,7 @@ PathResult DiscQuery::result_of(const StartPlace& start, const GoalPlace& goal, 
   result.reason = found.how + goal.note;
   if (!found.exact) result.reason = "the route ends at " + text_of(route.back()) + ", short of the goal";
   if (found.interrupted) result.reason += "; the budget ended the search for a shorter one";
-  if (start.escape)
-    result.reason += "; the start is too near to something and is left towards " + text_of(start.escape->to) +
-                     " with less clearance than the robot's radius asks for";
+  result.reason += escape_text(start);
   return result;
 }
 

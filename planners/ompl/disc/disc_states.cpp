@@ -168,16 +168,18 @@ void set_point(ob::State* state, const Point& p) {
   values[1] = p.y();
 }
 
+ob::RealVectorBounds bounds_of(const DistanceField& field) {
+  const auto [low, high] = box_of(field, field.box());
+  ob::RealVectorBounds bounds(2);
+  bounds.low = {low.x(), low.y()};
+  bounds.high = {high.x(), high.y()};
+  return bounds;
+}
+
 ob::SpaceInformationPtr space_information(const DiscProblem& problem) {
   const DistanceField& field = problem.space.field();
-  const auto [low, high] = box_of(field, field.box());
   auto space = std::make_shared<PlaneSpace>(2);
-  ob::RealVectorBounds bounds(2);
-  for (int axis = 0; axis < 2; ++axis) {
-    bounds.setLow(static_cast<unsigned>(axis), low[axis]);
-    bounds.setHigh(static_cast<unsigned>(axis), high[axis]);
-  }
-  space->setBounds(bounds);
+  space->setBounds(bounds_of(field));
   auto samplers = std::make_shared<std::uint64_t>(0);
   space->setStateSamplerAllocator([&problem, samplers](const ob::StateSpace* plane) {
     return std::make_shared<CellSampler>(plane, problem.samples, mixed_seed(mixed_seed(problem.seed) + ++*samplers));

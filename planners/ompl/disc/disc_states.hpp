@@ -18,6 +18,9 @@ using PlaneSpace = ompl::base::RealVectorStateSpace;
 [[nodiscard]] Point point_of(const ompl::base::State* state);
 void set_point(ompl::base::State* state, const Point& p);
 
+// The box of the distance field.
+[[nodiscard]] ompl::base::RealVectorBounds bounds_of(const DistanceField& field);
+
 // Where samples are drawn from: the cells of a lattice, evenly.
 struct SampledCells {
   std::shared_ptr<const DiscSpace> lattice;

@@ -1,5 +1,6 @@
 #include "planners/ompl/pose/kinematic_spaces.hpp"
 
+#include <fmt/format.h>
 #include <ompl/base/spaces/DubinsStateSpace.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
 
@@ -9,8 +10,8 @@
 #include <string>
 
 #include "maps/base/portable_random.hpp"
-#include "planners/common/disc_space/field_box.hpp"
 #include "planners/common/pose_space/dubins.hpp"
+#include "planners/ompl/disc/disc_states.hpp"
 
 namespace cairn {
 namespace {
@@ -105,7 +106,7 @@ const MotionSpace& motions_of(const ob::StateSpace& space) {
 
 void check_positive(double value, const std::string& name) {
   if (!(value > 0.0) || !std::isfinite(value))
-    throw std::invalid_argument(name + " must be positive, not " + std::to_string(value));
+    throw std::invalid_argument(fmt::format("{} must be positive, not {:f}", name, value));
 }
 
 std::shared_ptr<ob::SE2StateSpace> space_for(const KinematicRules& rules) {
@@ -119,7 +120,7 @@ std::shared_ptr<ob::SE2StateSpace> space_for(const KinematicRules& rules) {
     case MotionKind::reeds_shepp:
       check_positive(rules.turning_radius_m, "turning_radius_m");
       return std::make_shared<ReedsShepp>(rules.turning_radius_m);
-    case MotionKind::disc:
+    case MotionKind::holonomic:
       break;
   }
   throw std::invalid_argument("a disc that may move in any direction has no space of poses");
@@ -141,14 +142,8 @@ void set_pose(ob::State* state, const Pose2& pose) {
 }
 
 std::shared_ptr<ob::SE2StateSpace> make_kinematic_space(const KinematicRules& rules, const DistanceField& field) {
-  const auto [low, high] = box_of(field, field.box());
-  ob::RealVectorBounds bounds(2);
-  for (int axis = 0; axis < 2; ++axis) {
-    bounds.setLow(static_cast<unsigned>(axis), low[axis]);
-    bounds.setHigh(static_cast<unsigned>(axis), high[axis]);
-  }
   auto space = space_for(rules);
-  space->setBounds(bounds);
+  space->setBounds(bounds_of(field));
   return space;
 }
 

@@ -1,18 +1,13 @@
 // How a robot moves, and which planners take it.
 #pragma once
 
-#include <cstdint>
-
+#include "framework/contracts/path_planner.hpp"
 #include "planners/ompl/search/algorithms.hpp"
 
 namespace cairn {
 
-enum class MotionKind : std::uint8_t {
-  disc,          // in any direction; no heading (planned in the plane)
-  differential,  // turns on the spot, drives straight, turns on the spot
-  dubins,        // forwards, straight or on circles
-  reeds_shepp,   // the same, forwards and backwards
-};
+// holonomic: no heading, planned in the plane; differential: turns on the spot, drives straight, turns on the spot.
+using MotionKind = PlannerTraits::Kinematics;
 
 // Which of OMPL's planners find routes for a robot that moves so (a differential one that drives forwards
 // only), all of whose motions fit. Of the others some never do, some return paths that touch, some abort.

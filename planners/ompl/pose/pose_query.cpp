@@ -1,5 +1,7 @@
 #include "planners/ompl/pose/pose_query.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -92,9 +94,9 @@ PathResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, 
     return refused<PathResult>(stopped(stop_outcome(budget_)));
   if (!found.exact || found.states.empty())
     return refused<PathResult>(
-        {PlanOutcome::out_of_budget, "no path was found in " +
-                                         std::to_string(std::min(tools_.config.iterations, budget_.iterations)) +
-                                         " iterations; whether there is one for such a robot is not known"});
+        {PlanOutcome::out_of_budget,
+         fmt::format("no path was found in {} iterations; whether there is one for such a robot is not known",
+                     std::min(tools_.config.iterations, budget_.iterations))});
   PathResult result = result_of(problem, setup_, world_, start, goal, found);
   result.length_lower_bound_m = guide.length_lower_bound_m;
   return result;
@@ -213,9 +215,9 @@ void PoseQuery::improve(FoundPath& found, const PoseProblem& problem) const {
 std::optional<Refusal> PoseQuery::blocked(const Pose2& pose, const std::string& end, PlanOutcome outcome,
                                           const PoseSpace& poses) const {
   if (poses.fits(pose)) return std::nullopt;
-  const std::string touching = "the " + end + " " + text_of(pose.position()) + " is blocked: turned to " +
-                               std::to_string(std::lround(degrees(pose.theta_rad))) +
-                               " degrees, the robot's outline touches something there";
+  const std::string touching =
+      fmt::format("the {} {} is blocked: turned to {} degrees, the robot's outline touches something there", end,
+                  text_of(pose.position()), std::lround(degrees(pose.theta_rad)));
   const auto fits = [&](const Point& p) { return poses.fits({p.x(), p.y(), pose.theta_rad}); };
   return Refusal{outcome, touching + nearest_free_text(poses.ground(), pose.position(), setup_.ends.radius_m, fits)};
 }

@@ -1,5 +1,7 @@
 #include "planners/ompl/pose/pose_result.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -49,8 +51,8 @@ PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const W
     const auto touch = first_touch(start.grid_of(world), setup.ends.ground, setup.footprint, motion,
                                    recheck_slack_m(start.space->cell_m()));
     if (touch)
-      throw std::logic_error("ompl: the re-check refused a motion at " + text_of(touch->pose.position()) +
-                             ", outline of radius " + std::to_string(setup.footprint.circumscribed_m()));
+      throw std::logic_error(fmt::format("ompl: the re-check refused a motion at {}, outline of radius {:f}",
+                                         text_of(touch->pose.position()), setup.footprint.circumscribed_m()));
     reversals += motion.reversals();
   }
   PathResult result;

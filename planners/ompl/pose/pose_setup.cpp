@@ -7,7 +7,7 @@ namespace cairn {
 namespace {
 
 Footprint footprint_of(const OmplConfig& config, double radius_m, const RobotModel& robot) {
-  const bool outlined = config.footprint == WantedFootprint::robot && !robot.polygon_m.empty();
+  const bool outlined = config.footprint == PlannerTraits::Shape::outline && !robot.polygon_m.empty();
   return outlined ? Footprint::polygon(robot.polygon_m) : Footprint::disc(radius_m);
 }
 

@@ -1,5 +1,6 @@
 #include "planners/ompl/search/algorithm_factory.hpp"
 
+#include <fmt/format.h>
 #include <ompl/geometric/planners/est/BiEST.h>
 #include <ompl/geometric/planners/est/EST.h>
 #include <ompl/geometric/planners/est/ProjEST.h>
@@ -79,7 +80,7 @@ constexpr std::pair<Algorithm, PlannerPtr (*)(const Space&)> kMakers[] = {
 PlannerPtr make_algorithm(Algorithm algorithm, const Space& space) {
   for (const auto& [name, maker] : kMakers)
     if (name == algorithm) return maker(space);
-  throw std::logic_error("no OMPL planner for algorithm " + std::to_string(static_cast<int>(algorithm)));
+  throw std::logic_error(fmt::format("no OMPL planner for algorithm {}", static_cast<int>(algorithm)));
 }
 
 }  // namespace cairn

@@ -7,6 +7,7 @@ namespace cairn {
 TravelCost::TravelCost(const OccupancyGrid& grid, const DiscSpace& space, const TravelCostRules& rules)
     : grid_(grid), space_(space), rules_(rules) {
   switch (rules.objective) {
+    case Objective::as_asked:
     case Objective::length:
       break;
     case Objective::time:

@@ -11,6 +11,7 @@ namespace cairn {
 inline constexpr std::uint64_t kInformedStream = 0x1000;
 
 enum class Objective : std::uint8_t {
+  as_asked,   // the request's cost; not for a TravelCost
   length,     // metres
   time,       // seconds at the robot's greatest speed
   clearance,  // metres, counted up to five times where there is little room, as on the landmark graph

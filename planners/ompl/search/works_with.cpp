@@ -30,7 +30,7 @@ bool works_where_ways_back_differ(Algorithm algorithm) {
 bool works_with(MotionKind kind, Algorithm algorithm) {
   using enum Algorithm;
   switch (kind) {
-    case MotionKind::disc:
+    case MotionKind::holonomic:
       return true;
     case MotionKind::differential:
       return works_where_ways_back_differ(algorithm);

@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-#include "maps/hierarchy/cluster_quality.hpp"
+#include "maps/clustering/cluster_quality.hpp"
 #include "planners/landmark_search/hierarchy_search.hpp"
 #include "tests/bench/graph/building_complex.hpp"
 #include "tests/bench/graph/plain_clusterings.hpp"

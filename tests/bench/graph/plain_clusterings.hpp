@@ -1,7 +1,7 @@
 // Plain ways to cluster, to measure ours against.
 #pragma once
 
-#include "maps/hierarchy/clustering.hpp"
+#include "maps/clustering/clustering.hpp"
 
 namespace cairn {
 

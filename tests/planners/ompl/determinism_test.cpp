@@ -43,7 +43,7 @@ TEST(OmplDeterminism, HoweverTheRobotMovesThreadsChangeNothing) {
   const auto world = test::drawn_world(test::kOffice);
   std::size_t found = 0;  // few draws do not get every algorithm there
   for (const MotionKind kind :
-       {MotionKind::disc, MotionKind::differential, MotionKind::dubins, MotionKind::reeds_shepp})
+       {MotionKind::holonomic, MotionKind::differential, MotionKind::dubins, MotionKind::reeds_shepp})
     for (const Algorithm algorithm :
          {Algorithm::any_angle_rrt_star, Algorithm::rrt, Algorithm::bit_star, Algorithm::kpiece}) {
       OmplConfig config;

@@ -20,7 +20,7 @@ struct KindCase {
 };
 
 inline std::vector<std::pair<std::string, MotionKind>> kind_names() {
-  return {{"disc", MotionKind::disc},
+  return {{"disc", MotionKind::holonomic},
           {"differential", MotionKind::differential},
           {"dubins", MotionKind::dubins},
           {"reeds_shepp", MotionKind::reeds_shepp}};

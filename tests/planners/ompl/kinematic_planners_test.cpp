@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planners/common/pose_space/pose_recheck.hpp"
+#include "tests/planners/common/pose_space/motion_measures.hpp"
 #include "tests/planners/ompl/pose_search.hpp"
 
 namespace cairn {
@@ -67,7 +68,7 @@ TEST_P(WorkingPlanner, FindsPathsOfWhichEveryMotionFitsAndKeepsTheTurningRadius)
       EXPECT_TRUE(motions[i].ends_at(path[i + 1], kMotionEnd));
       EXPECT_FALSE(first_touch(search.world.grid, {}, search.poses.footprint(), motions[i], 0.005)) << "seed " << seed;
       if (GetParam().kind != MotionKind::differential) {
-        EXPECT_GE(motions[i].min_radius_m(), search.rules.turning_radius_m * (1.0 - 1e-12));
+        EXPECT_GE(test::min_radius_m(motions[i]), search.rules.turning_radius_m * (1.0 - 1e-12));
       }
     }
   }
@@ -83,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(Ompl, WorkingPlanner, ::testing::ValuesIn(working()),
                          [](const auto& instance) { return instance.param.kind_name + "_" + instance.param.name; });
 
 TEST(WorksWith, ADiscWorksWithAll) {
-  for (const auto& [name, algorithm] : algorithm_names()) EXPECT_TRUE(works_with(MotionKind::disc, algorithm)) << name;
+  for (const auto& [name, algorithm] : algorithm_names())
+    EXPECT_TRUE(works_with(MotionKind::holonomic, algorithm)) << name;
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ std::vector<Case> cases() {
   std::vector<Case> all(5);
   all[0].name = "shortest";
   all[1].name = "clearest";
-  all[1].config.objective = WantedObjective::clearance;
+  all[1].config.objective = Objective::clearance;
   all[2].name = "by_sampling";
   all[2].config.algorithm = Algorithm::rrt_connect;
   all[3].name = "differential";

@@ -30,7 +30,7 @@ const char* const kTightOrWide =
     "#.....############.....#\n"
     "########################\n";
 
-OmplConfig by(WantedObjective objective) {
+OmplConfig by(Objective objective) {
   OmplConfig config;
   config.objective = objective;
   return config;
@@ -78,8 +78,8 @@ test::DrawnWorld room_with_boxes(std::uint64_t seed) {
 TEST(Objectives, ClearanceGoesRoundWhereLengthSqueezesThrough) {
   const auto world = test::drawn_world(kTightOrWide, 0.1, 4);
   const PathRequest request = world.request('A', 'B', kWide_m);
-  const PathResult shortest = plan(world, request, by(WantedObjective::length));
-  const PathResult clearest = plan(world, request, by(WantedObjective::clearance));
+  const PathResult shortest = plan(world, request, by(Objective::length));
+  const PathResult clearest = plan(world, request, by(Objective::clearance));
   ASSERT_EQ(shortest.outcome, PlanOutcome::solved);
   ASSERT_EQ(clearest.outcome, PlanOutcome::solved);
   EXPECT_GT(clearest.clearance_m, shortest.clearance_m + 0.04) << test::drawing_of(world.grid, clearest.path);
@@ -95,7 +95,7 @@ TEST(Objectives, WeightedMovesBetweenThemWithItsWeight) {
   double length_before_m = 0.0;
   double room_before = std::numeric_limits<double>::infinity();
   for (const double weight : {0.0, 0.3, 3.0, 100.0}) {
-    OmplConfig config = by(WantedObjective::weighted);
+    OmplConfig config = by(Objective::weighted);
     config.time_weight = 0.0;
     config.clearance_weight = weight;
     const PathResult result = plan(world, request, config);
@@ -106,7 +106,7 @@ TEST(Objectives, WeightedMovesBetweenThemWithItsWeight) {
     length_before_m = result.length_m;
     room_before = room;
   }
-  EXPECT_NEAR(plan(world, request, by(WantedObjective::length)).length_m,
+  EXPECT_NEAR(plan(world, request, by(Objective::length)).length_m,
               world.request('A', 'B', kWide_m).to.pose->x_m - world.request('A', 'B', kWide_m).from.pose->x_m, 1e-9);
 }
 
@@ -114,8 +114,8 @@ TEST(Objectives, TimeGoesAsStraightAsLength) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto world = room_with_boxes(seed);
     const PathRequest request = world.request('A', 'B', kRadius_m);
-    const PathResult shortest = plan(world, request, by(WantedObjective::length));
-    const PathResult fastest = plan(world, request, by(WantedObjective::time));
+    const PathResult shortest = plan(world, request, by(Objective::length));
+    const PathResult fastest = plan(world, request, by(Objective::time));
     ASSERT_EQ(shortest.outcome, fastest.outcome);
     if (shortest.outcome != PlanOutcome::solved) continue;
     EXPECT_LE(fastest.length_m, shortest.length_m * 1.01);
@@ -155,7 +155,7 @@ TEST(Objectives, UnknownGroundIsCrossedOnlyWhereItSavesEnough) {
 
 TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeItWorse) {
   int better = 0;
-  for (const WantedObjective objective : {WantedObjective::length, WantedObjective::clearance})
+  for (const Objective objective : {Objective::length, Objective::clearance})
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const auto world = room_with_boxes(seed);
       const PathRequest request = world.request('A', 'B', kRadius_m);
@@ -171,8 +171,7 @@ TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeI
       std::vector<Pose2> plain;
       for (const Point& p : routes.route(world.places.at('A'), world.places.at('B'), {}).route)
         plain.push_back({p.x(), p.y(), 0.0});
-      double before =
-          objective == WantedObjective::length ? length_of(plain) : counted(world, plain, clearance_rules());
+      double before = objective == Objective::length ? length_of(plain) : counted(world, plain, clearance_rules());
       const double at_first = before;
       for (const std::int64_t iterations : {0, 25, 50, 100, 200, 400, 800}) {
         const double cost = cost_after(iterations);
@@ -189,7 +188,7 @@ TEST(Objectives, NoCostIsWorseThanThatOfThePlainRouteAndMoreIterationsNeverMakeI
 TEST(Objectives, WithoutACountImprovementLastsUntilTheDeadline) {
   const auto world = room_with_boxes(2);
   const PathRequest request = world.request('A', 'B', kRadius_m);
-  OmplConfig config = by(WantedObjective::clearance);
+  OmplConfig config = by(Objective::clearance);
   config.improve_iterations = 0;
   const OmplPlanner planner(config);
   const PathResult plain = planner.plan(request, world.view(), {});

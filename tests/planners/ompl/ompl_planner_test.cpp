@@ -267,7 +267,7 @@ TEST(OmplPlanner, OfSeveralLandmarksTakesTheNearestByTravelThatCanBeReached) {
 
 // That the nearer one cannot be reached shows only on a lattice finer than the grid: a door of 0.5 m, a disc of 0.54 m.
 TEST(OmplPlanner, AGoalThatProvesOutOfReachWhileItIsSearchedForLeavesTheOthers) {
-  for (const MotionKind kind : {MotionKind::disc, MotionKind::differential}) {
+  for (const MotionKind kind : {MotionKind::holonomic, MotionKind::differential}) {
     auto world = drawn_world(
         "##############################################\n"
         "#............................................#\n"

@@ -10,7 +10,7 @@ namespace {
 struct Case {
   std::string name;
   MotionKind kind;
-  WantedFootprint footprint;
+  PlannerTraits::Shape footprint;
 };
 
 class Prepared : public ::testing::TestWithParam<Case> {};
@@ -38,13 +38,14 @@ TEST_P(Prepared, TheFirstRequestBuildsNothing) {
   EXPECT_EQ(planner.caches().outer_routes.last(), outer_routes);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ompl, Prepared,
-                         ::testing::Values(Case{"disc", MotionKind::disc, WantedFootprint::disc},
-                                           Case{"differential_disc", MotionKind::differential, WantedFootprint::disc},
-                                           Case{"differential", MotionKind::differential, WantedFootprint::robot},
-                                           Case{"dubins", MotionKind::dubins, WantedFootprint::robot},
-                                           Case{"reeds_shepp", MotionKind::reeds_shepp, WantedFootprint::robot}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Ompl, Prepared,
+    ::testing::Values(Case{"disc", MotionKind::holonomic, PlannerTraits::Shape::disc},
+                      Case{"differential_disc", MotionKind::differential, PlannerTraits::Shape::disc},
+                      Case{"differential", MotionKind::differential, PlannerTraits::Shape::outline},
+                      Case{"dubins", MotionKind::dubins, PlannerTraits::Shape::outline},
+                      Case{"reeds_shepp", MotionKind::reeds_shepp, PlannerTraits::Shape::outline}),
+    [](const auto& instance) { return instance.param.name; });
 
 TEST(Prepared, WhatIsLargerThanTheMapIsLeftAlone) {
   const auto world = test::drawn_world(test::kOffice);

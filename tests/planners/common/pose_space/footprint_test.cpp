@@ -30,7 +30,7 @@ TEST(Footprint, TheCoverHoldsTheOutlineAndNotMuchMore) {
     for (int k = 0; k < 300; ++k) {
       const double reach_m = outline.circumscribed_m();
       const Point p(test::uniform(random, -reach_m, reach_m), test::uniform(random, -reach_m, reach_m));
-      if (!holds(outline.corners_m(), p)) continue;
+      if (!is_inside(outline.corners_m(), p)) continue;
       bool held = false;
       for (const Footprint::Disc& disc : outline.cover())
         held = held || (p - disc.centre).norm() <= disc.radius_m + 1e-12;
@@ -93,12 +93,12 @@ std::string error_of(const std::vector<Point>& corners) {
 
 TEST(Footprint, BadOutlinesAreRefused) {
   EXPECT_EQ(error_of(kBox), "no error");
-  EXPECT_EQ(error_of({{0, 0}, {1, 0}}), "a footprint needs three corners or more, not 2");
-  EXPECT_EQ(error_of({{0, 0}, {1, 0}, {1, NAN}}), "corner 3 of the footprint is not finite");
-  EXPECT_THAT(error_of({{0, 0}, {5000, 0}, {1, 1}}), HasSubstr("corner 2 of the footprint is further than"));
-  EXPECT_EQ(error_of({{0, 0}, {1, 1}, {1, 0}, {0, 1}}), "sides 1 and 3 of the footprint meet");
-  EXPECT_EQ(error_of({{0, 0}, {1, 0}, {1, 0}, {0, 1}}), "sides 1 and 3 of the footprint meet");
-  EXPECT_EQ(error_of({{0, 0}, {2, 0}, {1, 0}}), "sides 1 and 2 of the footprint meet");
+  EXPECT_EQ(error_of({{0, 0}, {1, 0}}), "a polygon needs at least 3 corners, this one has 2");
+  EXPECT_EQ(error_of({{0, 0}, {1, 0}, {1, NAN}}), "corner 2 of the polygon is not finite");
+  EXPECT_THAT(error_of({{0, 0}, {5000, 0}, {1, 1}}), HasSubstr("further than a kilometre"));
+  EXPECT_THAT(error_of({{0, 0}, {1, 1}, {1, 0}, {0, 1}}), HasSubstr("from corner 0 and from corner 2 meet"));
+  EXPECT_THAT(error_of({{0, 0}, {1, 0}, {1, 0}, {0, 1}}), HasSubstr("corner 2 of the polygon repeats corner 1"));
+  EXPECT_THAT(error_of({{0, 0}, {2, 0}, {1, 0}}), HasSubstr("the polygon has no area"));
   EXPECT_THROW((void)Footprint::disc(-0.1), std::invalid_argument);
   EXPECT_THROW((void)Footprint::disc(NAN), std::invalid_argument);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/planners/common/pose_space/motion_measures.hpp"
 #include "tests/planners/common/pose_space/pose_worlds.hpp"
 
 namespace cairn {
@@ -19,7 +20,7 @@ TEST(Motion, AQuarterCircleEndsWhereGeometrySays) {
   const Motion left({1.0, 2.0, 0.0}, {MotionElement::arc(3.0, radians(90.0))});
   expect_same(left.end(), {4.0, 5.0, radians(90.0)});
   EXPECT_NEAR(left.length_m(), 1.5 * std::numbers::pi, 1e-12);
-  EXPECT_NEAR(left.min_radius_m(), 3.0, 1e-12);
+  EXPECT_NEAR(test::min_radius_m(left), 3.0, 1e-12);
   // Backwards with the wheels to the left the centre stays on the left, and the heading turns clockwise.
   const Motion reverse({1.0, 2.0, 0.0}, {MotionElement::arc(3.0, radians(-90.0), false)});
   expect_same(reverse.end(), {-2.0, 5.0, radians(-90.0)});
@@ -47,7 +48,7 @@ TEST(Motion, PartsOfAMotionEndOnIt) {
   for (int trial = 0; trial < 50; ++trial) {
     const Motion motion = test::random_motion(random, {0.3, -0.2, 0.4});
     const double s_m = test::uniform(random, 0.0, motion.extent_m());
-    const Motion part = motion.first_part(s_m);
+    const Motion part = test::first_part(motion, s_m);
     EXPECT_NEAR(part.extent_m(), s_m, 1e-12);
     expect_same(part.end(), motion.pose_at(s_m));
     expect_same(part.pose_at(0.5 * s_m), motion.pose_at(0.5 * s_m));
@@ -70,7 +71,7 @@ TEST(Motion, SamplesLieOnItNoFurtherApartThanAskedWithAllEndsOfElements) {
   for (std::size_t i = 0; i < motion.elements().size(); ++i)
     EXPECT_NE(std::find(poses.begin(), poses.end(), motion.start_of(i)), poses.end());
   EXPECT_NEAR(motion.length_m(), 1.5, 1e-12);
-  EXPECT_NEAR(motion.total_turn_rad(), 3.0, 1e-12);
+  EXPECT_NEAR(test::total_turn_rad(motion), 3.0, 1e-12);
   EXPECT_NEAR(motion.spot_turn_rad(), 2.0, 1e-12);
   EXPECT_NEAR(motion.extent_m(), 3.5, 1e-12);
   EXPECT_EQ(motion.reversals(), 1);
@@ -94,7 +95,7 @@ TEST(TurnDriveTurn, EndsAtTheOtherPoseAndDrivesStraight) {
       if (driving != Driving::either) {
         EXPECT_EQ(motion.elements()[1].length_m > 0.0, driving == Driving::forwards);
       }
-      turns_rad[static_cast<int>(driving)] = motion.total_turn_rad();
+      turns_rad[static_cast<int>(driving)] = test::total_turn_rad(motion);
     }
     EXPECT_EQ(turns_rad[2], std::min(turns_rad[0], turns_rad[1]));
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planners/common/pose_space/pose_space.hpp"
+#include "tests/planners/common/pose_space/motion_measures.hpp"
 #include "tests/planners/common/pose_space/pose_worlds.hpp"
 
 namespace cairn {
@@ -58,7 +59,7 @@ TEST(PoseRecheck, NamesTheFirstPlaceThatTouches) {
   ASSERT_TRUE(touch);
   EXPECT_NEAR(touch->s_m, 2.5 - 0.2 - 0.5, 0.002);
   EXPECT_EQ(touch->cell.x, 25);
-  EXPECT_FALSE(first_touch(grid, {}, outline, motion.first_part(1.79), 0.001));
+  EXPECT_FALSE(first_touch(grid, {}, outline, test::first_part(motion, 1.79), 0.001));
 }
 
 TEST(PoseRecheck, FindsACellInsideTheOutline) {

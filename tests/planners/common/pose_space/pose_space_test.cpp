@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/planners/common/pose_space/motion_measures.hpp"
 #include "tests/planners/common/pose_space/pose_worlds.hpp"
 #include "tests/planners/drawn_world.hpp"
 
@@ -92,9 +93,9 @@ TEST(PoseSpace, TheShareThatFitsIsTheLongestThatDoes) {
         continue;
       }
       const double extent_m = motion.extent_m();
-      EXPECT_TRUE(space.fits_along(motion.first_part((share - 1e-9) * extent_m)));
+      EXPECT_TRUE(space.fits_along(test::first_part(motion, (share - 1e-9) * extent_m)));
       if (share == 1.0) continue;
-      EXPECT_FALSE(space.fits_along(motion.first_part(share * extent_m + 0.1)));
+      EXPECT_FALSE(space.fits_along(test::first_part(motion, share * extent_m + 0.1)));
       ++stopped;
     }
   }

@@ -7,6 +7,7 @@
 
 #include "planners/common/pose_space/dubins.hpp"
 #include "planners/common/pose_space/pose_recheck.hpp"
+#include "tests/planners/common/pose_space/motion_measures.hpp"
 #include "tests/planners/common/pose_space/pose_worlds.hpp"
 #include "tests/planners/ompl/pose_search.hpp"
 
@@ -54,10 +55,10 @@ TEST(KinematicSpaces, MotionsEndWhereTheyShallAndKeepTheTurningRadius) {
         EXPECT_EQ(motion.start(), from);
         EXPECT_TRUE(motion.ends_at(to, kMotionEnd)) << "trial " << trial;
         if (kind == MotionKind::differential) {
-          EXPECT_EQ(motion.min_radius_m(), std::numeric_limits<double>::infinity());
+          EXPECT_EQ(test::min_radius_m(motion), std::numeric_limits<double>::infinity());
           EXPECT_EQ(motion.reversals(), 0);
         } else {
-          EXPECT_GE(motion.min_radius_m(), radius_m * (1.0 - 1e-12));
+          EXPECT_GE(test::min_radius_m(motion), radius_m * (1.0 - 1e-12));
           EXPECT_EQ(motion.spot_turn_rad(), 0.0);
         }
         if (kind != MotionKind::dubins) continue;
@@ -220,7 +221,7 @@ TEST(PoseMotionValidator, TheLastValidPoseFitsAndLiesOnTheMotion) {
       if (fits) continue;
       EXPECT_TRUE(search.poses.fits(pose_of(last.get())));
       EXPECT_TRUE(are_alike(pose_of(last.get()), motion.pose_at(last_valid.second * motion.extent_m()), 1e-12));
-      EXPECT_TRUE(search.poses.fits_along(motion.first_part((last_valid.second - 1e-9) * motion.extent_m())));
+      EXPECT_TRUE(search.poses.fits_along(test::first_part(motion, (last_valid.second - 1e-9) * motion.extent_m())));
       ++stopped;
     }
   }
@@ -267,7 +268,7 @@ TEST(PoseSampler, DrawsFromItsCellsAndTheShareAskedForNearTheRoute) {
 
 TEST(KinematicSpaces, RulesWithoutSenseAreRefused) {
   const DistanceField field = wide_field();
-  EXPECT_THROW((void)make_kinematic_space({MotionKind::disc}, field), std::invalid_argument);
+  EXPECT_THROW((void)make_kinematic_space({MotionKind::holonomic}, field), std::invalid_argument);
   EXPECT_THROW((void)make_kinematic_space({MotionKind::dubins, 0.0}, field), std::invalid_argument);
   EXPECT_THROW((void)make_kinematic_space({MotionKind::reeds_shepp, NAN}, field), std::invalid_argument);
   EXPECT_THROW((void)make_kinematic_space({MotionKind::differential, 0.0, Driving::forwards, -1.0}, field),

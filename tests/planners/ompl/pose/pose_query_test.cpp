@@ -41,7 +41,7 @@ test::DrawnWorld room_with_boxes(Random& random) {
 OmplConfig config_of(MotionKind kind) {
   OmplConfig config;
   config.kinematics = kind;
-  config.footprint = WantedFootprint::robot;
+  config.footprint = PlannerTraits::Shape::outline;
   config.turning_radius_m = kTurningRadius_m;
   config.improve_iterations = 40;
   config.iterations = 2000;

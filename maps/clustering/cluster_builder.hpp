@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "maps/hierarchy/clustering.hpp"
+#include "maps/clustering/clustering.hpp"
 
 namespace cairn {
 

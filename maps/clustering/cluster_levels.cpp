@@ -1,4 +1,4 @@
-#include "maps/hierarchy/cluster_levels.hpp"
+#include "maps/clustering/cluster_levels.hpp"
 
 #include <algorithm>
 #include <unordered_map>

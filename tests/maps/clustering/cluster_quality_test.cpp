@@ -1,4 +1,4 @@
-#include "maps/hierarchy/cluster_quality.hpp"
+#include "maps/clustering/cluster_quality.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

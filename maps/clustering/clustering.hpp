@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "maps/hierarchy/cluster_tree.hpp"
-#include "maps/hierarchy/grouping.hpp"
-#include "maps/hierarchy/network.hpp"
+#include "maps/clustering/cluster_tree.hpp"
+#include "maps/clustering/grouping.hpp"
+#include "maps/clustering/network.hpp"
 
 namespace cairn {
 

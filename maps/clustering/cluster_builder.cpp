@@ -1,4 +1,4 @@
-#include "maps/hierarchy/cluster_builder.hpp"
+#include "maps/clustering/cluster_builder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "maps/hierarchy/clustering.hpp"
+#include "maps/clustering/clustering.hpp"
 
 #include <algorithm>
 #include <map>
 #include <stdexcept>
 
-#include "maps/hierarchy/cluster_builder.hpp"
-#include "maps/hierarchy/cluster_upkeep.hpp"
+#include "maps/clustering/cluster_builder.hpp"
+#include "maps/clustering/cluster_upkeep.hpp"
 
 namespace cairn {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "maps/hierarchy/clustering.hpp"
+#include "maps/clustering/clustering.hpp"
 
 namespace cairn {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "maps/hierarchy/cluster_builder.hpp"
+#include "maps/clustering/cluster_builder.hpp"
 
 namespace cairn {
 

@@ -1,4 +1,6 @@
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -10,13 +12,12 @@ bool is_digit(char c) {
 }
 
 std::string id_label(const Cluster& cluster) {
-  return "C" + std::to_string(cluster.level) + ":L" + std::to_string(cluster.anchor);
+  return fmt::format("C{}:L{}", cluster.level, cluster.anchor);
 }
 
 std::string given_label(const Cluster& cluster, const LandmarkGraph& graph) {
   const Landmark* const anchor = graph.find(cluster.anchor);
-  return "C" + std::to_string(cluster.level) + ":" +
-         (anchor != nullptr ? label_of(*anchor) : "L" + std::to_string(cluster.anchor));
+  return anchor != nullptr ? fmt::format("C{}:{}", cluster.level, label_of(*anchor)) : id_label(cluster);
 }
 
 }  // namespace

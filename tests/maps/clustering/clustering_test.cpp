@@ -1,4 +1,4 @@
-#include "maps/hierarchy/clustering.hpp"
+#include "maps/clustering/clustering.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "maps/hierarchy/network.hpp"
+#include "maps/clustering/network.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 
 namespace cairn {
 

@@ -1,5 +1,6 @@
-#include "maps/hierarchy/grouping.hpp"
+#include "maps/clustering/grouping.hpp"
 
+#include <fmt/format.h>
 #include <metis.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -215,7 +215,7 @@ std::vector<std::int32_t> propose_by_metis(const GroupingGraph& graph, std::int3
   const auto partition = parts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
   const int status = partition(&nodes, &constraints, open(graph.begin), open(graph.other), open(graph.size), nullptr,
                                open(graph.weight), &parts, nullptr, nullptr, options, &cut, part.data());
-  if (status != METIS_OK) throw std::runtime_error("METIS failed with status " + std::to_string(status));
+  if (status != METIS_OK) throw std::runtime_error(fmt::format("METIS failed with status {}", status));
   return part;
 }
 

@@ -1,9 +1,10 @@
-#include "maps/hierarchy/network.hpp"
+#include "maps/clustering/network.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace cairn {
 namespace {
@@ -12,8 +13,8 @@ double cost_of(const Route& route, const RouteCost& cost) {
   if (route.closed) return kNoWay;
   const double value = cost(route);
   if (!std::isfinite(value) || value < 0.0)
-    throw std::invalid_argument("route " + std::to_string(route.id) + ": a cost must be finite and not negative, got " +
-                                std::to_string(value));
+    throw std::invalid_argument(
+        fmt::format("route {}: a cost must be finite and not negative, got {:f}", route.id, value));
   return value;
 }
 
@@ -86,7 +87,7 @@ void Network::sync_landmark(const LandmarkGraph& graph, LandmarkId id) {
   if (wanted == (v != kNoVertex)) return;
   if (!wanted) {
     if (!out_[v].empty() || !in_[v].empty())
-      throw std::logic_error("Network: landmark " + std::to_string(id) + " still has routes");
+      throw std::logic_error(fmt::format("Network: landmark {} still has routes", id));
     landmark_[v] = 0;
     vertex_of_.erase(id);
     free_.push_back(v);

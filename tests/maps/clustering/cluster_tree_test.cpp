@@ -1,8 +1,8 @@
-#include "maps/hierarchy/cluster_tree.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 
 #include <gtest/gtest.h>
 
-#include "maps/hierarchy/cluster_levels.hpp"
+#include "maps/clustering/cluster_levels.hpp"
 
 namespace cairn {
 namespace {

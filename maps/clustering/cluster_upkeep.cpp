@@ -1,4 +1,4 @@
-#include "maps/hierarchy/cluster_upkeep.hpp"
+#include "maps/clustering/cluster_upkeep.hpp"
 
 #include <algorithm>
 #include <limits>

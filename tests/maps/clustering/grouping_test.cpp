@@ -1,4 +1,4 @@
-#include "maps/hierarchy/grouping.hpp"
+#include "maps/clustering/grouping.hpp"
 
 #include <gtest/gtest.h>
 

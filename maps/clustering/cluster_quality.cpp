@@ -1,4 +1,4 @@
-#include "maps/hierarchy/cluster_quality.hpp"
+#include "maps/clustering/cluster_quality.hpp"
 
 #include <algorithm>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
