@@ -1,4 +1,4 @@
-#include "plugins/behaviours/errands/dock.hpp"
+#include "plugins/behaviours/docking/dock.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 #include "plugins/common/motion/velocity.hpp"
 
 namespace cairn::behaviours {
@@ -50,8 +50,8 @@ void ApproachSettings::describe(Fields<ApproachSettings>& fields) {
   using C = ApproachSettings;
   fields.angle("straight_deg", &C::straight_rad, {0.0, 90.0}, "transducers that look further aside do not count");
   fields.angle("same_deg", &C::same_rad, {0.0, 45.0}, "those that look as straight ahead, give or take this, do");
-  fields.integer("echoes", &C::echoes, {1.0, 1000.0}, "the distance is the median of so many last echoes");
-  fields.integer("min_echoes", &C::min_echoes, {1.0, 1000.0}, "with fewer it is taken from the map");
+  fields.integer<int>("echoes", &C::echoes, {1.0, 1000.0}, "the distance is the median of so many last echoes");
+  fields.integer<int>("min_echoes", &C::min_echoes, {1.0, 1000.0}, "with fewer it is taken from the map");
   fields.number("past_m", &C::past_m, {0.0, 5.0}, "m",
                 "echoes from nearer than this to the landmark's centre, or behind it, are not of the landmark");
   fields.number("before_m", &C::before_m, {0.0, 5.0}, "m",
@@ -72,6 +72,10 @@ void ApproachSettings::describe(Fields<ApproachSettings>& fields) {
   fields.angle("max_turn_degps", &C::max_turn_radps, {1.0, 360.0}, "fastest turn on the approach", "deg/s");
   fields.angle("final_turn_degps", &C::final_turn_radps, {1.0, 360.0}, "fastest turn at its end", "deg/s");
   fields.number("room_to_turn_m", &C::room_to_turn_m, {0.0, 5.0}, "m", "room beside the robot to turn away");
+  fields.number("nearest_m", &C::nearest_m, {0.0, 5.0}, "m",
+                "what stands nearer to the dock than the landmark's outline by this blocks the side");
+  fields.number("arrived_ratio", &C::arrived_ratio, {0.0, 1.0}, "",
+                "the approach has arrived within this share of tolerance_m");
 }
 
 void DockConfig::describe(Fields<DockConfig>& fields) {
@@ -114,7 +118,8 @@ Dock::Dock(const DockConfig& config, std::uint64_t seed)
       seed_(seed),
       name_(to_landmark_name(config.landmark, "landmark")),
       driver_(config, seed),
-      progress_(config.patience_s, config.driving.progress) {
+      progress_(config.patience_s, config.driving.progress),
+      echoes_(config.approach) {
   const bool names_side = config.side.kind != ConfigValue::Kind::null;
   const SourcePlace& place = names_side ? config.side.place : config.landmark.place;
   if (names_side == config.side_rad.has_value())
@@ -129,15 +134,7 @@ void Dock::halt() {
   *this = Dock(config_, seed_);
 }
 
-Point Dock::Axis::outward() const {
-  return {std::cos(outward_rad), std::sin(outward_rad)};
-}
-
-double Dock::Axis::aside_m(const Point& p) const {
-  return (p - centre).dot(Point(-std::sin(outward_rad), std::cos(outward_rad)));
-}
-
-Dock::Axis Dock::axis(const Landmark& landmark) const {
+DockAxis Dock::axis(const Landmark& landmark) const {
   return {landmark.T_map_landmark.position(), outward_rad_};
 }
 
@@ -189,14 +186,12 @@ Status Dock::begin(const WorldView& world, BehaviourContext& context) {
 
 // The longest run-up that nothing stands in; one from where the map knows of no room only when there is no other.
 bool Dock::choose_stand(const WorldView& world, const Landmark& landmark) {
-  const Axis line = axis(landmark);
-  const double outline =
-      outline_distance_m(world.grid, line.centre, line.outward_rad, config_.outline).value_or(config_.outline.usual_m);
+  const DockAxis line = axis(landmark);
   const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
-  const double dock_m = outline + wanted_m(world.robot);
+  const double dock_m = mapped_outline_m(world.grid, line) + wanted_m(world.robot);
   const Point dock = line.centre + dock_m * line.outward();
   // The robot may come nearer to the outline than to anything else: only what stands aside or behind blocks.
-  const double reach_m = std::min(margin_m, wanted_m(world.robot) - 0.02);
+  const double reach_m = std::min(margin_m, wanted_m(world.robot) - config_.approach.nearest_m);
   for (const bool on_known_ground : {true, false}) {
     for (const double run_up_m : config_.run_ups_m) {
       const Point stand = line.centre + (dock_m + run_up_m) * line.outward();
@@ -227,87 +222,64 @@ Status Dock::go_again(const WorldView& world, const Landmark& landmark) {
   if (++again_ > config_.approach.max_again || !choose_stand(world, landmark))
     return {Progress::failure, "cannot get before " + where(world) + ": the landmark moves on the map"};
   driver_.restart();
-  echoes_m_.clear();
+  echoes_.forget();
   mode_ = Mode::drive;
   return {Progress::running, "going to " + where(world) + " again"};
 }
 
-// Each echo of the transducers that look ahead, as a place on the axis. A range is to the nearest thing in the beam,
-// and the distance that is wanted is to the nearest point of the landmark, too: no bearing is needed.
-void Dock::see(const WorldView& world, const Axis& line, double mapped_m) {
-  if (world.observation == nullptr) return;
-  double straightest_rad = config_.approach.straight_rad;
-  for (const SonarModel& sonar : world.robot.sonars)
-    straightest_rad = std::min(straightest_rad, std::abs(sonar.T_robot_sonar.theta_rad));
-  const double robot_m = line.along_m(world.pose.T_map_robot.position());
-  for (const RangeReading& reading : world.observation->ranges) {
-    if (!(std::abs(reading.T_robot_sensor.theta_rad) <= straightest_rad + config_.approach.same_rad)) continue;
-    const double echo_m = robot_m - (reading.T_robot_sensor.x_m + reading.range_m);
-    if (std::isnan(echo_m)) continue;
-    if (echo_m > mapped_m + config_.approach.before_m) {
-      if (between_since_s_ >= 0.0) continue;
-      between_since_s_ = world.time_s;
-      between_sensor_ = reading.sensor;
-      continue;
-    }
-    if (reading.sensor == between_sensor_) between_since_s_ = -1.0;
-    if (echo_m < config_.approach.past_m) continue;  // or no echo
-    echoes_m_.push_back(echo_m);
-    if (static_cast<int>(echoes_m_.size()) > config_.approach.echoes) echoes_m_.pop_front();
-  }
-}
-
-double Dock::outline_m(double mapped_m) const {
-  if (static_cast<int>(echoes_m_.size()) < config_.approach.min_echoes) return mapped_m;
-  std::vector<double> sorted(echoes_m_.begin(), echoes_m_.end());
-  std::ranges::sort(sorted);
-  return sorted[sorted.size() / 2];
+double Dock::mapped_outline_m(const OccupancyGrid& grid, const DockAxis& line) const {
+  return outline_distance_m(grid, line.centre, line.outward_rad, config_.outline).value_or(config_.outline.usual_m);
 }
 
 Status Dock::approach(const WorldView& world, BehaviourContext& context, const Landmark& landmark) {
-  const Axis line = axis(landmark);
+  const DockAxis line = axis(landmark);
   const Pose2& pose = world.pose.T_map_robot;
-  const double mapped_m =
-      outline_distance_m(world.grid, line.centre, line.outward_rad, config_.outline).value_or(config_.outline.usual_m);
+  const double mapped_m = mapped_outline_m(world.grid, line);
   if (std::abs(line.aside_m(pose.position())) > config_.approach.beside_m) return go_again(world, landmark);
-  see(world, line, mapped_m);
-  if (between_since_s_ >= 0.0) {
+  echoes_.see(world, line, mapped_m);
+  if (echoes_.between_since_s()) {
     wanted_ = {};
     progress_.restart();  // waiting is not being blocked
-    if (world.time_s - between_since_s_ > config_.patience_s)
+    if (world.time_s - *echoes_.between_since_s() > config_.patience_s)
       return {Progress::failure, "something stands between the robot and " + where(world)};
     return {Progress::running, "waiting: something is before " + where(world)};
   }
   if (progress_.is_stuck(world, wanted_))
     return {Progress::failure,
             "blocked " + metres(gap_m_) + " before " + where(world) + ", not at " + metres(config_.distance_m)};
-  const double left_m = line.along_m(pose.position()) - outline_m(mapped_m) - wanted_m(world.robot);
+  const double left_m = line.along_m(pose.position()) - echoes_.outline_m().value_or(mapped_m) - wanted_m(world.robot);
   gap_m_ = left_m + config_.distance_m;
   const double correction_rad = std::clamp(config_.approach.correction_rad_per_m * line.aside_m(pose.position()),
                                            -config_.approach.max_correction_rad, config_.approach.max_correction_rad);
   // Looking inward, who stands to the left of the axis (seen outward) has it on the left.
-  const bool is_there = std::abs(left_m) <= 0.5 * config_.dock_tolerance_m;
+  const bool is_there = std::abs(left_m) <= config_.approach.arrived_ratio * config_.dock_tolerance_m;
   const double heading_rad =
       line.outward_rad + std::numbers::pi + (left_m > config_.approach.correct_until_m ? correction_rad : 0.0);
   const double error_rad = wrap_angle(heading_rad - pose.theta_rad);
   wanted_ = {};
   if (is_there && std::abs(error_rad) <= config_.approach.faced_rad) {
-    if (still_since_s_ < 0.0) still_since_s_ = world.time_s;
-    if (world.time_s - still_since_s_ < config_.approach.settle_s)
+    if (!still_since_s_) still_since_s_ = world.time_s;
+    if (world.time_s - *still_since_s_ < config_.approach.settle_s)
       return {Progress::running, "looking once more at " + where(world)};
     mode_ = Mode::turn;
     return turn(world, context, landmark);
   }
-  still_since_s_ = -1.0;
-  const double max_mps = std::min(config_.approach_mps, world.robot.max_v_mps);
-  const double max_radps = std::min(config_.approach.max_turn_radps, world.robot.max_w_radps);
-  const double v_mps =
-      std::clamp(std::abs(left_m) * config_.approach.gain_per_s, std::min(config_.approach.min_mps, max_mps), max_mps);
-  if (!is_there && std::abs(error_rad) <= config_.approach.turn_first_rad)
-    wanted_.v_mps = left_m > 0.0 ? v_mps : -v_mps;
-  wanted_.w_radps = std::clamp(config_.approach.turn_gain_per_s * error_rad, -max_radps, max_radps);
+  still_since_s_.reset();
+  wanted_ = twist_towards(is_there ? 0.0 : left_m, error_rad, world.robot);
   context.drive(wanted_);
   return {Progress::running, metres(gap_m_) + " before " + where(world)};
+}
+
+// Along the axis once it is faced, the slower the nearer. left_m 0: on the spot.
+Twist Dock::twist_towards(double left_m, double error_rad, const RobotModel& robot) const {
+  const ApproachSettings& approach = config_.approach;
+  const double max_mps = std::min(config_.approach_mps, robot.max_v_mps);
+  const double max_radps = std::min(approach.max_turn_radps, robot.max_w_radps);
+  const double v_mps = std::clamp(std::abs(left_m) * approach.gain_per_s, std::min(approach.min_mps, max_mps), max_mps);
+  Twist twist;
+  if (left_m != 0.0 && std::abs(error_rad) <= approach.turn_first_rad) twist.v_mps = left_m > 0.0 ? v_mps : -v_mps;
+  twist.w_radps = std::clamp(approach.turn_gain_per_s * error_rad, -max_radps, max_radps);
+  return twist;
 }
 
 Status Dock::turn(const WorldView& world, BehaviourContext& context, const Landmark& landmark) {
@@ -320,9 +292,8 @@ Status Dock::turn(const WorldView& world, BehaviourContext& context, const Landm
                                   config_.driving.turn));
     return {Progress::running, "turning at " + where(world)};
   }
-  return {Progress::success,
-          "docked at " + where(world) + ", " + metres(gap_m_) + " from it by " +
-              (static_cast<int>(echoes_m_.size()) < config_.approach.min_echoes ? "the map" : "its echoes")};
+  return {Progress::success, "docked at " + where(world) + ", " + metres(gap_m_) + " from it by " +
+                                 (echoes_.outline_m() ? "its echoes" : "the map")};
 }
 
 }  // namespace cairn::behaviours

@@ -6,15 +6,15 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
-#include "plugins/behaviours/driving/progress_checker.hpp"
+#include "plugins/behaviours/docking/axis_echoes.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
+#include "plugins/behaviours/following/progress_checker.hpp"
 
 namespace cairn::behaviours {
 
@@ -25,13 +25,7 @@ struct OutlineSettings {
   static void describe(Fields<OutlineSettings>& fields);
 };
 
-struct ApproachSettings {
-  double straight_rad = radians(20.0);
-  double same_rad = radians(1.0);
-  int echoes = 7;
-  int min_echoes = 3;
-  double past_m = 0.05;
-  double before_m = 0.25;
+struct ApproachSettings : ApproachEchoSettings {
   double beside_m = 0.3;
   int max_again = 3;
   double settle_s = 1.0;
@@ -46,6 +40,8 @@ struct ApproachSettings {
   double max_turn_radps = radians(40.0);
   double final_turn_radps = radians(45.0);
   double room_to_turn_m = 0.02;
+  double nearest_m = 0.02;
+  double arrived_ratio = 0.5;
   static void describe(Fields<ApproachSettings>& fields);
 };
 
@@ -81,23 +77,15 @@ class Dock : public Behaviour {
  private:
   enum class Mode { drive, approach, turn };
 
-  // The line on which the robot approaches: from the landmark's centre outward.
-  struct Axis {
-    Point centre{0.0, 0.0};
-    double outward_rad = 0.0;
-    [[nodiscard]] Point outward() const;
-    [[nodiscard]] double along_m(const Point& p) const { return (p - centre).dot(outward()); }
-    [[nodiscard]] double aside_m(const Point& p) const;  // to the left of who looks outward
-  };
-  [[nodiscard]] Axis axis(const Landmark& landmark) const;
+  [[nodiscard]] DockAxis axis(const Landmark& landmark) const;
   Status begin(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] bool choose_stand(const WorldView& world, const Landmark& landmark);
   Status drive(const WorldView& world, BehaviourContext& context);
   Status approach(const WorldView& world, BehaviourContext& context, const Landmark& landmark);
   Status go_again(const WorldView& world, const Landmark& landmark);
   Status turn(const WorldView& world, BehaviourContext& context, const Landmark& landmark);
-  void see(const WorldView& world, const Axis& axis, double mapped_m);
-  [[nodiscard]] double outline_m(double mapped_m) const;
+  [[nodiscard]] double mapped_outline_m(const OccupancyGrid& grid, const DockAxis& axis) const;
+  [[nodiscard]] Twist twist_towards(double left_m, double error_rad, const RobotModel& robot) const;
   [[nodiscard]] double wanted_m(const RobotModel& robot) const;
   [[nodiscard]] std::string where(const WorldView& world) const;
 
@@ -114,10 +102,8 @@ class Dock : public Behaviour {
   double outward_rad_ = 0.0;
   int again_ = 0;
   Place stand_;
-  std::deque<double> echoes_m_;  // of the outline, along the axis
-  double between_since_s_ = -1.0;
-  int between_sensor_ = -1;  // the transducer that has heard it: only the same one can say that it has gone
-  double still_since_s_ = -1.0;
+  AxisEchoes echoes_;
+  std::optional<double> still_since_s_;
   double gap_m_ = 0.0;  // as last estimated
   Twist wanted_;
 };

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/exploring/visits.hpp"
+#include "plugins/behaviours/errands/visits.hpp"
 
 #include <algorithm>
 

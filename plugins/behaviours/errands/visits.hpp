@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plugins/behaviours/driving/route_driver.hpp"
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 

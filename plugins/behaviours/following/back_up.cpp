@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/back_up.hpp"
+#include "plugins/behaviours/following/back_up.hpp"
 
 #include <algorithm>
 #include <cmath>

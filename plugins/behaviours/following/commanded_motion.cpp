@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/commanded_motion.hpp"
+#include "plugins/behaviours/following/commanded_motion.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/route_follower.hpp"
+#include "plugins/behaviours/following/route_follower.hpp"
 
 #include <algorithm>
 

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "plugins/behaviours/driving/commanded_motion.hpp"
-#include "plugins/behaviours/driving/followed_path.hpp"
-#include "plugins/behaviours/driving/local_map.hpp"
-#include "plugins/behaviours/driving/local_obstacles.hpp"
-#include "plugins/behaviours/driving/progress_checker.hpp"
+#include "plugins/behaviours/following/commanded_motion.hpp"
+#include "plugins/behaviours/following/followed_path.hpp"
+#include "plugins/behaviours/following/progress_checker.hpp"
+#include "plugins/behaviours/local_map/local_map.hpp"
+#include "plugins/behaviours/local_map/local_obstacles.hpp"
 
 namespace cairn::behaviours {
 

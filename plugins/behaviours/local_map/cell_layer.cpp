@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/cell_layer.hpp"
+#include "plugins/behaviours/local_map/cell_layer.hpp"
 
 namespace cairn::behaviours {
 

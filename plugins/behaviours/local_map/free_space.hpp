@@ -13,7 +13,7 @@
 #include "maps/grid/distance_field.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/grid/travel_field.hpp"
-#include "plugins/behaviours/driving/cell_layer.hpp"
+#include "plugins/behaviours/local_map/cell_layer.hpp"
 
 namespace cairn::behaviours {
 

@@ -1,8 +1,7 @@
-#include "plugins/behaviours/driving/local_map.hpp"
+#include "plugins/behaviours/local_map/local_map.hpp"
 
 #include <algorithm>
 
-#include "plugins/behaviours/driving/near_echoes.hpp"
 #include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
@@ -101,20 +100,20 @@ bool LocalMap::is_blocked(const WorldView& world, const std::vector<Point>& path
   return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, radius_m);
 }
 
-void LocalMap::ignore(const std::vector<Cell>& cells, const WorldView& world, const BlockageLook& look) {
+void LocalMap::ignore(const std::vector<Cell>& cells, const WorldView& world, const Doubts& doubts) {
   for (const Cell c : cells) {
     ignored_.insert(c);
-    if (!look.says_gone(c) && echoes_.now().is_occupied(world.grid, c))
+    if (!doubts.gone.contains(c) && echoes_.now().is_occupied(world.grid, c))
       ignored_places_.push_back(world.grid.centre_of(c));
   }
 }
 
-void LocalMap::ignore_doubtful(Optimism optimism, const WorldView& world, const BlockageLook& look) {
+void LocalMap::ignore_doubtful(Optimism optimism, const WorldView& world, const Doubts& doubts) {
   if (optimism == Optimism::none) return;
-  ignore(doubtful_cells(echoes_.now().applied_to(world.grid, world.grid.bounds()), look.doubts()), world, look);
+  ignore(doubtful_cells(echoes_.now().applied_to(world.grid, world.grid.bounds()), doubts), world, doubts);
 }
 
-void LocalMap::ignore_along(const std::vector<Point>& path, const WorldView& world, const BlockageLook& look) {
+void LocalMap::ignore_along(const std::vector<Point>& path, const WorldView& world, const Doubts& doubts) {
   const double cell_m = world.grid.cell_m();
   const int reach = static_cast<int>((world.robot.radius_m + settings_.tight_clearance_m) / cell_m) + 1;
   std::vector<Cell> cells;
@@ -126,7 +125,7 @@ void LocalMap::ignore_along(const std::vector<Point>& path, const WorldView& wor
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  ignore(cells, world, look);
+  ignore(cells, world, doubts);
 }
 
 void LocalMap::ignore_nothing() {

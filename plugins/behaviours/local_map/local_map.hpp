@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "plugins/behaviours/driving/blockage_look.hpp"
-#include "plugins/behaviours/driving/free_space.hpp"
-#include "plugins/behaviours/driving/optimism.hpp"
-#include "plugins/behaviours/driving/recent_echoes.hpp"
-#include "plugins/behaviours/driving/speckles.hpp"
+#include "plugins/behaviours/local_map/doubts.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
+#include "plugins/behaviours/local_map/optimism.hpp"
+#include "plugins/behaviours/local_map/recent_echoes.hpp"
+#include "plugins/behaviours/local_map/speckles.hpp"
 
 namespace cairn::behaviours {
 
@@ -48,9 +48,9 @@ class LocalMap {
                                 double radius_m) const;
 
   // What a plan of this optimism has taken to be free is no obstacle on the way: only live echoes count there.
-  void ignore_doubtful(Optimism optimism, const WorldView& world, const BlockageLook& look);
+  void ignore_doubtful(Optimism optimism, const WorldView& world, const Doubts& doubts);
   // The same with all within the robot's radius, and the tight clearance, of a path.
-  void ignore_along(const std::vector<Point>& path, const WorldView& world, const BlockageLook& look);
+  void ignore_along(const std::vector<Point>& path, const WorldView& world, const Doubts& doubts);
   void ignore_nothing();
   [[nodiscard]] const CellSet& ignored() const { return ignored_; }
   // Whether something that the map holds occupied is ignored within this of a place.
@@ -60,7 +60,7 @@ class LocalMap {
 
  private:
   [[nodiscard]] std::vector<Cell> doubtful_cells(const OccupancyGrid& map, const Doubts& doubts) const;
-  void ignore(const std::vector<Cell>& cells, const WorldView& world, const BlockageLook& look);
+  void ignore(const std::vector<Cell>& cells, const WorldView& world, const Doubts& doubts);
 
   LocalMapSettings settings_;
   RecentEchoes echoes_;

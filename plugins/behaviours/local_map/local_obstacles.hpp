@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "framework/contracts/world_view.hpp"
-#include "plugins/behaviours/driving/cell_layer.hpp"
-#include "plugins/behaviours/driving/near_echoes.hpp"
+#include "plugins/behaviours/local_map/cell_layer.hpp"
+#include "plugins/behaviours/local_map/near_echoes.hpp"
 
 namespace cairn::behaviours {
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/near_echoes.hpp"
+#include "plugins/behaviours/local_map/near_echoes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "framework/contracts/world_view.hpp"
-#include "plugins/behaviours/driving/near_echoes.hpp"
+#include "plugins/behaviours/local_map/near_echoes.hpp"
 
 namespace cairn::behaviours {
 

@@ -1,8 +1,8 @@
-#include "plugins/behaviours/driving/speckles.hpp"
+#include "plugins/behaviours/local_map/speckles.hpp"
 
 #include <algorithm>
 
-#include "plugins/behaviours/driving/cell_layer.hpp"
+#include "plugins/behaviours/local_map/cell_layer.hpp"
 
 namespace cairn::behaviours {
 namespace {

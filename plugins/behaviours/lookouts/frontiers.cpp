@@ -1,4 +1,4 @@
-#include "plugins/behaviours/exploring/frontiers.hpp"
+#include "plugins/behaviours/lookouts/frontiers.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/goal_lookout.hpp"
+#include "plugins/behaviours/lookouts/goal_lookout.hpp"
 
 #include <algorithm>
 

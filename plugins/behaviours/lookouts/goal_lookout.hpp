@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "plugins/behaviours/driving/free_space.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
 
 namespace cairn::behaviours {
 

@@ -1,7 +1,7 @@
 // What the sensors would newly see from a viewpoint.
 #pragma once
 
-#include "plugins/behaviours/driving/free_space.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
 
 namespace cairn::behaviours {
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/exploring/look_closer.hpp"
+#include "plugins/behaviours/lookouts/look_closer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
-#include "plugins/behaviours/driving/free_space.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
 
 namespace cairn::behaviours {
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/openings.hpp"
+#include "plugins/behaviours/lookouts/openings.hpp"
 
 #include <algorithm>
 #include <functional>

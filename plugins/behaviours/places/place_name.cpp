@@ -1,13 +1,29 @@
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 #include <algorithm>
 #include <cstdio>
 
 #include "framework/config/fields.hpp"
 #include "framework/config/named_category.hpp"
-#include "plugins/behaviours/errands/go_to.hpp"
 
 namespace cairn::behaviours {
+namespace {
+
+constexpr std::size_t kMaxListed = 12;
+const std::string kNearest = "nearest ";
+
+std::string known_landmarks(const LandmarkGraph& graph) {
+  if (graph.landmarks().empty()) return "the map holds no landmark";
+  std::string list;
+  std::size_t listed = 0;
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    if (listed++ == kMaxListed) return "the map holds " + list + ", ...";
+    list += (list.empty() ? "" : ", ") + described(landmark);
+  }
+  return "the map holds " + list;
+}
+
+}  // namespace
 
 PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
   if (value.kind == ConfigValue::Kind::list) return place_name_of(config_detail::to_point(value, key));
@@ -31,16 +47,27 @@ PlaceName place_name_of(const Point& at_m) {
   return {described(at_m), at_m};
 }
 
-FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph) {
+FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph) {
   FoundPlace found;
-  if (name.at_m) {
-    found.place.pose = Pose2{name.at_m->x(), name.at_m->y(), 0.0};
-    return found;
+  std::vector<std::string> names;
+  if (name.starts_with(kNearest)) {
+    const std::string category = name.substr(kNearest.size());
+    found.place.landmarks = graph.of_category(category);
+    if (!found.place.landmarks.empty()) return found;
+    for (const auto& [id, landmark] : graph.landmarks()) names.push_back(landmark.category);
+    found.unknown = "no landmark of category \"" + category + "\"" + did_you_mean(category, names);
+  } else {
+    if (const Landmark* landmark = graph.find_by_name(name)) return {{std::nullopt, false, {landmark->id}}, ""};
+    for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
+    found.unknown = "no landmark \"" + name + "\"" + did_you_mean(name, names);
   }
-  NamedLandmarks named = landmarks_named(name.text, graph);
-  found.place.landmarks = std::move(named.ids);
-  found.unknown = std::move(named.unknown);
+  found.unknown += "; " + known_landmarks(graph);
   return found;
+}
+
+FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph) {
+  if (name.at_m) return {{Pose2{name.at_m->x(), name.at_m->y(), 0.0}, false, {}}, ""};
+  return find_landmarks(name.text, graph);
 }
 
 bool names_retired(const Place& goal, const LandmarkGraph& graph) {
@@ -74,9 +101,9 @@ LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& worl
 }
 
 ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, BehaviourContext& context) {
-  const NamedLandmarks named = landmarks_named(name, world.graph);
-  if (!named.unknown.empty()) return {0, named.unknown};
-  return {cheapest_of(named.ids, world, context), ""};
+  const FoundPlace found = find_landmarks(name, world.graph);
+  if (!found.unknown.empty()) return {0, found.unknown};
+  return {cheapest_of(found.place.landmarks, world, context), ""};
 }
 
 std::string lost(LandmarkId id, const LandmarkGraph& graph) {

@@ -25,6 +25,8 @@ struct FoundPlace {
   Place place;
   std::string unknown;
 };
+// Of a landmark's id or name, or `nearest CATEGORY`.
+[[nodiscard]] FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph);
 [[nodiscard]] FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph);
 
 // Whether a landmark of a goal is known no more: planners refuse all of it then, so its name must be looked up again.

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/errands/dock.hpp"
+#include "plugins/behaviours/docking/dock.hpp"
 
 #include <gmock/gmock.h>
 

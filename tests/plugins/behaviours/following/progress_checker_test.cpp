@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/progress_checker.hpp"
+#include "plugins/behaviours/following/progress_checker.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/free_space.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/local_obstacles.hpp"
+#include "plugins/behaviours/local_map/local_obstacles.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/recent_echoes.hpp"
+#include "plugins/behaviours/local_map/recent_echoes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/speckles.hpp"
+#include "plugins/behaviours/local_map/speckles.hpp"
 
 #include <gtest/gtest.h>
 

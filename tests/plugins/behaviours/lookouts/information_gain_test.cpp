@@ -1,4 +1,4 @@
-#include "plugins/behaviours/exploring/information_gain.hpp"
+#include "plugins/behaviours/lookouts/information_gain.hpp"
 
 #include <gtest/gtest.h>
 

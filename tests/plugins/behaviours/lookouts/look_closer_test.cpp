@@ -1,10 +1,10 @@
-#include "plugins/behaviours/exploring/look_closer.hpp"
+#include "plugins/behaviours/lookouts/look_closer.hpp"
 
 #include <gmock/gmock.h>
 
 #include <numbers>
 
-#include "plugins/behaviours/exploring/frontiers.hpp"
+#include "plugins/behaviours/lookouts/frontiers.hpp"
 #include "tests/plugins/behaviours/ascii_grid.hpp"
 
 namespace cairn::behaviours {

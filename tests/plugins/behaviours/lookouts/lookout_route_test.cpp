@@ -1,4 +1,4 @@
-#include "plugins/behaviours/driving/lookout_route.hpp"
+#include "plugins/behaviours/lookouts/lookout_route.hpp"
 
 #include <gtest/gtest.h>
 
