@@ -1,22 +1,25 @@
-# cairn_add_module(NAME [CORE sources...] [LINK ...]): NAME.so from module.cpp. CORE gives the algorithm
-# files, which become NAME_core, a static library that tests can link; LINK goes with them.
+# cairn_add_module(NAME [CORE sources... | ROOMS rooms...] [LINK ...]): NAME.so from module.cpp. CORE gives the algorithm
+# files, which become NAME_core, a static library that tests can link; LINK goes with them. ROOMS are object libraries
+# cairn_ROOM that hold these files instead, a folder each.
 #
 # The same function makes Cairn's own modules and, installed with the CMake package, everybody else's.
 # The module lands in ${CMAKE_BINARY_DIR}/lib/cairn, for `cairn --plugins`; installed under the prefix
 # of Cairn, the program finds it by itself.
 function(cairn_add_module name)
-  cmake_parse_arguments(arg "" "" "CORE;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "" "CORE;ROOMS;LINK" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "cairn_add_module(${name}): what is \"${arg_UNPARSED_ARGUMENTS}\"? It knows CORE and LINK")
+    message(FATAL_ERROR "cairn_add_module(${name}): what is \"${arg_UNPARSED_ARGUMENTS}\"? It knows CORE, ROOMS and LINK")
   endif()
   set(own_options $<$<TARGET_EXISTS:cairn_private_options>:cairn_private_options>)
   add_library(${name} MODULE module.cpp)
-  if(arg_CORE)
+  if(arg_CORE OR arg_ROOMS)
+    list(TRANSFORM arg_ROOMS PREPEND cairn_)
     add_library(${name}_core STATIC ${arg_CORE})
-    target_link_libraries(${name}_core PUBLIC cairn::framework PRIVATE ${own_options} ${arg_LINK})
+    target_link_libraries(${name}_core PUBLIC cairn::framework PRIVATE ${arg_ROOMS} ${own_options} ${arg_LINK})
     target_link_libraries(${name} PRIVATE ${name}_core ${own_options})
-    set_target_properties(${name}_core PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-                                                  POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(${name}_core ${arg_ROOMS} PROPERTIES
+                          CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON
+                          LINKER_LANGUAGE CXX)
   else()
     target_link_libraries(${name} PRIVATE cairn::framework ${own_options} ${arg_LINK})
   endif()

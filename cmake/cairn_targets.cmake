@@ -14,8 +14,8 @@ if(CAIRN_SANITIZERS)
   target_link_options(cairn_private_options INTERFACE -fsanitize=${CAIRN_SANITIZERS})
 endif()
 
-# cairn_add_room(NAME SOURCES ... [USES rooms...] [PRIVATE ...]): the sources of one room, as objects of the shared
-# library that cairn_add_library(... ROOMS ...) makes of several. USES are the arrows that tests/architecture checks.
+# cairn_add_room(NAME SOURCES ... [USES rooms...] [PRIVATE ...]): the sources of one room, as objects of the library
+# that cairn_add_library(... ROOMS ...) or cairn_add_module(... ROOMS ...) makes of several. USES are the arrows that tests/architecture checks.
 function(cairn_add_room name)
   cmake_parse_arguments(arg "" "" "SOURCES;USES;PRIVATE" ${ARGN})
   add_library(cairn_${name} OBJECT ${arg_SOURCES})

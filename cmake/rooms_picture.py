@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the rooms of maps/ and framework/ and what each uses, as the build files say (cairn_add_room ... USES ...).
+"""Draws the rooms of maps/, framework/ and plugins/behaviours/ and what each uses, as the build files say (cairn_add_room ... USES ...).
 
     cmake/rooms_picture.py > docs/pictures/rooms.svg
     cmake/rooms_picture.py --check    # is that picture today's, and does USES name just what the sources include?
@@ -11,21 +11,22 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = {"maps": "maps", "framework": "framework", "behaviours": "plugins/behaviours"}  # of rooms
 WIDTH, HEIGHT, GAP_X, GAP_Y, MARGIN = 128, 34, 22, 44, 24
 
 
 def read_rooms():
     """{room: the rooms that it uses}, in the order of the build files."""
     rooms = {}
-    for outer in ("maps", "framework"):
-        for file in sorted((ROOT / outer).rglob("CMakeLists.txt")):
+    for folder in FOLDERS.values():
+        for file in sorted((ROOT / folder).rglob("CMakeLists.txt")):
             for body in re.findall(r"cairn_add_room\(([^)]*)\)", file.read_text()):
                 words = re.sub(r"#[^\n]*", "", body).split()
                 uses, section = [], ""
                 for word in words[1:]:
                     if word in ("SOURCES", "USES", "PRIVATE"):
                         section = word
-                    elif section == "USES":
+                    elif section == "USES" and "_" in word:  # not a whole library
                         uses.append(word)
                 rooms[words[0]] = uses
     return rooms
@@ -59,7 +60,7 @@ def levels_of(uses):
 
 
 class Column:
-    """One half of the house: its rooms in rows, and arrows between them."""
+    """One part of the house: its rooms in rows, and arrows between them."""
 
     def __init__(self, rooms, outer, left, top):
         self.rooms = {room: [used for used in direct_uses(rooms, room) if used.startswith(outer)]
@@ -97,31 +98,35 @@ class Column:
 
 
 def draw(rooms):
-    maps = Column(rooms, "maps_", MARGIN, 2 * MARGIN)
-    framework = Column(rooms, "framework_", MARGIN + maps.width + 90, 2 * MARGIN)
-    width = framework.left + framework.width + MARGIN
-    height = max(maps.bottom, framework.bottom) + MARGIN
+    columns, left = [], MARGIN
+    for outer in FOLDERS:
+        columns.append(Column(rooms, f"{outer}_", left, 2 * MARGIN))
+        left += columns[-1].width + 90
+    width = left - 90 + MARGIN
+    height = max(column.bottom for column in columns) + MARGIN
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
            'font-family="DejaVu Sans, sans-serif" font-size="13">',
            '<defs><marker id="tip" markerWidth="8" markerHeight="8" refX="7" refY="4" orient="auto">'
            '<path d="M0,0 L8,4 L0,8 z" fill="#777"/></marker></defs>',
            '<rect width="100%" height="100%" fill="white"/>']
-    for column, name, colour in ((maps, "maps/", "#dbe9f6"), (framework, "framework/", "#fdebd0")):
+    for column, folder, colour in zip(columns, FOLDERS.values(), ("#dbe9f6", "#fdebd0", "#e2f0d9")):
         out.append(f'<text x="{column.left + column.width / 2:.0f}" y="{MARGIN}" text-anchor="middle" '
-                   f'font-size="16">{name}</text>')
+                   f'font-size="16">{folder}/</text>')
         out += column.draw(colour)
     y = 2 * MARGIN + HEIGHT / 2
-    out.append(f'<path d="M{framework.left:.0f},{y:.0f} L{maps.left + maps.width + 24:.0f},{y:.0f}" '
-               'stroke="#777" stroke-width="3" marker-end="url(#tip)"/>')
+    for used, user in zip(columns, columns[1:]):
+        out.append(f'<path d="M{user.left:.0f},{y:.0f} L{used.left + used.width + 24:.0f},{y:.0f}" '
+                   'stroke="#777" stroke-width="3" marker-end="url(#tip)"/>')
     return "\n".join(out + ["</svg>", ""])
 
 
 def included_rooms(room):
     outer, name = room.split("_", 1)
-    folder = ROOT / outer / name
+    folder = ROOT / FOLDERS[outer] / name
     text = "".join(file.read_text() for ending in ("hpp", "cpp") for file in folder.rglob(f"*.{ending}"))
-    found = {"_".join(path) for path in re.findall(r'#include "(maps|framework)/(\w+)/', text)}
-    return found - {room}
+    parts = [part for part in FOLDERS if outer != "behaviours" or part == outer]  # a module uses the framework whole
+    return {f"{part}_{name}" for part in parts
+            for name in re.findall(rf'#include "{FOLDERS[part]}/(\w+)/', text)} - {room}
 
 
 def faults():

@@ -1,7 +1,7 @@
 #include "framework/contracts/module.hpp"
 
 #include "framework/config/named_category.hpp"
-#include "plugins/behaviours/errands/dock.hpp"
+#include "plugins/behaviours/docking/dock.hpp"
 #include "plugins/behaviours/errands/go_to.hpp"
 #include "plugins/behaviours/errands/records.hpp"
 #include "plugins/behaviours/errands/return_home.hpp"

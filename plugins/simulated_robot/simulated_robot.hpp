@@ -5,21 +5,22 @@
 // same observations; odometry, compass, ranges and faults draw from streams of their own.
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
 #include "framework/contracts/world.hpp"
+#include "plugins/simulated_robot/battery.hpp"
 #include "plugins/simulated_robot/body.hpp"
 #include "plugins/simulated_robot/config.hpp"
 #include "plugins/simulated_robot/faults.hpp"
 #include "plugins/simulated_robot/instruments.hpp"
+#include "plugins/simulated_robot/motors.hpp"
 #include "plugins/simulated_robot/scene.hpp"
-#include "plugins/simulated_robot/sonar_echo.hpp"
+#include "plugins/simulated_robot/sonar_ring.hpp"
 #include "plugins/simulated_robot/traffic.hpp"
 #include "plugins/simulated_robot/witness.hpp"
 
@@ -40,49 +41,39 @@ class SimulatedRobot final : public Sensor, public Drive, public GroundTruthSour
   SensorStep next(const Budget& budget) override;
   Drive* drive() override { return this; }
   [[nodiscard]] const GroundTruthSource* truth() const override { return this; }
-  [[nodiscard]] std::optional<GroundTruth> last_truth() const override;
+  [[nodiscard]] std::optional<GroundTruth> last_truth() const override { return truth_; }
 
   // Throws std::invalid_argument when not finite.
-  void command(const Twist& twist) override;
+  void command(const Twist& twist) override { motors_.command(twist); }
 
   [[nodiscard]] int collisions() const { return collisions_; }  // touches, each counted once
-  [[nodiscard]] const Twist& twist() const { return twist_; }
+  [[nodiscard]] const Twist& twist() const { return motors_.twist(); }
 
  private:
   void catch_up(double begin_s);
-  [[nodiscard]] Twist towards_wanted() const;
-  void move();
+  std::optional<Contact> move();
   void carry_off();
-  void note_touch(const Move& move, const Pose2& T_map_before, const Twist& going);
-  void use_battery();
-  void fire_into(std::vector<RangeReading>& ranges, int sonar);
-  [[nodiscard]] RangeReading fire(int sonar);
+  std::optional<Contact> touch(const Move& move, const Pose2& T_map_before, const Twist& going);
+  [[nodiscard]] double time_s() const { return static_cast<double>(ticks_) * period_s_; }
 
-  SimulatedRobotConfig config_;
-  RobotModel robot_;
+  double period_s_;
   Scene scene_;
   Traffic traffic_;
   Body body_;
-  std::vector<SonarEcho> echoes_;  // one a transducer
-  std::vector<int> firing_order_;
-  double period_s_;
-  bool fire_all_;
-  std::string fault_;
-
-  Pose2 T_map_robot_;
-  bool has_observed_ = false;
-  Twist wanted_;
-  Twist twist_;
-  bool bumped_ = false;
-  std::optional<Contact> contact_;  // that this tick began
-  int collisions_ = 0;
-  std::int64_t ticks_ = 0;
+  Motors motors_;
+  Battery battery_;
   Odometer odometer_;
-  Compass compass_;
-  NoiseStream range_noise_;
+  std::optional<Compass> compass_;
+  SonarRing sonars_;
   Faults faults_;
   Witness witness_;
-  double battery_ratio_;
+  std::string start_fault_;
+
+  Pose2 T_map_robot_;
+  std::optional<GroundTruth> truth_;  // of the last observation
+  std::int64_t ticks_ = 0;
+  bool bumped_ = false;
+  int collisions_ = 0;
 };
 
 }  // namespace cairn

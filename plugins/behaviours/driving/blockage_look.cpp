@@ -93,9 +93,11 @@ bool BlockageLook::is_seen_through(Cell cell) const {
   return found != through_.end() && found->second >= settings_.seen_through_ticks;
 }
 
-bool BlockageLook::says_gone(Cell cell) const {
-  const auto found = through_.find(cell);
-  return found != through_.end() && found->second >= 0;
+Doubts BlockageLook::doubts() const {
+  CellSet gone;
+  for (const auto& [cell, ticks] : through_)
+    if (ticks >= 0) gone.insert(cell);
+  return {seen_through(), std::move(gone), looked_at_, settings_.island_radius_m};
 }
 
 std::vector<Cell> BlockageLook::seen_through() const {

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "framework/contracts/world_view.hpp"
-#include "plugins/behaviours/driving/local_obstacles.hpp"
-#include "plugins/behaviours/driving/near_echoes.hpp"
+#include "plugins/behaviours/local_map/doubts.hpp"
+#include "plugins/behaviours/local_map/local_obstacles.hpp"
+#include "plugins/behaviours/local_map/near_echoes.hpp"
 #include "plugins/common/motion/velocity.hpp"
 
 namespace cairn::behaviours {
@@ -33,13 +34,6 @@ struct LookSettings {
   double before_goal_m = 0.1;
   double island_radius_m = 0.7;
   static void describe(Fields<LookSettings>& fields);
-};
-
-// What looking leaves doubtful on the map.
-struct Doubts {
-  std::vector<Cell> seen_through;  // echoes have come from behind these cells
-  std::vector<Point> looked_at;    // what stands alone about these places is there only if it echoes
-  double island_radius_m = 0.7;
 };
 
 class BlockageLook {
@@ -77,9 +71,7 @@ class BlockageLook {
   // is gone when nothing stands at the place, or the echoes pass enough of what is held occupied about it: a door's
   // width.
   [[nodiscard]] bool has_opened(const WorldView& world, const NearEchoes& echoes, const LocalObstacles& obstacles);
-  // Whether echoes have come from behind the cell as often as not, so that the robot need not slow down for it.
-  [[nodiscard]] bool says_gone(Cell cell) const;
-  [[nodiscard]] Doubts doubts() const { return {seen_through(), looked_at_, settings_.island_radius_m}; }
+  [[nodiscard]] Doubts doubts() const;
 
  private:
   [[nodiscard]] std::vector<Cell> seen_through() const;

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "plugins/behaviours/driving/local_map.hpp"
+#include "plugins/behaviours/driving/blockage_look.hpp"
+#include "plugins/behaviours/local_map/local_map.hpp"
 
 namespace cairn::behaviours {
 

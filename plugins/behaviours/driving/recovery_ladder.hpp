@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "plugins/behaviours/driving/back_up.hpp"
-#include "plugins/behaviours/driving/free_space.hpp"
+#include "plugins/behaviours/following/back_up.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
 
 namespace cairn::behaviours {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 
@@ -24,7 +24,7 @@ void RouteDriver::restart() {
 }
 
 Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourContext& context) {
-  goal_ = goal;
+  goal_.set(goal);
   map_.see(world);
   requests_.tick(world.time_s);
   follower_.see(world, map_);
@@ -66,8 +66,8 @@ Status RouteDriver::travel(const WorldView& world, BehaviourContext& context) {
   const ControlResult step = follower_.step(world, map_, context);
   if (step.state == ControlState::arrived) return arrive(world, context);
   if (step.state == ControlState::blocked) {
-    if (!said_wait_) context.say("waits: blocked at " + described(world.pose.T_map_robot.position()));
-    said_wait_ = true;
+    if (!has_reported_wait_) context.say("waits: blocked at " + described(world.pose.T_map_robot.position()));
+    has_reported_wait_ = true;
     return {Progress::running, "waiting until the path is free"};
   }
   if (follower_.leg() != Leg::route) return {Progress::running, "under way"};
@@ -88,8 +88,9 @@ Status RouteDriver::face(const WorldView& world, BehaviourContext& context) {
   const FaceSettings& face = settings_.driving.face;
   const motion::TurnSettings& turn = settings_.driving.turn;
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
+  const Place& goal = goal_.place();
   const double error_rad =
-      goal_.pose && goal_.heading_matters ? wrap_angle(goal_.pose->theta_rad - world.pose.T_map_robot.theta_rad) : 0.0;
+      goal.pose && goal.heading_matters ? wrap_angle(goal.pose->theta_rad - world.pose.T_map_robot.theta_rad) : 0.0;
   if (!can_turn || std::abs(error_rad) <= face.faced_rad || world.time_s - mode_since_s_ > face.at_most_s)
     return {Progress::success, "there"};
   follower_.drive_towards(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);

@@ -17,9 +17,10 @@
 #include <vector>
 
 #include "framework/contracts/behaviour.hpp"
-#include "plugins/behaviours/driving/lookout_route.hpp"
-#include "plugins/behaviours/driving/route_follower.hpp"
+#include "plugins/behaviours/driving/route_goal.hpp"
 #include "plugins/behaviours/driving/settings.hpp"
+#include "plugins/behaviours/following/route_follower.hpp"
+#include "plugins/behaviours/lookouts/lookout_route.hpp"
 
 namespace cairn::behaviours {
 
@@ -35,7 +36,7 @@ class RouteDriver {
   void restart();
 
   // The landmark of the goal that the route ends at; 0: a place, or no route yet.
-  [[nodiscard]] LandmarkId goal_landmark() const { return goal_landmark_; }
+  [[nodiscard]] LandmarkId goal_landmark() const { return goal_.landmark(); }
 
  private:
   enum class Mode { plan, travel, back_up, turn, look, face };
@@ -53,7 +54,6 @@ class RouteDriver {
   void take(const std::vector<Point>& path, Leg leg);
   void take_local(const LocalPath& path, const WorldView& world);
   void take_route(const PlanResult& result, const WorldView& world);
-  [[nodiscard]] std::optional<Point> goal_point(const WorldView& world) const;
   [[nodiscard]] bool plan_locally(const WorldView& world, Optimism optimism);
   Status without_route(const PlanResult& result, const WorldView& world, BehaviourContext& context);
   [[nodiscard]] bool begin_escape(const WorldView& world);
@@ -75,9 +75,7 @@ class RouteDriver {
 
   RouteSettings settings_;
   std::uint64_t seed_;
-  Place goal_;
-  LandmarkId goal_landmark_ = 0;
-  std::optional<Point> route_end_;  // of the last plan that was solved
+  RouteGoal goal_;
   Mode mode_ = Mode::plan;
   double mode_since_s_ = 0.0;
   LocalMap map_;
@@ -88,7 +86,7 @@ class RouteDriver {
   RecoveryLadder ladder_;
   BackUp back_up_;
   TurnRound turn_round_;
-  bool said_wait_ = false;
+  bool has_reported_wait_ = false;
   std::string tried_;  // for the reason
 };
 

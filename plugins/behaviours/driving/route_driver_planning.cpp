@@ -1,10 +1,8 @@
 // How the route driver finds a path: by the planner, on the local map, and by looking again.
 
-#include <algorithm>
-
-#include "plugins/behaviours/driving/goal_lookout.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/lookouts/goal_lookout.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 
@@ -15,7 +13,7 @@ Status RouteDriver::plan(const WorldView& world, BehaviourContext& context) {
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "going round what blocked it"};
   }
-  const PlanResult result = requests_.ask(goal_, world, context);
+  const PlanResult result = requests_.ask(goal_.place(), world, context);
   if (result.outcome != PlanOutcome::solved) return without_route(result, world, context);
   take_route(result, world);
   set_mode(Mode::travel, world.time_s);
@@ -30,7 +28,7 @@ void RouteDriver::plan_past(const WorldView& world, BehaviourContext& context) {
     (void)plan_locally(world, *follower_.optimism());  // without one it goes on: live echoes say what is there
     return;
   }
-  const PlanResult result = requests_.ask(goal_, world, context);
+  const PlanResult result = requests_.ask(goal_.place(), world, context);
   if (result.outcome == PlanOutcome::solved) take_route(result, world);
 }
 
@@ -43,31 +41,18 @@ void RouteDriver::take_local(const LocalPath& path, const WorldView& world) {
   follower_.take_local(path.points, path.optimism);
   requests_.note_local_plan(world.time_s);
   map_.ignore_nothing();
-  map_.ignore_doubtful(path.optimism, world, look_);
-  if (path.optimism == Optimism::narrow_gaps) map_.ignore_along(path.points, world, look_);
+  map_.ignore_doubtful(path.optimism, world, look_.doubts());
+  if (path.optimism == Optimism::narrow_gaps) map_.ignore_along(path.points, world, look_.doubts());
 }
 
 void RouteDriver::take_route(const PlanResult& result, const WorldView& world) {
-  follower_.take_route(result, goal_, world.grid.cell_m());
+  follower_.take_route(result, goal_.place(), world.grid.cell_m());
   map_.ignore_nothing();
-  if (!follower_.path().empty()) route_end_ = follower_.path().back();
-  const auto reached = std::find_if(result.landmarks.rbegin(), result.landmarks.rend(), [&](LandmarkId id) {
-    return std::find(goal_.landmarks.begin(), goal_.landmarks.end(), id) != goal_.landmarks.end();
-  });
-  goal_landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
-}
-
-std::optional<Point> RouteDriver::goal_point(const WorldView& world) const {
-  if (goal_.pose) return goal_.pose->position();
-  if (route_end_) return route_end_;
-  for (const LandmarkId id : goal_.landmarks)
-    if (const Landmark* landmark = world.graph.find(id))
-      return landmark->access.value_or(landmark->T_map_landmark).position();
-  return std::nullopt;
+  goal_.record(result, follower_.path());
 }
 
 bool RouteDriver::plan_locally(const WorldView& world, Optimism optimism) {
-  const std::optional<Point> goal = goal_point(world);
+  const std::optional<Point> goal = goal_.point(world.graph);
   if (!goal) return false;
   const std::optional<LocalPath> path = local_planning_.path(*goal, optimism, world, map_, look_);
   if (path) take_local(*path, world);
@@ -82,7 +67,7 @@ Status RouteDriver::without_route(const PlanResult& result, const WorldView& wor
     set_mode(Mode::travel, world.time_s);
     return {Progress::running, "leaving a tight place"};
   }
-  const std::optional<Point> goal = goal_point(world);
+  const std::optional<Point> goal = goal_.point(world.graph);
   if (const auto path = goal ? local_planning_.next_path(*goal, world, map_, look_) : std::nullopt) {
     take_local(*path, world);
     set_mode(Mode::travel, world.time_s);
@@ -99,7 +84,7 @@ Status RouteDriver::without_route(const PlanResult& result, const WorldView& wor
 
 // Too near to something to plan: a little further from it first.
 bool RouteDriver::begin_escape(const WorldView& world) {
-  const Point goal = goal_point(world).value_or(world.pose.T_map_robot.position());
+  const Point goal = goal_.point(world.graph).value_or(world.pose.T_map_robot.position());
   const std::optional<std::vector<Point>> path = local_planning_.escape(goal, world, map_, look_);
   if (!path) return false;
   take(*path, Leg::escape);
@@ -109,10 +94,9 @@ bool RouteDriver::begin_escape(const WorldView& world) {
 
 // Where the goal itself is blocked, from beside it: nothing else blocks the robot then.
 bool RouteDriver::begin_look(PlanOutcome outcome, const WorldView& world) {
-  const std::optional<Point> goal = goal_point(world);
+  const std::optional<Point> goal = goal_.point(world.graph);
   if (!goal || !look_.may_drive_to_look()) return false;
-  if (outcome == PlanOutcome::goal_blocked && (goal_.pose || route_end_) && begin_look_at_goal(*goal, world))
-    return true;
+  if (outcome == PlanOutcome::goal_blocked && goal_.is_exact() && begin_look_at_goal(*goal, world)) return true;
   if (outcome == PlanOutcome::goal_blocked && !look_.stood_beside_goal().empty()) return false;
   const double clearance_m = settings_.driving.local_map.tight_clearance_m;
   const std::optional<LookoutRoute> route =
@@ -138,7 +122,7 @@ bool RouteDriver::begin_look_at_goal(const Point& goal, const WorldView& world) 
     target.at_most_s = look.beside_goal_at_most_s;
     target.is_goal = true;
     go_to_look({goal, around.path_to(*beside)}, target);
-    map_.ignore_doubtful(optimism, world, look_);
+    map_.ignore_doubtful(optimism, world, look_.doubts());
     look_.remember_looked_at(goal);
     return true;
   }

@@ -4,19 +4,19 @@
 #include <cmath>
 
 #include "plugins/behaviours/driving/route_driver.hpp"
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 
 FreeSpace RouteDriver::space(const WorldView& world, double clearance_m, Optimism optimism) const {
-  const Point goal = goal_point(world).value_or(world.pose.T_map_robot.position());
+  const Point goal = goal_.point(world.graph).value_or(world.pose.T_map_robot.position());
   return map_.space(world, clearance_m, optimism, goal, look_.doubts());
 }
 
 Status RouteDriver::recover(const WorldView& world, BehaviourContext& context) {
   const RecoverySettings& recovery = settings_.driving.recovery;
   const Pose2& pose = world.pose.T_map_robot;
-  said_wait_ = false;
+  has_reported_wait_ = false;
   map_.ignore_nothing();
   const Recovery next = ladder_.next(pose.position(), nearest_ahead(world));
   if (next == Recovery::give_up) return give_up(world);

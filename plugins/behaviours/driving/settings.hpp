@@ -3,10 +3,10 @@
 
 #include "plugins/behaviours/driving/blockage_look.hpp"
 #include "plugins/behaviours/driving/local_planning.hpp"
-#include "plugins/behaviours/driving/lookout_route.hpp"
 #include "plugins/behaviours/driving/planner_requests.hpp"
 #include "plugins/behaviours/driving/recovery_ladder.hpp"
-#include "plugins/behaviours/driving/route_follower.hpp"
+#include "plugins/behaviours/following/route_follower.hpp"
+#include "plugins/behaviours/lookouts/lookout_route.hpp"
 
 namespace cairn::behaviours {
 

@@ -1,42 +1,10 @@
 #include "plugins/behaviours/errands/go_to.hpp"
 
-#include <algorithm>
-#include <cstdio>
+#include <cmath>
 
-#include "plugins/behaviours/errands/place_name.hpp"
 #include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
-namespace {
-
-constexpr std::size_t kMaxNamed = 12;
-const std::string kNearest = "nearest ";
-
-std::string list_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMaxNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  return text + (names.size() > kMaxNamed ? ", ..." : "");
-}
-
-std::string known_landmarks(const LandmarkGraph& graph) {
-  std::vector<std::string> names;
-  for (const auto& [id, landmark] : graph.landmarks())
-    names.push_back(label_of(landmark) + (landmark.category.empty() ? "" : " (" + landmark.category + ")"));
-  return names.empty() ? "the map holds no landmark" : "the map holds " + list_of(names);
-}
-
-NamedLandmarks nearest_of(const std::string& category, const LandmarkGraph& graph) {
-  NamedLandmarks named{graph.of_category(category), ""};
-  if (!named.ids.empty()) return named;
-  std::vector<std::string> categories;
-  for (const auto& [id, landmark] : graph.landmarks()) categories.push_back(landmark.category);
-  named.unknown = "no landmark of category \"" + category + "\"" + did_you_mean(category, categories) + "; " +
-                  known_landmarks(graph);
-  return named;
-}
-
-}  // namespace
-
 void GoToConfig::describe(Fields<GoToConfig>& fields) {
   using C = GoToConfig;
   fields.raw("landmark", &C::landmark, "text",
@@ -48,14 +16,6 @@ void GoToConfig::describe(Fields<GoToConfig>& fields) {
   RouteSettings::describe_route(fields);
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to get there; when it is up the step has failed");
   fields.shorthand("landmark");
-}
-
-NamedLandmarks landmarks_named(const std::string& name, const LandmarkGraph& graph) {
-  if (name.starts_with(kNearest)) return nearest_of(name.substr(kNearest.size()), graph);
-  if (const Landmark* landmark = graph.find_by_name(name)) return {{landmark->id}, ""};
-  std::vector<std::string> labels;
-  for (const auto& [id, landmark] : graph.landmarks()) labels.push_back(label_of(landmark));
-  return {{}, "no landmark \"" + name + "\"" + did_you_mean(name, labels) + "; " + known_landmarks(graph)};
 }
 
 GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed_(seed), driver_(config, seed) {
@@ -84,22 +44,19 @@ Status GoTo::tick(const WorldView& world, BehaviourContext& context) {
   return facing_since_s_ ? face(world, context) : drive_there(world, context);
 }
 
-GoTo::FoundGoal GoTo::find_goal(const WorldView& world, BehaviourContext& context) const {
-  FoundGoal found;
+FoundPlace GoTo::find_goal(const WorldView& world, BehaviourContext& context) const {
+  FoundPlace found;
   if (config_.at_m) {
-    found.goal.pose = Pose2{config_.at_m->x(), config_.at_m->y(), config_.angle_rad.value_or(0.0)};
-    found.goal.heading_matters = config_.angle_rad.has_value();
-  } else if (!config_.input.empty()) {
-    const std::optional<Place> given = context.input(config_.input);
-    if (!given) return {{}, "no step has given the place \"" + config_.input + "\" yet"};
-    found.goal = *given;
-    if (names_retired(found.goal, world.graph))
-      found.unknown = "of the place \"" + config_.input + "\": " + lost(found.goal.landmarks.front(), world.graph);
-  } else {
-    NamedLandmarks named = landmarks_named(landmark_name_, world.graph);
-    found.goal.landmarks = std::move(named.ids);
-    found.unknown = std::move(named.unknown);
+    found.place.pose = Pose2{config_.at_m->x(), config_.at_m->y(), config_.angle_rad.value_or(0.0)};
+    found.place.heading_matters = config_.angle_rad.has_value();
+    return found;
   }
+  if (config_.input.empty()) return find_landmarks(landmark_name_, world.graph);
+  const std::optional<Place> given = context.input(config_.input);
+  if (!given) return {{}, "no step has given the place \"" + config_.input + "\" yet"};
+  found.place = *given;
+  if (names_retired(found.place, world.graph))
+    found.unknown = "of the place \"" + config_.input + "\": " + lost(found.place.landmarks.front(), world.graph);
   return found;
 }
 
@@ -107,9 +64,9 @@ Status GoTo::drive_there(const WorldView& world, BehaviourContext& context) {
   if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
   if (!goal_) {
     driver_.restart();
-    FoundGoal found = find_goal(world, context);
+    FoundPlace found = find_goal(world, context);
     if (!found.unknown.empty()) return {Progress::failure, found.unknown};
-    goal_ = std::move(found.goal);
+    goal_ = std::move(found.place);
   }
   const Status status = driver_.tick(*goal_, world, context);
   if (status.progress == Progress::running)
@@ -139,13 +96,9 @@ Status GoTo::face(const WorldView& world, BehaviourContext& context) {
 }
 
 std::string GoTo::destination(const WorldView& world) const {
-  if (const Landmark* landmark = world.graph.find(driver_.goal_landmark()))
-    return label_of(*landmark) + (landmark->category.empty() ? "" : " (" + landmark->category + ")");
+  if (const Landmark* landmark = world.graph.find(driver_.goal_landmark())) return described(*landmark);
   if (!config_.input.empty()) return "the place \"" + config_.input + "\"";
-  if (!config_.at_m) return landmark_name_;
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f)", config_.at_m->x(), config_.at_m->y());
-  return text;
+  return config_.at_m ? described(*config_.at_m) : landmark_name_;
 }
 
 }  // namespace cairn::behaviours

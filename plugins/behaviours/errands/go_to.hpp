@@ -5,11 +5,11 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 
@@ -23,13 +23,6 @@ struct GoToConfig : RouteSettings {
   static void describe(Fields<GoToConfig>& fields);
 };
 
-// The landmarks that a name stands for; when there are none, `unknown` says so, naming what there is.
-struct NamedLandmarks {
-  std::vector<LandmarkId> ids;
-  std::string unknown;
-};
-[[nodiscard]] NamedLandmarks landmarks_named(const std::string& name, const LandmarkGraph& graph);
-
 class GoTo : public Behaviour {
  public:
   // Throws ConfigError unless exactly one of landmark, at_m and input is given.
@@ -41,12 +34,7 @@ class GoTo : public Behaviour {
  private:
   Status drive_there(const WorldView& world, BehaviourContext& context);
   Status face(const WorldView& world, BehaviourContext& context);
-  // The goal; why there is none.
-  struct FoundGoal {
-    Place goal;
-    std::string unknown;
-  };
-  [[nodiscard]] FoundGoal find_goal(const WorldView& world, BehaviourContext& context) const;
+  [[nodiscard]] FoundPlace find_goal(const WorldView& world, BehaviourContext& context) const;
   [[nodiscard]] std::string destination(const WorldView& world) const;
 
   GoToConfig config_;

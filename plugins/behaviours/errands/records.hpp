@@ -7,7 +7,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 

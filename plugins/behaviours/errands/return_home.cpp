@@ -1,7 +1,6 @@
 #include "plugins/behaviours/errands/return_home.hpp"
 
-#include "plugins/behaviours/errands/go_to.hpp"
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 
@@ -36,9 +35,9 @@ Status ReturnHome::tick(const WorldView& world, BehaviourContext& context) {
       goal.pose = world.T_map_start;
       goal.heading_matters = true;
     } else {
-      NamedLandmarks named = landmarks_named(to_, world.graph);
-      if (!named.unknown.empty()) return {Progress::failure, named.unknown};
-      goal.landmarks = std::move(named.ids);
+      FoundPlace found = find_landmarks(to_, world.graph);
+      if (!found.unknown.empty()) return {Progress::failure, found.unknown};
+      goal = std::move(found.place);
     }
     goal_ = goal;
   }

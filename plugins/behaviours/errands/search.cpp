@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "framework/config/named_category.hpp"
-#include "plugins/behaviours/errands/place_name.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 namespace {

@@ -45,7 +45,7 @@ DriveTo::DriveTo(const DriveConfig& config, std::uint64_t seed)
     : config_(config),
       seed_(seed),
       points_m_(scattered(config.points_m, config.scatter_m, seed)),
-      watch_(config.patience_s) {}
+      stretch_(config.speed_mps, config.tolerance_m, ProgressChecker(config.patience_s)) {}
 
 void DriveTo::halt() {
   *this = DriveTo(config_, seed_);
@@ -65,41 +65,28 @@ Status DriveTo::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_ && !points_m_.empty()) begin_stretch(pose.position());
   begun_ = true;
   char text[96];
-  if (watch_.is_stuck(world, wanted_)) {
-    const Point end = stretch_.points().back();
+  if (stretch_.is_stuck(world)) {
+    const Point end = stretch_.path().back();
     std::snprintf(text, sizeof text, "blocked at (%.2f, %.2f) on the way to (%.2f, %.2f)", pose.x_m, pose.y_m, end.x(),
                   end.y());
     return {Progress::failure, text};
   }
-  ControlResult step = follow_stretch(context);
+  ControlResult step = stretch_.ask(context);
   if (step.state == ControlState::arrived) {
     if (next_ >= points_m_.size()) return {Progress::success, "drove all points"};
-    begin_stretch(stretch_.points().back());
-    step = follow_stretch(context);
+    begin_stretch(stretch_.path().back());
+    step = stretch_.ask(context);
   }
-  wanted_ = step.twist;
-  context.drive(wanted_);
-  std::snprintf(text, sizeof text, "driving to (%.2f, %.2f)", stretch_.points().back().x(),
-                stretch_.points().back().y());
+  stretch_.drive(step.twist, context);
+  std::snprintf(text, sizeof text, "driving to (%.2f, %.2f)", stretch_.path().back().x(), stretch_.path().back().y());
   return {Progress::running, text, left_s(step, world.robot)};
-}
-
-// Whatever the map says: only the collision monitor stops it.
-ControlResult DriveTo::follow_stretch(BehaviourContext& context) {
-  ControlRequest request = stretch_.request();
-  request.speed_mps = config_.speed_mps;
-  request.tolerance_m = config_.tolerance_m;
-  request.avoids_obstacles = false;
-  const ControlResult result = context.control(request);
-  stretch_.record(result);
-  return result;
 }
 
 // To the last point, as if never blocked.
 double DriveTo::left_s(const ControlResult& step, const RobotModel& robot) const {
   double left_m = step.left_m;
   for (std::size_t i = next_; i < points_m_.size(); ++i)
-    left_m += (points_m_[i] - (i == next_ ? stretch_.points().back() : points_m_[i - 1])).norm();
+    left_m += (points_m_[i] - (i == next_ ? stretch_.path().back() : points_m_[i - 1])).norm();
   return left_m / std::min(config_.speed_mps, robot.max_v_mps);
 }
 

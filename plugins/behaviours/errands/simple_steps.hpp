@@ -7,8 +7,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
-#include "plugins/behaviours/driving/followed_path.hpp"
-#include "plugins/behaviours/driving/progress_checker.hpp"
+#include "plugins/behaviours/following/direct_follower.hpp"
 
 namespace cairn::behaviours {
 
@@ -33,7 +32,6 @@ class DriveTo : public Behaviour {
 
  private:
   void begin_stretch(const Point& from);
-  ControlResult follow_stretch(BehaviourContext& context);
   [[nodiscard]] double left_s(const ControlResult& step, const RobotModel& robot) const;
 
   DriveConfig config_;
@@ -41,9 +39,7 @@ class DriveTo : public Behaviour {
   std::vector<Point> points_m_;  // the configured ones, scattered
   std::size_t next_ = 0;         // the first point of the next stretch
   bool begun_ = false;
-  FollowedPath stretch_;  // points that are driven through without stopping to turn
-  Twist wanted_;
-  ProgressChecker watch_;
+  DirectFollower stretch_;  // points that are driven through without stopping to turn
 };
 
 struct WaitConfig {

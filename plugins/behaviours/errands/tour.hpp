@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
-#include "plugins/behaviours/exploring/visits.hpp"
+#include "plugins/behaviours/errands/visits.hpp"
 
 namespace cairn::behaviours {
 

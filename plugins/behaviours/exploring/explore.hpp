@@ -13,8 +13,8 @@
 #include "framework/contracts/behaviour.hpp"
 #include "plugins/behaviours/driving/settings.hpp"
 #include "plugins/behaviours/exploring/explore_progress.hpp"
-#include "plugins/behaviours/exploring/look_closer.hpp"
 #include "plugins/behaviours/exploring/settings.hpp"
+#include "plugins/behaviours/lookouts/look_closer.hpp"
 
 namespace cairn::behaviours {
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "framework/contracts/world_view.hpp"
-#include "plugins/behaviours/driving/cell_layer.hpp"
 #include "plugins/behaviours/exploring/settings.hpp"
+#include "plugins/behaviours/local_map/cell_layer.hpp"
 
 namespace cairn::behaviours {
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <limits>
 
-#include "plugins/behaviours/driving/openings.hpp"
-#include "plugins/behaviours/exploring/frontiers.hpp"
-#include "plugins/behaviours/exploring/information_gain.hpp"
+#include "plugins/behaviours/lookouts/frontiers.hpp"
+#include "plugins/behaviours/lookouts/information_gain.hpp"
+#include "plugins/behaviours/lookouts/openings.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -128,7 +128,7 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
     offer_groups(best, groups_of(left, weights.min_edge_m / space.cell_m()), worth, space, previous, weights);
   }
   if (frontiers_wanted) {
-    const Sight& sight = settings.frontier_sight;
+    const Sight sight{weights.frontier_view_m, weights.frontier_view_rad};
     const std::vector<Cell> left = unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers);
     std::vector<CellGroup> groups = groups_of(left, settings.smallest_frontier_m / space.cell_m());
     std::erase_if(groups, [&](const CellGroup& group) { return is_crack(space, group); });
@@ -182,7 +182,7 @@ void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings
   }
   const bool is_frontier_task = task.kind == TaskKind::frontier;
   const double reach_m = settings.weights.give_up_ratio *
-                         (is_frontier_task ? settings.frontier_sight.within_m : settings.orbit.look_closer_m);
+                         (is_frontier_task ? settings.weights.frontier_view_m : settings.orbit.look_closer_m);
   CellSet& set = is_frontier_task ? memory.seen_frontiers : memory.seen_edges;
   for (const Cell cell : task.targets) {
     if ((space.centre_of(cell) - task.lookout).norm() > reach_m) continue;
@@ -192,7 +192,11 @@ void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings
   }
 }
 
-bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid) {
+bool is_faced(TaskKind kind) {
+  return kind == TaskKind::frontier || kind == TaskKind::opening;
+}
+
+bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid, const TaskWeights& weights) {
   if (task.kind != TaskKind::frontier) return true;
   const auto is_open = [&](Cell c) {
     if (grid.state(c) == CellState::occupied) return false;
@@ -200,7 +204,7 @@ bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid) {
                        [&](Cell step) { return grid.state(c + step) == CellState::unknown; });
   };
   const auto left = std::count_if(task.targets.begin(), task.targets.end(), is_open);
-  return 4 * left > static_cast<std::ptrdiff_t>(task.targets.size());
+  return static_cast<double>(left) > weights.worthwhile_ratio * static_cast<double>(task.targets.size());
 }
 
 std::string sentence_of(const ExploreTask& task) {

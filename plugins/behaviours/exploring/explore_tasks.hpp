@@ -7,17 +7,16 @@
 #include <vector>
 
 #include "maps/landmarks/landmark_graph.hpp"
-#include "plugins/behaviours/exploring/look_closer.hpp"
 #include "plugins/behaviours/exploring/settings.hpp"
+#include "plugins/behaviours/lookouts/look_closer.hpp"
 
 namespace cairn::behaviours {
 
 struct TaskSettings {
   OrbitSettings orbit;  // lap.look_closer_m 0: no laps and no edges
   double smallest_frontier_m = 0.3;
-  Sight frontier_sight{1.0, radians(60.0)};  // a frontier is looked at from within it
-  double gain_m = 0.0;                       // what e times the new area is worth; 0: the nearest frontier first
-  double gain_range_m = 3.0;                 // of the sensors, for the new area
+  double gain_m = 0.0;        // what e times the new area is worth; 0: the nearest frontier first
+  double gain_range_m = 3.0;  // of the sensors, for the new area
   TaskWeights weights{};
   OpeningSettings openings{};
 };
@@ -69,7 +68,10 @@ bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSe
 void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory);
 
 // False when most of what the task was for is known by now. Cheap: reads the task's cells only.
-[[nodiscard]] bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid);
+[[nodiscard]] bool still_worthwhile(const ExploreTask& task, const OccupancyGrid& grid, const TaskWeights& weights);
+
+// Whether the sonars are turned to it at the end of the path.
+[[nodiscard]] bool is_faced(TaskKind kind);
 
 [[nodiscard]] std::string sentence_of(const ExploreTask& task);
 

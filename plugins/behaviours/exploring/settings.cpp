@@ -45,13 +45,23 @@ void TaskWeights::describe(Fields<TaskWeights>& fields) {
                 "share of the viewing distance from which things are looked at, so that arriving is seeing");
   fields.number("give_up_ratio", &C::give_up_ratio, {1.0, 100.0}, "",
                 "of a task that showed nothing, all within this share of the viewing distance is given up");
+  fields.number("frontier_view_m", &C::frontier_view_m, {0.1, 50.0}, "m", "viewing distance of frontiers");
+  fields.angle("frontier_view_deg", &C::frontier_view_rad, {1.0, 180.0},
+               "a frontier is seen within this of the robot's heading, to either side");
+  fields.number("worthwhile_ratio", &C::worthwhile_ratio, {0.0, 1.0}, "",
+                "a frontier is left when no more than this share of it is still unknown");
 }
 
 void ExploreMotionSettings::describe(Fields<ExploreMotionSettings>& fields) {
   using C = ExploreMotionSettings;
   fields.angle("look_around_degps", &C::look_around_radps, {1.0, 360.0}, "how fast it turns to look around", "deg/s");
+  fields.number(
+      "look_around_max_turns", &C::look_around_max_turns, {1.0, 100.0}, "turns",
+      "looking around ends after the time that so many turns would take, when the robot is kept from turning");
   fields.number("blocked_ahead_m", &C::blocked_ahead_m, {0.0, 50.0}, "m",
                 "something that turns up on the path within this makes it choose again");
+  fields.number("blocked_clearance_ratio", &C::blocked_clearance_ratio, {0.0, 1.0}, "",
+                "and is nearer to the path than the robot's radius and this share of the clearance");
   fields.number("arrived_m", &C::arrived_m, {0.001, 1.0}, "m", "this near to the end of a path is there");
   fields.number("on_orbit_m", &C::on_orbit_m, {0.0, 10.0}, "m", "this near to its first place it is on a lap");
   fields.number("away_s", &C::away_s, {0.01, 600.0}, "s",

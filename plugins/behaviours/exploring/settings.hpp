@@ -2,8 +2,8 @@
 #pragma once
 
 #include "framework/config/fields.hpp"
-#include "plugins/behaviours/driving/back_up.hpp"
-#include "plugins/behaviours/driving/openings.hpp"
+#include "plugins/behaviours/following/back_up.hpp"
+#include "plugins/behaviours/lookouts/openings.hpp"
 
 namespace cairn::behaviours {
 
@@ -37,13 +37,18 @@ struct TaskWeights {
   double min_edge_m = 0.3;
   double view_ratio = 0.85;
   double give_up_ratio = 1.3;
+  double frontier_view_m = 1.0;
+  double frontier_view_rad = radians(60.0);
+  double worthwhile_ratio = 0.25;
   static void describe(Fields<TaskWeights>& fields);
 };
 
 // How the robot moves while it explores.
 struct ExploreMotionSettings {
   double look_around_radps = radians(45.0);
+  double look_around_max_turns = 3.0;
   double blocked_ahead_m = 0.8;
+  double blocked_clearance_ratio = 0.5;
   double arrived_m = 0.06;
   double on_orbit_m = 0.5;
   double away_s = 0.5;

@@ -39,12 +39,12 @@ TEST_F(Looking, WhatBlockedTheRobotHasGoneWhenEchoesComeFromBehindItForSomeTicks
   look.aim_at(live);
   for (int i = 0; i < 9; ++i) EXPECT_FALSE(has_opened(2.0)) << i;
   EXPECT_TRUE(has_opened(2.0));
-  EXPECT_TRUE(look.says_gone(grid.cell_at(at)));
+  EXPECT_TRUE(look.doubts().gone.contains(grid.cell_at(at)));
 }
 
 TEST_F(Looking, SilenceSaysNothing) {
   for (int i = 0; i < 30; ++i) EXPECT_FALSE(has_opened(std::numeric_limits<double>::infinity()));
-  EXPECT_FALSE(look.says_gone(grid.cell_at(at)));
+  EXPECT_FALSE(look.doubts().gone.contains(grid.cell_at(at)));
 }
 
 TEST_F(Looking, OneCellIsNoDoor) {

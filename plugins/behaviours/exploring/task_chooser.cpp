@@ -1,0 +1,148 @@
+#include "plugins/behaviours/exploring/task_chooser.hpp"
+
+#include <algorithm>
+
+#include "plugins/behaviours/lookouts/openings.hpp"
+#include "plugins/common/motion/path.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kEverywhere_m = 1e6;
+
+TaskSettings task_settings(const ExploreConfig& config, const RobotModel& robot) {
+  double farthest_m = 0.0;
+  for (const SonarModel& sonar : robot.sonars) farthest_m = std::max(farthest_m, sonar.max_m);
+  TaskSettings settings;
+  settings.orbit = {config.orbit_distance_m, config.look_closer_m, config.largest_object_m, config.object};
+  settings.weights = config.exploring.weights;
+  settings.openings = config.exploring.openings;
+  settings.smallest_frontier_m = config.smallest_frontier_m;
+  settings.gain_m = config.gain_m;
+  settings.gain_range_m = std::min(farthest_m, config.exploring.choice.trusted_range_m);
+  return settings;
+}
+
+}  // namespace
+
+TaskChooser::TaskChooser(const ExploreConfig& config, const WorldView& world)
+    : config_(config),
+      settings_(task_settings(config, world.robot)),
+      near_echoes_(world.grid, config.driving.local_map.echoes.near) {}
+
+void TaskChooser::begin_here(const WorldView& world) {
+  forget_echoes(world);
+  memory_.trace.push_back(world.pose.T_map_robot);
+}
+
+void TaskChooser::forget_echoes(const WorldView& world) {
+  near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
+}
+
+void TaskChooser::see(const WorldView& world) {
+  const Pose2& pose = world.pose.T_map_robot;
+  if (world.observation != nullptr) near_echoes_.see(*world.observation, pose);
+  near_echoes_.stand_at(pose.position(), world.robot.radius_m);
+  const Pose2& last = memory_.trace.back();
+  const ExploreMotionSettings& motion = config_.exploring.motion;
+  if ((pose.position() - last.position()).norm() >= motion.trace_apart_m ||
+      std::abs(wrap_angle(pose.theta_rad - last.theta_rad)) >= motion.trace_turn_rad)
+    memory_.trace.push_back(pose);
+}
+
+FreeSpace TaskChooser::space_within(const Search& search, const WorldView& world) const {
+  const Point position = world.pose.T_map_robot.position();
+  const Cell here = world.grid.cell_at(position);
+  const CellBox all = world.grid.bounds();
+  const double max_cells = 1.0 + std::max(all.width(), all.height());
+  const int reach = static_cast<int>(std::min(search.within_m / world.grid.cell_m(), max_cells));
+  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
+  return FreeSpace(near_echoes_.applied_to(world.grid, part),
+                   {position, world.robot.radius_m, search.clearance_m, config_.driving.local_map.paths}, memory_.trace,
+                   memory_.troubles);
+}
+
+std::optional<ExploreTask> TaskChooser::choose_within(const Search& search, const WorldView& world,
+                                                      const std::optional<ExploreTask>& before) {
+  search_ = search;
+  const FreeSpace space = space_within(search, world);
+  const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
+  // Each turn of the loop either ends it or gives a part of a task up.
+  for (;;) {
+    std::optional<ExploreTask> task =
+        next_task(space, world.pose.T_map_robot, frontiers_wanted, before ? &*before : nullptr, settings_, memory_);
+    if (!task) return std::nullopt;
+    const bool is_there = motion::length_of(task->path) < config_.exploring.choice.there_m;
+    if (!is_there || is_faced(task->kind)) return task;
+    behaviours::give_up(*task, space, settings_, memory_);
+  }
+}
+
+std::optional<ExploreTask> TaskChooser::choose_again(const WorldView& world, const std::optional<ExploreTask>& before) {
+  if (!config_.second_look || config_.look_closer_m <= 0.0) return std::nullopt;
+  const Search search{kEverywhere_m, config_.clearance_m};
+  if (!look_again(space_within(search, world), world.graph, settings_, memory_)) return std::nullopt;
+  return choose_within(search, world, before);
+}
+
+std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
+  search_ = {kEverywhere_m, config_.clearance_m};
+  const double narrow_m = config_.exploring.choice.narrow_radius_m - world.robot.radius_m;
+  return opening_task(space_within(search_, world), space_within({kEverywhere_m, narrow_m}, world), settings_, memory_);
+}
+
+bool TaskChooser::is_shut_in(const WorldView& world) const {
+  const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
+  const auto can_go_back = [&](const Pose2& pose) {
+    const Cell centre = space.cell_at(pose.position());
+    const int near = config_.exploring.choice.near_trace_cells;
+    for (int dy = -near; dy <= near; ++dy)
+      for (int dx = -near; dx <= near; ++dx)
+        if (space.reaches(centre + Cell{dx, dy})) return true;
+    return false;
+  };
+  const auto back = std::count_if(memory_.trace.begin(), memory_.trace.end(), can_go_back);
+  return static_cast<double>(back) < config_.exploring.choice.shut_in_ratio * static_cast<double>(memory_.trace.size());
+}
+
+bool TaskChooser::leads_on(const WorldView& world, const Search& tight) const {
+  return tighter_leads_on(space_within({tight.within_m, config_.clearance_m}, world), space_within(tight, world),
+                          settings_.openings);
+}
+
+// The whole map only when there is nothing to do around here; less room only when shut in, or where a door seems narrow
+// also from right ahead.
+std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std::optional<ExploreTask>& before) {
+  std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
+  const ChoiceSettings& choice = config_.exploring.choice;
+  const Search tight{kEverywhere_m, std::min(config_.clearance_m, choice.tight_clearance_m)};
+  if (auto task = choose_within({choice.around_m, config_.clearance_m}, world, before)) return task;
+  if (auto task = choose_within({kEverywhere_m, config_.clearance_m}, world, before)) return task;
+  if (is_shut_in(world))
+    if (auto task = choose_within(tight, world, before)) return task;
+  if (auto task = choose_again(world, before)) return task;
+  if (auto task = choose_opening(world)) return task;
+  return leads_on(world, tight) ? choose_within(tight, world, before) : std::nullopt;
+}
+
+void TaskChooser::give_up(const ExploreTask& task, const WorldView& world) {
+  behaviours::give_up(task, space(world), settings_, memory_);
+}
+
+bool TaskChooser::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const {
+  const ExploreMotionSettings& motion = config_.exploring.motion;
+  const double margin_m = world.robot.radius_m + motion.blocked_clearance_ratio * search_.clearance_m;
+  const auto is_occupied = [&](Cell c) { return near_echoes_.is_occupied(world.grid, c); };
+  const auto blocks = [&](const std::vector<Point>& points, double from_m, double ahead_m) {
+    return path_is_blocked(world.grid, is_occupied, points, from_m, ahead_m, margin_m);
+  };
+  // A robot that already stands too near to something is leaving a tight place and must not stop there.
+  return blocks(path, along_m, motion.blocked_ahead_m) && !blocks({world.pose.T_map_robot.position()}, 0.0, 0.0);
+}
+
+std::optional<Point> TaskChooser::room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const {
+  const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
+  return behaviours::room_out_of_reach(space, world.pose.T_map_robot.position(), done, settings_.openings);
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,62 @@
+// Chooses what exploring does next, on the map as the robot itself has seen it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plugins/behaviours/exploring/explore.hpp"
+#include "plugins/behaviours/exploring/explore_tasks.hpp"
+#include "plugins/behaviours/local_map/near_echoes.hpp"
+
+namespace cairn::behaviours {
+
+class TaskChooser {
+ public:
+  TaskChooser(const ExploreConfig& config, const WorldView& world);
+
+  // Something else has driven the robot to where it is now.
+  void begin_here(const WorldView& world);
+  // Every tick.
+  void see(const WorldView& world);
+  void forget_echoes(const WorldView& world);
+  [[nodiscard]] const NearEchoes& near_echoes() const { return near_echoes_; }
+
+  // The cheapest task; none when nothing in reach is left. before: what the robot is at, preferred when nearly as good.
+  [[nodiscard]] std::optional<ExploreTask> choose(const WorldView& world, const std::optional<ExploreTask>& before);
+  // Not to be chosen again: what the task has from its lookout.
+  void give_up(const ExploreTask& task, const WorldView& world);
+  // Paths avoid the place until then, where they can.
+  void avoid(const Point& at, double until_s) { memory_.troubles.push_back({at, until_s}); }
+
+  // Whether something has turned up on a path that keeps as much room as the last task's.
+  [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const;
+  // Noise can wall the robot in where it just came through: it cannot go back to where it has been.
+  [[nodiscard]] bool is_shut_in(const WorldView& world) const;
+  // Where the robot can go, as for the last choice.
+  [[nodiscard]] FreeSpace space(const WorldView& world) const { return space_within(search_, world); }
+  // As openings.hpp.
+  [[nodiscard]] std::optional<Point> room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const;
+
+ private:
+  // Which part of the map is searched, and how much room is kept.
+  struct Search {
+    double within_m = 8.0;
+    double clearance_m = 0.1;
+  };
+  [[nodiscard]] FreeSpace space_within(const Search& search, const WorldView& world) const;
+  [[nodiscard]] std::optional<ExploreTask> choose_within(const Search& search, const WorldView& world,
+                                                         const std::optional<ExploreTask>& before);
+  [[nodiscard]] std::optional<ExploreTask> choose_again(const WorldView& world,
+                                                        const std::optional<ExploreTask>& before);
+  [[nodiscard]] std::optional<ExploreTask> choose_opening(const WorldView& world);
+  // Whether keeping less room gets the robot to more of the map.
+  [[nodiscard]] bool leads_on(const WorldView& world, const Search& tight) const;
+
+  ExploreConfig config_;
+  TaskSettings settings_;
+  Search search_;  // of the last choice
+  NearEchoes near_echoes_;
+  ExploreMemory memory_;
+};
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,114 @@
+#include "plugins/behaviours/local_map/near_echoes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace cairn::behaviours {
+
+void NearEchoSettings::describe(Fields<NearEchoSettings>& fields) {
+  using C = NearEchoSettings;
+  const Range weight{-32000.0, 32000.0};
+  fields.number("within_m", &C::within_m, {0.05, 20.0}, "m", "echoes from further away do not count");
+  fields.number("moved_m", &C::moved_m, {0.0, 5.0}, "m", "a transducer counts again when it has moved this far");
+  fields.angle("turned_deg", &C::turned_rad, {0.0, 180.0}, "or turned this far");
+  fields.integer("rays", &C::rays, {2.0, 101.0}, "lines in the middle half of a beam along which an echo counts");
+  fields.integer("hit", &C::hit, weight, "evidence of an echo for the cells it came from, in 1/256 nat");
+  fields.integer("passed", &C::passed, weight, "evidence of an echo for the cells it passed, in 1/256 nat");
+  fields.integer("solid_at", &C::solid_at, weight, "a cell is solid from this evidence on: two echoes");
+  fields.integer("free_at", &C::free_at, weight, "a cell is free at this evidence: six echoes from behind it");
+  fields.integer("stood", &C::stood, weight, "evidence of cells that the robot has stood on");
+  fields.number("clamp_nat", &C::clamp_nat, {0.1, 100.0}, "nat", "evidence of a cell is kept within this: four echoes");
+}
+
+NearEchoes::NearEchoes(const OccupancyGrid& map, const NearEchoSettings& settings)
+    : settings_(settings), votes_(map.cell_m(), settings.clamp_nat, map.origin_m()) {}
+
+bool NearEchoes::has_moved(const Pose2& a, const Pose2& b) const {
+  return (a.position() - b.position()).norm() >= settings_.moved_m ||
+         std::abs(wrap_angle(a.theta_rad - b.theta_rad)) >= settings_.turned_rad;
+}
+
+bool NearEchoes::is_usable(const RangeReading& reading) const {
+  return reading.range_m > reading.min_m && reading.range_m > 0.0 && reading.range_m <= settings_.within_m &&
+         reading.half_beam_rad >= 0.0 && reading.half_beam_rad <= std::numbers::pi && reading.sensor >= 0 &&
+         reading.sensor < kMaxSensors;
+}
+
+void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
+  for (const RangeReading& reading : observation.ranges) {
+    const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
+    if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), settings_.within_m)) continue;
+    const auto sensor = static_cast<std::size_t>(reading.sensor);
+    const Pose2 nowhere{std::numeric_limits<double>::max(), 0.0, 0.0};
+    if (sensor >= last_voted_.size()) last_voted_.resize(sensor + 1, nowhere);
+    if (!has_moved(T_map_sensor, last_voted_[sensor])) continue;
+    last_voted_[sensor] = T_map_sensor;
+    vote(reading, T_map_sensor);
+  }
+}
+
+void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
+  const double cell_m = votes_.cell_m();
+  std::vector<Cell> hit;
+  std::vector<Cell> passed;
+  for (int i = 0; i < settings_.rays; ++i) {
+    const double bearing_rad = 0.5 * reading.half_beam_rad * (2.0 * i / (settings_.rays - 1) - 1.0);
+    const Point direction{std::cos(bearing_rad), std::sin(bearing_rad)};
+    hit.push_back(votes_.cell_at(T_map_sensor * (direction * reading.range_m)));
+    for (double r_m = 0.0; r_m < reading.range_m - 2.0 * cell_m; r_m += 0.5 * cell_m)
+      passed.push_back(votes_.cell_at(T_map_sensor * (direction * r_m)));
+  }
+  const auto once_each = [](std::vector<Cell>& cells) {
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  };
+  once_each(hit);
+  once_each(passed);
+  for (const Cell c : hit) votes_.add_log_odds(c, settings_.hit);
+  for (const Cell c : passed)
+    if (!std::binary_search(hit.begin(), hit.end(), c)) votes_.add_log_odds(c, settings_.passed);
+}
+
+void NearEchoes::stand_at(const Point& p_map, double radius_m) {
+  if (!votes_.can_include(p_map, radius_m + votes_.cell_m())) return;
+  const Cell centre = votes_.cell_at(p_map);
+  const double max_cells = radius_m / votes_.cell_m() + 0.5;
+  const int reach = static_cast<int>(max_cells);
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (dx * dx + dy * dy <= max_cells * max_cells)
+        votes_.set_log_odds(centre + Cell{dx, dy}, static_cast<LogOdds>(settings_.stood));
+}
+
+bool NearEchoes::is_solid(Cell cell) const {
+  return votes_.log_odds(cell) >= settings_.solid_at;
+}
+
+bool NearEchoes::is_conservatively_free(Cell cell) const {
+  return votes_.log_odds(cell) <= settings_.free_at;
+}
+
+OccupancyGrid NearEchoes::applied_to(const OccupancyGrid& map, const CellBox& part) const {
+  OccupancyGrid all(map.cell_m(), map.clamp_nat(), map.origin_m());
+  const LogOdds solid = log_odds_of(1.0 - kFree);
+  const LogOdds free = log_odds_of(kFree);
+  const CellBox box = intersected(part, united(map.bounds(), votes_.bounds()));
+  const auto width = static_cast<std::size_t>(std::max(0, box.width()));
+  std::vector<LogOdds> mapped(width);
+  std::vector<LogOdds> voted(width);
+  for (int y = box.min.y; y < box.max.y; ++y) {
+    map.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, mapped);
+    votes_.copy_log_odds({{box.min.x, y}, {box.max.x, y + 1}}, voted);
+    for (std::size_t i = 0; i < width; ++i) {
+      LogOdds value = mapped[i];
+      if (voted[i] >= settings_.solid_at) value = std::max(value, solid);
+      if (voted[i] <= settings_.free_at) value = std::min(value, free);
+      if (value != 0) all.set_log_odds({box.min.x + static_cast<int>(i), y}, value);
+    }
+  }
+  return all;
+}
+
+}  // namespace cairn::behaviours

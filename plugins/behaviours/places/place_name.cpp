@@ -1,0 +1,115 @@
+#include "plugins/behaviours/places/place_name.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "framework/config/fields.hpp"
+#include "framework/config/named_category.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr std::size_t kMaxListed = 12;
+const std::string kNearest = "nearest ";
+
+std::string known_landmarks(const LandmarkGraph& graph) {
+  if (graph.landmarks().empty()) return "the map holds no landmark";
+  std::string list;
+  std::size_t listed = 0;
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    if (listed++ == kMaxListed) return "the map holds " + list + ", ...";
+    list += (list.empty() ? "" : ", ") + described(landmark);
+  }
+  return "the map holds " + list;
+}
+
+}  // namespace
+
+PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
+  if (value.kind == ConfigValue::Kind::list) return place_name_of(config_detail::to_point(value, key));
+  PlaceName name{config_detail::to_text(value, key), std::nullopt};
+  if (names_nothing(name.text))
+    throw ConfigError(value.place, key + ": " + shown(name.text) +
+                                       " is no place; one is [x, y], a landmark's id (L3) or name, or `nearest "
+                                       "CATEGORY`");
+  return name;
+}
+
+std::string to_landmark_name(const ConfigValue& value, const std::string& key) {
+  std::string name = config_detail::to_text(value, key);
+  if (names_nothing(name))
+    throw ConfigError(value.place,
+                      key + ": " + shown(name) + " is no landmark; one is an id (L3), a name, or `nearest CATEGORY`");
+  return name;
+}
+
+PlaceName place_name_of(const Point& at_m) {
+  return {described(at_m), at_m};
+}
+
+FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph) {
+  FoundPlace found;
+  std::vector<std::string> names;
+  if (name.starts_with(kNearest)) {
+    const std::string category = name.substr(kNearest.size());
+    found.place.landmarks = graph.of_category(category);
+    if (!found.place.landmarks.empty()) return found;
+    for (const auto& [id, landmark] : graph.landmarks()) names.push_back(landmark.category);
+    found.unknown = "no landmark of category \"" + category + "\"" + did_you_mean(category, names);
+  } else {
+    if (const Landmark* landmark = graph.find_by_name(name)) return {{std::nullopt, false, {landmark->id}}, ""};
+    for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
+    found.unknown = "no landmark \"" + name + "\"" + did_you_mean(name, names);
+  }
+  found.unknown += "; " + known_landmarks(graph);
+  return found;
+}
+
+FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph) {
+  if (name.at_m) return {{Pose2{name.at_m->x(), name.at_m->y(), 0.0}, false, {}}, ""};
+  return find_landmarks(name.text, graph);
+}
+
+bool names_retired(const Place& goal, const LandmarkGraph& graph) {
+  return std::ranges::any_of(goal.landmarks, [&](LandmarkId id) { return graph.find(id) == nullptr; });
+}
+
+std::string described(const Landmark& landmark) {
+  return label_of(landmark) + (landmark.category.empty() ? "" : " (" + landmark.category + ")");
+}
+
+std::string described(const Point& at_m) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.2f, %.2f)", at_m.x(), at_m.y());
+  return text;
+}
+
+LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& world, BehaviourContext& context) {
+  if (ids.size() == 1) return ids.front();
+  PlanRequest request;
+  request.from.pose = world.pose.T_map_robot;
+  request.to.landmarks = ids;
+  request.radius_m = world.robot.radius_m;
+  const PlanResult result = context.plan(request);
+  const bool is_one = !result.landmarks.empty() && std::ranges::find(ids, result.landmarks.back()) != ids.end();
+  if (result.outcome == PlanOutcome::solved && is_one) return result.landmarks.back();
+  const auto distance_m = [&](LandmarkId id) {
+    const Landmark* const landmark = world.graph.find(id);
+    return landmark == nullptr ? 1e9 : (landmark->T_map_landmark.position() - world.pose.T_map_robot.position()).norm();
+  };
+  return *std::ranges::min_element(ids, {}, distance_m);
+}
+
+ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, BehaviourContext& context) {
+  const FoundPlace found = find_landmarks(name, world.graph);
+  if (!found.unknown.empty()) return {0, found.unknown};
+  return {cheapest_of(found.place.landmarks, world, context), ""};
+}
+
+std::string lost(LandmarkId id, const LandmarkGraph& graph) {
+  const std::string label = "L" + std::to_string(id);
+  const auto retired = graph.retired().find(id);
+  return label + " is no landmark any more" + (retired == graph.retired().end() ? "" : ": " + retired->second.reason);
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,83 @@
+#include "plugins/behaviours/exploring/task_chooser.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/plugins/behaviours/ascii_grid.hpp"
+
+namespace cairn::behaviours {
+namespace {
+
+// Half of a room is known.
+struct Choosing : testing::Test {
+  Choosing()
+      : map(R"(
+####################
+#..........         
+#..........         
+#..........         
+#....R.....         
+#..........         
+#..........         
+#..........         
+####################
+)") {
+    robot.radius_m = 0.2;
+    config.look_closer_m = 0.0;
+    T_map_robot = {map.at('R').x(), map.at('R').y(), 0.0};
+  }
+  [[nodiscard]] WorldView world() const {
+    WorldView view{map.grid, graph, robot, {}, 10.0, nullptr};
+    view.pose.T_map_robot = T_map_robot;
+    return view;
+  }
+  [[nodiscard]] TaskChooser chooser() const {
+    TaskChooser made(config, world());
+    made.begin_here(world());
+    made.see(world());
+    return made;
+  }
+  AsciiGrid map;
+  LandmarkGraph graph;
+  RobotModel robot;
+  ExploreConfig config;
+  Pose2 T_map_robot;
+};
+
+TEST_F(Choosing, AFrontierWhereTheMapEnds) {
+  const std::optional<ExploreTask> task = chooser().choose(world(), std::nullopt);
+  ASSERT_TRUE(task);
+  EXPECT_EQ(task->kind, TaskKind::frontier);
+  EXPECT_NEAR(task->about.x(), 1.05, 0.11);
+}
+
+TEST_F(Choosing, NothingOnceTheFrontierIsGivenUp) {
+  TaskChooser chooser = this->chooser();
+  for (int i = 0; i < 20; ++i) {
+    const std::optional<ExploreTask> task = chooser.choose(world(), std::nullopt);
+    if (!task) return;
+    chooser.give_up(*task, world());
+  }
+  FAIL() << "it chooses what was given up again and again";
+}
+
+TEST_F(Choosing, APathIsBlockedWhenSomethingTurnsUpOnIt) {
+  TaskChooser chooser = this->chooser();
+  const std::optional<ExploreTask> task = chooser.choose(world(), std::nullopt);
+  ASSERT_TRUE(task);
+  const std::vector<Point> path{map.at('R'), map.at('R') + Point(0.5, 0.0)};
+  EXPECT_FALSE(chooser.is_blocked(world(), path, 0.0));
+  map.grid.set_log_odds(map.grid.cell_at(path.back()), 600);
+  EXPECT_TRUE(chooser.is_blocked(world(), path, 0.0));
+}
+
+TEST_F(Choosing, ARobotThatCannotGoBackIsShutIn) {
+  TaskChooser chooser = this->chooser();
+  EXPECT_FALSE(chooser.is_shut_in(world()));
+  for (int y = 1; y < 8; ++y) map.grid.set_log_odds({5, y}, 600);
+  T_map_robot.x_m += 0.4;
+  chooser.see(world());
+  EXPECT_TRUE(chooser.is_shut_in(world()));
+}
+
+}  // namespace
+}  // namespace cairn::behaviours

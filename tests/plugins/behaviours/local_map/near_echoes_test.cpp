@@ -1,0 +1,100 @@
+#include "plugins/behaviours/local_map/near_echoes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Observation echo_at(double range_m, int sensor = 0) {
+  Observation observation;
+  observation.ranges = {{{0.1, 0.0, 0.0}, radians(15.0), 0.1, 5.0, range_m, sensor}};
+  return observation;
+}
+
+// Sideways along a wall at x = 1.02, looking at it; the sonar is 0.52 m from it.
+void pass_wall(NearEchoes& echoes, double range_m = 0.52) {
+  for (double y = 0.0; y < 1.0; y += 0.02) echoes.see(echo_at(range_m), {0.4, y, 0.0});
+}
+
+TEST(NearEchoes, AWallThatWasPassedIsSolidAndTheWayToItFree) {
+  const OccupancyGrid map(0.05);
+  NearEchoes echoes(map);
+  pass_wall(echoes);
+  pass_wall(echoes);
+  for (double y = 0.1; y < 0.9; y += 0.05) {
+    EXPECT_TRUE(echoes.is_solid(map.cell_at({1.01, y}))) << y;
+    EXPECT_TRUE(echoes.is_conservatively_free(map.cell_at({0.7, y}))) << y;
+  }
+}
+
+TEST(NearEchoes, LongReadingsAndSilenceDoNotWipeItOut) {
+  const OccupancyGrid map(0.05);
+  NearEchoes echoes(map);
+  pass_wall(echoes);
+  for (int i = 0; i < 20; ++i) {
+    pass_wall(echoes, 3.0);
+    pass_wall(echoes, kInfinity);
+    pass_wall(echoes, std::numeric_limits<double>::quiet_NaN());
+    pass_wall(echoes, -kInfinity);
+  }
+  EXPECT_TRUE(echoes.is_solid(map.cell_at({1.01, 0.5})));
+}
+
+TEST(NearEchoes, EchoesFromBehindDo) {
+  const OccupancyGrid map(0.05);
+  NearEchoes echoes(map);
+  pass_wall(echoes);
+  for (int i = 0; i < 4; ++i) pass_wall(echoes, 0.9);
+  EXPECT_FALSE(echoes.is_solid(map.cell_at({1.01, 0.5})));
+}
+
+TEST(NearEchoes, ARobotThatStandsStillVotesOnce) {
+  const OccupancyGrid map(0.05);
+  NearEchoes echoes(map);
+  for (int i = 0; i < 1000; ++i) echoes.see(echo_at(0.52), {0.4, 0.5, 0.0});
+  EXPECT_FALSE(echoes.is_solid(map.cell_at({1.01, 0.5})));
+}
+
+TEST(NearEchoes, OutvotesTheMapBothWays) {
+  OccupancyGrid map(0.05);
+  const Cell ghost = map.cell_at({0.7, 0.5});
+  const Cell wiped_out = map.cell_at({1.01, 0.5});
+  const Cell elsewhere = map.cell_at({2.0, 2.0});
+  map.set_log_odds(ghost, 800);
+  map.set_log_odds(wiped_out, -800);
+  map.set_log_odds(elsewhere, 800);
+  NearEchoes echoes(map);
+  pass_wall(echoes);
+  pass_wall(echoes);
+  const OccupancyGrid result = echoes.applied_to(map, map.bounds().grown(10));
+  EXPECT_EQ(result.state(ghost), CellState::free);
+  EXPECT_EQ(result.state(wiped_out), CellState::occupied);
+  EXPECT_EQ(result.log_odds(elsewhere), map.log_odds(elsewhere));
+  for (const Cell cell : {ghost, wiped_out, elsewhere})
+    EXPECT_EQ(echoes.is_occupied(map, cell), result.state(cell) == CellState::occupied);
+}
+
+TEST(NearEchoes, WhereTheRobotHasStoodIsFree) {
+  OccupancyGrid map(0.05);
+  map.set_log_odds(map.cell_at({0.5, 0.5}), 800);
+  NearEchoes echoes(map);
+  echoes.stand_at({0.5, 0.4}, 0.22);
+  EXPECT_FALSE(echoes.is_occupied(map, map.cell_at({0.5, 0.5})));
+  EXPECT_FALSE(echoes.is_conservatively_free(map.cell_at({0.5, 0.8})));
+}
+
+TEST(NearEchoes, GivesTheAskedPartOfTheMapOnly) {
+  OccupancyGrid map(0.05);
+  map.set_log_odds({0, 0}, 800);
+  map.set_log_odds({40, 40}, 800);
+  const OccupancyGrid part = NearEchoes(map).applied_to(map, {{-5, -5}, {5, 5}});
+  EXPECT_EQ(part.state({0, 0}), CellState::occupied);
+  EXPECT_EQ(part.state({40, 40}), CellState::unknown);
+}
+
+}  // namespace
+}  // namespace cairn::behaviours

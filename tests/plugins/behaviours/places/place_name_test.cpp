@@ -1,0 +1,39 @@
+#include "plugins/behaviours/places/place_name.hpp"
+
+#include <gmock/gmock.h>
+
+namespace cairn::behaviours {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(PlaceNames, APlaceOfTheMapIsItself) {
+  const FoundPlace found = find_place(place_name_of({1.0, 2.5}), LandmarkGraph());
+  ASSERT_TRUE(found.place.pose);
+  EXPECT_EQ(found.place.pose->position(), Point(1.0, 2.5));
+  EXPECT_EQ(place_name_of({1.0, 2.5}).text, "(1.00, 2.50)");
+}
+
+TEST(PlaceNames, AnEmptyMapHoldsNothing) {
+  EXPECT_EQ(find_landmarks("L3", LandmarkGraph()).unknown, "no landmark \"L3\"; the map holds no landmark");
+  EXPECT_EQ(find_landmarks("nearest square", LandmarkGraph()).unknown,
+            "no landmark of category \"square\"; the map holds no landmark");
+}
+
+TEST(PlaceNames, ALongListOfLandmarksIsCut) {
+  LandmarkGraph graph;
+  for (int i = 0; i < 13; ++i) {
+    Landmark landmark;
+    landmark.category = "square";
+    graph.add(landmark);
+  }
+  const std::string sentence = find_landmarks("nearest sqare", graph).unknown;
+  EXPECT_THAT(sentence, HasSubstr("did you mean"));
+  EXPECT_THAT(sentence, HasSubstr("L12 (square), ..."));
+  EXPECT_THAT(find_landmarks("L2", graph).place.landmarks, ElementsAre(2));
+  EXPECT_EQ(find_landmarks("nearest square", graph).place.landmarks.size(), 13U);
+}
+
+}  // namespace
+}  // namespace cairn::behaviours

@@ -1,0 +1,62 @@
+#include "plugins/simulated_robot/motors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace cairn {
+namespace {
+
+RobotModel robot_of(double acceleration_mps2) {
+  RobotModel robot;
+  robot.max_v_mps = 0.5;
+  robot.max_w_radps = 1.0;
+  robot.max_acceleration_mps2 = acceleration_mps2;
+  robot.max_turn_acceleration_radps2 = 2.0;
+  return robot;
+}
+
+TEST(Motors, ReachTheCommandedVelocityWithinTheRobotsAccelerations) {
+  Motors motors(robot_of(1.0));
+  motors.command({0.3, 0.0});
+  EXPECT_DOUBLE_EQ(motors.turn(0.2, true).v_mps, 0.1) << "the mean of the tick";
+  EXPECT_DOUBLE_EQ(motors.twist().v_mps, 0.2);
+  (void)motors.turn(0.2, true);
+  EXPECT_DOUBLE_EQ(motors.twist().v_mps, 0.3);
+  EXPECT_DOUBLE_EQ(motors.speed_ratio(), 0.6);
+}
+
+TEST(Motors, AreNoFasterThanTheRobot) {
+  Motors motors(robot_of(100.0));
+  motors.command({5.0, -9.0});
+  for (int i = 0; i < 100; ++i) (void)motors.turn(0.1, true);
+  EXPECT_DOUBLE_EQ(motors.twist().v_mps, 0.5);
+  EXPECT_DOUBLE_EQ(motors.twist().w_radps, -1.0);
+}
+
+TEST(Motors, BrakeWithoutPower) {
+  Motors motors(robot_of(1.0));
+  motors.command({0.3, 0.0});
+  for (int i = 0; i < 10; ++i) (void)motors.turn(0.1, true);
+  for (int i = 0; i < 10; ++i) (void)motors.turn(0.1, false);
+  EXPECT_NEAR(motors.twist().v_mps, 0.0, 1e-12);
+}
+
+TEST(Motors, KeepACarToItsTurningRadius) {
+  RobotModel car = robot_of(100.0);
+  car.kinematics = Kinematics::car;
+  car.min_turning_radius_m = 1.0;
+  Motors motors(car);
+  motors.command({0.4, 1.0});
+  for (int i = 0; i < 10; ++i) (void)motors.turn(0.1, true);
+  EXPECT_DOUBLE_EQ(motors.twist().w_radps, 0.4);
+}
+
+TEST(Motors, RefuseACommandThatIsNotFinite) {
+  Motors motors(robot_of(1.0));
+  EXPECT_THROW(motors.command({std::numeric_limits<double>::quiet_NaN(), 0.0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace cairn
