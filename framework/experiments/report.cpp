@@ -148,17 +148,10 @@ std::string map_table(const ExperimentConfig& config, const std::vector<Experime
   if (measures.empty())
     return "Nothing to measure: no true world and no reading held out, or no run that ended well.\n";
   const bool compared = !config.baseline.empty();
-  std::string head = "| variant |";
-  std::string rule = "|---|";
-  for (const RunMeasure& measure : measures) {
-    head += " " + measure.name + " |";
-    rule += "---:|";
-  }
-  if (compared) {
-    head += " " + measures.front().name + " less " + config.baseline + "'s |";
-    rule += "---:|";
-  }
-  std::string text = head + "\n" + rule + "\n";
+  std::vector<std::string> columns{"variant"};
+  for (const RunMeasure& measure : measures) columns.push_back(measure.name);
+  if (compared) columns.push_back(measures.front().name + " less " + config.baseline + "'s");
+  std::string text = table_head(columns);
   const auto baseline = rows_of(rows, mission, config.baseline);
   for (const ExperimentVariant& variant : config.variants) {
     const auto of_variant = rows_of(rows, mission, variant.name);
@@ -252,6 +245,16 @@ std::vector<std::string> missions_of(const std::vector<ExperimentRow>& rows) {
   for (const ExperimentRow& row : rows)
     if (std::find(names.begin(), names.end(), row.mission) == names.end()) names.push_back(row.mission);
   return names;
+}
+
+std::string table_head(const std::vector<std::string>& columns, std::size_t texts) {
+  std::string head = "|";
+  std::string rule = "|";
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    head += (columns[i].empty() ? "" : " ") + columns[i] + " |";
+    rule += i < texts ? "---|" : "---:|";
+  }
+  return head + "\n" + rule + "\n";
 }
 
 std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {

@@ -29,6 +29,9 @@ struct RunMeasure {
 // The names in the order of the rows, each once.
 [[nodiscard]] std::vector<std::string> missions_of(const std::vector<ExperimentRow>& rows);
 
+// The head of a Markdown table. The columns behind the first `texts` hold numbers.
+[[nodiscard]] std::string table_head(const std::vector<std::string>& columns, std::size_t texts = 1);
+
 // Markdown. Of missions a row a seed; of maps a row a variant with means and 95 % intervals, and the
 // difference from the baseline on the same seeds.
 [[nodiscard]] std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);

@@ -113,12 +113,10 @@ void check_size(const std::string& header, std::uintmax_t found) {
 }
 
 void check_version(std::int64_t version) {
-  const std::string known = std::to_string(kMapSchemaVersion);
   if (version > kMapSchemaVersion)
     throw StoreError("was written with schema version " + std::to_string(version) +
-                     ", this Cairn reads up to version " + known + ": use a newer Cairn");
-  if (version < 1)
-    throw StoreError("has schema version " + std::to_string(version) + ", this Cairn reads versions 1 to " + known);
+                     ", this Cairn reads up to version " + std::to_string(kMapSchemaVersion) + ": use a newer Cairn");
+  if (version < 1) throw StoreError("has schema version " + std::to_string(version) + ", the first one is 1");
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "maps/store/map_store.hpp"
+
 namespace cairn::store {
 
 inline constexpr std::size_t kHeaderBytes = 100;  // of SQLite's format
@@ -17,6 +19,18 @@ struct EmptyMapFile {
   std::string bytes;
   std::set<std::uint32_t> content_pages;  // those that hold rows when there are any, by number from 1
 };
+
+// Calls work() and puts the file in front of what is wrong.
+template <typename Work>
+auto in_file(const std::filesystem::path& file, Work work, const char* failure = "cannot be read") {
+  try {
+    return work();
+  } catch (const StoreError& error) {
+    throw StoreError(file.string() + ": " + error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw StoreError(file.string() + ": " + failure + ": " + error.code().message());
+  }
+}
 
 // Gives the file this content: whoever opens it at any moment, also after a kill or a power cut,
 // finds the whole old or the whole new content. Writes beside the file, then renames over it.

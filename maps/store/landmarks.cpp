@@ -27,11 +27,10 @@ Landmark landmark_in(Statement& row, Histories& histories) {
   landmark.level = static_cast<int>(row.integer_within(1, -kMaxLevel, kMaxLevel));
   landmark.name = row.text(2);
   landmark.category = row.text(3);
-  landmark.T_map_landmark = {row.real(4), row.real(5), row.real(6)};
+  landmark.T_map_landmark = row.pose(4);
   landmark.degree = row.real(7);
   landmark.sightings = static_cast<int>(row.integer_within(8, 0, kMaxInt));
-  if (row.optional_real(9) || row.optional_real(10) || row.optional_real(11))
-    landmark.access = Pose2{row.real(9), row.real(10), row.real(11)};
+  landmark.access = row.optional_pose(9);
   return landmark;
 }
 
@@ -39,7 +38,7 @@ Landmark landmark_in(Statement& row, Histories& histories) {
 void read_landmarks(Reading& reading, const std::string& table, LandmarkGraph& graph, Histories& histories) {
   reading.rows(table, "SELECT * FROM " + table + " ORDER BY id", [&](Statement& row) {
     Landmark landmark = landmark_in(row, histories);
-    if (reading.version >= 3) landmark.annotations = annotations_in(row, 12);
+    landmark.annotations = annotations_in(row, 12);
     graph.add(std::move(landmark));
   });
 }
@@ -47,7 +46,7 @@ void read_landmarks(Reading& reading, const std::string& table, LandmarkGraph& g
 void read_retired_landmarks(Reading& reading, LandmarkGraph& graph, Histories& histories) {
   reading.rows("retired_landmarks", "SELECT * FROM retired_landmarks ORDER BY id", [&](Statement& row) {
     Landmark landmark = landmark_in(row, histories);
-    if (reading.version >= 3) landmark.annotations = annotations_in(row, 13);
+    landmark.annotations = annotations_in(row, 13);
     graph.add_retired({std::move(landmark), row.text(12)});
   });
 }
@@ -59,7 +58,6 @@ Histories read_histories(Reading& reading, const std::string& prefix) {
   reading.rows(templates, "SELECT * FROM " + templates + " ORDER BY landmark, rank", [&](Statement& row) {
     histories[row.integer(0)].templates.push_back({row.text(2), row.real(3), row.real(4)});
   });
-  if (reading.version < 2) return histories;
   const std::string evidence = prefix + "_evidence";
   reading.rows(evidence, "SELECT * FROM " + evidence + " ORDER BY landmark, category", [&](Statement& row) {
     const int matchings = static_cast<int>(row.integer_within(2, 0, kMaxInt));
@@ -79,9 +77,8 @@ MissionProgress progress_in(const Statement& row) {
   progress.time_s = row.real(1);
   progress.step = static_cast<int>(row.integer_within(2, 0, kMaxInt));
   progress.step_name = row.text(3);
-  progress.T_map_robot = {row.real(4), row.real(5), row.real(6)};
-  if (row.optional_real(7) || row.optional_real(8) || row.optional_real(9))
-    progress.true_T_map_robot = Pose2{row.real(7), row.real(8), row.real(9)};
+  progress.T_map_robot = row.pose(4);
+  progress.true_T_map_robot = row.optional_pose(7);
   progress.distance_m = row.real(10);
   progress.readings = row.integer_within(11, 0, kMaxId);
   progress.matchings = row.integer_within(12, 0, kMaxId);
@@ -94,7 +91,7 @@ MissionProgress progress_in(const Statement& row) {
 void read_all_landmarks(Reading& reading, LandmarkGraph& graph) {
   Histories histories = read_histories(reading, "landmark");
   read_landmarks(reading, "landmarks", graph, histories);
-  if (reading.version >= 2) read_retired_landmarks(reading, graph, histories);
+  read_retired_landmarks(reading, graph, histories);
   check_all_taken(reading, "landmark", histories);
 }
 

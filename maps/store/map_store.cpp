@@ -19,7 +19,7 @@ Database database_of(const SavedMap& map) {
   store::write_content(database, map);
   store::write_checksums(database);
   database.execute("COMMIT");
-  store::Reading check(database, kMapSchemaVersion);
+  store::Reading check(database);
   static_cast<void>(store::read_content(check));
   return database;
 }
@@ -48,47 +48,39 @@ int version_of(Database& database) {
 
 void save_map(const std::filesystem::path& file, const SavedMap& map) {
   const std::string bytes = bytes_of(map);
-  try {
+  const auto save = [&] {
     if (!store::may_be_replaced(file)) throw StoreError("is there already and is no saved map: it is left as it is");
     store::replace_file(file, bytes);
-  } catch (const StoreError& error) {
-    throw StoreError(file.string() + ": " + error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw StoreError(file.string() + ": cannot be written: " + error.code().message());
-  }
+  };
+  store::in_file(file, save, "cannot be written");
 }
 
 namespace {
 
-// Puts the file in front of what is wrong.
-template <typename Read>
-auto in_file(const std::filesystem::path& file, Read read) {
-  try {
-    return read();
-  } catch (const StoreError& error) {
-    throw StoreError(file.string() + ": " + error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw StoreError(file.string() + ": cannot be read: " + error.code().message());
-  }
-}
-
+// One state of the file for all that is read of it.
 Database opened(const std::filesystem::path& file) {
   store::check_header(file);
   Database database = Database::read_only(file);
-  database.execute("BEGIN");  // one state of the file for all that follows
+  database.execute("BEGIN");
   return database;
+}
+
+// With the tables of this version.
+Database checked(Database database) {
+  const int version = version_of(database);
+  store::check_schema(database, version);
+  store::check_checksums(database, version);
+  return store::migrated(std::move(database), version);
 }
 
 }  // namespace
 
 SavedMap load_map(const std::filesystem::path& file) {
-  return in_file(file, [&] {
+  return store::in_file(file, [&] {
     Database database = opened(file);
     check_pages(database);
-    const int version = version_of(database);
-    store::check_schema(database, version);
-    store::check_checksums(database, version);
-    store::Reading reading(database, version);
+    database = checked(std::move(database));
+    store::Reading reading(database);
     return store::read_content(reading);
   });
 }
@@ -96,39 +88,35 @@ SavedMap load_map(const std::filesystem::path& file) {
 struct MapFile::Opened {
   std::filesystem::path file;
   Database database;
-  int version = 0;
+
+  // Calls read(reading).
+  template <typename Read>
+  auto with_reading(Read read) {
+    return store::in_file(file, [&] {
+      store::Reading reading(database);
+      return read(reading);
+    });
+  }
 };
 
-MapFile::MapFile(const std::filesystem::path& file) {
-  opened_ = in_file(file, [&] {
-    auto opened_file = std::make_unique<Opened>(Opened{file, opened(file), 0});
-    opened_file->version = version_of(opened_file->database);
-    store::check_schema(opened_file->database, opened_file->version);
-    store::check_checksums(opened_file->database, opened_file->version);
-    return opened_file;
-  });
-}
+MapFile::MapFile(const std::filesystem::path& file)
+    : opened_(store::in_file(file, [&] {
+        return std::make_unique<Opened>(Opened{file, checked(opened(file))});
+      })) {}
 MapFile::MapFile(MapFile&&) noexcept = default;
 MapFile& MapFile::operator=(MapFile&&) noexcept = default;
 MapFile::~MapFile() = default;
 
 OccupancyGrid MapFile::lattice() const {
-  return in_file(opened_->file, [&] {
-    store::Reading reading(opened_->database, opened_->version);
-    return store::read_lattice(reading);
-  });
+  return opened_->with_reading(store::read_lattice);
 }
 
 SavedMap MapFile::without_cells() const {
-  return in_file(opened_->file, [&] {
-    store::Reading reading(opened_->database, opened_->version);
-    return store::read_content_without_tiles(reading);
-  });
+  return opened_->with_reading(store::read_content_without_tiles);
 }
 
 OccupancyGrid MapFile::grid_within(const CellBox& box) const {
-  return in_file(opened_->file, [&] {
-    store::Reading reading(opened_->database, opened_->version);
+  return opened_->with_reading([&](store::Reading& reading) {
     OccupancyGrid grid = store::read_lattice(reading);
     const CellBox within = intersected(box, grid.bounds());
     store::read_tiles_within(reading, within, grid);

@@ -21,7 +21,7 @@
 
 namespace cairn {
 
-inline constexpr int kMapSchemaVersion = 5;
+inline constexpr int kMapSchemaVersion = 1;
 
 class StoreError : public std::runtime_error {
  public:

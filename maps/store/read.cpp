@@ -87,21 +87,18 @@ void read_tiles(Reading& reading, const std::string& where, const CellBox& box, 
   const std::string select = "SELECT level, tx, ty, log_odds, crc32 FROM tiles" + where + " ORDER BY level, ty, tx";
   reading.rows("tiles", select, [&](Statement& row) {
     require_level_zero(row, 0);
-    const Cell tile{static_cast<int>(row.integer_within(1, -kMaxCellIndex / OccupancyGrid::kTileSide,
-                                                        kMaxCellIndex / OccupancyGrid::kTileSide)),
-                    static_cast<int>(row.integer_within(2, -kMaxCellIndex / OccupancyGrid::kTileSide,
-                                                        kMaxCellIndex / OccupancyGrid::kTileSide))};
+    constexpr std::int64_t kMaxTile = kMaxCellIndex / OccupancyGrid::kTileSide;
+    const Cell tile{static_cast<int>(row.integer_within(1, -kMaxTile, kMaxTile)),
+                    static_cast<int>(row.integer_within(2, -kMaxTile, kMaxTile))};
     const std::string what = "tile (" + std::to_string(tile.x) + ", " + std::to_string(tile.y) + ")";
     reading.at_tile(tile);
     take_tile(grid, tile, unpacked(row, 3, kTileBytes, what), box, what);
   });
 }
 
-std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, int version, const std::string& what) {
+std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, const std::string& what) {
   const auto poses = static_cast<std::size_t>(row.integer_within(poses_column, 0, kMaxPoses));
   const std::string packed = row.blob(poses_column + 1);
-  if (poses == 0 && packed.empty() && row.integer(poses_column + 2) == 0) return {};
-  if (version < 5) return trajectory_of_doubles(unpacked(row, poses_column + 1, poses * kPoseBytes, what));
   try {
     if (crc32_of(packed) != row.integer(poses_column + 2)) throw StoreError("its bytes do not match its checksum");
     return unpacked_trajectory(packed, poses);
@@ -110,7 +107,7 @@ std::vector<Pose2> read_trajectory(const Statement& row, int poses_column, int v
   }
 }
 
-Route route_in(const Statement& row, int version) {
+Route route_in(const Statement& row) {
   Route route;
   route.id = row.integer_within(0, 1, kMaxId);
   route.level = static_cast<int>(row.integer_within(1, -kMaxLevel, kMaxLevel));
@@ -119,17 +116,14 @@ Route route_in(const Statement& row, int version) {
   route.cost_m = row.real(4);
   route.driven = row.integer_within(5, 0, 1) != 0;
   route.closed = row.integer_within(6, 0, 1) != 0;
-  route.trajectory = read_trajectory(row, 7, version, "the trajectory of " + numbered("route", route.id));
-  if (version >= 3) {
-    route.speed_limit_mps = row.optional_real(10);
-    route.annotations = annotations_in(row, 11);
-  }
+  route.trajectory = read_trajectory(row, 7, "the trajectory of " + numbered("route", route.id));
+  route.speed_limit_mps = row.optional_real(10);
+  route.annotations = annotations_in(row, 11);
   return route;
 }
 
 void read_routes(Reading& reading, LandmarkGraph& graph) {
-  reading.rows("routes", "SELECT * FROM routes ORDER BY id",
-               [&](Statement& row) { graph.add_route(route_in(row, reading.version)); });
+  reading.rows("routes", "SELECT * FROM routes ORDER BY id", [&](Statement& row) { graph.add_route(route_in(row)); });
 }
 
 void read_next_ids(Reading& reading, SavedMap& map) {
@@ -138,10 +132,8 @@ void read_next_ids(Reading& reading, SavedMap& map) {
     if (!row.step() || row.text(0) != kind) throw StoreError("has no row for " + kind);
     return row.integer_within(1, 1, kMaxId + 1);
   };
-  if (reading.version >= 4)
-    if (const LandmarkId candidate = next("candidate"); map.progress)
-      map.progress->candidates.reserve_ids(candidate, 1);
-  if (reading.version >= 3) map.clusters.next_id = next("cluster");
+  if (const LandmarkId candidate = next("candidate"); map.progress) map.progress->candidates.reserve_ids(candidate, 1);
+  map.clusters.next_id = next("cluster");
   const LandmarkId next_landmark = next("landmark");
   map.graph.reserve_ids(next_landmark, next("route"));
 }
@@ -224,15 +216,13 @@ SavedMap read_content_without_tiles(Reading& reading) {
   map.grid = read_lattice(reading);
   read_all_landmarks(reading, map.graph);
   read_routes(reading, map.graph);
-  if (reading.version >= 4) read_progress(reading, map);
+  read_progress(reading, map);
   reading.in_table("next_ids", [&] { read_next_ids(reading, map); });
-  if (reading.version >= 3) reading.in_table("clusters", [&] { read_clusters(reading.database, map); });
-  if (reading.version >= 3)
-    reading.in_table("landmark_clusters", [&] { read_landmark_clusters(reading.database, map); });
+  reading.in_table("clusters", [&] { read_clusters(reading.database, map); });
+  reading.in_table("landmark_clusters", [&] { read_landmark_clusters(reading.database, map); });
   read_shapes(reading, map.shapes);
-  reading.rows("driven_path", "SELECT x_m, y_m, theta_rad FROM driven_path ORDER BY number", [&](Statement& row) {
-    map.driven_path.push_back({row.real(0), row.real(1), row.real(2)});
-  });
+  reading.rows("driven_path", "SELECT x_m, y_m, theta_rad FROM driven_path ORDER BY number",
+               [&](Statement& row) { map.driven_path.push_back(row.pose(0)); });
   return map;
 }
 

@@ -31,8 +31,7 @@ struct TileMetres {
 class Reading {
  public:
   // losses: null to read strictly.
-  Reading(Database& from, int schema_version, std::vector<StoreLoss>* losses = nullptr)
-      : database(from), version(schema_version), losses_(losses) {}
+  explicit Reading(Database& from, std::vector<StoreLoss>* losses = nullptr) : database(from), losses_(losses) {}
 
   // Runs a reader and puts the table in front of whatever it, the graph or a contour objects to.
   template <typename Read>
@@ -69,7 +68,6 @@ class Reading {
   }
 
   Database& database;
-  const int version;
   TileMetres tile_m;  // side 0: the grid's row is lost
 
  private:

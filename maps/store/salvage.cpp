@@ -30,8 +30,7 @@ std::string descending(std::string keys) {
 // those behind it: so each table is read from both ends, and what lies between is asked for key by key.
 class Copying {
  public:
-  Copying(Database& from, Database& to, int version, std::vector<StoreLoss>& losses)
-      : from_(from), to_(to), version_(version), losses_(losses) {}
+  Copying(Database& from, Database& to, std::vector<StoreLoss>& losses) : from_(from), to_(to), losses_(losses) {}
 
   void copy(const Table& table) {
     table_ = &table;
@@ -49,25 +48,21 @@ class Copying {
   [[nodiscard]] const std::string& unproven() const { return unproven_; }
 
  private:
-  [[nodiscard]] std::string select(const std::string& behind) const {
-    return std::string("SELECT * FROM ") + table_->name + behind;
-  }
-  [[nodiscard]] std::string key() const { return table_->order; }
+  [[nodiscard]] std::string select(const std::string& behind) const { return "SELECT * FROM " + table_->name + behind; }
   void lose(const std::string& what, std::optional<MetreBox> box = {}) { losses_.push_back({table_->name, what, box}); }
 
   void copy_readable() {
-    const std::string forwards = copy_in_order(key());
+    const std::string forwards = copy_in_order(table_->key);
     if (forwards.empty()) return;
     unreadable_ = true;
-    static_cast<void>(copy_in_order(descending(key())));
+    static_cast<void>(copy_in_order(descending(table_->key)));
     // Past the index of the keys, which may be all that is damaged.
-    if (has_rowid(*table_, version_) && copy_in_order("rowid").empty())
+    if (table_->has_rowid() && copy_in_order("rowid").empty())
       return lose("the index of its keys was damaged, its rows are read without");
-    if (has_rowid(*table_, version_)) static_cast<void>(copy_in_order("rowid DESC"));
-    const std::string name = table_->name;
-    if (name == "tiles")
+    if (table_->has_rowid()) static_cast<void>(copy_in_order("rowid DESC"));
+    if (table_->name == "tiles")
       probe_tiles();
-    else if (std::string_view(table_->columns).starts_with(key() + " INTEGER PRIMARY KEY"))
+    else if (table_->definition.find("(" + table_->key + " INTEGER PRIMARY KEY") != std::string::npos)
       probe_numbers();
     else
       lose("a part of its rows cannot be read: " + forwards);
@@ -86,9 +81,7 @@ class Copying {
   void take(const Statement& row) {
     std::string places = "?";
     for (int i = 1; i < row.columns(); ++i) places += ", ?";
-    Statement(to_, std::string("INSERT OR IGNORE INTO ") + table_->name + " VALUES (" + places + ")")
-        .bind_row(row)
-        .run();
+    Statement(to_, "INSERT OR IGNORE INTO " + table_->name + " VALUES (" + places + ")").bind_row(row).run();
   }
 
   // Whether the row with these keys can be read, if there is one.
@@ -116,7 +109,7 @@ class Copying {
       first_lost.reset();
     };
     for (std::int64_t number = 0; number <= most; ++number) {
-      if (probe(" WHERE " + key() + " = ?", {number}))
+      if (probe(" WHERE " + table_->key + " = ?", {number}))
         close(number - 1);
       else if (!first_lost)
         first_lost = number;
@@ -126,7 +119,7 @@ class Copying {
 
   std::int64_t max_number() {
     std::int64_t most = 0;
-    Statement copied(to_, "SELECT ifnull(max(" + key() + "), 0) FROM " + table_->name);
+    Statement copied(to_, "SELECT ifnull(max(" + table_->key + "), 0) FROM " + table_->name);
     if (copied.step()) most = copied.integer(0);
     // The last ones may be lost, and then their numbers are not known: about as many as there were.
     return std::min(std::max(most, 2 * rows_saved()), kMaxProbes);
@@ -189,13 +182,11 @@ class Copying {
   }
   // Of nothing there is nothing to prove.
   void note_unproven() {
-    if (checksum_of(to_, *table_).row_count > 0)
-      unproven_ += (unproven_.empty() ? "" : ", ") + std::string(table_->name);
+    if (checksum_of(to_, *table_).row_count > 0) unproven_ += (unproven_.empty() ? "" : ", ") + table_->name;
   }
 
   Database& from_;
   Database& to_;
-  const int version_;
   std::vector<StoreLoss>& losses_;
   const Table* table_ = nullptr;
   bool unreadable_ = false;
@@ -223,12 +214,13 @@ SalvagedMap salvaged_from(Database& damaged, int version) {
   SalvagedMap salvaged;
   salvaged.version = version;
   Database sound = empty_map(version);
-  Copying copying(damaged, sound, version, salvaged.losses);
-  for (const Table& table : tables())
-    if (table.since <= version) copying.copy(table);
+  Copying copying(damaged, sound, salvaged.losses);
+  for (const Table& table : tables_of(sound)) copying.copy(table);
+  sound.execute("COMMIT");
+  sound = migrated(std::move(sound), version);
   const bool missed_clusters = std::ranges::any_of(salvaged.losses, concerns_clusters);
   std::vector<StoreLoss> wrong;
-  Reading reading(sound, version, &wrong);
+  Reading reading(sound, &wrong);
   salvaged.map = read_content(reading);
   salvaged.losses.insert(salvaged.losses.end(), wrong.begin(), wrong.end());
   if (!copying.unproven().empty()) salvaged.map.properties[kUnprovenTables] = copying.unproven();
@@ -273,16 +265,12 @@ std::optional<SalvagedMap> salvaged_past_header(const std::string& bytes) {
 }  // namespace store
 
 int schema_version_of(const std::filesystem::path& file) {
-  try {
-    return store::check_kind(file);
-  } catch (const StoreError& error) {
-    throw StoreError(file.string() + ": " + error.what());
-  }
+  return store::in_file(file, [&] { return store::check_kind(file); });
 }
 
 SalvagedMap salvage_map(const std::filesystem::path& file) {
   using namespace store;
-  try {
+  return in_file(file, [&] {
     const std::string bytes = std::filesystem::is_regular_file(file) ? bytes_of(file) : std::string();
     if (!names_its_program(bytes))
       if (auto salvaged = salvaged_past_header(bytes)) return *std::move(salvaged);
@@ -292,11 +280,7 @@ SalvagedMap salvage_map(const std::filesystem::path& file) {
     if (!salvaged.losses.empty() && holds_nothing(salvaged.map))
       throw StoreError("nothing of it can be read: " + salvaged.losses.front().what);
     return salvaged;
-  } catch (const StoreError& error) {
-    throw StoreError(file.string() + ": " + error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw StoreError(file.string() + ": cannot be read: " + error.code().message());
-  }
+  });
 }
 
 }  // namespace cairn

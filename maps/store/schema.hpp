@@ -1,10 +1,9 @@
-// The saved map's tables, and a checksum over each. Version 2 added evidence and retired landmarks, version 3
-// clusters, annotations and speed limits, version 4 how far the mission has come, version 5 smaller
-// tiles and trajectories.
+// The saved map's tables, a checksum over each, and how those of an older schema version become today's.
 #pragma once
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "maps/store/file.hpp"
 #include "maps/store/map_store.hpp"
@@ -14,20 +13,21 @@ namespace cairn::store {
 
 inline constexpr std::int64_t kMapApplicationId = 0x43524E31;  // "CRN1"
 
+// SQL by which the tables of one version become those of the next: the first step makes version 2.
+using Migrations = std::span<const char* const>;
+[[nodiscard]] Migrations migrations();  // all there are
+// A map of an older version after all steps that its version has not had, as a copy in memory; else the map itself.
+[[nodiscard]] Database migrated(Database map, int version, Migrations steps = migrations());
+
 struct Table {
-  const char* name;
-  const char* order;    // its key: rows are read in this order
-  const char* columns;  // as CREATE TABLE takes them
-  const char* options;  // behind the columns
-  int since = 1;        // schema version
-  // Columns that a later version put behind the others, and which: none before that version.
-  const char* added = "";
-  int added_since = 1;
-  int options_until = kMapSchemaVersion;  // a later version has none
+  std::string name;
+  std::string key;  // rows are read in this order
+  std::string definition;
+  [[nodiscard]] bool has_rowid() const { return definition.ends_with(')'); }  // not: WITHOUT ROWID
 };
 
-[[nodiscard]] std::span<const Table> tables();
-[[nodiscard]] bool has_rowid(const Table& table, int version);
+// Those with content.
+[[nodiscard]] std::vector<Table> tables_of(Database& database);
 // A map of that version without content, and a transaction begun in it.
 [[nodiscard]] Database empty_map(int version);
 // The tables are made before all content, so every map of a version has their definitions and roots in these pages.

@@ -60,13 +60,13 @@ Database Database::of_bytes(const std::string& bytes) {
   auto* copy = static_cast<unsigned char*>(sqlite3_malloc64(bytes.size() + 1));
   if (copy == nullptr) throw StoreError("SQLite is out of memory");
   std::ranges::copy(bytes, copy);
-  constexpr unsigned kFlags = SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_READONLY;
+  constexpr unsigned kFlags = SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_RESIZEABLE;
   if (sqlite3_deserialize(database.handle_.get(), "main", copy, size, size, kFlags) != SQLITE_OK) database.fail();
   return database;
 }
 
-void Database::execute(const char* sql) {
-  if (sqlite3_exec(handle_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+void Database::execute(const std::string& sql) {
+  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
 }
 
 std::string Database::serialized() const {
@@ -92,7 +92,7 @@ Statement::Statement(Database& database, const std::string& sql) : database_(&da
   if (code != SQLITE_OK) database.fail();
 }
 
-Statement& Statement::bind(std::int64_t value) {
+Statement& Statement::bind_integer(std::int64_t value) {
   if (sqlite3_bind_int64(handle_.get(), ++bound_, value) != SQLITE_OK) database_->fail();
   return *this;
 }
@@ -108,6 +108,16 @@ Statement& Statement::bind(const std::optional<double>& value) {
   if (value && !std::isfinite(*value)) throw StoreError("an optional number is not finite");
   if (value) return bind(*value);
   if (sqlite3_bind_null(handle_.get(), ++bound_) != SQLITE_OK) database_->fail();
+  return *this;
+}
+
+Statement& Statement::bind(const Pose2& pose) {
+  return bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad);
+}
+
+Statement& Statement::bind(const std::optional<Pose2>& pose) {
+  for (double Pose2::*part : {&Pose2::x_m, &Pose2::y_m, &Pose2::theta_rad})
+    bind(pose ? std::optional((*pose).*part) : std::nullopt);
   return *this;
 }
 
@@ -176,6 +186,16 @@ double Statement::real(int column) const {
 std::optional<double> Statement::optional_real(int column) const {
   if (sqlite3_column_type(handle_.get(), column) == SQLITE_NULL) return std::nullopt;
   return real(column);
+}
+
+Pose2 Statement::pose(int first_column) const {
+  return {real(first_column), real(first_column + 1), real(first_column + 2)};
+}
+
+std::optional<Pose2> Statement::optional_pose(int first_column) const {
+  for (int column = first_column; column < first_column + 3; ++column)
+    if (optional_real(column)) return pose(first_column);
+  return std::nullopt;
 }
 
 std::string Statement::text(int column) const {

@@ -2,6 +2,7 @@
 // SQLite said; callers add the file and the table.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -19,10 +20,10 @@ class Database {
  public:
   [[nodiscard]] static Database in_memory();
   [[nodiscard]] static Database read_only(const std::filesystem::path& file);
-  // In memory, with the bytes that a file would have; not to be written to.
+  // In memory, with the bytes that a file would have.
   [[nodiscard]] static Database of_bytes(const std::string& bytes);
 
-  void execute(const char* sql);
+  void execute(const std::string& sql);
   // The bytes that the database would have as a file.
   [[nodiscard]] std::string serialized() const;
 
@@ -42,9 +43,11 @@ class Statement {
  public:
   Statement(Database& database, const std::string& sql);
 
-  Statement& bind(std::int64_t value);
+  Statement& bind(std::integral auto value) { return bind_integer(static_cast<std::int64_t>(value)); }
   Statement& bind(double value);  // what is not finite becomes NULL, which no table accepts where it matters
   Statement& bind(const std::optional<double>& value);
+  Statement& bind(const Pose2& pose);  // three columns
+  Statement& bind(const std::optional<Pose2>& pose);
   Statement& bind_text(const std::string& value);
   Statement& bind_blob(const std::string& value);
   Statement& bind_row(const Statement& row);  // all columns of its current row
@@ -56,6 +59,8 @@ class Statement {
   [[nodiscard]] std::int64_t integer_within(int column, std::int64_t least, std::int64_t greatest) const;
   [[nodiscard]] double real(int column) const;  // always finite
   [[nodiscard]] std::optional<double> optional_real(int column) const;
+  [[nodiscard]] Pose2 pose(int first_column) const;
+  [[nodiscard]] std::optional<Pose2> optional_pose(int first_column) const;
   [[nodiscard]] std::string text(int column) const;
   [[nodiscard]] std::string blob(int column) const;
   [[nodiscard]] int columns() const;
@@ -67,6 +72,7 @@ class Statement {
   struct Finalize {
     void operator()(sqlite3_stmt* handle) const;
   };
+  Statement& bind_integer(std::int64_t value);
   void require_type(int column, int type, const char* name) const;
   [[noreturn]] void fail_at(int column, const std::string& what) const;
 

@@ -8,8 +8,8 @@ namespace cairn::store {
 class Reading;
 
 void write_content(Database& database, const SavedMap& map);
-// What the version does not know stays empty. Checks every value it takes over; throws StoreError with the table and
-// what is wrong, unless the reading notes it and goes on.
+// Checks every value it takes over; throws StoreError with the table and what is wrong, unless the reading notes it and
+// goes on.
 [[nodiscard]] SavedMap read_content(Reading& reading);
 // The same without the tiles; and the cells of a box alone, into a grid that knows its lattice and bounds.
 [[nodiscard]] SavedMap read_content_without_tiles(Reading& reading);

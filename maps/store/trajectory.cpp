@@ -11,6 +11,7 @@
 namespace cairn::store {
 namespace {
 
+constexpr std::size_t kPoseBytes = 3 * sizeof(double);  // of a pose as doubles
 constexpr char kDoubles = 0;
 constexpr char kSteps = 1;
 constexpr double kMaxSteps = 9e15;  // below 2^53, so that each number of steps is a double of its own
@@ -83,6 +84,14 @@ std::string doubles_of(const std::vector<Pose2>& trajectory) {
   return raw;
 }
 
+std::vector<Pose2> trajectory_of_doubles(const std::string& raw) {
+  std::vector<Pose2> trajectory(raw.size() / kPoseBytes);
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    for (std::size_t part = 0; part < kParts.size(); ++part)
+      trajectory[i].*kParts[part] = little_endian_at<double>(raw, i * kPoseBytes + part * sizeof(double));
+  return trajectory;
+}
+
 }  // namespace
 
 std::string packed_trajectory(const std::vector<Pose2>& trajectory) {
@@ -96,14 +105,6 @@ std::vector<Pose2> unpacked_trajectory(const std::string& packed, std::size_t po
   if (packed.starts_with(kSteps)) return unpacked_steps(packed, poses);
   if (!packed.starts_with(kDoubles)) throw StoreError("its first byte is neither 0 nor 1");
   return trajectory_of_doubles(decompressed(packed.substr(1), poses * kPoseBytes));
-}
-
-std::vector<Pose2> trajectory_of_doubles(const std::string& raw) {
-  std::vector<Pose2> trajectory(raw.size() / kPoseBytes);
-  for (std::size_t i = 0; i < trajectory.size(); ++i)
-    for (std::size_t part = 0; part < kParts.size(); ++part)
-      trajectory[i].*kParts[part] = little_endian_at<double>(raw, i * kPoseBytes + part * sizeof(double));
-  return trajectory;
 }
 
 }  // namespace cairn::store

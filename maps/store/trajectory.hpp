@@ -8,14 +8,10 @@
 
 namespace cairn::store {
 
-inline constexpr std::size_t kPoseBytes = 3 * sizeof(double);  // of a pose as doubles
-
 // A trajectory of whole steps (see in_whole_steps) takes its differences, any other its little-endian doubles
 // x_m, y_m, theta_rad, compressed; nothing for none. The first byte says which.
 [[nodiscard]] std::string packed_trajectory(const std::vector<Pose2>& trajectory);
 // The same poses to the bit. Throws StoreError when the bytes do not hold exactly that many.
 [[nodiscard]] std::vector<Pose2> unpacked_trajectory(const std::string& packed, std::size_t poses);
-// The doubles, as schema versions before 5 have them without a first byte.
-[[nodiscard]] std::vector<Pose2> trajectory_of_doubles(const std::string& raw);
 
 }  // namespace cairn::store

@@ -20,10 +20,10 @@ void write_grid(Database& database, const OccupancyGrid& grid) {
       .bind(grid.origin_m().x())
       .bind(grid.origin_m().y())
       .bind(grid.clamp_nat())
-      .bind(std::int64_t{box.min.x})
-      .bind(std::int64_t{box.min.y})
-      .bind(std::int64_t{box.max.x})
-      .bind(std::int64_t{box.max.y})
+      .bind(box.min.x)
+      .bind(box.min.y)
+      .bind(box.max.x)
+      .bind(box.max.y)
       .run();
 }
 
@@ -40,22 +40,16 @@ void write_tiles(Database& database, const OccupancyGrid& grid) {
       if (std::ranges::all_of(cells, [](LogOdds value) { return value == 0; })) continue;
       std::string raw;
       for (const LogOdds value : cells) append_little_endian(raw, value);
-      insert.bind(std::int64_t{ty}).bind(std::int64_t{tx}).bind_blob(compressed(raw));
-      insert.bind(std::int64_t{crc32_of(raw)}).run();
+      insert.bind(ty).bind(tx).bind_blob(compressed(raw));
+      insert.bind(crc32_of(raw)).run();
     }
   }
 }
 
 // The columns that landmarks and retired ones begin with.
 void bind_landmark(Statement& insert, const Landmark& landmark) {
-  const Pose2& pose = landmark.T_map_landmark;
-  insert.bind(landmark.id).bind(std::int64_t{landmark.level}).bind_text(landmark.name).bind_text(landmark.category);
-  insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).bind(landmark.degree);
-  insert.bind(std::int64_t{landmark.sightings});
-  const auto access = [&](double Pose2::*part) {
-    return landmark.access ? std::optional((*landmark.access).*part) : std::nullopt;
-  };
-  insert.bind(access(&Pose2::x_m)).bind(access(&Pose2::y_m)).bind(access(&Pose2::theta_rad));
+  insert.bind(landmark.id).bind(landmark.level).bind_text(landmark.name).bind_text(landmark.category);
+  insert.bind(landmark.T_map_landmark).bind(landmark.degree).bind(landmark.sightings).bind(landmark.access);
 }
 
 // prefix: of the tables, "landmark" or "candidate".
@@ -67,7 +61,7 @@ void write_history(Database& database, const std::string& prefix, const Landmark
     insert_template.bind(landmark.id).bind(++rank).bind_text(category).bind(orientation_rad).bind(degree).run();
   Statement insert(database, "INSERT INTO " + prefix + "_evidence VALUES (?, ?, ?, ?, ?, ?)");
   for (const auto& [category, matchings, mean_degree, best_degree, last_degree] : landmark.evidence) {
-    insert.bind(landmark.id).bind_text(category).bind(std::int64_t{matchings});
+    insert.bind(landmark.id).bind_text(category).bind(matchings);
     insert.bind(mean_degree).bind(best_degree).bind(last_degree).run();
   }
 }
@@ -93,11 +87,9 @@ void write_retired_landmarks(Database& database, const LandmarkGraph& graph) {
 void write_routes(Database& database, const LandmarkGraph& graph) {
   Statement insert(database, "INSERT INTO routes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, route] : graph.routes()) {
-    insert.bind(id).bind(std::int64_t{route.level}).bind(route.from).bind(route.to).bind(route.cost_m);
-    insert.bind(std::int64_t{route.driven}).bind(std::int64_t{route.closed});
-    insert.bind(static_cast<std::int64_t>(route.trajectory.size()));
     const std::string packed = packed_trajectory(route.trajectory);
-    insert.bind_blob(packed).bind(std::int64_t{crc32_of(packed)});
+    insert.bind(id).bind(route.level).bind(route.from).bind(route.to).bind(route.cost_m);
+    insert.bind(route.driven).bind(route.closed).bind(route.trajectory.size()).bind_blob(packed).bind(crc32_of(packed));
     insert.bind(route.speed_limit_mps).bind_text(route.annotations).run();
   }
 }
@@ -105,7 +97,7 @@ void write_routes(Database& database, const LandmarkGraph& graph) {
 void write_clusters(Database& database, const ClusterTree& tree) {
   Statement insert(database, "INSERT INTO clusters VALUES (?, ?, ?, ?, ?)");
   for (const auto& [id, cluster] : tree.clusters) {
-    insert.bind(id).bind(std::int64_t{cluster.level}).bind(cluster.parent).bind(cluster.anchor);
+    insert.bind(id).bind(cluster.level).bind(cluster.parent).bind(cluster.anchor);
     insert.bind_text(cluster.name).run();
   }
   Statement insert_member(database, "INSERT INTO landmark_clusters VALUES (?, ?)");
@@ -148,16 +140,13 @@ void write_shapes(Database& database, const std::vector<LandmarkShape>& shapes) 
 void write_driven_path(Database& database, const std::vector<Pose2>& path) {
   Statement insert(database, "INSERT INTO driven_path VALUES (?, ?, ?, ?)");
   std::int64_t number = 0;
-  for (const Pose2& pose : path) insert.bind(++number).bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad).run();
+  for (const Pose2& pose : path) insert.bind(++number).bind(pose).run();
 }
 
 void write_progress(Database& database, const MissionProgress& progress) {
   Statement insert(database, "INSERT INTO progress VALUES (0, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  const Pose2& pose = progress.T_map_robot;
-  insert.bind(progress.time_s).bind(std::int64_t{progress.step}).bind_text(progress.step_name);
-  insert.bind(pose.x_m).bind(pose.y_m).bind(pose.theta_rad);
-  for (double Pose2::*part : {&Pose2::x_m, &Pose2::y_m, &Pose2::theta_rad})
-    insert.bind(progress.true_T_map_robot ? std::optional((*progress.true_T_map_robot).*part) : std::nullopt);
+  insert.bind(progress.time_s).bind(progress.step).bind_text(progress.step_name);
+  insert.bind(progress.T_map_robot).bind(progress.true_T_map_robot);
   insert.bind(progress.distance_m).bind(progress.readings).bind(progress.matchings).bind(progress.collisions).run();
   write_landmarks(database, "candidate", progress.candidates);
 }

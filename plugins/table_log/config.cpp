@@ -18,7 +18,8 @@ void TableLogConfig::describe(Fields<TableLogConfig>& fields) {
   fields.choice("join", &TableLogConfig::join, {{"equal", PoseJoin::equal}, {"not_later", PoseJoin::not_later}},
                 "which pose belongs to a row: that of the same time, or the last one not later");
   fields.flag("compass_from_pose", &TableLogConfig::compass_from_pose, "the pose's heading also serves as a compass");
-  fields.choice("on_bad_line", &TableLogConfig::on_bad_line, {{"refuse", BadLine::refuse}, {"skip", BadLine::skip}},
+  fields.choice("on_bad_line", static_cast<BadLine TableLogConfig::*>(&TableLogConfig::on_bad_line),
+                {{"refuse", BadLine::refuse}, {"skip", BadLine::skip}},
                 "a line that cannot be read: an error, or left out and counted");
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
+#include "plugins/common/logs/scan_log.hpp"
 
 namespace cairn {
 
@@ -14,7 +15,7 @@ enum class TimeUnit { seconds, milliseconds };
 enum class LengthUnit { metres, centimetres, millimetres };
 enum class AngleUnit { degrees, radians, decidegrees };
 enum class PoseJoin { equal, not_later };
-enum class BadLine { refuse, skip };
+using log_common::BadLine;
 
 // One file of columns. Columns count from 1; 0: the table has no such column.
 struct TableConfig {
@@ -83,17 +84,13 @@ struct LogSonar {
   }
 };
 
-struct TableLogConfig : TableConfig {
+struct TableLogConfig : TableConfig, log_common::LogRules {
   std::vector<double> range_columns;
   int first_range_column = 0;
   LengthUnit range_unit = LengthUnit::metres;
-  std::vector<double> no_echo;
   std::vector<LogSonar> sonars;
-  double period_s = 0.1;
   std::optional<TableConfig> poses;
   PoseJoin join = PoseJoin::equal;
-  bool compass_from_pose = false;
-  BadLine on_bad_line = BadLine::refuse;
 
   static void describe(Fields<TableLogConfig>& fields);
 };

@@ -80,7 +80,7 @@ std::string where_of_any_row(MapFile& map, const std::string& table, Random& ran
 // A blob's content, packed again if it was, with its checksum in the column behind it.
 void change_blob(MapFile& map, const Field& field) {
   const std::string stored = map.blob("SELECT " + field.column + " FROM \"" + field.table + "\"" + field.where);
-  // A trajectory says with its first byte how it is stored (before schema version 5 it begins as zlib does).
+  // A trajectory says with its first byte how it is stored; tiles begin as zlib does.
   const bool is_steps = stored.starts_with('\1');
   const bool is_doubles = stored.starts_with('\0');
   std::string raw = mutated(is_steps ? stored : unpacked(is_doubles ? stored.substr(1) : stored), 24);

@@ -38,13 +38,9 @@ OrbitSeries series_of(const ExperimentConfig& config, const Rows& rows, std::str
 }
 
 std::string table_of(const ExperimentConfig& config, const std::vector<OrbitSeries>& all) {
-  std::string text = "| lap, deg |";
-  std::string rule = "|---:|";
-  for (const OrbitSeries& series : all) {
-    text += " " + series.name + " |";
-    rule += "---:|";
-  }
-  text += "\n" + rule + "\n";
+  std::vector<std::string> columns{"lap, deg"};
+  for (const OrbitSeries& series : all) columns.push_back(series.name);
+  std::string text = table_head(columns, 0);
   for (std::size_t b = 0; b < bins_of(config); ++b) {
     const double bin_deg = degrees(config.orbit->bin_rad);
     text += fmt::format("| {:.0f} - {:.0f} |", bin_deg * static_cast<double>(b),

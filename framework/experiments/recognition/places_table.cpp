@@ -22,14 +22,11 @@ std::vector<std::vector<double>> degrees_at(const Rows& rows, std::size_t place)
 }
 
 std::string head(const ExperimentConfig& config) {
-  std::string names = "| place | looks at |";
-  std::string rule = "|---|---|";
+  std::vector<std::string> columns{"place", "looks at"};
   for (const char* of : {"", "expected "})
-    for (const std::string& category : config.categories) {
-      names += fmt::format(" {}{} |", of, category);
-      rule += "---:|";
-    }
-  return names + " margin | expected | true one on top | runs |\n" + rule + "---:|---:|---:|---:|\n";
+    for (const std::string& category : config.categories) columns.push_back(of + category);
+  columns.insert(columns.end(), {"margin", "expected", "true one on top", "runs"});
+  return table_head(columns, 2);
 }
 
 std::string line(const ExperimentConfig& config, const Rows& rows, std::size_t index) {

@@ -21,6 +21,18 @@ struct WorldCounts {
   std::vector<ThresholdCount> counts;  // by falling degree, each degree once
 };
 
+// What was found against what is there.
+struct FoundCounts {
+  std::int64_t truly = 0;
+  std::int64_t found = 0;
+  std::int64_t right = 0;
+
+  FoundCounts& operator+=(const FoundCounts& more);
+  [[nodiscard]] double f1() const;
+};
+// Of all worlds together, with the 95 % interval from resampling them.
+[[nodiscard]] Interval f1_of(std::span<const FoundCounts> worlds);
+
 struct CurvePoint {
   double threshold = 0.0;
   double precision = 0.0;

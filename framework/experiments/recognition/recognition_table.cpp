@@ -7,50 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "framework/experiments/recognition/precision_recall.hpp"
 #include "framework/experiments/report.hpp"
 
 namespace cairn {
 namespace {
 
 using Rows = std::vector<const ExperimentRow*>;
-
-struct PoseCounts {
-  std::int64_t right = 0;
-  std::int64_t truly = 0;  // landmarks of the world
-  std::int64_t found = 0;
-  std::int64_t met = 0;  // landmarks of the world that something was found at
-  std::int64_t turned = 0;
-  std::int64_t within_step = 0;
-};
-
-PoseCounts operator+(PoseCounts a, const PoseCounts& b) {
-  a.right += b.right;
-  a.truly += b.truly;
-  a.found += b.found;
-  a.met += b.met;
-  a.turned += b.turned;
-  a.within_step += b.within_step;
-  return a;
-}
-
-PoseCounts counts_of(const ExperimentRow& row, double step_rad) {
-  PoseCounts counts;
-  for (const Verdict& verdict : row.verdicts) {
-    counts.right += verdict.is_right() ? 1 : 0;
-    counts.truly += verdict.is.empty() ? 0 : 1;
-    counts.found += verdict.found.empty() ? 0 : 1;
-    counts.met += verdict.is.empty() || verdict.found.empty() ? 0 : 1;
-    if (!verdict.orientation_error_rad) continue;
-    ++counts.turned;
-    counts.within_step += *verdict.orientation_error_rad <= step_rad ? 1 : 0;
-  }
-  return counts;
-}
-
-double f1_of(const PoseCounts& counts) {
-  const std::int64_t all = counts.truly + counts.found;
-  return all == 0 ? 0.0 : 2.0 * static_cast<double>(counts.right) / static_cast<double>(all);
-}
 
 template <class Value>
 std::vector<double> of_right_ones(const Rows& rows, Value&& value) {
@@ -80,13 +43,9 @@ std::string confusion(const Rows& rows) {
       names.insert({verdict.is, verdict.found, ""});
       ++counts[verdict.is][verdict.found];
     }
-  std::string text = "| is \\\\ found |";
-  std::string rule = "|---|";
-  for (const std::string& name : names) {
-    text += " " + name_of_category(name) + " |";
-    rule += "---:|";
-  }
-  text += "\n" + rule + "\n";
+  std::vector<std::string> columns{"is \\\\ found"};
+  for (const std::string& name : names) columns.push_back(name_of_category(name));
+  std::string text = table_head(columns);
   for (const std::string& is : names) {
     text += "| " + name_of_category(is) + " |";
     for (const std::string& found : names) text += fmt::format(" {} |", counts[is][found]);
@@ -145,22 +104,29 @@ BaselineFigures baseline_figures(const Rows& rows, const Rows& baseline) {
 }
 
 RecognitionFigures recognition_figures(const Rows& rows, double step_rad) {
-  std::vector<PoseCounts> counts;
-  PoseCounts all;
+  std::vector<FoundCounts> counts;
+  FoundCounts all;
+  std::int64_t met = 0;  // landmarks of the world that something was found at
+  std::int64_t turned = 0;
+  std::int64_t within_step = 0;
   for (const ExperimentRow* row : rows) {
-    counts.push_back(counts_of(*row, step_rad));
-    all = all + counts.back();
+    FoundCounts& of_row = counts.emplace_back();
+    for (const Verdict& verdict : row->verdicts) {
+      of_row.right += verdict.is_right() ? 1 : 0;
+      of_row.truly += verdict.is.empty() ? 0 : 1;
+      of_row.found += verdict.found.empty() ? 0 : 1;
+      met += verdict.is.empty() || verdict.found.empty() ? 0 : 1;
+      turned += verdict.orientation_error_rad ? 1 : 0;
+      within_step += verdict.orientation_error_rad && *verdict.orientation_error_rad <= step_rad ? 1 : 0;
+    }
+    all += of_row;
   }
   RecognitionFigures figures;
   figures.precision = share_of(all.right, all.found);
   figures.recall = share_of(all.right, all.truly);
-  figures.right_category = share_of(all.right, all.met);
-  figures.within_step = share_of(all.within_step, all.turned);
-  figures.f1 = resampled(rows.size(), [&](std::span<const std::size_t> taken) {
-    PoseCounts some;
-    for (const std::size_t index : taken) some = some + counts[index];
-    return f1_of(some);
-  });
+  figures.right_category = share_of(all.right, met);
+  figures.within_step = share_of(within_step, turned);
+  figures.f1 = f1_of(counts);
   figures.median_error_m = resampled(rows.size(), [&](std::span<const std::size_t> taken) {
     return median_of(of_right_ones(taken_of(rows, taken), [](const Verdict& v) { return v.position_error_m; }));
   });

@@ -72,13 +72,9 @@ const std::vector<Figure>& reported_figures() {
 }
 
 std::string figures_text(const ExperimentConfig& config, const std::vector<TrialFigures>& all) {
-  std::string text = "| |";
-  std::string rule = "|---|";
-  for (const ExperimentVariant& variant : config.variants) {
-    text += " " + variant.name + " |";
-    rule += "---:|";
-  }
-  text += "\n" + rule + "\n";
+  std::vector<std::string> columns{""};
+  for (const ExperimentVariant& variant : config.variants) columns.push_back(variant.name);
+  std::string text = table_head(columns);
   for (const Figure& figure : reported_figures()) {
     text += std::string("| ") + figure.name + " |";
     for (const TrialFigures& figures : all) text += " " + figure.text(figures) + " |";
@@ -217,9 +213,8 @@ std::string trials_table(const ExperimentConfig& config, const std::vector<Exper
 }
 
 std::string trial_times_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
-  std::string text =
-      "| variant | wall s a mission, median | longest | tick us, median of the medians | worst median | median of the "
-      "p99s | worst p99 |\n|---|---:|---:|---:|---:|---:|---:|\n";
+  std::string text = table_head({"variant", "wall s a mission, median", "longest", "tick us, median of the medians",
+                                 "worst median", "median of the p99s", "worst p99"});
   for (const ExperimentVariant& variant : config.variants) {
     std::vector<double> walls_s;
     std::vector<double> medians_us;

@@ -30,6 +30,11 @@ LandmarkId NodeIds::landmark_of(std::int64_t id) const {
   return std::ranges::binary_search(sorted_, id) ? id : 0;
 }
 
+void NodeIds::warn_of_zero(std::vector<std::string>& warnings, const std::string& more) const {
+  if (zero_ != 0)
+    warnings.push_back("node 0 is landmark L" + std::to_string(zero_) + ": ids of landmarks begin at 1" + more);
+}
+
 EdgeIds::EdgeIds(const std::vector<std::int64_t>& ids) {
   std::unordered_set<std::int64_t> taken;
   std::int64_t next = 1;

@@ -27,7 +27,8 @@ class NodeIds {
 
   // 0 when there is no such node.
   [[nodiscard]] LandmarkId landmark_of(std::int64_t id) const;
-  [[nodiscard]] bool has_zero() const { return zero_ != 0; }
+  // A sentence on node 0, when there is one; `more` behind it.
+  void warn_of_zero(std::vector<std::string>& warnings, const std::string& more = "") const;
 
  private:
   std::vector<std::int64_t> sorted_;

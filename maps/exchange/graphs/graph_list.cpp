@@ -223,9 +223,7 @@ ImportedGraph parse_graph_list(std::string_view text, const std::string& file_na
   ImportedGraph imported{{}, std::move(lines.warnings)};
   take_nodes(lines.nodes, ids, imported);
   take_edges(lines.edges, ids, source, imported.graph);
-  if (ids.has_zero())
-    imported.warnings.push_back("node 0 is landmark L" + std::to_string(ids.landmark_of(0)) +
-                                ": ids of landmarks begin at 1");
+  ids.warn_of_zero(imported.warnings);
   exchange::warn_of_shared_names(imported.graph, imported.warnings);
   return imported;
 }

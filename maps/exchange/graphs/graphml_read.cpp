@@ -192,9 +192,7 @@ class GraphmlReader {
       imported_.graph.add(std::move(landmark));
     }
     if (!numbers) imported_.warnings.emplace_back("the ids of nodes are no numbers: they are the landmarks' names");
-    if (landmark_ids.has_zero())
-      imported_.warnings.push_back("node 0 is landmark L" + std::to_string(landmark_ids.landmark_of(0)) +
-                                   ": ids of landmarks begin at 1");
+    landmark_ids.warn_of_zero(imported_.warnings);
   }
 
   void take_node(GraphmlValues& values, Landmark& landmark, const pugi::xml_node& node) {

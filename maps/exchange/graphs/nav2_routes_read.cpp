@@ -303,9 +303,7 @@ class Nav2Reader {
       imported.warnings.push_back("crs is " + shown(crs_) +
                                   ", not EPSG:3857: coordinates are taken as metres in the map frame");
     }
-    if (nodes.has_zero())
-      imported.warnings.push_back("node 0 is landmark L" + std::to_string(nodes.landmark_of(0)) +
-                                  ": ids of landmarks begin at 1; an export writes 0 again");
+    nodes.warn_of_zero(imported.warnings, "; an export writes 0 again");
     report(edges.renumbered(), "edge", "id 0 or an id that an earlier edge has, a new id is given");
     report(counts_.unset_costs, "edge", "no cost (absent or 0), the straight length is taken");
     report(counts_.not_overridable_unset, "edge", "no cost and not overridable, nav2 refuses to search such a graph");

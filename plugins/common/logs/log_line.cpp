@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "maps/base/text.hpp"
+
 namespace cairn::log_common {
 namespace {
 
@@ -18,10 +20,18 @@ bool read_number(std::string_view text, double& value) {
   return !text.empty() && error == std::errc{} && end == text.data() + text.size();
 }
 
-void LogLine::cut(std::string_view text, int line) {
+void LogLine::cut(std::string_view text, int line, std::optional<char> separator) {
   text_ = text;
   line_ = line;
   words_.clear();
+  if (separator) {
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(*separator, begin), text.size());
+      words_.push_back(trimmed(text.substr(begin, end - begin), kBlank));
+      begin = end + 1;
+    }
+    return;
+  }
   std::size_t begin = text.find_first_not_of(kBlank);
   while (begin != std::string_view::npos) {
     const std::size_t end = std::min(text.find_first_of(kBlank, begin), text.size());

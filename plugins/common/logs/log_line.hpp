@@ -1,6 +1,7 @@
-// A line of a log cut at blanks, its words asked for as what they must be.
+// A line of a log cut into words, its words asked for as what they must be.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +22,9 @@ class LogLine {
  public:
   explicit LogLine(std::string file) : file_(std::move(file)) {}
 
-  // Cuts another line; the text must outlive the words.
-  void cut(std::string_view text, int line);
+  // Cuts another line at blanks, or at a separator and then without the blanks around the words; the text must outlive
+  // the words.
+  void cut(std::string_view text, int line, std::optional<char> separator = {});
 
   [[nodiscard]] int line() const { return line_; }
   [[nodiscard]] std::string_view text() const { return text_; }

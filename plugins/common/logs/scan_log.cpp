@@ -39,7 +39,8 @@ void ScanLog::add_recorded(const Scan& scan, std::size_t source, std::vector<dou
   add(scan, source, values);
 }
 
-SourcePlace ScanLog::read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take) {
+SourcePlace ScanLog::read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take,
+                                std::optional<char> separator) {
   LogText text(file);
   LogLine line(text.name());
   std::string_view content;
@@ -47,8 +48,8 @@ SourcePlace ScanLog::read_lines(const std::filesystem::path& file, const std::fu
     try {
       more = text.next(content);
       if (!more) break;
-      line.cut(content, text.line_number());
-      if (line.size() > 0) take(line);
+      line.cut(content, text.line_number(), separator);
+      if (!trimmed(content).empty()) take(line);
     } catch (const RefusedLine&) {
       throw;
     } catch (const ConfigError& error) {
@@ -88,12 +89,15 @@ void ScanLog::unknown_line(std::string_view kind) {
     unknown_.emplace(kind, 1);
 }
 
-void ScanLog::finish() {
-  if (scans_.empty()) {
+void ScanLog::require_scans() const {
+  if (scans_.empty())
     throw ConfigError({file_, 0, 0},
                       "the log holds no observation" + (bad_lines_ > 0 ? "; first bad line: " + first_bad_ : "") +
                           (unknown_lines_ > 0 ? "; " + counted(unknown_lines_, "line") + " of unknown kinds" : ""));
-  }
+}
+
+void ScanLog::finish() {
+  require_scans();
   std::size_t changes = 0;
   for (std::size_t i = 1; i < scans_.size(); ++i)
     if (scans_[i].stamp_s != scans_[i - 1].stamp_s) ++changes;

@@ -105,19 +105,21 @@ class ScanLog {
   void set_pose(const Pose2& T_log_robot, Scan& scan);
   void set_start(const Pose2& T_map_start) { start_ = T_map_start; }
 
-  // Takes every line of a file that is not blank; one at which take throws ConfigError is a bad line. Returns the place
-  // of the last.
-  SourcePlace read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take);
+  // Takes every line of a file that is not blank, cut as LogLine::cut does; one at which take throws ConfigError is a
+  // bad line. Returns the place of the last.
+  SourcePlace read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take,
+                         std::optional<char> separator = {});
   // Refuses or counts, by the rule.
   void bad_line(const ConfigError& error);
   void unknown_line(std::string_view kind);
   void note(const std::string& sentence) { notes_.push_back(sentence); }
 
-  // When all is read: decides on the stamps. Throws ConfigError for a log without a scan, and for a
-  // clock jump when those are refused.
+  // When all is read. Throws ConfigError for a log without a scan.
+  void require_scans() const;
+  // The same, and decides on the stamps. Throws ConfigError also for a clock jump when those are refused.
   void finish();
 
-  // After finish().
+  // When all is read.
   [[nodiscard]] std::size_t size() const { return scans_.size(); }
   [[nodiscard]] Observation observation(std::size_t i) const;
   [[nodiscard]] std::optional<GroundTruth> truth(std::size_t i) const;

@@ -111,7 +111,7 @@ inline SavedMap small_map() {
   return map;
 }
 
-// What version 2 had no place for.
+// With all that its landmarks and routes may have.
 inline SavedMap map_with_clusters() {
   SavedMap map = small_map();
   map.graph.find(1)->annotations = R"({"nav2":{"properties":{"frame":"map"}}})";
@@ -135,7 +135,6 @@ inline SavedMap map_with_clusters() {
   return map;
 }
 
-// What version 3 had no place for.
 inline SavedMap map_of_a_mission() {
   SavedMap map = map_with_clusters();
   MissionProgress progress{12.5, 1, "goto", {1.0 / 3.0, -2.0, 0.5}, Pose2{0.3, -2.1, 0.4}, 7.25, 1200, 17, 1, {}};
@@ -152,7 +151,7 @@ inline SavedMap map_of_a_mission() {
   return map;
 }
 
-// Version 4 had them all as doubles.
+// The bytes of some say steps, those of others doubles.
 inline SavedMap map_with_trajectories() {
   SavedMap map = map_of_a_mission();
   map.graph.add_route({0, 4, 1, 9.0, {{7.0, 1.5, 0.0}, {1.0 / 3.0, -2.5, -0.0}}, true, false, 0});
@@ -169,6 +168,8 @@ class MapStore : public testing::Test {
   ~MapStore() override { fs::remove_all(folder_); }
 
   [[nodiscard]] fs::path file(const char* name = "office.cairn") const { return folder_ / name; }
+  // map_with_trajectories() as the first Cairn of schema version 1 saved it.
+  [[nodiscard]] static fs::path stored_file() { return fs::path(CAIRN_SOURCE_DIR) / "tests/data/map_schema_1.cairn"; }
   // The saved small map, made once: to write it safely takes many times longer than to make it.
   [[nodiscard]] const std::string& small_map_bytes() const {
     static const std::string bytes = [this] {

@@ -101,7 +101,11 @@ TEST_F(TableLogTest, ReadsTimesAndRangesInTheirUnits) {
 TEST_F(TableLogTest, ReadsAGzipTableAndRefusesACutOffOne) {
   const std::string packed = log_files::LogFolder().gzip("1 1.5 2.5\n");
   EXPECT_DOUBLE_EQ(play(packed)[0].ranges[1].range_m, 2.5);
-  EXPECT_EQ(error_of(packed.substr(0, packed.size() - 4)), "log.txt: the compressed log is cut off here");
+  const std::string cut_off = packed.substr(0, packed.size() - 4);
+  EXPECT_EQ(error_of(cut_off), "log.txt:2:1: the compressed log is cut off here");
+  config_.on_bad_line = BadLine::skip;
+  EXPECT_EQ(play(cut_off).size(), 1U);
+  EXPECT_THAT(reason_, HasSubstr("1 bad line skipped, the first: log.txt:2:1: the compressed log is cut off here"));
 }
 
 TEST_F(TableLogTest, HasARuleForEveryOddRange) {
