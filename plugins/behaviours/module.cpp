@@ -62,7 +62,7 @@ void register_module(Registrar& registrar) {
   add<PlanQuery, PlanQueryConfig>(registrar, "plan_query",
                                   "asks the mission's planner and writes its answer into the output folder",
                                   &PlanQueryConfig::from, &PlanQueryConfig::to, &PlanQueryConfig::via);
-  add<Log, LogConfig>(registrar, "log", "says a line for people");
+  add<Log, LogConfig>(registrar, "log", "publishes a line for people");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ using namespace cairn::plain_pursuit;
 
 void register_module(Registrar& registrar) {
   registrar.add<Controller, PlainPursuitConfig>(
-      "plain_pursuit", "follows the path by pure pursuit and stops before what is ahead",
+      "plain_pursuit", "follows the path by pure pursuit and stops before what is in its path",
       [](const PlainPursuitConfig& config, const ModuleContext&) { return std::make_unique<PlainPursuit>(config); });
 }
 

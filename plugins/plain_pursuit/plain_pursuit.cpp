@@ -11,11 +11,21 @@ namespace {
 
 constexpr double kSearch_m = 0.5;  // the nearest point of the path is looked for this far around the last one
 constexpr double kCrawl_mps = 0.03;
+constexpr double kStep_m = 0.05;  // along the arc, from one place that is checked to the next
 
-// Something within the corridor that the robot's disc is about to drive through.
-bool is_blocked_ahead(std::span<const Point> obstacles, double half_width_m, double ahead_m) {
-  return std::ranges::any_of(
-      obstacles, [&](const Point& p) { return p.x() > 0.0 && p.x() < ahead_m && std::abs(p.y()) < half_width_m; });
+// Whether the robot's disc, on its arc, would come too near to something, and nearer than it is now: it may pass what
+// it stands beside, and leave it.
+bool is_blocked_ahead(std::span<const Point> obstacles, double radius_m, const Twist& twist, double ahead_m) {
+  const double turn_rad = kStep_m * twist.w_radps / std::max(twist.v_mps, kCrawl_mps);
+  const Pose2 step{kStep_m * std::cos(0.5 * turn_rad), kStep_m * std::sin(0.5 * turn_rad), turn_rad};
+  Pose2 T_robot_ahead;
+  for (double along_m = 0.0; along_m < ahead_m; along_m += kStep_m) {
+    T_robot_ahead = T_robot_ahead * step;
+    const Point centre = T_robot_ahead.position();
+    const auto is_hit = [&](const Point& p) { return (p - centre).norm() < std::min(radius_m, p.norm()); };
+    if (std::ranges::any_of(obstacles, is_hit)) return true;
+  }
+  return false;
 }
 
 // The arc from the robot to the aim, slower towards the end of the path.
@@ -43,8 +53,9 @@ Twist within(const Twist& twist, double max_w_radps, double min_turning_radius_m
 void PlainPursuitConfig::describe(Fields<PlainPursuitConfig>& fields) {
   using C = PlainPursuitConfig;
   fields.number("lookahead_m", &C::lookahead_m, {0.05, 5.0}, "m", "it aims at the point of the path this far ahead");
-  fields.number("clearance_m", &C::clearance_m, {0.0, 2.0}, "m", "beside the robot, which obstacles must leave free");
-  fields.number("stop_ahead_m", &C::stop_ahead_m, {0.05, 5.0}, "m", "it stops this far before an obstacle");
+  fields.number("clearance_m", &C::clearance_m, {0.0, 2.0}, "m", "room that obstacles must leave beside the robot");
+  fields.number("stop_ahead_m", &C::stop_ahead_m, {0.05, 5.0}, "m",
+                "it stops when its arc leads too near to an obstacle within this");
   fields.angle("turn_in_place_deg", &C::turn_in_place_rad, {5.0, 180.0},
                "with a larger heading error it turns in place; a car never does");
   fields.angle("max_turn_degps", &C::max_turn_radps, {1.0, 360.0}, "fastest turn, within the robot's own limits",
@@ -79,9 +90,9 @@ ControlResult PlainPursuit::control(const ControlRequest& request, const WorldVi
                           : within(arc_to(aim, std::max(result.left_m, to_end_m), top_mps, limits.forward_mps2),
                                    max_w_radps, limits.min_turning_radius_m);
   result.twist = result.unhindered;
-  const double half_width_m = world.robot.radius_m + config_.clearance_m;
   if (request.avoids_obstacles && !result.progress.turning &&
-      is_blocked_ahead(request.obstacles, half_width_m, half_width_m + config_.stop_ahead_m)) {
+      is_blocked_ahead(request.obstacles, world.robot.radius_m + config_.clearance_m, result.twist,
+                       std::min(config_.stop_ahead_m, result.left_m))) {
     result.state = ControlState::blocked;
     result.twist = {};
   }

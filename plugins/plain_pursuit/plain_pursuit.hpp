@@ -1,5 +1,5 @@
-// A plain controller, to read and to start from: pure pursuit that stops before what is ahead and waits until it has
-// gone. It never goes round anything; the behaviour that drives plans another path.
+// A plain controller, to read and to start from: pure pursuit that stops before what is on its arc and waits until it
+// has gone. It never goes round anything; the behaviour that drives plans another path.
 #pragma once
 
 #include "framework/config/fields.hpp"

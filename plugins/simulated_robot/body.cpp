@@ -63,7 +63,7 @@ double Body::footprint_clearance_m(const Pose2& T_map_robot) const {
   return nearest_m;
 }
 
-// No point of the footprint moves farther than sweep_m on the whole way.
+// No point of the footprint moves farther than sweep_m on the whole path.
 template <class PoseAt>
 double Body::furthest(Pose2& T_map_robot, double sweep_m, double gap_m, PoseAt pose_at) const {
   double clear_m = clearance_m(T_map_robot) - gap_m;

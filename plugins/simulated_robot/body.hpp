@@ -43,7 +43,7 @@ class Body {
   // the turn is then made on the spot, as far as that is free. A move that leads away is always possible.
   [[nodiscard]] Move drive(Pose2& T_map_robot, double distance_m, double turn_rad) const;
 
-  // The share of a straight way (map frame, no turning) that the footprint can go and keep gap_m from
+  // The share of a straight path (map frame, no turning) that the footprint can go and keep gap_m from
   // everything, found in the same manner.
   [[nodiscard]] double slide(const Pose2& T_map_robot, const Point& way_m, double gap_m) const;
 

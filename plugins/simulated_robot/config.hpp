@@ -31,7 +31,7 @@ struct EchoConfig {
     fields.angle("far_side_lobe_deg", &EchoConfig::far_side_lobe_rad, {0, 90}, "outer edge of the second side lobe");
     fields.number("side_lobe_db", &EchoConfig::side_lobe_db, {-100, 0}, "dB", "first side lobe, one way");
     fields.number("far_side_lobe_db", &EchoConfig::far_side_lobe_db, {-100, 0}, "dB", "second side lobe, one way");
-    fields.number("threshold_db", &EchoConfig::threshold_db, {-200, 0}, "dB", "weakest echo that is heard");
+    fields.number("threshold_db", &EchoConfig::threshold_db, {-200, 0}, "dB", "weakest echo that is received");
     fields.number("absorption_db_per_m", &EchoConfig::absorption_db_per_m, {0, 100}, "dB/m",
                   "loss in air per metre of range, both ways together");
     fields.number("rough_db", &EchoConfig::rough_db, {-100, 0}, "dB", "a rough surface, head on");
@@ -80,7 +80,7 @@ struct SimulatedRobotConfig {
     };
     fields.group("random_faults", &SimulatedRobotConfig::random_faults,
                  "what goes wrong by chance; the mission's seed draws it");
-    fields.group("battery", &SimulatedRobotConfig::battery, "the robot's battery; without it, nothing is told of one");
+    fields.group("battery", &SimulatedRobotConfig::battery, "the robot's battery; without it, none is reported");
   }
 };
 

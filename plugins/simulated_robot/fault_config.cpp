@@ -48,10 +48,10 @@ void FaultConfig::describe(Fields<FaultConfig>& fields) {
   fields.number("at_s", &C::at_s, {0.0, 1e9}, "s", "when it begins, in seconds since the robot's start").required =
       true;
   fields.number("for_s", &C::for_s, {0.0, 1e9}, "s", "how long it lasts; without it, to the end");
-  fields.numbers("dead", &C::dead, {0, 1e6}, "", "transducers that hear nothing, by their numbers (from 0)").type =
+  fields.numbers("dead", &C::dead, {0, 1e6}, "", "transducers that receive nothing, by their numbers (from 0)").type =
       "list of integers";
   fields.choice("reads", &C::reads, {{"no_echo", DeadReading::no_echo}, {"nothing", DeadReading::nothing}},
-                "of dead ones: no_echo, as a ranger that waits in vain tells it, or no reading at all");
+                "of dead ones: no_echo, as a ranger reports it that waits in vain, or no reading at all");
   fields.group("stuck", &C::stuck, "a transducer that reads the same all the time");
   fields.group("slip", &C::slip, "the odometry counts what the wheels turn, the robot goes less far");
   fields.angle("compass_jump_deg", &C::compass_jump_rad, {-180.0, 180.0}, "so much is added to what the compass reads");

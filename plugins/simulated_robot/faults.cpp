@@ -33,7 +33,7 @@ void check(const FaultConfig& fault, const RobotModel& robot, const World& world
   for (const double sonar : fault.dead) check_sonar(sonar, robot, fault.place);
   if (fault.stuck) check_sonar(fault.stuck->sonar, robot, fault.place);
   if (!fault.kidnap) return;
-  // Turned as it will happen to be: there must be room for any way.
+  // It may be turned in any direction then: there must be room for all.
   const bool is_turned = fault.kidnap->angle_rad.has_value();
   const Pose2 T_map_put{fault.kidnap->to_m.x(), fault.kidnap->to_m.y(), fault.kidnap->angle_rad.value_or(0.0)};
   if (const auto why = not_free(T_map_put, is_turned ? robot : round_robot(robot), world))

@@ -23,7 +23,7 @@ class Faults {
   Faults(std::vector<FaultConfig> scheduled, const std::optional<RandomFaultsConfig>& random, const RobotModel& robot,
          const World& world, std::uint64_t seed);
 
-  // To that time; what follows tells of it.
+  // To that time; what follows is as of then.
   void advance(double time_s);
 
   // Where the robot is to be put, until kidnapped() says that it has been.
@@ -32,7 +32,7 @@ class Faults {
   // How the robot really moves when its wheels turn for that; nothing when they do not slip.
   [[nodiscard]] std::optional<Twist> slipping(const Twist& turned) const;
   [[nodiscard]] double compass_jump_rad() const;
-  // What is told of a reading; nothing when it is not told at all. To be asked of every one, in their order.
+  // What is reported of a reading; nothing when none is reported. To be asked of every one, in their order.
   [[nodiscard]] std::optional<RangeReading> reported(RangeReading reading);
 
  private:
@@ -56,7 +56,7 @@ class Faults {
   std::vector<FaultConfig> at_work_;
   std::vector<KidnapConfig> kidnaps_;  // that are due
   std::vector<PortableRandom> chances_;
-  std::vector<std::optional<double>> last_m_;  // told by each transducer
+  std::vector<std::optional<double>> last_m_;  // last reported by each transducer
 };
 
 // Why the robot cannot stand there ("(1.00, 2.00) m: it would overlap wall 2"), or nothing. Doors and movers are not

@@ -165,10 +165,10 @@ RayHit Scene::cast(const Point& from_m, const Point& direction, double reach_m) 
 }
 
 bool Scene::sees(const Point& from_m, const Point& target_m) const {
-  const Point way = target_m - from_m;
-  const double distance = way.norm();
+  const Point offset = target_m - from_m;
+  const double distance = offset.norm();
   if (distance <= kSamePlace_m) return true;
-  return std::isinf(cast(from_m, way / distance, distance - kSamePlace_m).distance_m);
+  return std::isinf(cast(from_m, offset / distance, distance - kSamePlace_m).distance_m);
 }
 
 }  // namespace cairn

@@ -14,14 +14,14 @@ constexpr double kSilent_db = -1e9;
 
 }  // namespace
 
-struct SonarEcho::Ear {
+struct SonarEcho::Receiver {
   Point at_m;
   double axis_rad;
-  double best_m;  // shortest audible way so far, or the reach
+  double best_m;  // shortest echo so far, or the reach
   bool echo_range = false;
 
-  void add_echo(double way_m) {
-    best_m = way_m;
+  void add_echo(double length_m) {
+    best_m = length_m;
     echo_range = true;
   }
 };
@@ -68,74 +68,75 @@ double SonarEcho::round_db(double range_m, double radius_m, bool rough) const {
 }
 
 std::optional<double> SonarEcho::first_echo(const Pose2& T_map_sonar, double reach_m) const {
-  Ear ear{T_map_sonar.position(), T_map_sonar.theta_rad, reach_m};
+  Receiver receiver{T_map_sonar.position(), T_map_sonar.theta_rad, reach_m};
   if (half_beam_rad_ <= 0.0) {
-    const RayHit hit = scene_.cast(ear.at_m, T_map_sonar.direction(), reach_m);
+    const RayHit hit = scene_.cast(receiver.at_m, T_map_sonar.direction(), reach_m);
     return std::isinf(hit.distance_m) ? std::nullopt : std::optional(hit.distance_m);
   }
-  add_face_echoes(ear);
-  add_round_face_echoes(ear);
-  add_vertex_echoes(ear);
-  for (const Ray& ray : rays_) add_ray(ray, ear);
-  return ear.echo_range ? std::optional(ear.best_m) : std::nullopt;
+  add_face_echoes(receiver);
+  add_round_face_echoes(receiver);
+  add_vertex_echoes(receiver);
+  for (const Ray& ray : rays_) add_ray(ray, receiver);
+  return receiver.echo_range ? std::optional(receiver.best_m) : std::nullopt;
 }
 
-void SonarEcho::consider(const Point& target_m, double target_db, Ear& ear) const {
-  const Point way = target_m - ear.at_m;
-  const double range_m = way.norm();
-  if (range_m >= ear.best_m) return;
-  const double off_axis_rad = std::abs(wrap_angle(std::atan2(way.y(), way.x()) - ear.axis_rad));
+void SonarEcho::consider(const Point& target_m, double target_db, Receiver& receiver) const {
+  const Point offset = target_m - receiver.at_m;
+  const double range_m = offset.norm();
+  if (range_m >= receiver.best_m) return;
+  const double off_axis_rad = std::abs(wrap_angle(std::atan2(offset.y(), offset.x()) - receiver.axis_rad));
   if (target_db + 2.0 * gain_db(off_axis_rad) + loss_db(range_m) < config_.threshold_db) return;
-  if (scene_.sees(ear.at_m, target_m)) ear.add_echo(range_m);
+  if (scene_.sees(receiver.at_m, target_m)) receiver.add_echo(range_m);
 }
 
-void SonarEcho::add_face_echoes(Ear& ear) const {
+void SonarEcho::add_face_echoes(Receiver& receiver) const {
   for (const Face& face : scene_.faces()) {
-    const double height_m = (ear.at_m - face.a_m).dot(face.normal);
-    if (std::abs(height_m) >= ear.best_m) continue;
-    const Point foot_m = ear.at_m - height_m * face.normal;
+    const double height_m = (receiver.at_m - face.a_m).dot(face.normal);
+    if (std::abs(height_m) >= receiver.best_m) continue;
+    const Point foot_m = receiver.at_m - height_m * face.normal;
     if ((foot_m - face.a_m).dot(foot_m - face.b_m) > 0.0) continue;
-    consider(foot_m, face.rough ? config_.rough_db : 0.0, ear);
+    consider(foot_m, face.rough ? config_.rough_db : 0.0, receiver);
   }
 }
 
-void SonarEcho::add_round_face_echoes(Ear& ear) const {
+void SonarEcho::add_round_face_echoes(Receiver& receiver) const {
   for (const RoundFace& face : scene_.round_faces()) {
-    const Point way = face.centre_m - ear.at_m;
-    const double range_m = way.norm() - face.radius_m;
-    if (range_m <= 0.0 || range_m >= ear.best_m) continue;
-    consider(face.centre_m - face.radius_m * way.normalized(), round_db(range_m, face.radius_m, face.rough), ear);
+    const Point offset = face.centre_m - receiver.at_m;
+    const double range_m = offset.norm() - face.radius_m;
+    if (range_m <= 0.0 || range_m >= receiver.best_m) continue;
+    consider(face.centre_m - face.radius_m * offset.normalized(), round_db(range_m, face.radius_m, face.rough),
+             receiver);
   }
 }
 
-void SonarEcho::add_vertex_echoes(Ear& ear) const {
+void SonarEcho::add_vertex_echoes(Receiver& receiver) const {
   for (const Vertex& vertex : scene_.vertices()) {
-    if ((vertex.at_m - ear.at_m).squaredNorm() >= ear.best_m * ear.best_m) continue;
-    const VertexLook look = vertex.look_from(ear.at_m);
+    if ((vertex.at_m - receiver.at_m).squaredNorm() >= receiver.best_m * receiver.best_m) continue;
+    const VertexLook look = vertex.look_from(receiver.at_m);
     if (look == VertexLook::nothing) continue;
-    consider(vertex.at_m, look == VertexLook::edge ? config_.edge_db : config_.bounce_db, ear);
+    consider(vertex.at_m, look == VertexLook::edge ? config_.edge_db : config_.bounce_db, receiver);
   }
 }
 
-void SonarEcho::add_ray(const Ray& ray, Ear& ear) const {
-  Point from_m = ear.at_m;
-  const double bearing_rad = ear.axis_rad + ray.offset_rad;
+void SonarEcho::add_ray(const Ray& ray, Receiver& receiver) const {
+  Point from_m = receiver.at_m;
+  const double bearing_rad = receiver.axis_rad + ray.offset_rad;
   Point direction(std::cos(bearing_rad), std::sin(bearing_rad));
   double level_db = ray.gain_db;
-  double way_m = 0.0;
+  double length_m = 0.0;
   for (int bounce = 0; bounce <= config_.max_bounces; ++bounce) {
-    const RayHit hit = scene_.cast(from_m, direction, std::min(ear.best_m, ray.reach_m) - way_m);
+    const RayHit hit = scene_.cast(from_m, direction, std::min(receiver.best_m, ray.reach_m) - length_m);
     if (std::isinf(hit.distance_m)) return;
-    way_m += hit.distance_m;
+    length_m += hit.distance_m;
     const double cosine = -direction.dot(hit.normal);
     const bool straight = cosine >= retro_cosine_;
     if (hit.rough || straight || hit.round_radius_m > 0.0) {
-      // Straight on a mirror without a bounce is the foot of the perpendicular, heard already.
+      // Straight on a mirror without a bounce is the foot of the perpendicular, found already.
       if (!hit.rough && (!straight || bounce == 0)) return;
       const double target_db = hit.rough                  ? config_.rough_db + 20.0 * std::log10(std::max(cosine, 1e-6))
-                               : hit.round_radius_m > 0.0 ? round_db(way_m, hit.round_radius_m, false)
+                               : hit.round_radius_m > 0.0 ? round_db(length_m, hit.round_radius_m, false)
                                                           : 0.0;
-      if (level_db + target_db + loss_db(way_m) >= config_.threshold_db) ear.add_echo(way_m);
+      if (level_db + target_db + loss_db(length_m) >= config_.threshold_db) receiver.add_echo(length_m);
       return;
     }
     from_m += hit.distance_m * direction + kLift_m * hit.normal;

@@ -1,9 +1,9 @@
-// Which echo a transducer hears first, without noise (docs/method.md 14.1).
+// Which echo a transducer receives first, without noise (docs/method.md 14.1).
 //
 // Direct echoes are found exactly: the foot of the perpendicular on every face, the nearest point of
 // every round face, every vertex. Rays over all lobes find the rest: rough faces hit at an angle, and
-// what comes back after mirror bounces, whose reading is the whole way and so too long. An echo is
-// heard when its level passes the threshold; the shortest way wins.
+// what comes back after mirror bounces, whose reading is the whole length and so too long. An echo
+// counts when its level passes the threshold; the shortest path wins.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ class SonarEcho {
   // The scene must outlive the object. half_beam_rad 0: a plain ray that every surface answers.
   SonarEcho(const EchoConfig& config, const Scene& scene, double half_beam_rad);
 
-  // Length of the shortest audible way, at most reach_m. Thread-safe.
+  // Length of the shortest path of an echo, at most reach_m. Thread-safe.
   [[nodiscard]] std::optional<double> first_echo(const Pose2& T_map_sonar, double reach_m) const;
 
  private:
@@ -29,16 +29,16 @@ class SonarEcho {
     double gain_db;  // both ways
     double reach_m;  // of the best target there is
   };
-  struct Ear;  // one call's eye point, axis and best echo so far
+  struct Receiver;  // one call's eye point, axis and best echo so far
 
   [[nodiscard]] double gain_db(double off_axis_rad) const;
   [[nodiscard]] double loss_db(double range_m) const;
   [[nodiscard]] double round_db(double range_m, double radius_m, bool rough) const;
-  void add_face_echoes(Ear& ear) const;
-  void add_round_face_echoes(Ear& ear) const;
-  void add_vertex_echoes(Ear& ear) const;
-  void add_ray(const Ray& ray, Ear& ear) const;
-  void consider(const Point& target_m, double target_db, Ear& ear) const;
+  void add_face_echoes(Receiver& receiver) const;
+  void add_round_face_echoes(Receiver& receiver) const;
+  void add_vertex_echoes(Receiver& receiver) const;
+  void add_ray(const Ray& ray, Receiver& receiver) const;
+  void consider(const Point& target_m, double target_db, Receiver& receiver) const;
 
   EchoConfig config_;
   const Scene& scene_;

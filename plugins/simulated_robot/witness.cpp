@@ -55,9 +55,9 @@ void Witness::note(double time_s, const Pose2& T_map_robot, const Places& places
   Moment moment{time_s, T_map_robot, places, 0.0, 0.0};
   if (!moments_.empty()) {
     const Moment& last = moments_.back();
-    const double way_m = (T_map_robot.position() - last.T_map_robot.position()).norm();
-    moment.driven_m = last.driven_m + way_m;
-    if (time_s > last.time_s) moment.speed_mps = way_m / (time_s - last.time_s);
+    const double moved_m = (T_map_robot.position() - last.T_map_robot.position()).norm();
+    moment.driven_m = last.driven_m + moved_m;
+    if (time_s > last.time_s) moment.speed_mps = moved_m / (time_s - last.time_s);
   }
   moments_.push_back(std::move(moment));
 }
@@ -67,8 +67,8 @@ bool Witness::could_stand(const Moment& seen) const {
   const double since_s = moments_.back().time_s - seen.time_s;
   const double brake_s = seen.speed_mps / robot_.max_acceleration_mps2;
   const double stop_m = seen.speed_mps * (reaction_s_ + 0.5 * brake_s);
-  const bool had_way = moments_.back().driven_m - seen.driven_m >= stop_m;
-  return since_s >= reaction_s_ && (had_way || since_s >= reaction_s_ + brake_s);
+  const bool had_room = moments_.back().driven_m - seen.driven_m >= stop_m;
+  return since_s >= reaction_s_ && (had_room || since_s >= reaction_s_ + brake_s);
 }
 
 Contact Witness::judge(const Body& body, const Scene& scene, const Traffic& traffic, const Pose2& T_map_robot,

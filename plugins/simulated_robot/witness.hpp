@@ -1,6 +1,6 @@
 // Judges a touch: how fast the robot came, and whether its transducers could have seen what it met in time to stand.
 // From a speed v that takes the reaction r (a round of its sonars, 0.3 s at least) and braking at a: v r + v^2 / 2a of
-// way and r + v / a of time. Whoever had either could have stood. A door that closes just ahead could not be seen.
+// path and r + v / a of time. Whoever had either could have stood. A door that closes just ahead could not be seen.
 //
 // Seen is geometry, from where everything truly was: no fault of a transducer counts, nor whether it was its turn to
 // fire, nor how loud the echo would have been.

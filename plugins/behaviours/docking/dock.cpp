@@ -179,13 +179,13 @@ Status Dock::begin(const WorldView& world, BehaviourContext& context) {
     return {Progress::failure, "at " + metres(config_.distance_m) + " there is no room for the robot to turn away"};
   const Landmark& landmark = *world.graph.find(landmark_);
   outward_rad_ = landmark.T_map_landmark.theta_rad + side_rad_;
-  if (!choose_stand(world, landmark))
+  if (!choose_approach_pose(world, landmark))
     return {Progress::failure, where(world) + " is blocked: there is no free path to it on the map"};
   return {Progress::running, "going to " + where(world)};
 }
 
 // The longest run-up that nothing stands in; one from where the map knows of no room only when there is no other.
-bool Dock::choose_stand(const WorldView& world, const Landmark& landmark) {
+bool Dock::choose_approach_pose(const WorldView& world, const Landmark& landmark) {
   const DockAxis line = axis(landmark);
   const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
   const double dock_m = mapped_outline_m(world.grid, line) + wanted_m(world.robot);
@@ -197,9 +197,9 @@ bool Dock::choose_stand(const WorldView& world, const Landmark& landmark) {
       const Point stand = line.centre + (dock_m + run_up_m) * line.outward();
       if (path_is_blocked(world.grid, {stand, dock}, 0.0, run_up_m, reach_m)) continue;
       if (on_known_ground && !is_free_about(world.grid, stand, world.robot.radius_m)) continue;
-      stand_ = {};
-      stand_.pose = Pose2{stand.x(), stand.y(), wrap_angle(line.outward_rad + std::numbers::pi)};
-      stand_.heading_matters = true;
+      approach_pose_ = {};
+      approach_pose_.pose = Pose2{stand.x(), stand.y(), wrap_angle(line.outward_rad + std::numbers::pi)};
+      approach_pose_.heading_matters = true;
       return true;
     }
   }
@@ -207,7 +207,7 @@ bool Dock::choose_stand(const WorldView& world, const Landmark& landmark) {
 }
 
 Status Dock::drive(const WorldView& world, BehaviourContext& context) {
-  const Status status = driver_.tick(stand_, world, context);
+  const Status status = driver_.tick(approach_pose_, world, context);
   if (status.progress == Progress::running)
     return {Progress::running, status.reason + ", to " + where(world), status.left_s};
   if (status.progress == Progress::failure)
@@ -219,7 +219,7 @@ Status Dock::drive(const WorldView& world, BehaviourContext& context) {
 
 // What has been seen meanwhile has moved the landmark on the map.
 Status Dock::go_again(const WorldView& world, const Landmark& landmark) {
-  if (++again_ > config_.approach.max_again || !choose_stand(world, landmark))
+  if (++again_ > config_.approach.max_again || !choose_approach_pose(world, landmark))
     return {Progress::failure, "cannot get before " + where(world) + ": the landmark moves on the map"};
   driver_.restart();
   echoes_.forget();

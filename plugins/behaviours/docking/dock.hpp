@@ -79,7 +79,7 @@ class Dock : public Behaviour {
 
   [[nodiscard]] DockAxis axis(const Landmark& landmark) const;
   Status begin(const WorldView& world, BehaviourContext& context);
-  [[nodiscard]] bool choose_stand(const WorldView& world, const Landmark& landmark);
+  [[nodiscard]] bool choose_approach_pose(const WorldView& world, const Landmark& landmark);
   Status drive(const WorldView& world, BehaviourContext& context);
   Status approach(const WorldView& world, BehaviourContext& context, const Landmark& landmark);
   Status go_again(const WorldView& world, const Landmark& landmark);
@@ -101,7 +101,7 @@ class Dock : public Behaviour {
   // Of the side that was meant at first: a square's orientation may turn by a right angle when more of it is seen.
   double outward_rad_ = 0.0;
   int again_ = 0;
-  Place stand_;
+  Place approach_pose_;
   AxisEchoes echoes_;
   std::optional<double> still_since_s_;
   double gap_m_ = 0.0;  // as last estimated

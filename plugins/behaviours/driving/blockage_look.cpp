@@ -25,7 +25,7 @@ void LookSettings::describe(Fields<LookSettings>& fields) {
                 "a blockage of the map has gone when echoes pass so much of it: a door's width");
   fields.integer("seen_through_ticks", &C::seen_through_ticks, {1.0, 10000.0},
                  "a cell has gone when echoes came from behind it in so many more ticks than not");
-  fields.integer("max_ticks", &C::max_ticks, {1.0, 100000.0}, "no more ticks count either way");
+  fields.integer("max_ticks", &C::max_ticks, {1.0, 100000.0}, "no more ticks count, for or against");
   fields.angle("sweep_deg", &C::sweep_rad, {0.0, 180.0}, "while it looks the robot turns to both sides by this");
   fields.number("sweep_s", &C::sweep_s, {0.1, 100.0}, "s", "period of that sweep");
   fields.angle("turn_degps", &C::turn_radps, {1.0, 360.0}, "fastest turn while it looks", "deg/s");

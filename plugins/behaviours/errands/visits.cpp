@@ -79,7 +79,7 @@ void Visits::ask_next_length(const WorldView& world, BehaviourContext& context) 
   const bool is_solved = route.outcome == PlanOutcome::solved;
   cost_m_[from_][to_] = cost_m_[to_][from_] = is_solved ? std::min(route.cost_m, kUnreached_m) : kUnreached_m;
   if (!std::isfinite(cost_m_[from_][to_])) cost_m_[from_][to_] = cost_m_[to_][from_] = kUnreached_m;
-  // `nearest` is what is nearest from here: the other ways are to the same one.
+  // `nearest` is what is nearest from here: the other routes are to the same one.
   if (from_ == 0 && is_solved && !request.to.landmarks.empty() && !route.landmarks.empty())
     stop.chosen = route.landmarks.back();
   if (++to_ > stops_.size()) to_ = ++from_ + 1;

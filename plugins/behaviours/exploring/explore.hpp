@@ -44,8 +44,8 @@ struct ExploreConfig {
     fields.number("look_closer_m", &C::look_closer_m, {0.0, 5.0}, "m",
                   "every edge is passed within this distance and every free-standing object circled; 0: neither");
     fields.number("orbit_distance_m", &C::orbit_distance_m, {0.1, 5.0}, "m",
-                  "from the edge of an object to the robot's centre on a lap");
-    fields.number("largest_object_m", &C::largest_object_m, {0.1, 20.0}, "m", "what is longer is a wall: no laps");
+                  "from the edge of an object to the robot's centre on an orbit");
+    fields.number("largest_object_m", &C::largest_object_m, {0.1, 20.0}, "m", "what is longer is a wall: no orbits");
     fields.flag("second_look", &C::second_look,
                 "when all is seen, free-standing objects that are no known landmark are circled once more");
     fields.number("smallest_frontier_m", &C::smallest_frontier_m, {0.0, 10.0}, "m", "shorter frontiers are left alone");
@@ -54,7 +54,7 @@ struct ExploreConfig {
                   "times as large (1 / lambda of Gonzalez-Banos and Latombe 2002); 0: the nearest frontier first");
     fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed, within the robot's own limits");
     fields.number("orbit_speed_mps", &C::orbit_speed_mps, {0.01, 5.0}, "m/s",
-                  "the same on a lap: slower means more readings, and no more error of the odometry");
+                  "the same on an orbit: slower means more readings, and no more error of the odometry");
     fields.group("object", static_cast<ObjectSettings C::*>(&C::object), "what is an object that stands free");
     fields
         .group("exploring", static_cast<ExploringSettings C::*>(&C::exploring),

@@ -76,8 +76,8 @@ void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& wort
 }
 
 // An object that the robot has not been near to yet is an edge to look at: from afar a piece of wall looks the same.
-// And a small rest of a lap is worth a small detour only.
-bool is_worth_a_orbit(const Orbit& orbit, double cost_m, const TaskWeights& weights) {
+// And a small rest of an orbit is worth a small detour only.
+bool is_worth_an_orbit(const Orbit& orbit, double cost_m, const TaskWeights& weights) {
   const int open = orbit.count(SectorState::open);
   if (orbit.count(SectorState::covered) == 0 && cost_m > weights.orbit_from_m) return false;
   return open >= weights.min_orbit_sectors && cost_m <= weights.max_detour_for_sector_m * open;
@@ -92,7 +92,7 @@ const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centr
 void offer_orbits(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
                   const OrbitSettings& settings, const TaskWeights& weights, const ExploreMemory& memory) {
   for (const CellGroup& object : compact_objects(space, settings.largest_object_m, settings.object)) {
-    // No lap begins nearer than this.
+    // No orbit begins nearer than this.
     const double min_m =
         (middle_of(space, object) - T_map_robot.position()).norm() - settings.largest_object_m - settings.look_closer_m;
     if (min_m - weights.orbit_bonus_m - weights.stay_bonus_m >= best.score_m) continue;
@@ -109,7 +109,7 @@ void offer_orbits(Choice& best, const FreeSpace& space, const Pose2& T_map_robot
     task.path_m = route.path_m;
     task.cost_m = route.cost_m;
     const bool is_at_it = previous != nullptr && is_about_the_same(*previous, task, weights.same_m);
-    if (!is_at_it && again == nullptr && !is_worth_a_orbit(orbit, task.cost_m, weights)) continue;
+    if (!is_at_it && again == nullptr && !is_worth_an_orbit(orbit, task.cost_m, weights)) continue;
     offer(best, std::move(task), weights.orbit_bonus_m, previous, weights);
   }
 }

@@ -1,4 +1,4 @@
-// What exploring does next: a lap round an object, a frontier, or an edge to look at, whichever is
+// What exploring does next: an orbit round an object, a frontier, or an edge to look at, whichever is
 // cheapest from here.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace cairn::behaviours {
 
 struct TaskSettings {
-  OrbitSettings orbit;  // lap.look_closer_m 0: no laps and no edges
+  OrbitSettings orbit;  // look_closer_m 0: no orbits and no edges
   double smallest_frontier_m = 0.3;
   double gain_m = 0.0;        // what e times the new area is worth; 0: the nearest frontier first
   double gain_range_m = 3.0;  // of the sensors, for the new area
@@ -32,7 +32,7 @@ struct ExploreMemory {
   std::vector<Pose2> trace;              // where the robot has been, a pose each 10 cm
   CellSet seen_edges;                    // or given up
   CellSet seen_frontiers;                // or given up
-  std::vector<Point> given_up_lookouts;  // of laps
+  std::vector<Point> given_up_lookouts;  // of orbits
   std::vector<SecondLook> second_looks;
   std::vector<Point> seen_openings;
   std::vector<TroubleSpot> troubles;
@@ -46,7 +46,7 @@ struct ExploreTask {
   CellGroup targets;        // of frontiers and edges
   Point lookout{0.0, 0.0};  // the first place that the path leads to
   std::vector<Point> path;
-  double path_m = 0.0;  // of the path, to the lookout; a lap continues behind it
+  double path_m = 0.0;  // of the path, to the lookout; an orbit continues behind it
   double cost_m = 0.0;
 };
 
@@ -56,7 +56,7 @@ struct ExploreTask {
                                                    const TaskSettings& settings, ExploreMemory& memory);
 
 // For when nothing else is left: notes that a free-standing object which is no known landmark is to be
-// circled once more, since a second lap often shows what the first did not. False when there is none.
+// circled once more, since a second orbit often shows what the first did not. False when there is none.
 bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSettings& settings,
                 ExploreMemory& memory);
 

@@ -9,14 +9,15 @@ namespace cairn::behaviours {
 void InspectConfig::describe(Fields<InspectConfig>& fields) {
   using C = InspectConfig;
   fields.raw("landmark", &C::landmark, "text", "a landmark's id (L3) or name, or `nearest CATEGORY`").required = true;
-  fields.number("distance_m", &C::distance_m, {0.1, 5.0}, "m", "from its edge to the robot's centre on a lap");
-  fields.integer("rounds_at_most", &C::rounds_at_most, {1.0, 100.0}, "laps, whatever the degree does");
-  fields.number("gain", &C::gain, {0.0, 1.0}, "", "no lap more when the degree has not risen by more than this in one");
-  fields.number("orbit_speed_mps", &C::orbit_speed_mps, {0.01, 5.0}, "m/s", "top speed on a lap");
+  fields.number("distance_m", &C::distance_m, {0.1, 5.0}, "m", "from its edge to the robot's centre on an orbit");
+  fields.integer("rounds_at_most", &C::rounds_at_most, {1.0, 100.0}, "orbits, whatever the degree does");
+  fields.number("gain", &C::gain, {0.0, 1.0}, "",
+                "no further orbit when the degree has not risen by more than this in one");
+  fields.number("orbit_speed_mps", &C::orbit_speed_mps, {0.01, 5.0}, "m/s", "top speed on an orbit");
   fields.number("speed_mps", &C::speed_mps, {0.01, 5.0}, "m/s", "top speed on the way there");
   fields.number("patience_s", &C::patience_s, {0.1, 3600.0}, "s", "how long it waits for a blockage to go");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "when it is up, it ends with what it has seen");
-  fields.group("orbit", &C::orbit, "laps round the landmark");
+  fields.group("orbit", &C::orbit, "orbits round the landmark");
   describe_driving(fields);
   fields.shorthand("landmark");
 }
@@ -28,7 +29,7 @@ Inspect::Inspect(const InspectConfig& config, std::uint64_t seed)
       driver_(config, seed),
       follower_(config.orbit_speed_mps, config.orbit.arrived_m,
                 ProgressChecker(config.patience_s, config.driving.progress)),
-      lap_(config.orbit, config.distance_m, config.driving.local_map) {}
+      landmark_orbit_(config.orbit, config.distance_m, config.driving.local_map) {}
 
 void Inspect::halt() {
   *this = Inspect(config_, seed_);
@@ -39,10 +40,10 @@ Status Inspect::tick(const WorldView& world, BehaviourContext& context) {
   if (landmark_ == 0) return begin(world, context);
   const Landmark* const landmark = world.graph.find(landmark_);
   if (landmark == nullptr) return {Progress::failure, lost(landmark_, world.graph)};
-  lap_.see(world);
+  landmark_orbit_.see(world);
   if (world.time_s - *begun_s_ >= config_.at_most_s) {
     if (orbits_ > 0) return finish(*landmark, "time is up");
-    return {Progress::failure, "time is up before a lap round " + described(*landmark) + " was done"};
+    return {Progress::failure, "time is up before an orbit round " + described(*landmark) + " was done"};
   }
   switch (mode_) {
     case Mode::drive:
@@ -59,7 +60,7 @@ Status Inspect::begin(const WorldView& world, BehaviourContext& context) {
   const ChosenLandmark chosen = choose_landmark(name_, world, context);
   if (!chosen.unknown.empty()) return {Progress::failure, chosen.unknown};
   landmark_ = chosen.id;
-  degree_before_ = degree_at_lap_ = world.graph.find(landmark_)->degree;
+  degree_before_ = degree_at_begin_ = world.graph.find(landmark_)->degree;
   return {Progress::running, "going to " + described(*world.graph.find(landmark_))};
 }
 
@@ -78,14 +79,14 @@ Status Inspect::drive(const WorldView& world, BehaviourContext& context, const L
   if (status.progress == Progress::failure)
     return {Progress::failure, "cannot get to " + described(landmark) + ": " + status.reason};
   mode_ = Mode::orbit;
-  lap_.begin();
+  landmark_orbit_.begin();
   follower_.restart_progress();
   return {Progress::running, "at " + described(landmark)};
 }
 
 bool Inspect::choose_path(const WorldView& world, const Landmark& landmark) {
   chosen_s_ = world.time_s;
-  std::vector<Point> path = lap_.path(world, landmark.T_map_landmark.position());
+  std::vector<Point> path = landmark_orbit_.path(world, landmark.T_map_landmark.position());
   if (path.empty()) return false;
   follower_.take(std::move(path));
   return true;
@@ -94,7 +95,7 @@ bool Inspect::choose_path(const WorldView& world, const Landmark& landmark) {
 Status Inspect::orbit(const WorldView& world, BehaviourContext& context, const Landmark& landmark) {
   const Pose2& pose = world.pose.T_map_robot;
   if (follower_.is_stuck(world)) {
-    lap_.avoid(pose * Point(config_.orbit.avoid_ahead_m, 0.0));
+    landmark_orbit_.avoid(pose * Point(config_.orbit.avoid_ahead_m, 0.0));
     mode_ = Mode::back_off;
     backing_since_s_ = world.time_s;
     follower_.stop();
@@ -107,11 +108,11 @@ Status Inspect::orbit(const WorldView& world, BehaviourContext& context, const L
     const Point end = was_there ? follower_.path().back() : Point(1e9, 1e9);
     if (!choose_path(world, landmark)) return end_orbit(landmark, context);
     // Arrived, and the sector still counts as open: it cannot be seen from there.
-    if (was_there && (follower_.path().back() - end).norm() < config_.orbit.trace_apart_m) lap_.avoid(end);
+    if (was_there && (follower_.path().back() - end).norm() < config_.orbit.trace_apart_m) landmark_orbit_.avoid(end);
     step = follower_.ask(context);
   }
   follower_.drive(step.twist, context);
-  return {Progress::running, "going round " + described(landmark) + ", lap " + std::to_string(orbits_ + 1)};
+  return {Progress::running, "going round " + described(landmark) + ", orbit " + std::to_string(orbits_ + 1)};
 }
 
 Status Inspect::back_off(const WorldView& world, BehaviourContext& context) {
@@ -133,26 +134,26 @@ Status Inspect::back_off(const WorldView& world, BehaviourContext& context) {
 Status Inspect::end_orbit(const Landmark& landmark, BehaviourContext& context) {
   follower_.stop();
   follower_.take({});
-  if (!lap_.is_lap()) {
+  if (!landmark_orbit_.is_covered()) {
     if (orbits_ > 0) return finish(landmark, "it cannot be circled once more");
     return {Progress::failure, described(landmark) + " cannot be circled: no free path leads round it"};
   }
   ++orbits_;
-  const double risen = landmark.degree - degree_at_lap_;
+  const double risen = landmark.degree - degree_at_begin_;
   char text[96];
-  std::snprintf(text, sizeof text, "lap %d: degree %.3f -> %.3f", orbits_, degree_at_lap_, landmark.degree);
+  std::snprintf(text, sizeof text, "orbit %d: degree %.3f -> %.3f", orbits_, degree_at_begin_, landmark.degree);
   context.say(std::string(text) + " of " + described(landmark));
-  degree_at_lap_ = landmark.degree;
-  lap_.begin();
+  degree_at_begin_ = landmark.degree;
+  landmark_orbit_.begin();
   if (risen <= config_.gain) return finish(landmark, "it rises no more");
-  if (orbits_ >= config_.rounds_at_most) return finish(landmark, "that was the last lap");
-  return {Progress::running, "next lap"};
+  if (orbits_ >= config_.rounds_at_most) return finish(landmark, "that was the last orbit");
+  return {Progress::running, "next orbit"};
 }
 
 Status Inspect::finish(const Landmark& landmark, const std::string& why) const {
   char text[96];
   std::snprintf(text, sizeof text, "degree %.3f -> %.3f in %d %s", degree_before_, landmark.degree, orbits_,
-                orbits_ == 1 ? "lap" : "laps");
+                orbits_ == 1 ? "orbit" : "orbits");
   return {Progress::success, described(landmark) + ": " + text + ", " + why};
 }
 

@@ -1,6 +1,6 @@
 // Inspects a landmark: goes there and circles it until its degree does not rise any more.
 //
-// The laps are those of exploring (look_closer.hpp): what cannot be stood in is left out. Success says the degree
+// The orbits are those of exploring (look_closer.hpp): what cannot be stood in is left out. Success says the degree
 // before and after; failure when it cannot be circled at all.
 #pragma once
 
@@ -42,21 +42,21 @@ class Inspect : public Behaviour {
   Status back_off(const WorldView& world, BehaviourContext& context);
   Status end_orbit(const Landmark& landmark, BehaviourContext& context);
   Status finish(const Landmark& landmark, const std::string& why) const;
-  // False when nothing of the lap is left.
+  // False when nothing of the orbit is left.
   [[nodiscard]] bool choose_path(const WorldView& world, const Landmark& landmark);
 
   InspectConfig config_;
   std::uint64_t seed_;
   std::string name_;
   RouteDriver driver_;
-  DirectFollower follower_;  // on the lap
-  LandmarkOrbit lap_;
+  DirectFollower follower_;  // on the orbit
+  LandmarkOrbit landmark_orbit_;
   Mode mode_ = Mode::drive;
   std::optional<double> begun_s_;
   LandmarkId landmark_ = 0;
   double degree_before_ = 0.0;
-  double degree_at_lap_ = 0.0;  // when the lap began
-  int orbits_ = 0;              // done
+  double degree_at_begin_ = 0.0;  // when the orbit began
+  int orbits_ = 0;                // done
   double chosen_s_ = -1e9;
   double backing_since_s_ = 0.0;
 };

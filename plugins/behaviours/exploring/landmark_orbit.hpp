@@ -1,4 +1,4 @@
-// The path of a lap round a landmark, chosen anew as the map grows: past what the robot has not looked at in this lap.
+// The path of an orbit round a landmark, chosen anew as the map grows: past what the robot has not looked at yet.
 #pragma once
 
 #include <cstddef>
@@ -40,15 +40,15 @@ class LandmarkOrbit {
 
   // Every tick.
   void see(const WorldView& world);
-  // A new lap: all is to be looked at again.
+  // A new orbit: all is to be looked at again.
   void begin();
-  // Places of this lap that the robot cannot get to, or sees nothing from.
+  // Places of this orbit that the robot cannot get to, or sees nothing from.
   void avoid(const Point& at) { avoid_.push_back(at); }
 
-  // Empty when nothing of the lap is left, or nothing in reach.
+  // Empty when nothing of the orbit is left, or nothing in reach.
   [[nodiscard]] std::vector<Point> path(const WorldView& world, const Point& centre);
-  // Whether enough of the lap had been looked at when its path was chosen last.
-  [[nodiscard]] bool is_lap() const { return covered_ >= settings_.min_covered_sectors; }
+  // Whether enough of it had been looked at when its path was chosen last.
+  [[nodiscard]] bool is_covered() const { return covered_ >= settings_.min_covered_sectors; }
 
  private:
   InspectOrbitSettings settings_;

@@ -23,18 +23,18 @@ void ChoiceSettings::describe(Fields<ChoiceSettings>& fields) {
 void TaskWeights::describe(Fields<TaskWeights>& fields) {
   using C = TaskWeights;
   fields.number("orbit_bonus_m", &C::orbit_bonus_m, {0.0, 1000.0}, "m",
-                "a lap round an object may cost this much more path than another task and still come first");
+                "an orbit round an object may cost this much more path than another task and still come first");
   fields.number("frontier_bonus_m_per_m", &C::frontier_bonus_m_per_m, {0.0, 1000.0}, "m/m",
                 "the same for each metre of a frontier");
   fields.number("max_frontier_bonus_m", &C::max_frontier_bonus_m, {0.0, 1000.0}, "m", "and at most this");
   fields.number("stay_bonus_m", &C::stay_bonus_m, {0.0, 1000.0}, "m", "the same for the task under way");
   fields.number("same_m", &C::same_m, {0.0, 100.0}, "m", "tasks of one kind this near to each other are the same");
   fields.integer("min_orbit_sectors", &C::min_orbit_sectors, {1.0, 24.0},
-                 "a lap begins only when so many of its 24 sectors are still to be seen");
+                 "an orbit begins only when so many of its 24 sectors are still to be seen");
   fields.number("orbit_from_m", &C::orbit_from_m, {0.0, 1000.0}, "m",
                 "and from within this: from afar a piece of wall looks like an object");
   fields.number("max_detour_for_sector_m", &C::max_detour_for_sector_m, {0.0, 1000.0}, "m",
-                "longest path to a lap for each sector that is still to be seen");
+                "longest path to an orbit for each sector that is still to be seen");
   fields.number("is_landmark_m", &C::is_landmark_m, {0.0, 10.0}, "m",
                 "an object this near to a known landmark is that landmark");
   fields.number("max_path_for_edges_m_per_m", &C::max_path_for_edges_m_per_m, {0.0, 1e4}, "m/m",
@@ -63,7 +63,7 @@ void ExploreMotionSettings::describe(Fields<ExploreMotionSettings>& fields) {
   fields.number("blocked_clearance_ratio", &C::blocked_clearance_ratio, {0.0, 1.0}, "",
                 "and is nearer to the path than the robot's radius and this share of the clearance");
   fields.number("arrived_m", &C::arrived_m, {0.001, 1.0}, "m", "this near to the end of a path is there");
-  fields.number("on_orbit_m", &C::on_orbit_m, {0.0, 10.0}, "m", "this near to its first place it is on a lap");
+  fields.number("on_orbit_m", &C::on_orbit_m, {0.0, 10.0}, "m", "this near to its first place it is on an orbit");
   fields.number("away_s", &C::away_s, {0.01, 600.0}, "s",
                 "when it was not ticked for longer, something else has driven the robot: it begins with a look round");
   fields.number("trace_apart_m", &C::trace_apart_m, {0.01, 5.0}, "m",

@@ -45,7 +45,7 @@ std::vector<double> tried_distances(const FreeSpace& space, const OrbitSettings&
   const double wanted_m = std::max(settings.distance_m, space.min_distance_m());
   const double max_m = std::max(wanted_m, settings.look_closer_m - step_m);
   std::vector<double> distances{wanted_m};
-  for (int i = 1; i * step_m < 1.0; ++i) {
+  for (int i = 1; wanted_m - i * step_m >= space.min_distance_m() || wanted_m + i * step_m <= max_m; ++i) {
     if (wanted_m - i * step_m >= space.min_distance_m()) distances.push_back(wanted_m - i * step_m);
     if (wanted_m + i * step_m <= max_m) distances.push_back(wanted_m + i * step_m);
   }
@@ -113,7 +113,8 @@ void ObjectSettings::describe(Fields<ObjectSettings>& fields) {
   fields.integer("max_hidden_sectors", &C::max_hidden_sectors, {0.0, 24.0},
                  "an object stands free when at most so many of 24 directions round it are unknown");
   fields.integer("min_open_sectors", &C::min_open_sectors, {0.0, 24.0}, "and the robot can stand in at least so many");
-  fields.number("avoid_m", &C::avoid_m, {0.0, 10.0}, "m", "places on a lap this near to one that failed are left out");
+  fields.number("avoid_m", &C::avoid_m, {0.0, 10.0}, "m",
+                "places on an orbit this near to one that failed are left out");
 }
 
 std::vector<Cell> unseen(const FreeSpace& space, const std::vector<Cell>& cells, const std::vector<Pose2>& trace,
@@ -205,7 +206,7 @@ OrbitRoute orbit_route(const FreeSpace& space, const Orbit& orbit, const Pose2& 
     while (length < kOrbitSectors - 1 && sector(first + step * (length + 1)).state == SectorState::open) ++length;
     return length;
   };
-  // Anticlockwise round the centre is this way; does the robot look along it already?
+  // The direction of an anticlockwise orbit; does the robot look along it already?
   const double along_rad = sector_angle(first) + std::numbers::pi / 2.0;
   const bool heads_anticlockwise = std::cos(T_map_robot.theta_rad - along_rad) >= 0.0;
   const int ahead = run(1);

@@ -1,4 +1,4 @@
-// Looking closer: which edges the robot has not been near to, and laps round free-standing objects.
+// Looking closer: which edges the robot has not been near to, and orbits round free-standing objects.
 //
 // A landmark is recognised in the gradients along its whole outline (docs/method.md 6), so an object that stands free
 // is circled; walls are only passed.
@@ -12,8 +12,6 @@
 #include "plugins/behaviours/local_map/free_space.hpp"
 
 namespace cairn::behaviours {
-
-inline constexpr double kIsLandmark_m = 0.4;  // an object this near to a landmark's centre is that landmark
 
 // How near, and how far off the robot's heading, a cell must be for the robot to have seen it well.
 struct Sight {
@@ -63,7 +61,7 @@ struct Orbit {
   std::vector<Sector> sectors;  // kOrbitSectors
 
   [[nodiscard]] int count(SectorState state) const;  // 0 when the object was out of reach
-  // A thing that stands free, as far as can be told: nearly all the way round is known.
+  // A thing that stands free, as far as is known: nearly all directions are.
   [[nodiscard]] bool is_round_trip(const ObjectSettings& settings = {}) const;
 };
 
@@ -75,7 +73,7 @@ struct Orbit {
 [[nodiscard]] Orbit orbit_round(const FreeSpace& space, const CellGroup& object, std::span<const Pose2> trace,
                                 const std::vector<Point>& avoid, const OrbitSettings& settings);
 
-// The lap's cheapest open sector, and the path on through the open sectors next to it, in the direction
+// The orbit's cheapest open sector, and the path on through the open sectors next to it, in the direction
 // with more of them (towards the robot's heading when equal). Empty when no sector is open.
 struct OrbitRoute {
   Cell first;

@@ -8,7 +8,7 @@
 
 namespace cairn::behaviours {
 
-// What a metre costs on the way to a lookout, against one that is free.
+// What a metre of a path to a lookout costs, against one that is free.
 struct LookoutCosts {
   double narrow = 4.0;     // too near to something
   double seen_once = 3.0;  // unknown, but an echo has come through

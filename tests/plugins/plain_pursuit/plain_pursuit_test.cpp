@@ -9,13 +9,17 @@ namespace {
 
 const std::vector<Point> kAhead{{0.0, 0.0}, {2.0, 0.0}};
 
-ControlResult control(const std::vector<Point>& obstacles, const Pose2& T_map_robot = {}) {
+// Obstacles in the map frame.
+ControlResult control(const std::vector<Point>& obstacles, const Pose2& T_map_robot = {},
+                      const std::vector<Point>& path = kAhead) {
   const OccupancyGrid grid(0.05);
   const LandmarkGraph graph;
   const RobotModel robot;
   ControlRequest request;
-  request.path = kAhead;
-  request.obstacles = obstacles;
+  request.path = path;
+  std::vector<Point> obstacles_robot;
+  for (const Point& p : obstacles) obstacles_robot.push_back(inverse(T_map_robot) * p);
+  request.obstacles = obstacles_robot;
   PlainPursuit controller{PlainPursuitConfig{}};
   return controller.control(request, {grid, graph, robot, {T_map_robot, {}}, 0.0});
 }
@@ -37,6 +41,24 @@ TEST(PlainPursuit, StopsBeforeWhatIsAheadAndSaysWhatItWouldDo) {
 
 TEST(PlainPursuit, WhatIsBesideOrBehindDoesNotStopIt) {
   EXPECT_EQ(control({{0.4, 0.5}, {-0.3, 0.0}, {1.5, 0.0}}).state, ControlState::following);
+}
+
+TEST(PlainPursuit, WhatItStandsBesideDoesNotStopItFromPassing) {
+  const RobotModel robot;
+  EXPECT_EQ(control({{0.0, robot.radius_m + 0.02}, {-0.1, -robot.radius_m}}).state, ControlState::following);
+  EXPECT_EQ(control({{0.1, 0.0}}).state, ControlState::blocked) << "driving on leads nearer to it";
+}
+
+TEST(PlainPursuit, WhatIsBehindTheEndOfItsPathDoesNotStopIt) {
+  const RobotModel robot;
+  const Point behind_end{2.0 + robot.radius_m + 0.1, 0.0};
+  EXPECT_EQ(control({behind_end}, {1.8, 0.0, 0.0}).state, ControlState::following);
+}
+
+TEST(PlainPursuit, WhatIsStraightAheadDoesNotStopItWhereThePathTurnsAway) {
+  const std::vector<Point> bend{{0.0, 0.0}, {0.1, 0.0}, {0.1, 2.0}};
+  EXPECT_EQ(control({{0.55, 0.0}}, {0.0, 0.0, radians(45.0)}, bend).state, ControlState::following);
+  EXPECT_EQ(control({{0.0, 0.5}}, {0.0, 0.0, radians(45.0)}, bend).state, ControlState::blocked);
 }
 
 TEST(PlainPursuit, TurnsInPlaceWhereThePathLeadsBack) {

@@ -190,7 +190,7 @@ TEST(Inspect, CirclesOnceWhenTheDegreeDoesNotRise) {
   FakeHost host = room_with_block();
   Inspect step = inspect("L1");
   const Status status = host.run(step, 300.0);
-  EXPECT_EQ(status, (Status{Progress::success, "L1 (square): degree 0.700 -> 0.700 in 1 lap, it rises no more"}));
+  EXPECT_EQ(status, (Status{Progress::success, "L1 (square): degree 0.700 -> 0.700 in 1 orbit, it rises no more"}));
   EXPECT_GT(turned_round_rad(host), radians(300.0)) << host.picture();
   EXPECT_GT(host.nearest_solid_m, host.robot.radius_m);
 }
@@ -205,14 +205,14 @@ TEST(Inspect, GoesOnAsLongAsTheDegreeRises) {
     if (host.said.size() == orbits) continue;
     orbits = host.said.size();
   }
-  EXPECT_THAT(status.reason, HasSubstr("in 1 lap"));
+  EXPECT_THAT(status.reason, HasSubstr("in 1 orbit"));
 
   FakeHost rising = room_with_block();
   Inspect again = inspect("{landmark: nearest square, rounds_at_most: 4}");
   status = {};
   while (status.progress == Progress::running && rising.time_s < 900.0) {
     status = rising.tick(again);
-    // Rises through the first two laps.
+    // Rises through the first two orbits.
     if (rising.said.size() < 2) rising.graph.find(1)->degree = std::min(0.9, 0.7 + 0.0005 * rising.time_s);
   }
   EXPECT_EQ(status.progress, Progress::success) << status.reason;
@@ -230,7 +230,7 @@ TEST(Inspect, EndsAfterItsLastLapHoweverTheDegreeRises) {
     status = host.tick(step);
   }
   EXPECT_EQ(status.progress, Progress::success);
-  EXPECT_THAT(status.reason, HasSubstr("in 1 lap, that was the last lap"));
+  EXPECT_THAT(status.reason, HasSubstr("in 1 orbit, that was the last orbit"));
 }
 
 TEST(Search, ReportsHowLongExploringStillTakes) {

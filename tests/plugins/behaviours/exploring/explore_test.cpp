@@ -120,7 +120,7 @@ TEST(Explore, CirclesAnObjectThatStandsFree) {
   Explore explore({});
   EXPECT_EQ(host.run(explore, 900.0).progress, Progress::success);
   EXPECT_GE(coverage_deg(host.driven, kObjectCentre, 0.25 + 0.9), 330.0) << host.picture();
-  // A second lap would be more than 4 m longer.
+  // A second orbit would be more than 4 m longer.
   EXPECT_LT(host.driven_m, 18.5) << host.picture();
 }
 

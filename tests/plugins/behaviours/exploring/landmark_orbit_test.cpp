@@ -7,8 +7,8 @@
 namespace cairn::behaviours {
 namespace {
 
-struct Lap : testing::Test {
-  Lap()
+struct Orbiting : testing::Test {
+  Orbiting()
       : map(R"(
 ####################
 #..................#
@@ -44,25 +44,25 @@ struct Lap : testing::Test {
   LandmarkOrbit orbit;
 };
 
-TEST_F(Lap, LeadsRoundTheLandmarkAtTheGivenDistance) {
+TEST_F(Orbiting, LeadsRoundTheLandmarkAtTheGivenDistance) {
   orbit.see(world());
   orbit.begin();
   const std::vector<Point> path = orbit.path(world(), map.at('L'));
   ASSERT_GT(path.size(), 4U);
-  EXPECT_FALSE(orbit.is_lap()) << "it has not looked yet";
+  EXPECT_FALSE(orbit.is_covered()) << "it has not looked yet";
   const double radius_m = (path.back() - map.at('L')).norm();
   EXPECT_GT(radius_m, 0.4);
   EXPECT_LT(radius_m, 1.0);
 }
 
-TEST_F(Lap, NothingIsLeftWhereAllIsAvoided) {
+TEST_F(Orbiting, NothingIsLeftWhereAllIsAvoided) {
   orbit.see(world());
   orbit.begin();
   for (double x_m = 0.0; x_m < 2.0; x_m += 0.1)
     for (double y_m = 0.0; y_m < 2.0; y_m += 0.1) orbit.avoid({x_m, y_m});
   EXPECT_TRUE(orbit.path(world(), map.at('L')).empty());
   orbit.begin();
-  EXPECT_FALSE(orbit.path(world(), map.at('L')).empty()) << "a new lap tries all again";
+  EXPECT_FALSE(orbit.path(world(), map.at('L')).empty()) << "a new orbit tries all again";
 }
 
 }  // namespace

@@ -7,23 +7,23 @@
 namespace cairn::behaviours {
 namespace {
 
-// Half of a room is known.
+// One end of a room is not known.
 struct Choosing : testing::Test {
   Choosing()
       : map(R"(
-####################
-#..........         
-#..........         
-#..........         
-#....R.....         
-#..........         
-#..........         
-#..........         
-####################
+##################################
+#........................         
+#........................         
+#........................         
+#....R...................         
+#........................         
+#........................         
+#........................         
+##################################
 )") {
     robot.radius_m = 0.2;
     config.look_closer_m = 0.0;
-    T_map_robot = {map.at('R').x(), map.at('R').y(), 0.0};
+    T_map_robot = {map.at('R').x(), map.at('R').y(), radians(180.0)};
   }
   [[nodiscard]] WorldView world() const {
     WorldView view{map.grid, graph, robot, {}, 10.0, nullptr};
@@ -47,7 +47,7 @@ TEST_F(Choosing, AFrontierWhereTheMapEnds) {
   const std::optional<ExploreTask> task = chooser().choose(world(), std::nullopt);
   ASSERT_TRUE(task);
   EXPECT_EQ(task->kind, TaskKind::frontier);
-  EXPECT_NEAR(task->about.x(), 1.05, 0.11);
+  EXPECT_NEAR(task->about.x(), 2.45, 0.11);
 }
 
 TEST_F(Choosing, NothingOnceTheFrontierIsGivenUp) {
@@ -73,8 +73,8 @@ TEST_F(Choosing, APathIsBlockedWhenSomethingTurnsUpOnIt) {
 TEST_F(Choosing, ARobotThatCannotGoBackIsShutIn) {
   TaskChooser chooser = this->chooser();
   EXPECT_FALSE(chooser.is_shut_in(world()));
-  for (int y = 1; y < 8; ++y) map.grid.set_log_odds({5, y}, 600);
-  T_map_robot.x_m += 0.4;
+  for (int y = 1; y < 8; ++y) map.grid.set_log_odds({12, y}, 600);
+  T_map_robot.x_m += 1.3;
   chooser.see(world());
   EXPECT_TRUE(chooser.is_shut_in(world()));
 }

@@ -126,7 +126,7 @@ TEST(OrbitRoute, GoesAllTheWayRoundFromTheNearestSector) {
 TEST(OrbitRoute, GoesOnInTheDirectionThatIsLeft) {
   const AsciiGrid map = open_room();
   const FreeSpace space(map.grid, {kCentre + Point{-0.8, 0.0}, 0.2, 0.1}, {{0.55, 1.75, 0.0}});
-  // Half a lap is done, clockwise from the right over the top: on through the bottom.
+  // Half an orbit is done, clockwise from the right over the top: on through the bottom.
   const Orbit orbit = orbit_round(space, compact_objects(space, 1.5).at(0), ring(kCentre, 0.8, 0, 180), {}, {});
   const OrbitRoute route = orbit_route(space, orbit, {1.75, 1.75, radians(90.0)});
   EXPECT_LT(space.centre_of(route.first).y(), kCentre.y());
