@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -11,28 +12,6 @@
 
 namespace cairn::exchange {
 namespace {
-
-// Bytes of the UTF-8 character at the front, 0 when there is none: too long forms and surrogates are none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const auto follows = [&](std::size_t i, unsigned least = 0x80, unsigned most = 0xBF) {
-    return byte(i) >= least && byte(i) <= most;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-  if (first >= 0xE0 && first <= 0xEF) {
-    const unsigned least = first == 0xE0 ? 0xA0 : 0x80;
-    const unsigned most = first == 0xED ? 0x9F : 0xBF;
-    return follows(1, least, most) && follows(2) ? 3 : 0;
-  }
-  if (first >= 0xF0 && first <= 0xF4) {
-    const unsigned least = first == 0xF0 ? 0x90 : 0x80;
-    const unsigned most = first == 0xF4 ? 0x8F : 0xBF;
-    return follows(1, least, most) && follows(2) && follows(3) ? 4 : 0;
-  }
-  return 0;
-}
 
 constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 constexpr std::size_t kBlock = std::size_t{1} << 20;
@@ -100,10 +79,11 @@ std::string text_of_file(const std::filesystem::path& file) {
 }
 
 std::size_t first_not_utf8(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text.substr(at));
-    if (length == 0) return at;
-    at += length;
+  namespace utf = boost::locale::utf;
+  for (const char* at = text.begin(); at != text.end();) {
+    const char* const character = at;
+    const utf::code_point code = utf::utf_traits<char>::decode(at, text.end());
+    if (code == utf::illegal || code == utf::incomplete) return static_cast<std::size_t>(character - text.begin());
   }
   return std::string_view::npos;
 }
