@@ -57,8 +57,8 @@ TEST(PlainPursuit, WhatIsBehindTheEndOfItsPathDoesNotStopIt) {
 
 TEST(PlainPursuit, WhatIsStraightAheadDoesNotStopItWhereThePathTurnsAway) {
   const std::vector<Point> bend{{0.0, 0.0}, {0.1, 0.0}, {0.1, 2.0}};
-  EXPECT_EQ(control({{0.55, 0.0}}, {0.0, 0.0, radians(45.0)}, bend).state, ControlState::following);
-  EXPECT_EQ(control({{0.0, 0.5}}, {0.0, 0.0, radians(45.0)}, bend).state, ControlState::blocked);
+  EXPECT_EQ(control({{0.36, 0.36}}, {0.0, 0.0, radians(45.0)}, bend).state, ControlState::following);
+  EXPECT_EQ(control({{0.0, 0.42}}, {0.0, 0.0, radians(45.0)}, bend).state, ControlState::blocked);
 }
 
 TEST(PlainPursuit, TurnsInPlaceWhereThePathLeadsBack) {
