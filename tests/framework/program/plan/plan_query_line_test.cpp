@@ -29,19 +29,26 @@ std::string error_at(int column, const std::string& line) {
 }
 
 TEST(PlanQueryLine, HoldsAllThatAPlanMayBeAsked) {
-  const PlanQuery query = read(
-      R"({"id": 3, "from": "L1", "to": "nearest square", "via": "L5", "avoid": ["L4", "C1:L7"], "closed": [2, "R9"],)"
-      R"( "alternatives": 2, "cost": "time", "explain": true, "trajectory": true})");
+  const PlanQuery query =
+      read(R"({"id": 3, "from": "L1", "to": "nearest square", "avoid": ["L4", "C1:L7"], "closed": [2, "R9"],)"
+           R"( "alternatives": 2, "cost": "time", "explain": true, "trajectory": true})");
   EXPECT_EQ(query.id, 3);
   EXPECT_EQ(query.question.from, "L1");
   EXPECT_EQ(query.question.to, "nearest square");
-  EXPECT_THAT(query.question.via, ElementsAre("L5"));
   EXPECT_THAT(query.question.avoid, ElementsAre("L4", "C1:L7"));
   EXPECT_THAT(query.question.closed, ElementsAre("2", "R9"));
   EXPECT_EQ(query.question.alternatives, 2);
   EXPECT_EQ(query.question.cost, "time");
   EXPECT_TRUE(query.question.explain);
   EXPECT_TRUE(query.question.trajectory);
+}
+
+TEST(PlanQueryLine, OneNameStandsForAListOfOne) {
+  EXPECT_THAT(read(R"({"from": "L1", "to": "L2", "via": "L5"})").question.via, ElementsAre("L5"));
+}
+
+TEST(PlanQueryLine, AQuestionThatContradictsItselfIsRefused) {
+  EXPECT_THAT(error_at(54, R"({"from": "a", "to": "b", "via": "c", "alternatives": 2})"), HasSubstr("not for a tour"));
 }
 
 TEST(PlanQueryLine, WhatItLeavesOutIsAsTheCommandLineHasIt) {
@@ -65,7 +72,7 @@ TEST(PlanQueryLine, AKeyThatStandsTwiceIsRefusedWhereItStandsAgain) {
 
 TEST(PlanQueryLine, AValueOfTheWrongTypeIsRefusedWhereItStands) {
   EXPECT_THAT(error_at(10, R"({"from": 1, "to": "c"})"), HasSubstr("\"from\" must be a text"));
-  EXPECT_THAT(error_at(36, R"({"from": "a", "to": "b", "explain": 1})"), HasSubstr("must be true or false"));
+  EXPECT_THAT(error_at(37, R"({"from": "a", "to": "b", "explain": 1})"), HasSubstr("must be true or false"));
   EXPECT_THAT(error_at(41, R"({"from": "a", "to": "b", "alternatives":-1})"), HasSubstr("whole number of 0 to 1000"));
 }
 

@@ -63,8 +63,12 @@ TEST(ExploreTasks, NoFrontierIsOfferedWhereNoneIsWanted) {
 }
 
 TEST(ExploreTasks, AGapThatTheRobotDoesNotFitThroughIsNoFrontier) {
+  const AsciiGrid map = room_with_gap(3);
   ExploreMemory memory;
-  EXPECT_FALSE(task_in(room_with_gap(3), memory));
+  EXPECT_TRUE(task_in(map, memory)) << "the small robot fits";
+  const Pose2 at{map.at('R').x(), map.at('R').y(), 0.0};
+  const FreeSpace for_large(map.grid, {map.at('R'), 0.3, 0.1}, {at});
+  EXPECT_FALSE(next_task(for_large, at, true, nullptr, frontiers_only(), memory));
 }
 
 TEST(ExploreTasks, AFrontierThatWasGivenUpIsNotChosenAgain) {
