@@ -46,7 +46,7 @@ Status at_place(const Condition& condition, const WorldView& world) {
 
 Status battery_above(double ratio, const WorldView& world) {
   if (world.observation == nullptr || !world.observation->battery_ratio)
-    return answer(false, "the sensor tells nothing of a battery");
+    return answer(false, "the sensor reports no battery");
   const double left = *world.observation->battery_ratio;
   return answer(left > ratio, fmt::format("{:.1f} % of the battery is left", 100.0 * left));
 }

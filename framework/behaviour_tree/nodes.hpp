@@ -13,7 +13,7 @@
 
 namespace cairn {
 
-// What they do is told in docs/missions.md; behaviours are modules, all others are the host's own.
+// docs/missions.md says what they do; behaviours are modules, all others are the host's own.
 enum class NodeKind : std::uint8_t {
   sequence,
   reactive_sequence,

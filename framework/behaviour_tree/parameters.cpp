@@ -25,7 +25,7 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 std::string unknown(const std::string& name, const std::string& file, const std::vector<std::string>& names) {
-  return "unknown parameter " + shown(name) + " of " + file + did_you_mean(name, names) + listed(names);
+  return "unknown parameter " + in_quotes(name) + " of " + file + did_you_mean(name, names) + listed(names);
 }
 
 void require_map(const ConfigValue& value, const char* what) {
@@ -34,7 +34,7 @@ void require_map(const ConfigValue& value, const char* what) {
                     std::string(what) + ": expected a map of parameters {name: value}, found " + value.kind_name());
 }
 
-// Of --set there is no line, and nothing more to tell.
+// Of --set there is no line, and nothing more to say.
 void collect_files(const ConfigValue& value, std::set<std::string>& files) {
   if (value.place.line > 0) files.insert(value.place.file);
   for (const ConfigValue& item : value.items) collect_files(item, files);
@@ -96,7 +96,7 @@ Parameters bind_parameters(const SubMissionFile& sub, const std::string& file, c
   std::vector<std::string> names;
   for (const ConfigValue::Entry& entry : sub.parameters.entries) {
     if (!is_name(entry.key))
-      throw ConfigError(entry.key_place, "a parameter's name is letters, digits and _, not " + shown(entry.key));
+      throw ConfigError(entry.key_place, "a parameter's name is letters, digits and _, not " + in_quotes(entry.key));
     names.push_back(entry.key);
   }
   Parameters parameters{file, {}};
@@ -108,7 +108,7 @@ Parameters bind_parameters(const SubMissionFile& sub, const std::string& file, c
     if (with.find(entry.key) != nullptr) continue;
     if (entry.value.kind == ConfigValue::Kind::null)
       throw ConfigError(place,
-                        file + " needs the parameter " + shown(entry.key) + ": `with: {" + entry.key + ": ...}`");
+                        file + " needs the parameter " + in_quotes(entry.key) + ": `with: {" + entry.key + ": ...}`");
     parameters.values[entry.key] = entry.value;
   }
   return parameters;
@@ -120,7 +120,8 @@ ConfigValue with_parameters(const ConfigValue& steps, const Parameters& paramete
   ConfigValue out = putter.put(steps);
   for (const auto& [name, value] : parameters.values)
     if (!putter.has_used(name))
-      errors.emplace_back(value.place, "the parameter " + shown(name) + " of " + parameters.of + " is used by no step");
+      errors.emplace_back(value.place,
+                          "the parameter " + in_quotes(name) + " of " + parameters.of + " is used by no step");
   return out;
 }
 

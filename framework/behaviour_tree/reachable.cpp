@@ -13,16 +13,16 @@ class Reachability {
  public:
   std::vector<ConfigError> errors;
 
-  Ends in_order(const std::vector<TreeNode>& nodes, bool Ends::*go_on, const char* never) {
+  Ends check_order(const std::vector<TreeNode>& nodes, bool Ends::*go_on, const char* never) {
     Ends ends{};
     ends.*go_on = true;
     bool Ends::*const leave = go_on == &Ends::success ? &Ends::failure : &Ends::success;
     ends.*leave = false;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!(ends.*go_on)) {
-        errors.emplace_back(nodes[i].place, shown(nodes[i].name) + " is never reached: " + shown(nodes[i - 1].name) +
-                                                " before it (line " + std::to_string(nodes[i - 1].place.line) +
-                                                ") never " + never);
+        errors.emplace_back(nodes[i].place,
+                            in_quotes(nodes[i].name) + " is never reached: " + in_quotes(nodes[i - 1].name) +
+                                " before it (line " + std::to_string(nodes[i - 1].place.line) + ") never " + never);
         break;
       }
       const Ends child = of(nodes[i]);
@@ -38,10 +38,10 @@ class Reachability {
       case NodeKind::sequence:
       case NodeKind::reactive_sequence:
       case NodeKind::mission:
-        return in_order(node.children, &Ends::success, "succeeds");
+        return check_order(node.children, &Ends::success, "succeeds");
       case NodeKind::fallback:
       case NodeKind::reactive_fallback:
-        return in_order(node.children, &Ends::failure, "fails");
+        return check_order(node.children, &Ends::failure, "fails");
       case NodeKind::parallel:
         return of_parallel(node);
       case NodeKind::repeat: {
@@ -83,7 +83,7 @@ class Reachability {
 
 std::vector<ConfigError> unreachable_nodes(const std::vector<TreeNode>& steps) {
   Reachability reachability;
-  (void)reachability.in_order(steps, &Ends::success, "succeeds");
+  (void)reachability.check_order(steps, &Ends::success, "succeeds");
   return reachability.errors;
 }
 

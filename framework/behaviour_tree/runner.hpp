@@ -1,6 +1,6 @@
 // Ticks a behaviour tree: which leaf is asked in which tick, which is halted, and what has come of each node.
 //
-// Knows no module: leafs are behind an interface. What each node does is told in docs/missions.md. Bounded work: one
+// Knows no module: leaves are behind an interface. docs/missions.md says what each node does. Bounded work: one
 // tick ticks each node at most once.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace cairn {
 struct LeafTick {
   Status status;
   std::optional<Twist> wanted{};  // the velocity that it ordered in this tick
-  bool is_forgiven = false;       // its failure is told, but the nodes above go on as after a success
+  bool is_forgiven = false;       // its failure is published, but the nodes above go on as after a success
 };
 
 // A node that was ticked, over the whole run.
@@ -56,8 +56,8 @@ class TreeHost {
   virtual LeafTick tick_leaf(const TreeNode& leaf) = 0;
   // Of a behaviour that has not ended; once.
   virtual void halt_leaf(const TreeNode& leaf) = 0;
-  // Never the root: whoever ticks knows. A node that begins and ends in one tick, as it did the last time, is not told
-  // again: conditions below reactive nodes would be told in every tick.
+  // Never the root: whoever ticks knows. A node that begins and ends in one tick, as it did the last time, is not
+  // published again: conditions below reactive nodes would be published in every tick.
   virtual void started(const TreeNode& node) = 0;
   virtual void ended(const TreeNode& node, const NodeReport& how) = 0;
   // Of every node, the root too, each time that it has ended or was halted.
@@ -69,12 +69,12 @@ class TreeRunner {
   // Both must outlive it.
   TreeRunner(const TreeNode& root, TreeHost& host);
 
-  // The root's status, as told: also a forgiven failure is a failure. A tick after its end begins afresh. What the
+  // The root's status, as published: also a forgiven failure is a failure. A tick after its end begins afresh. What the
   // host throws passes; then only halt() or abandon() make sense.
   Status tick(double time_s);
   // Ordered in the last tick by a leaf that has not ended.
   [[nodiscard]] const std::optional<Twist>& wanted() const { return wanted_; }
-  // Leafs under way get halt(), the last first.
+  // Leaves under way get halt(), the last first.
   void halt(double time_s, const std::string& reason);
   // As halt(), but no leaf is called any more.
   void abandon(double time_s, const std::string& reason);
@@ -90,7 +90,7 @@ class TreeRunner {
   // The behaviour that was ticked last, unless it has ended.
   [[nodiscard]] std::optional<Doing> doing() const;
 
-  // Between two ticks, or while a leaf is ticked. Leafs have no state here: gone on with, they begin afresh.
+  // Between two ticks, or while a leaf is ticked. Leaves have no state here: gone on with, they begin afresh.
   [[nodiscard]] TreeState state() const;
   // Of a tree that has not begun: goes on from there with its next tick. Throws std::invalid_argument when the state
   // cannot be of this tree at that time.

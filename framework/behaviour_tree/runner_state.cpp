@@ -11,7 +11,7 @@ namespace {
 constexpr double kSlack_s = 1e-6;
 
 [[noreturn]] void fail(const NodeState& saved, const std::string& what) {
-  throw std::invalid_argument("node " + shown(saved.path) + " " + what);
+  throw std::invalid_argument("node " + in_quotes(saved.path) + " " + what);
 }
 
 bool has_memory(NodeKind kind) {

@@ -1,4 +1,4 @@
-// How long a tree still takes: what its leafs tell, and how long its nodes took before.
+// How long a tree still takes: what its leaves say, and how long its nodes took before.
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,8 @@ TimeLeft TreeRunner::left_of(std::size_t at, const Reckoning& reckoning) const {
   switch (state.node->kind) {
     case NodeKind::sequence:
     case NodeKind::mission:
-      for (std::size_t i = state.next; i < state.children.size(); ++i) left = in_order(std::move(left), child(i));
+      for (std::size_t i = state.next; i < state.children.size(); ++i)
+        left = one_after_other(std::move(left), child(i));
       return left;
     case NodeKind::fallback:
       return state.next < state.children.size() ? child(state.next) : left;
@@ -103,7 +104,7 @@ TimeLeft TreeRunner::in_order_from_running(const State& state, const Reckoning& 
   bool has_come = false;
   for (const std::size_t index : state.children) {
     has_come = has_come || states_[index].is_running;
-    if (has_come) left = in_order(std::move(left), left_of(index, reckoning));
+    if (has_come) left = one_after_other(std::move(left), left_of(index, reckoning));
   }
   return left;
 }
@@ -125,7 +126,7 @@ TimeLeft TreeRunner::rounds_left(const State& state, const Reckoning& reckoning)
     whole.without = now.without;
   }
   const auto more = static_cast<double>(std::max<std::int64_t>(0, state.node->times - state.rounds - 1));
-  return more > 0.0 ? in_order(std::move(left), again(std::move(whole), more)) : left;
+  return more > 0.0 ? one_after_other(std::move(left), again(std::move(whole), more)) : left;
 }
 
 // Of a node that is still to come.
@@ -139,7 +140,7 @@ TimeLeft TreeRunner::whole_of(std::size_t at, const Reckoning& reckoning) const 
     case NodeKind::sequence:
     case NodeKind::mission:
     case NodeKind::reactive_sequence:
-      for (std::size_t i = 0; i < state.children.size(); ++i) left = in_order(std::move(left), child(i));
+      for (std::size_t i = 0; i < state.children.size(); ++i) left = one_after_other(std::move(left), child(i));
       return left;
     case NodeKind::fallback:
     case NodeKind::reactive_fallback:

@@ -13,7 +13,7 @@ void add_unknown(TimeLeft& left, const std::string& what) {
   if (std::find(left.without.begin(), left.without.end(), what) == left.without.end()) left.without.push_back(what);
 }
 
-TimeLeft in_order(TimeLeft first, const TimeLeft& then) {
+TimeLeft one_after_other(TimeLeft first, const TimeLeft& then) {
   first.about_s += then.about_s;
   first.max_s += then.max_s;
   for (const std::string& what : then.without) add_unknown(first, what);

@@ -114,7 +114,7 @@ class TreeReader {
     node.choice = {item.keyword, item.value};
     node.place = item.place;
     if (item.value.kind == ConfigValue::Kind::null) node.choice.config.kind = ConfigValue::Kind::map;
-    // What is missing in a map is told where the node stands; a short form is wrong where it was written.
+    // What is missing in a map is reported where the node stands; a short form is wrong where it was written.
     if (node.choice.config.kind == ConfigValue::Kind::map) node.choice.config.place = item.place;
     if (const NodeType* type = find_node_type(item.keyword)) {
       node.kind = type->kind;
@@ -206,7 +206,7 @@ class TreeReader {
     if (value.kind == ConfigValue::Kind::scalar && value.scalar == "all") return children;
     if (value.kind == ConfigValue::Kind::scalar && value.scalar == "any") return 1;
     if (value.kind == ConfigValue::Kind::scalar && value.kind_name() == "text")
-      throw ConfigError(value.place, key + " must be all, any or a number, found " + shown(value.scalar) +
+      throw ConfigError(value.place, key + " must be all, any or a number, found " + in_quotes(value.scalar) +
                                          did_you_mean(value.scalar, {"all", "any"}));
     const std::int64_t number = config_detail::to_integer(value, key, {1.0, 1e9});
     if (number > static_cast<std::int64_t>(children))
@@ -219,7 +219,7 @@ class TreeReader {
     const bool is_text = value.kind == ConfigValue::Kind::scalar && value.kind_name() == "text";
     if (is_text && value.scalar == "forever") return 0;
     if (is_text)
-      throw ConfigError(value.place, "times must be forever or a number, found " + shown(value.scalar) +
+      throw ConfigError(value.place, "times must be forever or a number, found " + in_quotes(value.scalar) +
                                          did_you_mean(value.scalar, {"forever"}));
     return static_cast<int>(config_detail::to_integer(value, "times", {1.0, 1e9}));
   }
@@ -246,7 +246,7 @@ class TreeReader {
     if (needs_landmark && condition.landmark.empty())
       throw ConfigError(value.place, what + " needs a landmark or category, found an empty text");
     if (needs_landmark && names_nothing(condition.landmark))
-      throw ConfigError(value.place, what + ": " + shown(condition.landmark) + " names no category");
+      throw ConfigError(value.place, what + ": " + in_quotes(condition.landmark) + " names no category");
     return condition;
   }
 

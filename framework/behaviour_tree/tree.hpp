@@ -38,7 +38,7 @@ struct MissionTree {
   std::vector<ConfigError> errors;  // in the order of the files
 };
 
-inline constexpr std::size_t kMaxTreeDepth = 64;     // nodes on the way from a step to a leaf
+inline constexpr std::size_t kMaxTreeDepth = 64;     // nodes on the path from a step to a leaf
 inline constexpr std::size_t kMaxTreeNodes = 10000;  // of a mission with all its sub-missions
 
 // steps: the list of the mission's file, or a value without a place where it has none. Reads sub-missions, too. Errors:

@@ -14,7 +14,7 @@ std::string value_text(const ConfigValue& value) {
     case ConfigValue::Kind::null:
       return "";
     case ConfigValue::Kind::scalar:
-      return value.quoted ? shown(value.scalar) : value.scalar;
+      return value.quoted ? in_quotes(value.scalar) : value.scalar;
     case ConfigValue::Kind::map:
       return "{" + entries_text(value) + "}";
     case ConfigValue::Kind::list:
@@ -41,7 +41,7 @@ void add_lines(const std::vector<TreeNode>& nodes, std::size_t depth, std::vecto
   for (const TreeNode& node : nodes) {
     const bool is_named = node.name != node.choice.name;
     lines.push_back({node.path,
-                     std::string(2 * depth, ' ') + node.choice.name + (is_named ? " " + shown(node.name) : ""),
+                     std::string(2 * depth, ' ') + node.choice.name + (is_named ? " " + in_quotes(node.name) : ""),
                      settings_text(node)});
     add_lines(node.children, depth + 1, lines);
   }

@@ -115,7 +115,7 @@ class TreeBuilder : public YAML::EventHandler {
   ConfigValue begin(ConfigValue::Kind kind, const YAML::Mark& mark, const std::string& tag) {
     const bool is_scalar = kind == ConfigValue::Kind::scalar;
     if (!tag.empty() && tag != kPlainTag && !(is_scalar && (tag == kQuotedTag || tag == kTextTag))) {
-      fail(mark, "the YAML tag " + shown(tag) + " is not supported");
+      fail(mark, "the YAML tag " + in_quotes(tag) + " is not supported");
     }
     count_values(place_of(mark), 1);
     ConfigValue value;
@@ -176,7 +176,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
     if (!map.keys.insert(key.scalar).second) {
       const auto first = std::ranges::find(map.value.entries, key.scalar, &ConfigValue::Entry::key);
-      throw ConfigError(key.place, "the key " + shown(key.scalar) + " stands here twice; first at line " +
+      throw ConfigError(key.place, "the key " + in_quotes(key.scalar) + " stands here twice; first at line " +
                                        std::to_string(first->key_place.line));
     }
     map.key = ConfigValue::Entry{key.scalar, key.place, {}};
@@ -221,7 +221,7 @@ void check_text(const std::string& text, const std::string& file) {
     const std::size_t bytes = character_bytes(text, at);
     if (bytes == 0) throw ConfigError(place, "not UTF-8 text");
     if ((byte < 0x20U && byte != '\n' && byte != '\t' && byte != '\r') || byte == 0x7FU) {
-      throw ConfigError(place, "a control character " + shown(text.substr(at, 1)) + "; a file holds text only");
+      throw ConfigError(place, "a control character " + in_quotes(text.substr(at, 1)) + "; a file holds text only");
     }
     if (byte == '[' || byte == '{') ++brackets;
     if (byte == ']' || byte == '}') brackets = std::max(0, brackets - 1);

@@ -35,14 +35,14 @@ ConfigValue& list_item(ConfigValue& list, const std::string& part, const SourceP
   if (index && *index < list.items.size()) return list.items[*index];
   const std::string allowed =
       list.items.empty() ? "the list there is empty" : "allowed: 0 to " + std::to_string(list.items.size() - 1);
-  throw ConfigError(place, shown(part) + " is not an item of the list at " + list.place.text() + "; " + allowed);
+  throw ConfigError(place, in_quotes(part) + " is not an item of the list at " + list.place.text() + "; " + allowed);
 }
 
 // The value below one part of the path; made when it is missing.
 ConfigValue& child_of(ConfigValue& parent, const std::string& part, const SourcePlace& place) {
   if (parent.kind == ConfigValue::Kind::list) return list_item(parent, part, place);
   if (parent.kind == ConfigValue::Kind::scalar) {
-    throw ConfigError(place, "no key " + shown(part) + " below the value " + shown(parent.scalar) + " at " +
+    throw ConfigError(place, "no key " + in_quotes(part) + " below the value " + in_quotes(parent.scalar) + " at " +
                                  parent.place.text() + ", which is not a map");
   }
   if (parent.kind == ConfigValue::Kind::null) {
@@ -81,8 +81,8 @@ std::string variable_value(std::string_view inside, const SourcePlace& place) {
   const std::string name(inside.substr(0, split));
   const bool has_default = split != std::string_view::npos;
   if (!is_variable_name(name)) {
-    throw ConfigError(
-        place, shown("${" + std::string(inside) + "}") + " is not a variable; allowed: ${NAME} or ${NAME:-default}");
+    throw ConfigError(place, in_quotes("${" + std::string(inside) + "}") +
+                                 " is not a variable; allowed: ${NAME} or ${NAME:-default}");
   }
   const char* value = std::getenv(name.c_str());
   if (value != nullptr && (*value != '\0' || !has_default)) return value;
@@ -99,10 +99,10 @@ std::string with_variables(const std::string& text, const SourcePlace& place) {
     out += text.substr(at, open - at);
     if (open == std::string::npos) break;
     const std::size_t close = text.find('}', open);
-    if (close == std::string::npos) throw ConfigError(place, "\"${\" without \"}\" in " + shown(text));
+    if (close == std::string::npos) throw ConfigError(place, "\"${\" without \"}\" in " + in_quotes(text));
     const std::string inside = text.substr(open + 2, close - open - 2);
     if (inside.find("${") != std::string::npos) {
-      throw ConfigError(place, "a variable within a variable in " + shown(text) + " is not supported");
+      throw ConfigError(place, "a variable within a variable in " + in_quotes(text) + " is not supported");
     }
     out += variable_value(inside, place);
     at = close + 1;
@@ -154,7 +154,7 @@ std::string ConfigValue::kind_name() const {
 void apply_override(ConfigValue& root, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw ConfigError({"--set", 0, 0}, "expected KEY=VALUE, found " + shown(assignment));
+    throw ConfigError({"--set", 0, 0}, "expected KEY=VALUE, found " + in_quotes(assignment));
   }
   const std::string key = assignment.substr(0, equals);
   const SourcePlace place{"--set " + key, 0, 0};
@@ -173,7 +173,7 @@ std::filesystem::path resolve_path(const ConfigValue& value) {
   const std::filesystem::path path = with_variables(value.scalar, value.place);
   if (path.empty()) throw ConfigError(value.place, "expected a path, found an empty text");
   if (path.native().find('\0') != std::string::npos)
-    throw ConfigError(value.place, "a path holds no byte 0, found " + shown(value.scalar));
+    throw ConfigError(value.place, "a path holds no byte 0, found " + in_quotes(value.scalar));
   const bool from_a_file = value.place.line > 0;
   if (path.is_absolute() || !from_a_file) return simplified(path);
   return simplified(std::filesystem::path(value.place.file).parent_path() / path);

@@ -67,7 +67,7 @@ struct ConfigValue::Entry {
 [[nodiscard]] ConfigValue parse_config_text(const std::string& text, const std::string& file_name);
 
 // Applies a command line override "a.b.c=value" (list items by number, "steps.0.explore.at_most_s"),
-// creating maps on the way. Throws ConfigError when the text has no '=' or the path meets a scalar.
+// creating maps on the path. Throws ConfigError when the text has no '=' or the path meets a scalar.
 void apply_override(ConfigValue& root, const std::string& assignment);
 
 // A path in a file: ${NAME} and ${NAME:-default} are read from the environment, then relative

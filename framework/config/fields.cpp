@@ -23,13 +23,13 @@ constexpr std::size_t kMaxFileName = 200;
 
 std::string found_text(const ConfigValue& value) {
   if (value.kind != ConfigValue::Kind::scalar) return value.kind_name();
-  return (value.quoted ? "the text " : "") + shown(value.scalar);
+  return (value.quoted ? "the text " : "") + in_quotes(value.scalar);
 }
 
 // "a number from 0 to 5 m", "a number of at least 0 m", "a number (m)", "a number".
 std::string allowed_text(const std::string& noun, const Range& range, const std::string& unit) {
   const std::string with_unit = unit.empty() ? "" : " " + unit;
-  // The ends of a 64 bit integer are no news to people.
+  // The ends of a 64 bit integer say nothing to people.
   const bool has_min = std::abs(range.min) < 1e18;
   const bool has_max = std::abs(range.max) < 1e18;
   if (has_min && has_max) {
@@ -88,7 +88,7 @@ const FieldSpec* field_of(const Schema& schema, std::string_view key) {
   const std::vector<std::string> known = keys_of(schema);
   const std::string allowed = known.empty() ? "; it takes none" : "; known: " + joined(known);
   throw ConfigError(entry.key_place,
-                    "unknown key " + shown(entry.key) + " in " + what + did_you_mean(entry.key, known) + allowed);
+                    "unknown key " + in_quotes(entry.key) + " in " + what + did_you_mean(entry.key, known) + allowed);
 }
 
 void check_required(const Schema& schema, const ConfigValue& value, const std::string& what) {
@@ -96,7 +96,7 @@ void check_required(const Schema& schema, const ConfigValue& value, const std::s
   for (const FieldSpec& field : schema.fields) {
     const bool is_given = is_shorthand ? field.key == schema.shorthand : value.find(field.key) != nullptr;
     if (field.required && !is_given) {
-      throw ConfigError(value.place, what + " lacks the key " + shown(field.key) + ": " + field.meaning);
+      throw ConfigError(value.place, what + " lacks the key " + in_quotes(field.key) + ": " + field.meaning);
     }
   }
 }
@@ -253,7 +253,7 @@ std::string exactly_one_of(const ConfigValue& map, const std::vector<std::string
     if (std::ranges::find(keys, entry.key) == keys.end()) continue;
     if (found != nullptr) {
       throw ConfigError(entry.key_place, what + " takes only one of " + joined(keys) + ", found both " +
-                                             shown(found->key) + " and " + shown(entry.key));
+                                             in_quotes(found->key) + " and " + in_quotes(entry.key));
     }
     found = &entry;
   }

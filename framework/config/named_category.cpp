@@ -19,7 +19,7 @@ void check_category_is_known(const std::string& category, const SourcePlace& pla
                              const std::vector<std::string>& categories) {
   const bool is_known = categories.empty() || std::ranges::find(categories, category) != categories.end();
   if (is_known && !category.empty()) return;
-  throw ConfigError(place, what + ": the mission has no template of category " + shown(category) +
+  throw ConfigError(place, what + ": the mission has no template of category " + in_quotes(category) +
                                did_you_mean(category, categories) +
                                (categories.empty() ? "" : "; it has " + joined(categories)));
 }

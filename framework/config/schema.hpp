@@ -41,7 +41,7 @@ struct FieldSpec {
 struct Schema {
   std::vector<FieldSpec> fields;
   std::string shorthand;  // the field that a scalar or list in place of the map stands for
-  // Exactly one of these must be given. Told to readers of the reference and the schema; whoever loads
+  // Exactly one of these must be given. Shown to readers of the reference and the schema; whoever loads
   // the struct asks config_detail::exactly_one_of which one it is.
   std::vector<std::string> one_of;
 

@@ -16,7 +16,7 @@ enum class Progress { running, success, failure };
 struct Status {
   Progress progress = Progress::running;
   std::string reason;  // for people: what it is doing, or why it ended
-  // While it runs: about how long it still takes, where it can tell. For people; decides nothing.
+  // While it runs: about how long it still takes, where it can say. For people; decides nothing.
   std::optional<double> left_s{};
   bool operator==(const Status&) const = default;
 };

@@ -11,7 +11,7 @@ namespace cairn {
 class Mapper {
  public:
   virtual ~Mapper() = default;
-  // Folds one observation in and says which cells may have changed; the answer is valid until the next
+  // Adds one observation and returns which cells may have changed; the answer is valid until the next
   // call. Readings that are NaN, negative or out of their sensor's range follow stated rules; none
   // throws. Hot: no allocation once the grid covers what is seen.
   virtual const CellChanges& integrate(const Observation& observation, const PoseEstimate& pose) = 0;

@@ -12,7 +12,7 @@ struct PluginChoice;
 struct RobotModel;
 struct ModuleContext;
 
-// Makes modules by name; the only way for one module to use another (a hybrid planner its path planner).
+// Makes modules by name; the only means for one module to use another (a hybrid planner its path planner).
 class ModuleMaker {
  public:
   virtual ~ModuleMaker() = default;

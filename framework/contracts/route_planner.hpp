@@ -44,7 +44,7 @@ struct RouteExplanation {
   std::vector<std::int64_t> settled_of_level;    // vertices settled: [0] landmarks one by one, [l] clusters of level l
   std::vector<std::vector<ClusterId>> clusters;  // passed, in order: [0] of level 1, ...
   std::optional<double> cost;                    // by the kind asked for, in its unit; none: the graph has no route
-  std::vector<RouteId> closed_in_the_way;        // closed routes that a cheaper answer would take
+  std::vector<RouteId> closed_on_cheaper_path;   // closed routes that a cheaper answer would take
   std::optional<double> cost_with_closed_open;   // of that answer; none: no cheaper one
 };
 

@@ -117,7 +117,7 @@ std::vector<ComparedDetector> detectors_of(const ConfigValue& list) {
     detector.name = config_detail::to_text(*name, "name");
     if (detector.name.empty()) throw ConfigError(name->place, "a detector's name must not be empty");
     if (std::ranges::find(detectors, detector.name, &ComparedDetector::name) != detectors.end())
-      throw ConfigError(name->place, "two detectors are called " + shown(detector.name));
+      throw ConfigError(name->place, "two detectors are called " + in_quotes(detector.name));
     std::erase_if(detector.choice.config.entries, [](const ConfigValue::Entry& entry) { return entry.key == "name"; });
     detectors.push_back(std::move(detector));
   }

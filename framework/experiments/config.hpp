@@ -15,7 +15,7 @@
 namespace cairn {
 
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
-// fit at given places of the drive, and along a lap round a landmark; what is recognised in random worlds,
+// fit at given places of the drive, and along an orbit round a landmark; what is recognised in random worlds,
 // and what other detectors recognise on the same grids; what comes of random missions in random worlds.
 enum class ExperimentKind { missions, maps, places, orbit, recognition, curves, trials };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
@@ -44,7 +44,7 @@ struct PlaceConfig {
   static void describe(Fields<PlaceConfig>& fields);
 };
 
-// A lap round one landmark.
+// An orbit round one landmark.
 struct OrbitConfig {
   std::string around;  // category of the landmark; the world has one of it
   double bin_rad = radians(15.0);

@@ -63,14 +63,14 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
   return load_mission(job.mission, overrides, job.seed);
 }
 
-// A fault in the last variant's settings is told before the first one has run for an hour.
+// A fault in the last variant's settings is reported before the first one has run for an hour.
 void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<Job>& jobs) {
   for (const Job& job : jobs) {
     if (job.seed != config.seeds.from) continue;
     const Mission mission = mission_of(config, job);
     if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
     if (config.experiment == ExperimentKind::orbit)
-      require_one(mission, config.orbit->around, "the lap goes round", job.mission);
+      require_one(mission, config.orbit->around, "the orbit goes round", job.mission);
     MissionRunner(mission, library, {job.out, false, nullptr});
     for (const ComparedDetector& detector : config.detectors)
       MissionRunner(with_detector(mission, detector, library), library, {job.out, false, nullptr});

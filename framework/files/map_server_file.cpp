@@ -39,7 +39,7 @@ bool negate_of(const ConfigValue& value) {
   if (is_plain && (value.scalar == "0" || value.scalar == "false")) return false;
   throw ConfigError(value.place,
                     "negate must be 0, 1, true or false, found " +
-                        (value.kind == ConfigValue::Kind::scalar ? shown(value.scalar) : value.kind_name()));
+                        (value.kind == ConfigValue::Kind::scalar ? in_quotes(value.scalar) : value.kind_name()));
 }
 
 Pose2 origin_of(const std::vector<double>& origin, const ConfigValue& value) {
@@ -72,7 +72,7 @@ void check_own_folder(const MapServerFile& file, const std::filesystem::path& ya
   if (lies_in(folder.lexically_normal(), picture.lexically_normal()) &&
       lies_in(fs::weakly_canonical(folder), fs::weakly_canonical(picture)))
     return;
-  throw ConfigError(file.picture_place, "image: " + shown(file.picture.string()) +
+  throw ConfigError(file.picture_place, "image: " + in_quotes(file.picture.string()) +
                                             " is outside the folder of the map; --allow-outside reads it all the same");
 }
 

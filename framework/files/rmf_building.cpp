@@ -103,7 +103,7 @@ class Drawing {  // one level, in its own units, y upwards
         ++pairs;
       }
     if (pairs == 0) {
-      warnings.push_back(level_.place.text() + ": the level " + shown(name_) +
+      warnings.push_back(level_.place.text() + ": the level " + in_quotes(name_) +
                          " has no two fiducials in common with the first: it lies where its own drawing puts it");
       const double own = measured_scale();
       transform.scale = own > 0.0 ? own : reference_scale;
@@ -138,11 +138,11 @@ class Drawing {  // one level, in its own units, y upwards
     }
     for (Lane& lane : lanes) take_lane(lane, place, level);
     if (const std::size_t unused = vertices_.size() - place.size(); unused > 0)
-      site.warnings.push_back("level " + shown(name_) + ": " + std::to_string(unused) +
+      site.warnings.push_back("level " + in_quotes(name_) + ": " + std::to_string(unused) +
                               (unused == 1 ? " vertex" : " vertices") +
                               " without name and lane, of walls and floors: no landmark");
     const std::size_t doors = list_in(level_, "doors").size();
-    if (doors > 0) site.warnings.push_back("level " + shown(name_) + ": " + counted(doors, "door") + ", not read");
+    if (doors > 0) site.warnings.push_back("level " + in_quotes(name_) + ": " + counted(doors, "door") + ", not read");
     return level;
   }
 
@@ -212,7 +212,7 @@ Site site_of_building(const ConfigValue& root) {
   const bool in_pixels = is_in_pixels(root);
   std::vector<Drawing> drawings;
   for (const ConfigValue::Entry& entry : levels.entries) {
-    check_keys(entry.value, kLevelKeys, "the level " + shown(entry.key), site.warnings);
+    check_keys(entry.value, kLevelKeys, "the level " + in_quotes(entry.key), site.warnings);
     drawings.emplace_back(entry.value, entry.key, in_pixels ? -1.0 : 1.0);
   }
   if (drawings.empty()) throw ConfigError(levels.place, "the building has no level");

@@ -31,7 +31,8 @@ void warn_of_slips(const ConfigValue& list, const std::vector<std::string>& know
   for (const ConfigValue::Entry& entry : list.items[2].entries)
     if (std::ranges::find(known, entry.key) == known.end())
       if (const std::string hint = did_you_mean(entry.key, known); !hint.empty())
-        warnings.push_back(entry.key_place.text() + ": the property " + shown(entry.key) + hint + " is kept as it is");
+        warnings.push_back(entry.key_place.text() + ": the property " + in_quotes(entry.key) + hint +
+                           " is kept as it is");
 }
 
 Vertex vertex_of(const ConfigValue& value, std::vector<std::string>& warnings) {
@@ -61,7 +62,7 @@ Level level_of(const ConfigValue::Entry& entry, std::vector<std::string>& warnin
                                                "demo_mock_lift_name",
                                                "undock_name",
                                                "graph_idx"};
-  check_keys(entry.value, {"vertices", "lanes"}, "the level " + shown(entry.key), warnings);
+  check_keys(entry.value, {"vertices", "lanes"}, "the level " + in_quotes(entry.key), warnings);
   Level level{entry.key, {}, {}};
   for (const ConfigValue& value : list_in(entry.value, "vertices"))
     level.vertices.push_back(vertex_of(value, warnings));
@@ -157,7 +158,7 @@ bool is_rmf(const ConfigValue& root) {
   if (root.find("image") == nullptr)
     for (const ConfigValue::Entry& entry : root.entries)
       if (const std::string hint = did_you_mean(entry.key, {"levels"}); !hint.empty())
-        throw ConfigError(entry.key_place, "unknown key " + shown(entry.key) + hint);
+        throw ConfigError(entry.key_place, "unknown key " + in_quotes(entry.key) + hint);
   return false;
 }
 

@@ -54,7 +54,7 @@ void check_keys(const ConfigValue& map, const std::vector<std::string>& known, c
   for (const ConfigValue::Entry& entry : map.entries) {
     if (std::ranges::find(known, entry.key) != known.end()) continue;
     const std::string hint = did_you_mean(entry.key, known);
-    const std::string sentence = "unknown key " + shown(entry.key) + hint + " in " + what;
+    const std::string sentence = "unknown key " + in_quotes(entry.key) + hint + " in " + what;
     if (!hint.empty()) throw ConfigError(entry.key_place, sentence);
     warnings.push_back(entry.key_place.text() + ": " + sentence + ", not read");
   }

@@ -153,7 +153,7 @@ std::vector<std::filesystem::path> template_files(const std::filesystem::path& f
   if (files.empty()) throw ConfigError(place, "no template in this folder; a template is a file *.yaml");
   if (files.size() > kMaxTemplateFiles)
     throw ConfigError(place, "holds " + std::to_string(files.size()) + " templates; at most " +
-                                 std::to_string(kMaxTemplateFiles) + " categories can be told apart at a time");
+                                 std::to_string(kMaxTemplateFiles) + " categories can be distinguished at a time");
   std::ranges::sort(files);
   return files;
 }
@@ -177,7 +177,7 @@ void check_category(const std::string& category, const SourcePlace& place) {
                        std::ranges::all_of(category, is_allowed);
   if (is_good) return;
   throw ConfigError(place, "category must be a letter and up to " + std::to_string(kLongestCategory - 1) +
-                               " letters, digits, _ or -, found " + shown(category));
+                               " letters, digits, _ or -, found " + in_quotes(category));
 }
 
 std::string template_text(const std::string& category, const CapturedOutline& captured, const std::string& of) {
@@ -210,7 +210,7 @@ std::vector<TemplateFile> load_template_files(const std::filesystem::path& folde
     const auto [first, is_new] = file_of_category.emplace(category, file.string());
     if (!is_new) {
       throw ConfigError(root.find("category")->place,
-                        "the category " + shown(category) + " is taken by " + first->second);
+                        "the category " + in_quotes(category) + " is taken by " + first->second);
     }
   }
   std::ranges::sort(templates, {}, [](const TemplateFile& one) -> const std::string& { return one.shape.category; });

@@ -92,7 +92,7 @@ Contour contour_of_category(const std::string& category, const SourcePlace& plac
   if (shape != shapes.end()) return shape->contour;
   std::vector<std::string> known;
   for (const LandmarkShape& s : shapes) known.push_back(s.category);
-  throw ConfigError(place, "no template of the category " + shown(category) + did_you_mean(category, known) +
+  throw ConfigError(place, "no template of the category " + in_quotes(category) + did_you_mean(category, known) +
                                "; known: " + (known.empty() ? "none" : joined(known)));
 }
 

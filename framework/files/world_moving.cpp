@@ -147,7 +147,7 @@ void check_names(const ConfigValue& root) {
       const ConfigValue* name = item.find("name");
       if (name == nullptr || name->scalar.empty()) continue;
       if (std::ranges::find(names, name->scalar) != names.end())
-        throw ConfigError(name->place, "two doors or movers are called " + shown(name->scalar));
+        throw ConfigError(name->place, "two doors or movers are called " + in_quotes(name->scalar));
       names.push_back(name->scalar);
     }
   }

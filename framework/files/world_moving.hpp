@@ -46,7 +46,7 @@ struct MoverConfig {
 // value: the map that the config was loaded from. The world's bounds are set.
 [[nodiscard]] WorldDoor door_of(const World& world, const DoorConfig& config, const ConfigValue& value);
 [[nodiscard]] WorldMover mover_of(const World& world, const MoverConfig& config, const ConfigValue& value);
-// Doors and movers are told apart by their names, where they have any. root: the world file.
+// Doors and movers are distinguished by their names, where they have any. root: the world file.
 void check_names(const ConfigValue& root);
 
 [[nodiscard]] std::vector<std::pair<std::string, Surface>> surfaces();

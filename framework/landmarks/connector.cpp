@@ -35,7 +35,7 @@ std::optional<Pose2> approach_pose(const DistanceField& space, const TravelField
   return Pose2{at.x(), at.y(), std::atan2(landmark.y() - at.y(), landmark.x() - at.x())};
 }
 
-// Open or not, both ways.
+// Open or not, in both directions.
 std::vector<RouteId> routes_joining(const LandmarkGraph& graph, LandmarkId from, LandmarkId to) {
   std::vector<RouteId> ids;
   for (const RouteId id : graph.routes_from(from))

@@ -15,7 +15,8 @@ class DrivenPath {
   // Adds a pose that is 5 cm or more from the last one.
   void record(const Pose2& T_map_robot);
   // The shortest stretch between two places that were both passed within 0.25 m, in the direction from -> to, headings
-  // turned where it was driven the other way; its ends are the places themselves. Empty when there is none. O(poses).
+  // turned where it was driven in the other direction; its ends are the places themselves. Empty when there is none.
+  // O(poses).
   [[nodiscard]] std::vector<Pose2> between(const Pose2& from, const Pose2& to) const;
 
   [[nodiscard]] const std::vector<Pose2>& poses() const { return poses_; }

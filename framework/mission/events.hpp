@@ -39,7 +39,7 @@ struct StepEnded {
   std::string name;
   Status status;
 };
-// Of nodes below a step. One that begins and ends in one tick, as it did the last time, is not told again.
+// Of nodes below a step. One that begins and ends in one tick, as it did the last time, is not published again.
 struct NodeStarted {
   std::string path;  // "3/1/2"
   std::string name;
@@ -55,7 +55,7 @@ struct NodeEnded {
 struct MapSaved {
   std::string file_name;
 };
-// Told when it has happened, at a moment that differs from run to run: not for reports.
+// Published when it has happened, at a moment that differs from run to run: not for reports.
 struct Autosaved {
   std::string file_name;
   double time_s = 0.0;   // of the mission, up to which the file holds everything

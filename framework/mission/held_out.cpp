@@ -25,7 +25,7 @@ double answer_of(const BeamPlace& place, double half_beam_rad) {
 std::vector<double> answers_of(const OccupancyGrid& grid, const Pose2& T_map_sensor, const RangeReading& reading) {
   const double cell_m = grid.cell_m();
   std::vector<double> answers(static_cast<std::size_t>(std::ceil(reading.max_m / cell_m)), 0.0);
-  // Beams are told in the frame of the lattice.
+  // Beams are given in the frame of the lattice.
   const Point p_lattice = T_map_sensor.position() - grid.origin_m();
   const Beam beam{{p_lattice.x(), p_lattice.y(), T_map_sensor.theta_rad}, reading.half_beam_rad, reading.max_m};
   const BeamFrame frame(beam, cell_m);

@@ -1,4 +1,4 @@
-// Range readings that are withheld from the map, and how well the map foretells them: the measure of a
+// Range readings that are held out from the map, and how well the map predicts them: the measure of a
 // map where no truth is known.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace cairn {
 class HoldOut {
  public:
   HoldOut(int every, std::int64_t seed) : every_(every), count_(every > 0 ? seed % every : 0) {}
-  // Whether the next reading of the run is withheld.
+  // Whether the next reading of the run is held out.
   bool next() { return every_ > 0 && ++count_ % every_ == 0; }
 
  private:

@@ -38,7 +38,7 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
     const double diameter_m = shape.contour.outer_diameter_m();
     if (diameter_m <= size_m.maxCoeff() && shape.contour.inner_diameter_m() <= size_m.minCoeff()) continue;
     throw ConfigError(SourcePlace{folder.string(), 0, 0},
-                      "the template " + shown(shape.category) + " is " + config_detail::number_text(diameter_m) +
+                      "the template " + in_quotes(shape.category) + " is " + config_detail::number_text(diameter_m) +
                           " m across, larger than the mission's world of " + config_detail::number_text(size_m.x()) +
                           " x " + config_detail::number_text(size_m.y()) + " m");
   }
@@ -53,7 +53,7 @@ std::vector<std::string> categories_of(const std::vector<LandmarkShape>& shapes)
 // A plain name: an autosave never leaves the output folder.
 void check_autosave(const ConfigValue& root, const std::string& mission, const std::string& file) {
   const auto refuse = [&](const std::string& why) {
-    throw ConfigError(root.find("autosave")->find("file")->place, "autosave.file: " + shown(file) + why);
+    throw ConfigError(root.find("autosave")->find("file")->place, "autosave.file: " + in_quotes(file) + why);
   };
   if (file == "." || file == ".." || file.find_first_of("/\\") != std::string::npos)
     refuse(" is not a plain file name; maps are saved into the output folder");
@@ -65,7 +65,7 @@ void check_autosave(const ConfigValue& root, const std::string& mission, const s
 
 void StartConfig::describe(Fields<StartConfig>& fields) {
   fields.point("at_m", &StartConfig::at_m, "m", "where the robot begins, in the map frame");
-  fields.angle("angle_deg", &StartConfig::angle_rad, {-360.0, 360.0}, "which way it looks there");
+  fields.angle("angle_deg", &StartConfig::angle_rad, {-360.0, 360.0}, "heading there");
 }
 
 PluginChoice default_controller() {

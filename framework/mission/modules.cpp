@@ -74,9 +74,9 @@ std::shared_ptr<Controller> build_controller(const Mission& mission, const Modul
   const std::vector<std::string> nodes = node_names();
   std::vector<std::string> names = known;
   names.insert(names.end(), nodes.begin(), nodes.end());
-  std::string sentence = "unknown behaviour plugin " + shown(node.choice.name) + did_you_mean(node.choice.name, names) +
-                         "; known are: " + (known.empty() ? "none" : joined(known)) +
-                         "; and these nodes: " + joined(nodes);
+  std::string sentence =
+      "unknown behaviour plugin " + in_quotes(node.choice.name) + did_you_mean(node.choice.name, names) +
+      "; known are: " + (known.empty() ? "none" : joined(known)) + "; and these nodes: " + joined(nodes);
   for (const std::string& fault : library.faults()) sentence += "\n  not loaded: " + fault;
   throw ConfigError(node.place, sentence);
 }

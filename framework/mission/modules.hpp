@@ -27,7 +27,7 @@ struct MissionModules {
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
                                            const SavedMap* resume = nullptr);
 
-// What is wrong with the mission's modules and their settings, each as `cairn run` would tell the first: every module
+// What is wrong with the mission's modules and their settings, each as `cairn run` would report the first: every module
 // is made once. Costs no rendering of templates.
 [[nodiscard]] std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library);
 

@@ -61,7 +61,7 @@ NamedValues saved_named_values(const SavedMap& map) {
     if (!json.is_object() || json.size() > kMaxNamedValues) throw std::invalid_argument("it is no table of places");
     for (const auto& [name, place] : json.items()) values[name] = place_of(place);
   } catch (const std::exception& error) {
-    throw StoreError(fmt::format("cannot be gone on from: its property {}: {}", kProperty, error.what()));
+    throw StoreError(fmt::format("cannot be resumed: its property {}: {}", kProperty, error.what()));
   }
   return values;
 }
@@ -76,10 +76,10 @@ std::vector<ConfigError> missing_inputs(const std::vector<TreeNode>& steps, cons
     if (input != nullptr && std::ranges::find(given, input->scalar) == given.end()) {
       std::string known;
       for (const std::string& name : given) known += (known.empty() ? "" : ", ") + name;
-      errors.emplace_back(
-          input->place,
-          fmt::format("input: no step before gives {}{}; {}", shown(input->scalar), did_you_mean(input->scalar, given),
-                      known.empty() ? "a step gives one by `output: NAME`" : "given are: " + known));
+      errors.emplace_back(input->place,
+                          fmt::format("input: no step before gives {}{}; {}", in_quotes(input->scalar),
+                                      did_you_mean(input->scalar, given),
+                                      known.empty() ? "a step gives one by `output: NAME`" : "given are: " + known));
     }
     if (const ConfigValue* output = name_in(*node, *entry->module, kOutput)) given.push_back(output->scalar);
   }

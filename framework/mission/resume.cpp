@@ -41,14 +41,14 @@ void require_same_steps(const MissionProgress& progress, const std::vector<TreeN
 
 std::int64_t seed_of(const SavedMap& map) {
   const auto seed = number_from<std::int64_t>(property(map, "seed"));
-  if (!seed) throw StoreError("cannot be gone on from: it does not say with which seed it was made");
+  if (!seed) throw StoreError("cannot be resumed: it does not say with which seed it was made");
   return *seed;
 }
 
 void check_resumable(const SavedMap& map, const Mission& mission) {
   if (!map.progress)
     throw StoreError(
-        "cannot be gone on from: it does not say how far a mission had come (only maps that `cairn run` "
+        "cannot be resumed: it does not say how far a mission had come (only maps that `cairn run` "
         "has saved do)");
   const std::map<std::string, std::string> wanted = properties_of(mission);
   require_same(map, "mission", wanted.at("mission"), "by mission");
@@ -82,7 +82,7 @@ std::optional<SavedTree> saved_tree(const SavedMap& map) {
   try {
     return SavedTree{property(map, kTreeProperty), tree_state_of(text)};
   } catch (const std::invalid_argument& error) {
-    throw StoreError(fmt::format("cannot be gone on from: its property {}: {}", kTreeStateProperty, error.what()));
+    throw StoreError(fmt::format("cannot be resumed: its property {}: {}", kTreeStateProperty, error.what()));
   }
 }
 
@@ -95,8 +95,8 @@ double paused_before(const SavedMap& map) {
   if (text.empty()) return 0.0;
   const auto paused_s = number_from<double>(text);
   if (!paused_s || !(*paused_s >= 0.0 && *paused_s <= kMaxPaused_s))
-    throw StoreError(fmt::format("cannot be gone on from: its property {} is {}, not a time in seconds",
-                                 kPausedProperty, shown(text)));
+    throw StoreError(fmt::format("cannot be resumed: its property {} is {}, not a time in seconds", kPausedProperty,
+                                 in_quotes(text)));
   return *paused_s;
 }
 

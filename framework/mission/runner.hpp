@@ -69,7 +69,7 @@ class MissionRunner {
   MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
   ~MissionRunner();
 
-  // The listener must outlive the runner. It cannot change what happens: one that throws is told
+  // The listener must outlive the runner. It cannot change what happens: one that throws gets
   // nothing more, and what it threw is kept.
   void subscribe(Listener& listener);
   [[nodiscard]] const std::vector<std::string>& listener_faults() const;
@@ -82,7 +82,7 @@ class MissionRunner {
   // tearing anything down (std::_Exit).
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
-  // How it stands: for listeners, while they are told something.
+  // How it stands: for listeners, while an event is published.
   [[nodiscard]] RunStatus status() const;
 
   // After run(). The grids are null when the module that was left behind was working on them.

@@ -9,7 +9,7 @@ namespace cairn {
 
 // Which mission, seed, robot and world.
 [[nodiscard]] std::map<std::string, std::string> properties_of(const Mission& mission);
-// The keeper's candidates are part of the progress.
+// The tracker's candidates are part of the progress.
 [[nodiscard]] SavedMap map_of_mission(const Mission& mission, const OccupancyGrid& grid, const LandmarkTracker& tracker,
                                       ClusterTree clusters, MissionProgress progress);
 

@@ -87,7 +87,7 @@ class StageClock {
 
   std::shared_ptr<const WallClock> wall_clock_;
   std::vector<Stage> stages_;
-  std::uint64_t entered_ = 0;  // stages entered so far: tells two visits of one stage apart
+  std::uint64_t entered_ = 0;  // stages entered so far: distinguishes two visits of one stage
   // Entry number and stage of the current visit, or kGivenUp; and when it was entered.
   std::atomic<std::uint64_t> current_{0};
   std::atomic<std::int64_t> since_ns_{0};

@@ -43,7 +43,7 @@ ordered_json json_of_explanation(const RouteExplanation& explanation, CostKind k
           {"cost_by", std::string(name_of(kind))},
           {"cost_unit", std::string(unit_of(kind))},
           {"cost_with_closed_open", json_of(explanation.cost_with_closed_open)},
-          {"closed_in_the_way", explanation.closed_in_the_way}};
+          {"closed_on_cheaper_path", explanation.closed_on_cheaper_path}};
 }
 
 ordered_json json_of(const std::vector<RouteAlternative>& alternatives) {

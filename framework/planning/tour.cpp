@@ -39,8 +39,8 @@ void append_explanation(std::optional<RouteExplanation>& sum, const std::optiona
   const auto all_open = sum_of(cost_with_all_open(*sum), cost_with_all_open(*leg));
   const bool better = all_open && (sum->cost_with_closed_open || leg->cost_with_closed_open);
   sum->cost_with_closed_open = better ? all_open : std::nullopt;
-  append(sum->closed_in_the_way, leg->closed_in_the_way);
-  if (!better) sum->closed_in_the_way.clear();
+  append(sum->closed_on_cheaper_path, leg->closed_on_cheaper_path);
+  if (!better) sum->closed_on_cheaper_path.clear();
   sum->cost = sum_of(sum->cost, leg->cost);
 }
 

@@ -31,7 +31,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   sub->add_option("--out", c->out, "folder for map, pictures and report")->capture_default_str();
   sub->add_option("--seed", c->seed, "seed, in place of the mission's")->check(seed_range());
   add_repeatable(sub, "--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)");
-  sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to go on from");
+  sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to continue");
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
   sub->add_flag("--realtime", c->realtime, "pace simulated time to the clock");
 }
@@ -44,9 +44,9 @@ void add_plan(CLI::App& app, CommandLine& line) {
   add_repeatable(sub, "--via", c->question.via, "place to pass on the way (may be repeated; in this order)");
   add_repeatable(sub, "--avoid", c->question.avoid, "landmark or cluster not to pass (may be repeated)");
   add_repeatable(sub, "--close", c->question.closed, "route not to take, as 12 or R12 (may be repeated)");
-  sub->add_option("--alternatives", c->question.alternatives, "so many more ways over the landmarks")
+  sub->add_option("--alternatives", c->question.alternatives, "so many more routes over the landmarks")
       ->check(CLI::Range(0, 1000));
-  sub->add_option("--cost", c->question.cost, "what ways over the landmarks are compared by")
+  sub->add_option("--cost", c->question.cost, "what routes over the landmarks are compared by")
       ->check(CLI::IsMember({"length", "time", "clearance"}))
       ->capture_default_str();
   sub->add_flag("--explain", c->question.explain, "say how the landmark graph gave the answer");
@@ -204,7 +204,8 @@ std::optional<std::string> unknown_option(const CLI::App& app) {
   for (const CLI::App* command : commands)
     for (const CLI::Option* known : command->get_options())
       for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
-  return "unknown option " + shown(option) + did_you_mean(option, names) + "; " + called + " --help lists the options";
+  return "unknown option " + in_quotes(option) + did_you_mean(option, names) + "; " + called +
+         " --help lists the options";
 }
 
 int parse_error_sentence(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
@@ -246,7 +247,7 @@ int main_of(int argc, char** argv) {
 }  // namespace cairn
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is told like a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is reported like a full disk
   try {
     return cairn::main_of(argc, argv);
   } catch (const std::exception& error) {

@@ -208,12 +208,12 @@ struct Sentence {
   std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
   std::string operator()(const Autosaved&) const { return {}; }
   std::string operator()(const AutosaveFailed& e) const {
-    return "autosaving failed, the mission goes on: " + e.reason;
+    return "autosave failed, the mission continues: " + e.reason;
   }
   std::string operator()(const Message& e) const { return e.sentence; }
   std::string operator()(const Bumped&) const { return "bumped into something"; }
   std::string operator()(const Paused&) const { return "paused"; }
-  std::string operator()(const Resumed&) const { return "goes on"; }
+  std::string operator()(const Resumed&) const { return "resumed"; }
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ struct DegreeSample {
   double time_s = 0.0;
   Point region_centre_m{0.0, 0.0};
   std::vector<CategoryDegree> degrees;
-  std::vector<TemplateDegree> templates{};  // where the detector tells them
+  std::vector<TemplateDegree> templates{};  // where the detector reports them
   Point robot_m{0.0, 0.0};                  // in truth where that is known, otherwise as estimated
 };
 

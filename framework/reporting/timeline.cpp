@@ -3,7 +3,7 @@
 namespace cairn {
 namespace {
 
-constexpr double kStopped = 0.999;  // of the wanted speed is held back
+constexpr double kStopped = 0.999;  // of the wanted speed is left out
 
 template <class Thing>
 bool add(std::vector<Thing>& things, Thing thing) {

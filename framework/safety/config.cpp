@@ -11,7 +11,7 @@ void CollisionMonitorConfig::describe(Fields<CollisionMonitorConfig>& fields) {
                 "how long an echo counts; where no transducer has answered for so long, the robot creeps");
   fields.number("blind_s", &CollisionMonitorConfig::blind_s, {0.02, 1.0}, "s",
                 "no driving after so long without any reading; without it, one and a half firing periods, or where the "
-                "robot's file tells none, one and a half times what lies between two readings, 1 s at most");
+                "robot's file gives none, one and a half times the measured gap, 1 s at most");
 }
 
 }  // namespace cairn

@@ -13,7 +13,7 @@ constexpr int kMaxSensors = 4096;
 constexpr std::size_t kMaxEchoes = 4;  // of one transducer
 constexpr double kTouchKept_s = 5.0;
 // Of half a beam, in which another transducer would surely have heard it; the same one would have in all of it.
-constexpr double kSurelyInBeam = 0.6;
+constexpr double kCertainBeamRatio = 0.6;
 constexpr double kBehind_m = 0.1;  // farther away than that is behind
 constexpr double kBesideBeam_rad = radians(10.0);
 constexpr double kThin_rad = radians(1.0);  // half a beam of no width
@@ -107,7 +107,7 @@ void RangeBuffer::clear_before(const RangeReading& reading) {
   const double nearer_m = reading.range_m - kBehind_m;
   for (Transducer& transducer : transducers_) {
     const bool is_own = &transducer == &transducers_[static_cast<std::size_t>(reading.sensor)];
-    const double half_rad = (is_own ? 1.0 : kSurelyInBeam) * reading.half_beam_rad + kThin_rad;
+    const double half_rad = (is_own ? 1.0 : kCertainBeamRatio) * reading.half_beam_rad + kThin_rad;
     for (Echo& echo : transducer.echoes)
       std::erase_if(echo.points_odom, [&](const Point& p_odom) {
         const Point p = T_sensor_odom * p_odom;

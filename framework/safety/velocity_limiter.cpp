@@ -21,7 +21,7 @@ double approached(double from, double to, double at_most) {
 }
 
 // The largest share k of a speed with which the robot stands before way_m is used up, when what it might meet comes
-// towards it at closing_mps as long as it moves:  k V t + (k V)^2 / 2a + u (t + k V / a) <= way.
+// towards it at closing_mps as long as it moves:  k V t + (k V)^2 / 2a + u (t + k V / a) <= distance.
 double share_for(double way_m, double speed_mps, double deceleration_mps2, const SeenPoint& seen, double tick_s) {
   const double reaction_s = tick_s + seen.until_fired_s;
   const double a = speed_mps * speed_mps / (2.0 * deceleration_mps2);
@@ -56,7 +56,7 @@ void VelocityLimiter::see(const Observation& observation) {
 }
 
 // The second largest of the last few gaps: neither a reading that is missing nor a stamp that jitters changes it, and
-// of two sources that tell their readings one soon after the other it is the long one.
+// of two sources that report their readings one soon after the other it is the long one.
 void VelocityLimiter::note_reading() {
   if (heard_ && robot_.firing_period_s <= 0.0) {
     if (gaps_s_.size() == kGaps) gaps_s_.erase(gaps_s_.begin());
@@ -111,7 +111,7 @@ Twist VelocityLimiter::within_limits(const Twist& wanted) const {
   return within;
 }
 
-// What the robot drives a tick later when it is told this.
+// What the robot drives a tick later when this is commanded.
 Twist VelocityLimiter::next_towards(const Twist& twist) const {
   return within_limits({approached(driven_.v_mps, twist.v_mps, robot_.max_acceleration_mps2 * tick_s_),
                         approached(driven_.w_radps, twist.w_radps, robot_.max_turn_acceleration_radps2 * tick_s_)});

@@ -2,10 +2,10 @@
 // or missions: only live ranges, the odometry and the footprint.
 //
 // Stop zone: the footprint, grown by the margin, swept along the arc that the velocity describes for as long as the
-// robot needs to stand: its reaction (a tick, and until the transducer fires again) and its braking way. The speed is
-// cut, on the same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. The arc
-// that the robot is on, before it has come to the wanted one, counts as well. Slow zone: the same with a wider margin,
-// in which the robot only goes slowly. Where no transducer looks it creeps.
+// robot needs to stand: its reaction (a tick, and until the transducer fires again) and its braking distance. The speed
+// is cut, on the same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. The
+// arc that the robot is on, before it has come to the wanted one, counts as well. Slow zone: the same with a wider
+// margin, in which the robot only goes slowly. Where no transducer looks it creeps.
 #pragma once
 
 #include <vector>
@@ -46,7 +46,7 @@ class VelocityLimiter {
   double tick_s_ = 0.0;  // between the last two observations
   double stamp_s_ = 0.0;
   double period_s_ = 0.0;       // of readings
-  std::vector<double> gaps_s_;  // the last few between readings, where the robot's file does not tell the period
+  std::vector<double> gaps_s_;  // the last few between readings, where the robot's file does not give the period
   double last_reading_s_ = 0.0;
   bool begun_ = false;
   bool useless_ = false;  // the last observation: its clock stands still, or it is not placed

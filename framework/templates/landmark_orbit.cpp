@@ -18,7 +18,7 @@ World world_of(const Contour& contour, const Pose2& T_map_landmark, double exten
 }
 
 // A calibrated copy whose sonars end a little beyond the landmark: what lies further away costs time
-// and tells nothing.
+// and says nothing.
 RobotModel calibrated(const RobotModel& robot, double far_enough_m) {
   RobotModel exact = robot;
   exact.odometry_error = {};
@@ -38,7 +38,7 @@ bool comes_near(const RangeReading& reading, const Pose2& T_map_robot, const Poi
   return off_axis_rad <= reading.half_beam_rad + std::asin(within_m / distance_m) + kSpare_rad;
 }
 
-// Drives one lap and hands every observation to the mapper.
+// Drives one orbit and hands every observation to the mapper.
 void drive_orbit(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const Twist& twist, const Point& centre_m,
                  double needed_m) {
   Drive* drive = sensor.drive();
@@ -47,12 +47,12 @@ void drive_orbit(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const
   const Budget budget;
   double turned_rad = 0.0;
   double heading_rad = T_map_start.theta_rad;
-  // Starting and the first turn of the wheels take a little longer than the lap itself.
+  // Starting and the first turn of the wheels take a little longer than the orbit itself.
   const int max_steps = static_cast<int>(1.0e6);
   for (int step = 0; step < max_steps && std::abs(turned_rad) < 2.0 * std::numbers::pi; ++step) {
     SensorStep next = sensor.next(budget);
     if (next.state != SensorState::observation) {
-      throw std::runtime_error("sensed templates: the sensor stopped during a lap: " + next.reason);
+      throw std::runtime_error("sensed templates: the sensor stopped during an orbit: " + next.reason);
     }
     PoseEstimate pose;
     pose.T_map_robot = T_map_start * next.observation.T_odom_robot;

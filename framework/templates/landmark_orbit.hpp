@@ -35,10 +35,10 @@ struct OrbitPlan {
   double needed_m = 1e9;
 };
 
-// The mapper after the laps, one at each standoff and side, both sides of the first standoff first. The robot's sonars
-// end a little beyond the landmark, odometry and compass are free of error, the landmark's surface is rough. The same
-// arguments give the same map. Throws what the modules throw, and std::runtime_error when the sensor cannot be driven
-// or ends before the lap does.
+// The mapper after the orbits, one at each standoff and side, both sides of the first standoff first. The robot's
+// sonars end a little beyond the landmark, odometry and compass are free of error, the landmark's surface is rough. The
+// same arguments give the same map. Throws what the modules throw, and std::runtime_error when the sensor cannot be
+// driven or ends before the orbit does.
 [[nodiscard]] std::shared_ptr<Mapper> map_of_orbits(const OrbitCrew& crew, const Contour& contour,
                                                     const OrbitPlan& plan);
 

@@ -48,7 +48,7 @@ std::vector<TemplateCell> band_of(const Contour& contour, double orientation_rad
   return cells;
 }
 
-// Maps the laps. The landmark's centre is the centre of cell (0, 0).
+// Maps the orbits. The landmark's centre is the centre of cell (0, 0).
 LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad) {
   const SensedOptions& options = studio.options;
   std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, studio.cell_m, options);
@@ -75,7 +75,7 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
     return std::hypot(cell.gradient_x, cell.gradient_y) < options.min_gradient;
   });
   if (cells.empty())
-    throw std::runtime_error("sensed templates: a lap round the " + shape.category +
+    throw std::runtime_error("sensed templates: an orbit round the " + shape.category +
                              " left no edge in the map that is steep enough to be recognised");
   return {shape.category, orientation_rad, std::move(cells)};
 }

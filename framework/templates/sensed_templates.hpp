@@ -13,7 +13,7 @@ namespace cairn {
 
 struct SensedOptions {
   std::vector<double> sizes{1.0};        // as shares of a shape's own; a template each
-  std::vector<double> gaps_m{0.2, 0.6};  // from the contour's outer circle to the robot's; a lap each way at each
+  std::vector<double> gaps_m{0.2, 0.6};  // from the contour's outer circle to the robot's; an orbit each way at each
   double speed_mps = 0.3;
   double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour
   double edge_outside_cells = 3.0;  // and this far outside
@@ -25,13 +25,13 @@ struct SensedOptions {
 
 // Lets the simulated robot drive round each contour, at each distinct orientation, in free space; the
 // templates are the Sobel gradients of the maps that arise. It drives each way: sonars that look ahead smear an
-// outline in the direction of travel, so that the maps of two laps differ by 12 degrees or so, and a template
+// outline in the direction of travel, so that the maps of two orbits differ by 12 degrees or so, and a template
 // of one of them misses the orientation of a landmark seen both ways by half of that. It drives near and
-// farther off: the farther lap rounds what the near one sharpens, as a drive through a room does both, and a
-// round landmark is told from an angular one by little else. The landmark stands with its centre on the centre
+// farther off: the farther orbit rounds what the near one sharpens, as a drive through a room does both, and a
+// round landmark is distinguished from an angular one by little else. The landmark stands with its centre on the centre
 // of a cell, the surface is rough, odometry and compass are free of error. The same arguments give the same
 // templates, with the cache or without. Throws what the modules throw, and std::runtime_error when the sensor
-// cannot be driven or ends before the lap does.
+// cannot be driven or ends before the orbit does.
 [[nodiscard]] TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
                                             const SensedOptions& options, const RobotModel& robot,
                                             const PluginChoice& sensor, const PluginChoice& map,

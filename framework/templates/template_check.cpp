@@ -12,10 +12,10 @@
 namespace cairn {
 namespace {
 
-// Not those of the templates' own laps.
+// Not those of the templates' own orbits.
 constexpr std::uint64_t kSeed = 4711;
 constexpr double kStandoff_m = 0.6;
-constexpr double kClose = 0.05;  // in degree: no class is told between two so near
+constexpr double kClose = 0.05;  // in degree: no class is decided between two so near
 const Point kOffsetInCell{0.3, -0.2};
 
 // Angle between two orientations of a shape that repeats after a period.
@@ -124,7 +124,7 @@ std::string advice_for_pair(const TemplateSet& set, const std::string& shown, co
                                    shown, how, found, times, times == 1 ? "" : "s", difference_m, cells);
   if (cells < 1.0) return advice + "leave one of them out, or make them differ more in size or form";
   if (cells < 3.0)
-    return advice + fmt::format("smaller cells (--cell-m {:.3f}) may tell them apart, or a greater difference in size",
+    return advice + fmt::format("smaller cells (--cell-m {:.3f}) may distinguish them, or a greater difference in size",
                                 difference_m / 3.0);
   return advice + "a greater detector.min_margin leaves such views unknown instead";
 }

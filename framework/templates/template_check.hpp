@@ -41,7 +41,7 @@ struct CheckedDetector {
   PluginChoice thorough;  // the same with all degrees, asked about wrong answers only
 };
 
-// Throws what the modules throw. Time: a lap and its matchings for every view.
+// Throws what the modules throw. Time: an orbit and its matchings for every view.
 [[nodiscard]] TemplateCheck check_templates(const std::shared_ptr<const TemplateSet>& set,
                                             const CheckedDetector& detector, const OrbitCrew& crew);
 

@@ -30,7 +30,7 @@ void check_keys(const SourceText& source, Keys& keys) {
   const auto twice = std::ranges::adjacent_find(keys);
   if (twice == keys.end()) return;
   source.fail(static_cast<std::size_t>((twice + 1)->data() - source.text().data()),
-              "the key " + shown(twice->substr(1, twice->size() - 2)) + " is in this object twice");
+              "the key " + in_quotes(twice->substr(1, twice->size() - 2)) + " is in this object twice");
 }
 
 // The end of the value that begins there, depth brackets deep in the file.
@@ -75,7 +75,7 @@ bool next_element(const SourceText& source, std::size_t& at, char closing) {
   if (c != ',' && c != closing) {
     const std::string sentence = std::string("expected , or ") + closing;
     if (c == '\0') source.fail_cut(at, sentence);
-    source.fail(at, sentence + ", found " + shown(source.text().substr(at, 1)));
+    source.fail(at, sentence + ", found " + in_quotes(source.text().substr(at, 1)));
   }
   ++at;
   return c == ',';
@@ -85,7 +85,7 @@ void open_bracket(const SourceText& source, std::size_t& at, char opening, const
   const char c = next_of(source, at);
   const std::string sentence = std::string("expected ") + what;
   if (c == '\0') source.fail_cut(at, sentence);
-  if (c != opening) source.fail(at, sentence + ", found " + shown(source.text().substr(at, 20)));
+  if (c != opening) source.fail(at, sentence + ", found " + in_quotes(source.text().substr(at, 20)));
   ++at;
 }
 
@@ -93,12 +93,12 @@ JsonMember member_at(const SourceText& source, std::size_t& at) {
   JsonMember member;
   if (next_of(source, at) != '"') {
     if (at == source.text().size()) source.fail_cut(at, "expected a key in quotes");
-    source.fail(at, "expected a key in quotes, found " + shown(source.text().substr(at, 1)));
+    source.fail(at, "expected a key in quotes, found " + in_quotes(source.text().substr(at, 1)));
   }
   member.key_offset = at;
   at = end_of_string(source, at);
   member.key = source.text().substr(member.key_offset + 1, at - member.key_offset - 2);
-  if (next_of(source, at) != ':') source.fail(at, "expected : behind the key " + shown(member.key));
+  if (next_of(source, at) != ':') source.fail(at, "expected : behind the key " + in_quotes(member.key));
   ++at;
   member.begin = skip_blanks(source, at);
   member.end = at = end_of_value(source, member.begin, 1);

@@ -93,7 +93,7 @@ class Line {
 // is called, from any thread and perhaps several times, when no further job is wanted: a take() that waits must then
 // return. At most 32 jobs a thread are between take() and give().
 template <class Take, class Work, class Give, class Stop>
-void in_order(std::size_t threads, const Take& take, const Work& work, const Give& give, const Stop& stop) {
+void ordered_parallel_map(std::size_t threads, const Take& take, const Work& work, const Give& give, const Stop& stop) {
   using Job = typename decltype(take())::value_type;
   using Line = ordered_parallel_map_detail::Line<decltype(work(std::declval<Job>()))>;
   Line line(32 * threads);

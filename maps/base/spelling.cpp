@@ -50,10 +50,10 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
   const std::string nearest = nearest_name(name, candidates);
-  return nearest.empty() ? "" : " (did you mean " + shown(nearest) + "?)";
+  return nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)";
 }
 
-std::string shown(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   std::size_t end = std::min(text.size(), kShownBytes);
   // Not in the middle of a UTF-8 character.

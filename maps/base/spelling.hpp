@@ -13,6 +13,6 @@ namespace cairn {
 [[nodiscard]] std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 
 // A name or value in quotes for a message: one line, at most 60 bytes of it.
-[[nodiscard]] std::string shown(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace cairn

@@ -13,7 +13,7 @@ double usual_cost(const Network& network) {
   std::vector<double> costs;
   for (VertexIndex v = 0; v < network.end(); ++v)
     for (const Arc& arc : network.out(v))
-      if (arc.cost > 0.0 && arc.cost < kNoWay) costs.push_back(arc.cost);
+      if (arc.cost > 0.0 && arc.cost < kNoRoute) costs.push_back(arc.cost);
   if (costs.empty()) return 0.0;
   const auto middle = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 2);
   std::nth_element(costs.begin(), middle, costs.end());
@@ -35,7 +35,7 @@ std::vector<std::vector<std::uint32_t>> groups_of(std::span<const std::uint32_t>
 
 // Cutting a short route costs up to ten times as much as cutting a long one: clusters come out compact.
 std::int32_t ClusterBuilder::weight_of(const Arc& arc) const {
-  if (!(arc.cost < kNoWay)) return 1;
+  if (!(arc.cost < kNoRoute)) return 1;
   const double sum = clustering_.usual_cost_ + arc.cost;
   return 1 + static_cast<std::int32_t>(std::lround(9.0 * (sum > 0.0 ? clustering_.usual_cost_ / sum : 1.0)));
 }

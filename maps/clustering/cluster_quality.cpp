@@ -28,7 +28,7 @@ Graph graph_among(const std::vector<VertexIndex>& landmarks, const Network& netw
   for (std::size_t i = 0; i < landmarks.size(); ++i)
     for (const Arc& arc : network.out(landmarks[i])) {
       const auto at = std::lower_bound(landmarks.begin(), landmarks.end(), arc.other);
-      if (at == landmarks.end() || *at != arc.other || !(arc.cost < kNoWay)) continue;
+      if (at == landmarks.end() || *at != arc.other || !(arc.cost < kNoRoute)) continue;
       ends.emplace_back(i, static_cast<std::size_t>(at - landmarks.begin()));
       edges.push_back({arc.cost});
     }
@@ -43,10 +43,10 @@ double diameter_of(const Graph& graph) {
     boost::dijkstra_shortest_paths(
         graph, from,
         boost::weight_map(boost::get(&Edge::cost, graph))
-            .distance_inf(kNoWay)
+            .distance_inf(kNoRoute)
             .distance_map(boost::make_iterator_property_map(cost.begin(), boost::get(boost::vertex_index, graph))));
     for (const double reached : cost)
-      if (reached < kNoWay) longest = std::max(longest, reached);
+      if (reached < kNoRoute) longest = std::max(longest, reached);
   }
   return longest;
 }

@@ -10,7 +10,7 @@ namespace cairn {
 namespace {
 
 double cost_of(const Route& route, const RouteCost& cost) {
-  if (route.closed) return kNoWay;
+  if (route.closed) return kNoRoute;
   const double value = cost(route);
   if (!std::isfinite(value) || value < 0.0)
     throw std::invalid_argument(
@@ -59,7 +59,7 @@ std::pair<VertexIndex, VertexIndex> Network::ends_of(RouteId id) const {
 const Arc* Network::cheapest(VertexIndex from, VertexIndex to) const {
   const Arc* best = nullptr;
   for (const Arc& arc : out_[from])
-    if (arc.other == to && arc.cost < kNoWay &&
+    if (arc.other == to && arc.cost < kNoRoute &&
         (best == nullptr || arc.cost < best->cost || (arc.cost == best->cost && arc.route < best->route)))
       best = &arc;
   return best;

@@ -16,14 +16,14 @@ namespace cairn {
 
 using VertexIndex = std::uint32_t;
 inline constexpr VertexIndex kNoVertex = std::numeric_limits<VertexIndex>::max();
-inline constexpr double kNoWay = std::numeric_limits<double>::infinity();
+inline constexpr double kNoRoute = std::numeric_limits<double>::infinity();
 
-// What a route costs a search; finite and not negative. Closed routes cost kNoWay without being asked.
+// What a route costs a search; finite and not negative. Closed routes cost kNoRoute without being asked.
 using RouteCost = std::function<double(const Route&)>;
 [[nodiscard]] double cost_by_length(const Route& route);  // cost_m
 
 struct Arc {
-  double cost = 0.0;  // kNoWay: closed
+  double cost = 0.0;  // kNoRoute: closed
   RouteId route = 0;
   VertexIndex other = kNoVertex;  // the end that is not asked for
 };

@@ -88,7 +88,7 @@ CroppedMap crop_map(const SavedMap& map, const Point& corner_m, const Point& opp
   }
   std::erase_if(cropped.map.driven_path, [&](const Pose2& pose) { return !box.contains(pose.position()); });
   if (cropped.map.progress)
-    cropped.warnings.emplace_back("no mission goes on from a part of its map: how far it had come is left away");
+    cropped.warnings.emplace_back("no mission can resume from a part of its map: its progress is dropped");
   cropped.map.progress.reset();
   cropped.map.clusters = cluster_landmarks(graph);
   cropped.landmarks_dropped = map.graph.landmarks().size() - graph.landmarks().size();

@@ -177,8 +177,7 @@ class Merger {
     report(closed_lost_, "route", "closed in one of the maps only; the first map counts");
     report(trajectories_lost_, "route",
            "the trajectory ends elsewhere than where a robot stands at the joined landmark, so only the cost is kept");
-    report(a_.progress || b_.progress ? 1 : 0, "mission",
-           "none goes on from a merged map: how far it had come is left away");
+    report(a_.progress || b_.progress ? 1 : 0, "mission", "none can resume from a merged map: its progress is dropped");
     report(b_.driven_path.empty() ? 0 : 1, "driven path", "the second map's is not taken over");
     const auto named = [](const SavedMap& map) {
       return static_cast<std::size_t>(

@@ -64,7 +64,7 @@ class RouteLint {
     if (!has_grid_ || route.level != 0)
       unchecked_.push_back(route.id);
     else
-      look_at_way(route);
+      check_trajectory(route);
   }
 
   std::vector<LintFinding> take() && {
@@ -116,7 +116,7 @@ class RouteLint {
         "plan it anew: a landmark has moved since, or the ends are swapped");
   }
 
-  void look_at_way(const Route& route) {
+  void check_trajectory(const Route& route) {
     const std::optional<Blockage> blocked = blockage_on(route.trajectory, grid_, options_.radius_m);
     if (!blocked) return;
     const bool occupied = blocked->by == CellState::occupied;

@@ -1,7 +1,7 @@
 // A landmark graph ready for exact searches at any size: its network, its clusters and what they are to searches
 // that pass them (docs/method.md 9.3).
 //
-// Belongs to one landmark graph, which tells of its changes by update(). Reading is thread-safe, updating is not.
+// Belongs to one landmark graph, which reports its changes by update(). Reading is thread-safe, updating is not.
 #pragma once
 
 #include <memory>

@@ -15,7 +15,7 @@ InnerGraph::InnerGraph(const Network& network, const Clustering& clustering, Clu
   if (node.level == 1) {
     for (const VertexIndex v : passage.inner) {
       for (const Arc& arc : network.out(v))
-        if (arc.cost < kNoWay && clustering.leaf_of(arc.other) == cluster)
+        if (arc.cost < kNoRoute && clustering.leaf_of(arc.other) == cluster)
           arcs_.push_back({arc.cost, position_of(passage.inner, arc.other)});
       begin_.push_back(static_cast<std::uint32_t>(arcs_.size()));
     }
@@ -27,7 +27,7 @@ InnerGraph::InnerGraph(const Network& network, const Clustering& clustering, Clu
       for (std::uint32_t a = member.out_begin[i]; a < member.out_begin[i + 1]; ++a) {
         const Arc& arc = member.out[a];
         const ClusterIndex other = clustering.cluster_of(arc.other, node.level - 1);
-        if (!(arc.cost < kNoWay) || clustering.node(other).parent != cluster) continue;
+        if (!(arc.cost < kNoRoute) || clustering.node(other).parent != cluster) continue;
         const std::uint32_t first = passage.member_begin[position_of(node.members, other)];
         arcs_.push_back({arc.cost, first + position_of(clustering.node(other).boundary, arc.other)});
       }
@@ -48,7 +48,7 @@ void InnerGraph::relax(std::uint32_t from, std::uint32_t to, double reached, std
 }
 
 void InnerGraph::search(std::size_t source, std::span<double> cost, std::span<std::uint16_t> before) {
-  std::fill(cost.begin(), cost.end(), kNoWay);
+  std::fill(cost.begin(), cost.end(), kNoRoute);
   std::iota(before.begin(), before.end(), std::uint16_t{0});
   cost[source] = 0.0;
   queue_.assign(1, {0.0, static_cast<std::uint32_t>(source)});

@@ -12,8 +12,8 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMaxInner = 65'535;    // numbers of inner vertices are 16 bits wide
-constexpr std::size_t kMaxWays = 4'000'000;  // boundary x inner vertices of one cluster
+constexpr std::size_t kMaxInner = 65'535;         // numbers of inner vertices are 16 bits wide
+constexpr std::size_t kMaxKeptCosts = 4'000'000;  // boundary x inner vertices of one cluster
 
 std::size_t inner_count(const Clustering& clustering, const ClusterNode& node) {
   if (node.level == 1) return node.members.size();
@@ -59,7 +59,7 @@ bool Overlay::is_bounded(const Clustering& clustering, int level) {
     const ClusterNode& node = clustering.node(c);
     if (node.level != level) continue;
     const std::size_t inner = inner_count(clustering, node);
-    if (inner > kMaxInner || inner * node.boundary.size() > kMaxWays) return false;
+    if (inner > kMaxInner || inner * node.boundary.size() > kMaxKeptCosts) return false;
   }
   return true;
 }

@@ -16,8 +16,8 @@ namespace cairn {
 
 // Of one cluster with B boundary vertices, numbered as in ClusterNode::boundary, and N inner ones.
 struct Passage {
-  std::vector<double> through;                     // [i * B + j]: from i to j without leaving the cluster; kNoWay: none
-  std::vector<double> through_back;                // [j * B + i]: the same, for searches from the goal
+  std::vector<double> through;       // [i * B + j]: from i to j without leaving the cluster; kNoRoute: none
+  std::vector<double> through_back;  // [j * B + i]: the same, for searches from the goal
   std::vector<std::uint32_t> out_begin, in_begin;  // arcs of boundary vertex i: [begin[i], begin[i + 1])
   std::vector<Arc> out, in;                        // that leave and that enter the cluster
 

@@ -125,7 +125,7 @@ class Copying {
     return std::min(std::max(most, 2 * rows_saved()), kMaxProbes);
   }
 
-  // As its checksum tells; 0 when that is lost, too.
+  // As its checksum says; 0 when that is lost, too.
   std::int64_t rows_saved() {
     try {
       Statement rows(from_, "SELECT row_count FROM checksums WHERE table_name = ?");
@@ -165,7 +165,7 @@ class Copying {
       stored.bind_text(table_->name);
       if (!stored.step()) {
         note_unproven();
-        return lose("has no checksum: what is missing in it cannot be told");
+        return lose("has no checksum: what is missing in it cannot be said");
       }
       const Checksum found = checksum_of(to_, *table_);
       if (found.row_count != stored.integer(0))
@@ -242,7 +242,7 @@ bool holds_nothing(const SavedMap& map) {
 }
 
 // All headers of a version are alike but for the number of pages: the one of another map takes its place. Which version
-// it was, the content tells.
+// it was, the content says.
 std::optional<SalvagedMap> salvaged_past_header(const std::string& bytes) {
   std::optional<SalvagedMap> best;
   for (int version = kMapSchemaVersion; version >= 1 && bytes.size() > kHeaderBytes; --version) {

@@ -33,10 +33,10 @@ class Yen {
     const auto [from, to] = hierarchy_.network().ends_of(route);
     for (const Arc& arc : hierarchy_.network().out(from))
       if (arc.route == route) return arc.cost;
-    return kNoWay;
+    return kNoRoute;
   }
   double cost_of_start(VertexIndex v) const {
-    double cost = kNoWay;
+    double cost = kNoRoute;
     for (const SearchEnd& end : query_.from)
       if (end.vertex == v) cost = std::min(cost, end.cost);
     return cost;
@@ -75,14 +75,14 @@ class Yen {
           !std::equal(path.routes.begin(), end, other.routes.begin()))
         continue;
       if (other.routes.size() > length)
-        query.costs[other.routes[length]] = kNoWay;
+        query.costs[other.routes[length]] = kNoRoute;
       else
         std::erase_if(query.to, [&](const SearchEnd& goal) { return goal.vertex == other.vertices.back(); });
     }
   }
 
   void add(const GraphPath& root, std::size_t length, double root_cost, GraphPath spur) {
-    if (spur.stopped || !(spur.cost < kNoWay)) return;
+    if (spur.stopped || !(spur.cost < kNoRoute)) return;
     GraphPath path;
     path.vertices.assign(root.vertices.begin(), root.vertices.begin() + static_cast<std::ptrdiff_t>(length));
     path.routes.assign(root.routes.begin(), root.routes.begin() + static_cast<std::ptrdiff_t>(length));

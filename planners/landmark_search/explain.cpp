@@ -24,7 +24,7 @@ RouteExplanation explanation_of(const GraphPath& path, const RouteQuery& query, 
   RouteExplanation explanation;
   explanation.settled_of_level = path.settled_of_level;
   explanation.clusters = clusters_along(path, hierarchy.clustering());
-  if (path.cost < kNoWay) explanation.cost = path.cost;
+  if (path.cost < kNoRoute) explanation.cost = path.cost;
   RouteQuery open = query;
   open.costs.clear();  // which held what the request closes
   for (const RouteId id : request.closed)
@@ -36,7 +36,7 @@ RouteExplanation explanation_of(const GraphPath& path, const RouteQuery& query, 
   if (better.stopped || !(better.cost < path.cost)) return explanation;
   explanation.cost_with_closed_open = better.cost;
   for (const RouteId id : better.routes)
-    if (open.costs.contains(id)) explanation.closed_in_the_way.push_back(id);
+    if (open.costs.contains(id)) explanation.closed_on_cheaper_path.push_back(id);
   return explanation;
 }
 

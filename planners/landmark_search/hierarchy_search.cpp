@@ -49,7 +49,7 @@ GraphPath HierarchySearch::find(const Hierarchy& hierarchy, const RouteQuery& qu
 void HierarchySearch::begin(const Hierarchy& hierarchy, const RouteQuery& query) {
   hierarchy_ = &hierarchy;
   query_ = &query;
-  best_ = kNoWay;
+  best_ = kNoRoute;
   frontier_ = {0.0, 0.0};
   meeting_ = {};
   opened_.resize(hierarchy.clustering().end(), 0);
@@ -156,7 +156,7 @@ void HierarchySearch::end_at_avoided(int side, NodeIndex at, const Arc& arc, dou
 
 void HierarchySearch::relax_arc(int side, NodeIndex at, const Arc& arc) {
   const double cost = cost_of(arc);
-  if (!(cost < kNoWay)) return;
+  if (!(cost < kNoRoute)) return;
   const Label& label = nodes_[at].label[static_cast<std::size_t>(side)];
   const double reached = label.cost + cost;
   if (!(reached < best_)) return;

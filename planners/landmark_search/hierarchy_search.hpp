@@ -23,12 +23,12 @@ struct SearchEnd {
 struct RouteQuery {
   std::vector<SearchEnd> from, to;          // any one of each
   std::unordered_set<VertexIndex> avoided;  // not passed; a path may begin or end there
-  // Routes that cost something else in this query; kNoWay: not to be taken.
+  // Routes that cost something else in this query; kNoRoute: not to be taken.
   std::unordered_map<RouteId, double> costs;
 };
 
 struct GraphPath {
-  double cost = kNoWay;                        // kNoWay: there is none; ends included
+  double cost = kNoRoute;                      // kNoRoute: there is none; ends included
   std::vector<VertexIndex> vertices;           // from end to end
   std::vector<RouteId> routes;                 // one less
   bool stopped = false;                        // by the budget, before the answer
@@ -48,7 +48,7 @@ class HierarchySearch {
   static constexpr NodeIndex kNone = static_cast<NodeIndex>(-1);
 
   struct Label {
-    double cost = kNoWay;
+    double cost = kNoRoute;
     NodeIndex before = kNone;
     RouteId route = 0;  // 0: through the cluster
   };
@@ -92,7 +92,7 @@ class HierarchySearch {
   std::vector<Node> nodes_;
   std::array<Queue, 2> queues_;
   std::array<double, 2> frontier_{};  // what each queue began with when the present node was taken from one
-  double best_ = kNoWay;
+  double best_ = kNoRoute;
   Meeting meeting_;  // of the best path so far
 };
 

@@ -55,7 +55,7 @@ RouteQuery query_of(const RouteRequest& request, const Network& network) {
   query.to = ends_of(request.to, network);
   for (const LandmarkId id : request.avoid)
     if (const VertexIndex v = network.vertex_of(id); v != kNoVertex) query.avoided.insert(v);
-  for (const RouteId id : request.closed) query.costs[id] = kNoWay;
+  for (const RouteId id : request.closed) query.costs[id] = kNoRoute;
   return query;
 }
 
@@ -83,7 +83,7 @@ RouteResult search_graph(const RouteRequest& request, const WorldView& world, Hi
   if (request.explain)
     result.explanation =
         explanation_of(path, query, request, world.graph, searched.hierarchy(), searched.cost(), search, budget);
-  if (!(path.cost < kNoWay)) {
+  if (!(path.cost < kNoRoute)) {
     result.outcome = PlanOutcome::no_route;
     result.reason = no_route_text(request, world.graph);
     if (result.explanation && result.explanation->cost_with_closed_open)

@@ -45,7 +45,7 @@ void check(const Config& config) {
   const SourcePlace place{config.file.string(), 0, 0};
   for (const std::string& kind : config.lines)
     if (std::find(kRangeKinds.begin(), kRangeKinds.end(), kind) == kRangeKinds.end())
-      throw ConfigError(place, "lines: there are no ranges in " + shown(kind) +
+      throw ConfigError(place, "lines: there are no ranges in " + in_quotes(kind) +
                                    did_you_mean(kind, {kRangeKinds.begin(), kRangeKinds.end()}));
   log_common::check_limits(config.file, "laser", config.laser);
   log_common::check_limits(config.file, "rear_laser", config.rear_laser);

@@ -37,7 +37,7 @@ std::array<double, kCount> numbers_in(std::string_view text, const SourcePlace& 
 int whole_number(std::string_view text, const SourcePlace& place) {
   const auto number = number_from<int>(text);
   if (!number || *number < 0 || *number >= kMaxSensors)
-    throw ConfigError(place, "the number of a sensor must be whole and less than 1000000, not " + shown(text));
+    throw ConfigError(place, "the number of a sensor must be whole and less than 1000000, not " + in_quotes(text));
   return *number;
 }
 
@@ -82,7 +82,7 @@ void Recording::begin_observation(const LogLine& line) {
   if (compass != "none") {
     scan.compass_rad = 0.0;
     if (!log_common::read_number(compass, *scan.compass_rad) || !std::isfinite(*scan.compass_rad))
-      throw ConfigError(place, "the compass must be a number or \"none\", not " + shown(compass));
+      throw ConfigError(place, "the compass must be a number or \"none\", not " + in_quotes(compass));
   }
   scan.T_odom_robot = T_odom_robot_;
   scan.true_T_map_robot = truth_;

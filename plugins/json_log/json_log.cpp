@@ -38,7 +38,7 @@ class Reader {
  private:
   void read_scan(double stamp_s, const json& scan);
   [[nodiscard]] ConfigError fault(const std::string& stamp, const std::string& sentence) const {
-    return {{config_.file.string(), 0, 0}, "at stamp " + shown(stamp) + ": " + sentence};
+    return {{config_.file.string(), 0, 0}, "at stamp " + in_quotes(stamp) + ": " + sentence};
   }
 
   const Config& config_;

@@ -47,7 +47,7 @@ class Reader {
 double ticks_in(const LogLine& line, std::size_t word, const std::string& what) {
   const double ticks = line.finite(word, what);
   if (std::abs(ticks) > kMaxTicks)
-    throw ConfigError(line.place(word), "the " + what + " are beyond 1e12: " + shown(line.word(word)));
+    throw ConfigError(line.place(word), "the " + what + " are beyond 1e12: " + in_quotes(line.word(word)));
   return ticks;
 }
 
@@ -59,7 +59,7 @@ double stamp_in(const LogLine& line) {
 double range_in(const LogLine& line, std::size_t word) {
   const double range_m = kMetres_per_unit * line.number(word, "range");
   if (std::isfinite(range_m) && std::abs(range_m) > log_common::kFarthest_m)
-    throw ConfigError(line.place(word), "the range is beyond 100 km: " + shown(line.word(word)));
+    throw ConfigError(line.place(word), "the range is beyond 100 km: " + in_quotes(line.word(word)));
   return range_m;
 }
 
@@ -78,7 +78,7 @@ void Reader::take_motors(const LogLine& line) {
   const double left_ticks = ticks_in(line, kLeftWord, "left wheel's ticks");
   const double right_ticks = ticks_in(line, kRightWord, "right wheel's ticks");
   if (!wheel_path_.empty() && stamp_s < wheel_path_.last_stamp_s())
-    throw ConfigError(line.place(1), "the motors' time goes back to " + shown(line.word(1)));
+    throw ConfigError(line.place(1), "the motors' time goes back to " + in_quotes(line.word(1)));
   wheel_path_.add(stamp_s, left_ticks, right_ticks);
 }
 
@@ -94,10 +94,10 @@ void Reader::take_scan(const LogLine& line) {
   if (beams == 0 || line.size() != kFirstRange + beams)
     throw ConfigError(line.place(2), "the line holds " +
                                          std::to_string(line.size() - std::min(line.size(), kFirstRange)) +
-                                         " ranges, not " + shown(line.word(2)));
+                                         " ranges, not " + in_quotes(line.word(2)));
   if (beams_ != 0 && beams != beams_)
     throw ConfigError(line.place(2),
-                      "the scans before had " + std::to_string(beams_) + " ranges, not " + shown(line.word(2)));
+                      "the scans before had " + std::to_string(beams_) + " ranges, not " + in_quotes(line.word(2)));
   log_common::Scan scan;
   scan.stamp_s = stamp_in(line);
   scan.line = line.line();

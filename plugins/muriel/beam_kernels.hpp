@@ -13,7 +13,7 @@ namespace cairn::muriel {
 
 inline constexpr int kBlock_cells = 8;
 
-// Eight neighbouring cells of one row in one tile. Those that are not of the beam get no news, by their
+// Eight neighbouring cells of one row in one tile. Those that are not of the beam get no evidence, by their
 // bearing and range; in a ray, which has no bearings, by their place: lanes begin to end - 1 are of it.
 struct Block {
   float dx_m = 0.0F;  // the first cell's centre from the apex
@@ -76,7 +76,7 @@ struct SectorTargets {
   float density_per_m[kMaxSectors];
 };
 
-// How news becomes a change: round(weight of the cell's count * 256 ln(1 + weight news)), quanta.
+// How evidence becomes a change: round(weight of the cell's count * 256 ln(1 + weight evidence)), quanta.
 struct KernelScale {
   float weight = 1.0F;            // 1 - s
   int clamp = 1024;               // of the grid, at most 100 nat
@@ -93,13 +93,13 @@ struct KernelLog {
   float buckets_to_axis = 0.0F;  // from the beginning of the first bucket
 };
 
-// News as if no echo were near, and the lists.
+// Evidence as if no echo were near, and the lists.
 [[nodiscard]] ListLengths place_blocks(const KernelReading& reading, const Block* blocks, int count,
                                        const KernelCells& cells);
 // Between place_blocks() and compare_blocks(). The entries up to reading.sectors.
 void find_targets(const KernelReading& reading, const Block* blocks, int known, const KernelCells& cells,
                   SectorTargets& best);
-// The echo, or its absence, in the near blocks' news.
+// The echo, or its absence, in the near blocks' evidence.
 void compare_blocks(const KernelReading& reading, int near, const KernelCells& cells);
 // Whether any of `count` cells gets an increment that does not round to 0.
 [[nodiscard]] bool says_something(const float* evidence, const KernelScale& scale, int count);

@@ -21,7 +21,7 @@ void Config::describe(Fields<Config>& fields) {
                 "independence log of a cell: off; paper: one reading from each bearing; counted: log_readings from "
                 "each, the later the less");
   fields.integer("log_bearings", &Config::log_bearings, {4, kMaxBearings},
-                 "directions to a cell that its log tells apart");
+                 "directions to a cell that its log distinguishes");
   fields.integer("log_readings", &Config::log_readings, {1, kMaxReadings},
                  "counted: readings from one bearing that a cell takes");
   fields.number("log_fall", &Config::log_fall, {0.0, 1.0}, "", "counted: weight of a reading against the one before");

@@ -16,7 +16,7 @@ inline constexpr double kReach_sigmas = 4.5;
 
 // A reading that says something, placed in the map.
 struct PlacedReading {
-  Beam beam;             // its reach is that of the news
+  Beam beam;             // its reach is that of the evidence
   bool is_echo = false;  // else: nothing up to range_m
   double range_m = 0.0;
 };

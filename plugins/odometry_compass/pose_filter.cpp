@@ -260,7 +260,7 @@ PoseFilter::WallUse PoseFilter::meet(const SeenWall& seen, double gate_sigmas) {
     stretch(which, seen);
     return WallUse::known;
   }
-  if (!seen.is_surely_straight || (walls_ == kMaxWalls && !forget_one())) return WallUse::refused;
+  if (!seen.is_conservatively_straight || (walls_ == kMaxWalls && !forget_one())) return WallUse::refused;
   add(seen);
   return WallUse::added;
 }

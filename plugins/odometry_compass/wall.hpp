@@ -13,7 +13,7 @@ struct SeenWall {
   // The stretch that answered, along the wall, from the robot's foot on it; rising to the left of the normal.
   double begin_m = 0.0;
   double end_m = 0.0;
-  bool is_surely_straight = false;  // seen from places so far apart that a round thing would have shown
+  bool is_conservatively_straight = false;  // seen from places so far apart that a round thing would have shown
 };
 
 // A known wall as the robot should meet it from where it believes to be.

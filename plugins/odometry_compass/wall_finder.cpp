@@ -23,7 +23,7 @@ constexpr double kCommon_m = 0.010;
 constexpr int kPeaks = 4;
 constexpr int kBatch = 8;             // new echoes before the next search
 constexpr double kPointRatio = 0.75;  // a line must fit so much better than a point
-constexpr double kCurved_m = 0.010;   // how far a round thing must leave the line to be told from it
+constexpr double kCurved_m = 0.010;   // how far a round thing must leave the line to be distinguished from it
 
 }  // namespace
 
@@ -284,7 +284,7 @@ SeenWall WallFinder::seen(const Fit& fit) const {
   wall.begin_m = fit.begin_m;
   wall.end_m = fit.end_m;
   const double span_m = fit.end_m - fit.begin_m;
-  wall.is_surely_straight = span_m * span_m > 8.0 * kCurved_m * fit.nearest_m;
+  wall.is_conservatively_straight = span_m * span_m > 8.0 * kCurved_m * fit.nearest_m;
   return wall;
 }
 

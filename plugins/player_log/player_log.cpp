@@ -70,14 +70,14 @@ void check_version(const LogLine& line) {
   const std::size_t begin = comment.find_first_not_of(' ', mark + kVersionMark.size());
   const std::string_view version = comment.substr(std::min(begin, comment.size()));
   if (!version.starts_with(kVersion))
-    throw RefusedLine(line.place(0), "a Player log of file version " + shown(version) + "; 0.3.0 can be read");
+    throw RefusedLine(line.place(0), "a Player log of file version " + in_quotes(version) + "; 0.3.0 can be read");
 }
 
 Reader::Reader(const Config& config, const RobotModel& robot) : config_(config), scans_(config.file.string(), config) {
   const SourcePlace place{config.file.string(), 0, 0};
   for (const std::string& name : config.interfaces)
     if (std::find(kRangeInterfaces.begin(), kRangeInterfaces.end(), name) == kRangeInterfaces.end())
-      throw ConfigError(place, "interfaces: no ranges are read from " + shown(name) +
+      throw ConfigError(place, "interfaces: no ranges are read from " + in_quotes(name) +
                                    did_you_mean(name, {kRangeInterfaces.begin(), kRangeInterfaces.end()}));
   log_common::check_limits(config.file, "sonar", config.sonar.min_m, config.sonar.max_m);
   log_common::check_limits(config.file, "laser", config.laser);
@@ -187,7 +187,7 @@ void SonarConfig::describe(Fields<SonarConfig>& fields) {
 void Config::describe(Fields<Config>& fields) {
   fields.file("file", &Config::file, "the log, plain or gzip").required = true;
   fields.texts("interfaces", &Config::interfaces, "whose ranges are read, of sonar and laser; left out: both");
-  fields.integer("position_index", &Config::position_index, {0, 1000000}, "which position2d device tells the odometry");
+  fields.integer("position_index", &Config::position_index, {0, 1000000}, "which position2d device gives the odometry");
   fields.integer("sonar_index", &Config::sonar_index, {0, 1000000}, "which sonar device is read");
   fields.integer("laser_index", &Config::laser_index, {0, 1000000}, "which laser device is read");
   fields.group("sonar", &Config::sonar, "what a Player log does not say about the sonars");

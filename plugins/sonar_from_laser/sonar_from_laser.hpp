@@ -8,7 +8,7 @@
 //   beams in the cone, but no echo     +inf, no echo
 //   no beam in the cone                the sonar is left out: the laser cannot see there
 // A beam is in the cone when its echo is; without an echo, when it crosses the cone's arc at max_m. Bad
-// readings (NaN) and those nearer than the laser can tell count as no beam. All sonars of a scan fire at
+// readings (NaN) and those nearer than the laser can measure count as no beam. All sonars of a scan fire at
 // once. Stamps, odometry, compass, start, drive and ground truth are the source's own.
 #pragma once
 

@@ -14,7 +14,7 @@ namespace cairn {
 namespace {
 
 // A robot that drives along a circle of 1 m in a round room with its wall `range_m` from it: poses change with
-// each reading; the map is full, and so the logs after some laps: no step of the fast evaluation takes a shorter way
+// each reading; the map is full, and so the logs after some orbits: no step of the fast evaluation takes a shorter way
 // for that.
 class Drive {
  public:

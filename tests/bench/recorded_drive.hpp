@@ -11,7 +11,7 @@
 namespace cairn::bench {
 
 struct RecordedTick {
-  CellChanges changes;           // as the mapper told them
+  CellChanges changes;           // as the mapper reported them
   CellBox bounds;                // of the grid from then on
   std::vector<LogOdds> written;  // of the cells of the spans, one after the other
 };

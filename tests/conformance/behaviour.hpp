@@ -138,7 +138,7 @@ TEST_P(BehaviourConformance, OddWorldsAreOutcomesNotExceptions) {
   expect_unharmed("a graph without landmarks", [](BehaviourHost& host) { host.graph = {}; });
   expect_unharmed("no observation", [](BehaviourHost& host) { host.sees = false; });
   expect_unharmed("odd readings", [](BehaviourHost& host) { host.sees_oddly = true; });
-  expect_unharmed("a planner that finds nothing", [](BehaviourHost& host) { host.finds_no_way = true; });
+  expect_unharmed("a planner that finds nothing", [](BehaviourHost& host) { host.finds_no_route = true; });
   expect_unharmed("plans without a pose", [](BehaviourHost& host) { host.finds_empty_paths = true; });
   expect_unharmed("a stop layer that lets nothing through", [](BehaviourHost& host) { host.holds_back = true; });
   expect_unharmed("time that stands still", [](BehaviourHost& host) { host.tick_s = 0.0; });

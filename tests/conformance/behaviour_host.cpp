@@ -72,7 +72,7 @@ PlanResult BehaviourHost::plan(const PlanRequest& request) {
   record_ += "plan, seed " + std::to_string(request.seed) + "\n";
   PlanResult result;
   result.reason = "no way leads there";
-  if (finds_no_way || !request.from.pose) return result;
+  if (finds_no_route || !request.from.pose) return result;
   result.outcome = PlanOutcome::solved;
   if (finds_empty_paths) return result;
   Pose2 to = request.to.pose.value_or(Pose2{});
@@ -96,7 +96,7 @@ Status BehaviourHost::save(const std::string& file_name) {
 
 Status BehaviourHost::answer(const PlanQuestion& question, const std::string& file_name) {
   record_ += "answer " + question.from + " to " + question.to + " into " + file_name + "\n";
-  if (finds_no_way) return {Progress::failure, "no way leads there"};
+  if (finds_no_route) return {Progress::failure, "no way leads there"};
   return {Progress::success, "answered into " + file_name};
 }
 

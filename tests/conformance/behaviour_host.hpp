@@ -1,4 +1,4 @@
-// The host's side of a behaviour: a robot that does as it is told in the room of fixtures.hpp.
+// The host's side of a behaviour: a robot that obeys its commands in the room of fixtures.hpp.
 #pragma once
 
 #include <map>
@@ -43,7 +43,7 @@ class BehaviourHost : public BehaviourContext {
   bool sees = true;                // WorldView::observation is not null
   bool sees_oddly = false;         // among its readings are those of odd_readings()
   bool holds_back = false;         // the stop layer lets nothing through
-  bool finds_no_way = false;       // plan() answers no_route
+  bool finds_no_route = false;     // plan() answers no_route
   bool finds_empty_paths = false;  // plan() answers solved with no pose
 
  private:

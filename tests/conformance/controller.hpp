@@ -5,7 +5,7 @@
 //                            testing::Values(module<cairn::Controller>(FOLDER, "my_controller")));
 //   }
 //
-// A disc that does as it is told drives along paths of a few metres, with obstacles as points.
+// A disc that obeys its commands drives along paths of a few metres, with obstacles as points.
 #pragma once
 
 #include <algorithm>

@@ -35,7 +35,7 @@ struct DriveStep {
 // One observation from a place in the room, without any error; every sonar has fired. Odometry counts from
 // kRoomStart.
 [[nodiscard]] Observation seen_in_room(const Pose2& T_map_robot, double stamp_s, const RobotModel& robot);
-// A lap round the post, 14 m, an observation every 0.1 m of way or 30 degrees of turn.
+// An orbit round the post, 14 m, an observation every 0.1 m of path or 30 degrees of turn.
 [[nodiscard]] std::vector<DriveStep> drive_through_room(const RobotModel& robot);
 
 // Circle and square of 0.5 m, triangle of 0.6 m, for cells of 0.05 m.

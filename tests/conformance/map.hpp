@@ -66,7 +66,7 @@ TEST_P(MapperConformance, IsMadeTwiceAndDestroyedUnused) {
 TEST_P(MapperConformance, OutlivesTheLibraryThatMadeIt) {
   const auto mapper = GetParam().make_outliving_library();
   follow(*mapper, drive());
-  EXPECT_FALSE(mapper->grid().bounds().empty()) << "nothing was mapped on a lap through a room";
+  EXPECT_FALSE(mapper->grid().bounds().empty()) << "nothing was mapped on an orbit through a room";
 }
 
 TEST_P(MapperConformance, AnEchoIsMappedAndTheWayToItIsFree) {

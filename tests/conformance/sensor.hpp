@@ -174,7 +174,7 @@ TEST_P(SensorConformance, ADriveStopsWhenAsked) {
   drive->command({0.2, 0.0});
   Observation last = sensor->next(Budget{}).observation;
   while (last.stamp_s < 2.0) last = sensor->next(Budget{}).observation;
-  EXPECT_GT(last.T_odom_robot.position().norm(), 0.05) << "it was told to drive 2 s at 0.2 m/s and did not move";
+  EXPECT_GT(last.T_odom_robot.position().norm(), 0.05) << "it was commanded to drive 2 s at 0.2 m/s and did not move";
   drive->command(Twist{});
   const double stopped_s = last.stamp_s + 0.2 / robot.max_acceleration_mps2 + 0.5;
   while (last.stamp_s < stopped_s) last = sensor->next(Budget{}).observation;
@@ -196,7 +196,7 @@ TEST_P(SensorConformance, ADriveKeepsToTheLimitsOfTheRobot) {
       const auto speed = speed_between(last, next);
       last = next;
       if (!speed) continue;
-      // Odometry has its error: half as much again tells a limit that is kept from one that is not.
+      // Odometry has its error: half as much again separates a limit that is kept from one that is not.
       ASSERT_LT(speed->v_mps, 1.5 * robot.max_v_mps + 0.05) << "commanded " << text_of(wild);
       ASSERT_LT(speed->w_radps, 1.5 * robot.max_w_radps + 0.1) << "commanded " << text_of(wild);
     }

@@ -84,7 +84,7 @@ void read_moving_ai_scen(Input input) {
   }
   promise(instances.size() <= kCount, "there are as many instances as are asked for");
   for (const MovingAiInstance& instance : instances) {
-    promise(std::isfinite(instance.optimum), "a way has a length");
+    promise(std::isfinite(instance.optimum), "a path has a length");
     for (const Cell cell : {instance.from, instance.to})
       promise(cell.x >= 0 && cell.y >= 0 && cell.y < kHeight, "an instance is on the map");
   }

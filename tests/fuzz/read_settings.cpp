@@ -59,7 +59,7 @@ const std::vector<LandmarkShape>& shapes() {
 
 void check(const TreeNode& node, std::size_t depth) {
   promise(depth <= kMaxTreeDepth, "a tree is not too deep");
-  promise(is_leaf(node.kind) == node.children.empty(), "leafs and nothing else have no children");
+  promise(is_leaf(node.kind) == node.children.empty(), "leaves and nothing else have no children");
   promise(node.kind != NodeKind::parallel || (node.succeed_at >= 1 && node.succeed_at <= node.children.size()),
           "a parallel can succeed");
   promise(node.kind != NodeKind::timeout || node.after_s > 0.0, "a timeout takes time");

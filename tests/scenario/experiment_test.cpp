@@ -77,7 +77,7 @@ TEST(Experiment, OfMapsJudgesEveryVariantOnEverySeed) {
   EXPECT_EQ(run_cairn(command).out, finished.out) << "the same again";
 }
 
-// Half a lap round the square of the lone-square world, with two places.
+// Half an orbit round the square of the lone-square world, with two places.
 std::filesystem::path two_places(const std::filesystem::path& folder, const std::string& second_looks_at) {
   const std::string config = source_folder() + "/config";
   write_text(folder / "round.yaml", "mission: round\nrobot: " + config + "/robots/pioneer1.yaml\nworld: " + config +

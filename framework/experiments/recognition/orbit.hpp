@@ -1,4 +1,4 @@
-// What the matchings of a run said along a lap round one landmark (the paper's Fig. 6).
+// What the matchings of a run said along an orbit round one landmark (the paper's Fig. 6).
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ struct OrbitSample {
 };
 
 // Angles count from the start and add up from matching to matching, so the robot must not go half round
-// between two of them. Only one lap: what comes after it is left out.
+// between two of them. Only one orbit: what comes after it is left out.
 [[nodiscard]] std::vector<OrbitSample> degrees_along_orbit(const ExperimentConfig& config, const World& world,
                                                            const Point& start_m,
                                                            const std::vector<DegreeSample>& samples);

@@ -38,7 +38,7 @@ OrbitSeries series_of(const ExperimentConfig& config, const Rows& rows, std::str
 }
 
 std::string table_of(const ExperimentConfig& config, const std::vector<OrbitSeries>& all) {
-  std::vector<std::string> columns{"lap, deg"};
+  std::vector<std::string> columns{"orbit, deg"};
   for (const OrbitSeries& series : all) columns.push_back(series.name);
   std::string text = table_head(columns, 0);
   for (std::size_t b = 0; b < bins_of(config); ++b) {
@@ -84,8 +84,9 @@ std::string orbit_table(const ExperimentConfig& config, const std::vector<Experi
   for (const std::string& mission : missions_of(rows))
     for (const ExperimentVariant& variant : config.variants) {
       const Rows of_variant = rows_of(rows, mission, variant.name);
-      text += fmt::format("## {}, {}\n\nDegrees along one lap round the {}, mean and 95 % interval over {} seeds.\n\n",
-                          mission, variant.name, config.orbit->around, of_variant.size());
+      text +=
+          fmt::format("## {}, {}\n\nDegrees along one orbit round the {}, mean and 95 % interval over {} seeds.\n\n",
+                      mission, variant.name, config.orbit->around, of_variant.size());
       text += table_of(config, orbit_categories(config, of_variant));
       const std::vector<OrbitSeries> templates = orbit_templates(config, of_variant);
       if (!templates.empty()) text += table_of(config, templates);

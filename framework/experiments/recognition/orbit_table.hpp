@@ -1,4 +1,4 @@
-// The degrees along a lap, in bins, over all seeds: as a table, and as what a chart draws.
+// The degrees along an orbit, in bins, over all seeds: as a table, and as what a chart draws.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace cairn {
 
-// One line of a chart: a value in the middle of each bin of the lap, none where fewer than half of the
+// One line of a chart: a value in the middle of each bin of the orbit, none where fewer than half of the
 // runs had a matching.
 struct OrbitSeries {
   std::string name;

@@ -16,7 +16,7 @@ namespace cairn {
 class FirstKnown : public Listener {
  public:
   void on(const Event& event, const MissionView& view) override;
-  // 0 for a landmark that it was not told of.
+  // 0 for a landmark that it did not report.
   [[nodiscard]] double driven_m(LandmarkId id) const;
 
  private:

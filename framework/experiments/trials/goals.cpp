@@ -104,7 +104,7 @@ class Judge {
   [[nodiscard]] Moments during(double begin_s, double end_s) const;
   [[nodiscard]] bool is_true(const std::string& category, const Point& at_m) const;
   [[nodiscard]] std::vector<Point> places_of(const Target& target, const std::string& leaf) const;
-  [[nodiscard]] double way_to_m(const Target& target, const std::vector<Point>& places_m, const Point& p_m) const;
+  [[nodiscard]] double distance_to_m(const Target& target, const std::vector<Point>& places_m, const Point& p_m) const;
   [[nodiscard]] double missed_m(const Goal& goal, const std::string& leaf, Moments moments) const;
   [[nodiscard]] bool is_reachable(const Target& target, Moments moments);
   [[nodiscard]] bool is_mapped(const Target& target, const std::string& leaf) const;
@@ -139,7 +139,7 @@ std::vector<Point> Judge::places_of(const Target& target, const std::string& lea
 }
 
 // From a robot's true place. A planner may end beside a landmark elsewhere than the map says that one stands.
-double Judge::way_to_m(const Target& target, const std::vector<Point>& places_m, const Point& p_m) const {
+double Judge::distance_to_m(const Target& target, const std::vector<Point>& places_m, const Point& p_m) const {
   double way_m = std::numeric_limits<double>::infinity();
   for (const Point& place_m : places_m) way_m = std::min(way_m, (place_m - p_m).norm());
   if (target.category.empty() || places_m.empty()) return way_m;
@@ -159,7 +159,7 @@ double Judge::missed_m(const Goal& goal, const std::string& leaf, Moments moment
     double nearest_m = std::numeric_limits<double>::infinity();
     const std::vector<Point> places_m = places_of(target, leaf);
     for (const TrialMoment& moment : counting)
-      nearest_m = std::min(nearest_m, way_to_m(target, places_m, moment.T_map_robot.position()));
+      nearest_m = std::min(nearest_m, distance_to_m(target, places_m, moment.T_map_robot.position()));
     worst_m = std::max(worst_m, nearest_m);
   }
   return worst_m - config_.off_m - goal.tolerance_m;

@@ -44,7 +44,7 @@ struct TrialEvidence {
   const OccupancyGrid* grid = nullptr;  // at the end; null: lost
 };
 
-// Goals are the leafs goto, tour, patrol and return_home that were begun, in the order of the tree. One that ran
+// Goals are the leaves goto, tour, patrol and return_home that were begun, in the order of the tree. One that ran
 // several times (retry, repeat) is under way from its first begin to its last end, and ended as the last time. A
 // success counts as reached when the robot's true place is within off_m and the leaf's tolerance_m of the goal at its
 // end; of several places it must have been that near to each. Of a landmark: to where the map says that one stands

@@ -20,7 +20,7 @@ constexpr double kFaultsFor_s = 3600.0;
 constexpr double kFromMover_m = 1.0;
 
 // As YAML takes any path.
-std::string quoted(const std::filesystem::path& path) {
+std::string yaml_quoted(const std::filesystem::path& path) {
   std::string text = path.string();
   for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2) text.insert(at, 1, '\'');
   return "'" + text + "'";
@@ -221,14 +221,14 @@ std::string random_mission_yaml(const TrialsConfig& config, const MissionFiles& 
   Drawing drawing(config, robot, world, seed);
   const std::string start = drawing.start();
   std::string text = fmt::format("# Random mission {}.\nmission: trial\nseed: {}\nrobot: {}\nworld: {}\n", seed, seed,
-                                 quoted(files.robot), quoted(files.world));
+                                 yaml_quoted(files.robot), yaml_quoted(files.world));
   text += "start: " + start + "\nsensor:\n" + drawing.sensor();
   text += fmt::format(
       "localizer: {{plugin: odometry_compass}}\nmap: {{plugin: muriel, cell_m: 0.05, false_echo_per_m: 2}}\n"
       "detector:\n  {{plugin: template_matcher, templates: {}, sizes: [1, 1.07], coarse_cells: 5, degrees: "
       "above_threshold}}\n"
       "planner: {{plugin: hybrid, route: {{plugin: ompl}}}}\nat_most_s: 7200\nsteps:\n",
-      quoted(files.templates));
+      yaml_quoted(files.templates));
   return text + drawing.steps();
 }
 

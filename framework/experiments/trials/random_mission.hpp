@@ -24,7 +24,7 @@ struct MissionFiles {  // as the mission names them
 // - the steps: exploring for a bounded time; then goals: going to a place, to a landmark of a category that the world
 //   has, touring two or three places, patrolling them twice; each under one of: nothing (a failure ends the mission),
 //   force_success, retry, timeout, retry of timeout, a fallback to another place, a reactive sequence, two rounds;
-//   waits in between; at last the way back to the start, under `force_success`.
+//   waits in between; at last the path back to the start, under `force_success`.
 // The map frame is the world's. The robot and the world are those that the files name. Throws ConfigError when the
 // robot has room nowhere in the world.
 [[nodiscard]] std::string random_mission_yaml(const TrialsConfig& config, const MissionFiles& files,

@@ -69,7 +69,7 @@ bool place_all(const RandomWorldConfig& config, const Point& room_m, std::vector
   return true;
 }
 
-// A line of the world file, or none where no way is free.
+// A line of the world file, or none where no path is free.
 std::string mover(const RandomWorldConfig& config, const Point& room_m, const std::vector<Thing>& things, int number,
                   PortableRandom& chance) {
   constexpr int kTries = 200;

@@ -29,7 +29,7 @@ struct RandomWorldConfig {
 // The text of a world file. The same seed gives the same layout whatever the specular ratio, the share of
 // walls and things whose surface is smooth; a larger ratio makes more of the same surfaces smooth. A room in
 // which the things have no place is made larger until they have. Movers go there and back between two places on a
-// straight way clear of things; where none is found there is none. Each door leads to one more room, empty, in the
+// straight path clear of things; where none is found there is none. Each door leads to one more room, empty, in the
 // east. Without movers and doors the rest is what it is with them. Shapes must not be empty.
 [[nodiscard]] std::string random_world_yaml(const RandomWorldConfig& config, const std::vector<LandmarkShape>& shapes,
                                             double specular_ratio, std::uint64_t seed);

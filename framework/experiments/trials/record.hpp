@@ -38,7 +38,7 @@ class TrialRecord : public Listener {
 
   [[nodiscard]] const std::vector<TrialMoment>& moments() const { return moments_; }
   [[nodiscard]] const SilenceFigures& silences() const { return silences_; }
-  // When the node ended the last time that it was told of; nothing when it was not.
+  // When the node ended the last time that it was published; nothing when it was not.
   [[nodiscard]] std::vector<KnownLandmark> landmarks_at_end(const std::string& path) const;
 
  private:

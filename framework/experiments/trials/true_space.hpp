@@ -27,7 +27,7 @@ class TrueSpace {
   // Which doors of the world are closed, in its order.
   using Doors = std::vector<bool>;
   [[nodiscard]] Doors doors_at(double time_s) const;
-  // Whether a way with room leads from one of these to one of those. Linear in the cells for doors that were not asked
+  // Whether a path with room leads from one of these to one of those. Linear in the cells for doors that were not asked
   // about before.
   [[nodiscard]] bool joined(const Cells& from, const Cells& to, const Doors& closed);
 

@@ -28,7 +28,7 @@ void Steps::restore_tree(const SavedMap& map) {
   try {
     trees_[step_].restore(saved->state, map.progress->time_s);
   } catch (const std::invalid_argument& error) {
-    throw StoreError(std::string("cannot be gone on from: its property ") + kTreeStateProperty + ": " + error.what());
+    throw StoreError(std::string("cannot be resumed: its property ") + kTreeStateProperty + ": " + error.what());
   }
 }
 
@@ -125,7 +125,7 @@ std::optional<TimeLeft> Steps::time_left(double time_s, double max_s) const {
   if (trees_.empty()) return std::nullopt;
   TimeLeft left{0.0, 0.0, {}};
   for (std::size_t i = step_; i < trees_.size(); ++i)
-    left = in_order(std::move(left), trees_[i].time_left(time_s, leaves_.times()));
+    left = one_after_other(std::move(left), trees_[i].time_left(time_s, leaves_.times()));
   return cut(std::move(left), max_s);
 }
 

@@ -1,5 +1,5 @@
 // The commands of `cairn`, each a function from its options to an exit status: 0 done, 1 the mission
-// or plan did not succeed, 2 wrong usage or a bad file (thrown as std::exception, told by main).
+// or plan did not succeed, 2 wrong usage or a bad file (thrown as std::exception, reported by main).
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct MissionCheckCommand {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> overrides;
 };
-// 2 when there is an error in any of the files; all that are found are told.
+// 2 when there is an error in any of the files; all that are found are reported.
 int mission_check(const MissionCheckCommand& command, const CommonOptions& common);
 
 struct MissionShowCommand {
@@ -79,7 +79,7 @@ struct MapCommand {
   std::filesystem::path repaired;
 };
 int map_info(const MapCommand& command, const CommonOptions& common);
-// 2 when the map is damaged: what is lost is told.
+// 2 when the map is damaged: what is lost is reported.
 int map_check(const MapCommand& command, const CommonOptions& common);
 // Writes what the map still holds to another file.
 int map_repair(const MapCommand& command, const CommonOptions& common);

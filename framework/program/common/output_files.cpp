@@ -17,7 +17,7 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 void hold_folder(const std::filesystem::path& folder) {
-  // Never closed: the lock goes with the process. Where a folder cannot be locked, runs are not told apart.
+  // Never closed: the lock goes with the process. Where a folder cannot be locked, runs are not distinguished.
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (opened >= 0 && ::flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw std::runtime_error(folder.string() + ": another run is writing into this folder; name another with --out");

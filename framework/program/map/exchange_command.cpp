@@ -64,7 +64,7 @@ int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
        {"warnings", imported.warnings}},
       fmt::format("wrote {}: {} x {} cells of {:g} m, {:.1f} % known within its outermost walls; no robot came "
                   "with them: `cairn "
-                  "plan` takes one of {:g} m radius unless it is told --radius-m",
+                  "plan` takes one of {:g} m radius unless --radius-m is given",
                   command.to.string(), box.width(), box.height(), map.grid.cell_m(), 100.0 * known_ratio(map.grid),
                   RobotModel{}.radius_m),
       imported.warnings, common);

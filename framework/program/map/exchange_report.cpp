@@ -10,7 +10,7 @@ namespace cairn {
 void fail_extension(const std::filesystem::path& file, const char* verb, const std::vector<std::string>& known) {
   const std::string extension = file.extension().string();
   throw std::runtime_error(file.string() + ": cannot be " + verb + ": " +
-                           (extension.empty() ? "it has no extension" : "unknown extension " + shown(extension)) +
+                           (extension.empty() ? "it has no extension" : "unknown extension " + in_quotes(extension)) +
                            did_you_mean(extension, known) + "; known are " + joined(known));
 }
 

@@ -1,4 +1,4 @@
-// How the commands that read and write files of other tools tell what they have done.
+// How the commands that read and write files of other tools report what they have done.
 #pragma once
 
 #include <filesystem>

@@ -30,14 +30,14 @@ Named find_named(SavedMap& map, const std::string& what) {
   std::vector<std::string> known;
   for (const auto& [id, landmark] : map.graph.landmarks()) known.push_back(label_of(landmark));
   for (const auto& [id, cluster] : map.clusters.clusters) known.push_back(label_of(cluster, map.graph));
-  throw std::runtime_error("there is no landmark and no cluster " + shown(what) + did_you_mean(what, known) +
+  throw std::runtime_error("there is no landmark and no cluster " + in_quotes(what) + did_you_mean(what, known) +
                            ": give a landmark's id or name (L17), or a cluster's (C1:L17)");
 }
 
 // A name must find what it names: wherever a place is asked for, nothing else may be meant by it.
 void check_name(const SavedMap& map, const Named& named, const std::string& name) {
   const auto fail = [&](const std::string& why) {
-    throw std::runtime_error("the name " + shown(name) + " cannot be given: " + why);
+    throw std::runtime_error("the name " + in_quotes(name) + " cannot be given: " + why);
   };
   if (name.size() > kLongestName) fail(fmt::format("it is longer than {} bytes", kLongestName));
   if (exchange::first_not_utf8(name) != std::string::npos) fail("it is not UTF-8 text");

@@ -13,7 +13,7 @@ namespace cairn {
 std::vector<double> number_list(std::string_view text, std::string_view names, const std::string& what, double most) {
   const auto fail = [&] {
     throw std::runtime_error(what + " must be " + std::string(names) + ", finite numbers within +-" +
-                             exchange::number_text(most) + " with commas between them, found " + shown(text));
+                             exchange::number_text(most) + " with commas between them, found " + in_quotes(text));
   };
   const auto wanted = static_cast<std::size_t>(1 + std::ranges::count(names, ','));
   std::vector<double> numbers;

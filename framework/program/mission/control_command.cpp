@@ -37,7 +37,7 @@ std::string cut_short_text(const std::filesystem::path& folder) {
   const std::filesystem::path map = autosave_in(folder);
   return folder.string() + ": the mission here was cut short" +
          (map.empty() ? std::string()
-                      : "; cairn run --resume " + map.string() + " MISSION goes on from what it has saved");
+                      : "; cairn run --resume " + map.string() + " MISSION resumes from what it has saved");
 }
 
 std::string where_text(const ordered_json& status) {
@@ -131,9 +131,9 @@ std::pair<std::string, bool> reported(const std::string& command, const ordered_
   }
   const std::string wanted = command == "pause" ? "paused" : command == "resume" ? "running" : "ended";
   if (state == wanted)
-    return {mission + (command == "pause" ? " is paused at " : " goes on at ") + where_text(answer), true};
-  if (state == "starting") return {mission + " is starting; it will heed that with its first tick", true};
-  return {mission + " has been told to " + command + ", but is still busy at " + where_text(answer), false};
+    return {mission + (command == "pause" ? " is paused at " : " resumed at ") + where_text(answer), true};
+  if (state == "starting") return {mission + " is starting; the command takes effect with its first tick", true};
+  return {mission + " has received " + command + ", but is still busy at " + where_text(answer), false};
 }
 
 }  // namespace

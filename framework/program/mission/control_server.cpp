@@ -90,7 +90,7 @@ std::string answer_to(const std::string& command, RunControl& control) {
   } else if (command == "status") {
     status = control.status(kAskWithin);
   } else {
-    return refusal("unknown command " + shown(command) + did_you_mean(command, known) +
+    return refusal("unknown command " + in_quotes(command) + did_you_mean(command, known) +
                    "; known are: pause, resume, cancel, status");
   }
   ordered_json answer{{"ok", true}, {"command", command}};

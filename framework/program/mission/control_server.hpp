@@ -23,7 +23,7 @@ class ControlServer {
   ControlServer(std::filesystem::path folder, RunControl& control);
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
-  // Takes the socket away. Waits for answers under way: the mission must have ended or not begun.
+  // Removes the socket. Waits for answers in progress: the mission must have ended or not begun.
   ~ControlServer();
 
  private:

@@ -1,6 +1,6 @@
 // The socket in an output folder by which the mission that runs there is controlled.
 //
-// A Unix-domain socket: no network, and the kernel tells who is at the other end and whether anyone still is. One line
+// A Unix-domain socket: no network, and the kernel says who is at the other end and whether anyone still is. One line
 // goes in (pause, resume, cancel, status), one line of JSON comes out, and the connection ends.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The part of a large map that one question needs.
 //
-// A way between two points that leaves a box of cells is at least so long as the straight ways to its rim and on. So an
-// answer found inside the box, no longer than that, is as good as any on the whole map.
+// A path between two points that leaves a box of cells is at least so long as the straight lines to its rim and on. So
+// an answer found inside the box, no longer than that, is as good as any on the whole map.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ struct MapEnds {
 [[nodiscard]] CellBox part_for(const MapEnds& ends, double length_m, double around_m, const OccupancyGrid& lattice,
                                const CellBox& whole);
 
-// No way that comes within `around_m` of the rim of `part` is shorter, where the map goes on behind it; +inf where it
+// No path that comes within `around_m` of the rim of `part` is shorter, where the map goes on behind it; +inf where it
 // does not.
 [[nodiscard]] double min_outside_m(const MapEnds& ends, const CellBox& part, double around_m,
                                    const OccupancyGrid& lattice, const CellBox& whole);

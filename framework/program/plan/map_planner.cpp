@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::uint64_t kLoadedGrid = 1;  // its planner sees this grid as it was loaded, and parts of it as the next
 constexpr std::int64_t kLarge_cells = 1'000'000;  // smaller grids are not worth taking apart
-constexpr double kLikelyDetour_ratio = 1.4;       // of a way against the straight one, for the first part tried
-constexpr double kAround_m = 5.0;                 // of a part, beyond what ways may pass: what stands there counts too
+constexpr double kLikelyDetour_ratio = 1.4;       // of a path against the straight one, for the first part tried
+constexpr double kAround_m = 5.0;                 // of a part, beyond what paths may pass: what stands there counts too
 constexpr int kParts = 3;                         // that are tried
 
 bool is_large(const CellBox& cells) {
@@ -123,7 +123,7 @@ std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request, B
     const Budget::Clock::time_point begin = Budget::Clock::now();
     PlanResult result = plan_on(part, version, request, budget_after(spent));
     spent += Budget::Clock::now() - begin;
-    // Nor is it known on the part what stands further from the way than its rim.
+    // Nor is it known on the part what stands further from the path than its rim.
     const bool is_clear_of_all = result.clearance_m + robot_.radius_m >= kAround_m / 2;
     if (result.outcome != PlanOutcome::solved || is_clear_of_all) return std::nullopt;
     length_m = std::max(result.cost_m, result.length_m);

@@ -74,7 +74,7 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
     if (!more_follow) std::cout.flush();
     if (!std::cout) throw std::runtime_error("plan: the answers cannot be written to standard output");
   };
-  in_order(
+  ordered_parallel_map(
       jobs_of(command), take, [&](const PlanQuery& query) { return answer_to(query, planner, common); }, give,
       [&] { lines.stop(); });
   if (!has_any) throw ConfigError({command.queries, 0, 0}, "holds no query");

@@ -7,7 +7,7 @@ namespace {
 
 void report_explanation(std::string& out, const RouteExplanation& explanation, CostKind kind, const SavedMap& map,
                         const ClusterTree& clusters) {
-  const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no way";
+  const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no route";
   out += fmt::format("  by {}: {}; settled", name_of(kind), cost);
   for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level) {
     const std::int64_t settled = explanation.settled_of_level[level];
@@ -25,7 +25,7 @@ void report_explanation(std::string& out, const RouteExplanation& explanation, C
   if (!explanation.cost_with_closed_open) return;
   out += fmt::format("  with every closed route open it would be {:.2f} {}, over", *explanation.cost_with_closed_open,
                      unit_of(kind));
-  for (const RouteId id : explanation.closed_in_the_way) out += fmt::format(" R{}", id);
+  for (const RouteId id : explanation.closed_on_cheaper_path) out += fmt::format(" R{}", id);
   out += "\n";
 }
 

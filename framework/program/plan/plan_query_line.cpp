@@ -47,7 +47,7 @@ std::vector<KeyPlace> key_places_of(const std::string& line) {
   int before = 0;
   for (const KeyPlace& found : key_places_of(line))
     if (found.key == key && before++ == 1) place.column = found.column;
-  throw ConfigError(place, "the key " + shown(key) + " stands here twice");
+  throw ConfigError(place, "the key " + in_quotes(key) + " stands here twice");
 }
 
 // The JSON library copies and writes values by recursion.

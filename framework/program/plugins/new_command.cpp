@@ -64,18 +64,19 @@ void check_kind(const std::string& kind) {
   std::vector<std::string> kinds;
   for (const PluginKind known : kPluginKinds) kinds.emplace_back(name_of(known));
   if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
-  throw std::runtime_error("there is no kind of module " + shown(kind) + did_you_mean(kind, kinds) +
+  throw std::runtime_error("there is no kind of module " + in_quotes(kind) + did_you_mean(kind, kinds) +
                            "; known are: " + joined(kinds));
 }
 
 void check_name(const std::string& name, const CommonOptions& common) {
   if (!is_lower_snake_case(name))
-    throw std::runtime_error(shown(name) + " is no name for a module: it must be lower_snake_case, such as my_module");
+    throw std::runtime_error(in_quotes(name) +
+                             " is no name for a module: it must be lower_snake_case, such as my_module");
   if (std::find(kTakenTargets.begin(), kTakenTargets.end(), name) != kTakenTargets.end())
-    throw std::runtime_error(shown(name) + " is no name for a module: the build has a target of that name");
+    throw std::runtime_error(in_quotes(name) + " is no name for a module: the build has a target of that name");
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   if (const ModuleEntry* taken = library.find_any(name))
-    throw std::runtime_error("there is a module " + shown(name) + " already, in " + taken->plugin->file.string());
+    throw std::runtime_error("there is a module " + in_quotes(name) + " already, in " + taken->plugin->file.string());
 }
 
 std::string replaced(std::string text, const std::vector<Replacement>& replacements) {

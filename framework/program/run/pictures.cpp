@@ -106,7 +106,7 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
       coarse.title = "OG2 of " + mission.config.mission;
       write_coarse_picture(file, coarse);
     });
-  // A detector may tell of nothing below its threshold.
+  // A detector may report nothing below its threshold.
   if (std::ranges::any_of(report.degrees(), [](const DegreeSample& sample) { return !sample.degrees.empty(); }))
     attempt("degrees.png", [&](const std::filesystem::path& file) { draw_chart(file, chart_of(report.degrees())); });
   if (const auto& errors = report.pose_errors().samples(); !errors.empty())

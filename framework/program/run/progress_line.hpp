@@ -1,5 +1,5 @@
-// Progress of a run for people: one line that is drawn again and again on a terminal, or told now and then elsewhere,
-// and the events that matter as lines of their own.
+// Progress of a run for people: one line that is drawn again and again on a terminal, or printed now and then
+// elsewhere, and the events that matter as lines of their own.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace cairn {
 
 class ProgressLine : public Listener {
  public:
-  // live: draw the moving line (out is a terminal). status: how the mission stands, asked while it tells something.
+  // live: draw the moving line (out is a terminal). status: how the mission stands, asked while it publishes something.
   ProgressLine(std::ostream& out, bool live, std::function<RunStatus()> status)
       : out_(out), live_(live), status_(std::move(status)) {}
   ~ProgressLine() override { clear(); }

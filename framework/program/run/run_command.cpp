@@ -98,8 +98,7 @@ void keep_earlier_run(const RunCommand& command, const MissionConfig& config, st
   std::error_code error;
   if (config.autosave.every_s <= 0.0 || std::filesystem::equivalent(file, command.resume, error)) return;
   if (const auto kept = keep_earlier_autosave(file))
-    people << "an earlier run here did not end: its map is kept as " << kept->string()
-           << " (--resume goes on from it)\n";
+    people << "an earlier run here did not end: its map is kept as " << kept->string() << " (--resume continues it)\n";
 }
 
 // Without it the mission runs all the same, and signals still reach it.
@@ -112,7 +111,7 @@ std::unique_ptr<ControlServer> control_server(const std::filesystem::path& folde
   }
 }
 
-// What cannot be written is told, and the rest of the run's outcome is not lost for it.
+// What cannot be written is reported, and the rest of the run's outcome is not lost for it.
 bool try_to_write(const std::filesystem::path& file, const std::string& text) {
   try {
     write_file(file, text);

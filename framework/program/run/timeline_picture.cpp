@@ -52,7 +52,7 @@ void add_marks(const RunTimeline& beside, Timeline& timeline) {
   TimelineMarks pauses{"paused", MarkKind::pause, {}};
   for (const PauseSpan& pause : beside.pauses())
     pauses.marks.push_back({pause.time_s, pause.time_s, fmt::format("{:.1f} s", pause.for_s)});
-  TimelineMarks stops{"held back", MarkKind::stop, {}};
+  TimelineMarks stops{"slowed down", MarkKind::stop, {}};
   for (const RunSpan& stop : beside.stops()) stops.marks.push_back({stop.begin_s, stop.end_s, ""});
   TimelineMarks bumps{"bumped", MarkKind::bump, {}};
   for (const double time_s : beside.bumps_s()) bumps.marks.push_back({time_s, time_s, ""});

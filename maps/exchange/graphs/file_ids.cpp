@@ -82,7 +82,7 @@ void warn_of_shared_names(const LandmarkGraph& graph, std::vector<std::string>& 
   }
   if (first == nullptr) return;
   warnings.push_back((shared == 1 ? "1 name belongs" : std::to_string(shared) + " names belong") +
-                     " to more than one landmark, the first is " + shown(*first) +
+                     " to more than one landmark, the first is " + in_quotes(*first) +
                      ": a name finds the landmark with the lowest id");
 }
 

@@ -82,7 +82,7 @@ class Cursor {
     const std::string_view text = required(what, line);
     const auto id = number_from<std::uint64_t>(text);
     if (!id || *id > exchange::kMaxFileId)
-      fail(std::string(what) + " " + shown(text) + " is no whole number of 0 to " +
+      fail(std::string(what) + " " + in_quotes(text) + " is no whole number of 0 to " +
            std::to_string(exchange::kMaxFileId));
     return static_cast<std::int64_t>(*id);
   }
@@ -98,9 +98,9 @@ class Cursor {
     double value = 0.0;
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::invalid_argument || rest != text.data() + text.size())
-      fail(std::string(what) + " " + shown(text) + " is no number");
+      fail(std::string(what) + " " + in_quotes(text) + " is no number");
     if (error != std::errc{} || !std::isfinite(value))
-      fail(std::string(what) + " " + shown(text) + " is not allowed: it must be a finite number");
+      fail(std::string(what) + " " + in_quotes(text) + " is not allowed: it must be a finite number");
     return value;
   }
 
@@ -125,7 +125,7 @@ std::string_view name_of(Cursor& line) {
   const auto control = std::ranges::find_if(name, is_control);
   if (control != name.end())
     line.fail_at(line.offset() + static_cast<std::size_t>(control - name.begin()),
-                 "the name " + shown(name) + " holds a control character");
+                 "the name " + in_quotes(name) + " holds a control character");
   return name;
 }
 
@@ -148,7 +148,7 @@ ListedEdge edge_of(Cursor& line) {
   if (edge.cost_m < 0.0)
     line.fail("the cost " + exchange::number_text(edge.cost_m) + " is not allowed: it must not be negative");
   const std::string_view more = line.rest();
-  if (!more.empty() && !more.starts_with('#')) line.fail(shown(more) + " is too much: " + kEdgeLine);
+  if (!more.empty() && !more.starts_with('#')) line.fail(in_quotes(more) + " is too much: " + kEdgeLine);
   return edge;
 }
 
@@ -168,7 +168,7 @@ ListedGraph listed_in(const SourceText& source) {
     } else if (word == "edge") {
       lines.edges.push_back(edge_of(line));
     } else if (!word.empty() && !word.starts_with('#')) {
-      line.fail("unknown word " + shown(word) + did_you_mean(word, {"node", "edge"}) +
+      line.fail("unknown word " + in_quotes(word) + did_you_mean(word, {"node", "edge"}) +
                 ": a line begins with node, edge or #");
     }
   }

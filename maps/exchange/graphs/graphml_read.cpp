@@ -88,14 +88,14 @@ class GraphmlReader {
       const std::string domain = key.attribute("for").value();
       const bool is_drawing = !key.attribute("yfiles.type").empty();
       const Key read{name, key.attribute("attr.type").value(), domain, key.child("default"), is_drawing};
-      if (!keys_.emplace(id, read).second) source_.fail(offset_of(key), "the key " + shown(id) + " is there twice");
+      if (!keys_.emplace(id, read).second) source_.fail(offset_of(key), "the key " + in_quotes(id) + " is there twice");
     }
   }
 
   [[nodiscard]] const Key& key_of(const pugi::xml_node& data) const {
     const std::string_view id = data.attribute("key").value();
     const auto key = keys_.find(id);
-    if (key == keys_.end()) source_.fail(offset_of(data), "the key " + shown(id) + " is not declared");
+    if (key == keys_.end()) source_.fail(offset_of(data), "the key " + in_quotes(id) + " is not declared");
     return key->second;
   }
 
@@ -137,7 +137,7 @@ class GraphmlReader {
       source_.fail(offset_of(second), "holds a second graph: a map has one");
     const std::string_view direction = graph.attribute("edgedefault").value();
     if (direction != "directed" && direction != "undirected")
-      source_.fail(offset_of(graph), "edgedefault must be directed or undirected, is " + shown(direction));
+      source_.fail(offset_of(graph), "edgedefault must be directed or undirected, is " + in_quotes(direction));
     return graph;
   }
 
@@ -145,7 +145,7 @@ class GraphmlReader {
     GraphmlValues values = values_of(graph);
     const std::optional<exchange::GraphmlValue> crs = values.take({"crs"});
     if (crs && exchange::is_geographic_crs(crs->text))
-      source_.fail(crs->offset, "crs " + shown(crs->text) +
+      source_.fail(crs->offset, "crs " + in_quotes(crs->text) +
                                     " has degrees of longitude and latitude; a map needs metres in its own frame");
   }
 
@@ -168,7 +168,7 @@ class GraphmlReader {
     exchange::check_text(source_, id, offset_of(node));
     const auto [earlier, is_new] = index_.emplace(id, nodes_.size());
     if (!is_new)
-      source_.fail(offset_of(node), "node " + shown(id) + " is there already, in line " +
+      source_.fail(offset_of(node), "node " + in_quotes(id) + " is there already, in line " +
                                         std::to_string(source_.line_of(offset_of(nodes_[earlier->second]))));
     nodes_.push_back(node);
   }
@@ -206,7 +206,7 @@ class GraphmlReader {
       ++drawn_;
     } else {
       source_.fail(offset_of(node),
-                   "node " + shown(node.attribute("id").value()) + " has no place: the keys x and y, in metres");
+                   "node " + in_quotes(node.attribute("id").value()) + " has no place: the keys x and y, in metres");
     }
     landmark.T_map_landmark.theta_rad = values.take_number({"theta_rad"}).value_or(0.0);
     landmark.level = values.take_level();
@@ -238,7 +238,7 @@ class GraphmlReader {
   [[nodiscard]] LandmarkId end_of(const pugi::xml_node& edge, const char* end) const {
     const std::string_view id = edge.attribute(end).value();
     const auto found = index_.find(id);
-    if (found == index_.end()) source_.fail(offset_of(edge), std::string(end) + ": there is no node " + shown(id));
+    if (found == index_.end()) source_.fail(offset_of(edge), std::string(end) + ": there is no node " + in_quotes(id));
     return landmarks_[found->second];
   }
 

@@ -44,7 +44,7 @@ double GraphmlValues::number(const GraphmlValue& value) const {
   const std::string_view text = trimmed(value.text, kXmlBlanks);
   const auto number = number_from<double>(text);
   if (!number || !std::isfinite(*number))
-    source_.fail(value.offset, std::string(value.name) + " " + shown(text) + " is no finite number");
+    source_.fail(value.offset, std::string(value.name) + " " + in_quotes(text) + " is no finite number");
   return *number;
 }
 
@@ -66,7 +66,7 @@ bool GraphmlValues::flag(const GraphmlValue& value) const {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (text != "true" && text != "false" && text != "1" && text != "0")
-    source_.fail(value.offset, std::string(value.name) + " " + shown(value.text) + " is neither true nor false");
+    source_.fail(value.offset, std::string(value.name) + " " + in_quotes(value.text) + " is neither true nor false");
   return text == "true" || text == "1";
 }
 

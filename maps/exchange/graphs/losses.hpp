@@ -1,4 +1,4 @@
-// What a file format cannot hold of a landmark graph, told to whoever exports.
+// What a file format cannot hold of a landmark graph, reported to whoever exports.
 #pragma once
 
 #include <string>

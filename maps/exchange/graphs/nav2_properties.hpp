@@ -61,9 +61,9 @@ std::optional<Fault> fault_of_operation(const Json& operation, const std::string
   if (!trigger.is_string()) return Fault{{key, "trigger"}, "an operation needs a trigger: NODE, ON_ENTER or ON_EXIT"};
   const auto name = trigger.template get<std::string>();
   if (std::find(kTriggers.begin(), kTriggers.end(), name) != kTriggers.end()) return std::nullopt;
-  return Fault{
-      {key, "trigger"},
-      "unknown trigger " + shown(name) + did_you_mean(name, kTriggers) + ": allowed are NODE, ON_ENTER and ON_EXIT"};
+  return Fault{{key, "trigger"},
+               "unknown trigger " + in_quotes(name) + did_you_mean(name, kTriggers) +
+                   ": allowed are NODE, ON_ENTER and ON_EXIT"};
 }
 
 // Operations are an object of named ones or an array, as nav2 reads them.

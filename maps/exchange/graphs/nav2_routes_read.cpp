@@ -142,7 +142,7 @@ class Nav2Reader {
     const Json value = json_in(source_, member.begin, member.end);
     if (member.key == "type") {
       if (value != "FeatureCollection")
-        source_.fail(member.begin, "type must be \"FeatureCollection\", is " + shown(value.dump()));
+        source_.fail(member.begin, "type must be \"FeatureCollection\", is " + in_quotes(value.dump()));
       is_collection_ = true;
     }
     if (member.key == "crs") take_crs(value, member);
@@ -157,7 +157,7 @@ class Nav2Reader {
     if (exchange::is_geographic_crs(crs_))
       source_.fail(
           exchange::offset_of(source_, member.begin, {"properties", "name"}),
-          "crs " + shown(crs_) + " has degrees of longitude and latitude; a map needs metres in its own frame");
+          "crs " + in_quotes(crs_) + " has degrees of longitude and latitude; a map needs metres in its own frame");
   }
 
   void take_feature(const exchange::JsonSlice& slice) {
@@ -169,7 +169,7 @@ class Nav2Reader {
       take_edge(feature);
     } else {
       feature.fail({"geometry", "type"}, "geometry of type " +
-                                             shown(type.is_string() ? type.get<std::string>() : type.dump()) +
+                                             in_quotes(type.is_string() ? type.get<std::string>() : type.dump()) +
                                              ": allowed are Point (a node), LineString and MultiLineString (an edge)");
     }
   }
@@ -177,7 +177,8 @@ class Nav2Reader {
   static void check_point(const Feature& feature, const Json& point, const Path& path) {
     const auto is_number = [](const Json& part) { return part.is_number(); };
     if (!point.is_array() || point.size() < 2 || point.size() > 3 || !std::ranges::all_of(point, is_number))
-      feature.fail(path, "a point must be 2 or 3 numbers, [x_m, y_m] or [x_m, y_m, z_m], is " + shown(point.dump()));
+      feature.fail(path,
+                   "a point must be 2 or 3 numbers, [x_m, y_m] or [x_m, y_m, z_m], is " + in_quotes(point.dump()));
   }
 
   void take_node(Feature& feature) {
@@ -300,7 +301,7 @@ class Nav2Reader {
     if (crs_.empty()) {
       imported.warnings.emplace_back("there is no crs: coordinates are taken as metres in the map frame");
     } else if (!exchange::is_nav2_crs(crs_)) {
-      imported.warnings.push_back("crs is " + shown(crs_) +
+      imported.warnings.push_back("crs is " + in_quotes(crs_) +
                                   ", not EPSG:3857: coordinates are taken as metres in the map frame");
     }
     nodes.warn_of_zero(imported.warnings, "; an export writes 0 again");

@@ -61,7 +61,7 @@ Header header_of(const PictureSource& source) {
 std::vector<std::uint8_t> palette_of(const PictureSource& source, const Header& header) {
   const std::size_t most = std::size_t{1} << header.bits;
   const std::size_t colours = header.colours == 0 ? most : header.colours;
-  if (colours > most) source.fail("the BMP picture names more colours than its pixels can tell apart");
+  if (colours > most) source.fail("the BMP picture names more colours than its pixels can distinguish");
   std::vector<std::uint8_t> greys;
   for (std::size_t i = 0; i < colours; ++i) {
     const std::uint32_t colour = number_at(source, kInfo + header.info_size + 4 * i, 4);

@@ -51,9 +51,9 @@ std::string_view character_at(std::string_view text, std::size_t x) {
 Line value_of(const SourceText& source, const Line& line, std::size_t key_length) {
   const std::size_t begin = std::min(line.text.find_first_not_of(kLineBlanks, key_length), line.text.size());
   const std::size_t end = std::min(line.text.find_first_of(kLineBlanks, begin), line.text.size());
-  if (begin == end) source.fail(line.offset + begin, shown(line.text.substr(0, key_length)) + " needs a value");
+  if (begin == end) source.fail(line.offset + begin, in_quotes(line.text.substr(0, key_length)) + " needs a value");
   const std::size_t more = std::min(line.text.find_first_not_of(kLineBlanks, end), line.text.size());
-  if (more < line.text.size()) source.fail(line.offset + more, shown(line.text.substr(more)) + " is too much");
+  if (more < line.text.size()) source.fail(line.offset + more, in_quotes(line.text.substr(more)) + " is too much");
   return {line.text.substr(begin, end - begin), line.offset + begin};
 }
 
@@ -62,7 +62,7 @@ int side_of(const SourceText& source, const Line& value, std::string_view key) {
   const auto side = number_from<int>(value.text);
   if (!side || *side < 1 || *side > kMax)
     source.fail(value.offset,
-                std::string(key) + " " + shown(value.text) + " is no whole number of 1 to " + std::to_string(kMax));
+                std::string(key) + " " + in_quotes(value.text) + " is no whole number of 1 to " + std::to_string(kMax));
   return *side;
 }
 
@@ -74,20 +74,20 @@ struct Header {
 
 void take(Header& header, const SourceText& source, const Line& line) {
   const std::string_view key = line.text.substr(0, line.text.find_first_of(kLineBlanks));
-  const auto fail_twice = [&] { source.fail(line.offset, shown(key) + " stands here twice"); };
+  const auto fail_twice = [&] { source.fail(line.offset, in_quotes(key) + " stands here twice"); };
   if (key == "type") {
     if (header.has_type) fail_twice();
     header.has_type = true;
     const Line value = value_of(source, line, key.size());
     if (value.text != "octile")
-      source.fail(value.offset, "the type " + shown(value.text) + " is not known" +
+      source.fail(value.offset, "the type " + in_quotes(value.text) + " is not known" +
                                     did_you_mean(value.text, {"octile"}) + ": octile is the one that is read");
   } else if (key == "height" || key == "width") {
     int& side = key == "height" ? header.height : header.width;
     if (side != 0) fail_twice();
     side = side_of(source, value_of(source, line, key.size()), key);
   } else {
-    source.fail(line.offset, "unknown word " + shown(key) + did_you_mean(key, {"type", "height", "width", "map"}) +
+    source.fail(line.offset, "unknown word " + in_quotes(key) + did_you_mean(key, {"type", "height", "width", "map"}) +
                                  ": before the rows stand type, height, width and map");
   }
 }
@@ -121,7 +121,7 @@ void take_row(const SourceText& source, const Line& line, const Header& header, 
     const bool is_free = kFree.find(c) != std::string_view::npos;
     if (!is_free && kBlocked.find(c) == std::string_view::npos)
       source.fail(line.offset + x,
-                  "unknown cell " + shown(character_at(line.text, x)) + ": free are . G S, blocked are @ O T W");
+                  "unknown cell " + in_quotes(character_at(line.text, x)) + ": free are . G S, blocked are @ O T W");
     grid.set_log_odds({static_cast<int>(x), y}, is_free ? static_cast<LogOdds>(-clamp) : clamp);
   }
   if (line.text.size() != width)

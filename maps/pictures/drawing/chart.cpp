@@ -41,7 +41,7 @@ constexpr const char* kHead =
 
 // In single quotes gnuplot takes every character as it is, but for the quote itself; and a doubled one it does not take
 // at the beginning of a text. So it becomes an apostrophe.
-std::string quoted(const std::string& text) {
+std::string gnuplot_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
     if (c == '\'')
@@ -89,12 +89,12 @@ std::string plot_of(const Chart& chart) {
                                                 kMarks[i / kChartColours.size() % kMarks.size()])
                                   : fmt::format("1:2 with {}", style_of(chart.series[i].style));
     plot += fmt::format("$data{} using {} linecolor '{}' title {}, ", i, with, kChartColours[i % kChartColours.size()],
-                        quoted(chart.series[i].name));
+                        gnuplot_quoted(chart.series[i].name));
   }
   for (const HorizontalLine& line : chart.horizontal_lines)
     if (std::isfinite(line.y))
       plot += fmt::format("{} with lines dashtype 2 linewidth 1.5 linecolor '#5f6b73' title {}, ", number_text(line.y),
-                          quoted(line.name));
+                          gnuplot_quoted(line.name));
   return plot + "NaN notitle\n";
 }
 
@@ -142,14 +142,14 @@ ChartOutcome run_gnuplot(const std::string& script_text, std::FILE* picture) {
 
 std::string gnuplot_script(const Chart& chart) {
   std::string script = kHead;
-  script += fmt::format("set title {} noenhanced font ',14' textcolor '#26323a'\n", quoted(chart.title));
-  script += fmt::format("set xlabel {} noenhanced textcolor '#26323a'\n", quoted(chart.x_label));
-  script += fmt::format("set ylabel {} noenhanced textcolor '#26323a'\n", quoted(chart.y_label));
+  script += fmt::format("set title {} noenhanced font ',14' textcolor '#26323a'\n", gnuplot_quoted(chart.title));
+  script += fmt::format("set xlabel {} noenhanced textcolor '#26323a'\n", gnuplot_quoted(chart.x_label));
+  script += fmt::format("set ylabel {} noenhanced textcolor '#26323a'\n", gnuplot_quoted(chart.y_label));
   if (!chart.x_names.empty()) {
     script += fmt::format("set xrange [-0.5:{}]\nset xtics rotate by -20 noenhanced (",
                           number_text(static_cast<double>(chart.x_names.size()) - 0.5));
     for (std::size_t i = 0; i < chart.x_names.size(); ++i)
-      script += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(chart.x_names[i]), i);
+      script += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_quoted(chart.x_names[i]), i);
     script += ")\n";
   }
   if (chart.of_shares) script += "set xrange [0:1.01]\nset yrange [0:1.01]\n";

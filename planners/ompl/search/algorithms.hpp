@@ -1,6 +1,6 @@
 // The planners of OMPL 1.5.2 that may be named: those that run in one thread and whose answer hangs on
 // seed and iterations alone. PRM and PRM* run without their second thread and their clock (counted_prm).
-// Left out: pRRT, pSBL, CForest, SPARS, AnytimePathShortening (threads), LazyPRM and LazyPRM* (do not heed
+// Left out: pRRT, pSBL, CForest, SPARS, AnytimePathShortening (threads), LazyPRM and LazyPRM* (do not obey
 // their termination condition in that version), SORRT* (loses memory), LBKPIECE1 (finds next to nothing here), PDST
 // (takes up to 50 ms to give its memory back after 3000 iterations, past any deadline). AnyAngleRRTstar is ours: the
 // shortest route over the cells, improved by InformedRRTstar.

@@ -7,7 +7,7 @@ int to_rounds(const ConfigValue& value) {
   const bool is_text = value.kind == ConfigValue::Kind::scalar && value.kind_name() == "text";
   if (is_text && value.scalar == "forever") return 0;
   if (is_text)
-    throw ConfigError(value.place, "rounds must be forever or a number, found " + shown(value.scalar) +
+    throw ConfigError(value.place, "rounds must be forever or a number, found " + in_quotes(value.scalar) +
                                        did_you_mean(value.scalar, {"forever"}));
   return static_cast<int>(config_detail::to_integer(value, "rounds", {1.0, 1e6}));
 }

@@ -29,7 +29,7 @@ PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
   if (value.kind == ConfigValue::Kind::list) return place_name_of(config_detail::to_point(value, key));
   PlaceName name{config_detail::to_text(value, key), std::nullopt};
   if (names_nothing(name.text))
-    throw ConfigError(value.place, key + ": " + shown(name.text) +
+    throw ConfigError(value.place, key + ": " + in_quotes(name.text) +
                                        " is no place; one is [x, y], a landmark's id (L3) or name, or `nearest "
                                        "CATEGORY`");
   return name;
@@ -38,8 +38,8 @@ PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
 std::string to_landmark_name(const ConfigValue& value, const std::string& key) {
   std::string name = config_detail::to_text(value, key);
   if (names_nothing(name))
-    throw ConfigError(value.place,
-                      key + ": " + shown(name) + " is no landmark; one is an id (L3), a name, or `nearest CATEGORY`");
+    throw ConfigError(value.place, key + ": " + in_quotes(name) +
+                                       " is no landmark; one is an id (L3), a name, or `nearest CATEGORY`");
   return name;
 }
 

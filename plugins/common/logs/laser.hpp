@@ -47,7 +47,7 @@ struct Fan {
 // One reading a beam, without ranges, numbered from first_sensor; the settings win over the fan's angles.
 [[nodiscard]] std::vector<RangeReading> readings_of(const Fan& fan, std::size_t beams, const LaserConfig& config,
                                                     int first_sensor);
-// What tells one fan from another.
+// What distinguishes one fan from another.
 [[nodiscard]] std::string key_of(const Fan& fan, std::size_t beams);
 
 // Throws ConfigError, naming the file, when min_m is not less than max_m.

@@ -49,28 +49,28 @@ double LogLine::number(std::size_t i, std::string_view what) const {
   double value = 0.0;
   if (i >= words_.size()) throw ConfigError(place(i), "the line ends where the " + std::string(what) + " must be");
   if (!read_number(words_[i], value))
-    throw ConfigError(place(i), "the " + std::string(what) + " must be a number, not " + shown(words_[i]));
+    throw ConfigError(place(i), "the " + std::string(what) + " must be a number, not " + in_quotes(words_[i]));
   return value;
 }
 
 double LogLine::finite(std::size_t i, std::string_view what) const {
   const double value = number(i, what);
   if (!std::isfinite(value))
-    throw ConfigError(place(i), "the " + std::string(what) + " must be finite, not " + shown(words_[i]));
+    throw ConfigError(place(i), "the " + std::string(what) + " must be finite, not " + in_quotes(words_[i]));
   return value;
 }
 
 double LogLine::metres(std::size_t i, std::string_view what) const {
   const double value = finite(i, what);
   if (std::abs(value) > kFarthest_m)
-    throw ConfigError(place(i), "the " + std::string(what) + " is beyond 100 km: " + shown(words_[i]));
+    throw ConfigError(place(i), "the " + std::string(what) + " is beyond 100 km: " + in_quotes(words_[i]));
   return value;
 }
 
 double LogLine::heading(std::size_t i) const {
   constexpr double kMax_rad = 1e6;  // an unwrapped heading counts turns; beyond that it is no heading
   const double value = finite(i, "heading");
-  if (std::abs(value) > kMax_rad) throw ConfigError(place(i), "the heading is no angle: " + shown(words_[i]));
+  if (std::abs(value) > kMax_rad) throw ConfigError(place(i), "the heading is no angle: " + in_quotes(words_[i]));
   return value;
 }
 
@@ -92,8 +92,8 @@ std::vector<double> LogLine::ranges_m(std::size_t first, std::size_t count, std:
 std::size_t LogLine::count(std::size_t i, std::string_view what) const {
   const double value = number(i, what);
   if (!(value >= 0.0 && value <= kLargestCount) || value != std::floor(value))
-    throw ConfigError(
-        place(i), "the " + std::string(what) + " must be a whole number from 0 to 1000000, not " + shown(words_[i]));
+    throw ConfigError(place(i), "the " + std::string(what) + " must be a whole number from 0 to 1000000, not " +
+                                    in_quotes(words_[i]));
   return static_cast<std::size_t>(value);
 }
 

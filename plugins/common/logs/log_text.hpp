@@ -1,4 +1,4 @@
-// A text file line by line, plain or gzip (its first bytes tell which), in bounded memory.
+// A text file line by line, plain or gzip (its first bytes say which), in bounded memory.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +40,7 @@ class LogText {
   std::string buffer_;
   std::size_t begin_ = 0;  // of what has not been given out
   int line_number_ = 0;
-  std::string damage_;  // what is wrong with the compressed data, until it has been told
+  std::string damage_;  // what is wrong with the compressed data, until it has been reported
 };
 
 // The whole of such a file. Throws ConfigError when it cannot be read, is damaged or is larger than 1 GiB.

@@ -156,7 +156,7 @@ std::string ScanLog::end_sentence() const {
   if (bad_lines_ > 0) text += "; " + counted(bad_lines_, "bad line") + " skipped, the first: " + first_bad_;
   if (unknown_lines_ > 0) {
     text += "; " + counted(unknown_lines_, "line") + " of kinds not read:";
-    for (const auto& [kind, count] : unknown_) text += " " + shown(kind) + " " + std::to_string(count);
+    for (const auto& [kind, count] : unknown_) text += " " + in_quotes(kind) + " " + std::to_string(count);
   }
   for (const std::string& note : notes_) text += "; " + note;
   return text;

@@ -5,7 +5,7 @@
 //                                       differs from the one before, none is used: scans are period_s apart
 //   a stamp before the last one, or     a clock jump: bridged (the scan is period_s after the last one,
 //   more than longest_gap_s after it    and time goes on from there) or refused
-// so that the observations' stamps never go back. Both are counted and told at the end of the log.
+// so that the observations' stamps never go back. Both are counted and reported at the end of the log.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ struct Comparison {
 
 double difference_ratio(double a, double b) {
   if (a == b) return 0.0;
-  return std::isinf(a) || std::isinf(b) ? kNoWay : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
+  return std::isinf(a) || std::isinf(b) ? kNoRoute : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
 }
 
 bool is_sound(const Way& way, LandmarkId from, LandmarkId to, const LandmarkGraph& graph) {
@@ -67,7 +67,7 @@ Comparison compare(const LandmarkGraph& graph, std::size_t queries, std::uint64_
       const Way way =
           search.find(hierarchy, {{{network.vertex_of(from)}}, {{network.vertex_of(ids[goal])}}, {}, {}}, {});
       // Boost's infinite is the greatest finite number.
-      const double expected = costs[goal] < std::numeric_limits<double>::max() ? costs[goal] : kNoWay;
+      const double expected = costs[goal] < std::numeric_limits<double>::max() ? costs[goal] : kNoRoute;
       const double ratio = difference_ratio(way.cost, expected);
       comparison.worst_ratio = std::max(comparison.worst_ratio, ratio);
       if (ratio <= kEqual_ratio) ++comparison.equal;

@@ -85,7 +85,7 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(Budget::Clock::now() - begin).count();
 }
 
-// How often a second, over as many rounds as it takes to tell.
+// How often a second, over as many rounds as it takes to measure.
 double rate_of(std::size_t count, const std::function<void()>& round) {
   std::size_t done = 0;
   double took_s = 0.0;

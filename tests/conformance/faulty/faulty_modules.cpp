@@ -110,7 +110,7 @@ class LopsidedLocalizer : public SureLocalizer {
   }
 };
 
-// What one object is told, all know.
+// What one object is given, all know.
 class SharedLocalizer : public Localizer {
  public:
   explicit SharedLocalizer(const Pose2&) {}

@@ -56,9 +56,9 @@ TEST_F(Conditions, APlaceIsNearOrNot) {
 }
 
 TEST_F(Conditions, ABatteryIsAboveItsShareOrNotKnown) {
-  EXPECT_EQ(ask("battery_above: 0.3"), (Status{Progress::failure, "the sensor tells nothing of a battery"}));
+  EXPECT_EQ(ask("battery_above: 0.3"), (Status{Progress::failure, "the sensor reports no battery"}));
   seen_.emplace();
-  EXPECT_EQ(ask("battery_above: 0"), (Status{Progress::failure, "the sensor tells nothing of a battery"}));
+  EXPECT_EQ(ask("battery_above: 0"), (Status{Progress::failure, "the sensor reports no battery"}));
   seen_->battery_ratio = 0.31;
   EXPECT_EQ(ask("battery_above: 0.3"), (Status{Progress::success, "31.0 % of the battery is left"}));
   EXPECT_FALSE(holds("battery_above: {ratio: 0.31}"));

@@ -1,4 +1,4 @@
-// Random trees of scripted leafs against a small oracle that is written as the field draws such trees: an object a
+// Random trees of scripted leaves against a small oracle that is written as the field draws such trees: an object a
 // node, each with its own memory.
 
 #include <gtest/gtest.h>
@@ -232,7 +232,7 @@ void number(TreeNode& node, const std::string& path) {
   for (std::size_t i = 0; i < node.children.size(); ++i) number(node.children[i], path + "/" + std::to_string(i + 1));
 }
 
-// Without halts of leafs that have not been ticked: what is gone on with has fresh leafs.
+// Without halts of leaves that have not been ticked: what is gone on with has fresh leaves.
 std::string without_halts_of_fresh_leaves(const std::string& log) {
   std::istringstream words(log);
   std::set<std::string> ticked;

@@ -21,7 +21,7 @@ struct Case {
   std::map<std::string, std::string> scripts;
   int ticks = 1;
   std::string outcomes;  // of the root, a letter a tick
-  std::string log;       // of the leafs, ticks apart
+  std::string log;       // of the leaves, ticks apart
 };
 
 struct Ran {
@@ -241,10 +241,10 @@ TEST(TreeRunner, AReasonSaysWhichChildFailed) {
   EXPECT_EQ(reason("[timeout: {after_s: 1.5, do: r}]", 3), "r has not ended within 1.5 s");
 }
 
-// A condition below a reactive node is asked in every tick; it is told when its answer changes.
+// A condition below a reactive node is asked in every tick; its answer is published when it changes.
 TEST(TreeRunner, NodesThatBeginAndEndInOneTickAreReportedWhenTheirOutcomeChanges) {
   const auto steps = steps_of("[reactive_sequence: [{not: {landmark_known: x}}, {timeout: {after_s: 99, do: a}}]]");
-  class Leafs : public ScriptedLeaves {
+  class Leaves : public ScriptedLeaves {
    public:
     using ScriptedLeaves::ScriptedLeaves;
     LeafTick tick_leaf(const TreeNode& leaf) override {

@@ -1,4 +1,4 @@
-// Leafs that do what a test has written down, and everything that a tree asks of them.
+// Leaves that do what a test has written down, and everything that a tree asks of them.
 #pragma once
 
 #include <map>
@@ -9,7 +9,8 @@
 
 namespace cairn::testing_tree {
 
-// The tree of YAML text: `- a`, `- fallback: [a, b]`. Leafs are behaviours with one-word names. Throws the first error.
+// The tree of YAML text: `- a`, `- fallback: [a, b]`. Leaves are behaviours with one-word names. Throws the first
+// error.
 inline std::vector<TreeNode> steps_of(const std::string& yaml) {
   MissionTree tree = read_mission_tree(parse_config_text(yaml, "tree.yaml"), "tree.yaml");
   if (!tree.errors.empty()) throw tree.errors.front();
@@ -45,7 +46,7 @@ class ScriptedLeaves : public TreeHost {
     reported += (how.is_halted ? "H" : how.status.progress == Progress::success ? "S" : "F") + node.path + " ";
   }
 
-  std::string log;       // leafs in the order in which they were ticked, !leaf halted
+  std::string log;       // leaves in the order in which they were ticked, !leaf halted
   std::string reported;  // +path started, Spath, Fpath and Hpath ended
   std::string throws_in_halt;
 

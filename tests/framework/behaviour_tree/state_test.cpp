@@ -83,7 +83,7 @@ TEST(TreeState, GoesOnInTheRoundThatWasUnderWay) {
   EXPECT_THAT(timed_out.reason, HasSubstr("(round 2 of 3)"));
 }
 
-// Leafs that tell how long they still take.
+// Leaves that say how long they still take.
 class TimedLeaves : public ScriptedLeaves {
  public:
   using ScriptedLeaves::ScriptedLeaves;

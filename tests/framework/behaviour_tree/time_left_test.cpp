@@ -11,21 +11,21 @@ namespace {
 using testing::ElementsAre;
 
 TEST(TimeLeft, OneAfterTheOtherTakesTheSumOfBoth) {
-  const TimeLeft both = in_order({10.0, 30.0, {"goto"}}, {5.0, 20.0, {"save"}});
+  const TimeLeft both = one_after_other({10.0, 30.0, {"goto"}}, {5.0, 20.0, {"save"}});
   EXPECT_EQ(both.about_s, 15.0);
   EXPECT_EQ(both.max_s, 50.0);
   EXPECT_THAT(both.without, ElementsAre("goto", "save"));
 }
 
 TEST(TimeLeft, HasNoEndWhenOnePartHasNone) {
-  EXPECT_TRUE(std::isinf(in_order({10.0, 30.0, {}}, {5.0}).max_s));
+  EXPECT_TRUE(std::isinf(one_after_other({10.0, 30.0, {}}, {5.0}).max_s));
 }
 
 TEST(TimeLeft, AnUnknownKindIsNamedOnce) {
   TimeLeft left;
   for (const char* kind : {"goto", "save", "goto"}) add_unknown(left, kind);
   EXPECT_THAT(left.without, ElementsAre("goto", "save"));
-  EXPECT_THAT(in_order(left, left).without, ElementsAre("goto", "save"));
+  EXPECT_THAT(one_after_other(left, left).without, ElementsAre("goto", "save"));
 }
 
 TEST(TimeLeft, ALimitCutsBothTimes) {

@@ -217,7 +217,7 @@ TEST_F(MissionTreeFiles, ParametersGoThroughSubMissionsToTheFieldThatTheyAreFor)
   EXPECT_THAT(errors("- mission:\n    file: outer.yaml\n    with: {patience: soon}"),
               ElementsAre(AllOf(StartsWith("main.yaml:3:22: after_s must be a number from 0.001"),
                                 EndsWith("(given as a parameter to inner.yaml:3:5)"))))
-      << "told where the value was written, and where it is used";
+      << "reported where the value was written, and where it is used";
   write("short.yaml", "parameters: {share: , to: L1}\nsteps:\n  - explored: $share\n  - goto: $to\n");
   EXPECT_THAT(errors("- mission: {file: short.yaml, with: {share: 90}}"),
               ElementsAre(AllOf(StartsWith("main.yaml:1:45: explored: at_least_ratio must be"),

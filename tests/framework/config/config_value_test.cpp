@@ -119,10 +119,11 @@ TEST(NearestName, BecomesAQuestion) {
 }
 
 TEST(Shown, KeepsMessagesShortAndOnOneLine) {
-  EXPECT_EQ(shown("abc"), "\"abc\"");
-  EXPECT_EQ(shown("a\nb\x01"), "\"a\\nb\\x01\"");
-  EXPECT_EQ(shown(std::string(70, 'x')), "\"" + std::string(60, 'x') + "...\"");
-  EXPECT_EQ(shown(std::string(59, 'x') + "\xc3\xa9z"), "\"" + std::string(59, 'x') + "...\"") << "no half characters";
+  EXPECT_EQ(in_quotes("abc"), "\"abc\"");
+  EXPECT_EQ(in_quotes("a\nb\x01"), "\"a\\nb\\x01\"");
+  EXPECT_EQ(in_quotes(std::string(70, 'x')), "\"" + std::string(60, 'x') + "...\"");
+  EXPECT_EQ(in_quotes(std::string(59, 'x') + "\xc3\xa9z"), "\"" + std::string(59, 'x') + "...\"")
+      << "no half characters";
 }
 
 class Variables : public testing::Test {

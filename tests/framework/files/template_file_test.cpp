@@ -149,7 +149,7 @@ TEST(TemplateFile, SaysWhatIsWrongWithAFolder) {
   EXPECT_EQ(loading("twice"), "twice/b.yaml:2:11: the category \"box\" is taken by twice/a.yaml");
   EXPECT_EQ(loading("twice/a.yaml"), "twice/a.yaml: a file, not a folder of templates");
   for (std::size_t i = 0; i <= kMaxTemplateFiles; ++i) (void)folder.write("many/" + std::to_string(i) + ".yaml", "");
-  EXPECT_EQ(loading("many"), "many: holds 501 templates; at most 500 categories can be told apart at a time");
+  EXPECT_EQ(loading("many"), "many: holds 501 templates; at most 500 categories can be distinguished at a time");
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(NamedValues, DamagedOnesAreRefusedWithASentence) {
       (void)saved_named_values(map);
       ADD_FAILURE() << text;
     } catch (const StoreError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("cannot be gone on from: its property named_values: "));
+      EXPECT_THAT(error.what(), HasSubstr("cannot be resumed: its property named_values: "));
     }
   }
 }

@@ -62,7 +62,7 @@ struct Row {
     if (unreachable == 0 || request.to.landmarks.back() != unreachable) explanation.cost = 7.0;
     if (first != (request.closed.size() == 1)) return explanation;
     explanation.cost_with_closed_open = 4.0;
-    explanation.closed_in_the_way = {static_cast<RouteId>(50 + asked.size())};
+    explanation.closed_on_cheaper_path = {static_cast<RouteId>(50 + asked.size())};
     return explanation;
   }
 
@@ -180,7 +180,7 @@ TEST(Tour, ExplanationsAddUp) {
   EXPECT_THAT(result.explanation->clusters, ElementsAre(ElementsAre(1, 2), ElementsAre(9)));
   EXPECT_EQ(result.explanation->cost, 14.0);
   EXPECT_EQ(result.explanation->cost_with_closed_open, 11.0);  // 7 of the first leg, 4 of the second
-  EXPECT_THAT(result.explanation->closed_in_the_way, ElementsAre(52));
+  EXPECT_THAT(result.explanation->closed_on_cheaper_path, ElementsAre(52));
 }
 
 TEST(Tour, ClosedRoutesOfEarlierLegsAreNotBlamedForALegWithoutAWay) {
@@ -193,7 +193,7 @@ TEST(Tour, ClosedRoutesOfEarlierLegsAreNotBlamedForALegWithoutAWay) {
   EXPECT_EQ(result.outcome, PlanOutcome::no_route);
   ASSERT_TRUE(result.explanation);
   EXPECT_FALSE(result.explanation->cost_with_closed_open);
-  EXPECT_TRUE(result.explanation->closed_in_the_way.empty());
+  EXPECT_TRUE(result.explanation->closed_on_cheaper_path.empty());
   EXPECT_THAT(result.explanation->settled_of_level, ElementsAre(7, 2));
 }
 

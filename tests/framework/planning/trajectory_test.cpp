@@ -57,7 +57,7 @@ std::vector<Pose2> sampled(const std::vector<Curve>& curves, double step_m) {
   return path;
 }
 
-// Limits, strictly growing times, and that the speeds tell how the poses move.
+// Limits, strictly growing times, and that the speeds say how the poses move.
 void expect_drivable(const std::vector<TrajectoryPoint>& points, const RobotModel& robot, double heading_rad = 1e-6) {
   ASSERT_FALSE(points.empty());
   for (const TrajectoryPoint* end : {&points.front(), &points.back()}) {

@@ -68,7 +68,7 @@ TEST(SweptFootprint, AgreesWithTinyStepsOnRandomArcs) {
     }
     const double way_m = free_sweep_m(robot, twist, p, 0.05, 1.0);
     if (std::isfinite(oracle_m) && oracle_m < 0.98) {
-      // It may graze between two steps, by less than a step; otherwise it is never told too long.
+      // It may graze between two steps, by less than a step; otherwise it is never given as too long.
       if (std::isfinite(way_m)) {
         EXPECT_NEAR(way_m, oracle_m, 0.03) << i;
       }

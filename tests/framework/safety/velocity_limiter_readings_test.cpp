@@ -115,7 +115,7 @@ double let_go_s(double odometry_s, double read_s, double jitter_s) {
 }
 
 TEST(VelocityLimiter, MeasuresThePeriodOfReadingsNotOfOdometry) {
-  EXPECT_GT(let_go_s(0.02, 0.1, 0.0), 9.7) << "only the first readings tell how often they come";
+  EXPECT_GT(let_go_s(0.02, 0.1, 0.0), 9.7) << "only the first readings say how often they come";
   EXPECT_GT(let_go_s(0.04, 0.04, 0.0), 9.7);
 }
 

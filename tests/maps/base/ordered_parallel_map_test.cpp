@@ -35,7 +35,7 @@ template <class Take, class Work>
 Ended run(std::size_t threads, const Take& take, const Work& work) {
   Ended ended;
   try {
-    in_order(
+    ordered_parallel_map(
         threads, take, work, [&](int result, bool) { ended.given.push_back(result); }, kNothing);
   } catch (const std::runtime_error& error) {
     ended.fault = error.what();
@@ -84,7 +84,7 @@ TEST(InOrder, AFaultOfGivingEndsIt) {
   const auto give = [&](int, bool) {
     if (++given == 10) throw std::runtime_error("disc full");
   };
-  EXPECT_THROW(in_order(
+  EXPECT_THROW(ordered_parallel_map(
                    3, counting_to(1'000'000, taken), [](int job) { return job; }, give, kNothing),
                std::runtime_error);
   EXPECT_EQ(given, 10);
@@ -108,7 +108,7 @@ TEST(InOrder, AnAnswerDoesNotWaitForTheNextQuestion) {
     ++answered;
     changed.notify_all();
   };
-  in_order(
+  ordered_parallel_map(
       2, take, [](int job) { return job; }, give, kNothing);
   EXPECT_EQ(answered, 100);
 }
@@ -130,7 +130,7 @@ TEST(InOrder, AFaultWakesWhoWaitsForAJob) {
     changed.notify_all();
   };
   const auto work = [](int) -> int { throw std::runtime_error("module"); };
-  EXPECT_THROW(in_order(
+  EXPECT_THROW(ordered_parallel_map(
                    3, take, work, [](int, bool) {}, stop),
                std::runtime_error);
 }
@@ -139,7 +139,7 @@ TEST(InOrder, FewJobsAreUnderWayAtOnce) {
   std::atomic<int> taken = 0;
   int given = 0;
   int max_ahead = 0;
-  in_order(
+  ordered_parallel_map(
       4, counting_to(600, taken), [](int job) { return job; },
       [&](int, bool) {
         ++given;

@@ -28,7 +28,7 @@ TEST(Text, BlanksGoAtBothEndsOnly) {
   EXPECT_EQ(trimmed("\na\n", "\n"), "a");
 }
 
-// So that its place in a line can be told.
+// So that its place in a line can be given.
 TEST(Text, WhatIsAllBlankIsCutToItsEnd) {
   const std::string_view blank = "  ";
   EXPECT_EQ(trimmed(blank), "");

@@ -34,7 +34,7 @@ TEST(ClusterQuality, OfALineInTwoFours) {
 }
 
 TEST(ClusterQuality, TheDiameterIsOfCheapestWaysInsideAndOverPairsThatHaveOne) {
-  // The way from 1 to 4 by 2 and 3 and the straight route cost the same; 8 is not got out of.
+  // The route from 1 to 4 by 2 and 3 and the straight route cost the same; 8 is not got out of.
   const auto levels = quality(drawn_graph("1<>2 2<>3 3<>4 1<>3 4<>5 5<>6 6<>7 7>8 5>8"));
   EXPECT_DOUBLE_EQ(levels.at(0).diameter.value(), 3.0);
   EXPECT_EQ(levels[0].routes_cut, 2U);

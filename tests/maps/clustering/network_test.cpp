@@ -98,7 +98,7 @@ TEST(Network, ARouteMayGetOtherEnds) {
 
 TEST(Network, RefusesACostThatNoSearchCanUseAndNamesTheRoute) {
   const LandmarkGraph graph = drawn_graph("1>2");
-  for (const double bad : {-1.0, kNoWay, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad : {-1.0, kNoRoute, std::numeric_limits<double>::quiet_NaN()}) {
     try {
       const Network network(graph, [bad](const Route&) { return bad; });
       ADD_FAILURE() << bad;

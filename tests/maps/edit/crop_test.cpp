@@ -99,7 +99,7 @@ TEST(MapCrop, ReportsWhatItForgets) {
   map.clusters.clusters = {{1, {1, 1, 0, 1, "wing"}}};
   map.progress = MissionProgress();
   EXPECT_THAT(crop_map(map, {-1, -1}, {1, 1}).warnings,
-              ElementsAre("no mission goes on from a part of its map: how far it had come is left away",
+              ElementsAre("no mission can resume from a part of its map: its progress is dropped",
                           "1 landmark: where a robot stands at it lies outside and is forgotten",
                           "1 cluster: made anew, the name is lost"));
 }

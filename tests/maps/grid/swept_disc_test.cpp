@@ -57,7 +57,7 @@ TEST(SweptDisc, AgreesWithBruteForceOnRandomGrids) {
     const Pose2 to{1.2 * unit(random), 1.2 * unit(random), 0.0};
     const double radius_m = 0.3 * unit(random);
     const double nearest_m = test::distance_by_brute_force(grid, {from, to}, false, 0.001);
-    if (std::abs(nearest_m - radius_m) < 0.001) continue;  // nearer than the oracle can tell
+    if (std::abs(nearest_m - radius_m) < 0.001) continue;  // nearer than the oracle can decide
     EXPECT_EQ(sweep_is_free(grid, {}, from.position(), to.position(), radius_m), nearest_m > radius_m)
         << test::drawing_of(grid, {from, to}) << "radius " << radius_m << " m, nearest " << nearest_m << " m";
   }

@@ -75,7 +75,7 @@ std::string broken_law_of(ClusterIndex cluster, const std::vector<VertexIndex>& 
 
 std::vector<double> costs_inside(VertexIndex from, ClusterIndex cluster, int level, const Hierarchy& hierarchy) {
   const Network& network = hierarchy.network();
-  std::vector<double> cost(network.end(), kNoWay);
+  std::vector<double> cost(network.end(), kNoRoute);
   cost[from] = 0.0;
   Queue queue;
   queue.emplace(0.0, from);
@@ -264,7 +264,7 @@ std::string broken_network(const Network& network, const LandmarkGraph& graph, c
   for (const auto& [id, route] : graph.routes())
     if (route.from != route.to)
       wanted.emplace(network.vertex_of(route.from), network.vertex_of(route.to), id,
-                     route.closed ? kNoWay : cost(route));
+                     route.closed ? kNoRoute : cost(route));
   std::set<ArcTuple> out;
   std::set<ArcTuple> in;
   std::size_t arcs = 0;

@@ -39,7 +39,7 @@ class GraphChanger {
 
 [[nodiscard]] LandmarkGraph random_graph(std::size_t landmarks, std::uint64_t seed);
 
-// What the cheapest way from some landmarks to each one costs, by Dijkstra over the graph itself; without those that
+// What the cheapest route from some landmarks to each one costs, by Dijkstra over the graph itself; without those that
 // no open route leads to. `from`: with what each costs to get to.
 [[nodiscard]] std::map<LandmarkId, double> costs_from(const LandmarkGraph& graph,
                                                       const std::map<LandmarkId, double>& from,
@@ -48,7 +48,7 @@ class GraphChanger {
 // The first law that the clusters break, or nothing: a vertex is in one cluster a level; every cluster is connected,
 // not empty and within bounds, knows its members, its boundary as defined, and an anchor among them; ids are unique.
 [[nodiscard]] std::string broken_law(const Clustering& clustering, const Network& network);
-// The same of a way through a cluster whose cost is not that of Dijkstra inside the cluster.
+// The same of a route through a cluster whose cost is not that of Dijkstra inside the cluster.
 [[nodiscard]] std::string broken_way(const Hierarchy& hierarchy);
 // The same of a network that is not its graph.
 [[nodiscard]] std::string broken_network(const Network& network, const LandmarkGraph& graph, const RouteCost& cost);

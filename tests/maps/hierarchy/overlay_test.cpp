@@ -39,7 +39,7 @@ TEST(Overlay, AClosedRouteIsNoWayButStaysOnTheBoundary) {
   const Passage& passage = hierarchy.overlay().passage(half);
   ASSERT_EQ(passage.boundary(), 1U);
   ASSERT_EQ(passage.out.size(), 1U);
-  EXPECT_EQ(passage.out[0].cost, kNoWay);
+  EXPECT_EQ(passage.out[0].cost, kNoRoute);
   graph.set_closed(5, false);
   hierarchy.update(graph, {{}, {5}});
   EXPECT_EQ(hierarchy.overlay().passage(half).out[0].cost, 1.0);

@@ -38,7 +38,7 @@ TEST(RouteCosts, ByTimeIsDrivingAndTurning) {
   EXPECT_DOUBLE_EQ(time(along({{0, 0, 0}, {3, 4, 0}}, 99.0)), 10.0);
   EXPECT_DOUBLE_EQ(time(along({{0, 0, 0}, {2, 0, 0}, {2, 0, right}, {2, 1, right}}, 3.0)), 6.0 + right / 2.0);
   EXPECT_DOUBLE_EQ(time(along({{0, 0, 3.0}, {0, 0, -3.0}}, 0.0)), (2 * std::numbers::pi - 6.0) / 2.0)
-      << "the short way round";
+      << "the short route round";
   EXPECT_DOUBLE_EQ(time(along({}, 4.0)), 8.0) << "without a trajectory";
 }
 

@@ -40,7 +40,7 @@ TEST(GraphParts, ClosedRoutesLeadNowhere) {
 
 TEST(GraphParts, WithoutRoutesThereIsNoMainPart) {
   EXPECT_THAT(parts_of(drawn_graph("1 2")).main, IsEmpty());
-  EXPECT_THAT(parts_of(drawn_graph("1 2>2")).others.size(), 2U) << "a way to itself is no way out";
+  EXPECT_THAT(parts_of(drawn_graph("1 2>2")).others.size(), 2U) << "a route to itself leads nowhere";
   EXPECT_THAT(parts_of({}).others, IsEmpty());
 }
 

@@ -64,10 +64,11 @@ TEST_F(TimelinePictures, CutOffWhatLiesOutsideTheTime) {
 TEST_F(TimelinePictures, HaveARowOfMarksForEachKindThatWasGiven) {
   Timeline timeline = of({{"1  wait", 0, {}}});
   const Png without = drawn(timeline);
-  timeline.marks = {{"held back", MarkKind::stop, {{20.0, 30.0, ""}}}, {"bumped", MarkKind::bump, {{50.0, 50.0, ""}}}};
+  timeline.marks = {{"slowed down", MarkKind::stop, {{20.0, 30.0, ""}}},
+                    {"bumped", MarkKind::bump, {{50.0, 50.0, ""}}}};
   const Png with = drawn(timeline);
   EXPECT_EQ(with.height - without.height, 2 * 22 + 8);
-  EXPECT_GT(added(with, without, kPlanned), 800) << "ten seconds held back";
+  EXPECT_GT(added(with, without, kPlanned), 800) << "ten seconds slowed down";
   EXPECT_GT(added(with, without, kClosed), 10) << "a touch has no length, and is seen all the same";
 }
 

@@ -97,7 +97,7 @@ TEST_F(MapSalvage, SaysHowManyRowsAreMissing) {
               Contains(loss_in("driven_path", "400 of its 500 rows")));
 }
 
-// Every third page in turn: what can be read stays right, and what is lost is told.
+// Every third page in turn: what can be read stays right, and what is lost is reported.
 TEST_F(MapSalvage, OfAFileWithAnyOnePageDestroyed) {
   const SavedMap map = large_map();
   const std::string sound = bytes_of(file("sound.cairn"));

@@ -1,4 +1,4 @@
-// What ends short of the goal is never called solved, and is told as it is.
+// What ends short of the goal is never called solved, and is reported as it is.
 
 #include <gmock/gmock.h>
 

@@ -106,7 +106,7 @@ TEST_F(StoredRoutes, WhatIsNotCertainIsLeftToTheFullLook) {
   EXPECT_FALSE(beside(between(n, m))) << "no route leads there";
   EXPECT_FALSE(beside(between(m, m)));
   EXPECT_FALSE(beside(between(m, 77)));
-  EXPECT_FALSE(beside(request('M', 'N'))) << "the way to the first landmark is not known";
+  EXPECT_FALSE(beside(request('M', 'N'))) << "the route to the first landmark is not known";
   PlanRequest asks_more = between(m, n);
   asks_more.alternatives = 1;
   EXPECT_FALSE(beside(asks_more));

@@ -24,7 +24,7 @@ std::vector<GraphPath> paths(const LandmarkGraph& graph, const Question& questio
   HierarchySearch search;
   const RouteQuery query = query_of(question, hierarchy.network());
   const GraphPath best = search.find(hierarchy, query, {});
-  if (!(best.cost < kNoWay)) return {};
+  if (!(best.cost < kNoRoute)) return {};
   std::vector<GraphPath> all = alternatives_to(best, count, hierarchy, query, search, {});
   all.insert(all.begin(), best);
   return all;

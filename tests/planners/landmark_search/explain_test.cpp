@@ -34,7 +34,7 @@ TEST(Explain, SaysWhatTheClosedRoutesOfTheMapCost) {
   const RouteResult result = world.plan(LandmarkSearch(), request(1, 4));
   EXPECT_DOUBLE_EQ(result.cost_m, 9.0);
   EXPECT_EQ(result.explanation->cost, 9.0);
-  EXPECT_THAT(result.explanation->closed_in_the_way, ElementsAre(2));
+  EXPECT_THAT(result.explanation->closed_on_cheaper_path, ElementsAre(2));
   EXPECT_DOUBLE_EQ(result.explanation->cost_with_closed_open.value(), 3.0);
 }
 
@@ -44,7 +44,7 @@ TEST(Explain, AndThoseThatTheRequestCloses) {
   RouteRequest asked = request(1, 4);
   asked.closed = {1, 3, 77};
   const RouteResult result = world.plan(LandmarkSearch(), asked);
-  EXPECT_THAT(result.explanation->closed_in_the_way, ElementsAre(1, 3));
+  EXPECT_THAT(result.explanation->closed_on_cheaper_path, ElementsAre(1, 3));
   EXPECT_DOUBLE_EQ(result.explanation->cost_with_closed_open.value(), 3.0);
 }
 
@@ -52,7 +52,7 @@ TEST(Explain, ClosedRoutesThatWouldNotHelpAreNotNamed) {
   GraphWorld world = line_of(3);
   world.graph.set_closed(world.route(1, 3, 50.0), true);
   const RouteResult result = world.plan(LandmarkSearch(), request(1, 3));
-  EXPECT_THAT(result.explanation->closed_in_the_way, IsEmpty());
+  EXPECT_THAT(result.explanation->closed_on_cheaper_path, IsEmpty());
   EXPECT_FALSE(result.explanation->cost_with_closed_open);
 }
 

@@ -152,7 +152,7 @@ TEST(HierarchySearch, AnAvoidedEndIsAnEndAndNotPassed) {
   EXPECT_EQ(cost({{{1, 0.0}, {2, 50.0}}, {{4, 0.0}}, {2}, {}}), 52.0) << "from 1 one would have to pass 2";
   EXPECT_EQ(cost({{{1, 0.0}}, {{3, 50.0}, {4, 0.0}}, {3}, {}}), 52.0) << "to 4 one would have to pass 3";
   EXPECT_EQ(cost({{{1, 0.0}, {2, 9.0}}, {{1, 9.0}, {2, 0.0}}, {1, 2}, {}}), 1.0) << "from end to end";
-  EXPECT_EQ(cost({{{1, 0.0}}, {{4, 0.0}}, {2}, {}}), kNoWay);
+  EXPECT_EQ(cost({{{1, 0.0}}, {{4, 0.0}}, {2}, {}}), kNoRoute);
 }
 
 TEST(HierarchySearch, WaysInAPlaceWhereNothingCostsAnythingPassNoLandmarkTwice) {
@@ -218,7 +218,7 @@ TEST(HierarchySearch, StopsWhenItsBudgetIsUsedUp) {
     if (whole.settled < 2) continue;
     ++cut;
     EXPECT_TRUE(half.stopped);
-    EXPECT_EQ(half.cost, kNoWay);
+    EXPECT_EQ(half.cost, kNoRoute);
     EXPECT_EQ(half.settled, budget.iterations);
     EXPECT_LE(enough.settled, whole.settled);
   }

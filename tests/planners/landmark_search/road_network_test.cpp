@@ -41,7 +41,7 @@ Plain plain_graph(const LandmarkGraph& graph) {
 std::vector<double> costs_from(const Plain& plain, LandmarkId from) {
   std::vector<double> costs(boost::num_vertices(plain));
   boost::dijkstra_shortest_paths(plain, static_cast<std::size_t>(from),
-                                 boost::distance_map(costs.data()).distance_inf(kNoWay));
+                                 boost::distance_map(costs.data()).distance_inf(kNoRoute));
   return costs;
 }
 
@@ -83,7 +83,7 @@ TEST_P(RoadNetwork, IsAnsweredAsByDijkstra) {
           request, {.grid = grid, .graph = graph, .robot = robot, .pose = {}, .hierarchies = &hierarchies}, {});
       const std::string where =
           "L" + std::to_string(request.from[0].landmark) + " to L" + std::to_string(request.to[0].landmark);
-      ASSERT_EQ(result.outcome == PlanOutcome::solved, cost_m < kNoWay) << where;
+      ASSERT_EQ(result.outcome == PlanOutcome::solved, cost_m < kNoRoute) << where;
       if (result.outcome != PlanOutcome::solved) continue;
       ++reached;
       ASSERT_NEAR(result.cost_m, cost_m, 1e-9 * std::max(1.0, cost_m)) << where;

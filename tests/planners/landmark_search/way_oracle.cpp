@@ -11,7 +11,7 @@ namespace {
 
 double cost_of(const Route& route, const Question& question) {
   if (const auto found = question.costs.find(route.id); found != question.costs.end()) return found->second;
-  return route.closed ? kNoWay : route.cost_m;
+  return route.closed ? kNoRoute : route.cost_m;
 }
 
 template <class Map>
@@ -40,7 +40,7 @@ class Enumeration {
     for (const RouteId id : graph_.routes_from(at)) {
       const Route& route = *graph_.find_route(id);
       const double on = cost_of(route, question_);
-      if (on < kNoWay && !passed_.contains(route.to)) go_on(route.to, cost + on);
+      if (on < kNoRoute && !passed_.contains(route.to)) go_on(route.to, cost + on);
     }
     passed_.erase(at);
   }
@@ -84,7 +84,7 @@ Question random_question(const LandmarkGraph& graph, const Variety& variety, std
     }
   if (graph.routes().empty()) return question;
   for (int i = below(variety.max_costs + 1); i > 0; --i)
-    question.costs[any_key(graph.routes(), random)] = below(2) == 0 ? kNoWay : static_cast<double>(below(5));
+    question.costs[any_key(graph.routes(), random)] = below(2) == 0 ? kNoRoute : static_cast<double>(below(5));
   return question;
 }
 
@@ -102,7 +102,7 @@ double cheapest(const LandmarkGraph& graph, const Question& question) {
     queue.emplace(cost, state.first, state.second);
   };
   for (const auto& [id, cost] : question.from) reach({id, true}, cost);
-  double best = kNoWay;
+  double best = kNoRoute;
   while (!queue.empty()) {
     const auto [cost, id, is_start] = queue.top();
     queue.pop();
@@ -111,7 +111,7 @@ double cheapest(const LandmarkGraph& graph, const Question& question) {
     if (!is_start && question.avoided.contains(id)) continue;
     for (const RouteId r : graph.routes_from(id)) {
       const Route& route = *graph.find_route(r);
-      if (const double on = cost_of(route, question); on < kNoWay) reach({route.to, false}, cost + on);
+      if (const double on = cost_of(route, question); on < kNoRoute) reach({route.to, false}, cost + on);
     }
   }
   return best;
@@ -123,7 +123,7 @@ std::vector<double> all_costs(const LandmarkGraph& graph, const Question& questi
 
 std::string fault_of(const GraphPath& path, const Question& question, const LandmarkGraph& graph,
                      const Network& network) {
-  if (!(path.cost < kNoWay)) return path.vertices.empty() && path.routes.empty() ? "" : "a path without a cost";
+  if (!(path.cost < kNoRoute)) return path.vertices.empty() && path.routes.empty() ? "" : "a path without a cost";
   std::vector<LandmarkId> landmarks;
   for (const VertexIndex v : path.vertices) landmarks.push_back(network.landmark_of(v));
   if (landmarks.empty() || path.routes.size() + 1 != landmarks.size()) return "landmarks and routes do not alternate";

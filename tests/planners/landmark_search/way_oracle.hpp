@@ -28,7 +28,7 @@ struct Variety {
 };
 [[nodiscard]] Question random_question(const LandmarkGraph& graph, const Variety& variety, std::mt19937_64& random);
 
-// The cost of the cheapest answer, by Dijkstra; kNoWay: there is none.
+// The cost of the cheapest answer, by Dijkstra; kNoRoute: there is none.
 [[nodiscard]] double cheapest(const LandmarkGraph& graph, const Question& question);
 // The costs of all answers that pass no landmark twice, rising, by trying each.
 [[nodiscard]] std::vector<double> all_costs(const LandmarkGraph& graph, const Question& question);

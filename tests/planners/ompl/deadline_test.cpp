@@ -85,7 +85,7 @@ TEST_P(InTime, ADeadlineHolds) {
       EXPECT_TRUE(result.outcome == PlanOutcome::solved || result.outcome == PlanOutcome::out_of_budget)
           << name_of(result.outcome) << ": " << result.reason;
     }
-    if (least == Clock::duration::max()) GTEST_SKIP() << "the machine is too busy to tell";
+    if (least == Clock::duration::max()) GTEST_SKIP() << "the machine is too busy to measure it";
     EXPECT_LE(least, kPromised) << given.count() << " ms given";
   }
 }

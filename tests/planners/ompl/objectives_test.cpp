@@ -122,7 +122,7 @@ TEST(Objectives, TimeGoesAsStraightAsLength) {
   }
 }
 
-// A strip of unknown ground: across it a metre counts as often as it is told.
+// A strip of unknown ground: across it a metre counts as often as it is set to.
 TEST(Objectives, UnknownGroundIsCrossedOnlyWhereItSavesEnough) {
   const auto world = test::drawn_world(
       "##############################\n"
@@ -204,7 +204,7 @@ TEST(Objectives, WithoutACountImprovementLastsUntilTheDeadline) {
     ASSERT_EQ(run_of.result.outcome, PlanOutcome::solved);
     EXPECT_LE(run_of.result.cost_m, plain.cost_m * (1.0 + 1e-9));
   }
-  if (least == Budget::Clock::duration::max()) GTEST_SKIP() << "the machine is too busy to tell";
+  if (least == Budget::Clock::duration::max()) GTEST_SKIP() << "the machine is too busy to measure it";
   EXPECT_LE(least, test::kSlowdown * std::chrono::milliseconds(10));
 }
 

@@ -42,7 +42,7 @@ struct Overrun {
   Budget::Clock::duration late;  // how long after the end the counting began: the thread may have worked so much more
 };
 
-// Calls, and tells how long this thread works on after `end`, when `at_end` is called by another thread.
+// Calls, and says how long this thread works on after `end`, when `at_end` is called by another thread.
 template <class Call, class AtEnd>
 Overrun overrun_of(Budget::Clock::time_point end, const Call& call, const AtEnd& at_end) {
   clockid_t mine{};

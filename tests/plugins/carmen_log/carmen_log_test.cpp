@@ -96,7 +96,7 @@ TEST_F(CarmenLog, ParamsPlaceTheLasersAndLimitTheirRange) {
   EXPECT_DOUBLE_EQ(seen[1].ranges[0].range_m, 8.5);
   EXPECT_NE(seen[0].ranges[0].sensor, seen[1].ranges[0].sensor);
   EXPECT_NEAR(start_->x_m, 4.8, 1e-12) << "the robot is behind its laser";
-  EXPECT_NEAR(seen[1].T_odom_robot.position().norm(), 0.0, 1e-9) << "both lasers tell the same robot pose";
+  EXPECT_NEAR(seen[1].T_odom_robot.position().norm(), 0.0, 1e-9) << "both lasers give the same robot pose";
 }
 
 TEST_F(CarmenLog, ReadsBothVariantsOfRobotLaser) {

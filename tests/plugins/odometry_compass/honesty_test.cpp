@@ -1,4 +1,4 @@
-// Does the covariance tell the truth? Many simulated runs with the errors of the shipped robots (docs/method.md 11);
+// Is the covariance honest? Many simulated runs with the errors of the shipped robots (docs/method.md 11);
 // the normalised estimation error squared of a three-dimensional Gaussian averages 3.
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ struct Ending {
   double heading_rad = 0.0;
 };
 
-// Drives about at 0.2 m/s, turning now and then, until the way is long enough.
+// Drives about at 0.2 m/s, turning now and then, until the path is long enough.
 Ending drive(const RobotModel& robot, double way_m, std::uint64_t seed, bool compass = true) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;

@@ -56,7 +56,7 @@ class WallFinderTest : public testing::Test {
 TEST_F(WallFinderTest, FindsAWallThatIsDrivenAlong) {
   const auto found = drive(0.9, wall);
   ASSERT_TRUE(found);
-  EXPECT_TRUE(found->is_surely_straight);
+  EXPECT_TRUE(found->is_conservatively_straight);
   EXPECT_NEAR(found->bearing_rad, radians(86.0), 3.0 * std::sqrt(found->covariance(0, 0)));
   EXPECT_NEAR(found->distance_m, 1.5 - robot_.y_m, 0.1);
   EXPECT_LT(std::sqrt(found->covariance(0, 0)), radians(4.0));
@@ -68,7 +68,7 @@ TEST_F(WallFinderTest, TakesNoPoleForAStraightWall) {
     const double off_rad = wrap_angle(std::atan2(way.y(), way.x()) - sensor.theta_rad);
     return std::abs(off_rad) <= radians(15.0) ? std::optional(way.norm() - 0.05) : std::nullopt;
   });
-  EXPECT_FALSE(found && found->is_surely_straight);
+  EXPECT_FALSE(found && found->is_conservatively_straight);
 }
 
 TEST_F(WallFinderTest, FindsNothingWithoutEchoesOrWhereItStands) {
@@ -94,7 +94,7 @@ SeenWall seen_from(const Pose2& T_map_robot, double normal_rad, double at_m) {
   seen.covariance.diagonal() << 1e-4, 1e-4;
   seen.begin_m = -0.5;
   seen.end_m = 0.5;
-  seen.is_surely_straight = true;
+  seen.is_conservatively_straight = true;
   return seen;
 }
 

@@ -44,7 +44,7 @@ RobotModel two_sonars() {
   return robot;
 }
 
-// What a robot observes that drives as told, every transducer at every tick; by tick, from 1.
+// What a robot observes that drives as commanded, every transducer at every tick; by tick, from 1.
 std::vector<Witnessed> run(SimulatedRobotConfig config, const Twist& twist, double time_s,
                            const RobotModel& robot = two_sonars(), std::uint64_t seed = 1,
                            const World& world = room(6.0, 5.0)) {

@@ -16,7 +16,7 @@ int between(Random& random, int least, int most) {
   return least + static_cast<int>(random() % static_cast<std::uint64_t>(most - least + 1));
 }
 
-// A beam's worth of cells is told better or worse; now and then a landmark or a block of noise stands there.
+// A beam's worth of cells becomes more or less certain; now and then a landmark or a block of noise stands there.
 CellChanges change(OccupancyGrid& grid, Random& random, const std::vector<LandmarkShape>& shapes, int reach) {
   const Cell first{between(random, -reach, reach), between(random, -reach, reach)};
   const CellBox box{first, first + Cell{between(random, 1, 25), between(random, 1, 25)}};

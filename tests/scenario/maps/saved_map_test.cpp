@@ -68,7 +68,7 @@ double number_behind(const std::string& text, const std::string& what) {
   return std::stod(text.substr(text.find(what) + what.size()));
 }
 
-// The last autosave that was told, against what is in the file.
+// The last autosave that was published, against what is in the file.
 void expect_all_up_to_the_last_autosave(const Killed& killed, double age_s, const SavedMap& map, Kills& kills) {
   const auto last = std::find_if(killed.lines.rbegin(), killed.lines.rend(), [](const Killed::Line& line) {
     return line.text.find("autosaved") != std::string::npos;
@@ -125,7 +125,7 @@ TEST(SavedMap, IsWholeAfterAKillAtAnyMomentAndTheMissionGoesOnFromIt) {
   std::ranges::sort(kills.losses_s);
   const auto more = std::ranges::count_if(kills.losses_s, [&](double loss_s) { return loss_s > every_s; });
   std::printf(
-      "%d kills, %d after the mission's end; %d files open, %d gone on from; lost: median %.3f s, most %.3f s, %d more "
+      "%d kills, %d after the mission's end; %d files open, %d resumed; lost: median %.3f s, most %.3f s, %d more "
       "than the interval of %.1f s\n",
       count, kills.ended_before, kills.files, kills.resumed, kills.losses_s[kills.losses_s.size() / 2],
       kills.losses_s.back(), static_cast<int>(more), every_s);
@@ -209,7 +209,7 @@ TEST(SavedMap, WhatARunHasLeftThatDidNotEndIsKept) {
 // What the program says when nothing more can be written: all of it, and soon.
 void expect_a_clear_end(const Finished& run, const std::string& why) {
   EXPECT_EQ(run.exit_status, 1) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("autosaving failed, the mission goes on: "));
+  EXPECT_THAT(run.err, HasSubstr("autosave failed, the mission continues: "));
   const json report = json::parse(run.out);
   EXPECT_EQ(report["outcome"], "map_not_saved");
   EXPECT_THAT(report["reason"], HasSubstr("the map could not be saved: "));

@@ -207,8 +207,8 @@ TEST(Behaviours, WrongSettingsAreReportedWithTheirPlaceAndTheNearestName) {
     EXPECT_THAT(finished.err + finished.out, HasSubstr(reported));
 }
 
-// Somebody who has walked on leaves a ghost in the map; the way round it once ended where the robot stood, for ever: it
-// had driven 12 m by then.
+// Somebody who has walked on leaves a ghost in the map; the path round it once ended where the robot stood, for ever:
+// it had driven 12 m by then.
 TEST(Behaviours, ExploreGetsOnWhereItHasArrivedAlready) {
   const auto folder = fresh_folder("behaviours_arrived");
   write_text(folder / "world.yaml", R"(

@@ -88,7 +88,7 @@ TEST_F(Control, PauseResumeStatusAndCancelReachARunningMission) {
   EXPECT_EQ(first["time_s"], second["time_s"]) << "the clock stands";
   EXPECT_GT(second["paused_s"], first["paused_s"]) << "while readings still come";
 
-  EXPECT_THAT(report("resume").out, HasSubstr("mission held goes on at "));
+  EXPECT_THAT(report("resume").out, HasSubstr("mission held resumed at "));
   (void)status_in(out_, "running", second["time_s"].get<double>() + 0.1);
   const Finished cancelled = report("cancel");
   EXPECT_EQ(cancelled.exit_status, 0) << cancelled.err;
@@ -226,7 +226,7 @@ TEST_F(Control, AnotherTreeBeginsTheStepAfreshAndADamagedStateIsRefused) {
     save_map(folder_ / "damaged.cairn", damaged);
     const Finished refused = run_cairn(run_of(mission, {"--resume", (folder_ / "damaged.cairn").string()}));
     EXPECT_EQ(refused.exit_status, 2) << bad;
-    EXPECT_THAT(refused.err, HasSubstr("damaged.cairn: cannot be gone on from: its property tree_state: ")) << bad;
+    EXPECT_THAT(refused.err, HasSubstr("damaged.cairn: cannot be resumed: its property tree_state: ")) << bad;
   }
 }
 

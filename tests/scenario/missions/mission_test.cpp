@@ -111,7 +111,7 @@ TEST(MissionCommand, ATreeRunsAndIsReportedAsItGoes) {
   EXPECT_EQ(nodes[1]["reason"], "no landmark \"square\" is known");
 }
 
-// A detector that tells of nothing below its threshold leaves nothing to draw, which is no fault.
+// A detector that reports nothing below its threshold leaves nothing to draw, which is no fault.
 TEST(Run, DrawsEveryPictureOfAMissionWithoutLandmarks) {
   const auto folder = fresh_folder("mission_without_landmarks");
   const std::filesystem::path file = mission_in(folder,

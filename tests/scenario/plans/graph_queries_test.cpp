@@ -134,7 +134,7 @@ TEST_F(GraphQueries, ClosedRoutesAreNotTakenAndTheExplanationSaysWhichStoodInThe
   EXPECT_EQ(answer["cost_m"], 29.5);
   EXPECT_EQ(answer["explanation"]["cost"], 29.5);
   EXPECT_EQ(answer["explanation"]["cost_with_closed_open"], 20.0);
-  EXPECT_EQ(answer["explanation"]["closed_in_the_way"], json({3}));
+  EXPECT_EQ(answer["explanation"]["closed_on_cheaper_path"], json({3}));
   std::vector<std::string> arguments{"--from", "L1", "--to", "L3"};
   arguments.insert(arguments.end(), both.begin(), both.end());
   EXPECT_THAT(run(arguments).out, HasSubstr("  by length: 29.50 m; settled 3 landmarks\n"
@@ -143,7 +143,7 @@ TEST_F(GraphQueries, ClosedRoutesAreNotTakenAndTheExplanationSaysWhichStoodInThe
   EXPECT_EQ(cut["outcome"], "no_route");
   EXPECT_EQ(cut["reason"], "no open route leads from entrance to balcony; with every closed route open one would");
   EXPECT_EQ(cut["explanation"]["cost"], nullptr);
-  EXPECT_EQ(cut["explanation"]["closed_in_the_way"], json({8}));
+  EXPECT_EQ(cut["explanation"]["closed_on_cheaper_path"], json({8}));
 }
 
 TEST_F(GraphQueries, AlternativesComeTheCheapestFirstAsManyAsThereAre) {
@@ -158,7 +158,7 @@ TEST_F(GraphQueries, AlternativesComeTheCheapestFirstAsManyAsThereAre) {
 }
 
 TEST_F(GraphQueries, CostByTimeIsReportedInSecondsAndTheSumInMetres) {
-  // The short way stands on a slow route.
+  // The short route is a slow one.
   write_text(file("in.geojson"), R"({"type": "FeatureCollection", "crs": {"type": "name", "properties":
       {"name": "urn:ogc:def:crs:EPSG::3857"}}, "features": [
       {"type": "Feature", "properties": {"id": 1}, "geometry": {"type": "Point", "coordinates": [0, 0]}},
@@ -191,7 +191,7 @@ TEST_F(GraphQueries, OneWayUnreachableAndTheStartItself) {
   EXPECT_EQ(shed["reason"], "no open route leads from entrance to shed");
   EXPECT_EQ(shed["explanation"]["cost_with_closed_open"], nullptr);
   EXPECT_THAT(run({"--from", "balcony", "--to", "hall", "--explain"}).out,
-              HasSubstr("  by length: no way; settled 1 landmark\n"));
+              HasSubstr("  by length: no route; settled 1 landmark\n"));
   const json here = from_to("L2", "hall", {"--alternatives", "2", "--explain"});
   EXPECT_EQ(here["cost_m"], 0.0);
   EXPECT_EQ(here["landmarks"], json({"L2"}));
@@ -232,7 +232,7 @@ TEST_F(GraphQueries, AFileOfQueriesTakesTheSameByItsKeys) {
   EXPECT_EQ(all[1]["landmarks"], json({"L1", "L4", "L3"}));
   EXPECT_EQ(all[2]["cost_m"], 29.5);
   EXPECT_EQ(all[2]["alternatives"][0]["cost_m"], 35.0);
-  EXPECT_EQ(all[2]["explanation"]["closed_in_the_way"], json({3}));
+  EXPECT_EQ(all[2]["explanation"]["closed_on_cheaper_path"], json({3}));
   EXPECT_EQ(all[3]["explanation"]["cost_by"], "time");
   EXPECT_EQ(all[4]["outcome"], "no_route");
 }

@@ -67,7 +67,7 @@ std::string without_times(const std::string& text) {
   return std::regex_replace(text, times, "TIME");
 }
 
-// 1200 x 1000 cells: rooms of 40 with a door in most walls, which ways must find.
+// 1200 x 1000 cells: rooms of 40 with a door in most walls, which paths must find.
 std::string large_map() {
   constexpr int kRoom = 40;
   std::mt19937_64 random(6);

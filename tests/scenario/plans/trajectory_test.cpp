@@ -28,7 +28,7 @@ struct Row {
 
 class Trajectories : public testing::Test {
  protected:
-  // 8 x 6 m with two walls that leave a way in S shape.
+  // 8 x 6 m with two walls that leave a path in S shape.
   void SetUp() override {
     std::string text = "type octile\nheight 60\nwidth 80\nmap\n";
     for (int y = 0; y < 60; ++y) {

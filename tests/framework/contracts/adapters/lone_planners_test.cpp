@@ -10,7 +10,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Answer with what they were told to, and keep what they were asked.
+// Answer as they were asked to, and keep what they were asked.
 struct FixedPathPlanner : PathPlanner {
   [[nodiscard]] PlannerTraits traits() const override { return {}; }
   [[nodiscard]] PathResult plan(const PathRequest& request, const WorldView&, const Budget&) const override {

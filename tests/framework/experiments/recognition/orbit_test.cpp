@@ -82,7 +82,7 @@ TEST(OrbitTable, TheLastMatchingOfABinCountsInEachRun) {
   EXPECT_FALSE(categories[1].bins[1].has_value());
   EXPECT_DOUBLE_EQ(categories[1].bins[2]->mean, 0.9);
   EXPECT_THAT(orbit_table(orbit_of_quarters(), {first, second}),
-              testing::AllOf(HasSubstr("| lap, deg | square 15 deg |"), HasSubstr("| 90 - 180 | | |\n"),
+              testing::AllOf(HasSubstr("| orbit, deg | square 15 deg |"), HasSubstr("| 90 - 180 | | |\n"),
                              HasSubstr("| 180 - 270 | 0.00 | 0.90 |\n")));
 }
 

@@ -42,7 +42,7 @@ struct Trial {
     result.node_runs.add(node, report, begin_s);
     result.nodes.push_back(report);
   }
-  // The robot's true way, a tick a second, and how far off its estimate is.
+  // The robot's true path, a tick a second, and how far off its estimate is.
   void drive(const std::vector<Point>& way, double off_m = 0.0) {
     for (const Point& at : way) {
       Observation observation;
@@ -54,7 +54,7 @@ struct Trial {
       time_s += 1.0;
     }
   }
-  // Told of the first ones, with the landmarks that there are now.
+  // Given the first ones, with the landmarks that there are now.
   void end_steps(int count) {
     const WorldView world{grid, graph, mission.robot, {}, time_s, nullptr};
     for (int i = 0; i < count; ++i) record.on(StepEnded{i, "", {}}, {world});

@@ -119,7 +119,7 @@ TEST(CellMesh, ALongRectangleWithManyNeighboursCostsWhatManyShortOnesCost) {
 }
 
 TEST(CellMesh, BlocksLeaveOutDeadEnds) {
-  // A corridor with two side rooms: the way from end to end passes neither.
+  // A corridor with two side rooms: the path from end to end passes neither.
   const CellMesh mesh =
       mesh_of(drawn_cells("...#...\n"
                           "#.###.#\n"

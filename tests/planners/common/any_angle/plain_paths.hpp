@@ -1,5 +1,5 @@
 // Shortest paths of a point over open cells, the plain way: every outward corner is a vertex, every pair that
-// sees each other an edge. In whole numbers, so that touching and crossing are told apart exactly. The oracle
+// sees each other an edge. In whole numbers, so that touching and crossing are distinguished exactly. The oracle
 // of the mesh search; small maps only.
 #pragma once
 

@@ -38,7 +38,7 @@ TEST(PoseSpace, AnOutlineFitsWhereBruteForceFindsNothingNear) {
     for (int k = 0; k < 40; ++k) {
       const Pose2 pose = test::random_pose(random, grid);
       const double brute_m = test::outline_distance_m(grid, rules, space.footprint(), pose, 0.001);
-      if (brute_m > margin_m && brute_m < margin_m + 0.0005) continue;  // brute force cannot tell
+      if (brute_m > margin_m && brute_m < margin_m + 0.0005) continue;  // brute force cannot decide
       EXPECT_EQ(space.fits(pose), brute_m > margin_m) << brute_m;
       fitting += brute_m > margin_m;
     }

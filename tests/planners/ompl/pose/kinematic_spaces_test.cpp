@@ -170,7 +170,7 @@ void expect_drivable(const Motion& motion, double radius_m) {
     const std::vector<Pose2> poses = element.sampled(kStep_m, 10.0);
     for (std::size_t k = 1; k < poses.size(); ++k) {
       const Point step = poses[k].position() - poses[k - 1].position();
-      if (step.norm() < 1e-4) continue;  // too short to tell a direction by
+      if (step.norm() < 1e-4) continue;  // too short for a direction
       const double turn_rad = wrap_angle(poses[k].theta_rad - poses[k - 1].theta_rad);
       EXPECT_LE(std::abs(turn_rad), step.norm() / radius_m * (1.0 + 1e-5));
       const double direction_rad = std::atan2(step.y(), step.x());

@@ -214,7 +214,7 @@ TEST(RouteDriver, LooksForLongWhereItStaysInTheWay) {
   EXPECT_NEAR(host.time_s - looks_s, 25.0, 1.0);
 }
 
-// A way there would begin with an arc forwards, into whoever holds it.
+// A path there would begin with an arc forwards, into whoever holds it.
 TEST(RouteDriver, ACarBacksUpInsteadOfYielding) {
   for (const bool is_car : {false, true}) {
     FakeHost host(kTwoDoors, kKnown);
@@ -328,7 +328,7 @@ TEST(RouteDriver, FindsAWayOutWhereTheMapSaysItStandsInAWall) {
   EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
 }
 
-// Over a whole drive, with a hold-up and turns in place.
+// Over a whole drive, with a blockage and turns in place.
 TEST(RouteDriver, KeepsWithinTheDynamicWindowFromTickToTick) {
   FakeHost host(kTwoDoors, kKnown);
   Driving driving({}, kOtherRoom);

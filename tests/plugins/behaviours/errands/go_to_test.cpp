@@ -159,7 +159,7 @@ TEST(GoTo, DoesNotTakeAnApproximatePlanForAPlan) {
     result.path = {host.T_map_robot, {0.9, 1.1, 0}};
     return result;
   };
-  GoTo go(config_at({1.5, 1.6}), 1);  // in the bar: elsewhere it would find a way by its own eyes
+  GoTo go(config_at({1.5, 1.6}), 1);  // in the bar: elsewhere it would find a path on the local map
   EXPECT_EQ(host.run(go, 600.0).progress, Progress::failure);
 }
 

@@ -18,20 +18,20 @@ const std::string kRoom = R"(
 ####################
 )";
 
-TEST(Specks, AreSmallGroupsThatStandAlone) {
+TEST(Speckles, AreSmallGroupsThatStandAlone) {
   const AsciiGrid map(kRoom);
   const std::vector<Cell> speckles = speckles_of(map.grid, map.grid.bounds());
   // Three occupied cells and the unknown one beside them; neither the walls nor the cabinet.
   EXPECT_EQ(speckles, (std::vector<Cell>{{3, 4}, {3, 5}, {4, 4}, {4, 5}}));
 }
 
-TEST(Specks, LargerOnesAreWhenTheyAreAllowedToBe) {
+TEST(Speckles, LargerOnesAreWhenTheyAreAllowedToBe) {
   const AsciiGrid map(kRoom);
   EXPECT_EQ(speckles_of(map.grid, map.grid.bounds(), {12, 80}).size(), 4U + 12U);
   EXPECT_EQ(speckles_of(map.grid, map.grid.bounds(), {4, 3}).size(), 0U) << "four cells in all";
 }
 
-TEST(Specks, WhatReachesTheRimOfTheBoxIsNone) {
+TEST(Speckles, WhatReachesTheRimOfTheBoxIsNone) {
   const AsciiGrid map(kRoom);
   EXPECT_TRUE(speckles_of(map.grid, {{4, 4}, {9, 8}}).empty());
   EXPECT_TRUE(speckles_of(map.grid, CellBox{}).empty());

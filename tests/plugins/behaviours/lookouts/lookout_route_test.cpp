@@ -8,7 +8,7 @@
 namespace cairn::behaviours {
 namespace {
 
-// Two rooms, cells of 0.1 m; nothing tells where the door in between is but how sure the map is.
+// Two rooms, cells of 0.1 m; only the certainty of the map shows where the door in between is.
 const std::string kRooms = R"(
 #################################
 #...............#...............#

@@ -27,8 +27,8 @@ const std::string kNarrow = R"(
 std::optional<Opening> opening_of(const AsciiGrid& map, const std::vector<Point>& seen = {}) {
   const Pose2 robot{map.at('R').x(), map.at('R').y(), 0.0};
   const FreeSpace space(map.grid, {robot.position(), 0.2, 0.1}, {robot});
-  const FreeSpace squeezed(map.grid, {robot.position(), 0.2, -0.08}, {robot});
-  return nearest_opening(space, squeezed, seen);
+  const FreeSpace narrow(map.grid, {robot.position(), 0.2, -0.08}, {robot});
+  return nearest_opening(space, narrow, seen);
 }
 
 TEST(NearestOpening, IsWhereTheWayToARoomGetsTooNarrow) {
