@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "maps/base/text.hpp"
+
 namespace cairn {
 namespace {
 
@@ -74,8 +76,7 @@ std::vector<ConfigError> missing_inputs(const std::vector<TreeNode>& steps, cons
     if (entry == nullptr || entry->module->kind != PluginKind::behaviour) continue;
     const ConfigValue* input = name_in(*node, *entry->module, kInput);
     if (input != nullptr && std::ranges::find(given, input->scalar) == given.end()) {
-      std::string known;
-      for (const std::string& name : given) known += (known.empty() ? "" : ", ") + name;
+      const std::string known = joined(given);
       errors.emplace_back(input->place,
                           fmt::format("input: no step before gives {}{}; {}", in_quotes(input->scalar),
                                       did_you_mean(input->scalar, given),

@@ -12,14 +12,6 @@ namespace {
 constexpr double kSoon_m = 0.05;
 constexpr double kNearer_m = 0.01;
 
-// Where the robot is after so many seconds of a constant twist.
-Pose2 after(const Twist& twist, double time_s) {
-  const double turn_rad = twist.w_radps * time_s;
-  if (std::abs(turn_rad) < 1e-6) return {twist.v_mps * time_s, 0.0, turn_rad};
-  const double radius_m = twist.v_mps / twist.w_radps;
-  return {radius_m * std::sin(turn_rad), radius_m * (1.0 - std::cos(turn_rad)), wrap_angle(turn_rad)};
-}
-
 }  // namespace
 
 double distance_to_footprint_m(const RobotModel& robot, const Point& p) {
@@ -45,7 +37,7 @@ double free_sweep_m(const RobotModel& robot, const Twist& twist, const Point& p,
   const double speed_mps = sweep_speed_mps(robot, twist);
   if (speed_mps <= 0.0 || p.norm() - reach_of_m(robot) - margin_m > at_most_m) return kNever;
   const auto gap_m = [&](double way_m) {
-    return distance_to_footprint_m(robot, inverse(after(twist, way_m / speed_mps)) * p) - margin_m;
+    return distance_to_footprint_m(robot, inverse(pose_after(twist, way_m / speed_mps)) * p) - margin_m;
   };
   const double gap_now_m = gap_m(0.0);
   if (gap_now_m < 0.0) return gap_m(kSoon_m) < gap_now_m - kNearer_m ? 0.0 : kNever;

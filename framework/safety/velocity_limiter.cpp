@@ -16,17 +16,13 @@ constexpr double kLongestBlind_s = 1.0;  // as blind_s, where the period is meas
 constexpr std::size_t kGaps = 5;
 constexpr double kBumpSide_rad = radians(40.0);
 
-double approached(double from, double to, double at_most) {
-  return from + std::clamp(to - from, -at_most, at_most);
-}
-
-// The largest share k of a speed with which the robot stands before way_m is used up, when what it might meet comes
-// towards it at closing_mps as long as it moves:  k V t + (k V)^2 / 2a + u (t + k V / a) <= distance.
-double share_for(double way_m, double speed_mps, double deceleration_mps2, const SeenPoint& seen, double tick_s) {
+// The largest share k of a speed with which the robot stands before distance_m is used up, when what it might meet
+// comes towards it at closing_mps as long as it moves:  k V t + (k V)^2 / 2a + u (t + k V / a) <= distance.
+double share_for(double distance_m, double speed_mps, double deceleration_mps2, const SeenPoint& seen, double tick_s) {
   const double reaction_s = tick_s + seen.until_fired_s;
   const double a = speed_mps * speed_mps / (2.0 * deceleration_mps2);
   const double b = speed_mps * reaction_s + seen.closing_mps * speed_mps / deceleration_mps2;
-  const double c = seen.closing_mps * reaction_s - way_m;
+  const double c = seen.closing_mps * reaction_s - distance_m;
   if (c >= 0.0) return 0.0;
   return std::min(1.0, (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a));
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -75,5 +76,20 @@ struct Twist {
   double w_radps = 0.0;
   bool operator==(const Twist&) const = default;
 };
+
+[[nodiscard]] inline bool is_finite(const Twist& twist) {
+  return std::isfinite(twist.v_mps) && std::isfinite(twist.w_radps);
+}
+// Where a robot is, from where it was, after so many seconds of a constant twist.
+[[nodiscard]] inline Pose2 pose_after(const Twist& twist, double time_s) {
+  const double turn_rad = twist.w_radps * time_s;
+  if (std::abs(turn_rad) < 1e-6) return {twist.v_mps * time_s, 0.0, turn_rad};
+  const double radius_m = twist.v_mps / twist.w_radps;
+  return {radius_m * std::sin(turn_rad), radius_m * (1.0 - std::cos(turn_rad)), wrap_angle(turn_rad)};
+}
+// As far towards a value as one step may change it.
+[[nodiscard]] constexpr double approached(double from, double to, double max_change) {
+  return from + std::clamp(to - from, -max_change, max_change);
+}
 
 }  // namespace cairn

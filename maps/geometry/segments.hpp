@@ -22,12 +22,12 @@ namespace cairn {
   return (nearest_on_segment(p, a, b) - p).norm();
 }
 
-[[nodiscard]] inline double length_of(const std::vector<Point>& path) {
+[[nodiscard]] inline double length_of(std::span<const Point> path) {
   double length_m = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
   return length_m;
 }
-[[nodiscard]] inline double length_of(const std::vector<Pose2>& path) {
+[[nodiscard]] inline double length_of(std::span<const Pose2> path) {
   double length_m = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i].position() - path[i - 1].position()).norm();
   return length_m;

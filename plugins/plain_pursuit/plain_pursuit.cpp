@@ -73,7 +73,7 @@ ControlResult PlainPursuit::control(const ControlRequest& request, const WorldVi
   const motion::NearestOnPath nearest =
       motion::nearest_on(request.path, T_map_robot.position(), from_m - kSearch_m, from_m + kSearch_m);
   result.progress.along_m = std::max(from_m, nearest.along_m);
-  result.left_m = motion::length_of(request.path) - result.progress.along_m;
+  result.left_m = length_of(request.path) - result.progress.along_m;
   const double to_end_m = (request.path.back() - T_map_robot.position()).norm();
   if (result.left_m <= config_.lookahead_m && to_end_m <= request.tolerance_m) return result;
 

@@ -13,13 +13,6 @@ double braking_distance_m(double v_mps, const WindowLimits& limits, const Window
          settings.reaction_s * v_mps;
 }
 
-Point arc_end(const Twist& twist, double time_s) {
-  const double turn_rad = twist.w_radps * time_s;
-  if (std::abs(turn_rad) < 1e-6) return {twist.v_mps * time_s, 0.0};
-  const double radius_m = twist.v_mps / twist.w_radps;
-  return {radius_m * std::sin(turn_rad), radius_m * (1.0 - std::cos(turn_rad))};
-}
-
 struct Window {
   double min_v_mps, max_v_mps, min_w_radps, max_w_radps;
 };
@@ -53,7 +46,7 @@ struct Search {
 
   // Eq. 13.
   [[nodiscard]] double score(const Twist& twist, double free_m) const {
-    const Point end = arc_end(twist, settings.judged_after_s);
+    const Point end = pose_after(twist, settings.judged_after_s).position();
     const Point to_aim = wish.aim - end;
     const double facing_rad = twist.w_radps * settings.judged_after_s;
     const double error_rad = to_aim.norm() < 0.05 ? 0.0 : wrap_angle(std::atan2(to_aim.y(), to_aim.x()) - facing_rad);
@@ -146,7 +139,7 @@ double free_distance_m(const Twist& twist, std::span<const Point> obstacles, dou
                        const WindowSettings& settings) {
   const double sign = twist.v_mps < 0.0 ? -1.0 : 1.0;
   const double curvature = twist.w_radps / twist.v_mps;
-  const Point soon = arc_end(twist, settings.contact_step_m / std::abs(twist.v_mps));
+  const Point soon = pose_after(twist, settings.contact_step_m / std::abs(twist.v_mps)).position();
   double free_m = std::numeric_limits<double>::infinity();
   for (const Point& p : obstacles) {
     const double distance2 = p.squaredNorm();

@@ -66,7 +66,7 @@ FollowStep follow(const Pose2& T_map_robot, std::span<const Point> path, const P
   step.arrived = true;
   if (path.empty()) return step;
 
-  const double length_m = motion::length_of(path);
+  const double length_m = length_of(path);
   const Point position = T_map_robot.position();
   const motion::NearestOnPath nearest = motion::nearest_on(path, position, state.along_m - limits.how.search_back_m,
                                                            state.along_m + limits.how.search_ahead_m);

@@ -8,10 +8,6 @@
 namespace cairn::pursuit_dwa {
 namespace {
 
-bool is_finite(const Twist& twist) {
-  return std::isfinite(twist.v_mps) && std::isfinite(twist.w_radps);
-}
-
 // Of a pose or a path that is no place.
 ControlResult stopped(const ControlRequest& request) {
   ControlResult result;

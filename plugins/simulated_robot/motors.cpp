@@ -6,14 +6,6 @@
 #include <string>
 
 namespace cairn {
-namespace {
-
-double approached(double now, double wanted, double largest_change) {
-  return now + std::clamp(wanted - now, -largest_change, largest_change);
-}
-
-}  // namespace
-
 void Motors::command(const Twist& twist) {
   if (!std::isfinite(twist.v_mps) || !std::isfinite(twist.w_radps)) {
     throw std::invalid_argument("simulated_robot: command is not finite: v " + std::to_string(twist.v_mps) +

@@ -11,10 +11,6 @@
 namespace cairn {
 namespace {
 
-bool is_finite(const Twist& twist) {
-  return std::isfinite(twist.v_mps) && std::isfinite(twist.w_radps);
-}
-
 constexpr std::size_t kQuestionSeed = 2;  // 0: the planner itself, 1: joining landmarks
 
 }  // namespace

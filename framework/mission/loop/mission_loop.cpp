@@ -1,6 +1,6 @@
 #include "framework/mission/loop/mission_loop.hpp"
 
-#include <cmath>
+#include "framework/safety/range_buffer.hpp"
 
 namespace cairn {
 namespace {
@@ -9,12 +9,6 @@ Budget budget_of(const RunOptions& options) {
   Budget budget;
   budget.cancel = options.cancel;
   return budget;
-}
-
-bool is_finite(const Observation& observation) {
-  const Pose2& at = observation.T_odom_robot;
-  return std::isfinite(observation.stamp_s) && std::isfinite(at.x_m) && std::isfinite(at.y_m) &&
-         std::isfinite(at.theta_rad);
 }
 
 }  // namespace
@@ -83,7 +77,7 @@ MissionLoop::Sensed MissionLoop::sense() {
     const GroundTruthSource* truth = sensor.truth();
     return {std::move(step), truth == nullptr ? std::nullopt : truth->last_truth()};
   });
-  if (sensed.step.state == SensorState::observation && !is_finite(sensed.step.observation))
+  if (sensed.step.state == SensorState::observation && !is_placed(sensed.step.observation))
     throw modules_.sensor.fault("returned a stamp or an odometry that is not finite");
   return sensed;
 }

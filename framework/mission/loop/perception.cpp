@@ -1,7 +1,5 @@
 #include "framework/mission/loop/perception.hpp"
 
-#include <cmath>
-
 #include "framework/landmarks/evidence.hpp"
 
 namespace cairn {
@@ -10,8 +8,7 @@ namespace {
 constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks
 
 bool is_finite(const PoseEstimate& pose) {
-  const Pose2& at = pose.T_map_robot;
-  return std::isfinite(at.x_m) && std::isfinite(at.y_m) && std::isfinite(at.theta_rad) && pose.covariance.allFinite();
+  return cairn::is_finite(pose.T_map_robot) && pose.covariance.allFinite();
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ std::optional<ExploreTask> TaskChooser::choose_within(const Search& search, cons
     std::optional<ExploreTask> task =
         next_task(space, world.pose.T_map_robot, frontiers_wanted, before ? &*before : nullptr, settings_, memory_);
     if (!task) return std::nullopt;
-    const bool is_there = motion::length_of(task->path) < config_.exploring.choice.there_m;
+    const bool is_there = length_of(task->path) < config_.exploring.choice.there_m;
     if (!is_there || is_faced(task->kind)) return task;
     behaviours::give_up(*task, space, settings_, memory_);
   }

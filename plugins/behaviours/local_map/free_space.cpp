@@ -126,7 +126,7 @@ bool FreeSpace::reaches(Cell cell) const {
 
 double FreeSpace::cost_m(Cell cell) const {
   const double cost = travel_.cost_m(cell);
-  return cost < kOutOfReach_m && weights_.at(cell) < kForbidden ? cost + motion::length_of(escape_path_)
+  return cost < kOutOfReach_m && weights_.at(cell) < kForbidden ? cost + length_of(escape_path_)
                                                                 : std::numeric_limits<double>::infinity();
 }
 
@@ -192,7 +192,7 @@ bool path_is_blocked(const OccupancyGrid& grid, const std::vector<Point>& path, 
 bool path_is_blocked(const OccupancyGrid& space, const std::function<bool(Cell)>& is_occupied,
                      const std::vector<Point>& path, double along_m, double ahead_m, double radius_m) {
   if (path.empty()) return false;
-  const double end_m = std::min(along_m + ahead_m, motion::length_of(path));
+  const double end_m = std::min(along_m + ahead_m, length_of(path));
   const double radius_cells = radius_m / space.cell_m();
   const int reach = static_cast<int>(radius_cells);
   for (double s = along_m; s <= end_m; s += 2.0 * space.cell_m()) {

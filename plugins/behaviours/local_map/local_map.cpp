@@ -117,7 +117,7 @@ void LocalMap::ignore_along(const std::vector<Point>& path, const WorldView& wor
   const double cell_m = world.grid.cell_m();
   const int reach = static_cast<int>((world.robot.radius_m + settings_.tight_clearance_m) / cell_m) + 1;
   std::vector<Cell> cells;
-  for (double along_m = 0.0; along_m < motion::length_of(path); along_m += cell_m) {
+  for (double along_m = 0.0; along_m < length_of(path); along_m += cell_m) {
     const Cell centre = world.grid.cell_at(motion::point_along(path, along_m));
     for (int dy = -reach; dy <= reach; ++dy)
       for (int dx = -reach; dx <= reach; ++dx)

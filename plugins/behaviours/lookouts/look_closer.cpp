@@ -199,7 +199,7 @@ OrbitRoute orbit_route(const FreeSpace& space, const Orbit& orbit, const Pose2& 
   if (first < 0) return route;
   route.first = sector(first).lookout;
   route.path = space.path_to(route.first);
-  route.path_m = motion::length_of(route.path);
+  route.path_m = length_of(route.path);
 
   const auto run = [&](int step) {
     int length = 0;

@@ -34,7 +34,7 @@ std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& na
 // Where the slimmer robot's path to a place leaves what the robot itself can reach.
 std::optional<Opening> opening_on_path(const FreeSpace& space, const std::vector<Point>& path) {
   std::optional<Opening> opening;
-  const double length_m = motion::length_of(path);
+  const double length_m = length_of(path);
   for (double s = 0.0; s <= length_m; s += 0.5 * space.cell_m()) {
     const Point p = motion::point_along(path, s);
     const Cell cell = space.cell_at(p);

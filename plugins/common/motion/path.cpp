@@ -5,12 +5,6 @@
 
 namespace cairn::motion {
 
-double length_of(std::span<const Point> path) {
-  double length_m = 0.0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) length_m += (path[i + 1] - path[i]).norm();
-  return length_m;
-}
-
 Point point_along(std::span<const Point> path, double along_m) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const double leg_m = (path[i + 1] - path[i]).norm();

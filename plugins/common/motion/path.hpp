@@ -5,10 +5,10 @@
 #include <span>
 
 #include "maps/geometry/pose.hpp"
+#include "maps/geometry/segments.hpp"
 
 namespace cairn::motion {
 
-[[nodiscard]] double length_of(std::span<const Point> path);
 // The point this far along the path; its ends beyond them. The path must not be empty.
 [[nodiscard]] Point point_along(std::span<const Point> path, double along_m);
 

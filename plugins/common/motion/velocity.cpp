@@ -12,9 +12,8 @@ Accelerations accelerations_of(const RobotModel& robot) {
 }
 
 Twist approached(const Twist& now, const Twist& target, double period_s, const Accelerations& limits) {
-  const auto towards = [](double from, double to, double most) { return from + std::clamp(to - from, -most, most); };
-  Twist next{towards(now.v_mps, target.v_mps, limits.forward_mps2 * period_s),
-             towards(now.w_radps, target.w_radps, limits.turn_radps2 * period_s)};
+  Twist next{cairn::approached(now.v_mps, target.v_mps, limits.forward_mps2 * period_s),
+             cairn::approached(now.w_radps, target.w_radps, limits.turn_radps2 * period_s)};
   if (limits.min_turning_radius_m > 0.0) {
     const double max_radps = std::abs(next.v_mps) / limits.min_turning_radius_m;
     next.w_radps = std::clamp(next.w_radps, -max_radps, max_radps);

@@ -56,7 +56,7 @@ TEST(FreeSpace, PathsKeepTheClearanceAllAlong) {
   ASSERT_FALSE(path.empty());
   EXPECT_EQ(path.front(), map.at('R'));
   EXPECT_EQ(path.back(), map.at('B'));
-  for (double s = 0.0; s <= motion::length_of(path); s += 0.02)
+  for (double s = 0.0; s <= length_of(path); s += 0.02)
     EXPECT_GE(space.distance_m(space.cell_at(motion::point_along(path, s))), 0.3 - 1e-6) << s;
   EXPECT_LT(path.size(), 10U);  // straightened
 }
@@ -72,7 +72,7 @@ TEST(FreeSpace, NeverCrossesUnknownCells) {
   EXPECT_FALSE(space_of(map, 'R').reaches({7, 2}));
   const FreeSpace space = space_of(map, 'R');
   const std::vector<Point> path = space.path_to(map.places.at('A'));
-  for (double s = 0.0; s <= motion::length_of(path); s += 0.02)
+  for (double s = 0.0; s <= length_of(path); s += 0.02)
     EXPECT_EQ(space.state(space.cell_at(motion::point_along(path, s))), CellState::free);
 }
 
@@ -108,7 +108,7 @@ TEST(FreeSpace, ARobotTooNearToAWallTakesTheWayOutFirst) {
   EXPECT_TRUE(space.reaches(map.places.at('A')));
   const std::vector<Point> path = space.path_to(map.places.at('A'));
   EXPECT_EQ(path.front(), map.at('R'));
-  EXPECT_NEAR(motion::length_of(path), 0.3, 1e-6);
+  EXPECT_NEAR(length_of(path), 0.3, 1e-6);
 }
 
 TEST(FreeSpace, ReachesNothingFromInsideAWall) {
@@ -136,7 +136,7 @@ TEST(FreeSpace, GoesRoundATroubleSpotWhenThereIsAnotherWay) {
   const FreeSpace space = space_of(map, 'R', {{map.at('T'), 100.0}});
   const std::vector<Point> path = space.path_to(map.places.at('A'));
   double nearest_m = 1e9;
-  for (double s = 0.0; s <= motion::length_of(path); s += 0.02)
+  for (double s = 0.0; s <= length_of(path); s += 0.02)
     nearest_m = std::min(nearest_m, (motion::point_along(path, s) - map.at('T')).norm());
   EXPECT_GT(nearest_m, 0.25);
 }
