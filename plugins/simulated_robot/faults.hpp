@@ -11,9 +11,9 @@
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
-#include "plugins/simulated_robot/body.hpp"
 #include "plugins/simulated_robot/fault_config.hpp"
 #include "plugins/simulated_robot/noise_stream.hpp"
+#include "plugins/simulated_robot/surroundings/body.hpp"
 
 namespace cairn {
 

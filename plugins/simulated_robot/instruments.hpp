@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "framework/contracts/robot_model.hpp"
-#include "plugins/simulated_robot/body.hpp"
 #include "plugins/simulated_robot/noise_stream.hpp"
+#include "plugins/simulated_robot/surroundings/body.hpp"
 
 namespace cairn {
 

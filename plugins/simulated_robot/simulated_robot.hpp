@@ -14,15 +14,15 @@
 #include "framework/contracts/sensor.hpp"
 #include "framework/contracts/world.hpp"
 #include "plugins/simulated_robot/battery.hpp"
-#include "plugins/simulated_robot/body.hpp"
 #include "plugins/simulated_robot/config.hpp"
 #include "plugins/simulated_robot/faults.hpp"
 #include "plugins/simulated_robot/instruments.hpp"
 #include "plugins/simulated_robot/motors.hpp"
-#include "plugins/simulated_robot/scene.hpp"
 #include "plugins/simulated_robot/sonar_ring.hpp"
-#include "plugins/simulated_robot/traffic.hpp"
-#include "plugins/simulated_robot/witness.hpp"
+#include "plugins/simulated_robot/surroundings/body.hpp"
+#include "plugins/simulated_robot/surroundings/scene.hpp"
+#include "plugins/simulated_robot/surroundings/traffic.hpp"
+#include "plugins/simulated_robot/surroundings/witness.hpp"
 
 namespace cairn {
 

@@ -11,7 +11,7 @@
 
 #include "framework/contracts/robot_model.hpp"
 #include "plugins/simulated_robot/config.hpp"
-#include "plugins/simulated_robot/scene.hpp"
+#include "plugins/simulated_robot/surroundings/scene.hpp"
 
 namespace cairn {
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "maps/geometry/segments.hpp"
 #include "tests/planners/common/pose_space/pose_worlds.hpp"
 
 namespace cairn {

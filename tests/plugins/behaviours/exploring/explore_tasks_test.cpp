@@ -99,9 +99,9 @@ TEST(ExploreTasks, AFrontierIsWorthwhileUntilWhatLiesBehindIsKnown) {
   ExploreMemory memory;
   const auto task = task_in(map, memory);
   ASSERT_TRUE(task);
-  EXPECT_TRUE(still_worthwhile(*task, map.grid));
+  EXPECT_TRUE(still_worthwhile(*task, map.grid, frontiers_only().weights));
   for (int y = -1; y <= 20; ++y) map.grid.set_log_odds({29, y}, LogOdds{-600});
-  EXPECT_FALSE(still_worthwhile(*task, map.grid));
+  EXPECT_FALSE(still_worthwhile(*task, map.grid, frontiers_only().weights));
 }
 
 TEST(ExploreTasks, ASentenceSaysWhatIsDoneWhere) {

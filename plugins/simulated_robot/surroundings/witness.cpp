@@ -1,4 +1,4 @@
-#include "plugins/simulated_robot/witness.hpp"
+#include "plugins/simulated_robot/surroundings/witness.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 
 #include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/robot_model.hpp"
-#include "plugins/simulated_robot/body.hpp"
-#include "plugins/simulated_robot/traffic.hpp"
+#include "plugins/simulated_robot/surroundings/body.hpp"
+#include "plugins/simulated_robot/surroundings/traffic.hpp"
 
 namespace cairn {
 

@@ -1,4 +1,4 @@
-#include "plugins/simulated_robot/body.hpp"
+#include "plugins/simulated_robot/surroundings/body.hpp"
 
 #include <algorithm>
 #include <cmath>

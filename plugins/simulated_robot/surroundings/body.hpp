@@ -7,7 +7,7 @@
 
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
-#include "plugins/simulated_robot/scene.hpp"
+#include "plugins/simulated_robot/surroundings/scene.hpp"
 
 namespace cairn {
 

@@ -1,4 +1,4 @@
-#include "plugins/simulated_robot/traffic.hpp"
+#include "plugins/simulated_robot/surroundings/traffic.hpp"
 
 #include <gmock/gmock.h>
 

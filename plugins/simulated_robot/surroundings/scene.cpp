@@ -1,4 +1,4 @@
-#include "plugins/simulated_robot/scene.hpp"
+#include "plugins/simulated_robot/surroundings/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
