@@ -290,12 +290,11 @@ TEST(OdometryCompass, NeverBelievesSightingsThatDisagree) {
 
 TEST(OdometryCompass, DescribesAllItsSettings) {
   const Schema schema = schema_of<Config>();
-  EXPECT_EQ(schema.fields.size(), 20U);
+  EXPECT_EQ(schema.fields.size(), 21U);
   for (const FieldSpec& field : schema.fields) EXPECT_FALSE(field.meaning.empty()) << field.key;
 }
 
-// A square of 0.5 m ahead and a ring of transducers that hear it; the odometry says that the robot stands 10 cm further
-// back than it does.
+// A square of 0.5 m ahead and transducers that hear it; the odometry counts twice the distance that the robot drives.
 class KnownLandmark : public testing::Test {
  protected:
   KnownLandmark() {
@@ -319,12 +318,14 @@ class KnownLandmark : public testing::Test {
     return seen;
   }
   // Where the localizer says that the robot is at last; it stands at x = 0.1 m.
-  double x_m_with(const Config& config) {
+  double x_m_with(Config config) {
+    config.use_walls = false;
+    config.min_distance_ratio = 0.5;
     OdometryCompass at(config, calibrated_robot(), {}, shapes_);
     PoseEstimate estimate = at.update(seen_from({}, {}, 0.0), {grid_, graph_});
     for (int i = 1; i < 20; ++i) {
       const double x_m = 0.1 * i / 19.0;
-      estimate = at.update(seen_from({x_m, 0.0, 0.0}, {0.0, 1e-6 * i, 0.0}, 0.5 * i), {grid_, graph_});
+      estimate = at.update(seen_from({x_m, 0.0, 0.0}, {2.0 * x_m, 0.0, 0.0}, 0.5 * i), {grid_, graph_});
       used_ += estimate.sightings_used;
     }
     return estimate.T_map_robot.x_m;
@@ -338,19 +339,14 @@ class KnownLandmark : public testing::Test {
 };
 
 TEST_F(KnownLandmark, SeenAgainCorrectsThePose) {
-  Config config;
-  config.use_walls = false;
-  config.start_position_m = 0.2;  // unsure of the start: what is seen counts
-  EXPECT_NEAR(x_m_with(config), 0.1, 0.03);
+  EXPECT_NEAR(x_m_with({}), 0.1, 0.02);
   EXPECT_GT(used_, 5);
 }
 
 TEST_F(KnownLandmark, CorrectsNothingWhenLandmarksAreNotToBeUsed) {
   Config config;
-  config.use_walls = false;
   config.use_landmarks = false;
-  config.start_position_m = 0.2;
-  EXPECT_NEAR(x_m_with(config), 0.0, 0.001);
+  EXPECT_NEAR(x_m_with(config), 0.2, 0.001);
   EXPECT_EQ(used_, 0);
 }
 
