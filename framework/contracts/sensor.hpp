@@ -10,12 +10,18 @@ namespace cairn {
 class GroundTruthSource;
 struct World;
 
+// The wheels. They stop by themselves: a command counts for a time only, so that a robot stands whose software hangs or
+// dies.
 class Drive {
  public:
   virtual ~Drive() = default;
-  // Wanted velocity from now on; the source keeps to the robot's limits. Twist{} stops.
-  // What is not finite is refused by an exception or ignored. Hot: no allocation.
-  virtual void command(const Twist& twist) = 0;
+  // Wanted velocity from now on, within the robot's limits, for at most valid_for_s (> 0) of the source's own time:
+  // when no other command has come by then, the wheels stop. What is not finite is refused by an exception or ignored.
+  // Hot: no allocation.
+  virtual void command(const Twist& twist, double valid_for_s) = 0;
+  // Stops the wheels; the next command() drives again. From any thread, also while next() or command() does not return,
+  // and from a signal handler: no lock, no allocation, returns at once.
+  virtual void stop() noexcept = 0;
 };
 
 class Sensor {

@@ -65,6 +65,13 @@ struct Autosaved {
 struct AutosaveFailed {
   std::string reason;
 };
+// The robot was stopped because ticks had stopped ending, and drives on. At a moment that differs from run to run: not
+// for reports.
+struct Stalled {
+  std::string stage;   // where the mission was then
+  std::string module;  // empty: the host itself
+  double for_s = 0.0;  // wall clock since the tick before
+};
 struct Message {
   std::string sentence;
 };
@@ -75,9 +82,9 @@ struct Resumed {
   std::optional<double> paused_s;  // by the robot's clock; none for a log, whose clock stood
 };
 
-using Event =
-    std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
-                 NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Message, Bumped, Paused, Resumed>;
+using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
+                           NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Stalled, Message, Bumped,
+                           Paused, Resumed>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

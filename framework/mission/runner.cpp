@@ -48,10 +48,7 @@ const Pose2& MissionRunner::T_map_start() const {
 }
 
 MissionResult MissionRunner::run() {
-  if (longest_call_s_ <= 0.0)
-    loop_->run();
-  else
-    watch();
+  watch();
   if (control_ != nullptr) control_->publish(loop_->last_status());
   return loop_->result();
 }
@@ -61,11 +58,15 @@ void MissionRunner::watch() {
   std::future<void> done = promise.get_future();
   // The thread shares the loop, so that a call that comes back late finds everything where it was.
   std::thread thread([loop = loop_, promise = std::move(promise)]() mutable {
+    const AlternateStack stack;
     loop->run();
     promise.set_value();
   });
   const std::chrono::nanoseconds longest(std::llround(longest_call_s_ * 1e9));
-  while (!wall_clock_->wait_for(done, kControlPollInterval) && !gave_up_) gave_up_ = loop_->give_up_after(longest);
+  while (!wall_clock_->wait_for(done, kControlPollInterval) && !gave_up_) {
+    loop_->stop_if_stalled();
+    gave_up_ = loop_->give_up_after(longest);
+  }
   if (gave_up_)
     thread.detach();
   else

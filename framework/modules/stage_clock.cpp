@@ -52,6 +52,11 @@ void StageClock::check() const {
   if (current_.load() == kGivenUp) throw GivenUp{};
 }
 
+StageClock::Id StageClock::current() const noexcept {
+  const std::uint64_t visit = current_.load();
+  return visit == kGivenUp ? kHost : stage_in(visit);
+}
+
 StageClock::Id StageClock::give_up_after(std::chrono::nanoseconds longest) {
   std::uint64_t visit = current_.load();
   if (visit == kGivenUp || stage_in(visit) == kHost) return kHost;

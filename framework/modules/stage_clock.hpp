@@ -64,6 +64,8 @@ class StageClock {
   // Of something that holds stages and is none itself: it is not watched.
   void add_time(Id id, std::chrono::nanoseconds took) { note(id, took.count()); }
 
+  // From any thread, and from a signal handler: where it is; kHost when it was given up.
+  [[nodiscard]] Id current() const noexcept;
   // From any thread: gives the mission up when one call has lasted longer than that. Returns the
   // stage it was in, or kHost when all is well.
   Id give_up_after(std::chrono::nanoseconds longest);

@@ -207,6 +207,7 @@ struct Sentence {
   }
   std::string operator()(const MapSaved& e) const { return "saved " + e.file_name; }
   std::string operator()(const Autosaved&) const { return {}; }
+  std::string operator()(const Stalled&) const { return {}; }
   std::string operator()(const AutosaveFailed& e) const {
     return "autosave failed, the mission continues: " + e.reason;
   }

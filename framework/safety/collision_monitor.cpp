@@ -1,26 +1,74 @@
 #include "framework/safety/collision_monitor.hpp"
 
+#include <cmath>
+
 namespace cairn {
+namespace {
+
+// An order that has not returned for so long keeps nobody from stopping the wheels.
+constexpr std::int64_t kLongOrder_ns = 50'000'000;
+
+}  // namespace
+
+CollisionMonitor::CollisionMonitor(const CollisionMonitorConfig& config, const RobotModel& robot,
+                                   std::shared_ptr<const WallClock> wall_clock)
+    : limiter_(config, robot),
+      command_valid_s_(config.command_valid_s),
+      stop_after_ns_(std::llround(1e9 * config.stop_after_s)),
+      wall_clock_(std::move(wall_clock)) {}
+
+std::int64_t CollisionMonitor::now_ns() const noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(wall_clock_->now().time_since_epoch()).count();
+}
+
+void CollisionMonitor::attach(Staged<Drive> drive) {
+  drive_ = std::move(drive);
+  ordered_ns_ = now_ns();
+  wheels_ = drive_ ? &drive_.unwatched() : nullptr;
+}
 
 DriveCommand CollisionMonitor::drive(const Observation& observation, const Twist& wanted) {
   if (!drive_) return {};
   limiter_.see(observation);
   const Twist allowed = limiter_.limit(wanted);
-  drive_.call([&](Drive& drive) { drive.command(allowed); });
+  order(allowed);
   return {allowed, limiter_.speed_reduction_ratio(wanted, allowed)};
 }
 
-void CollisionMonitor::stop() {
-  if (drive_) drive_.call([](Drive& drive) { drive.command(Twist{}); });
+void CollisionMonitor::order(const Twist& twist) {
+  const std::scoped_lock lock(ordering_);
+  ordering_since_ns_ = now_ns();
+  struct End {
+    std::atomic<std::int64_t>& since;
+    ~End() { since = 0; }
+  } const end{ordering_since_ns_};
+  drive_.call([&](Drive& drive) { drive.command(twist, command_valid_s_); });
+  const std::int64_t now = now_ns();
+  stalled_s_ =
+      is_stalled_.exchange(false) ? std::optional(1e-9 * static_cast<double>(now - ordered_ns_)) : std::nullopt;
+  ordered_ns_ = now;
 }
 
-void CollisionMonitor::stop_after_giving_up(StageClock::Id lost, StageClock::Id sensor) noexcept {
-  if (!drive_ || lost == sensor || lost == drive_.stage()) return;
-  try {
-    drive_.unwatched().command(Twist{});
-  } catch (...) {
-    // The module has failed already and is being left; there is no one to report to.
+void CollisionMonitor::stop() {
+  if (drive_) drive_.call([](Drive& drive) { drive.stop(); });
+}
+
+bool CollisionMonitor::stop_if_stalled() noexcept {
+  Drive* const wheels = wheels_;
+  if (wheels == nullptr || now_ns() - ordered_ns_ < stop_after_ns_) return false;
+  std::unique_lock lock(ordering_, std::defer_lock);
+  if (!lock.try_lock()) {
+    const std::int64_t since_ns = ordering_since_ns_;
+    if (since_ns == 0 || now_ns() - since_ns < kLongOrder_ns) return false;  // the tick is just ending
+  } else if (now_ns() - ordered_ns_ < stop_after_ns_) {
+    return false;
   }
+  wheels->stop();
+  return !is_stalled_.exchange(true);
+}
+
+void CollisionMonitor::stop_at_once() noexcept {
+  if (Drive* const wheels = wheels_) wheels->stop();
 }
 
 }  // namespace cairn

@@ -1,9 +1,15 @@
 // The collision monitor: below every behaviour, the only one that orders the drive, and it never lets the robot drive
 // into what its sensors see (VelocityLimiter). Nothing in a mission takes it away.
 //
-// A command holds until the next one: the robot stands while the host does something that may take long, and is ordered
-// on at the end of the tick.
+// A command holds for command_valid_s only. The robot stands while the host does something that may take long, and is
+// ordered on at the end of the tick; another thread watches that ticks end.
 #pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
 
 #include "framework/contracts/sensor.hpp"
 #include "framework/modules/staged.hpp"
@@ -19,10 +25,11 @@ struct DriveCommand {
 
 class CollisionMonitor {
  public:
-  CollisionMonitor(const CollisionMonitorConfig& config, const RobotModel& robot) : limiter_(config, robot) {}
+  CollisionMonitor(const CollisionMonitorConfig& config, const RobotModel& robot,
+                   std::shared_ptr<const WallClock> wall_clock = std::make_shared<SteadyClock>());
 
   // Before the run. Without a drive (a log) nothing is ordered.
-  void attach(Staged<Drive> drive) { drive_ = std::move(drive); }
+  void attach(Staged<Drive> drive);
   [[nodiscard]] bool has_drive() const { return static_cast<bool>(drive_); }
 
   // Once a tick: limits the wanted velocity by what this observation and those before have shown, and orders it.
@@ -30,15 +37,34 @@ class CollisionMonitor {
   DriveCommand drive(const Observation& observation, const Twist& wanted);
   // The robot stands until the next drive(). Throws ModuleFault.
   void stop();
-  // For the thread that has given the mission up: stops the robot unless the call that was lost is one of the drive's
-  // own module.
-  void stop_after_giving_up(StageClock::Id lost, StageClock::Id sensor) noexcept;
+
+  // From another thread, every few milliseconds: stops the wheels when no tick has ended for stop_after_s. Whether it
+  // has done so now.
+  bool stop_if_stalled() noexcept;
+  // How long the wheels have been stopped for that before the last drive(), which has let them go on; none: they were
+  // not.
+  [[nodiscard]] std::optional<double> stalled_s() const { return stalled_s_; }
+  // From any thread, and from a signal handler.
+  void stop_at_once() noexcept;
 
   [[nodiscard]] const CollisionMonitorFigures& figures() const { return limiter_.figures(); }
 
  private:
+  [[nodiscard]] std::int64_t now_ns() const noexcept;
+  void order(const Twist& twist);
+
   VelocityLimiter limiter_;
+  const double command_valid_s_;
+  const std::int64_t stop_after_ns_;
+  const std::shared_ptr<const WallClock> wall_clock_;
   Staged<Drive> drive_;
+  std::atomic<Drive*> wheels_{nullptr};  // the same for other threads
+  // Held while the drive is ordered: a stop for a tick that has just ended does not undo its command.
+  std::mutex ordering_;
+  std::atomic<std::int64_t> ordering_since_ns_{0};  // 0: not under way
+  std::atomic<std::int64_t> ordered_ns_{0};         // the last tick's end
+  std::atomic<bool> is_stalled_{false};
+  std::optional<double> stalled_s_;
 };
 
 }  // namespace cairn

@@ -38,18 +38,20 @@ bool comes_near(const RangeReading& reading, const Pose2& T_map_robot, const Poi
   return off_axis_rad <= reading.half_beam_rad + std::asin(within_m / distance_m) + kSpare_rad;
 }
 
+constexpr double kCommandValid_s = 1.0;
+
 // Drives one orbit and hands every observation to the mapper.
 void drive_orbit(Sensor& sensor, Mapper& mapper, const Pose2& T_map_start, const Twist& twist, const Point& centre_m,
                  double needed_m) {
   Drive* drive = sensor.drive();
   if (drive == nullptr) throw std::runtime_error("sensed templates need a sensor that can be driven");
-  drive->command(twist);
   const Budget budget;
   double turned_rad = 0.0;
   double heading_rad = T_map_start.theta_rad;
   // Starting and the first turn of the wheels take a little longer than the orbit itself.
   const int max_steps = static_cast<int>(1.0e6);
   for (int step = 0; step < max_steps && std::abs(turned_rad) < 2.0 * std::numbers::pi; ++step) {
+    drive->command(twist, kCommandValid_s);
     SensorStep next = sensor.next(budget);
     if (next.state != SensorState::observation) {
       throw std::runtime_error("sensed templates: the sensor stopped during an orbit: " + next.reason);

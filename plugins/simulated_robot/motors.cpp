@@ -6,16 +6,23 @@
 #include <string>
 
 namespace cairn {
-void Motors::command(const Twist& twist) {
-  if (!std::isfinite(twist.v_mps) || !std::isfinite(twist.w_radps)) {
+
+void Motors::command(const Twist& twist, double valid_for_s) {
+  if (!is_finite(twist) || !std::isfinite(valid_for_s)) {
     throw std::invalid_argument("simulated_robot: command is not finite: v " + std::to_string(twist.v_mps) +
-                                " m/s, w " + std::to_string(twist.w_radps) + " rad/s");
+                                " m/s, w " + std::to_string(twist.w_radps) + " rad/s, for " +
+                                std::to_string(valid_for_s) + " s");
   }
   wanted_ = twist;
+  valid_for_s_ = valid_for_s;
+  is_stopped_.store(false, std::memory_order_relaxed);
 }
 
 Twist Motors::turn(double for_s, bool has_power) {
-  const Twist wanted = has_power ? wanted_ : Twist{};
+  constexpr double kRounding_s = 1e-9;
+  const bool counts = valid_for_s_ > kRounding_s && !is_stopped_.load(std::memory_order_relaxed);
+  valid_for_s_ -= for_s;
+  const Twist wanted = counts && has_power ? wanted_ : Twist{};
   Twist next;
   next.v_mps = approached(twist_.v_mps, std::clamp(wanted.v_mps, -robot_.max_v_mps, robot_.max_v_mps),
                           robot_.max_acceleration_mps2 * for_s);

@@ -1,6 +1,7 @@
 // The robot's motors: they bring the wheels to the commanded velocity within the robot's limits.
 #pragma once
 
+#include <atomic>
 #include <cmath>
 
 #include "framework/contracts/robot_model.hpp"
@@ -11,9 +12,11 @@ class Motors {
  public:
   explicit Motors(const RobotModel& robot) : robot_(robot) {}
 
-  // Throws std::invalid_argument when not finite.
-  void command(const Twist& twist);
-  // How the wheels turn for a time, on the mean; without power they brake.
+  // For so long at most. Throws std::invalid_argument when not finite.
+  void command(const Twist& twist, double valid_for_s);
+  // Until the next command. From any thread.
+  void stop() noexcept { is_stopped_.store(true, std::memory_order_relaxed); }
+  // How the wheels turn for a time, on the mean; without power or a command that counts they brake.
   [[nodiscard]] Twist turn(double for_s, bool has_power);
   // Something stands in the way.
   void stop_driving() { twist_.v_mps = 0.0; }
@@ -25,6 +28,8 @@ class Motors {
  private:
   RobotModel robot_;
   Twist wanted_;
+  double valid_for_s_ = 0.0;              // from now on
+  std::atomic<bool> is_stopped_ = false;  // since the last command
   Twist twist_;
 };
 

@@ -44,7 +44,8 @@ class SimulatedRobot final : public Sensor, public Drive, public GroundTruthSour
   [[nodiscard]] std::optional<GroundTruth> last_truth() const override { return truth_; }
 
   // Throws std::invalid_argument when not finite.
-  void command(const Twist& twist) override { motors_.command(twist); }
+  void command(const Twist& twist, double valid_for_s) override { motors_.command(twist, valid_for_s); }
+  void stop() noexcept override { motors_.stop(); }
 
   [[nodiscard]] int collisions() const { return collisions_; }  // touches, each counted once
   [[nodiscard]] const Twist& twist() const { return motors_.twist(); }

@@ -8,6 +8,9 @@
 // The source must give at least one observation; a log should be short.
 #pragma once
 
+#include <atomic>
+#include <thread>
+
 #include "framework/contracts/ground_truth.hpp"
 #include "maps/geometry/segments.hpp"
 #include "tests/conformance/allocations.hpp"
@@ -19,12 +22,13 @@ namespace cairn::conformance {
 
 class SensorConformance : public Conformance<Sensor> {
  protected:
-  static constexpr int kMax = 400;  // observations looked at
+  static constexpr int kMax = 400;          // observations looked at
+  static constexpr double kValid_s = 60.0;  // longer than any test drives
 
   // Up to `most` steps, the last one the first that is no observation. A source that moves goes in a circle.
   static std::vector<SensorStep> steps_of(Sensor& sensor, int most = kMax) {
     std::vector<SensorStep> steps;
-    if (sensor.drive() != nullptr) sensor.drive()->command({0.2, 0.3});
+    if (sensor.drive() != nullptr) sensor.drive()->command({0.2, 0.3}, kValid_s);
     while (static_cast<int>(steps.size()) < most) {
       steps.push_back(sensor.next(Budget{}));
       if (steps.back().state != SensorState::observation) break;
@@ -146,8 +150,8 @@ TEST_P(SensorConformance, TwoObjectsShareNothing) {
   const std::vector<SensorStep> expected = steps_of(*alone, 50);
   const auto sensor = make(7);
   const auto other = make(8);
-  if (other->drive() != nullptr) other->drive()->command({-0.1, -0.5});
-  if (sensor->drive() != nullptr) sensor->drive()->command({0.2, 0.3});
+  if (other->drive() != nullptr) other->drive()->command({-0.1, -0.5}, kValid_s);
+  if (sensor->drive() != nullptr) sensor->drive()->command({0.2, 0.3}, kValid_s);
   std::vector<SensorStep> steps;
   while (steps.size() < expected.size()) {
     (void)other->next(Budget{});
@@ -171,16 +175,60 @@ TEST_P(SensorConformance, ADriveStopsWhenAsked) {
   Drive* const drive = sensor->drive();
   if (drive == nullptr) return;  // a source that does not move
   const RobotModel& robot = setup().robot;
-  drive->command({0.2, 0.0});
+  drive->command({0.2, 0.0}, kValid_s);
   Observation last = sensor->next(Budget{}).observation;
   while (last.stamp_s < 2.0) last = sensor->next(Budget{}).observation;
   EXPECT_GT(last.T_odom_robot.position().norm(), 0.05) << "it was commanded to drive 2 s at 0.2 m/s and did not move";
-  drive->command(Twist{});
+  drive->command(Twist{}, kValid_s);
   const double stopped_s = last.stamp_s + 0.2 / robot.max_acceleration_mps2 + 0.5;
   while (last.stamp_s < stopped_s) last = sensor->next(Budget{}).observation;
   const Observation later = sensor->next(Budget{}).observation;
   EXPECT_LT(speed_between(last, later)->v_mps, 0.01) << "Twist{} stops, as fast as the robot's limits allow";
   EXPECT_LT(speed_between(last, later)->w_radps, 0.05);
+}
+
+TEST_P(SensorConformance, ADriveStopsByItselfWhenItsCommandIsNotRenewed) {
+  const auto sensor = make();
+  Drive* const drive = sensor->drive();
+  if (drive == nullptr) return;
+  constexpr double kShort_s = 0.5;
+  Observation last = sensor->next(Budget{}).observation;
+  const double begin_s = last.stamp_s;
+  while (last.stamp_s < begin_s + 3.0) {
+    drive->command({0.2, 0.0}, kShort_s);
+    last = sensor->next(Budget{}).observation;
+  }
+  EXPECT_GT(last.T_odom_robot.position().norm(), 0.05) << "commands that are renewed drive on";
+  const double stopped_s = last.stamp_s + kShort_s + 0.2 / setup().robot.max_acceleration_mps2 + 0.5;
+  while (last.stamp_s < stopped_s) last = sensor->next(Budget{}).observation;
+  const Observation later = sensor->next(Budget{}).observation;
+  EXPECT_LT(speed_between(last, later)->v_mps, 0.01) << "the time of the last command has passed: the wheels stand";
+  drive->command({0.2, 0.0}, kShort_s);
+  last = sensor->next(Budget{}).observation;
+  EXPECT_GT(speed_between(later, last)->v_mps, 0.0) << "a new command drives on";
+}
+
+TEST_P(SensorConformance, ADriveStopsForAnotherThread) {
+  const auto sensor = make();
+  Drive* const drive = sensor->drive();
+  if (drive == nullptr) return;
+  std::atomic<bool> is_done = false;
+  std::thread stopper([&] {
+    while (!is_done) drive->stop();
+  });
+  Observation last = sensor->next(Budget{}).observation;
+  const double end_s = last.stamp_s + 5.0;
+  while (last.stamp_s < end_s) last = sensor->next(Budget{}).observation;
+  is_done = true;
+  stopper.join();
+  drive->command({0.2, 0.0}, kValid_s);
+  while (last.stamp_s < end_s + 2.0) last = sensor->next(Budget{}).observation;
+  EXPECT_GT(last.T_odom_robot.position().norm(), 0.05) << "the command after a stop drives";
+  drive->stop();
+  const double stopped_s = last.stamp_s + 0.2 / setup().robot.max_acceleration_mps2 + 0.5;
+  while (last.stamp_s < stopped_s) last = sensor->next(Budget{}).observation;
+  const Observation later = sensor->next(Budget{}).observation;
+  EXPECT_LT(speed_between(last, later)->v_mps, 0.01) << "stop() stops, whatever was commanded before";
 }
 
 TEST_P(SensorConformance, ADriveKeepsToTheLimitsOfTheRobot) {
@@ -190,7 +238,7 @@ TEST_P(SensorConformance, ADriveKeepsToTheLimitsOfTheRobot) {
   const RobotModel& robot = setup().robot;
   Observation last = sensor->next(Budget{}).observation;
   for (const Twist& wild : {Twist{kHuge, 0.0}, Twist{-kHuge, kHuge}, Twist{0.0, -kHuge}}) {
-    drive->command(wild);
+    drive->command(wild, kValid_s);
     for (int i = 0; i < 40; ++i) {
       const Observation next = sensor->next(Budget{}).observation;
       const auto speed = speed_between(last, next);
@@ -209,7 +257,7 @@ TEST_P(SensorConformance, ACommandThatIsNotFiniteIsRefusedOrIgnored) {
   if (drive == nullptr) return;
   for (const Twist& bad : {Twist{kNan, 0.0}, Twist{0.0, kNan}, Twist{kInfinity, 0.0}, Twist{0.0, -kInfinity}}) {
     try {
-      drive->command(bad);
+      drive->command(bad, kValid_s);
     } catch (const std::exception& error) {
       EXPECT_STRNE(error.what(), "");
     }
@@ -219,7 +267,7 @@ TEST_P(SensorConformance, ACommandThatIsNotFiniteIsRefusedOrIgnored) {
       ASSERT_TRUE(is_finite(step.observation.T_odom_robot)) << "after the command " << text_of(bad);
     }
   }
-  drive->command({0.1, 0.0});
+  drive->command({0.1, 0.0}, kValid_s);
   EXPECT_EQ(sensor->next(Budget{}).state, SensorState::observation) << "a good command after a bad one";
 }
 
@@ -227,9 +275,9 @@ TEST_P(SensorConformance, ACommandAllocatesNothing) {
   const auto sensor = make();
   Drive* const drive = sensor->drive();
   if (drive == nullptr) return;
-  drive->command({0.1, 0.1});
+  drive->command({0.1, 0.1}, kValid_s);
   const AllocationCount allocations;
-  for (int i = 0; i < 10; ++i) drive->command({0.01 * i, -0.1});
+  for (int i = 0; i < 10; ++i) drive->command({0.01 * i, -0.1}, kValid_s);
   EXPECT_EQ(allocations.count(), 0) << "command() is hot";
 }
 

@@ -37,7 +37,8 @@ class CountingSensor : public Sensor, public Drive {
     return step;
   }
   Drive* drive() override { return this; }
-  void command(const Twist&) override {}
+  void command(const Twist&, double) override {}
+  void stop() noexcept override {}
 
  private:
   int left_;

@@ -14,17 +14,27 @@ void add_sentence(std::string& reason, const std::string& sentence) {
 
 }  // namespace
 
+void MissionLoop::stop_if_stalled() {
+  const StageClock::Id stage = modules_.clock.current();
+  if (monitor_.stop_if_stalled()) stalled_stage_ = stage;
+}
+
 bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
-  const StageClock::Id lost = modules_.clock.give_up_after(longest);
+  const bool has_exited = fatal_ends_.exit_was_called();
+  if (!has_exited && longest <= std::chrono::nanoseconds(0)) return false;
+  const StageClock::Id lost = modules_.clock.give_up_after(has_exited ? std::chrono::nanoseconds(-1) : longest);
   if (lost == StageClock::kHost) return false;
-  // From here on this thread is the only one that touches the mission; only what the lost call works
-  // on may still change.
+  // From here on this thread is the only one that touches the mission; only what the lost call works on may still
+  // change.
+  monitor_.stop_at_once();
+  const std::string& module = modules_.clock.module_of(lost);
+  const std::string& stage = modules_.clock.stage_of(lost);
+  const auto longest_ms = std::chrono::duration_cast<std::chrono::milliseconds>(longest).count();
   ending_ = {MissionOutcome::module_fault,
-             fmt::format("module {} has not returned from stage {} for {} ms and was given up",
-                         modules_.clock.module_of(lost), modules_.clock.stage_of(lost),
-                         std::chrono::duration_cast<std::chrono::milliseconds>(longest).count())};
+             has_exited ? fmt::format("module {} called exit() in stage {}", module, stage)
+                        : fmt::format("module {} has not returned from stage {} for {} ms and was given up", module,
+                                      stage, longest_ms)};
   steps_.abandon(clock_.time_s(), ending_.reason);
-  monitor_.stop_after_giving_up(lost, modules_.sensor.stage());
   if (lost == modules_.mapper.stage() || world_.grid == nullptr) {
     world_.grid = nullptr;
     world_.coarse = nullptr;

@@ -23,18 +23,20 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       publisher_(world_),
       pace_(options.wall_clock),
       pauses_(options.control, options.wall_clock),
-      monitor_(mission_.config.collision_monitor, mission_.robot),
+      monitor_(mission_.config.collision_monitor, mission_.robot, options.wall_clock),
       planning_(mission_, modules_, world_.graph, options.resume != nullptr ? options.resume->clusters : ClusterTree{},
                 monitor_, budget_),
       saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
               world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
       steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller},
-             modules_.behaviours, TextFiles(options.out, options.resume != nullptr)) {
+             modules_.behaviours, TextFiles(options.out, options.resume != nullptr)),
+      fatal_ends_(monitor_, modules_.clock) {
   world_.pose.T_map_robot = modules_.T_map_start;
   if (options.resume != nullptr) restore(*options.resume);
 }
 
 void MissionLoop::run() {
+  const FatalEnds::Thread here(fatal_ends_);
   try {
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
@@ -101,6 +103,7 @@ void MissionLoop::tick(Sensed sensed) {
   const StepsTick steps = pauses_.is_paused() ? StepsTick{} : steps_.tick(world_.time_s);
   if (steps.has_ended_step) planning_.connect(perception_.tracker(), world_.view());
   world_.driven = monitor_.drive(observation, steps.wanted);
+  if (const auto for_s = monitor_.stalled_s()) publisher_.publish(stalled_for(*for_s));
 
   publisher_.publish(TickDone{});
   if (options_.control != nullptr) options_.control->tick([this] { return status(); });
@@ -131,6 +134,11 @@ bool MissionLoop::is_known_already(const Observation& observation) {
   if (time_s > *clock_.resumed_s()) return false;
   if (time_s == *clock_.resumed_s()) world_.pose = perception_.localize(observation);
   return true;
+}
+
+Stalled MissionLoop::stalled_for(double for_s) const {
+  const StageClock::Id stage = stalled_stage_;
+  return {modules_.clock.stage_of(stage), modules_.clock.module_of(stage), for_s};
 }
 
 void MissionLoop::publish_any(const std::optional<Event>& event) {

@@ -1,6 +1,7 @@
 // The one thread of control of a mission: one tick after the other (docs/architecture.md, "One tick").
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "framework/mission/clock/mission_clock.hpp"
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
+#include "framework/mission/fatal_ends.hpp"
 #include "framework/mission/loop/perception.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"
@@ -22,9 +24,11 @@ class MissionLoop {
   void subscribe(Listener& listener) { publisher_.subscribe(listener); }
   // To the end, whatever happens. Throws nothing.
   void run();
-  // From another thread, while run() runs: when one call of a module has lasted longer than that, ends
-  // the mission in its place (stops the robot, saves the map) and returns true. run() then returns as
-  // soon as the lost call does, if ever, and touches nothing more.
+  // From another thread, while run() runs, every few milliseconds: stops the wheels when ticks have stopped ending.
+  void stop_if_stalled();
+  // From the same thread: when one call of a module has lasted longer than that (0: none is too long), or a module has
+  // called exit(), ends the mission in its place (stops the robot, saves the map) and returns true. run() then returns
+  // as soon as the lost call does, if ever, and touches nothing more.
   bool give_up_after(std::chrono::nanoseconds longest);
 
   // While run() runs, in its thread.
@@ -61,6 +65,7 @@ class MissionLoop {
   [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
   void finish();
   void save_last();
+  [[nodiscard]] Stalled stalled_for(double for_s) const;
   void publish_any(const std::optional<Event>& event);
   [[nodiscard]] RunStatus status_in(RunState state) const;
 
@@ -76,10 +81,12 @@ class MissionLoop {
   Pauses pauses_;
   RunCounts counts_;
   CollisionMonitor monitor_;
+  std::atomic<StageClock::Id> stalled_stage_{StageClock::kHost};
   Planning planning_;
   MapSaving saving_;
   Steps steps_;
   Ending ending_;
+  FatalEnds fatal_ends_;  // the last: what it shows must be there
 };
 
 }  // namespace cairn

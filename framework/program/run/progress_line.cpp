@@ -45,6 +45,9 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     report(time_s, fmt::format("autosaved {}: all up to {:.3f} s, in {:.0f} ms", e->file_name, e->time_s, e->took_ms));
     out_ << std::flush;
   }
+  if (const auto* e = std::get_if<Stalled>(&event))
+    report(time_s, fmt::format("the robot was stopped: no tick had ended for {:.2f} s (in stage {}{}{}); it goes on",
+                               e->for_s, e->stage, e->module.empty() ? "" : " of module ", e->module));
   if (const auto* e = std::get_if<AutosaveFailed>(&event))
     report(time_s, "autosave failed, the mission continues: " + e->reason);
   if (const auto* e = std::get_if<Message>(&event)) report(time_s, e->sentence);
@@ -53,7 +56,8 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     report(time_s, "paused: `cairn mission resume` or SIGUSR2 lets it go on");
     out_ << std::flush;
   }
-  if (const auto* e = std::get_if<Resumed>(&event)) report(time_s, e->paused_s ? fmt::format("resumed after {:.1f} s", *e->paused_s) : "resumed");
+  if (const auto* e = std::get_if<Resumed>(&event))
+    report(time_s, e->paused_s ? fmt::format("resumed after {:.1f} s", *e->paused_s) : "resumed");
 }
 
 // What control nodes and conditions make of it stands in the report.

@@ -181,9 +181,10 @@ class RunawaySensor : public WrappedSensor, public Drive {
  public:
   using WrappedSensor::WrappedSensor;
   Drive* drive() override { return this; }
-  void command(const Twist& twist) override {
-    if (twist != Twist{}) inner_->drive()->command(twist);
+  void command(const Twist& twist, double valid_for_s) override {
+    if (twist != Twist{}) inner_->drive()->command(twist, valid_for_s);
   }
+  void stop() noexcept override {}
 };
 
 Subject<Sensor> shipped_robot() {

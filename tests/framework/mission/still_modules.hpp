@@ -47,9 +47,10 @@ class Sensor : public cairn::Sensor, public Drive {
     return step;
   }
   Drive* drive() override { return this; }
-  void command(const Twist& twist) override {
+  void command(const Twist& twist, double /*valid_for_s*/) override {
     if (on_command) on_command(twist);
   }
+  void stop() noexcept override {}
 
  private:
   int ticks_;

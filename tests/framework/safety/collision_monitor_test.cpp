@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <stdexcept>
+#include <thread>
 
+#include "tests/framework/modules/test_clock.hpp"
 #include "tests/framework/safety/velocity_limiter_scenes.hpp"
 
 namespace cairn {
@@ -11,10 +14,16 @@ namespace {
 
 class RecordingDrive : public Drive {
  public:
-  void command(const Twist& twist) override {
+  void command(const Twist& twist, double valid_for_s) override {
     commands.push_back(twist);
+    last_valid_s = valid_for_s;
+    if (on_command) on_command();
     if (is_broken) throw std::runtime_error("the wheels are gone");
   }
+  void stop() noexcept override { ++stops; }
+  std::function<void()> on_command;
+  std::atomic<int> stops = 0;
+  double last_valid_s = 0.0;
   std::vector<Twist> commands;
   bool is_broken = false;
 };
@@ -24,11 +33,10 @@ class MonitorOfADrive : public testing::Test {
   MonitorOfADrive() { monitor_.attach({drive_, clock_, stage_}); }
 
   StageClock clock_;
-  const StageClock::Id sensor_ = clock_.add("sensor", "robot");
   const StageClock::Id stage_ = clock_.add("drive", "robot");
-  const StageClock::Id planner_ = clock_.add("planner", "hybrid");
   const std::shared_ptr<RecordingDrive> drive_ = std::make_shared<RecordingDrive>();
-  CollisionMonitor monitor_{CollisionMonitorConfig{}, a_robot()};
+  const std::shared_ptr<TestClock> wall_clock_ = std::make_shared<TestClock>();
+  CollisionMonitor monitor_{CollisionMonitorConfig{}, a_robot(), wall_clock_};
 };
 
 TEST_F(MonitorOfADrive, OrdersTheWantedVelocityWhereNothingIsNear) {
@@ -52,7 +60,7 @@ TEST_F(MonitorOfADrive, OrdersNoMoreThanWhatIsSeenAllowsAndSaysWhatItLeftOut) {
 TEST_F(MonitorOfADrive, StopsWhileTheHostIsBusyAndDrivesOnWithTheNextTick) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
   monitor_.stop();
-  EXPECT_EQ(drive_->commands.back(), Twist{});
+  EXPECT_EQ(drive_->stops, 1);
   (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
   EXPECT_EQ(drive_->commands.back(), (Twist{0.1, 0.0}));
 }
@@ -60,30 +68,67 @@ TEST_F(MonitorOfADrive, StopsWhileTheHostIsBusyAndDrivesOnWithTheNextTick) {
 TEST_F(MonitorOfADrive, ADriveThatThrowsIsAFaultOfItsModule) {
   drive_->is_broken = true;
   try {
-    monitor_.stop();
+    (void)monitor_.drive(observation(1.0), {});
     FAIL() << "no fault";
   } catch (const ModuleFault& fault) {
     EXPECT_STREQ(fault.what(), "module robot failed in stage drive: the wheels are gone");
   }
 }
 
-TEST_F(MonitorOfADrive, StopsTheRobotOfAMissionThatWasGivenUpThoughTheDriveThrows) {
-  drive_->is_broken = true;
-  monitor_.stop_after_giving_up(planner_, sensor_);
-  ASSERT_EQ(drive_->commands.size(), 1U);
-  EXPECT_EQ(drive_->commands[0], Twist{});
+TEST_F(MonitorOfADrive, ACommandCountsForItsTimeOnly) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  EXPECT_EQ(drive_->last_valid_s, CollisionMonitorConfig{}.command_valid_s);
 }
 
-TEST_F(MonitorOfADrive, LeavesADriveAloneWhoseModuleHasNotReturned) {
-  monitor_.stop_after_giving_up(sensor_, sensor_);
-  monitor_.stop_after_giving_up(stage_, sensor_);
-  EXPECT_TRUE(drive_->commands.empty());
+TEST_F(MonitorOfADrive, StopsTheWheelsOnceWhenNoTickEndsForLong) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  wall_clock_->advance(std::chrono::milliseconds(490));
+  EXPECT_FALSE(monitor_.stop_if_stalled());
+  EXPECT_EQ(drive_->stops, 0);
+  wall_clock_->advance(std::chrono::milliseconds(20));
+  EXPECT_TRUE(monitor_.stop_if_stalled());
+  EXPECT_FALSE(monitor_.stop_if_stalled()) << "it is known already";
+  EXPECT_GE(drive_->stops, 1);
+}
+
+TEST_F(MonitorOfADrive, DrivesOnWithTheNextTickAndSaysHowLongTheRobotStood) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  EXPECT_FALSE(monitor_.stalled_s());
+  wall_clock_->advance(std::chrono::milliseconds(800));
+  EXPECT_TRUE(monitor_.stop_if_stalled());
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  EXPECT_EQ(drive_->commands.back(), (Twist{0.1, 0.0}));
+  ASSERT_TRUE(monitor_.stalled_s());
+  EXPECT_NEAR(*monitor_.stalled_s(), 0.8, 1e-9);
+  (void)monitor_.drive(observation(1.0 + 2.0 * kTick_s), {0.1, 0.0});
+  EXPECT_FALSE(monitor_.stalled_s()) << "once";
+}
+
+TEST_F(MonitorOfADrive, StopsTheWheelsAlsoWhileACommandDoesNotReturn) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  drive_->on_command = [&] {
+    wall_clock_->advance(std::chrono::milliseconds(600));
+    std::thread([&] { EXPECT_TRUE(monitor_.stop_if_stalled()); }).join();
+  };
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  EXPECT_EQ(drive_->stops, 1);
+}
+
+TEST_F(MonitorOfADrive, ATickThatIsJustEndingIsNotStopped) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  wall_clock_->advance(std::chrono::milliseconds(600));
+  drive_->on_command = [&] { std::thread([&] { EXPECT_FALSE(monitor_.stop_if_stalled()); }).join(); };
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  EXPECT_FALSE(monitor_.stop_if_stalled());
+  EXPECT_EQ(drive_->stops, 0);
 }
 
 TEST(CollisionMonitor, WithoutADriveNothingIsOrdered) {
   CollisionMonitor monitor(CollisionMonitorConfig{}, a_robot());
   EXPECT_FALSE(monitor.has_drive());
   monitor.stop();
+  monitor.stop_at_once();
+  EXPECT_FALSE(monitor.stop_if_stalled());
   EXPECT_EQ(monitor.drive(observation(1.0), {0.1, 0.0}).commanded, Twist{});
 }
 

@@ -50,7 +50,7 @@ std::vector<Witnessed> run(SimulatedRobotConfig config, const Twist& twist, doub
                            const World& world = room(6.0, 5.0)) {
   config.fire_all = true;
   SimulatedRobot sensor(config, robot, &world, {1.5, 2.5, 0.0}, seed);
-  sensor.command(twist);
+  sensor.command(twist, kAlways_s);
   std::vector<Witnessed> seen{{}};
   for (int i = 0; i < std::lround(time_s / kTick_s); ++i) seen.push_back(testing::observe(sensor));
   return seen;

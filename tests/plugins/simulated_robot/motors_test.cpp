@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/plugins/simulated_robot/test_worlds.hpp"
+
 namespace cairn {
 namespace {
 
@@ -19,7 +21,7 @@ RobotModel robot_of(double acceleration_mps2) {
 
 TEST(Motors, ReachTheCommandedVelocityWithinTheRobotsAccelerations) {
   Motors motors(robot_of(1.0));
-  motors.command({0.3, 0.0});
+  motors.command({0.3, 0.0}, kAlways_s);
   EXPECT_DOUBLE_EQ(motors.turn(0.2, true).v_mps, 0.1) << "the mean of the tick";
   EXPECT_DOUBLE_EQ(motors.twist().v_mps, 0.2);
   (void)motors.turn(0.2, true);
@@ -29,7 +31,7 @@ TEST(Motors, ReachTheCommandedVelocityWithinTheRobotsAccelerations) {
 
 TEST(Motors, AreNoFasterThanTheRobot) {
   Motors motors(robot_of(100.0));
-  motors.command({5.0, -9.0});
+  motors.command({5.0, -9.0}, kAlways_s);
   for (int i = 0; i < 100; ++i) (void)motors.turn(0.1, true);
   EXPECT_DOUBLE_EQ(motors.twist().v_mps, 0.5);
   EXPECT_DOUBLE_EQ(motors.twist().w_radps, -1.0);
@@ -37,10 +39,31 @@ TEST(Motors, AreNoFasterThanTheRobot) {
 
 TEST(Motors, BrakeWithoutPower) {
   Motors motors(robot_of(1.0));
-  motors.command({0.3, 0.0});
+  motors.command({0.3, 0.0}, kAlways_s);
   for (int i = 0; i < 10; ++i) (void)motors.turn(0.1, true);
   for (int i = 0; i < 10; ++i) (void)motors.turn(0.1, false);
   EXPECT_NEAR(motors.twist().v_mps, 0.0, 1e-12);
+}
+
+TEST(Motors, BrakeWhenTheTimeOfTheirCommandHasPassed) {
+  Motors motors(robot_of(1.0));
+  motors.command({0.3, 0.0}, 0.5);
+  for (int i = 0; i < 5; ++i) (void)motors.turn(0.1, true);
+  EXPECT_NEAR(motors.twist().v_mps, 0.3, 1e-12);
+  for (int i = 0; i < 5; ++i) (void)motors.turn(0.1, true);
+  EXPECT_EQ(motors.twist(), Twist{});
+}
+
+TEST(Motors, BrakeWhenTheyAreStoppedUntilTheNextCommand) {
+  Motors motors(robot_of(1.0));
+  motors.command({0.3, 0.0}, kAlways_s);
+  for (int i = 0; i < 5; ++i) (void)motors.turn(0.1, true);
+  motors.stop();
+  for (int i = 0; i < 5; ++i) (void)motors.turn(0.1, true);
+  EXPECT_EQ(motors.twist(), Twist{});
+  motors.command({0.3, 0.0}, kAlways_s);
+  (void)motors.turn(0.1, true);
+  EXPECT_GT(motors.twist().v_mps, 0.0);
 }
 
 TEST(Motors, KeepACarToItsTurningRadius) {
@@ -48,14 +71,14 @@ TEST(Motors, KeepACarToItsTurningRadius) {
   car.kinematics = Kinematics::car;
   car.min_turning_radius_m = 1.0;
   Motors motors(car);
-  motors.command({0.4, 1.0});
+  motors.command({0.4, 1.0}, kAlways_s);
   for (int i = 0; i < 10; ++i) (void)motors.turn(0.1, true);
   EXPECT_DOUBLE_EQ(motors.twist().w_radps, 0.4);
 }
 
 TEST(Motors, RefuseACommandThatIsNotFinite) {
   Motors motors(robot_of(1.0));
-  EXPECT_THROW(motors.command({std::numeric_limits<double>::quiet_NaN(), 0.0}), std::invalid_argument);
+  EXPECT_THROW(motors.command({std::numeric_limits<double>::quiet_NaN(), 0.0}, kAlways_s), std::invalid_argument);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ using testing::Witnessed;
 constexpr Budget kNoLimit{};
 
 Witnessed drive_for(SimulatedRobot& robot, const Twist& twist, double time_s) {
-  robot.command(twist);
+  robot.command(twist, kAlways_s);
   Witnessed last;
   for (int i = 0; i < std::lround(time_s / 0.04); ++i) last = observe(robot);
   return last;
@@ -153,7 +153,7 @@ TEST(SimulatedRobot, ClosesACircleExactly) {
   robot.max_turn_acceleration_radps2 = 1e6;
   const World world;
   SimulatedRobot sensor({}, robot, &world, {}, 1);
-  sensor.command({0.2, 2.0 * std::numbers::pi / 10.0});
+  sensor.command({0.2, 2.0 * std::numbers::pi / 10.0}, kAlways_s);
   observe(sensor);  // the tick of the jump to full speed counts half
   const Pose2 from = *observe(sensor).true_T_map_robot;
   Pose2 half;
@@ -177,7 +177,7 @@ TEST(SimulatedRobot, ACarTurnsNoTighterThanItCan) {
 TEST(SimulatedRobot, RefusesACommandThatIsNotFinite) {
   const World world;
   SimulatedRobot sensor({}, exact_robot(), &world, {}, 1);
-  EXPECT_THROW(sensor.command({std::nan(""), 0.0}), std::invalid_argument);
+  EXPECT_THROW(sensor.command({std::nan(""), 0.0}, kAlways_s), std::invalid_argument);
 }
 
 TEST(SimulatedRobot, StopsAtAWallCountsTheTouchOnceAndDrivesAway) {
@@ -263,7 +263,7 @@ std::vector<Witnessed> wander(const RobotModel& robot, std::uint64_t seed) {
   SimulatedRobot sensor({}, robot, &world, {3.0, 2.5, 0.0}, seed);
   std::vector<Witnessed> seen;
   for (int i = 0; i < 400; ++i) {
-    if (i % 50 == 0) sensor.command({0.3, 0.5 * std::sin(i)});
+    if (i % 50 == 0) sensor.command({0.3, 0.5 * std::sin(i)}, kAlways_s);
     seen.push_back(observe(sensor));
   }
   return seen;

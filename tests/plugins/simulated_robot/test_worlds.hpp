@@ -6,6 +6,12 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
 
+namespace cairn {
+
+inline constexpr double kAlways_s = 1e9;  // commands that are never renewed
+
+}  // namespace cairn
+
 namespace cairn::testing {
 
 inline WorldWall wall(std::vector<Point> points_m, Surface surface = Surface::smooth) {

@@ -34,7 +34,8 @@ class StraightPlanner : public Planner {
 
 class RecordingDrive : public Drive {
  public:
-  void command(const Twist& twist) override { commands.push_back(twist); }
+  void command(const Twist& twist, double /*valid_for_s*/) override { commands.push_back(twist); }
+  void stop() noexcept override { commands.emplace_back(); }
   std::vector<Twist> commands;
 };
 

@@ -65,7 +65,8 @@ class SpySensor : public Sensor, public Drive, public GroundTruthSource {
     return step;
   }
   Drive* drive() override { return this; }
-  void command(const Twist& twist) override {
+  void stop() noexcept override { notes_.commands.emplace_back(); }
+  void command(const Twist& twist, double /*valid_for_s*/) override {
     notes_.calls.emplace_back("drive");
     notes_.commands.push_back(twist);
   }

@@ -155,7 +155,7 @@ TEST(Traffic, NeverOverlapsARobotThatDrivesWildly) {
 }
 
 Witnessed drive_for(SimulatedRobot& robot, const Twist& twist, double time_s) {
-  robot.command(twist);
+  robot.command(twist, kAlways_s);
   Witnessed last;
   for (int i = 0; i < std::lround(time_s / kTick_s); ++i) last = testing::observe(robot);
   return last;

@@ -20,7 +20,7 @@ using testing::tilted_wall;
 std::vector<Contact> contacts(const World& world, const Pose2& T_map_start, const Twist& twist, double time_s,
                               const RobotModel& robot = exact_robot(), const SimulatedRobotConfig& config = {}) {
   SimulatedRobot sensor(config, robot, &world, T_map_start, 1);
-  sensor.command(twist);
+  sensor.command(twist, kAlways_s);
   std::vector<Contact> seen;
   for (int i = 0; i < std::lround(time_s / 0.04); ++i) {
     const testing::Witnessed step = testing::observe(sensor);

@@ -1,0 +1,70 @@
+// When the process ends in the middle of a mission (a fatal signal, std::terminate, exit() called by a module), the
+// wheels are stopped first, and one line on standard error says in which module and stage the mission was.
+//
+// What ends the process without any of these (kill -9, _exit) leaves the wheels to the drive itself: a command counts
+// for a time only.
+#pragma once
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <atomic>
+#include <memory>
+
+#include "framework/modules/stage_clock.hpp"
+#include "framework/safety/collision_monitor.hpp"
+
+namespace cairn {
+
+// For the program, once, after modules are loaded: installs handlers for SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT,
+// which go on to what was installed before, and one for exit().
+void handle_fatal_ends();
+
+// A mission that the handlers know, from construction to destruction; at most 64 at a time, the rest are not known.
+class FatalEnds {
+ public:
+  FatalEnds(CollisionMonitor& monitor, const StageClock& clock);
+  ~FatalEnds();
+  FatalEnds(const FatalEnds&) = delete;
+  FatalEnds& operator=(const FatalEnds&) = delete;
+
+  // The mission's thread, while it lives.
+  class Thread {
+   public:
+    explicit Thread(FatalEnds& ends);
+    ~Thread();
+    Thread(const Thread&) = delete;
+    Thread& operator=(const Thread&) = delete;
+
+   private:
+    FatalEnds& ends_;
+  };
+
+  // The module that the mission is in has called exit(), in the mission's thread: that call never returns, and whoever
+  // watches gives the mission up.
+  [[nodiscard]] bool exit_was_called() const { return exit_was_called_; }
+
+ private:
+  friend struct FatalEndHandlers;
+
+  CollisionMonitor& monitor_;
+  const StageClock& clock_;
+  std::atomic<bool> is_running_{false};
+  std::atomic<pthread_t> thread_{};
+  std::atomic<bool> exit_was_called_{false};
+};
+
+// A stack for signal handlers of this thread, so that they can run when its own has overflowed.
+class AlternateStack {
+ public:
+  AlternateStack();
+  ~AlternateStack();
+  AlternateStack(const AlternateStack&) = delete;
+  AlternateStack& operator=(const AlternateStack&) = delete;
+
+ private:
+  std::unique_ptr<char[]> memory_;
+  stack_t earlier_{};
+};
+
+}  // namespace cairn
