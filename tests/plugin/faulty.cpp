@@ -1,5 +1,6 @@
 // Modules that fail in every way that a mission must survive, and a small sensor that works.
 #include <chrono>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -142,6 +143,51 @@ class NanBehaviour : public Behaviour {
   void halt() override {}
 };
 
+// Ends the process, in one way or another.
+class EndingBehaviour : public Behaviour {
+ public:
+  explicit EndingBehaviour(void (*end)()) : end_(end) {}
+  Status tick(const WorldView&, BehaviourContext& context) override {
+    context.drive({0.1, 0.0});
+    if (++ticks_ == 3) end_();
+    return {};
+  }
+  void halt() override {}
+
+ private:
+  void (*end_)();
+  int ticks_ = 0;
+};
+
+void crash() {
+  volatile int* nowhere = nullptr;
+  *nowhere = 1;  // NOLINT: a fault of a module
+}
+
+void terminate() {
+  std::thread([] { throw std::runtime_error("nobody catches this"); }).join();
+}
+
+void exit_well() {
+  std::exit(0);  // NOLINT: a fault of a module
+}
+
+int overflow(volatile int* depth) {
+  volatile int mine[1024] = {*depth};
+  return overflow(mine) + mine[7];  // NOLINT: a fault of a module
+}
+
+void overflow_the_stack() {
+  volatile int depth = 0;
+  (void)overflow(&depth);
+}
+
+template <void (*end)()>
+void add_ending(Registrar& registrar, const char* name) {
+  registrar.add<Behaviour, NoConfig>(
+      name, "for tests", [](const NoConfig&, const ModuleContext&) { return std::make_unique<EndingBehaviour>(end); });
+}
+
 class FailingBehaviour : public Behaviour {
  public:
   Status tick(const WorldView&, BehaviourContext&) override { return {Progress::failure, "does not feel like it"}; }
@@ -177,6 +223,10 @@ void register_module(Registrar& registrar) {
   add_plain<Behaviour, LateBehaviour>(registrar, "late");
   add_plain<Behaviour, NanBehaviour>(registrar, "drive_nan");
   add_plain<Behaviour, EndlessBehaviour>(registrar, "endless");
+  add_ending<crash>(registrar, "crash");
+  add_ending<terminate>(registrar, "terminate");
+  add_ending<exit_well>(registrar, "exit_well");
+  add_ending<overflow_the_stack>(registrar, "overflow");
   registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",
                                      [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Localizer> {
                                        throw std::runtime_error("no such device");

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "framework/mission/fatal_ends.hpp"
 #include "framework/mission/resume.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/modules/fence.hpp"
@@ -132,6 +133,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   const Mission mission = load_mission(command.mission, command.overrides, seed);
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
+  handle_fatal_ends();
   make_folder(command.out);
   hold_folder(command.out);
   std::ostream& people = common.json ? std::cerr : std::cout;

@@ -1,0 +1,65 @@
+// A module ends the process in the middle of a mission: the robot is stopped first, and people learn where.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/program.hpp"
+
+namespace {
+
+using cairn::testing_program::Finished;
+using cairn::testing_program::run_cairn;
+using testing::HasSubstr;
+
+class FatalEnds : public testing::Test {
+ protected:
+  FatalEnds() { std::filesystem::create_directories(folder_); }
+  ~FatalEnds() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] Finished run(const std::string& step) const {
+    std::ofstream(folder_ / "mission.yaml") << "mission: fatal\nrobot: " << CAIRN_SOURCE_DIR
+                                            << "/config/robots/pioneer1.yaml\n"
+                                               "sensor: {plugin: counting_sensor, readings: 1000}\n"
+                                               "localizer: {plugin: still_localizer}\nmap: {plugin: empty_map}\n"
+                                               "steps: ["
+                                            << step << "]\n";
+    return run_cairn({"run", (folder_ / "mission.yaml").string(), "--plugins",
+                      std::string(CAIRN_BINARY_DIR) + "/tests/plugin/faulty", "--out", folder_.string(), "--json"});
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("cairn_fatal_ends_" + std::to_string(getpid()));
+};
+
+TEST_F(FatalEnds, ACrashStopsTheRobotAndNamesModuleAndStage) {
+  const Finished finished = run("crash");
+  EXPECT_NE(finished.exit_status, 0);
+  EXPECT_THAT(finished.err, HasSubstr("cairn: SIGSEGV in stage behaviour of module crash; the robot was stopped\n"));
+}
+
+TEST_F(FatalEnds, AnOverflowOfTheStackDoesToo) {
+  const Finished finished = run("overflow");
+  EXPECT_NE(finished.exit_status, 0);
+  EXPECT_THAT(finished.err, HasSubstr(" in stage behaviour of module overflow; the robot was stopped\n"));
+}
+
+TEST_F(FatalEnds, AnExceptionThatNobodyCatchesDoesToo) {
+  const Finished finished = run("terminate");
+  EXPECT_NE(finished.exit_status, 0);
+  EXPECT_THAT(finished.err,
+              HasSubstr("cairn: SIGABRT in stage behaviour of module terminate; the robot was stopped\n"));
+}
+
+TEST_F(FatalEnds, AModuleThatCallsExitEndsTheMissionAsAFaultAndTheMapIsSaved) {
+  const Finished finished = run("exit_well");
+  EXPECT_EQ(finished.exit_status, 1);
+  const auto summary = nlohmann::json::parse(finished.out);
+  EXPECT_EQ(summary.at("outcome"), "module_fault");
+  EXPECT_EQ(summary.at("reason"), "module exit_well called exit() in stage behaviour");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "fatal.cairn"));
+}
+
+}  // namespace
