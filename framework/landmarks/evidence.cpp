@@ -43,15 +43,6 @@ void count(Landmark& landmark, const std::vector<CategoryDegree>& degrees) {
 
 }  // namespace
 
-bool is_finite(const Matching& matching) {
-  for (const CategoryDegree& degree : matching.degrees)
-    if (!std::isfinite(degree.degree) || !degree.at_m.allFinite() || !std::isfinite(degree.orientation_rad))
-      return false;
-  if (!matching.detection) return true;
-  const auto& [category, T_map_landmark, degree, templates] = *matching.detection;
-  return is_finite(T_map_landmark) && std::isfinite(degree);
-}
-
 bool add_evidence(Landmark& landmark, const Matching& matching, double within_m) {
   const std::vector<CategoryDegree> degrees = degrees_at(landmark.T_map_landmark.position(), matching, within_m);
   if (degrees.empty()) return false;

@@ -8,9 +8,6 @@
 
 namespace cairn {
 
-// Whether everything is finite that the graph would take over.
-[[nodiscard]] bool is_finite(const Matching& matching);
-
 // Adds what the matching says of the place: the degrees of the categories that fit within within_m of the
 // landmark; what does not fit says nothing. The category that fits best now becomes the landmark's, the pose and degree
 // are those of its best matching so far. The newest matching decides alone, because its map holds all that the earlier

@@ -58,7 +58,7 @@ void MissionRunner::watch() {
   std::future<void> done = promise.get_future();
   // The thread shares the loop, so that a call that comes back late finds everything where it was.
   std::thread thread([loop = loop_, promise = std::move(promise)]() mutable {
-    const AlternateStack stack;
+    const std::shared_ptr<void> stack = alternate_stack();
     loop->run();
     promise.set_value();
   });

@@ -1,4 +1,5 @@
-// What the ranges of the last moments say about the robot's surroundings: for the collision monitor, in the odometry's frame.
+// What the ranges of the last moments say about the robot's surroundings: for the collision monitor, in the odometry's
+// frame.
 //
 // An echo is kept as points on its arc, because it may have come from anywhere on it. A later echo from farther away
 // that passed through such a point takes it away again; silence does not, for a mirror or a dead transducer is silent

@@ -56,6 +56,19 @@ class NanSensor : public CountingSensor {
   }
 };
 
+class LeapingSensor : public CountingSensor {
+ public:
+  LeapingSensor() : CountingSensor(5) {}
+  SensorStep next(const Budget& budget) override {
+    SensorStep step = CountingSensor::next(budget);
+    if (++steps_ == 3) step.observation.T_odom_robot.x_m = 1e12;
+    return step;
+  }
+
+ private:
+  int steps_ = 0;
+};
+
 class StillLocalizer : public Localizer {
  public:
   PoseEstimate update(const Observation&, const KnownMap&) override { return {}; }
@@ -211,6 +224,7 @@ void register_module(Registrar& registrar) {
       "counting_sensor", "for tests",
       [](const CountingConfig& c, const ModuleContext&) { return std::make_unique<CountingSensor>(c.readings); });
   add_plain<Sensor, NanSensor>(registrar, "nan_sensor");
+  add_plain<Sensor, LeapingSensor>(registrar, "leaping_sensor");
   add_plain<Localizer, StillLocalizer>(registrar, "still_localizer");
   add_plain<Localizer, NanLocalizer>(registrar, "nan_localizer");
   add_plain<Mapper, EmptyMapper>(registrar, "empty_map");

@@ -74,6 +74,15 @@ TEST_F(FencedMission, AnOdometryThatIsNotANumberEndsTheMission) {
             "module nan_sensor failed in stage sensor: returned a stamp or an odometry that is not finite");
 }
 
+TEST_F(FencedMission, AnOdometryThatLeapsEndsTheMissionAndTheMapIsSaved) {
+  (void)mission_with("still_localizer", "empty_map", "[endless]");
+  const Mission mission = load_mission(folder_ / "mission.yaml", {"sensor={plugin: leaping_sensor}"});
+  const MissionResult result = MissionRunner(mission, library_, {folder_, false, nullptr}).run();
+  EXPECT_EQ(result.reason,
+            "module leaping_sensor failed in stage sensor: returned an odometry that leaps by 1e+12 m within 0.04 s");
+  EXPECT_TRUE(fs::exists(folder_ / result.map_file));
+}
+
 TEST_F(FencedMission, ADetectionThatIsNotANumberEndsTheMission) {
   const Mission mission =
       mission_with("still_localizer", "empty_map", "[endless]", "detector: {plugin: nan_detector}\n");

@@ -1,7 +1,5 @@
 #include "framework/mission/loop/mission_loop.hpp"
 
-#include "framework/safety/range_buffer.hpp"
-
 namespace cairn {
 namespace {
 
@@ -21,6 +19,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       perception_(mission_, modules_, budget_),
       world_{mission_.robot, perception_.tracker().graph(), modules_.T_map_start},
       publisher_(world_),
+      observation_check_(mission_.robot),
       pace_(options.wall_clock),
       pauses_(options.control, options.wall_clock),
       monitor_(mission_.config.collision_monitor, mission_.robot, options.wall_clock),
@@ -79,8 +78,9 @@ MissionLoop::Sensed MissionLoop::sense() {
     const GroundTruthSource* truth = sensor.truth();
     return {std::move(step), truth == nullptr ? std::nullopt : truth->last_truth()};
   });
-  if (sensed.step.state == SensorState::observation && !is_placed(sensed.step.observation))
-    throw modules_.sensor.fault("returned a stamp or an odometry that is not finite");
+  if (sensed.step.state != SensorState::observation) return sensed;
+  if (const std::string fault = observation_check_.fault_of(sensed.step.observation); !fault.empty())
+    throw modules_.sensor.fault(fault);
   return sensed;
 }
 

@@ -9,10 +9,11 @@
 #include "framework/mission/clock/mission_clock.hpp"
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
-#include "framework/mission/fatal_ends.hpp"
 #include "framework/mission/loop/perception.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"
+#include "framework/modules/plausibility.hpp"
+#include "framework/safety/fatal_ends.hpp"
 
 namespace cairn {
 
@@ -77,6 +78,7 @@ class MissionLoop {
   WorldState world_;
   Publisher publisher_;
   MissionClock clock_;
+  ObservationCheck observation_check_;
   Pace pace_;
   Pauses pauses_;
   RunCounts counts_;

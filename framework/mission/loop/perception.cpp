@@ -1,15 +1,11 @@
 #include "framework/mission/loop/perception.hpp"
 
-#include "framework/landmarks/evidence.hpp"
+#include "framework/modules/plausibility.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks
-
-bool is_finite(const PoseEstimate& pose) {
-  return cairn::is_finite(pose.T_map_robot) && pose.covariance.allFinite();
-}
 
 }  // namespace
 
@@ -44,7 +40,7 @@ PoseEstimate Perception::localize(const Observation& observation) {
   const KnownMap known{*grid_, tracker_.graph()};
   PoseEstimate pose =
       modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, known); });
-  if (!is_finite(pose)) throw modules_.localizer.fault("returned a pose that is not finite");
+  if (const std::string fault = fault_of(pose); !fault.empty()) throw modules_.localizer.fault(fault);
   return pose;
 }
 
@@ -66,7 +62,7 @@ DetectionReport Perception::detect(const CellChanges& changes, const Budget& bud
     return found;
   });
   for (const Matching& matching : report.matchings)
-    if (!is_finite(matching)) throw modules_.detector.fault("returned a detection that is not finite");
+    if (const std::string fault = fault_of(matching, *grid_); !fault.empty()) throw modules_.detector.fault(fault);
   return report;
 }
 

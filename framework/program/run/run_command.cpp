@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "framework/mission/fatal_ends.hpp"
+#include "framework/safety/fatal_ends.hpp"
 #include "framework/mission/resume.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/modules/fence.hpp"

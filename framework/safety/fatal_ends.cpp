@@ -1,4 +1,4 @@
-#include "framework/mission/fatal_ends.hpp"
+#include "framework/safety/fatal_ends.hpp"
 
 #include <signal.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 // A signal handler can reach nothing else.
 std::array<std::atomic<FatalEnds*>, kMaxMissions> missions;
 std::array<struct sigaction, kFatalSignals.size()> earlier;
-static_assert(std::atomic<FatalEnds*>::is_always_lock_free && std::atomic<pthread_t>::is_always_lock_free);
+static_assert(std::atomic<FatalEnds*>::is_always_lock_free && std::atomic<std::thread::id>::is_always_lock_free);
 
 // Async-signal-safe.
 void print(const char* text) {
@@ -79,7 +79,7 @@ struct FatalEndHandlers {
       if (mission == nullptr || !mission->is_running_) continue;
       stop_all("exit() was called");
       const bool is_the_modules =
-          ::pthread_equal(mission->thread_, ::pthread_self()) != 0 && mission->clock_.current() != StageClock::kHost;
+          mission->thread_.load() == std::this_thread::get_id() && mission->clock_.current() != StageClock::kHost;
       if (!is_the_modules) ::_exit(kExitOfFailure);
       mission->exit_was_called_ = true;
       while (true) ::pause();  // the thread that watches ends the process
@@ -114,7 +114,7 @@ FatalEnds::~FatalEnds() {
 }
 
 FatalEnds::Thread::Thread(FatalEnds& ends) : ends_(ends) {
-  ends_.thread_ = ::pthread_self();
+  ends_.thread_ = std::this_thread::get_id();
   ends_.is_running_ = true;
 }
 
@@ -122,15 +122,21 @@ FatalEnds::Thread::~Thread() {
   ends_.is_running_ = false;
 }
 
-AlternateStack::AlternateStack() : memory_(std::make_unique<char[]>(kStackBytes)) {
-  stack_t stack{};
-  stack.ss_sp = memory_.get();
-  stack.ss_size = kStackBytes;
-  ::sigaltstack(&stack, &earlier_);
-}
-
-AlternateStack::~AlternateStack() {
-  ::sigaltstack(&earlier_, nullptr);
+std::shared_ptr<void> alternate_stack() {
+  struct Stack {
+    Stack() {
+      stack_t stack{};
+      stack.ss_sp = memory.get();
+      stack.ss_size = kStackBytes;
+      ::sigaltstack(&stack, &earlier);
+    }
+    ~Stack() { ::sigaltstack(&earlier, nullptr); }
+    Stack(const Stack&) = delete;
+    Stack& operator=(const Stack&) = delete;
+    std::unique_ptr<char[]> memory = std::make_unique<char[]>(kStackBytes);
+    stack_t earlier{};
+  };
+  return std::make_shared<Stack>();
 }
 
 }  // namespace cairn

@@ -5,11 +5,9 @@
 // for a time only.
 #pragma once
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <atomic>
 #include <memory>
+#include <thread>
 
 #include "framework/modules/stage_clock.hpp"
 #include "framework/safety/collision_monitor.hpp"
@@ -50,21 +48,11 @@ class FatalEnds {
   CollisionMonitor& monitor_;
   const StageClock& clock_;
   std::atomic<bool> is_running_{false};
-  std::atomic<pthread_t> thread_{};
+  std::atomic<std::thread::id> thread_{};
   std::atomic<bool> exit_was_called_{false};
 };
 
-// A stack for signal handlers of this thread, so that they can run when its own has overflowed.
-class AlternateStack {
- public:
-  AlternateStack();
-  ~AlternateStack();
-  AlternateStack(const AlternateStack&) = delete;
-  AlternateStack& operator=(const AlternateStack&) = delete;
-
- private:
-  std::unique_ptr<char[]> memory_;
-  stack_t earlier_{};
-};
+// A stack for signal handlers of this thread, so that they can run when its own has overflowed; as long as it is held.
+[[nodiscard]] std::shared_ptr<void> alternate_stack();
 
 }  // namespace cairn

@@ -1,0 +1,58 @@
+#include "framework/modules/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+bool is_finite(const Matching& matching) {
+  for (const CategoryDegree& degree : matching.degrees)
+    if (!std::isfinite(degree.degree) || !degree.at_m.allFinite() || !std::isfinite(degree.orientation_rad))
+      return false;
+  if (!matching.detection) return true;
+  const auto& [category, T_map_landmark, degree, templates] = *matching.detection;
+  return cairn::is_finite(T_map_landmark) && std::isfinite(degree);
+}
+
+bool is_near(const Point& at_m, const OccupancyGrid& grid) {
+  const CellBox box = grid.bounds();
+  const Point lower_m = grid.centre_of(box.min) - Point::Constant(kMaxDetectionOutside_m);
+  const Point upper_m = grid.centre_of(box.max) + Point::Constant(kMaxDetectionOutside_m);
+  return (at_m.array() >= lower_m.array()).all() && (at_m.array() <= upper_m.array()).all();
+}
+
+}  // namespace
+
+std::string ObservationCheck::fault_of(const Observation& observation) {
+  if (!std::isfinite(observation.stamp_s) || !cairn::is_finite(observation.T_odom_robot))
+    return "returned a stamp or an odometry that is not finite";
+  if (last_stamp_s_) {
+    const double passed_s = observation.stamp_s - *last_stamp_s_;
+    if (passed_s < -kMaxStampBack_s || passed_s > kMaxStampAhead_s)
+      return fmt::format("returned a stamp of {:g} s after one of {:g} s", observation.stamp_s, *last_stamp_s_);
+    const double leap_m = (observation.T_odom_robot.position() - T_odom_last_.position()).norm();
+    if (leap_m > kMaxOdometryLeap_m + 10.0 * max_v_mps_ * std::max(passed_s, 0.0))
+      return fmt::format("returned an odometry that leaps by {:g} m within {:g} s", leap_m, passed_s);
+  }
+  last_stamp_s_ = observation.stamp_s;
+  T_odom_last_ = observation.T_odom_robot;
+  return {};
+}
+
+std::string fault_of(const PoseEstimate& pose) {
+  if (!cairn::is_finite(pose.T_map_robot) || !pose.covariance.allFinite()) return "returned a pose that is not finite";
+  const double out_m = pose.T_map_robot.position().norm();
+  if (out_m > kMaxPlace_m) return fmt::format("returned a pose {:g} m from the map's origin", out_m);
+  return {};
+}
+
+std::string fault_of(const Matching& matching, const OccupancyGrid& grid) {
+  if (!is_finite(matching)) return "returned a detection that is not finite";
+  if (!matching.detection || is_near(matching.detection->T_map_landmark.position(), grid)) return {};
+  const Pose2& at = matching.detection->T_map_landmark;
+  return fmt::format("returned a detection at ({:g}, {:g}), which is outside of the map", at.x_m, at.y_m);
+}
+
+}  // namespace cairn

@@ -1,0 +1,78 @@
+#include "framework/modules/plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace cairn {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Observation at(double stamp_s, double x_m) {
+  Observation observation;
+  observation.stamp_s = stamp_s;
+  observation.T_odom_robot = {x_m, 0.0, 0.0};
+  return observation;
+}
+
+// Of the second of two observations; the robot drives 0.5 m/s at most.
+std::string second_after(const Observation& first, const Observation& second) {
+  RobotModel robot;
+  robot.max_v_mps = 0.5;
+  ObservationCheck check(robot);
+  EXPECT_EQ(check.fault_of(first), "");
+  return check.fault_of(second);
+}
+
+TEST(ObservationCheck, NumbersThatAreNoneAreAFaultOfTheFirstToo) {
+  ObservationCheck check{RobotModel{}};
+  EXPECT_EQ(check.fault_of(at(kNan, 0.0)), "returned a stamp or an odometry that is not finite");
+  EXPECT_EQ(check.fault_of(at(0.0, kNan)), "returned a stamp or an odometry that is not finite");
+  EXPECT_EQ(check.fault_of(at(1.7e9, -3e4)), "") << "clocks and odometry begin anywhere";
+}
+
+TEST(ObservationCheck, WhatARobotCanDoIsNoFault) {
+  EXPECT_EQ(second_after(at(10.0, 0.0), at(10.04, 0.02)), "");
+  EXPECT_EQ(second_after(at(10.0, 0.0), at(10.0, 0.0)), "") << "two readings of one moment";
+  EXPECT_EQ(second_after(at(10.0, 0.0), at(3610.0, 900.0)), "") << "an hour's gap in a log";
+  EXPECT_EQ(second_after(at(10.0, 8.0), at(10.1, 0.0)), "") << "odometry that begins again";
+}
+
+TEST(ObservationCheck, AnOdometryThatLeapsIsAFault) {
+  EXPECT_EQ(second_after(at(10.0, 0.0), at(10.5, 50.0)), "returned an odometry that leaps by 50 m within 0.5 s");
+  EXPECT_NE(second_after(at(10.0, -1e300), at(10.5, 1e300)), "");
+}
+
+TEST(ObservationCheck, AClockThatLeapsIsAFault) {
+  EXPECT_EQ(second_after(at(10.0, 0.0), at(9.5, 0.0)), "") << "jitter";
+  EXPECT_EQ(second_after(at(10.0, 0.0), at(5.0, 0.0)), "returned a stamp of 5 s after one of 10 s");
+  EXPECT_NE(second_after(at(10.0, 0.0), at(1e9, 0.0)), "");
+}
+
+TEST(Plausibility, APoseFarFromEveryMapIsAFault) {
+  PoseEstimate pose;
+  EXPECT_EQ(fault_of(pose), "");
+  pose.T_map_robot.y_m = -2e5;
+  EXPECT_EQ(fault_of(pose), "returned a pose 200000 m from the map's origin");
+  pose = {};
+  pose.covariance(2, 2) = kNan;
+  EXPECT_EQ(fault_of(pose), "returned a pose that is not finite");
+}
+
+TEST(Plausibility, ADetectionOutsideOfTheMapIsAFault) {
+  OccupancyGrid grid(0.1);
+  grid.set_log_odds({0, 0}, LogOdds{-500});
+  grid.set_log_odds({50, 40}, LogOdds{500});
+  Matching matching;
+  EXPECT_EQ(fault_of(matching, grid), "") << "nothing was found";
+  matching.detection = Detection{"square", {5.5, 4.5, 0.0}, 0.9, {}};
+  EXPECT_EQ(fault_of(matching, grid), "") << "at the rim";
+  matching.detection->T_map_landmark.x_m = 3000.0;
+  EXPECT_EQ(fault_of(matching, grid), "returned a detection at (3000, 4.5), which is outside of the map");
+  matching.detection->T_map_landmark.x_m = kNan;
+  EXPECT_EQ(fault_of(matching, grid), "returned a detection that is not finite");
+}
+
+}  // namespace
+}  // namespace cairn
