@@ -7,6 +7,12 @@ target_compile_options(cairn_private_options INTERFACE -Wall -Wextra -Wpedantic 
 # GCC 12 warns falsely on std::string concatenation (bug 105651), and of uninitialized values in inlined unity sources.
 target_compile_options(cairn_private_options INTERFACE
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
+if(NOT CAIRN_SANITIZERS)
+  # What a fault in memory can do: little. tests/architecture/hardened.sh looks at what was built.
+  target_compile_options(cairn_private_options INTERFACE
+                         -fstack-protector-strong $<$<CONFIG:Release,RelWithDebInfo>:-D_FORTIFY_SOURCE=2>)
+  target_link_options(cairn_private_options INTERFACE -Wl,-z,relro,-z,now,-z,noexecstack)
+endif()
 if(CAIRN_SANITIZERS)
   # Undefined behaviour that is only reported lets a test pass.
   target_compile_options(cairn_private_options INTERFACE -fsanitize=${CAIRN_SANITIZERS} -fno-sanitize-recover=all
