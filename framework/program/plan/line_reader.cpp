@@ -39,7 +39,7 @@ LineReader::~LineReader() {
 
 void LineReader::stop() {
   // A full pipe has woken it already.
-  static_cast<void>(write(wake_[1], "", 1));
+  if (write(wake_[1], "", 1) < 0) return;
 }
 
 // False at the end, or when stopped.
