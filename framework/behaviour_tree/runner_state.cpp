@@ -46,7 +46,7 @@ void TreeRunner::restore(const TreeState& saved, double time_s) {
     const auto found = by_path.find(node.path);
     if (found == by_path.end()) fail(node, "is not in this step");
     State& state = states_[found->second];
-    if (is_leaf(state.node->kind)) fail(node, "is no node that remembers");
+    if (is_leaf(state.node->kind)) fail(node, "is not a node that remembers");
     if (state.is_running) fail(node, "is there twice");
     const State& parent = states_[state.parent];
     if (found->second != 0 && !parent.is_running) fail(node, "is under way, but the node above it is not");

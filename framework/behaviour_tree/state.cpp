@@ -25,7 +25,7 @@ const ordered_json& member(const ordered_json& object, const char* key) {
 
 std::string text_in(const ordered_json& object, const char* key) {
   const ordered_json& value = member(object, key);
-  if (!value.is_string()) fail(std::string("\"") + key + "\" of a node is no text");
+  if (!value.is_string()) fail(std::string("\"") + key + "\" of a node is not text");
   return value.get<std::string>();
 }
 
@@ -33,12 +33,12 @@ std::uint64_t count_in(const ordered_json& object, const char* key) {
   const ordered_json& value = member(object, key);
   // Far below what any arithmetic on it could overflow.
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > (1ULL << 53U))
-    fail(std::string("\"") + key + "\" of a node is no count");
+    fail(std::string("\"") + key + "\" of a node is not a count");
   return value.get<std::uint64_t>();
 }
 
 Status outcome_of(const ordered_json& value) {
-  if (!value.is_object()) fail("an outcome is no object");
+  if (!value.is_object()) fail("an outcome is not an object");
   const std::string name = text_in(value, "outcome");
   for (std::size_t i = 0; i < kOutcomes.size(); ++i)
     if (name == kOutcomes[i]) return {static_cast<Progress>(i), text_in(value, "reason")};
@@ -46,13 +46,13 @@ Status outcome_of(const ordered_json& value) {
 }
 
 NodeState node_of(const ordered_json& value) {
-  if (!value.is_object()) fail("a node is no object");
+  if (!value.is_object()) fail("a node is not an object");
   NodeState node;
   node.path = text_in(value, "path");
   node.next = count_in(value, "next");
   node.rounds = static_cast<std::int64_t>(count_in(value, "rounds"));
   const ordered_json& begun = member(value, "begun_s");
-  if (!begun.is_number()) fail("\"begun_s\" of a node is no number");
+  if (!begun.is_number()) fail("\"begun_s\" of a node is not a number");
   node.begun_s = begun.get<double>();
   if (!std::isfinite(node.begun_s)) fail("\"begun_s\" of a node is not finite");
   node.failures = text_in(value, "failures");
@@ -91,7 +91,7 @@ TreeState tree_state_of(const std::string& text) {
   try {
     root = ordered_json::parse(text, is_shallow);
   } catch (const ordered_json::exception& error) {
-    fail(std::string("it is no JSON: ") + error.what());
+    fail(std::string("it is not JSON: ") + error.what());
   }
   if (!root.is_object() || !root.contains("running") || !root["running"].is_array())
     fail("it holds no list \"running\"");

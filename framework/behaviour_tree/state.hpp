@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-// Of a node under way that is no leaf.
+// Of a node under way that is not a leaf.
 struct NodeState {
   std::string path{};              // as TreeNode::path
   std::size_t next = 0;            // of nodes with memory: the child to tick, from 0

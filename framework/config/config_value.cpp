@@ -110,7 +110,7 @@ std::string with_variables(const std::string& text, const SourcePlace& place) {
   return out;
 }
 
-// "a/../b" is "b" only where a is no symbolic link.
+// "a/../b" is "b" only where a is not a symbolic link.
 std::filesystem::path simplified(const std::filesystem::path& path) {
   const std::filesystem::path simple = path.lexically_normal();
   std::error_code error;

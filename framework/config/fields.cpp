@@ -117,7 +117,7 @@ void Schema::load_into(void* config, const ConfigValue& value, const std::string
   if (value.kind == ConfigValue::Kind::scalar || value.kind == ConfigValue::Kind::list) {
     if (shorthand.empty()) throw ConfigError(value.place, what + " must be a map, found " + found_text(value));
     const FieldSpec* field = field_of(*this, shorthand);
-    if (field == nullptr) throw std::logic_error(what + ": the shorthand \"" + shorthand + "\" is no field");
+    if (field == nullptr) throw std::logic_error(what + ": the shorthand \"" + shorthand + "\" is not a field");
     check_required(*this, value, what);
     load_short_form(*field, config, value, what);
     return;

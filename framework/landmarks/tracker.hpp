@@ -25,7 +25,7 @@ class LandmarkTracker {
   // What one matching does to the graph. Its degrees are evidence for every landmark at whose place they were
   // found (see add_evidence()), with a detection or without: that is how an early category is corrected and a pose
   // refined. Only detections make new landmarks, and chance likenesses in a growing map come and go: what is
-  // not confirmed yet is a candidate, which gathers evidence too but is no landmark. Landmarks that prove to
+  // not confirmed yet is a candidate, which gathers evidence too but is not a landmark. Landmarks that prove to
   // be one are merged.
   [[nodiscard]] std::vector<Change> update(const Matching& matching);
   // Retires the landmarks, and drops the candidates, whose place has been seen free.

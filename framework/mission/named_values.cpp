@@ -60,7 +60,7 @@ NamedValues saved_named_values(const SavedMap& map) {
   NamedValues values;
   try {
     const ordered_json json = ordered_json::parse(found->second);
-    if (!json.is_object() || json.size() > kMaxNamedValues) throw std::invalid_argument("it is no table of places");
+    if (!json.is_object() || json.size() > kMaxNamedValues) throw std::invalid_argument("it is not a table of places");
     for (const auto& [name, place] : json.items()) values[name] = place_of(place);
   } catch (const std::exception& error) {
     throw StoreError(fmt::format("cannot be resumed: its property {}: {}", kProperty, error.what()));

@@ -61,11 +61,11 @@ void check_symbols(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) throw PluginError(file.string() + ": no such file");
   const ElfFile elf(file);
   if (!elf.is_shared_library())
-    throw PluginError(file.string() + ": cannot be opened as a module: it is no ELF shared library");
+    throw PluginError(file.string() + ": cannot be opened as a module: it is not an ELF shared library");
   const std::vector<std::string> symbols = elf.exported_symbols();
   for (const char* symbol : {kStampSymbol, kRegisterSymbol})
     if (std::find(symbols.begin(), symbols.end(), symbol) == symbols.end())
-      throw PluginError(file.string() + ": is no Cairn module (it exports no " + symbol +
+      throw PluginError(file.string() + ": is not a Cairn module (it exports no " + symbol +
                         "; end its module.cpp with CAIRN_MODULE)");
 }
 

@@ -11,7 +11,7 @@
 
 namespace cairn {
 
-// A file that is no module, or a module that cannot be used; what() names file and reason.
+// A file that is not a module, or a module that cannot be used; what() names file and reason.
 class PluginError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -15,7 +15,7 @@ class PlaceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The text is wrong on any map: what is no place of any kind, or no route's number.
+// The text is wrong on any map: what is not a place of any kind, or no route's number.
 class MalformedPlace : public PlaceError {
  public:
   using PlaceError::PlaceError;

@@ -114,7 +114,7 @@ void RunRecording::write_sonars(const Observation& observation, std::string_view
   const auto& ranges = observation.ranges;
   for (std::size_t first = 0, last = 0; first < ranges.size(); first = last) {
     while (last < ranges.size() && ranges[last].half_beam_rad == ranges[first].half_beam_rad) ++last;
-    if (last == first) ++last;  // a cone that is no number
+    if (last == first) ++last;  // a cone that is not a number
     text_ += "SONAR";
     append(text_, " ", {2.0 * ranges[first].half_beam_rad});
     text_ += " " + std::to_string(last - first);

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// A sentence may quote a file that is no text.
+// A sentence may quote a file that is not text.
 constexpr auto kBadText = ordered_json::error_handler_t::replace;
 
 // Figures are for people and scripts: micrometres and micro-degrees are enough.

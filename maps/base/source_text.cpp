@@ -66,7 +66,7 @@ std::string text_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw ExchangeError(file.string() + ": cannot be read");
   std::string text;
-  // Block by block: what is no plain file has no size to ask for.
+  // Block by block: what is not a plain file has no size to ask for.
   while (in) {
     const std::size_t before = text.size();
     if (before > kMaxBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");

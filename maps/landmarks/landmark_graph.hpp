@@ -75,7 +75,7 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
-// One that is no landmark any more, with its history.
+// One that is not a landmark any more, with its history.
 struct RetiredLandmark {
   Landmark landmark;
   std::string reason;

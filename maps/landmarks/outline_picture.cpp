@@ -24,10 +24,11 @@ cv::Mat1b grey_picture(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw std::invalid_argument("no such picture: " + file.string());
   // A pipe would be waited for without end.
-  if (!std::filesystem::is_regular_file(file, error)) throw std::invalid_argument(file.string() + " is no plain file");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw std::invalid_argument(file.string() + " is not a plain file");
   PngImage image;
   if (png_image_begin_read_from_file(&image, file.c_str()) == 0)
-    throw std::invalid_argument(file.string() + " is no PNG picture: " + image.message);
+    throw std::invalid_argument(file.string() + " is not a PNG picture: " + image.message);
   if (image.width > kMaxPictureSide_px || image.height > kMaxPictureSide_px)
     throw std::invalid_argument(fmt::format("{} has {} x {} pixels, at most {} x {} are read", file.string(),
                                             image.width, image.height, kMaxPictureSide_px, kMaxPictureSide_px));

@@ -49,7 +49,7 @@ int version_of(Database& database) {
 void save_map(const std::filesystem::path& file, const SavedMap& map) {
   const std::string bytes = bytes_of(map);
   const auto save = [&] {
-    if (!store::may_be_replaced(file)) throw StoreError("is there already and is no saved map: it is left as it is");
+    if (!store::may_be_replaced(file)) throw StoreError("is there already and is not a saved map: it is left as it is");
     store::replace_file(file, bytes);
   };
   store::in_file(file, save, "cannot be written");

@@ -37,7 +37,7 @@ struct SalvagedMap {
 };
 
 // Reads past damaged rows, damaged pages and the end of a truncated file. Routes whose landmarks are lost are left
-// out; clusters that are damaged are made anew. Throws StoreError when the file is no saved map of a version that is
+// out; clusters that are damaged are made anew. Throws StoreError when the file is not a saved map of a version that is
 // known, or nothing of it can be read. Never writes.
 [[nodiscard]] SalvagedMap salvage_map(const std::filesystem::path& file);
 

@@ -98,7 +98,7 @@ void check_motion(const OmplConfig& config, const RobotModel& robot) {
                                   config_detail::number_text(robot.min_turning_radius_m));
   if (config.kinematics == MotionKind::holonomic && config.footprint == PlannerTraits::Shape::outline &&
       !robot.polygon_m.empty())
-    throw ConfigError(kPlace, "the robot's outline is no disc; give kinematics differential, dubins or reeds_shepp");
+    throw ConfigError(kPlace, "the robot's outline is not a disc; give kinematics differential, dubins or reeds_shepp");
   if (config.footprint == PlannerTraits::Shape::outline && !robot.polygon_m.empty()) check_outline(robot);
   if (works_with(config.kinematics, config.algorithm)) return;
   std::string working;

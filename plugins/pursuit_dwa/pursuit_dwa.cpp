@@ -8,7 +8,7 @@
 namespace cairn::pursuit_dwa {
 namespace {
 
-// Of a pose or a path that is no place.
+// Of a pose or a path that is not a place.
 ControlResult stopped(const ControlRequest& request) {
   ControlResult result;
   result.state = ControlState::blocked;

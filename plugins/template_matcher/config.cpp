@@ -14,12 +14,13 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("tau_again", &Config::tau_again, {0.0, 255.0}, "OL",
                 "where a template was above tau_match at the last matching, match again already when OL2 has changed, "
                 "up or down, by more than this; 255: never, as in the paper");
-  fields.choice("trigger", &Config::trigger,
-                {{"since_matching", TriggerRule::since_matching},
-                 {"since_update", TriggerRule::since_update},
-                 {"every_update", TriggerRule::every_update}},
-                "what the rise is counted from: the last matching that covered the cell, or its last update; "
-                "every_update is no gate at all, to compare with: each update is matched where OL2 is above tau_grow");
+  fields.choice(
+      "trigger", &Config::trigger,
+      {{"since_matching", TriggerRule::since_matching},
+       {"since_update", TriggerRule::since_update},
+       {"every_update", TriggerRule::every_update}},
+      "what the rise is counted from: the last matching that covered the cell, or its last update; "
+      "every_update is not a gate at all, to compare with: each update is matched where OL2 is above tau_grow");
   fields.number("tau_grow", &Config::tau_grow, {0.0, 255.0}, "OL",
                 "the searched region grows over neighbours with OL2 above this");
   fields.number("tau_match", &Config::tau_match, {0.0, 1.0}, "", "a template fits when its degree is above this");

@@ -25,7 +25,7 @@ class SensorConformance : public Conformance<Sensor> {
   static constexpr int kMax = 400;          // observations looked at
   static constexpr double kValid_s = 60.0;  // longer than any test drives
 
-  // Up to `most` steps, the last one the first that is no observation. A source that moves goes in a circle.
+  // Up to `most` steps, the last one the first that is not an observation. A source that moves goes in a circle.
   static std::vector<SensorStep> steps_of(Sensor& sensor, int most = kMax) {
     std::vector<SensorStep> steps;
     if (sensor.drive() != nullptr) sensor.drive()->command({0.2, 0.3}, kValid_s);

@@ -40,7 +40,7 @@ std::string error_of(const ModuleLibrary& library, const std::string& name) {
 TEST(ModuleLibrary, SaysThatALibraryIsNoModule) {
   const ModuleLibrary library({folder_of("not_a_module")});
   EXPECT_THAT(library.entries(), IsEmpty());
-  EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("not_a_module.so: is no Cairn module"),
+  EXPECT_THAT(library.faults(), ElementsAre(AllOf(HasSubstr("not_a_module.so: is not a Cairn module"),
                                                   HasSubstr("it exports no cairn_abi_stamp"))));
 }
 

@@ -1,4 +1,4 @@
-// A shared library that is no Cairn module.
+// A shared library that is not a Cairn module.
 extern "C" int unrelated_function() {
   return 42;
 }

@@ -159,7 +159,7 @@ TEST_F(BadMission, ACategoryWithoutATemplateNamesTheNearestOne) {
     EXPECT_THAT(checked.err, HasSubstr("bad.yaml:" + at + name + sentence)) << step;
   }
   EXPECT_THAT(run("- wait: {for_s: 1}", "- goto: ''").err,
-              StartsWith(place("11:11: landmark: \"\" is no landmark; one is an id")));
+              StartsWith(place("11:11: landmark: \"\" is not a landmark; one is an id")));
 }
 
 // Such a mission would be done at once, and take the place of a finished map.
@@ -326,14 +326,14 @@ TEST(BadPlugin, ALibraryThatIsNoModuleIsReportedAndTheOthersStayUsable) {
   const Finished finished =
       run_cairn({"plugins", "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/not_a_module"});
   EXPECT_EQ(finished.exit_status, 1);
-  EXPECT_THAT(finished.err, HasSubstr("not_a_module.so: is no Cairn module"));
+  EXPECT_THAT(finished.err, HasSubstr("not_a_module.so: is not a Cairn module"));
   EXPECT_THAT(finished.out, HasSubstr("simulated_robot"));
 }
 
 TEST(BadPlugin, CheckNamesWhatASystemLibraryLacks) {
   const Finished finished = run_cairn({"plugins", "check", "/lib/x86_64-linux-gnu/libc.so.6"});
   EXPECT_EQ(finished.exit_status, 1);
-  EXPECT_THAT(finished.out, HasSubstr("libc.so.6: is no Cairn module (it exports no cairn_abi_stamp"));
+  EXPECT_THAT(finished.out, HasSubstr("libc.so.6: is not a Cairn module (it exports no cairn_abi_stamp"));
 }
 
 TEST(BadPlugin, CheckFindsAShippedModuleUsable) {

@@ -48,7 +48,7 @@ TEST_F(PluginsNew, AnUnknownKindNamesTheNearest) {
 
 TEST_F(PluginsNew, ANameThatIsNoIdentifierIsRefused) {
   for (const char* name : {"MyDetector", "my-detector", "2nd", "_x", "x_", "a__b", "", "../up", "test"})
-    expect_refused(make("detector", name), "is no name for a module");
+    expect_refused(make("detector", name), "is not a name for a module");
 }
 
 TEST_F(PluginsNew, ANameThatAModuleBearsAlreadyIsRefused) {

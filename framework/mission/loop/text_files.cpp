@@ -8,7 +8,7 @@ Status TextFiles::write(const OutputText& output) {
   const std::string& name = output.file_name;
   const bool is_plain =
       !name.empty() && name != "." && name != ".." && name.find_first_of("/\\\n") == std::string::npos;
-  if (!is_plain) return {Progress::failure, "\"" + name + "\" is no plain file name"};
+  if (!is_plain) return {Progress::failure, "\"" + name + "\" is not a plain file name"};
   const bool is_ours = goes_on_ || written_.contains(name);
   const auto mode = output.append && is_ours ? std::ios::app : std::ios::trunc;
   std::ofstream out(folder_ / name, std::ios::binary | mode);

@@ -8,7 +8,7 @@
 namespace cairn {
 
 // The saved property robot_radius_m, or the radius of the robot model when there is none. file: for the error.
-// Throws StoreError when it is no radius.
+// Throws StoreError when it is not a radius.
 [[nodiscard]] double saved_radius_m(const SavedMap& map, const std::filesystem::path& file);
 
 }  // namespace cairn

@@ -71,9 +71,9 @@ void check_kind(const std::string& kind) {
 void check_name(const std::string& name, const CommonOptions& common) {
   if (!is_lower_snake_case(name))
     throw std::runtime_error(in_quotes(name) +
-                             " is no name for a module: it must be lower_snake_case, such as my_module");
+                             " is not a name for a module: it must be lower_snake_case, such as my_module");
   if (std::find(kTakenTargets.begin(), kTakenTargets.end(), name) != kTakenTargets.end())
-    throw std::runtime_error(in_quotes(name) + " is no name for a module: the build has a target of that name");
+    throw std::runtime_error(in_quotes(name) + " is not a name for a module: the build has a target of that name");
   const ModuleLibrary library(plugin_folders(common.plugin_folders));
   if (const ModuleEntry* taken = library.find_any(name))
     throw std::runtime_error("there is a module " + in_quotes(name) + " already, in " + taken->plugin->file.string());

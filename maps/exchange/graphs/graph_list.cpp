@@ -82,7 +82,7 @@ class Cursor {
     const std::string_view text = required(what, line);
     const auto id = number_from<std::uint64_t>(text);
     if (!id || *id > exchange::kMaxFileId)
-      fail(std::string(what) + " " + in_quotes(text) + " is no whole number of 0 to " +
+      fail(std::string(what) + " " + in_quotes(text) + " is not a whole number of 0 to " +
            std::to_string(exchange::kMaxFileId));
     return static_cast<std::int64_t>(*id);
   }
@@ -98,7 +98,7 @@ class Cursor {
     double value = 0.0;
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::invalid_argument || rest != text.data() + text.size())
-      fail(std::string(what) + " " + in_quotes(text) + " is no number");
+      fail(std::string(what) + " " + in_quotes(text) + " is not a number");
     if (error != std::errc{} || !std::isfinite(value))
       fail(std::string(what) + " " + in_quotes(text) + " is not allowed: it must be a finite number");
     return value;

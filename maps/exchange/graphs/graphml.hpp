@@ -17,7 +17,7 @@
 
 namespace cairn {
 
-// UTF-8 only. Throws ExchangeError with file:line:column: what is no XML or no GraphML, unknown elements and keys, ids
+// UTF-8 only. Throws ExchangeError with file:line:column: what is not XML or no GraphML, unknown elements and keys, ids
 // that are missing or there twice, ends that are no node, nodes without place, numbers that are not finite, negative
 // costs, graphs in nodes, hyperedges, a second graph, a crs in degrees.
 [[nodiscard]] ImportedGraph parse_graphml(std::string_view text, const std::string& file_name);

@@ -48,7 +48,7 @@ class GraphmlReader {
     if (!parsed) fail_no_xml(offset, parsed.description());
     const pugi::xml_node root = document_.document_element();
     if (std::string_view(root.name()) != "graphml")
-      source_.fail(offset_of(root), "is no GraphML: its outer element is <" + std::string(root.name()) + ">");
+      source_.fail(offset_of(root), "is not GraphML: its outer element is <" + std::string(root.name()) + ">");
     read_keys(root);
     const pugi::xml_node graph = only_graph(root);
     read_crs(graph);
@@ -65,8 +65,8 @@ class GraphmlReader {
     const std::size_t last_tag = source_.text().rfind("</");
     const bool is_whole =
         last_tag != std::string_view::npos && source_.text().find("graphml>", last_tag) != std::string_view::npos;
-    if (is_whole) source_.fail(offset, "is no XML: " + why);
-    source_.fail_cut(offset, "is no XML: " + why);
+    if (is_whole) source_.fail(offset, "is not XML: " + why);
+    source_.fail_cut(offset, "is not XML: " + why);
   }
 
   void require_known(const pugi::xml_node& child, const Names& known) const {
@@ -154,7 +154,7 @@ class GraphmlReader {
     for (const pugi::xml_node& child : graph.children()) {
       require_known(child, kKnown);
       const std::string_view name = child.name();
-      if (name == "hyperedge") source_.fail(offset_of(child), "a hyperedge is no route: edges have two ends");
+      if (name == "hyperedge") source_.fail(offset_of(child), "a hyperedge is not a route: edges have two ends");
       if (name == "node") read_node(child);
       if (name == "edge") edges_.push_back(child);
     }

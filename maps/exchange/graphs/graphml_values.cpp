@@ -44,7 +44,7 @@ double GraphmlValues::number(const GraphmlValue& value) const {
   const std::string_view text = trimmed(value.text, kXmlBlanks);
   const auto number = number_from<double>(text);
   if (!number || !std::isfinite(*number))
-    source_.fail(value.offset, std::string(value.name) + " " + in_quotes(text) + " is no finite number");
+    source_.fail(value.offset, std::string(value.name) + " " + in_quotes(text) + " is not a finite number");
   return *number;
 }
 
@@ -81,7 +81,7 @@ int GraphmlValues::take_level() {
   const double level = number(*value);
   if (level != std::floor(level) || std::abs(level) > kMaxLevel)
     source_.fail(value->offset,
-                 "level " + number_text(level) + " is no floor: it must be a whole number of -1000000 to 1000000");
+                 "level " + number_text(level) + " is not a floor: it must be a whole number of -1000000 to 1000000");
   return static_cast<int>(level);
 }
 

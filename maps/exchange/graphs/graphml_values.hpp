@@ -10,7 +10,7 @@
 
 namespace cairn::exchange {
 
-// A reference like "&#xD800;" makes a text that is no UTF-8: throws ExchangeError.
+// A reference like "&#xD800;" makes a text that is not UTF-8: throws ExchangeError.
 void check_text(const SourceText& source, std::string_view text, std::size_t offset);
 inline constexpr std::string_view kXmlBlanks = " \t\r\n";
 

@@ -21,9 +21,10 @@
 
 namespace cairn {
 
-// Throws ExchangeError with file:line:column: what is no JSON, nests deeper than 64 brackets or has a key twice; a
-// feature that is no node and no edge, ids that are no whole numbers of 0 to 2^53 - 1, node ids that are there twice,
-// ends that are no node, negative costs, coordinates that are no 2 or 3 numbers, operations that nav2 does not know.
+// Throws ExchangeError with file:line:column: what is not JSON, nests deeper than 64 brackets or has a key twice; a
+// feature that is not a node and no edge, ids that are no whole numbers of 0 to 2^53 - 1, node ids that are there
+// twice, ends that are no node, negative costs, coordinates that are no 2 or 3 numbers, operations that nav2 does not
+// know.
 [[nodiscard]] ImportedGraph parse_nav2_routes(std::string_view text, const std::string& file_name);
 // Ids are unique across nodes and edges: an edge whose id a node has gets one above all others. Edges have real
 // coordinates: the trajectory, else the kept geometry, else the two ends. Throws std::invalid_argument when annotations

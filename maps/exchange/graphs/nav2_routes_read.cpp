@@ -22,7 +22,7 @@ Json json_in(const SourceText& source, std::size_t begin, std::size_t end) {
     const std::string what = error.what();
     const std::size_t tail = what.find(": ", what.find("column"));
     const std::string reason = tail == std::string::npos ? what : what.substr(tail + 2);
-    source.fail(begin + (error.byte == 0 ? 0 : error.byte - 1), "is no JSON: " + reason);
+    source.fail(begin + (error.byte == 0 ? 0 : error.byte - 1), "is not JSON: " + reason);
   } catch (const nlohmann::json::exception& error) {  // a number that no double holds
     const std::string what = error.what();
     source.fail(begin, "is not accepted: " + what.substr(std::min(what.size(), what.find("] ") + 2)));
@@ -54,7 +54,7 @@ class Feature {
     const auto found = all.find(key);
     if (found == all.end()) fail({"properties"}, std::string("the feature has no ") + key);
     if (!found->is_number_unsigned() || found->get<std::uint64_t>() > exchange::kMaxFileId)
-      fail({"properties", key}, std::string(key) + " " + found->dump() + " is no whole number of 0 to " +
+      fail({"properties", key}, std::string(key) + " " + found->dump() + " is not a whole number of 0 to " +
                                     std::to_string(exchange::kMaxFileId));
     const auto id = found->get<std::int64_t>();
     all.erase(key);
@@ -72,7 +72,7 @@ class Feature {
     const Json* limit = exchange::metadata_in(properties(), "abs_speed_limit");
     if (limit != nullptr && (!limit->is_number() || limit->get<double>() < 0.0))
       fail({"properties", "metadata", "abs_speed_limit"},
-           "abs_speed_limit " + limit->dump() + " is no speed in m/s: it must be a number that is not negative");
+           "abs_speed_limit " + limit->dump() + " is not a speed in m/s: it must be a number that is not negative");
     if (!properties().contains("operations")) return;
     if (const auto fault = exchange::fault_of_operations(properties()["operations"])) {
       Path path{"properties", "operations"};
@@ -126,7 +126,7 @@ class Nav2Reader {
     for (const exchange::JsonMember& member : exchange::members_at(source_, 0, end)) take_member(member, features);
     if (const std::size_t more = exchange::skip_blanks(source_, end); more < source_.text().size())
       source_.fail(more, "nothing may follow the closing bracket");
-    if (!is_collection_) source_.fail(0, "is no FeatureCollection: \"type\": \"FeatureCollection\" is missing");
+    if (!is_collection_) source_.fail(0, "is not a FeatureCollection: \"type\": \"FeatureCollection\" is missing");
     if (features.end == 0) source_.fail(0, "has no \"features\"");
     for (const exchange::JsonSlice& slice : exchange::items_at(source_, features.begin)) take_feature(slice);
     if (nodes_.empty()) source_.fail(features.begin, "holds no node (a Point feature)");

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 Json object_of(const std::string& text, const std::string& whose) {
   if (text.empty()) return Json::object();
-  if (!exchange::is_json_object(text)) throw std::invalid_argument(whose + " is no JSON object");
+  if (!exchange::is_json_object(text)) throw std::invalid_argument(whose + " is not a JSON object");
   return Json::parse(text);
 }
 

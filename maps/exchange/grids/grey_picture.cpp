@@ -34,7 +34,7 @@ GreyPicture PictureSource::sized(std::int64_t width, std::int64_t height) const 
 GreyPicture read_png(const PictureSource& source) {
   PngImage image;
   if (png_image_begin_read_from_memory(&image, source.bytes.data(), source.bytes.size()) == 0)
-    source.fail(std::string("is no PNG picture that can be read: ") + image.message);
+    source.fail(std::string("is not a PNG picture that can be read: ") + image.message);
   GreyPicture picture = source.sized(image.width, image.height);
   const bool in_colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
   const bool has_alpha = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0;
@@ -62,7 +62,7 @@ GreyPicture parse_grey_picture(std::string_view bytes, const std::string& file_n
   if (bytes.starts_with("P2") || bytes.starts_with("P5")) return exchange::read_pgm(source);
   if (bytes.starts_with("\x89PNG")) return exchange::read_png(source);
   if (bytes.starts_with("BM")) return exchange::read_bmp(source);
-  source.fail("is no picture in PGM, PNG or BMP");
+  source.fail("is not a picture in PGM, PNG or BMP");
 }
 
 }  // namespace cairn

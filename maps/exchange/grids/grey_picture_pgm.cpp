@@ -23,7 +23,7 @@ class Numbers {
     if (text.empty()) fail(std::string(what) + " is missing; the file ends here, it may have been cut");
     const auto value = number_from<unsigned>(text);
     if (!value || *value < least || *value > most)
-      fail(std::string(what) + " " + in_quotes(text) + " is no whole number of " + std::to_string(least) + " to " +
+      fail(std::string(what) + " " + in_quotes(text) + " is not a whole number of " + std::to_string(least) + " to " +
            std::to_string(most));
     at_ = end;
     return *value;

@@ -61,8 +61,8 @@ int side_of(const SourceText& source, const Line& value, std::string_view key) {
   constexpr int kMax = OccupancyGrid::kLargestCellIndex;
   const auto side = number_from<int>(value.text);
   if (!side || *side < 1 || *side > kMax)
-    source.fail(value.offset,
-                std::string(key) + " " + in_quotes(value.text) + " is no whole number of 1 to " + std::to_string(kMax));
+    source.fail(value.offset, std::string(key) + " " + in_quotes(value.text) + " is not a whole number of 1 to " +
+                                  std::to_string(kMax));
   return *side;
 }
 

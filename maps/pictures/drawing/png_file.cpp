@@ -19,7 +19,7 @@ void check_may_be_replaced(const std::filesystem::path& file) {
   std::array<png_byte, 8> beginning{};
   std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(beginning.data()), beginning.size());
   if (png_sig_cmp(beginning.data(), 0, beginning.size()) != 0)
-    throw std::runtime_error(file.string() + ": is there already and is no PNG: it is left as it is");
+    throw std::runtime_error(file.string() + ": is there already and is not PNG: it is left as it is");
 }
 
 }  // namespace

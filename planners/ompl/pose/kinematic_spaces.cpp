@@ -100,7 +100,7 @@ class ReedsShepp : public SpaceOfMotions<ob::ReedsSheppStateSpace> {
 
 const MotionSpace& motions_of(const ob::StateSpace& space) {
   const auto* motions = dynamic_cast<const MotionSpace*>(&space);
-  if (motions == nullptr) throw std::logic_error("motion_between: " + space.getName() + " is no space of motions");
+  if (motions == nullptr) throw std::logic_error("motion_between: " + space.getName() + " is not a space of motions");
   return *motions;
 }
 

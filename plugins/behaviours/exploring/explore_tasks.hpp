@@ -55,7 +55,7 @@ struct ExploreTask {
                                                    bool frontiers_wanted, const ExploreTask* previous,
                                                    const TaskSettings& settings, ExploreMemory& memory);
 
-// For when nothing else is left: notes that a free-standing object which is no known landmark is to be
+// For when nothing else is left: notes that a free-standing object which is not a known landmark is to be
 // circled once more, since a second orbit often shows what the first did not. False when there is none.
 bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSettings& settings,
                 ExploreMemory& memory);

@@ -70,7 +70,7 @@ void ExploreMotionSettings::describe(Fields<ExploreMotionSettings>& fields) {
                 "where the robot was is remembered at this "
                 "spacing");
   fields.angle("trace_turn_deg", &C::trace_turn_rad, {1.0, 180.0}, "and after a turn by this");
-  fields.number("moved_m", &C::moved_m, {0.0, 10.0}, "m", "less is no move");
+  fields.number("moved_m", &C::moved_m, {0.0, 10.0}, "m", "less is not a move");
 }
 
 void ExploreFaceSettings::describe(Fields<ExploreFaceSettings>& fields) {

@@ -47,7 +47,7 @@ class LocalMap {
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m, double ahead_m,
                                 double radius_m) const;
 
-  // What a plan of this optimism has taken to be free is no obstacle on the path: only live echoes count there.
+  // What a plan of this optimism has taken to be free is not an obstacle on the path: only live echoes count there.
   void ignore_doubtful(Optimism optimism, const WorldView& world, const Doubts& doubts);
   // The same with all within the robot's radius, and the tight clearance, of a path.
   void ignore_along(const std::vector<Point>& path, const WorldView& world, const Doubts& doubts);

@@ -30,7 +30,7 @@ PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
   PlaceName name{config_detail::to_text(value, key), std::nullopt};
   if (names_nothing(name.text))
     throw ConfigError(value.place, key + ": " + in_quotes(name.text) +
-                                       " is no place; one is [x, y], a landmark's id (L3) or name, or `nearest "
+                                       " is not a place; one is [x, y], a landmark's id (L3) or name, or `nearest "
                                        "CATEGORY`");
   return name;
 }
@@ -39,7 +39,7 @@ std::string to_landmark_name(const ConfigValue& value, const std::string& key) {
   std::string name = config_detail::to_text(value, key);
   if (names_nothing(name))
     throw ConfigError(value.place, key + ": " + in_quotes(name) +
-                                       " is no landmark; one is an id (L3), a name, or `nearest CATEGORY`");
+                                       " is not a landmark; one is an id (L3), a name, or `nearest CATEGORY`");
   return name;
 }
 
@@ -109,7 +109,8 @@ ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, 
 std::string lost(LandmarkId id, const LandmarkGraph& graph) {
   const std::string label = "L" + std::to_string(id);
   const auto retired = graph.retired().find(id);
-  return label + " is no landmark any more" + (retired == graph.retired().end() ? "" : ": " + retired->second.reason);
+  return label + " is not a landmark any more" +
+         (retired == graph.retired().end() ? "" : ": " + retired->second.reason);
 }
 
 }  // namespace cairn::behaviours

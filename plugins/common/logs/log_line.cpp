@@ -68,9 +68,9 @@ double LogLine::metres(std::size_t i, std::string_view what) const {
 }
 
 double LogLine::heading(std::size_t i) const {
-  constexpr double kMax_rad = 1e6;  // an unwrapped heading counts turns; beyond that it is no heading
+  constexpr double kMax_rad = 1e6;  // an unwrapped heading counts turns; beyond that it is not a heading
   const double value = finite(i, "heading");
-  if (std::abs(value) > kMax_rad) throw ConfigError(place(i), "the heading is no angle: " + in_quotes(words_[i]));
+  if (std::abs(value) > kMax_rad) throw ConfigError(place(i), "the heading is not an angle: " + in_quotes(words_[i]));
   return value;
 }
 

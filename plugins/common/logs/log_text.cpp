@@ -17,7 +17,7 @@ std::string why_no_log(const std::filesystem::path& file) {
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) return "there is no such log (recorded data is found through CAIRN_DATA)";
   if (std::filesystem::is_directory(status)) return "is a folder, not a log";
-  return std::filesystem::is_regular_file(status) ? "" : "is no regular file";
+  return std::filesystem::is_regular_file(status) ? "" : "is not a regular file";
 }
 
 }  // namespace

@@ -27,15 +27,15 @@ TEST(TreeState, ReportsWhatIsWrongWithAText) {
   const std::string rest = "\"next\":0,\"rounds\":0,\"begun_s\":0,\"failures\":\"\",\"outcomes\":[]}]}";
   const auto node = [](const std::string& members) { return "{\"running\":[{" + members + "}]}"; };
   EXPECT_EQ(refusal_of("{\"running\":[{\"path\":\"1\"," + rest), "taken");
-  EXPECT_THAT(refusal_of("{"), HasSubstr("it is no JSON"));
+  EXPECT_THAT(refusal_of("{"), HasSubstr("it is not JSON"));
   EXPECT_EQ(refusal_of("[]"), "it holds no list \"running\"");
-  EXPECT_EQ(refusal_of("{\"running\":[3]}"), "a node is no object");
+  EXPECT_EQ(refusal_of("{\"running\":[3]}"), "a node is not an object");
   EXPECT_EQ(refusal_of(node("")), "a node has no \"path\"");
-  EXPECT_EQ(refusal_of(node("\"path\":7")), "\"path\" of a node is no text");
-  EXPECT_EQ(refusal_of(node("\"path\":\"1\",\"next\":-1")), "\"next\" of a node is no count");
-  EXPECT_EQ(refusal_of(node("\"path\":\"1\",\"next\":1e300")), "\"next\" of a node is no count");
+  EXPECT_EQ(refusal_of(node("\"path\":7")), "\"path\" of a node is not text");
+  EXPECT_EQ(refusal_of(node("\"path\":\"1\",\"next\":-1")), "\"next\" of a node is not a count");
+  EXPECT_EQ(refusal_of(node("\"path\":\"1\",\"next\":1e300")), "\"next\" of a node is not a count");
   EXPECT_EQ(refusal_of(node("\"path\":\"1\",\"next\":0,\"rounds\":0,\"begun_s\":\"x\"")),
-            "\"begun_s\" of a node is no number");
+            "\"begun_s\" of a node is not a number");
   EXPECT_EQ(refusal_of(std::string(100000, '[')), "it is nested too deeply");
   EXPECT_EQ(refusal_of(std::string(17U << 20U, ' ')), "it is too long");
 }
@@ -57,7 +57,7 @@ TEST(TreeState, IsTakenByTheTreeThatItIsOfOnly) {
   const auto state = [](std::vector<NodeState> nodes) { return TreeState{std::move(nodes)}; };
   EXPECT_EQ(misfit_of(tree, state({{"1", 0, 2, 4.0}, {"1/1", 1}, {"1/1/2", 1}})), "taken");
   EXPECT_THAT(misfit_of(tree, state({{"2"}})), HasSubstr("is not in this step"));
-  EXPECT_THAT(misfit_of(tree, state({{"1/1/1"}})), HasSubstr("is no node that remembers"));
+  EXPECT_THAT(misfit_of(tree, state({{"1/1/1"}})), HasSubstr("is not a node that remembers"));
   EXPECT_THAT(misfit_of(tree, state({{"1"}, {"1"}})), HasSubstr("is there twice"));
   EXPECT_THAT(misfit_of(tree, state({{"1/1"}})), HasSubstr("the node above it is not"));
   EXPECT_THAT(misfit_of(tree, state({{"1"}, {"1/1", 0}, {"1/1/2"}})), HasSubstr("it is not its turn"));

@@ -109,8 +109,8 @@ TEST(TemplateFile, SaysWhatIsWrongWithArcsPartsAndPictures) {
             "t.yaml:3:17: polygon_m: the polygon has no area: its corners lie in one line");
   EXPECT_EQ(error_in("category: a\npicture: {file: gone.png, cell_m: 0.1}\n"),
             "t.yaml:2:10: picture: no such picture: gone.png");
-  EXPECT_EQ(error_in("category: a\npicture: {file: t.yaml, cell_m: 0.1}\n").substr(0, 44),
-            "t.yaml:2:10: picture: t.yaml is no PNG pictu");
+  EXPECT_EQ(error_in("category: a\npicture: {file: t.yaml, cell_m: 0.1}\n").substr(0, 49),
+            "t.yaml:2:10: picture: t.yaml is not a PNG picture");
   EXPECT_EQ(error_in("category: a\npolygon_m: [[0, 0], [300, 0], [0, 300]]\n").substr(0, 62),
             "t.yaml:2:12: polygon_m must be from 0.01 to 100 m across, is 4");
 }

@@ -159,7 +159,7 @@ TEST_F(PictureOutline, StaysNearTheEdgeOfARoundThing) {
 TEST_F(PictureOutline, SaysWhatIsWrongWithAPicture) {
   EXPECT_THAT(error_of(folder_ / "gone.png"), HasSubstr("no such picture: "));
   std::ofstream(folder_ / "text.png") << "no picture";
-  EXPECT_THAT(error_of(folder_ / "text.png"), HasSubstr("is no PNG picture: "));
+  EXPECT_THAT(error_of(folder_ / "text.png"), HasSubstr("is not a PNG picture: "));
   EXPECT_THAT(error_of(picture({"....", "...."})), HasSubstr("is of one colour"));
   EXPECT_THAT(error_of(picture({"####", "####"})), HasSubstr("is of one colour"));
   EXPECT_THAT(error_of(picture({std::string(2000, '.')})), HasSubstr("2000 x 1 pixels, at most 1024 x 1024"));

@@ -117,7 +117,7 @@ TEST(BadSettings, WhatDoesNotGoTogetherIsReported) {
   EXPECT_EQ(error_of("{kinematics: differential, turning_radius_m: 0.5}", car), "no error") << "it is not asked for";
   RobotModel outlined;
   outlined.polygon_m = {{-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}, {-0.2, 0.1}};
-  EXPECT_THAT(error_of("footprint: robot", outlined), HasSubstr("the robot's outline is no disc"));
+  EXPECT_THAT(error_of("footprint: robot", outlined), HasSubstr("the robot's outline is not a disc"));
   EXPECT_THAT(error_of("{kinematics: dubins, turning_radius_m: 1, algorithm: PRM}"),
               AllOf(HasSubstr("does not do for such kinematics"), HasSubstr("BITstar")));
   EXPECT_THAT(error_of("{length_weight: 0, time_weight: 0}"), HasSubstr("must not both be 0"));

@@ -33,7 +33,7 @@ class CarmenFaults : public ::testing::Test {
 };
 
 TEST_F(CarmenFaults, AHeadingThatIsNoAngleIsRefused) {
-  EXPECT_THAT(fault_of("ODOM 0 0 1e300 0 0 0 1 h 1\n"), testing::HasSubstr("a.log:1:10: the heading is no angle"));
+  EXPECT_THAT(fault_of("ODOM 0 0 1e300 0 0 0 1 h 1\n"), testing::HasSubstr("a.log:1:10: the heading is not an angle"));
 }
 
 TEST_F(CarmenFaults, CountsThatDisagreeAreRefusedAtTheCount) {

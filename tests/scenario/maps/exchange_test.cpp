@@ -113,7 +113,7 @@ TEST_F(Exchange, AMapServerGridKeepsItsPlaceAndItsUnknown) {
   EXPECT_EQ(grid.state(grid.cell_at({-1.75, 1.05})), CellState::free);
   write_text(file("m.pgm"), "P2 3 1 255 0 2x5 254\n");
   EXPECT_EQ(refused({"import", file("m.yaml"), "-o", file("g.cairn")}),
-            "cairn: " + file("m.pgm") + ":1:14: a pixel \"2x5\" is no whole number of 0 to 255\n");
+            "cairn: " + file("m.pgm") + ":1:14: a pixel \"2x5\" is not a whole number of 0 to 255\n");
   std::filesystem::remove(file("m.pgm"));
   EXPECT_EQ(refused({"import", file("m.yaml"), "-o", file("g.cairn")}),
             "cairn: " + file("m.yaml") + ":1:8: image: " + file("m.pgm") + ": no such file\n");

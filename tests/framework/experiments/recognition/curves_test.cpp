@@ -35,7 +35,7 @@ TEST(CountsOf, JudgesTheDetectionsOfEveryThreshold) {
   EXPECT_EQ(counts.counts[0].found, 1);
   EXPECT_EQ(counts.counts[0].right, 1);
   EXPECT_EQ(counts.counts[1].found, 3);
-  EXPECT_EQ(counts.counts[1].right, 1) << "something that is no landmark, and nothing at all";
+  EXPECT_EQ(counts.counts[1].right, 1) << "something that is not a landmark, and nothing at all";
   EXPECT_EQ(counts.counts[2].found, 4);
   EXPECT_EQ(counts.counts[2].right, 2);
 }

@@ -46,7 +46,7 @@ TEST(JudgeRecognition, PairsTheNearestAndReportsTheRest) {
   EXPECT_NEAR(verdicts[0].position_error_m, 0.1, 1e-12);
   EXPECT_NEAR(degrees(*verdicts[0].orientation_error_rad), 5.0, 1e-9) << "a square repeats after 90 deg";
   EXPECT_EQ(verdicts[1].found, "");
-  EXPECT_EQ(verdicts[2].found, "circle") << "a thing that is no landmark";
+  EXPECT_EQ(verdicts[2].found, "circle") << "a thing that is not a landmark";
   EXPECT_FALSE(verdicts[2].is_right());
   EXPECT_EQ(verdicts[3].found, "circle");
   EXPECT_EQ(verdicts[3].is, "");

@@ -45,7 +45,7 @@ TEST_F(TextFilesTest, OnlyPlainNamesAreWritten) {
   for (const char* name : {"", ".", "..", "a/b", "a\\b", "a\nb"}) {
     const Status status = texts.write({name, "text", false});
     EXPECT_EQ(status.progress, Progress::failure) << name;
-    EXPECT_EQ(status.reason, "\"" + std::string(name) + "\" is no plain file name");
+    EXPECT_EQ(status.reason, "\"" + std::string(name) + "\" is not a plain file name");
   }
 }
 

@@ -70,7 +70,7 @@ TEST(GraphList, RefusesUnknownWords) {
 }
 
 TEST(GraphList, RefusesBadIds) {
-  const std::string allowed = " is no whole number of 0 to 9007199254740991";
+  const std::string allowed = " is not a whole number of 0 to 9007199254740991";
   EXPECT_EQ(refused("node -1 0 0\n"), "1:6: the node's id \"-1\"" + allowed);
   EXPECT_EQ(refused("node 1.5 0 0\n"), "1:6: the node's id \"1.5\"" + allowed);
   EXPECT_EQ(refused("node 9007199254740992 0 0\n"), "1:6: the node's id \"9007199254740992\"" + allowed);
@@ -85,7 +85,7 @@ TEST(GraphList, RefusesBadNumbers) {
   EXPECT_EQ(refused("node 1 0 inf\n"), "1:10: y_m \"inf\" is not allowed: it must be a finite number");
   EXPECT_EQ(refused("node 1 0 -1e300\n"), "1:10: the coordinate -1e+300 is not allowed: it must be within 1e+09 m");
   EXPECT_EQ(refused("node 1 0 1e999\n"), "1:10: y_m \"1e999\" is not allowed: it must be a finite number");
-  EXPECT_EQ(refused("node 1 3,5 0\n"), "1:8: x_m \"3,5\" is no number");
+  EXPECT_EQ(refused("node 1 3,5 0\n"), "1:8: x_m \"3,5\" is not a number");
   EXPECT_EQ(refused("edge 1 2 -0.5\nnode 1 0 0\n"), "1:10: the cost -0.5 is not allowed: it must not be negative");
   EXPECT_EQ(refused("edge 1 2 NaN\n"), "1:10: the cost \"NaN\" is not allowed: it must be a finite number");
   EXPECT_EQ(refused("edge 1 2 -inf\n"), "1:10: the cost \"-inf\" is not allowed: it must be a finite number");

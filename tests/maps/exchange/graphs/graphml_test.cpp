@@ -113,13 +113,13 @@ TEST(GraphMl, RefusesBadNodes) {
   EXPECT_EQ(refused("<node/>"), "2:2: a node needs an id");
   EXPECT_EQ(refused("<node id=\"a\"/>"), "2:2: node \"a\" has no place: the keys x and y, in metres");
   EXPECT_EQ(refused(node("a") + node("b") + node("a")), "4:2: node \"a\" is there already, in line 2");
-  EXPECT_EQ(refused(R"(<node id="1"><data key="d0">nan</data></node>)"), "2:15: x \"nan\" is no finite number");
+  EXPECT_EQ(refused(R"(<node id="1"><data key="d0">nan</data></node>)"), "2:15: x \"nan\" is not a finite number");
   EXPECT_EQ(refused(R"(<node id="1"><data key="d0">2e9</data></node>)"),
             "2:15: the coordinate 2e+09 is not allowed: it must be within 1e+09 m");
-  EXPECT_EQ(refused(R"(<node id="1"><data key="d0"/></node>)"), "2:15: x \"\" is no finite number");
+  EXPECT_EQ(refused(R"(<node id="1"><data key="d0"/></node>)"), "2:15: x \"\" is not a finite number");
   EXPECT_EQ(refused(R"(<node id="1"><data key="x">1</data></node>)"), "2:15: the key \"x\" is not declared");
   EXPECT_EQ(refused(node("1", "<data key=\"d7\">1.5</data>")),
-            "2:65: level 1.5 is no floor: it must be a whole number of -1000000 to 1000000");
+            "2:65: level 1.5 is not a floor: it must be a whole number of -1000000 to 1000000");
   EXPECT_EQ(refused(node("1", "<data key=\"d9\">[1]</data>")), "2:65: annotations must be the text of a JSON object");
   EXPECT_EQ(refused(node("1", "<data key=\"d2\">&#xD800;</data>")),
             "2:65: the text names a character that does not exist (&#...;)");
@@ -133,16 +133,16 @@ TEST(GraphMl, RefusesBadEdges) {
   EXPECT_EQ(refused(node("1") + "<edge target=\"1\"/>"), "3:2: source: there is no node \"\"");
   const auto loop = [](const std::string& data) { return refused(node("1") + edge("1", "1", data)); };
   EXPECT_EQ(loop("<data key=\"d3\">-1</data>"), "3:2: the cost -1 is not allowed: it must not be negative");
-  EXPECT_EQ(loop("<data key=\"d3\">inf</data>"), "3:30: weight \"inf\" is no finite number");
+  EXPECT_EQ(loop("<data key=\"d3\">inf</data>"), "3:30: weight \"inf\" is not a finite number");
   EXPECT_EQ(loop("<data key=\"d4\">maybe</data>"), "3:30: closed \"maybe\" is neither true nor false");
   EXPECT_EQ(loop("<data key=\"d8\">0</data>"), "3:2: speed_limit_mps 0 is not allowed: it must be above 0");
-  EXPECT_EQ(refused(node("1") + "<hyperedge/>"), "3:2: a hyperedge is no route: edges have two ends");
+  EXPECT_EQ(refused(node("1") + "<hyperedge/>"), "3:2: a hyperedge is not a route: edges have two ends");
 }
 
 TEST(GraphMl, RefusesWhatIsNoGraphMl) {
   const auto refused_text = [](const std::string& text) { return refusal_of(parse_graphml, text); };
-  EXPECT_EQ(refused_text(""), "1:1: is no XML: No document element found; the file ends here, it may have been cut");
-  EXPECT_EQ(refused_text("<gexf/>"), "1:2: is no GraphML: its outer element is <gexf>");
+  EXPECT_EQ(refused_text(""), "1:1: is not XML: No document element found; the file ends here, it may have been cut");
+  EXPECT_EQ(refused_text("<gexf/>"), "1:2: is not GraphML: its outer element is <gexf>");
   EXPECT_EQ(refused_text("<graphml/>"), "1:2: holds no graph");
   EXPECT_EQ(refused_text("<graphml><graph/></graphml>"), "1:11: edgedefault must be directed or undirected, is \"\"");
   EXPECT_EQ(refused_text("<graphml>\n<graphs/></graphml>"),
@@ -150,7 +150,7 @@ TEST(GraphMl, RefusesWhatIsNoGraphMl) {
   EXPECT_EQ(refused(node("1") + "<egde/>"), "3:2: unknown element <egde> (did you mean \"edge\"?) in <graph>");
   EXPECT_EQ(refused("</graph>\n<graph>"), "3:2: holds a second graph: a map has one");
   EXPECT_EQ(refused_text("<graphml><key id=\"a\"/><key id=\"a\"/></graphml>"), "1:24: the key \"a\" is there twice");
-  EXPECT_EQ(refused_text("<graphml>\n  <graph></graphml>"), "2:12: is no XML: Start-end tags mismatch");
+  EXPECT_EQ(refused_text("<graphml>\n  <graph></graphml>"), "2:12: is not XML: Start-end tags mismatch");
   EXPECT_EQ(refused_text("<graphml>\xFF</graphml>"), "1:10: is not UTF-8 text");
 }
 
@@ -166,7 +166,7 @@ TEST(GraphMl, EntitiesAreNotExpandedAndDeepNestingIsNotFollowed) {
   EXPECT_EQ(parse_graphml(text, "a").graph.find(1)->name, "&b;");
   std::string deep;
   for (int i = 0; i < 200'000; ++i) deep += "<a:b>";
-  EXPECT_THAT(refused(node("1") + deep), HasSubstr("is no XML"));
+  EXPECT_THAT(refused(node("1") + deep), HasSubstr("is not XML"));
   for (int i = 0; i < 200'000; ++i) deep += "</a:b>";
   EXPECT_EQ(refused(node("1") + deep), "accepted");
 }

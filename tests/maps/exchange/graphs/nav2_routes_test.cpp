@@ -179,11 +179,11 @@ TEST(Nav2Routes, RefusesDegrees) {
 }
 
 TEST(Nav2Routes, RefusesBadIds) {
-  EXPECT_EQ(refused(node(R"("id": -3)")), "4:42: id -3 is no whole number of 0 to 9007199254740991");
-  EXPECT_EQ(refused(node(R"("id": 3.0)")), "4:42: id 3.0 is no whole number of 0 to 9007199254740991");
-  EXPECT_EQ(refused(node(R"("id": "3")")), "4:42: id \"3\" is no whole number of 0 to 9007199254740991");
+  EXPECT_EQ(refused(node(R"("id": -3)")), "4:42: id -3 is not a whole number of 0 to 9007199254740991");
+  EXPECT_EQ(refused(node(R"("id": 3.0)")), "4:42: id 3.0 is not a whole number of 0 to 9007199254740991");
+  EXPECT_EQ(refused(node(R"("id": "3")")), "4:42: id \"3\" is not a whole number of 0 to 9007199254740991");
   EXPECT_EQ(refused(node(R"("id": 9007199254740992)")),
-            "4:42: id 9007199254740992 is no whole number of 0 to 9007199254740991");
+            "4:42: id 9007199254740992 is not a whole number of 0 to 9007199254740991");
   EXPECT_EQ(refused(node("")), "4:35: the feature has no id");
   EXPECT_EQ(refused(node(R"("id": 2)")), "4:42: node 2 is there already, in line 3");
   EXPECT_EQ(refused(edge(R"("id": 3, "startid": 1)")), "4:35: the feature has no endid");
@@ -195,13 +195,13 @@ TEST(Nav2Routes, RefusesBadProperties) {
   const std::string ends = R"("id": 3, "startid": 1, "endid": 2, )";
   EXPECT_EQ(refused(edge(ends + R"("cost": -1)")), "4:79: cost -1 is not allowed: it must not be negative");
   EXPECT_EQ(refused(edge(ends + R"("cost": "dear")")), "4:79: cost must be a number, is string");
-  EXPECT_THAT(refused(edge(ends + R"("cost": NaN)")), StartsWith("4:79: is no JSON: syntax error"));
+  EXPECT_THAT(refused(edge(ends + R"("cost": NaN)")), StartsWith("4:79: is not JSON: syntax error"));
   EXPECT_THAT(refused(edge(ends + R"("cost": 1e999)")), HasSubstr("4:1: is not accepted: number overflow"));
   EXPECT_EQ(refused(edge(ends + R"("overridable": 1)")), "4:86: overridable must be true or false, is number");
   EXPECT_EQ(refused(node(R"("id": 3, "metadata": [])")), "4:57: metadata must be an object, is array");
   EXPECT_EQ(refused(node(R"("id": 3, "frame": 4)")), "4:54: frame must be a text, is number");
   EXPECT_EQ(refused(edge(ends + R"("metadata": {"abs_speed_limit": -1})")),
-            "4:103: abs_speed_limit -1 is no speed in m/s: it must be a number that is not negative");
+            "4:103: abs_speed_limit -1 is not a speed in m/s: it must be a number that is not negative");
   EXPECT_EQ(refused(node(R"("id": 3, "id": 4)")), "4:45: the key \"id\" is in this object twice");
 }
 
@@ -239,7 +239,7 @@ TEST(Nav2Routes, RefusesWhatIsNoFeatureCollection) {
   const auto refused_text = [](const std::string& text) { return refusal_of(parse_nav2_routes, text); };
   EXPECT_EQ(refused_text(""), "1:1: expected an object, {...}; the file ends here, it may have been cut");
   EXPECT_EQ(refused_text("[]"), "1:1: expected an object, {...}, found \"[]\"");
-  EXPECT_EQ(refused_text("{}"), "1:1: is no FeatureCollection: \"type\": \"FeatureCollection\" is missing");
+  EXPECT_EQ(refused_text("{}"), "1:1: is not a FeatureCollection: \"type\": \"FeatureCollection\" is missing");
   EXPECT_EQ(refused_text(R"({"type": "Feature"})"), "1:10: type must be \"FeatureCollection\", is \"\"Feature\"\"");
   EXPECT_EQ(refused_text(R"({"type": "FeatureCollection"})"), "1:1: has no \"features\"");
   EXPECT_EQ(refused_text(R"({"type": "FeatureCollection", "features": []})"), "1:43: holds no node (a Point feature)");

@@ -134,14 +134,14 @@ TEST(GreyPicture, BmpOfFewColoursAndTopRowFirst) {
 
 TEST(GreyPicture, WhatIsNoPictureIsRefused) {
   for (const char* bytes : {"", "P6 1 1 255\nabc", "GIF89a", "\xFF\xD8\xFF\xE0"})
-    EXPECT_EQ(refusal(bytes), " is no picture in PGM, PNG or BMP");
-  EXPECT_EQ(refusal("P5\n3 x\n255\n"), "2:3: the height \"x\" is no whole number of 1 to 131072");
+    EXPECT_EQ(refusal(bytes), " is not a picture in PGM, PNG or BMP");
+  EXPECT_EQ(refusal("P5\n3 x\n255\n"), "2:3: the height \"x\" is not a whole number of 1 to 131072");
   EXPECT_EQ(refusal("P5\n3"), "2:2: the height is missing; the file ends here, it may have been cut");
-  EXPECT_EQ(refusal("P5\n3 2\n0\n"), "3:1: the value of white \"0\" is no whole number of 1 to 65535");
+  EXPECT_EQ(refusal("P5\n3 2\n0\n"), "3:1: the value of white \"0\" is not a whole number of 1 to 65535");
   EXPECT_EQ(refusal("P5 3 2 255\nabcde"), " holds 5 bytes of pixels, too few for 3 x 2; it may have been cut");
-  EXPECT_EQ(refusal("P2 2 1 9\n5 10"), "2:3: a pixel \"10\" is no whole number of 0 to 9");
+  EXPECT_EQ(refusal("P2 2 1 9\n5 10"), "2:3: a pixel \"10\" is not a whole number of 0 to 9");
   EXPECT_EQ(refusal("BM"), " the BMP picture ends too early; it may have been cut");
-  EXPECT_THAT(refusal("\x89PNG\r\n"), testing::StartsWith(" is no PNG picture that can be read: "));
+  EXPECT_THAT(refusal("\x89PNG\r\n"), testing::StartsWith(" is not a PNG picture that can be read: "));
 }
 
 TEST(GreyPicture, WhatIsTooLargeIsRefusedByItsHeader) {

@@ -75,7 +75,7 @@ TEST(MovingAiMap, AHeaderThatIsNotWholeIsRefused) {
 }
 
 TEST(MovingAiMap, SizesThatCannotBeAreRefusedBeforeAnyRow) {
-  const std::string no_side = " is no whole number of 1 to 131072";
+  const std::string no_side = " is not a whole number of 1 to 131072";
   for (const char* side : {"0", "-3", "2.5", "abc", "131073", "99999999999999999999"})
     EXPECT_EQ(refusal("type octile\nheight " + std::string(side) + "\n"),
               "2:8: height \"" + std::string(side) + "\"" + no_side);

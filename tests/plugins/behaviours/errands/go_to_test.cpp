@@ -221,8 +221,9 @@ TEST(GoTo, NeedsExactlyOneGoal) {
   both.at_m = Point{1.0, 1.0};
   EXPECT_THROW(GoTo(both, 1), ConfigError);
   for (const char* nothing : {"\"\"", "nearest", "\"nearest \""})
-    EXPECT_THAT(error_of([&] { GoTo(config_of<GoToConfig>(std::string("landmark: ") + nothing), 1); }),
-                AllOf(StartsWith("mission.yaml:1:11: landmark: "), HasSubstr(" is no landmark; one is an id (L3), a")))
+    EXPECT_THAT(
+        error_of([&] { GoTo(config_of<GoToConfig>(std::string("landmark: ") + nothing), 1); }),
+        AllOf(StartsWith("mission.yaml:1:11: landmark: "), HasSubstr(" is not a landmark; one is an id (L3), a")))
         << nothing;
 }
 

@@ -252,7 +252,7 @@ TEST(Inspect, SaysSoWhenTheLandmarkIsUnknownOrGone) {
   Inspect step = inspect("L1");
   EXPECT_EQ(host.run(step, 5.0).progress, Progress::running);
   host.graph.retire(1, "seen free");
-  EXPECT_EQ(host.tick(step), (Status{Progress::failure, "L1 is no landmark any more: seen free"}));
+  EXPECT_EQ(host.tick(step), (Status{Progress::failure, "L1 is not a landmark any more: seen free"}));
   EXPECT_THAT(error_of([] { inspect("{landmark: L1, rounds_at_most: 0}"); }),
               HasSubstr("mission.yaml:1:32: rounds_at"));
   EXPECT_THAT(error_of([] { inspect("{landmrk: L1}"); }), HasSubstr("(did you mean \"landmark\"?)"));

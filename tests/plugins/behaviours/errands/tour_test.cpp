@@ -120,8 +120,9 @@ TEST(Tour, ReportsWhereItsSettingsAreWrong) {
   EXPECT_EQ(error_of([] { tour("{places: []}"); }),
             "mission.yaml:1:10: places must be a list of 1 to 50 places, found an empty list");
   EXPECT_THAT(error_of([] { tour("{places: [L1, [1, x]]}"); }), HasSubstr("mission.yaml:1:"));
-  EXPECT_THAT(error_of([] { tour("{places: [L1, \"\"]}"); }), HasSubstr("mission.yaml:1:15: places: \"\" is no place"));
-  EXPECT_THAT(error_of([] { tour("{places: [nearest]}"); }), HasSubstr("\"nearest\" is no place"));
+  EXPECT_THAT(error_of([] { tour("{places: [L1, \"\"]}"); }),
+              HasSubstr("mission.yaml:1:15: places: \"\" is not a place"));
+  EXPECT_THAT(error_of([] { tour("{places: [nearest]}"); }), HasSubstr("\"nearest\" is not a place"));
   EXPECT_THAT(error_of([] { tour("{places: L1}"); }), HasSubstr("mission.yaml:1:10: places must be a list"));
   EXPECT_THAT(error_of([] { tour("{places: [L1], order: shortes}"); }), HasSubstr("(did you mean \"shortest\"?)"));
   EXPECT_THAT(error_of([] { tour("{place: [L1]}"); }), HasSubstr("(did you mean \"places\"?)"));
@@ -213,7 +214,7 @@ TEST(ReturnHome, GoesToItsDockByName) {
   ReturnHome lost(config_of<ReturnHomeConfig>("dok"), 1);
   EXPECT_THAT(host.run(lost, 10.0).reason, HasSubstr("no landmark \"dok\" (did you mean \"dock\"?)"));
   EXPECT_THAT(error_of([] { ReturnHome(config_of<ReturnHomeConfig>("{to: \"\"}"), 1); }),
-              HasSubstr("mission.yaml:1:6: to: \"\" is no landmark; one is"));
+              HasSubstr("mission.yaml:1:6: to: \"\" is not a landmark; one is"));
 }
 
 }  // namespace
