@@ -40,8 +40,7 @@ void MissionLoop::run() {
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
     world_.grid = &perception_.begin();
-    perception_.show_earlier_map();
-    world_.coarse = perception_.coarse_grid();
+    world_.coarse = perception_.show_earlier_map();
     ending_ = loop();
   } catch (const GivenUp&) {
     return;  // the thread that gave up reports
@@ -95,7 +94,7 @@ void MissionLoop::tick(Sensed sensed) {
   world_.pose = perception_.localize(observation);
   const CellChanges& cells = perception_.map(observation, world_.pose);
   const Recognition recognised = perception_.recognise(cells, world_.time_s);
-  world_.coarse = perception_.coarse_grid();
+  world_.coarse = recognised.coarse;
   counts_.count_matchings(recognised.matchings);
   for (const Event& event : recognised.events) publisher_.publish(event);
 

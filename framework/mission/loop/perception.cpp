@@ -28,12 +28,12 @@ const OccupancyGrid& Perception::begin() {
 }
 
 // It is no change: a budget that allows no matching keeps old evidence from counting twice.
-void Perception::show_earlier_map() {
-  if (!is_resumed_ || !modules_.detector || grid_->bounds().empty()) return;
+const CoarseGrid* Perception::show_earlier_map() {
+  if (!is_resumed_ || !modules_.detector || grid_->bounds().empty()) return nullptr;
   const std::atomic<bool> cancelled = true;
   Budget nothing;
   nothing.cancel = &cancelled;
-  (void)detect(everything_in(grid_->bounds()), nothing);
+  return detect(everything_in(grid_->bounds()), nothing).coarse;
 }
 
 PoseEstimate Perception::localize(const Observation& observation) {
@@ -55,21 +55,21 @@ const CellChanges& Perception::map(const Observation& observation, const PoseEst
   return modules_.mapper.call([&](Mapper& mapper) -> const CellChanges& { return mapper.integrate(seen, pose); });
 }
 
-DetectionReport Perception::detect(const CellChanges& changes, const Budget& budget) {
-  DetectionReport report = modules_.detector.call([&](Detector& detector) {
-    DetectionReport found = detector.detect(*grid_, changes, budget);
-    coarse_ = detector.coarse_grid();
-    return found;
+Perception::Detected Perception::detect(const CellChanges& changes, const Budget& budget) {
+  Detected detected = modules_.detector.call([&](Detector& detector) -> Detected {
+    DetectionReport report = detector.detect(*grid_, changes, budget);
+    return {std::move(report), detector.coarse_grid()};
   });
-  for (const Matching& matching : report.matchings)
+  for (const Matching& matching : detected.report.matchings)
     if (const std::string fault = fault_of(matching, *grid_); !fault.empty()) throw modules_.detector.fault(fault);
-  return report;
+  return detected;
 }
 
 Recognition Perception::recognise(const CellChanges& changes, double time_s) {
   Recognition recognised;
   if (!modules_.detector) return recognised;
-  DetectionReport report = detect(changes, budget_);
+  auto [report, coarse] = detect(changes, budget_);
+  recognised.coarse = coarse;
   recognised.matchings = std::ssize(report.matchings);
   for (Matching& matching : report.matchings) {
     const std::vector<LandmarkTracker::Change> changed = tracker_.update(matching);

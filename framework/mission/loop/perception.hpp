@@ -16,7 +16,8 @@ namespace cairn {
 // What a tick has recognised.
 struct Recognition {
   std::int64_t matchings = 0;
-  std::vector<Event> events;  // each matching, and what it has changed in the landmark graph
+  std::vector<Event> events;           // each matching, and what it has changed in the landmark graph
+  const CoarseGrid* coarse = nullptr;  // the detector's
 };
 
 class Perception {
@@ -28,8 +29,8 @@ class Perception {
   void restore(const SavedMap& map);
   // Once, before all below: asks the mapper for its grid. Throws ModuleFault, as all below do.
   const OccupancyGrid& begin();
-  // Once, then: shows the detector what an earlier run has mapped.
-  void show_earlier_map();
+  // Once, then: shows the detector what an earlier run has mapped; its coarse grid.
+  const CoarseGrid* show_earlier_map();
 
   // The stages of a tick, in their order.
   [[nodiscard]] PoseEstimate localize(const Observation& observation);
@@ -37,12 +38,15 @@ class Perception {
   const CellChanges& map(const Observation& observation, const PoseEstimate& pose);
   [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s);
 
-  [[nodiscard]] const CoarseGrid* coarse_grid() const { return coarse_; }  // as of the last recognise(); may be null
   [[nodiscard]] LandmarkTracker& tracker() { return tracker_; }
   [[nodiscard]] const LandmarkTracker& tracker() const { return tracker_; }
 
  private:
-  [[nodiscard]] DetectionReport detect(const CellChanges& changes, const Budget& budget);
+  struct Detected {
+    DetectionReport report;
+    const CoarseGrid* coarse = nullptr;
+  };
+  [[nodiscard]] Detected detect(const CellChanges& changes, const Budget& budget);
   void add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const;
 
   const MissionConfig& config_;
@@ -52,7 +56,6 @@ class Perception {
   HoldOut hold_out_;
   Observation for_map_;  // without what is held out; a member for its memory only
   const OccupancyGrid* grid_ = nullptr;
-  const CoarseGrid* coarse_ = nullptr;
   double last_freed_check_s_ = 0.0;
   bool is_resumed_ = false;
 };

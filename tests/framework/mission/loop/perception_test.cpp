@@ -162,7 +162,7 @@ TEST_F(PerceptionTest, TheGridOfAnEarlierRunIsShownToTheDetectorWithoutAnyMatchi
   perception().restore(map);
   detector_->next.matchings = {square_at(1.0)};
   (void)perception().begin();
-  perception().show_earlier_map();
+  (void)perception().show_earlier_map();
   EXPECT_EQ(detector_->shown, 1);
   EXPECT_TRUE(perception().tracker().graph().landmarks().empty());
   EXPECT_EQ(perception().tracker().driven_path(), map.driven_path);
@@ -172,7 +172,7 @@ TEST_F(PerceptionTest, WithoutADetectorNothingIsRecognised) {
   built_.detector = nullptr;
   (void)perception().begin();
   EXPECT_TRUE(perception().recognise({}, 10.0).events.empty());
-  EXPECT_EQ(perception().coarse_grid(), nullptr);
+  EXPECT_EQ(perception().recognise({}, 0.5).coarse, nullptr);
 }
 
 }  // namespace
