@@ -16,12 +16,14 @@ namespace {
 
 constexpr std::string_view kMagic = "cairn module trial 1\n";
 
-// Empty when it is no plain file, or cannot be read.
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30U;  // of a module file that is remembered
+
+// Empty when it is no plain file, too large, or cannot be read.
 std::string bytes_of(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return "";
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) return "";
+  if (error || size > kMaxBytes) return "";
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
   return in.read(bytes.data(), static_cast<std::streamsize>(size)) ? bytes : "";

@@ -9,6 +9,23 @@
 namespace cairn {
 namespace {
 
+// A folder that does not exist, or cannot be read, is one more fault.
+std::vector<std::filesystem::path> files_of(const std::vector<std::filesystem::path>& folders,
+                                            std::vector<std::string>& faults) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& folder : folders) {
+    try {
+      const std::vector<std::filesystem::path> found = module_files(folder);
+      files.insert(files.end(), found.begin(), found.end());
+    } catch (const std::filesystem::filesystem_error& error) {
+      faults.push_back(folder.string() + (std::filesystem::is_directory(folder)
+                                              ? ": the plugin folder cannot be read: " + error.code().message()
+                                              : ": no such plugin folder"));
+    }
+  }
+  return files;
+}
+
 std::vector<ModuleSummary> summaries_of(const LoadedPlugin& plugin) {
   std::vector<ModuleSummary> summaries;
   for (const RegisteredModule& module : plugin.modules) summaries.push_back({module.kind, module.name, module.summary});
@@ -24,23 +41,17 @@ std::vector<TrialOutcome> outcomes_of(const std::vector<std::filesystem::path>& 
 }  // namespace
 
 void ModuleLibrary::Files::add_folders(const std::vector<std::filesystem::path>& folders) {
-  for (const auto& folder : folders) {
-    if (!std::filesystem::is_directory(folder)) {
-      faults_.push_back(folder.string() + ": no such plugin folder");
-      continue;
-    }
-    const std::vector<std::filesystem::path> files = module_files(folder);
-    if (trial_) {
-      const std::vector<TrialOutcome> outcomes = outcomes_of(files, *trial_);
-      for (std::size_t i = 0; i < files.size(); ++i) adopt(files[i], outcomes[i]);
-      continue;
-    }
-    for (const auto& file : files) {
-      try {
-        adopt(std::make_unique<LoadedPlugin>(load_plugin(file)));
-      } catch (const PluginError& error) {
-        faults_.emplace_back(error.what());
-      }
+  const std::vector<std::filesystem::path> files = files_of(folders, faults_);
+  if (trial_) {
+    const std::vector<TrialOutcome> outcomes = outcomes_of(files, *trial_);
+    for (std::size_t i = 0; i < files.size(); ++i) adopt(files[i], outcomes[i]);
+    return;
+  }
+  for (const auto& file : files) {
+    try {
+      adopt(std::make_unique<LoadedPlugin>(load_plugin(file)));
+    } catch (const PluginError& error) {
+      faults_.emplace_back(error.what());
     }
   }
 }

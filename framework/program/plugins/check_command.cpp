@@ -71,16 +71,16 @@ std::vector<CheckedFile> checked_files(const std::vector<std::filesystem::path>&
   return all;
 }
 
-// All that there are, and the folders that there are not.
-std::vector<std::filesystem::path> all_files(const CommonOptions& common, std::vector<std::string>& missing_folders) {
+// All that there are, and what is wrong with the folders.
+std::vector<std::filesystem::path> all_files(const CommonOptions& common, std::vector<std::string>& folder_faults) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& folder : plugin_folders(common.plugin_folders)) {
-    if (!std::filesystem::is_directory(folder)) {
-      missing_folders.push_back(folder.string() + ": no such plugin folder");
-      continue;
+    try {
+      const std::vector<std::filesystem::path> found = module_files(folder);
+      files.insert(files.end(), found.begin(), found.end());
+    } catch (const std::filesystem::filesystem_error& error) {
+      folder_faults.push_back(folder.string() + ": the plugin folder cannot be read: " + error.code().message());
     }
-    const std::vector<std::filesystem::path> found = module_files(folder);
-    files.insert(files.end(), found.begin(), found.end());
   }
   return files;
 }
@@ -124,21 +124,21 @@ std::string line_text(const CheckedFile& checked) {
 }  // namespace
 
 int plugins_check(const PluginsCheckCommand& command, const CommonOptions& common) {
-  std::vector<std::string> missing_folders;
+  std::vector<std::string> folder_faults;
   const std::vector<std::filesystem::path> files =
-      command.files.empty() ? all_files(common, missing_folders) : command.files;
+      command.files.empty() ? all_files(common, folder_faults) : command.files;
   const std::vector<CheckedFile> checked = checked_files(files, common);
   const bool is_one = command.files.size() == 1;
   std::ostream& people = common.json ? std::cerr : std::cout;
   ordered_json rows = ordered_json::array();
-  bool all_good = missing_folders.empty();
+  bool all_good = folder_faults.empty();
   for (const CheckedFile& file : checked) {
     all_good = all_good && file.faults.empty();
     people << (is_one ? long_text(file) : line_text(file));
     rows.push_back(json_of(file));
   }
-  for (const std::string& missing : missing_folders) std::cerr << missing << "\n";
-  if (common.json) print_json(is_one ? rows.front() : ordered_json{{"files", rows}, {"faults", missing_folders}});
+  for (const std::string& fault : folder_faults) std::cerr << fault << "\n";
+  if (common.json) print_json(is_one ? rows.front() : ordered_json{{"files", rows}, {"faults", folder_faults}});
   return all_good ? kExitDone : kExitNotSolved;
 }
 
