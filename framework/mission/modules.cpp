@@ -69,8 +69,8 @@ std::shared_ptr<Controller> build_controller(const Mission& mission, const Modul
 // What is no behaviour may be meant for a node.
 [[noreturn]] void fail_unknown(const ModuleLibrary& library, const TreeNode& node) {
   std::vector<std::string> known;
-  for (const ModuleEntry& entry : library.entries())
-    if (entry.module->kind == PluginKind::behaviour) known.push_back(entry.module->name);
+  for (const KnownModule& module : library.known())
+    if (module.kind == PluginKind::behaviour) known.push_back(module.name);
   const std::vector<std::string> nodes = node_names();
   std::vector<std::string> names = known;
   names.insert(names.end(), nodes.begin(), nodes.end());

@@ -4,85 +4,60 @@
 #include <cstdlib>
 
 #include "framework/contracts/adapters/lone_planners.hpp"
+#include "framework/modules/module_files.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
-namespace {
-
-std::vector<std::filesystem::path> module_files(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".so") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+ModuleLibrary::ModuleLibrary(const std::vector<std::filesystem::path>& folders,
+                             std::shared_ptr<const ModuleTrial> trial)
+    : files_(std::make_unique<Files>(std::move(trial))) {
+  files_->add_folders(folders);
 }
-
-}  // namespace
-
-ModuleLibrary::ModuleLibrary(const std::vector<std::filesystem::path>& folders) {
-  for (const auto& folder : folders) {
-    if (!std::filesystem::is_directory(folder)) {
-      faults_.push_back(folder.string() + ": no such plugin folder");
-      continue;
-    }
-    for (const auto& file : module_files(folder)) {
-      try {
-        adopt(std::make_unique<LoadedPlugin>(load_plugin(file)));
-      } catch (const PluginError& error) {
-        faults_.emplace_back(error.what());
-      }
-    }
-  }
-}
+ModuleLibrary::ModuleLibrary(ModuleLibrary&&) noexcept = default;
+ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&&) noexcept = default;
+ModuleLibrary::~ModuleLibrary() = default;
 
 void ModuleLibrary::add(const std::string& origin, const Registrar& registrar) {
-  auto plugin = std::make_unique<LoadedPlugin>();
-  plugin->file = origin;
-  plugin->stamp = this_abi_stamp();
-  plugin->modules = registrar.modules();
-  adopt(std::move(plugin));
+  LoadedPlugin plugin;
+  plugin.file = origin;
+  plugin.stamp = this_abi_stamp();
+  plugin.modules = registrar.modules();
+  files_->add(std::move(plugin));
 }
 
-void ModuleLibrary::adopt(std::unique_ptr<LoadedPlugin> plugin) {
-  for (const RegisteredModule& module : plugin->modules) {
-    const ModuleEntry* taken = find_any(module.name);
-    if (taken != nullptr)
-      faults_.push_back(plugin->file.string() + ": the name \"" + module.name + "\" is taken by " +
-                        taken->plugin->file.string());
-    else
-      entries_.push_back({&module, plugin.get()});
-  }
-  plugins_.push_back(std::move(plugin));
+std::vector<KnownModule> ModuleLibrary::known() const {
+  return files_->known();
 }
 
 std::vector<ModuleEntry> ModuleLibrary::entries() const {
-  std::vector<ModuleEntry> sorted = entries_;
-  std::sort(sorted.begin(), sorted.end(), [](const ModuleEntry& a, const ModuleEntry& b) {
-    const auto rank = [](PluginKind kind) { return std::find(std::begin(kPluginKinds), std::end(kPluginKinds), kind); };
-    return std::pair(rank(a.module->kind), a.module->name) < std::pair(rank(b.module->kind), b.module->name);
-  });
-  return sorted;
+  std::vector<ModuleEntry> all;
+  for (const KnownModule& module : known())
+    if (const ModuleEntry* entry = files_->opened(module.name)) all.push_back(*entry);
+  return all;
 }
 
 const ModuleEntry* ModuleLibrary::find_any(const std::string& name) const {
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const ModuleEntry& e) { return e.module->name == name; });
-  return found == entries_.end() ? nullptr : &*found;
+  const ModuleEntry* entry = files_->opened(name);
+  return entry == nullptr && files_->try_fatal_again() ? files_->opened(name) : entry;
+}
+
+std::vector<std::string> ModuleLibrary::faults() const {
+  return files_->faults();
 }
 
 const RegisteredModule& ModuleLibrary::find(PluginKind kind, const std::string& name, const SourcePlace& place) const {
   const std::string kind_text(name_of(kind));
-  std::vector<std::string> names;
-  for (const ModuleEntry& entry : entries())
-    if (serves_as(entry.module->kind, kind)) names.push_back(entry.module->name);
   const ModuleEntry* entry = find_any(name);
   if (entry != nullptr && serves_as(entry->module->kind, kind)) return *entry->module;
   if (entry != nullptr)
     throw ConfigError(
         place, "\"" + name + "\" is a " + std::string(name_of(entry->module->kind)) + " plugin, not a " + kind_text);
+  std::vector<std::string> names;
+  for (const KnownModule& module : known())
+    if (serves_as(module.kind, kind)) names.push_back(module.name);
   std::string sentence = "unknown " + kind_text + " plugin \"" + name + "\"" + did_you_mean(name, names) +
                          "; known are: " + (names.empty() ? "none" : joined(names));
-  for (const std::string& fault : faults_) sentence += "\n  not loaded: " + fault;
+  for (const std::string& fault : faults()) sentence += "\n  not loaded: " + fault;
   throw ConfigError(place, sentence);
 }
 
@@ -103,6 +78,14 @@ std::shared_ptr<void> ModuleLibrary::make_any(PluginKind kind, const PluginChoic
 bool serves_as(PluginKind found, PluginKind wanted) {
   if (wanted != PluginKind::planner) return found == wanted;
   return found == PluginKind::planner || found == PluginKind::path_planner || found == PluginKind::route_planner;
+}
+
+std::vector<std::filesystem::path> module_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".so") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesystem::path>& given) {

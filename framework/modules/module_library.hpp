@@ -6,45 +6,61 @@
 #include <string>
 #include <vector>
 
+#include "framework/modules/module_trial.hpp"
 #include "framework/modules/plugin_loader.hpp"
 
 namespace cairn {
 
-// A module as `cairn plugins` lists it.
+// A module whose file is open.
 struct ModuleEntry {
   const RegisteredModule* module = nullptr;
   const LoadedPlugin* plugin = nullptr;
 };
 
+// A module as `cairn plugins` lists it; its file may not be open.
+struct KnownModule : ModuleSummary {
+  std::filesystem::path file;
+};
+
 class ModuleLibrary : public ModuleMaker {
  public:
-  // Loads every *.so of the folders, sorted by file name. A file that cannot be used, and a name
-  // that is taken, become faults; the others stay usable. A folder that does not exist is a fault.
-  explicit ModuleLibrary(const std::vector<std::filesystem::path>& folders);
+  // Knows every *.so of the folders, sorted by file name. A file that cannot be used, and a name that is taken, become
+  // faults; the others stay usable. A folder that does not exist is a fault.
+  // With a trial, each file is tried there, and opened here when one of its modules is asked for. Without one, all are
+  // opened at once, and a file that crashes or hangs takes this process along.
+  explicit ModuleLibrary(const std::vector<std::filesystem::path>& folders,
+                         std::shared_ptr<const ModuleTrial> trial = nullptr);
+  ModuleLibrary(ModuleLibrary&&) noexcept;
+  ModuleLibrary& operator=(ModuleLibrary&&) noexcept;
+  ~ModuleLibrary() override;
 
   // Modules linked into the program (CAIRN_STATIC_MODULE); origin: what `cairn plugins` calls the file.
   void add(const std::string& origin, const Registrar& registrar);
 
-  [[nodiscard]] std::vector<ModuleEntry> entries() const;  // by kind, then name
+  [[nodiscard]] std::vector<KnownModule> known() const;    // by kind, then name; opens nothing
+  [[nodiscard]] std::vector<ModuleEntry> entries() const;  // the same, all opened
   // The module of that name; where a planner is asked for, a path or route planner will do. Throws ConfigError at the
   // place of the choice: unknown name (nearest one), wrong kind.
   [[nodiscard]] const RegisteredModule& find(PluginKind kind, const std::string& name, const SourcePlace& place) const;
+  // Null: there is none, or its file cannot be opened after all, which is one more fault. Before it answers that there
+  // is none, it tries those files again that were dangerous in an earlier trial.
   [[nodiscard]] const ModuleEntry* find_any(const std::string& name) const;
-  [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
+  [[nodiscard]] std::vector<std::string> faults() const;
 
  private:
   std::shared_ptr<void> make_any(PluginKind kind, const PluginChoice& choice,
                                  const ModuleContext& context) const override;
-  void adopt(std::unique_ptr<LoadedPlugin> plugin);
 
-  std::vector<std::unique_ptr<LoadedPlugin>> plugins_;
-  std::vector<ModuleEntry> entries_;
-  std::vector<std::string> faults_;
+  class Files;
+  std::unique_ptr<Files> files_;
 };
 
 // Whether a module of kind `found` can be made where one of kind `wanted` is asked for: a path or route planner serves
 // as a planner by itself (adapters/lone_planners.hpp).
 [[nodiscard]] bool serves_as(PluginKind found, PluginKind wanted);
+
+// The *.so files of a folder, sorted by name.
+[[nodiscard]] std::vector<std::filesystem::path> module_files(const std::filesystem::path& folder);
 
 // Where modules are looked for: folders given, then CAIRN_PLUGIN_PATH (colon separated), then
 // lib/cairn beside the program's bin folder.

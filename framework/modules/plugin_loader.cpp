@@ -11,6 +11,8 @@
 #include <exception>
 #include <mutex>
 
+#include "framework/modules/printable.hpp"
+
 namespace cairn {
 namespace {
 
@@ -58,15 +60,15 @@ class ElfFile {
 
 // Reads the file's symbol table; runs nothing of it.
 void check_symbols(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw PluginError(file.string() + ": no such file");
+  if (!std::filesystem::is_regular_file(file)) throw PluginError(file, "no such file");
   const ElfFile elf(file);
   if (!elf.is_shared_library())
-    throw PluginError(file.string() + ": cannot be opened as a module: it is not an ELF shared library");
+    throw PluginError(file, "cannot be opened as a module: it is not an ELF shared library");
   const std::vector<std::string> symbols = elf.exported_symbols();
   for (const char* symbol : {kStampSymbol, kRegisterSymbol})
     if (std::find(symbols.begin(), symbols.end(), symbol) == symbols.end())
-      throw PluginError(file.string() + ": is not a Cairn module (it exports no " + symbol +
-                        "; end its module.cpp with CAIRN_MODULE)");
+      throw PluginError(file, std::string("is not a Cairn module (it exports no ") + symbol +
+                                  "; end its module.cpp with CAIRN_MODULE)");
 }
 
 // Never unloaded: exceptions, type information and thread-local objects of a module may outlive all
@@ -79,7 +81,7 @@ const shared_library& open(const std::filesystem::path& file) {
     library.load(boost::dll::fs::path(std::filesystem::absolute(file).string()),
                  boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
   } catch (const std::exception& error) {
-    throw PluginError(file.string() + ": cannot be opened as a module: " + error.what());
+    throw PluginError(file, std::string("cannot be opened as a module: ") + error.what());
   }
   const std::lock_guard lock(mutex);
   return kept.emplace_back(std::move(library));
@@ -89,15 +91,15 @@ void check_stamp(const std::filesystem::path& file, const shared_library& librar
   const auto& theirs = library.get<const AbiStamp>(kStampSymbol);
   const AbiStamp ours = this_abi_stamp();
   if (theirs.magic != ours.magic || theirs.stamp_size != ours.stamp_size)
-    throw PluginError(file.string() + ": its ABI stamp has another form; build it against cairn " + CAIRN_VERSION);
+    throw PluginError(file, "its ABI stamp has another form; build it against cairn " CAIRN_VERSION);
   if (std::memcmp(&theirs, &ours, sizeof(AbiStamp)) != 0)
-    throw PluginError(file.string() + ": was built with another ABI.\n  module:  " + text_of(theirs) +
-                      "\n  program: " + text_of(ours) + "\n  Build the module again against this program's headers.");
+    throw PluginError(file, "was built with another ABI.\n  module:  " + text_of(theirs) + "\n  program: " +
+                                text_of(ours) + "\n  Build the module again against this program's headers.");
 }
 
 }  // namespace
 
-LoadedPlugin load_plugin(const std::filesystem::path& file) {
+LoadedPlugin load_plugin(const std::filesystem::path& file, const std::function<void()>& before_registering) {
   check_symbols(file);
   const shared_library& library = open(file);
   check_stamp(file, library);
@@ -105,12 +107,13 @@ LoadedPlugin load_plugin(const std::filesystem::path& file) {
   plugin.file = file;
   plugin.stamp = library.get<const AbiStamp>(kStampSymbol);
   Registrar registrar;
+  if (before_registering) before_registering();
   try {
     library.get<void(Registrar&)>(kRegisterSymbol)(registrar);
   } catch (const std::exception& error) {
-    throw PluginError(file.string() + ": threw while registering: " + error.what());
+    throw PluginError(file, "threw while registering: " + printable(error.what()));
   } catch (...) {
-    throw PluginError(file.string() + ": threw something that is no std::exception while registering");
+    throw PluginError(file, "threw something that is no std::exception while registering");
   }
   plugin.modules = registrar.modules();
   return plugin;

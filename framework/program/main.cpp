@@ -9,11 +9,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "framework/config/config_value.hpp"
 #include "framework/contracts/abi_stamp.hpp"
+#include "framework/modules/child_trial.hpp"
 #include "framework/program/common/command_line.hpp"
 #include "framework/program/common/mission_options.hpp"
 #include "framework/program/map/file_options.hpp"
@@ -143,8 +145,9 @@ void add_plugins(CLI::App& app, CommandLine& line) {
   const auto [info, i] = add_command(*plugins, line, plugins_info, "info", "Settings of one module");
   info->add_option("NAME", i->name, "module")->required();
   const auto [check, c] =
-      add_command(*plugins, line, plugins_check, "check", "Whether a file is a module that this program can use");
-  check->add_option("FILE", c->file, "shared library (*.so)")->required();
+      add_command(*plugins, line, plugins_check, "check",
+                  "Whether files are modules that this program can use: tries each in a process of its own");
+  check->add_option("FILE", c->files, "shared libraries (*.so); without them, all that are found");
 }
 
 void add_plugins_new(CLI::App& app, CommandLine& line) {
@@ -248,6 +251,8 @@ int main_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is reported like a full disk
+  std::signal(SIGCHLD, SIG_DFL);  // whoever started this program may have ignored how children end
+  if (argc == 3 && std::string_view(argv[1]) == cairn::kModuleTrialArgument) return cairn::run_module_trial(argv[2]);
   try {
     return cairn::main_of(argc, argv);
   } catch (const std::exception& error) {

@@ -2,16 +2,14 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
+#include "framework/modules/cache_folder.hpp"
 #include "framework/modules/module_library.hpp"
 #include "framework/templates/sensed_templates.hpp"
 #include "maps/base/fingerprint.hpp"
@@ -177,32 +175,11 @@ std::optional<std::vector<LandmarkTemplate>> TemplateCache::find(const std::stri
 
 void TemplateCache::keep(const std::string& key, const std::vector<LandmarkTemplate>& templates) const {
   if (folder_.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  const std::filesystem::path file = file_of(key);
-  // Several runs of one process may keep the same templates at once.
-  static std::atomic<int> writes = 0;
-  const std::filesystem::path fresh = fmt::format("{}.{}.{}", file.string(), ::getpid(), ++writes);
-  std::ofstream out(fresh, std::ios::binary);
-  const std::string bytes = encoded(key, templates);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) std::filesystem::rename(fresh, file, error);
-  if (!out || error) std::filesystem::remove(fresh, error);
+  keep_in_cache(file_of(key), encoded(key, templates));
 }
 
 std::filesystem::path template_cache_folder() {
-  const auto variable = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::string(value == nullptr ? "" : value);
-  };
-  if (const std::string chosen = variable("CAIRN_TEMPLATE_CACHE"); !chosen.empty())
-    return chosen == "off" ? std::filesystem::path() : std::filesystem::path(chosen);
-  // The XDG rules say to ignore a relative path.
-  const std::filesystem::path cache = variable("XDG_CACHE_HOME");
-  if (cache.is_absolute()) return cache / "cairn" / "templates";
-  const std::filesystem::path home = variable("HOME");
-  return home.is_absolute() ? home / ".cache" / "cairn" / "templates" : std::filesystem::path();
+  return cache_folder("CAIRN_TEMPLATE_CACHE", "templates");
 }
 
 std::string rendering_key(double step_rad, double cell_m, const SensedOptions& options, const RobotModel& robot,

@@ -174,11 +174,15 @@ int template_capture(const CaptureCommand& command, const CommonOptions& common)
 
 struct PluginsCommand {
   std::string name;
-  std::filesystem::path file;
 };
 int plugins_list(const CommonOptions& common);
 int plugins_info(const PluginsCommand& command, const CommonOptions& common);
-int plugins_check(const PluginsCommand& command, const CommonOptions& common);
+
+struct PluginsCheckCommand {
+  std::vector<std::filesystem::path> files;  // none: all in the plugin folders
+};
+// 1 when one of them cannot be used.
+int plugins_check(const PluginsCheckCommand& command, const CommonOptions& common);
 
 struct NewPluginCommand {
   std::string kind;

@@ -9,6 +9,7 @@
 #include "framework/experiments/trials/table.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
 #include "framework/program/experiment/experiment_charts.hpp"
 
@@ -61,7 +62,7 @@ int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentR
 
 int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   const ExperimentConfig config = load_experiment(command.file, command.overrides);
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  const ModuleLibrary library = module_library(common);
   make_folder(command.out);
   const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel_on_interrupt());
   const std::string table = table_of(config, rows);

@@ -6,6 +6,7 @@
 #include "framework/behaviour_tree/tree_text.hpp"
 #include "framework/mission/check.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/base/text.hpp"
 #include "maps/pictures/tree_picture.hpp"
@@ -64,7 +65,7 @@ std::string size_text(std::size_t steps, std::size_t nodes) {
 }  // namespace
 
 int mission_check(const MissionCheckCommand& command, const CommonOptions& common) {
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   ordered_json rows = ordered_json::array();
   bool all_fine = true;

@@ -7,6 +7,7 @@
 #include "framework/modules/fence.hpp"
 #include "framework/planning/place.hpp"
 #include "framework/planning/tour.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/plan/map_part.hpp"
 #include "framework/program/plan/saved_radius.hpp"
 
@@ -67,7 +68,7 @@ RobotModel robot_of(const PlanCommand& command, const SavedMap& map) {
 MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
     : command_(command),
       many_(!command.queries.empty()),
-      library_(plugin_folders(common.plugin_folders)),
+      library_(module_library(common)),
       file_(opened_in_part(command)),
       map_(file_ ? file_->without_cells() : load_map(command.map)),
       robot_(robot_of(command, map_)),

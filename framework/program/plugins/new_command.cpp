@@ -6,8 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "framework/modules/module_library.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/base/text.hpp"
@@ -74,9 +74,9 @@ void check_name(const std::string& name, const CommonOptions& common) {
                              " is not a name for a module: it must be lower_snake_case, such as my_module");
   if (std::find(kTakenTargets.begin(), kTakenTargets.end(), name) != kTakenTargets.end())
     throw std::runtime_error(in_quotes(name) + " is not a name for a module: the build has a target of that name");
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
-  if (const ModuleEntry* taken = library.find_any(name))
-    throw std::runtime_error("there is a module " + in_quotes(name) + " already, in " + taken->plugin->file.string());
+  for (const KnownModule& taken : module_library(common).known())
+    if (taken.name == name)
+      throw std::runtime_error("there is a module " + in_quotes(name) + " already, in " + taken.file.string());
 }
 
 std::string replaced(std::string text, const std::vector<Replacement>& replacements) {

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
 #include "framework/program/reference/reference.hpp"
 
@@ -17,7 +18,8 @@ void write_reference(const std::filesystem::path& file, const std::string& text)
 }  // namespace
 
 int plugins_reference(const ReferenceCommand& command, const CommonOptions& common) {
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  const ModuleLibrary library = module_library(common);
+  static_cast<void>(library.entries());  // opens all, so that what fails is a fault
   if (!library.faults().empty()) {
     std::string sentence = "a reference without these modules would be incomplete:";
     for (const std::string& fault : library.faults()) sentence += "\n  not loaded: " + fault;

@@ -14,6 +14,7 @@
 #include "framework/modules/fence.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
 #include "framework/program/common/refusal.hpp"
 #include "framework/program/mission/control_server.hpp"
@@ -131,7 +132,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   std::optional<std::int64_t> seed = command.seed;
   const std::optional<SavedMap> resume = map_to_resume(command, seed);
   const Mission mission = load_mission(command.mission, command.overrides, seed);
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   handle_fatal_ends();
   make_folder(command.out);

@@ -8,6 +8,7 @@
 #include "framework/mission/modules.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/templates/template_check.hpp"
 
@@ -93,7 +94,7 @@ void print_check(const TemplateCheck& check, const TemplateCommand& command) {
 
 int template_check(const TemplateCommand& command, const CommonOptions& common) {
   const Mission mission = template_mission(command, "check");
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  const ModuleLibrary library = module_library(common);
   const auto set = std::make_shared<const TemplateSet>(
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); }));
   const CheckedDetector detector{detector_for(*set, "above_threshold"), detector_for(*set, "all")};

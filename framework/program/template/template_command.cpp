@@ -9,6 +9,7 @@
 #include "framework/mission/modules.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/base/text.hpp"
 #include "maps/pictures/template_sheet.hpp"
@@ -63,7 +64,7 @@ int template_list(const TemplateCommand& command, const CommonOptions& common) {
 
 int template_preview(const TemplateCommand& command, const CommonOptions& common) {
   const Mission mission = template_mission(command, "preview");
-  const ModuleLibrary library(plugin_folders(common.plugin_folders));
+  const ModuleLibrary library = module_library(common);
   const TemplateSet set =
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); });
   write_template_sheet(command.picture, set, command.folder.string() + ", " + command.rendering);

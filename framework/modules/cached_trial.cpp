@@ -1,0 +1,98 @@
+#include "framework/modules/cached_trial.hpp"
+
+#include <dlfcn.h>
+#include <sys/stat.h>
+
+#include <cstdint>
+#include <fstream>
+#include <string_view>
+
+#include "framework/contracts/abi_stamp.hpp"
+#include "framework/modules/cache_folder.hpp"
+#include "maps/base/fingerprint.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::string_view kMagic = "cairn module trial 1\n";
+
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30U;  // of a module file that is remembered
+
+// Empty when it is not a plain file, too large, or cannot be read.
+std::string bytes_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return "";
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error || size > kMaxBytes) return "";
+  std::string bytes(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  return in.read(bytes.data(), static_cast<std::streamsize>(size)) ? bytes : "";
+}
+
+// Which build of the program would open the file: another one may fare otherwise.
+std::string this_build() {
+  Dl_info info{};
+  struct stat status {};
+  const auto here = &module_cache_folder;
+  std::string text = text_of(this_abi_stamp());
+  if (::dladdr(reinterpret_cast<const void*>(here), &info) != 0 && ::stat(info.dli_fname, &status) == 0)
+    text += " " + std::to_string(status.st_size) + " " + std::to_string(status.st_mtim.tv_sec) + "." +
+            std::to_string(status.st_mtim.tv_nsec);
+  return text;
+}
+
+// One file a key, named after the key's hash and holding the whole key: two keys are never mixed up.
+struct CacheEntry {
+  std::string key;
+  std::filesystem::path file;
+};
+
+CacheEntry entry_of(const std::string& bytes, const std::filesystem::path& folder) {
+  const std::string key = this_build() + " " + std::to_string(bytes.size()) + " " + fingerprint_of(bytes) + "\n";
+  return {key, folder / (fingerprint_of(key) + ".module")};
+}
+
+std::string entry_text(const CacheEntry& entry, const TrialOutcome& outcome) {
+  const std::string text = std::string(kMagic) + entry.key + text_of(outcome);
+  return text + fingerprint_of(text);
+}
+
+std::optional<TrialOutcome> read_entry(const CacheEntry& entry) {
+  const std::string all = bytes_of(entry.file);
+  const std::string begin = std::string(kMagic) + entry.key;
+  const std::size_t sum = fingerprint_of("").size();
+  if (!all.starts_with(begin) || all.size() < begin.size() + sum) return std::nullopt;
+  const std::string_view text = std::string_view(all).substr(0, all.size() - sum);
+  return all.ends_with(fingerprint_of(text)) ? outcome_from(text.substr(begin.size())) : std::nullopt;
+}
+
+}  // namespace
+
+TrialOutcome CachedTrial::outcome_of(const std::filesystem::path& file) const {
+  const std::string bytes = folder_.empty() ? "" : bytes_of(file);
+  if (bytes.empty()) return trial_->outcome_of(file);
+  std::optional<TrialOutcome> known = read_entry(entry_of(bytes, folder_));
+  if (!known) return try_again(file);
+  known->is_remembered = true;
+  if (!known->fault.empty()) known->fault += " when it was last tried (`cairn plugins check` tries it again)";
+  return *known;
+}
+
+TrialOutcome CachedTrial::try_again(const std::filesystem::path& file) const {
+  const std::string bytes = folder_.empty() ? "" : bytes_of(file);
+  TrialOutcome outcome = trial_->try_again(file);
+  if (bytes.empty()) return outcome;
+  const CacheEntry entry = entry_of(bytes, folder_);
+  std::error_code error;
+  if (outcome.fault.empty() || outcome.is_fatal)
+    keep_in_cache(entry.file, entry_text(entry, outcome));
+  else
+    std::filesystem::remove(entry.file, error);
+  return outcome;
+}
+
+std::filesystem::path module_cache_folder() {
+  return cache_folder("CAIRN_MODULE_CACHE", "modules");
+}
+
+}  // namespace cairn
