@@ -74,7 +74,7 @@ TrialOutcome CachedTrial::outcome_of(const std::filesystem::path& file) const {
   std::optional<TrialOutcome> known = read_entry(entry_of(bytes, folder_));
   if (!known) return try_again(file);
   known->is_remembered = true;
-  if (!known->fault.empty()) known->fault += " when it was last tried (`cairn plugins check` tries it again)";
+  if (!known->fault.empty()) known->fault += " (in an earlier trial; `cairn plugins check` tries again)";
   return *known;
 }
 

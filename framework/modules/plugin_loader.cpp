@@ -81,7 +81,7 @@ const shared_library& open(const std::filesystem::path& file) {
     library.load(boost::dll::fs::path(std::filesystem::absolute(file).string()),
                  boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
   } catch (const std::exception& error) {
-    throw PluginError(file, std::string("cannot be opened as a module: ") + error.what());
+    throw PluginError(file, "cannot be opened as a module: " + printable(error.what(), 1000));
   }
   const std::lock_guard lock(mutex);
   return kept.emplace_back(std::move(library));

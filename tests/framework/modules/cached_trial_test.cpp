@@ -80,7 +80,7 @@ TEST_F(CachedTrialOfAFile, AChangedFileIsTriedAnew) {
 TEST_F(CachedTrialOfAFile, ACrashIsRememberedAndTheMessageSaysSo) {
   fail_fatally();
   EXPECT_EQ(outcome().fault, "crashed");
-  EXPECT_EQ(outcome().fault, "crashed when it was last tried (`cairn plugins check` tries it again)");
+  EXPECT_EQ(outcome().fault, "crashed (in an earlier trial; `cairn plugins check` tries again)");
   EXPECT_TRUE(outcome().is_fatal);
   EXPECT_EQ(count_, 1);
 }
