@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/modules/module_trial.hpp"
 #include "framework/modules/plugin_loader.hpp"
+#include "framework/modules/trial/module_trial.hpp"
 
 namespace cairn {
 

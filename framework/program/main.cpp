@@ -15,7 +15,7 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/contracts/abi_stamp.hpp"
-#include "framework/modules/child_trial.hpp"
+#include "framework/modules/trial/child_trial.hpp"
 #include "framework/program/common/command_line.hpp"
 #include "framework/program/common/mission_options.hpp"
 #include "framework/program/map/file_options.hpp"

@@ -1,4 +1,4 @@
-#include "framework/modules/child_trial.hpp"
+#include "framework/modules/trial/child_trial.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "framework/modules/cached_trial.hpp"
-#include "framework/modules/child_trial.hpp"
+#include "framework/modules/trial/cached_trial.hpp"
+#include "framework/modules/trial/child_trial.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {

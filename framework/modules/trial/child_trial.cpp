@@ -1,4 +1,4 @@
-#include "framework/modules/child_trial.hpp"
+#include "framework/modules/trial/child_trial.hpp"
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "framework/modules/child_process.hpp"
 #include "framework/modules/plugin_loader.hpp"
 #include "framework/modules/printable.hpp"
+#include "framework/modules/trial/child_process.hpp"
 
 namespace cairn {
 namespace {

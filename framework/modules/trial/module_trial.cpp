@@ -1,4 +1,4 @@
-#include "framework/modules/module_trial.hpp"
+#include "framework/modules/trial/module_trial.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "framework/modules/cached_trial.hpp"
+#include "framework/modules/trial/cached_trial.hpp"
 
 #include <dlfcn.h>
 #include <sys/stat.h>

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "framework/modules/module_trial.hpp"
+#include "framework/modules/trial/module_trial.hpp"
 
 namespace cairn {
 

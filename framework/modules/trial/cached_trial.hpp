@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "framework/modules/module_trial.hpp"
+#include "framework/modules/trial/module_trial.hpp"
 
 namespace cairn {
 
