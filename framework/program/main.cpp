@@ -16,6 +16,7 @@
 #include "framework/contracts/abi_stamp.hpp"
 #include "framework/program/common/command_line.hpp"
 #include "framework/program/common/mission_options.hpp"
+#include "framework/program/common/printable_stream.hpp"
 #include "framework/program/map/file_options.hpp"
 
 namespace cairn {
@@ -182,7 +183,7 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
     names.reserve(commands.size());
     for (const CLI::App* command : commands) names.push_back(command->get_name());
     const auto found = std::find(names.begin(), names.end(), argv[i]);
-    if (found == names.end()) return "unknown command \"" + std::string(argv[i]) + "\"" + did_you_mean(argv[i], names);
+    if (found == names.end()) return "unknown command " + in_quotes(argv[i]) + did_you_mean(argv[i], names);
     at = commands[static_cast<std::size_t>(found - names.begin())];
   }
   return std::nullopt;
@@ -248,6 +249,8 @@ int main_of(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is reported like a full disk
+  const cairn::PrintableStream out(std::cout);
+  const cairn::PrintableStream err(std::cerr);
   try {
     return cairn::main_of(argc, argv);
   } catch (const std::exception& error) {
