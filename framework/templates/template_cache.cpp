@@ -2,9 +2,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +13,7 @@
 #include "framework/modules/module_library.hpp"
 #include "framework/templates/sensed_templates.hpp"
 #include "maps/base/fingerprint.hpp"
+#include "maps/base/output_file.hpp"
 
 namespace cairn {
 namespace {
@@ -180,15 +179,11 @@ void TemplateCache::keep(const std::string& key, const std::vector<LandmarkTempl
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   const std::filesystem::path file = file_of(key);
-  // Several runs of one process may keep the same templates at once.
-  static std::atomic<int> writes = 0;
-  const std::filesystem::path fresh = fmt::format("{}.{}.{}", file.string(), ::getpid(), ++writes);
-  std::ofstream out(fresh, std::ios::binary);
-  const std::string bytes = encoded(key, templates);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) std::filesystem::rename(fresh, file, error);
-  if (!out || error) std::filesystem::remove(fresh, error);
+  try {
+    replace_file(file, encoded(key, templates), {.sync = false});
+  } catch (const OutputError&) {
+    return;  // they are rendered again the next time
+  }
 }
 
 std::filesystem::path template_cache_folder() {
