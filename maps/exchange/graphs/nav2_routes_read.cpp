@@ -5,7 +5,6 @@
 #include "maps/base/spelling.hpp"
 #include "maps/exchange/graphs/crs.hpp"
 #include "maps/exchange/graphs/file_ids.hpp"
-#include "maps/exchange/graphs/imported_names.hpp"
 #include "maps/exchange/graphs/nav2_properties.hpp"
 #include "maps/exchange/graphs/nav2_routes.hpp"
 
@@ -182,17 +181,6 @@ class Nav2Reader {
                    "a point must be 2 or 3 numbers, [x_m, y_m] or [x_m, y_m, z_m], is " + in_quotes(point.dump()));
   }
 
-  // A name stands in the metadata or beside them, a category in the metadata alone.
-  void check_names(Feature& feature, const Landmark& landmark) const {
-    const auto offset = [&](const char* key) {
-      if (exchange::metadata_in(feature.properties(), key) != nullptr)
-        return exchange::offset_of(source_, feature.offset(), {"properties", "metadata", key});
-      return exchange::offset_of(source_, feature.offset(), {"properties", key});
-    };
-    exchange::check_name(source_, offset("name"), "name", landmark.name);
-    exchange::check_name(source_, offset("class"), "category", landmark.category);
-  }
-
   void take_node(Feature& feature) {
     feature.check_properties();
     Nav2Node node;
@@ -205,7 +193,7 @@ class Nav2Reader {
     node.landmark.T_map_landmark = {point[0].get<double>(), point[1].get<double>(), 0.0};
     node.landmark.name = exchange::name_in(feature.properties());
     node.landmark.category = exchange::category_in(feature.properties());
-    check_names(feature, node.landmark);
+    exchange::check_names(source_, feature.offset(), feature.properties(), node.landmark);
     if (node.id == 0 && node.landmark.name.empty()) node.landmark.name = "0";
     Json kept = kept_of(feature, node.id);
     if (point.size() == 3) kept["z"] = point[2];
