@@ -136,7 +136,7 @@ class FileBeside {
   [[nodiscard]] int get() const { return opened_.get(); }
   void put_in_place() {
     take_over_mode(opened_.get(), target_);
-    if (::rename(beside_.c_str(), target_.c_str()) != 0) fail_output("cannot be replaced", errno);
+    if (::rename(beside_.c_str(), target_.c_str()) != 0) fail_output("cannot be written", errno);
     is_in_place_ = true;
   }
   [[nodiscard]] int release() { return opened_.release(); }
