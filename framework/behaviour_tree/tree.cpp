@@ -6,6 +6,7 @@
 #include "framework/behaviour_tree/parameters.hpp"
 #include "framework/behaviour_tree/sub_mission_file.hpp"
 #include "framework/config/named_category.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -108,6 +109,9 @@ class TreeReader {
   TreeNode node_of(const ConfigValue& value, const std::string& path) {
     const Item item = item_of(value);
     count(item.place, path);
+    if (const std::size_t found = first_unprintable(item.name); found != std::string::npos)
+      throw ConfigError(item.place,
+                        "the name " + in_quotes(item.name) + " holds " + name_of_unprintable(item.name, found));
     TreeNode node;
     node.name = item.name;
     node.path = path;

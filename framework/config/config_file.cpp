@@ -15,6 +15,7 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/config/unclosed_quote.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/source_text.hpp"
 
 namespace cairn {
@@ -23,6 +24,7 @@ namespace {
 constexpr std::size_t kMaxFileBytes = std::size_t{16} << 20U;
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxValues = 1'000'000;
+constexpr std::string_view kInScalars("\n\t\r\0", 4);  // where a byte 0 is wrong, it is said by what it is wrong for
 
 // Builds the tree from the parser's events, so that no recursion of ours or of the parser goes
 // deeper than kMaxDepth and every alias is paid for before it is copied.
@@ -45,6 +47,8 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& text) override {
+    if (const std::size_t found = first_unprintable(text, kInScalars); found != std::string::npos)
+      fail(mark, "the text " + in_quotes(text) + " holds " + name_of_unprintable(text, found));
     ConfigValue value = begin(ConfigValue::Kind::scalar, mark, tag);
     value.scalar = text;
     value.quoted = tag == kQuotedTag || tag == kTextTag;
@@ -220,9 +224,9 @@ void check_text(const std::string& text, const std::string& file) {
     const auto byte = static_cast<unsigned char>(text[at]);
     const std::size_t bytes = character_bytes(text, at);
     if (bytes == 0) throw ConfigError(place, "not UTF-8 text");
-    if ((byte < 0x20U && byte != '\n' && byte != '\t' && byte != '\r') || byte == 0x7FU) {
-      throw ConfigError(place, "a control character " + in_quotes(text.substr(at, 1)) + "; a file holds text only");
-    }
+    const std::string_view character = std::string_view(text).substr(at, bytes);
+    if (first_unprintable(character, kLineCharacters) != std::string_view::npos)
+      throw ConfigError(place, "a control character " + in_quotes(character) + "; a file holds text only");
     if (byte == '[' || byte == '{') ++brackets;
     if (byte == ']' || byte == '}') brackets = std::max(0, brackets - 1);
     if (brackets > kHopelessBrackets) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -172,8 +173,9 @@ std::filesystem::path resolve_path(const ConfigValue& value) {
   }
   const std::filesystem::path path = with_variables(value.scalar, value.place);
   if (path.empty()) throw ConfigError(value.place, "expected a path, found an empty text");
-  if (path.native().find('\0') != std::string::npos)
-    throw ConfigError(value.place, "a path holds no byte 0, found " + in_quotes(value.scalar));
+  if (const std::size_t found = first_unprintable(path.native()); found != std::string::npos)
+    throw ConfigError(value.place,
+                      "the path " + in_quotes(path.native()) + " holds " + name_of_unprintable(path.native(), found));
   const bool from_a_file = value.place.line > 0;
   if (path.is_absolute() || !from_a_file) return simplified(path);
   return simplified(std::filesystem::path(value.place.file).parent_path() / path);

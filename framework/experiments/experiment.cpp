@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 
 #include "framework/mission/held_out.hpp"
 #include "framework/mission/mission.hpp"
 #include "maps/base/in_parallel.hpp"
+#include "maps/base/output_file.hpp"
 
 namespace cairn {
 namespace {
@@ -47,8 +47,8 @@ std::string write_world(const ExperimentConfig& config, const Job& job, const st
                       "an experiment in random worlds needs a mission whose detector has templates");
   std::filesystem::create_directories(job.out);
   const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
-  std::ofstream(file) << random_world_yaml(config.worlds, shapes, job.variant.specular_ratio,
-                                           static_cast<std::uint64_t>(job.seed));
+  write_file(
+      file, random_world_yaml(config.worlds, shapes, job.variant.specular_ratio, static_cast<std::uint64_t>(job.seed)));
   return file.string();
 }
 
@@ -139,7 +139,7 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
     row.result.outcome = MissionOutcome::module_fault;  // what was measured is not of the whole run
     row.result.reason += "; a listener failed: " + fault;
   }
-  std::ofstream(job.out / "report.json") << listeners.report.report_json(mission, row.result, runner.graph(), {});
+  write_file(job.out / "report.json", listeners.report.report_json(mission, row.result, runner.graph(), {}));
   measure(config, mission, runner, listeners, row);
   for (const StageTime& time : runner.times()) {
     if (time.stage == "detector") row.detector_wall_s += time.total_s;

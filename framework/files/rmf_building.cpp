@@ -51,13 +51,13 @@ class Drawing {  // one level, in its own units, y upwards
     for (const ConfigValue& vertex : list_in(level, "vertices")) {
       if (vertex.kind != ConfigValue::Kind::list || vertex.items.size() < 4)
         throw ConfigError(vertex.place, "a vertex must be [x, y, z, name, {...}], found " + vertex.kind_name());
-      vertices_.push_back({point(vertex, y_sign), config_detail::to_text(vertex.items[3], "the vertex's name"),
-                           properties_of(vertex, 4)});
+      vertices_.push_back(
+          {point(vertex, y_sign), name_in(vertex.items[3], "the vertex's name"), properties_of(vertex, 4)});
     }
     for (const ConfigValue& fiducial : list_in(level, "fiducials")) {
       if (fiducial.kind != ConfigValue::Kind::list || fiducial.items.size() < 3)
         throw ConfigError(fiducial.place, "a fiducial must be [x, y, name], found " + fiducial.kind_name());
-      fiducials_.push_back({point(fiducial, y_sign), config_detail::to_text(fiducial.items[2], "the fiducial's name")});
+      fiducials_.push_back({point(fiducial, y_sign), name_in(fiducial.items[2], "the fiducial's name")});
     }
   }
 

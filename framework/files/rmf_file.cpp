@@ -46,7 +46,7 @@ Vertex vertex_of(const ConfigValue& value, std::vector<std::string>& warnings) {
   vertex.properties = properties_of(value, "vertex");
   warn_of_slips(value, kKnown, warnings);
   if (const ConfigValue* name = vertex.properties.find("name"); name != nullptr)
-    if (name->kind != ConfigValue::Kind::null) vertex.name = config_detail::to_text(*name, "name");
+    if (name->kind != ConfigValue::Kind::null) vertex.name = name_in(*name, "name");
   vertex.properties.erase("name");
   return vertex;
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "framework/config/fields.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 #include "maps/base/yaml_text.hpp"
 
@@ -37,6 +38,13 @@ std::string json_of_scalar(const ConfigValue& value) {
 }
 
 }  // namespace
+
+std::string name_in(const ConfigValue& value, const std::string& what) {
+  std::string name = config_detail::to_text(value, what);
+  if (const std::size_t found = first_unprintable(name); found != std::string::npos)
+    throw ConfigError(value.place, what + " " + in_quotes(name) + " holds " + name_of_unprintable(name, found));
+  return name;
+}
 
 const ConfigValue* Properties::find(const std::string& key) const {
   const auto found = std::ranges::find(entries, key, &std::pair<std::string, ConfigValue>::first);

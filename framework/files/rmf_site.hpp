@@ -12,6 +12,9 @@ namespace cairn::rmf {
 
 inline constexpr double kMaxCoordinate = 1e6;  // pixels in the file, metres in the map
 
+// The name that a value is; without control characters. what: it is for people. Throws ConfigError.
+[[nodiscard]] std::string name_in(const ConfigValue& value, const std::string& what);
+
 struct Properties {
   std::vector<std::pair<std::string, ConfigValue>> entries;
 

@@ -83,7 +83,7 @@ void Autosaver::write(SavedMap& copy) {
   outcome.time_s = copy.progress ? copy.progress->time_s : 0.0;
   try {
     copy.clusters = Hierarchy(copy.graph, copy.clusters).tree();
-    save_map(file_, copy);
+    save_map(file_, copy, Links::replace);
     outcome.saved = true;
   } catch (const std::exception& error) {
     outcome.reason = error.what();

@@ -23,11 +23,12 @@ ModuleContext context_for(const Mission& mission, const ModuleLibrary& library, 
   return {mission.robot, module_seed(mission.config.seed, kind, index), &library};
 }
 
-std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary& library,
-                                     const MissionModules& built) {
+std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary& library, const MissionModules& built,
+                                     const std::atomic<bool>* cancel = nullptr) {
   const World* const world = mission.world ? &*mission.world : nullptr;
   return build<Sensor>(library, mission.config.sensor,
-                       {context_for(mission, library, PluginKind::sensor), world, built.T_map_start, built.begin_s});
+                       {context_for(mission, library, PluginKind::sensor), world, built.T_map_start, built.begin_s,
+                        Budget{.cancel = cancel}});
 }
 
 std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
@@ -150,7 +151,8 @@ std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLib
   return built.detector;
 }
 
-MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume) {
+MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume,
+                             const std::atomic<bool>* cancel) {
   const MissionConfig& config = mission.config;
   MissionModules built;
   built.T_map_start = start_of(config);
@@ -160,7 +162,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
     built.T_map_start = resume->progress->true_T_map_robot.value_or(resume->progress->T_map_robot);
   }
-  built.sensor = build_sensor(mission, library, built);
+  built.sensor = build_sensor(mission, library, built, cancel);
   check_has_steps(config, mission.steps, *built.sensor);
   const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
   if (start) built.T_map_start = *start;

@@ -1,6 +1,7 @@
 // The modules of one mission, built in the order in which they need each other.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -23,9 +24,10 @@ struct MissionModules {
   double begin_s = 0.0;  // the mission's clock
 };
 
-// resume: the map to go on from, or null. Throws ConfigError or ModuleFault; StoreError when the map does not fit.
+// resume: the map to go on from, or null. cancel: ends the reading of a log that is under way. Throws ConfigError or
+// ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
-                                           const SavedMap* resume = nullptr);
+                                           const SavedMap* resume = nullptr, const std::atomic<bool>* cancel = nullptr);
 
 // What is wrong with the mission's modules and their settings, each as `cairn run` would report the first: every module
 // is made once. Costs no rendering of templates.

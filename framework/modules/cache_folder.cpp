@@ -1,10 +1,8 @@
 #include "framework/modules/cache_folder.hpp"
 
-#include <unistd.h>
-
-#include <atomic>
 #include <cstdlib>
-#include <fstream>
+
+#include "maps/base/output_file.hpp"
 
 namespace cairn {
 
@@ -25,14 +23,11 @@ std::filesystem::path cache_folder(const char* variable, const std::string& name
 void keep_in_cache(const std::filesystem::path& file, const std::string& bytes) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  // Several threads of one process may write the same file at once.
-  static std::atomic<int> writes = 0;
-  const std::filesystem::path fresh = file.string() + "." + std::to_string(::getpid()) + "." + std::to_string(++writes);
-  std::ofstream out(fresh, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) std::filesystem::rename(fresh, file, error);
-  if (!out || error) std::filesystem::remove(fresh, error);
+  try {
+    replace_file(file, bytes, {.sync = false});
+  } catch (const OutputError&) {
+    return;  // it is found out again the next time
+  }
 }
 
 }  // namespace cairn

@@ -18,6 +18,7 @@
 #include "framework/modules/trial/child_trial.hpp"
 #include "framework/program/common/command_line.hpp"
 #include "framework/program/common/mission_options.hpp"
+#include "framework/program/common/printable_stream.hpp"
 #include "framework/program/map/file_options.hpp"
 
 namespace cairn {
@@ -185,7 +186,7 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
     names.reserve(commands.size());
     for (const CLI::App* command : commands) names.push_back(command->get_name());
     const auto found = std::find(names.begin(), names.end(), argv[i]);
-    if (found == names.end()) return "unknown command \"" + std::string(argv[i]) + "\"" + did_you_mean(argv[i], names);
+    if (found == names.end()) return "unknown command " + in_quotes(argv[i]) + did_you_mean(argv[i], names);
     at = commands[static_cast<std::size_t>(found - names.begin())];
   }
   return std::nullopt;
@@ -253,6 +254,8 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is reported like a full disk
   std::signal(SIGCHLD, SIG_DFL);  // whoever started this program may have ignored how children end
   if (argc == 3 && std::string_view(argv[1]) == cairn::kModuleTrialArgument) return cairn::run_module_trial(argv[2]);
+  const cairn::PrintableStream out(std::cout);
+  const cairn::PrintableStream err(std::cerr);
   try {
     return cairn::main_of(argc, argv);
   } catch (const std::exception& error) {

@@ -41,10 +41,19 @@ void append_range(std::string& text, const RangeReading& reading) {
     exchange::append_number(text, reading.range_m);
 }
 
+template <class Work>
+auto in_recording(const std::string& file_name, const Work& work) {
+  try {
+    return work();
+  } catch (const OutputError& error) {
+    throw std::runtime_error(file_name + ": the recording " + error.what());
+  }
+}
+
 }  // namespace
 
 RunRecording::RunRecording(const std::filesystem::path& file, const Pose2& T_map_start)
-    : file_name_(file.string()), out_(file, std::ios::binary) {
+    : file_name_(file.string()), out_(in_recording(file_name_, [&] { return GrowingFile(file); })) {
   text_ =
       "# CARMEN log, written by cairn\n"
       "# message formats: PARAM ODOM TRUEPOS SONAR; what the PARAM cairn_ lines say: docs/logs.md\n"
@@ -61,8 +70,7 @@ void RunRecording::on(const Event& event, const MissionView& view) {
 }
 
 void RunRecording::close() {
-  out_.close();
-  if (!out_) throw std::runtime_error(file_name_ + ": the recording cannot be written");
+  in_recording(file_name_, [&] { out_.close(); });
 }
 
 void RunRecording::write(const Observation& observation, const std::optional<GroundTruth>& truth) {
@@ -125,9 +133,8 @@ void RunRecording::write_sonars(const Observation& observation, std::string_view
 }
 
 void RunRecording::flush_text() {
-  out_ << text_;
+  in_recording(file_name_, [&] { out_.append(text_); });
   text_.clear();
-  if (!out_) throw std::runtime_error(file_name_ + ": the recording cannot be written");
 }
 
 }  // namespace cairn

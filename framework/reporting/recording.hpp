@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
 #include "framework/mission/events.hpp"
+#include "maps/base/output_file.hpp"
 
 namespace cairn {
 
@@ -28,7 +28,7 @@ class RunRecording : public Listener {
   void flush_text();
 
   std::string file_name_;
-  std::ofstream out_;
+  GrowingFile out_;
   std::string text_;
   std::unordered_map<std::string, int> numbers_;  // of transducers, by their values as text
   std::vector<int> fired_;                        // in this observation, by number

@@ -1,9 +1,8 @@
 #include "maps/base/spelling.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -58,15 +57,11 @@ std::string in_quotes(std::string_view text) {
   std::size_t end = std::min(text.size(), kShownBytes);
   // Not in the middle of a UTF-8 character.
   while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  for (const char c : text.substr(0, end)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\n') {
+  for (const std::string_view shown = text.substr(0, end); const char c : printable(shown, "\n")) {
+    if (c == '\n')
       out += "\\n";
-    } else if (byte < 0x20U || byte == 0x7FU) {
-      out += fmt::format("\\x{:02x}", byte);
-    } else {
+    else
       out += c;
-    }
   }
   return out + (end < text.size() ? "...\"" : "\"");
 }

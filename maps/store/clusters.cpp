@@ -40,7 +40,7 @@ void read_clusters(Database& database, SavedMap& map) {
   Statement row(database, "SELECT id, level, parent, anchor, name FROM clusters ORDER BY id");
   while (row.step()) {
     Cluster cluster{row.integer_within(0, 1, kMaxId), static_cast<int>(row.integer_within(1, 1, kMaxClusterLevel)),
-                    row.integer_within(2, 0, kMaxId), row.integer(3), row.text(4)};
+                    row.integer_within(2, 0, kMaxId), row.integer(3), row.plain_text(4)};
     check_cluster(cluster, map);
     highest = std::max(highest, cluster.level);
     tree.clusters.emplace(cluster.id, std::move(cluster));

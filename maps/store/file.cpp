@@ -1,16 +1,10 @@
 #include "maps/store/file.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string>
-#include <utility>
 
 #include "maps/store/map_store.hpp"
 #include "maps/store/schema.hpp"
@@ -22,52 +16,6 @@ constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
 [[noreturn]] void fail(const char* what, int error) {
   throw StoreError(what + std::string(": ") + std::strerror(error));
-}
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  [[nodiscard]] int get() const { return fd_; }
-  [[nodiscard]] int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
-
-bool is_still_named(int fd, const std::filesystem::path& name) {
-  struct stat held {};
-  struct stat found {};
-  return ::fstat(fd, &held) == 0 && ::stat(name.c_str(), &found) == 0 && held.st_ino == found.st_ino &&
-         held.st_dev == found.st_dev;
-}
-
-// Opens the file to write in and locks it against other savers. A saver that had to wait holds a file
-// that has been renamed meanwhile, and tries again.
-int open_locked(const std::filesystem::path& name) {
-  for (;;) {
-    const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (fd < 0) fail("cannot be written", errno);
-    Descriptor opened(fd);
-    while (::flock(fd, LOCK_EX) != 0)
-      if (errno != EINTR) fail("cannot be locked against other savers", errno);
-    if (is_still_named(fd, name)) return opened.release();
-  }
-}
-
-void write_all(int fd, std::string_view bytes) {
-  if (::ftruncate(fd, 0) != 0) fail("cannot be written", errno);
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("cannot be written", errno);
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  if (::fsync(fd) != 0) fail("cannot be written", errno);
 }
 
 std::uint32_t big_endian_at(const std::string& bytes, std::size_t offset) {
@@ -91,13 +39,6 @@ Beginning beginning_of(const std::filesystem::path& file) {
   stream.seekg(0, std::ios::end);
   found.file_bytes = static_cast<std::uintmax_t>(std::max<std::streamoff>(stream.tellg(), 0));
   return found;
-}
-
-// A new file is nobody else's than the one that it replaces.
-void take_over_mode(int fd, const std::filesystem::path& replaced) {
-  struct stat found {};
-  if (::stat(replaced.c_str(), &found) == 0 && ::fchmod(fd, found.st_mode & 0777) != 0)
-    fail("cannot be written", errno);
 }
 
 // Offsets as SQLite's file format lays them down.
@@ -126,22 +67,12 @@ bool names_its_program(const std::string& bytes) {
          big_endian_at(bytes, 68) == kMapApplicationId;
 }
 
-void replace_file(const std::filesystem::path& file, std::string_view bytes) {
-  const std::filesystem::path target = std::filesystem::is_symlink(file) ? std::filesystem::canonical(file) : file;
-  const std::filesystem::path beside = target.parent_path() / ("." + target.filename().string() + ".saving");
-  const Descriptor written(open_locked(beside));
+void replace_map(const std::filesystem::path& file, std::string_view bytes, Links links) {
   try {
-    write_all(written.get(), bytes);
-    take_over_mode(written.get(), target);
-    if (::rename(beside.c_str(), target.c_str()) != 0) fail("cannot be replaced", errno);
-  } catch (const StoreError&) {
-    ::unlink(beside.c_str());
-    throw;
+    replace_file(file, bytes, {.links = links});
+  } catch (const OutputError& error) {
+    throw StoreError(error.what());
   }
-  // The rename itself must reach the disk too; file systems that cannot sync a folder need no asking.
-  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.get() >= 0) ::fsync(opened.get());
 }
 
 namespace {
@@ -198,7 +129,8 @@ std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions
   return bytes;
 }
 
-bool may_be_replaced(const std::filesystem::path& file) {
+bool may_be_replaced(const std::filesystem::path& file, Links links) {
+  if (links == Links::replace && std::filesystem::is_symlink(file)) return true;
   if (!std::filesystem::exists(file)) return true;
   if (!std::filesystem::is_regular_file(file)) return false;
   const std::string header = beginning_of(file).header;

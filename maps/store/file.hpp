@@ -32,10 +32,8 @@ auto in_file(const std::filesystem::path& file, Work work, const char* failure =
   }
 }
 
-// Gives the file this content: whoever opens it at any moment, also after a kill or a power cut,
-// finds the whole old or the whole new content. Writes beside the file, then renames over it.
-// Savers of the same file take turns. Throws StoreError, and the old content stays.
-void replace_file(const std::filesystem::path& file, std::string_view bytes);
+// As cairn::replace_file(), with a StoreError.
+void replace_map(const std::filesystem::path& file, std::string_view bytes, Links links);
 
 // Refuses, with a StoreError, what no saved map of a known schema version begins like.
 void check_header(const std::filesystem::path& file);
@@ -49,7 +47,7 @@ void check_header(const std::filesystem::path& file);
 [[nodiscard]] std::string as_far_as_it_goes(std::string bytes, const EmptyMapFile* definitions);
 
 // Whether the file is absent, empty or begins as a saved map of any version, so that saving a map over it destroys
-// nothing else that was named by mistake.
-[[nodiscard]] bool may_be_replaced(const std::filesystem::path& file);
+// nothing else that was named by mistake. A link that is replaced itself may.
+[[nodiscard]] bool may_be_replaced(const std::filesystem::path& file, Links links);
 
 }  // namespace cairn::store

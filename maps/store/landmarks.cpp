@@ -7,7 +7,7 @@
 namespace cairn::store {
 
 std::string annotations_in(const Statement& row, int column) {
-  std::string text = row.text(column);
+  std::string text = row.plain_text(column);
   if (!text.empty() && !exchange::is_json_object(text)) throw StoreError("column annotations holds no JSON object");
   return text;
 }
@@ -25,8 +25,8 @@ Landmark landmark_in(Statement& row, Histories& histories) {
     landmark.evidence = std::move(history.mapped().evidence);
   }
   landmark.level = static_cast<int>(row.integer_within(1, -kMaxLevel, kMaxLevel));
-  landmark.name = row.text(2);
-  landmark.category = row.text(3);
+  landmark.name = row.plain_text(2);
+  landmark.category = row.plain_text(3);
   landmark.T_map_landmark = row.pose(4);
   landmark.degree = row.real(7);
   landmark.sightings = static_cast<int>(row.integer_within(8, 0, kMaxInt));
@@ -47,7 +47,7 @@ void read_retired_landmarks(Reading& reading, LandmarkGraph& graph, Histories& h
   reading.rows("retired_landmarks", "SELECT * FROM retired_landmarks ORDER BY id", [&](Statement& row) {
     Landmark landmark = landmark_in(row, histories);
     landmark.annotations = annotations_in(row, 13);
-    graph.add_retired({std::move(landmark), row.text(12)});
+    graph.add_retired({std::move(landmark), row.plain_text(12)});
   });
 }
 
@@ -56,12 +56,12 @@ Histories read_histories(Reading& reading, const std::string& prefix) {
   Histories histories;
   const std::string templates = prefix + "_templates";
   reading.rows(templates, "SELECT * FROM " + templates + " ORDER BY landmark, rank", [&](Statement& row) {
-    histories[row.integer(0)].templates.push_back({row.text(2), row.real(3), row.real(4)});
+    histories[row.integer(0)].templates.push_back({row.plain_text(2), row.real(3), row.real(4)});
   });
   const std::string evidence = prefix + "_evidence";
   reading.rows(evidence, "SELECT * FROM " + evidence + " ORDER BY landmark, category", [&](Statement& row) {
     const int matchings = static_cast<int>(row.integer_within(2, 0, kMaxInt));
-    histories[row.integer(0)].evidence.push_back({row.text(1), matchings, row.real(3), row.real(4), row.real(5)});
+    histories[row.integer(0)].evidence.push_back({row.plain_text(1), matchings, row.real(3), row.real(4), row.real(5)});
   });
   return histories;
 }
@@ -76,7 +76,7 @@ MissionProgress progress_in(const Statement& row) {
   MissionProgress progress;
   progress.time_s = row.real(1);
   progress.step = static_cast<int>(row.integer_within(2, 0, kMaxInt));
-  progress.step_name = row.text(3);
+  progress.step_name = row.plain_text(3);
   progress.T_map_robot = row.pose(4);
   progress.true_T_map_robot = row.optional_pose(7);
   progress.distance_m = row.real(10);

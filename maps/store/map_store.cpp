@@ -46,11 +46,12 @@ int version_of(Database& database) {
 
 }  // namespace
 
-void save_map(const std::filesystem::path& file, const SavedMap& map) {
+void save_map(const std::filesystem::path& file, const SavedMap& map, Links links) {
   const std::string bytes = bytes_of(map);
   const auto save = [&] {
-    if (!store::may_be_replaced(file)) throw StoreError("is there already and is not a saved map: it is left as it is");
-    store::replace_file(file, bytes);
+    if (!store::may_be_replaced(file, links))
+      throw StoreError("is there already and is not a saved map: it is left as it is");
+    store::replace_map(file, bytes, links);
   };
   store::in_file(file, save, "cannot be written");
 }

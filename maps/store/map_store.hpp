@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "maps/grid/occupancy_grid.hpp"
+#include "maps/base/output_file.hpp"
 #include "maps/clustering/cluster_tree.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/landmarks/landmark_template.hpp"
 
@@ -55,8 +56,9 @@ struct SavedMap {
 
 // Throws StoreError with the file and the reason when it cannot be written, or is there already and is
 // no saved map; std::invalid_argument when the map would not load again (a value that is not finite).
-// In both cases what the file held stays.
-void save_map(const std::filesystem::path& file, const SavedMap& map);
+// In both cases what the file held stays. links: whether a symbolic link there is the map's name (its user has made it)
+// or is replaced (in an output folder).
+void save_map(const std::filesystem::path& file, const SavedMap& map, Links links = Links::follow);
 // Throws StoreError with the file, the table and what is wrong.
 [[nodiscard]] SavedMap load_map(const std::filesystem::path& file);
 

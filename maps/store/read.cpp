@@ -1,5 +1,6 @@
 #include <charconv>
 
+#include "maps/base/spelling.hpp"
 #include "maps/store/codec.hpp"
 #include "maps/store/reading.hpp"
 #include "maps/store/tables.hpp"
@@ -142,20 +143,20 @@ void read_next_ids(Reading& reading, SavedMap& map) {
 double take_number(std::string_view& text) {
   double value = 0.0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{}) throw StoreError("a number is expected at \"" + std::string(text.substr(0, 20)) + "\"");
+  if (error != std::errc{}) throw StoreError("a number is expected at " + in_quotes(text.substr(0, 20)));
   text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
   return value;
 }
 
 void take_separator(std::string_view& text, char separator) {
   if (!text.starts_with(separator))
-    throw StoreError(std::string("'") + separator + "' is expected at \"" + std::string(text.substr(0, 20)) + "\"");
+    throw StoreError(std::string("'") + separator + "' is expected at " + in_quotes(text.substr(0, 20)));
   text.remove_prefix(1);
 }
 
 Contour contour_of(const std::string& kind, std::string_view parameters) {
   if (kind != "circle" && kind != "polygon" && kind != "polygons")
-    throw StoreError("kind \"" + kind + "\" is not circle, polygon or polygons");
+    throw StoreError("kind " + in_quotes(kind) + " is not circle, polygon or polygons");
   if (kind == "circle") {
     const double diameter_m = take_number(parameters);
     if (!parameters.empty()) throw StoreError("a circle has one parameter, its diameter");
@@ -178,7 +179,7 @@ Contour contour_of(const std::string& kind, std::string_view parameters) {
 
 void read_shapes(Reading& reading, std::vector<LandmarkShape>& shapes) {
   reading.rows("shapes", "SELECT category, kind, parameters FROM shapes ORDER BY number", [&](Statement& row) {
-    shapes.push_back({row.text(0), contour_of(row.text(1), row.text(2))});
+    shapes.push_back({row.plain_text(0), contour_of(row.plain_text(1), row.plain_text(2))});
   });
 }
 
@@ -212,7 +213,7 @@ void read_tiles_within(Reading& reading, const CellBox& box, OccupancyGrid& grid
 SavedMap read_content_without_tiles(Reading& reading) {
   SavedMap map;
   reading.rows("meta", "SELECT key, value FROM meta ORDER BY key",
-               [&](Statement& row) { map.properties.emplace(row.text(0), row.text(1)); });
+               [&](Statement& row) { map.properties.emplace(row.plain_text(0), row.plain_text(1)); });
   map.grid = read_lattice(reading);
   read_all_landmarks(reading, map.graph);
   read_routes(reading, map.graph);

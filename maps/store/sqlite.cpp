@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/base/printable.hpp"
 #include "maps/store/codec.hpp"
 
 namespace cairn::store {
@@ -204,6 +205,13 @@ std::string Statement::text(int column) const {
   return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column))};
 }
 
+std::string Statement::plain_text(int column) const {
+  std::string value = text(column);
+  const std::size_t found = first_unprintable(value, kLineCharacters);
+  if (found != std::string::npos) fail_at(column, "holds " + name_of_unprintable(value, found));
+  return value;
+}
+
 std::string Statement::blob(int column) const {
   require_type(column, SQLITE_BLOB, "a blob");
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(handle_.get(), column));
@@ -217,7 +225,7 @@ int Statement::columns() const {
 
 std::string Statement::first_text() const {
   const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), 0));
-  return bytes == nullptr ? "?" : bytes;
+  return bytes == nullptr ? "?" : printable(bytes);
 }
 
 std::string Statement::row_bytes() const {

@@ -62,9 +62,10 @@ class Statement {
   [[nodiscard]] Pose2 pose(int first_column) const;
   [[nodiscard]] std::optional<Pose2> optional_pose(int first_column) const;
   [[nodiscard]] std::string text(int column) const;
+  [[nodiscard]] std::string plain_text(int column) const;  // without control characters but those of lines
   [[nodiscard]] std::string blob(int column) const;
   [[nodiscard]] int columns() const;
-  [[nodiscard]] std::string first_text() const;  // the first column as people read it, whatever its type
+  [[nodiscard]] std::string first_text() const;  // the first column as people read it, whatever its type, in one line
   // Canonical bytes of the row but for the content of blobs, which carry checksums of their own.
   [[nodiscard]] std::string row_bytes() const;
 

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 5> kRangeKinds = {"FLASER", "RLASER", "RO
 
 class Reader {
  public:
-  explicit Reader(const Config& config);
+  Reader(const Config& config, const Budget& budget);
   ScanLog read();
 
  private:
@@ -52,7 +52,8 @@ void check(const Config& config) {
   log_common::check_limits(config.file, "sonar", config.sonar.min_m, config.sonar.max_m);
 }
 
-Reader::Reader(const Config& config) : config_(config), scans_(config.file.string(), config), recording_(scans_) {
+Reader::Reader(const Config& config, const Budget& budget)
+    : config_(config), scans_(config.file.string(), config, budget), recording_(scans_) {
   check(config);
 }
 
@@ -163,8 +164,8 @@ void Reader::add_scan(const LogLine& line, double stamp_s, const Pose2& T_log_ro
 
 }  // namespace
 
-ScanLog read_carmen_log(const Config& config) {
-  return Reader(config).read();
+ScanLog read_carmen_log(const Config& config, const Budget& budget) {
+  return Reader(config, budget).read();
 }
 
 }  // namespace cairn::carmen_log

@@ -17,6 +17,6 @@
 namespace cairn::carmen_log {
 
 // Reads the whole log. Throws ConfigError for what is refused and for a log without an observation.
-[[nodiscard]] log_common::ScanLog read_carmen_log(const Config& config);
+[[nodiscard]] log_common::ScanLog read_carmen_log(const Config& config, const Budget& budget = {});
 
 }  // namespace cairn::carmen_log

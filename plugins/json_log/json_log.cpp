@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "plugins/common/logs/log_line.hpp"
@@ -13,10 +15,39 @@ namespace {
 using log_common::ScanLog;
 using nlohmann::json;
 
-json parsed(const std::filesystem::path& file) {
-  const std::string text = log_common::text_of_file(file);
+// The characters of a text for the parser, which asks for one after the other; the budget is looked at now and then.
+class BudgetedCharacters {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  BudgetedCharacters(const char* at, const Budget& budget, const std::string& file)
+      : at_(at), budget_(&budget), file_(&file) {}
+  reference operator*() const { return *at_; }
+  BudgetedCharacters& operator++() {
+    constexpr std::size_t kLookEvery = std::size_t{1} << 16U;
+    ++at_;
+    if (++passed_ % kLookEvery == 0) log_common::check_budget(*budget_, *file_);
+    return *this;
+  }
+  bool operator==(const BudgetedCharacters& other) const { return at_ == other.at_; }
+
+ private:
+  const char* at_;
+  const Budget* budget_;
+  const std::string* file_;
+  std::size_t passed_ = 0;
+};
+
+json parsed(const std::filesystem::path& file, const Budget& budget) {
+  const std::string text = log_common::text_of_file(file, budget);
+  const std::string name = file.string();
   try {
-    return json::parse(text);
+    return json::parse(BudgetedCharacters(text.data(), budget, name),
+                       BudgetedCharacters(text.data() + text.size(), budget, name));
   } catch (const json::parse_error& error) {
     const std::string_view before = std::string_view(text).substr(0, error.byte > 0 ? error.byte - 1 : 0);
     const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -30,7 +61,8 @@ json parsed(const std::filesystem::path& file) {
 
 class Reader {
  public:
-  explicit Reader(const Config& config) : config_(config), scans_(config.file.string(), config) {
+  Reader(const Config& config, const Budget& budget)
+      : config_(config), budget_(budget), scans_(config.file.string(), config, budget) {
     log_common::check_limits(config.file, "laser", config.laser);
   }
   ScanLog read();
@@ -42,6 +74,7 @@ class Reader {
   }
 
   const Config& config_;
+  const Budget& budget_;
   ScanLog scans_;
 };
 
@@ -59,7 +92,7 @@ const json& member(const json& scan, const char* key) {
 }
 
 ScanLog Reader::read() {
-  const json root = parsed(config_.file);
+  const json root = parsed(config_.file, budget_);
   const auto map = root.find("map");
   if (!root.is_object() || map == root.end() || !map->is_object())
     throw ConfigError({config_.file.string(), 0, 0}, "expected {\"map\": {STAMP: {range, x, y, theta}, ...}}");
@@ -73,6 +106,7 @@ ScanLog Reader::read() {
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [stamp_s, scan] : order) {
+    log_common::check_budget(budget_, config_.file.string());
     try {
       read_scan(stamp_s, *scan);
     } catch (const std::runtime_error& error) {
@@ -108,8 +142,8 @@ void Config::describe(Fields<Config>& fields) {
   LogRules::describe_rules(fields);
 }
 
-ScanLog read_json_log(const Config& config) {
-  return Reader(config).read();
+ScanLog read_json_log(const Config& config, const Budget& budget) {
+  return Reader(config, budget).read();
 }
 
 }  // namespace cairn::json_log

@@ -23,6 +23,6 @@ struct Config : log_common::LogRules {
 };
 
 // Throws ConfigError for what is refused and for a log without an observation.
-[[nodiscard]] log_common::ScanLog read_json_log(const Config& config);
+[[nodiscard]] log_common::ScanLog read_json_log(const Config& config, const Budget& budget = {});
 
 }  // namespace cairn::json_log

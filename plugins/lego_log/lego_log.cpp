@@ -19,10 +19,10 @@ constexpr double kMaxTicks = 1e12;  // differences of what is beyond lose whole 
 
 class Reader {
  public:
-  Reader(const Config& config, double start_heading_rad)
+  Reader(const Config& config, double start_heading_rad, const Budget& budget)
       : config_(config),
         start_heading_rad_(start_heading_rad),
-        scans_(config.file.string(), config),
+        scans_(config.file.string(), config, budget),
         wheel_path_(config.wheels) {
     log_common::check_limits(config.file, "laser", config.laser);
   }
@@ -142,8 +142,8 @@ void Config::describe(Fields<Config>& fields) {
   LogRules::describe_rules(fields);
 }
 
-ScanLog read_lego_log(const Config& config, double start_heading_rad) {
-  return Reader(config, start_heading_rad).read();
+ScanLog read_lego_log(const Config& config, double start_heading_rad, const Budget& budget) {
+  return Reader(config, start_heading_rad, budget).read();
 }
 
 }  // namespace cairn::lego_log

@@ -32,6 +32,7 @@ struct Config : log_common::LogRules {
 
 // start_heading_rad: of the robot at the first scan, for compass_from_pose.
 // Throws ConfigError for what is refused, for motors without a line and for a log without a scan.
-[[nodiscard]] log_common::ScanLog read_lego_log(const Config& config, double start_heading_rad);
+[[nodiscard]] log_common::ScanLog read_lego_log(const Config& config, double start_heading_rad,
+                                                const Budget& budget = {});
 
 }  // namespace cairn::lego_log

@@ -10,7 +10,7 @@ void register_module(cairn::Registrar& registrar) {
       "lego_log", "plays back laser scans and wheel counts of a small two-wheeled robot",
       [](const lego_log::Config& config, const cairn::SensorContext& context) {
         return std::make_unique<cairn::log_common::ScanPlayer>(
-            lego_log::read_lego_log(config, context.T_map_start.theta_rad));
+            lego_log::read_lego_log(config, context.T_map_start.theta_rad, context.budget));
       });
 }
 

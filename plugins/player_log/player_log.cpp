@@ -32,7 +32,7 @@ struct Header {
 
 class Reader {
  public:
-  Reader(const Config& config, const RobotModel& robot);
+  Reader(const Config& config, const RobotModel& robot, const Budget& budget);
   ScanLog read();
 
  private:
@@ -73,7 +73,8 @@ void check_version(const LogLine& line) {
     throw RefusedLine(line.place(0), "a Player log of file version " + in_quotes(version) + "; 0.3.0 can be read");
 }
 
-Reader::Reader(const Config& config, const RobotModel& robot) : config_(config), scans_(config.file.string(), config) {
+Reader::Reader(const Config& config, const RobotModel& robot, const Budget& budget)
+    : config_(config), scans_(config.file.string(), config, budget) {
   const SourcePlace place{config.file.string(), 0, 0};
   for (const std::string& name : config.interfaces)
     if (std::find(kRangeInterfaces.begin(), kRangeInterfaces.end(), name) == kRangeInterfaces.end())
@@ -195,8 +196,8 @@ void Config::describe(Fields<Config>& fields) {
   LogRules::describe_rules(fields);
 }
 
-ScanLog read_player_log(const Config& config, const RobotModel& robot) {
-  return Reader(config, robot).read();
+ScanLog read_player_log(const Config& config, const RobotModel& robot, const Budget& budget) {
+  return Reader(config, robot, budget).read();
 }
 
 }  // namespace cairn::player_log

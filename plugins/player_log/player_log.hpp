@@ -43,6 +43,7 @@ struct Config : log_common::LogRules {
 };
 
 // Reads the whole log. Throws ConfigError for what is refused and for a log without an observation.
-[[nodiscard]] log_common::ScanLog read_player_log(const Config& config, const RobotModel& robot);
+[[nodiscard]] log_common::ScanLog read_player_log(const Config& config, const RobotModel& robot,
+                                                  const Budget& budget = {});
 
 }  // namespace cairn::player_log

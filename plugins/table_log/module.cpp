@@ -8,7 +8,7 @@ void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Sensor, cairn::TableLogConfig>(
       "table_log", "plays back a recorded table of range readings and poses",
       [](const cairn::TableLogConfig& config, const cairn::SensorContext& context) {
-        return std::make_unique<cairn::TableLog>(config, context.robot);
+        return std::make_unique<cairn::TableLog>(config, context.robot, context.budget);
       });
 }
 

@@ -173,12 +173,12 @@ void check_columns(const TableLogConfig& config) {
 
 }  // namespace
 
-ScanLog read_table_log(const TableLogConfig& config, const RobotModel& robot) {
+ScanLog read_table_log(const TableLogConfig& config, const RobotModel& robot, const Budget& budget) {
   check_columns(config);
   const std::vector<RangeReading> readings = empty_readings(config, robot);
   const std::vector<int> columns = range_columns(config, readings.size());
   const double metres = metres_per(config.range_unit);
-  ScanLog scans(config.file.string(), config);
+  ScanLog scans(config.file.string(), config, budget);
   const std::size_t source = scans.source("", [&] { return readings; });
   const auto poses = config.poses ? read_poses(*config.poses, scans) : std::vector<StampedPose>{};
   Clock clock(config);

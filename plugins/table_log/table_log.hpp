@@ -13,11 +13,13 @@ namespace cairn {
 // time that goes backwards, no pose for its time, more than 1 MiB, damaged compression) is refused with
 // ConfigError at its file:line:column, or skipped and counted. Refused in any case: a file that cannot be
 // read, a log without a single good line, columns that do not fit the sonars.
-[[nodiscard]] log_common::ScanLog read_table_log(const TableLogConfig& config, const RobotModel& robot);
+[[nodiscard]] log_common::ScanLog read_table_log(const TableLogConfig& config, const RobotModel& robot,
+                                                 const Budget& budget = {});
 
 class TableLog final : public log_common::ScanPlayer {
  public:
-  TableLog(const TableLogConfig& config, const RobotModel& robot) : ScanPlayer(read_table_log(config, robot)) {}
+  TableLog(const TableLogConfig& config, const RobotModel& robot, const Budget& budget = {})
+      : ScanPlayer(read_table_log(config, robot, budget)) {}
 
   [[nodiscard]] const GroundTruthSource* truth() const override { return nullptr; }
 };

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "framework/experiments/trials/random_mission.hpp"
 #include "framework/files/robot_file.hpp"
 #include "framework/files/template_file.hpp"
 #include "framework/files/world_file.hpp"
+#include "maps/base/output_file.hpp"
 #include "maps/base/portable_random.hpp"
 
 namespace cairn {
@@ -48,10 +48,10 @@ std::filesystem::path write_trial(const TrialsConfig& config, const RandomWorldC
   files.templates = std::filesystem::absolute(config.templates).lexically_normal();
   files.world = "world.yaml";  // beside the mission
   const std::filesystem::path world_file = folder / files.world;
-  std::ofstream(world_file) << random_world_yaml(worlds, shapes, specular_ratio, number);
+  write_file(world_file, random_world_yaml(worlds, shapes, specular_ratio, number));
   const World world = load_world(world_file, shapes);
   std::filesystem::path mission_file = folder / "mission.yaml";
-  std::ofstream(mission_file) << random_mission_yaml(config, files, load_robot(files.robot), world, number);
+  write_file(mission_file, random_mission_yaml(config, files, load_robot(files.robot), world, number));
   return mission_file;
 }
 

@@ -91,7 +91,7 @@ Status MapSaving::write(const std::string& file_name) {
   if (world_.grid == nullptr) return {Progress::failure, "there is no map to save"};
   explored_ratio_ = world_.explored_ratio();
   try {
-    save_map(options_.folder / file_name, content_(planning_.clusters()));
+    save_map(options_.folder / file_name, content_(planning_.clusters()), Links::replace);
   } catch (const std::exception& error) {
     return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
   }

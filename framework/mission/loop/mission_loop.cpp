@@ -15,7 +15,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
     : mission_(mission),
       options_(options),
       budget_(budget_of(options)),
-      modules_(build_modules(mission_, library, options.resume), mission_, options.wall_clock),
+      modules_(build_modules(mission_, library, options.resume, options.cancel), mission_, options.wall_clock),
       perception_(mission_, modules_, budget_),
       world_{mission_.robot, perception_.tracker().graph(), modules_.T_map_start},
       publisher_(world_),

@@ -1,6 +1,7 @@
 #include "framework/mission/loop/text_files.hpp"
 
-#include <fstream>
+#include "maps/base/output_file.hpp"
+#include "maps/base/spelling.hpp"
 
 namespace cairn {
 
@@ -8,13 +9,16 @@ Status TextFiles::write(const OutputText& output) {
   const std::string& name = output.file_name;
   const bool is_plain =
       !name.empty() && name != "." && name != ".." && name.find_first_of("/\\\n") == std::string::npos;
-  if (!is_plain) return {Progress::failure, "\"" + name + "\" is not a plain file name"};
+  if (!is_plain) return {Progress::failure, in_quotes(name) + " is not a plain file name"};
   const bool is_ours = goes_on_ || written_.contains(name);
-  const auto mode = output.append && is_ours ? std::ios::app : std::ios::trunc;
-  std::ofstream out(folder_ / name, std::ios::binary | mode);
-  out << output.text;
-  out.close();
-  if (!out) return {Progress::failure, name + " could not be written"};
+  try {
+    if (output.append && is_ours)
+      append_to_file(folder_ / name, output.text);
+    else
+      replace_file(folder_ / name, output.text, {.sync = false});  // the tick does not wait for the disk
+  } catch (const OutputError& error) {
+    return {Progress::failure, name + " could not be written: " + error.what()};
+  }
   written_.insert(name);
   return {Progress::success, "wrote " + name};
 }

@@ -2,13 +2,62 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <fstream>
+#include <cstring>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <system_error>
+#include <thread>
+
+#include "maps/base/text.hpp"
 
 namespace cairn {
+namespace {
+
+constexpr std::chrono::milliseconds kAskAgainAfter(50);
+
+[[noreturn]] void fail_lock(const std::filesystem::path& lock, const std::string& what) {
+  throw std::runtime_error(lock.string() + ": the lock of the output folder " + what);
+}
+
+// A plain file, or an error: a link there may lead anywhere, and opening a pipe would wait. None where nothing can be
+// written: whoever runs there goes without a lock.
+std::optional<int> open_lock(const std::filesystem::path& lock) {
+  const int opened = ::open(lock.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  struct stat found {};
+  if (opened < 0) {
+    const int error = errno;
+    if (error == ELOOP) fail_lock(lock, "is a symbolic link, which is not followed; remove it");
+    if (::lstat(lock.c_str(), &found) == 0) fail_lock(lock, std::string("cannot be opened: ") + std::strerror(error));
+    return std::nullopt;
+  }
+  if (::fstat(opened, &found) == 0 && S_ISREG(found.st_mode) && found.st_nlink == 1) return opened;
+  ::close(opened);
+  fail_lock(lock, "is not a plain file; remove it");
+}
+
+// Empty when the holder has not said.
+std::string holder_of(int lock) {
+  std::array<char, 32> text{};
+  const ssize_t size = ::pread(lock, text.data(), text.size(), 0);
+  const std::string_view line = trimmed({text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))}, " \n");
+  const auto pid = number_from<int>(line);
+  return pid && *pid > 0 ? " (process " + std::to_string(*pid) + ")" : "";
+}
+
+void name_holder(int lock) {
+  const std::string pid = std::to_string(::getpid()) + "\n";
+  // Only for the error of others: a full disk keeps no mission from running.
+  if (::ftruncate(lock, 0) == 0) (void)!::pwrite(lock, pid.data(), pid.size(), 0);
+}
+
+}  // namespace
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -16,23 +65,24 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw std::runtime_error(folder.string() + ": the output folder cannot be made: " + error.message());
 }
 
-void hold_folder(const std::filesystem::path& folder) {
-  // Never closed: the lock goes with the process. Where a folder cannot be locked, runs are not distinguished.
-  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (opened >= 0 && ::flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw std::runtime_error(folder.string() + ": another run is writing into this folder; name another with --out");
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (out) return;
-  const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : std::string();
-  std::error_code error;
-  if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);  // half of it is of no use
-  throw std::runtime_error(file.string() + ": cannot be written" + why);
+void hold_folder(const std::filesystem::path& folder, std::chrono::milliseconds within) {
+  const auto until = std::chrono::steady_clock::now() + within;
+  const std::optional<int> opened = open_lock(folder / kFolderLock);
+  if (!opened) return;
+  const int lock = *opened;
+  // Never closed: the lock goes with the process. Where files cannot be locked, runs are not distinguished.
+  while (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno != EWOULDBLOCK) return;
+    if (std::chrono::steady_clock::now() >= until) {
+      const std::string holder = holder_of(lock);
+      ::close(lock);
+      throw std::runtime_error(folder.string() + ": another run" + holder +
+                               " is writing into this folder; name another with --out");
+    }
+    std::this_thread::sleep_for(kAskAgainAfter);
+  }
+  name_holder(lock);
 }
 
 }  // namespace cairn

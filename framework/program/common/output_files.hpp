@@ -1,16 +1,20 @@
-// What the commands write: folders and whole files, or an error that says which.
+// Where the commands write: the folders, and the lock of a run's.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
-#include <string>
+
+#include "maps/base/output_file.hpp"
 
 namespace cairn {
 
-// Throw std::runtime_error.
-// Holds a folder for one run at a time, as long as the process lives. Throws std::runtime_error when another holds it.
-void hold_folder(const std::filesystem::path& folder);
+// The lock file in an output folder, which a run holds as long as its process lives. It holds the process's id.
+inline constexpr const char* kFolderLock = ".cairn.lock";
+
+// All throw std::runtime_error.
+// Holds a folder for one run at a time. Another run that is about to end is waited for.
+void hold_folder(const std::filesystem::path& folder, std::chrono::milliseconds within = std::chrono::seconds(3));
 
 void make_folder(const std::filesystem::path& folder);
-void write_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace cairn

@@ -19,7 +19,7 @@ int map_crop(const CropCommand& command, const CommonOptions& common) {
     return crop_map(map, {box[0], box[1]}, {box[2], box[3]});
   });
   cropped.map.properties["cropped_to"] = command.box;
-  save_map(command.out, cropped.map);
+  save_map(command.out, cropped.map, Links::replace);
   const std::size_t landmarks = cropped.map.graph.landmarks().size();
   const std::size_t routes = cropped.map.graph.routes().size();
   const CellBox cells = cropped.map.grid.bounds();

@@ -7,6 +7,7 @@
 #include "framework/program/common/print.hpp"
 #include "framework/program/common/refusal.hpp"
 #include "framework/program/map/exchange_report.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/text.hpp"
 #include "maps/edit/difference.hpp"
@@ -79,8 +80,8 @@ void print_first(const Things& things, Text text_of) {
 
 std::string place_of(const LandmarkGraph& graph, LandmarkId id) {
   const Landmark& landmark = *graph.find(id);
-  return fmt::format("{} {} at ({:.2f}, {:.2f})", label_of(landmark), landmark.category, landmark.T_map_landmark.x_m,
-                     landmark.T_map_landmark.y_m);
+  return fmt::format("{} {} at ({:.2f}, {:.2f})", label_of(landmark), printable(landmark.category),
+                     landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m);
 }
 
 void print(const MapDifference& difference, const SavedMap& a, const SavedMap& b) {

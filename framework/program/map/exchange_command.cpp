@@ -31,7 +31,7 @@ int import_graph(const ExchangeCommand& command, ImportedGraph imported, const C
   map.clusters = cluster_landmarks(map.graph);
   map.properties = imported.properties;
   map.properties["imported_from"] = command.from.filename().string();
-  save_map(command.to, map);
+  save_map(command.to, map, Links::replace);
   const std::vector<std::string> warnings = about(command.from, std::move(imported.warnings));
   const std::size_t landmarks = map.graph.landmarks().size();
   const std::size_t routes = map.graph.routes().size();
@@ -53,7 +53,7 @@ int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
   SavedMap map;
   map.grid = std::move(imported.grid);
   map.properties["imported_from"] = command.from.filename().string();
-  save_map(command.to, map);
+  save_map(command.to, map, Links::replace);
   const CellBox box = map.grid.bounds();
   print_report(
       {{"map", command.to.string()},

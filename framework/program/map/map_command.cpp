@@ -7,6 +7,7 @@
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/run/pictures.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/clustering/cluster_levels.hpp"
 #include "maps/store/repair.hpp"
 
@@ -73,12 +74,13 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
     return kExitDone;
   }
   std::cout << fmt::format("{}: schema {}, {}\n", command.map.string(), schema, text_of_grid(map.grid));
-  for (const auto& [key, value] : map.properties) std::cout << "  " << key << ": " << value << "\n";
+  for (const auto& [key, value] : map.properties)
+    std::cout << "  " << printable(key) << ": " << printable(value) << "\n";
   if (map.progress)
     std::cout << fmt::format("  saved {:.1f} s after the mission began, {}\n", map.progress->time_s,
-                             map.progress->step_name.empty()
-                                 ? "all steps done"
-                                 : fmt::format("at step {}: {}", map.progress->step + 1, map.progress->step_name));
+                             map.progress->step_name.empty() ? "all steps done"
+                                                             : fmt::format("at step {}: {}", map.progress->step + 1,
+                                                                           printable(map.progress->step_name)));
   std::cout << fmt::format("  {} landmarks, {} routes\n", map.graph.landmarks().size(), map.graph.routes().size());
   int level = 0;
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
@@ -86,7 +88,7 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
                              boundary);
   list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
     return fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),
-                       landmark.category, landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
+                       printable(landmark.category), landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
                        degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
   });
   list_first(map.graph.routes(), "routes", [](const Route& route) {

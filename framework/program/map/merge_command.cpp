@@ -27,7 +27,7 @@ int map_merge(const MergeCommand& command, const CommonOptions& common) {
   });
   std::string& history = merged.map.properties["merged_from"];
   history += (history.empty() ? "" : "; ") + command.b.filename().string() + " at " + command.transform;
-  save_map(command.out, merged.map);
+  save_map(command.out, merged.map, Links::replace);
   const std::size_t landmarks = merged.map.graph.landmarks().size();
   const std::size_t routes = merged.map.graph.routes().size();
   const CellBox box = merged.map.grid.bounds();

@@ -6,6 +6,7 @@
 #include "framework/planning/place.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/clustering/cluster_tree.hpp"
@@ -41,8 +42,7 @@ void check_name(const SavedMap& map, const Named& named, const std::string& name
   };
   if (name.size() > kLongestName) fail(fmt::format("it is longer than {} bytes", kLongestName));
   if (exchange::first_not_utf8(name) != std::string::npos) fail("it is not UTF-8 text");
-  if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }))
-    fail("it holds a control character");
+  if (first_unprintable(name) != std::string::npos) fail("it holds a control character");
   if (name.front() == ' ' || name.back() == ' ') fail("it begins or ends with a blank");
   if (looks_like_id(name)) fail("it looks like an id");
   if (reads_as_place(name)) fail("it reads as a place: x,y or nearest CATEGORY");

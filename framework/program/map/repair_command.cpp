@@ -6,6 +6,7 @@
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/store/repair.hpp"
+#include "maps/store/value_check.hpp"
 
 namespace cairn {
 namespace {
@@ -49,37 +50,67 @@ std::string fault_of(const std::filesystem::path& file, std::string* unproven = 
   return {};
 }
 
+struct MapVerdict {
+  std::string fault;     // what load_map says against it; empty when it loads
+  std::string unproven;  // tables of which an earlier repair has kept values that are not proven
+  std::vector<StoreLoss> losses;
+  std::vector<ValueFinding> findings;
+
+  [[nodiscard]] bool is_sound() const { return fault.empty() && findings.empty(); }
+  [[nodiscard]] const char* outcome() const {
+    return !fault.empty() ? "damaged" : findings.empty() ? "sound" : "bad_values";
+  }
+};
+
+ordered_json json_of(const MapVerdict& verdict, const std::filesystem::path& file) {
+  ordered_json report = {{"file", file.string()}, {"outcome", verdict.outcome()}};
+  if (!verdict.unproven.empty()) report["unproven_tables"] = verdict.unproven;
+  if (!verdict.fault.empty()) {
+    report["reason"] = verdict.fault;
+    report["lost"] = json_of(verdict.losses);
+  }
+  for (const ValueFinding& finding : verdict.findings)
+    report["bad_values"].push_back(
+        {{"table", finding.table}, {"row", finding.row}, {"column", finding.column}, {"what", finding.what}});
+  return report;
+}
+
+void print_faults(const MapVerdict& verdict, const std::filesystem::path& file) {
+  std::cerr << "cairn: "
+            << (verdict.fault.empty() ? file.string() + ": holds values that cannot be true" : verdict.fault) << "\n";
+  for (const StoreLoss& loss : verdict.losses) std::cerr << "  " << text_of(loss) << "\n";
+  for (const ValueFinding& finding : verdict.findings)
+    std::cerr << fmt::format("  table {}: row {}: column {} {}\n", finding.table, finding.row, finding.column,
+                             finding.what);
+  if (verdict.fault.empty()) return;
+  const bool is_whole = verdict.losses.empty();
+  std::cerr << "  " << (is_whole ? "nothing in it is lost: " : "") << "cairn map repair " << file.string()
+            << " -o OUT saves " << (is_whole ? "it" : "the rest") << "\n";
+}
+
 }  // namespace
 
 int map_check(const MapCommand& command, const CommonOptions& common) {
-  std::string unproven;
-  const std::string fault = fault_of(command.map, &unproven);
-  std::vector<StoreLoss> losses;
+  MapVerdict verdict;
+  verdict.fault = fault_of(command.map, &verdict.unproven);
   try {
-    if (!fault.empty()) losses = salvage_map(command.map).losses;
+    if (!verdict.fault.empty()) verdict.losses = salvage_map(command.map).losses;
+    verdict.findings = check_values(command.map);
   } catch (const StoreError& error) {  // no saved map at all, or nothing left of one
     if (common.json)
       print_json({{"file", command.map.string()}, {"outcome", "not_readable"}, {"reason", error.what()}});
     throw;
   }
-  if (common.json) {
-    ordered_json report = {{"file", command.map.string()}, {"outcome", fault.empty() ? "sound" : "damaged"}};
-    if (!unproven.empty()) report["unproven_tables"] = unproven;
-    if (!fault.empty()) {
-      report["reason"] = fault;
-      report["lost"] = json_of(losses);
-    }
-    print_json(report);
-  } else if (fault.empty()) {
+  if (common.json)
+    print_json(json_of(verdict, command.map));
+  else if (verdict.is_sound())
     std::cout << command.map.string() << ": sound"
-              << (unproven.empty() ? "" : ", but a repair has kept values that are not proven, in: " + unproven)
+              << (verdict.unproven.empty()
+                      ? ""
+                      : ", but a repair has kept values that are not proven, in: " + verdict.unproven)
               << "\n";
-  }
-  if (fault.empty()) return kExitDone;
-  std::cerr << "cairn: " << fault << "\n";
-  for (const StoreLoss& loss : losses) std::cerr << "  " << text_of(loss) << "\n";
-  std::cerr << "  " << (losses.empty() ? "nothing in it is lost: " : "") << "cairn map repair " << command.map.string()
-            << " -o OUT saves " << (losses.empty() ? "it" : "the rest") << "\n";
+  if (verdict.is_sound()) return kExitDone;
+  print_faults(verdict, command.map);
   return kExitBadInput;
 }
 
@@ -89,7 +120,7 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
     throw StoreError(command.repaired.string() + ": is the damaged map itself, which is never written to");
   const SalvagedMap salvaged = salvage_map(command.map);
   const bool is_sound = fault_of(command.map).empty();  // damage may have hit what holds nothing
-  save_map(command.repaired, salvaged.map);
+  save_map(command.repaired, salvaged.map, Links::replace);
   std::ostream& people = common.json ? std::cerr : std::cout;
   for (const StoreLoss& loss : salvaged.losses) people << "  " << text_of(loss) << "\n";
   people << fmt::format(

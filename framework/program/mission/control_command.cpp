@@ -9,16 +9,17 @@
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/mission/control_socket.hpp"
+#include "maps/base/printable.hpp"
 
 namespace cairn {
 namespace {
 
 using nlohmann::ordered_json;
 
-// Whatever a file or another program may have written there.
+// Whatever a file or another program may have written there, in one line.
 std::string text_in(const ordered_json& object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+  return found != object.end() && found->is_string() ? printable(found->get<std::string>()) : "";
 }
 
 double number_in(const ordered_json& object, const char* key) {
@@ -37,7 +38,7 @@ std::string cut_short_text(const std::filesystem::path& folder) {
   const std::filesystem::path map = autosave_in(folder);
   return folder.string() + ": the mission here was cut short" +
          (map.empty() ? std::string()
-                      : "; cairn run --resume " + map.string() + " MISSION resumes from what it has saved");
+                      : "; cairn run --resume " + printable(map.string()) + " MISSION resumes from what it has saved");
 }
 
 std::string where_text(const ordered_json& status) {
@@ -58,7 +59,7 @@ std::string left_text(const ordered_json& status) {
   if (most->is_number()) left.max_s = most->get<double>();
   if (const auto without = status.find("eta_without"); without != status.end() && without->is_array())
     for (const ordered_json& what : *without)
-      if (what.is_string()) left.without.push_back(what.get<std::string>());
+      if (what.is_string()) left.without.push_back(printable(what.get<std::string>()));
   return text_of(left);
 }
 

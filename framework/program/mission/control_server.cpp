@@ -5,6 +5,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -19,13 +21,17 @@ namespace cairn {
 namespace {
 
 using nlohmann::ordered_json;
+using std::chrono::milliseconds;
 using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
 
 constexpr seconds kAskWithin(2);
 constexpr seconds kTickWithin(10);  // a planner may be at work
 constexpr seconds kEndWithin(60);   // the map is saved
 constexpr seconds kLineWithin(2);
-constexpr std::size_t kMaxAnswers = 16;  // at once
+constexpr std::size_t kMaxAnswers = 16;   // at once, to `status` and to all else
+constexpr std::size_t kMaxCallers = 128;  // who say nothing yet; beyond that, whoever has been there longest goes
+constexpr int kLetInAtOnce = 64;
 constexpr std::chrono::milliseconds kNoneLeftFor(100);
 
 double rounded(double value) {
@@ -75,20 +81,25 @@ std::string refusal(const std::string& error) {
   return ordered_json{{"ok", false}, {"error", error}}.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+std::string command_rule() {
+  return refusal("a command is one line of at most " + std::to_string(kMaxCommandBytes) + " bytes, sent within 2 s");
+}
+
 }  // namespace
 
-std::string answer_to(const std::string& command, RunControl& control) {
+std::string answer_to(const std::string& command, RunControl& control, Waiting waiting) {
+  const auto within = [waiting](seconds limit) { return waiting == Waiting::until_done ? limit : seconds(0); };
   const std::vector<std::string> known{"pause", "resume", "cancel", "status"};
   RunStatus status;
   if (command == "pause" || command == "resume") {
     const bool pause = command == "pause";
     control.flags().pause = pause;
-    status = control.status_in(pause ? RunState::paused : RunState::running, kTickWithin);
+    status = control.status_in(pause ? RunState::paused : RunState::running, within(kTickWithin));
   } else if (command == "cancel") {
     control.flags().cancel = true;
-    status = control.status_in(RunState::ended, kEndWithin);
+    status = control.status_in(RunState::ended, within(kEndWithin));
   } else if (command == "status") {
-    status = control.status(kAskWithin);
+    status = control.status(within(kAskWithin));
   } else {
     return refusal("unknown command " + in_quotes(command) + did_you_mean(command, known) +
                    "; known are: pause, resume, cancel, status");
@@ -116,49 +127,91 @@ ControlServer::~ControlServer() {
 }
 
 void ControlServer::serve() {
-  while (true) {
-    pollfd ready[] = {{listening_.get(), POLLIN, 0}, {ending_.get(), POLLIN, 0}};
-    if (::poll(ready, 2, -1) < 0) {
-      if (errno == EINTR) continue;
-      return;
-    }
-    if (ready[1].revents != 0) return;
-    Descriptor connection(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (connection.get() >= 0)
-      take(std::move(connection));
-    else
-      std::this_thread::sleep_for(kNoneLeftFor);  // no descriptors, or whoever called has gone
+  while (wait_for_callers()) {
+    hear_callers();
+    let_in();
   }
 }
 
-void ControlServer::take(Descriptor connection) {
+bool ControlServer::wait_for_callers() {
+  std::vector<pollfd> ready{{listening_.get(), POLLIN, 0}, {ending_.get(), POLLIN, 0}};
+  for (const Caller& caller : callers_) ready.push_back({caller.connection.get(), POLLIN, 0});
+  int timeout_ms = -1;
+  if (!callers_.empty()) {
+    const auto left = callers_.front().until - Clock::now();
+    timeout_ms = static_cast<int>(std::max<std::int64_t>(0, std::chrono::ceil<milliseconds>(left).count()));
+  }
+  if (::poll(ready.data(), ready.size(), timeout_ms) < 0 && errno != EINTR) return false;
+  return ready[1].revents == 0;
+}
+
+void ControlServer::let_in() {
+  for (int i = 0; i < kLetInAtOnce; ++i) {
+    Descriptor connection(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    if (connection.get() < 0) {
+      if (errno == EAGAIN || errno == EINTR || errno == ECONNABORTED) return;
+      if (callers_.empty()) return std::this_thread::sleep_for(kNoneLeftFor);  // no descriptors
+      callers_.pop_front();
+      continue;
+    }
+    const timeval at_most{kLineWithin.count(), 0};
+    ::setsockopt(connection.get(), SOL_SOCKET, SO_SNDTIMEO, &at_most, sizeof at_most);
+    if (!is_the_users(connection.get())) {
+      write_line(connection.get(), refusal("only the user who runs the mission may control it"));
+      continue;
+    }
+    callers_.push_back({std::move(connection), Clock::now() + kLineWithin});
+    if (!hear(callers_.back())) callers_.pop_back();  // most have sent their line already
+    if (callers_.size() > kMaxCallers) callers_.pop_front();
+  }
+}
+
+void ControlServer::hear_callers() {
+  const Clock::time_point now = Clock::now();
+  std::erase_if(callers_, [&](Caller& caller) {
+    if (!hear(caller)) return true;
+    if (caller.until > now) return false;
+    write_line(caller.connection.get(), command_rule());
+    return true;
+  });
+}
+
+bool ControlServer::hear(Caller& caller) {
+  std::array<char, kMaxCommandBytes + 2> buffer{};
+  const ssize_t got = ::recv(caller.connection.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+  if (got < 0) return errno == EAGAIN || errno == EINTR;
+  if (got == 0 && caller.text.empty()) return false;
+  caller.text.append(buffer.data(), static_cast<std::size_t>(got));
+  const std::size_t end = std::min(caller.text.find('\n'), caller.text.size());
+  const bool is_whole = got == 0 || end < caller.text.size();
+  if (end > kMaxCommandBytes)
+    write_line(caller.connection.get(), command_rule());
+  else if (is_whole)
+    begin_answer(std::move(caller.connection), caller.text.substr(0, end));
+  else
+    return true;
+  return false;
+}
+
+void ControlServer::begin_answer(Descriptor connection, const std::string& command) {
   std::erase_if(answers_, [](const Answer& given) { return given.is_given.load(); });
-  if (answers_.size() >= kMaxAnswers) {
-    write_line(connection.get(), refusal("too many commands at once; ask again"));
+  const bool is_status = command == "status";
+  const auto under_way = std::ranges::count(answers_, is_status, &Answer::is_status);
+  if (static_cast<std::size_t>(under_way) >= kMaxAnswers) {
+    // The command takes effect all the same.
+    write_line(connection.get(), answer_to(command, control_, Waiting::not_at_all));
     return;
   }
   Answer& here = answers_.emplace_back();
+  here.is_status = is_status;
   try {
-    here.thread = std::jthread([this, &here, connection = std::move(connection)] {
-      answer(connection.get());
+    here.thread = std::jthread([this, &here, command, connection = std::move(connection)] {
+      write_line(connection.get(), answer_to(command, control_));
       here.is_given = true;
     });
   } catch (const std::system_error&) {
     answers_.pop_back();  // no thread is left: the connection closes unanswered, and the mission goes on
   }
-}
-
-void ControlServer::answer(int connection) {
-  const timeval at_most{kLineWithin.count(), 0};
-  ::setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &at_most, sizeof at_most);
-  if (!is_the_users(connection)) {
-    write_line(connection, refusal("only the user who runs the mission may control it"));
-    return;
-  }
-  const std::optional<std::string> command = read_line(connection, kMaxCommandBytes, kLineWithin);
-  write_line(connection, command ? answer_to(*command, control_)
-                                 : refusal("a command is one line of at most " + std::to_string(kMaxCommandBytes) +
-                                           " bytes, sent within 2 s"));
 }
 
 }  // namespace cairn

@@ -1,8 +1,10 @@
-// Answers on the control socket of a running mission, in threads of its own: one listens, and every command has one, so
-// that nobody's "cancel" waits for the answer to another's "resume".
+// Answers on the control socket of a running mission. One thread listens, takes connections in and reads their commands
+// as they come, so that a crowd that connects and says nothing holds nobody up; every command is answered in a thread
+// of its own, so that nobody's "cancel" waits for the answer to another's "resume".
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <list>
 #include <string>
@@ -13,8 +15,11 @@
 
 namespace cairn {
 
-// The answer to one command, as one line of JSON. Waits until what it asks for has come about, within limits.
-[[nodiscard]] std::string answer_to(const std::string& command, RunControl& control);
+// The answer to one command, as one line of JSON. Waits until what it asks for has come about, within limits, or says
+// at once how the mission stands.
+enum class Waiting { until_done, not_at_all };
+[[nodiscard]] std::string answer_to(const std::string& command, RunControl& control,
+                                    Waiting waiting = Waiting::until_done);
 
 class ControlServer {
  public:
@@ -27,19 +32,30 @@ class ControlServer {
   ~ControlServer();
 
  private:
+  struct Caller {  // who has not said a command yet
+    Descriptor connection;
+    std::chrono::steady_clock::time_point until;
+    std::string text{};
+  };
   struct Answer {
+    bool is_status = false;
     std::atomic<bool> is_given = false;
     std::jthread thread{};
   };
   void serve();
-  void take(Descriptor connection);
-  void answer(int connection);
+  [[nodiscard]] bool wait_for_callers();  // false: it is to end
+  void let_in();
+  void hear_callers();
+  // False when nothing more is to be heard from the caller.
+  bool hear(Caller& caller);
+  void begin_answer(Descriptor connection, const std::string& command);
 
   std::filesystem::path folder_;
   RunControl& control_;
   Descriptor listening_;
   Descriptor ending_;          // readable when it is to end
-  std::list<Answer> answers_;  // under way, of the listening thread
+  std::list<Caller> callers_;  // of the listening thread, like the answers; the longest there first
+  std::list<Answer> answers_;  // under way
   std::thread thread_;
 };
 

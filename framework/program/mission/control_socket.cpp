@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::chrono::seconds kAnswerWithin(90);  // longer than a mission takes to stop
 constexpr std::size_t kMaxAnswerBytes = 1U << 20U;
+constexpr int kBacklog = 512;  // that wait to be let in
 
 std::string text_of_error(int error) {
   return std::strerror(error);
@@ -46,8 +47,8 @@ const sockaddr* base_of(const Address& address) {
   return reinterpret_cast<const sockaddr*>(&address.name);  // NOLINT: as the C interface wants it
 }
 
-Descriptor new_socket(const std::filesystem::path& folder) {
-  Descriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+Descriptor new_socket(const std::filesystem::path& folder, int flags = 0) {
+  Descriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | flags, 0));
   if (made.get() < 0) fail(folder, "no socket can be made: " + text_of_error(errno));
   return made;
 }
@@ -69,10 +70,10 @@ Descriptor listen_in(const std::filesystem::path& folder) {
   std::error_code error;
   if (std::filesystem::is_socket(folder / kControlSocket, error)) remove_socket(folder);
   const Address address = address_in(folder);
-  Descriptor made = new_socket(folder);
+  Descriptor made = new_socket(folder, SOCK_NONBLOCK);
   // Before it is bound, so that nobody else may connect at any time.
   if (::fchmod(made.get(), S_IRUSR | S_IWUSR) != 0 || ::bind(made.get(), base_of(address), sizeof address.name) != 0 ||
-      ::listen(made.get(), 8) != 0)
+      ::listen(made.get(), kBacklog) != 0)
     fail(folder, text_of_error(errno));
   return made;
 }
@@ -120,6 +121,8 @@ bool write_line(int socket, std::string line) {
 ControlAnswer ask_mission(const std::filesystem::path& folder, const std::string& command) {
   const Address address = address_in(folder);
   const Descriptor made = new_socket(folder);
+  const timeval at_most{kAnswerWithin.count(), 0};  // for the connection, too: the process may have been stopped
+  ::setsockopt(made.get(), SOL_SOCKET, SO_SNDTIMEO, &at_most, sizeof at_most);
   if (::connect(made.get(), base_of(address), sizeof address.name) != 0) {
     if (errno == ENOENT) return {Reached::nobody};
     if (errno == ECONNREFUSED) return {Reached::left_behind};

@@ -27,8 +27,8 @@ class Descriptor {
   int fd_;
 };
 
-// Listens there; only the user may connect. Takes a socket away that an earlier run has left: hold the folder first.
-// Throws std::runtime_error with the reason.
+// Listens there without waiting in accept(); only the user may connect. Takes a socket away that an earlier run has
+// left: hold the folder first. Throws std::runtime_error with the reason.
 [[nodiscard]] Descriptor listen_in(const std::filesystem::path& folder);
 void remove_socket(const std::filesystem::path& folder);
 

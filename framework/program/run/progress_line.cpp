@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "maps/base/printable.hpp"
+
 namespace cairn {
 namespace {
 
@@ -74,12 +76,12 @@ void ProgressLine::report_nodes(const Event& event, double time_s) {
 
 void ProgressLine::report(double time_s, const std::string& sentence) {
   clear();
-  out_ << fmt::format("{:7.1f} s  {}\n", time_s, sentence);
+  out_ << fmt::format("{:7.1f} s  {}\n", time_s, printable(sentence));
 }
 
 void ProgressLine::draw() {
   const RunStatus status = status_();
-  std::string line = fmt::format("{:7.1f} s  {}", status.time_s, progress_text(status));
+  std::string line = printable(fmt::format("{:7.1f} s  {}", status.time_s, progress_text(status)));
   if (line.size() > kMaxColumns) line = line.substr(0, kMaxColumns - 3) + "...";
   clear();
   out_ << line << std::flush;

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "framework/safety/fatal_ends.hpp"
 #include "framework/mission/resume.hpp"
@@ -16,6 +18,8 @@
 #include "framework/program/common/interrupt.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
+#include "framework/program/common/print.hpp"
+#include "framework/program/common/printable_stream.hpp"
 #include "framework/program/common/refusal.hpp"
 #include "framework/program/mission/control_server.hpp"
 #include "framework/program/run/pictures.hpp"
@@ -86,12 +90,29 @@ std::optional<SavedMap> map_to_resume(const RunCommand& command, std::optional<s
   return map;
 }
 
+// The mission was cancelled while its modules were made, as when a signal comes while a log is read.
+class CancelledEarly : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
                         const RunCommand& command) {
-  return refused_about<StoreError>(command.resume.string(), [&] {
-    if (options.resume != nullptr && !command.other_world) check_same_world(*options.resume, mission);
-    return MissionRunner(mission, library, options);
-  });
+  try {
+    return refused_about<StoreError>(command.resume.string(), [&] {
+      if (options.resume != nullptr && !command.other_world) check_same_world(*options.resume, mission);
+      return MissionRunner(mission, library, options);
+    });
+  } catch (const ConfigError& error) {
+    if (!*options.cancel) throw;
+    RunStatus status;
+    status.mission = mission.config.mission;
+    status.state = RunState::ended;
+    status.outcome = name_of(MissionOutcome::cancelled);
+    status.reason = error.what();
+    options.control->publish(status);
+    throw CancelledEarly(error.what());
+  }
 }
 
 // An autosave that this run does not go on from is all that is left of a run that was cut short.
@@ -124,9 +145,7 @@ bool try_to_write(const std::filesystem::path& file, const std::string& text) {
   }
 }
 
-}  // namespace
-
-int run(const RunCommand& command, const CommonOptions& common) {
+int run_mission(const RunCommand& command, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
   ControlFlags& flags = flags_of_signals();
   std::optional<std::int64_t> seed = command.seed;
@@ -150,7 +169,8 @@ int run(const RunCommand& command, const CommonOptions& common) {
   std::optional<RunRecording> recording;
   if (!mission.config.record.empty()) recording.emplace(command.out / mission.config.record, runner.T_map_start());
   {
-    ProgressLine progress(people, live, [&] { return runner.status(); });
+    std::ostream terminal(terminal_of(people));
+    ProgressLine progress(terminal, live, [&] { return runner.status(); });
     runner.subscribe(report);
     if (recording) runner.subscribe(*recording);
     runner.subscribe(progress);
@@ -158,10 +178,14 @@ int run(const RunCommand& command, const CommonOptions& common) {
   }
   for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
   if (recording) finish(*recording);
-  const RunPictures pictures = draw_run(command.out, mission, runner, result, report);
+  const auto write_report = [&](const std::vector<std::string>& pictures) {
+    return try_to_write(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures));
+  };
+  // First of all, since drawing may take long, or end the program; then once more with the names of the pictures.
+  bool reported = write_report({});
   try_to_write(command.out / "timing.json", timing_json(runner.times()) + "\n");
-  const bool reported =
-      try_to_write(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures.files));
+  const RunPictures pictures = draw_run(command.out, mission, runner, result, report);
+  if (!pictures.files.empty()) reported = write_report(pictures.files);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   print_times(people, runner.times());
   print_summary(people, mission, result, runner, report, pictures, command.out, wall_s);
@@ -175,6 +199,18 @@ int run(const RunCommand& command, const CommonOptions& common) {
     std::_Exit(kExitNotSolved);
   }
   return result.outcome == MissionOutcome::done && reported ? kExitDone : kExitNotSolved;
+}
+
+}  // namespace
+
+int run(const RunCommand& command, const CommonOptions& common) {
+  try {
+    return run_mission(command, common);
+  } catch (const CancelledEarly& cancelled) {
+    std::cerr << "cancelled before the mission began: " << cancelled.what() << "\n";
+    if (common.json) print_json({{"outcome", name_of(MissionOutcome::cancelled)}, {"reason", cancelled.what()}});
+    return kExitNotSolved;
+  }
 }
 
 }  // namespace cairn

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "framework/files/template_file.hpp"
@@ -8,6 +7,7 @@
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/common/refusal.hpp"
+#include "maps/base/output_file.hpp"
 #include "maps/base/text.hpp"
 #include "maps/landmarks/captured_outline.hpp"
 #include "maps/store/map_store.hpp"
@@ -26,11 +26,9 @@ Point place_in(const SavedMap& map, const std::string& text) {
 
 // Leaves no file behind that would not load.
 LandmarkShape write_template(const std::filesystem::path& file, const std::string& text) {
-  if (std::filesystem::exists(file)) throw std::runtime_error(file.string() + ": there is such a file already");
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+  if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+    throw std::runtime_error(file.string() + ": there is such a file already");
+  write_file(file, text);
   try {
     return load_landmark_shape(file);
   } catch (...) {

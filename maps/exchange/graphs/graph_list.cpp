@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "maps/base/printable.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/base/text.hpp"
@@ -35,10 +36,6 @@ struct ListedEdge {
   double cost_m = 0.0;
   std::size_t offset = 0;  // of `from`; `to` is the next token
 };
-
-bool is_control(char c) {
-  return static_cast<unsigned char>(c) < 0x20U || c == 0x7F;
-}
 
 // The text, token by token and line by line.
 class Cursor {
@@ -122,10 +119,8 @@ class Cursor {
 std::string_view name_of(Cursor& line) {
   const std::string_view name = line.rest();
   if (name.starts_with('#')) return {};
-  const auto control = std::ranges::find_if(name, is_control);
-  if (control != name.end())
-    line.fail_at(line.offset() + static_cast<std::size_t>(control - name.begin()),
-                 "the name " + in_quotes(name) + " holds a control character");
+  if (const std::size_t control = first_unprintable(name); control != std::string_view::npos)
+    line.fail_at(line.offset() + control, "the name " + in_quotes(name) + " holds a control character");
   return name;
 }
 
@@ -208,7 +203,7 @@ void take_edges(const std::vector<ListedEdge>& edges, const NodeIds& ids, const 
 // Whether a node's line gives the name back as it is.
 bool fits_a_line(const std::string& name) {
   return !name.starts_with('#') && name.find_first_not_of(' ') == 0 && name.back() != ' ' &&
-         std::ranges::none_of(name, is_control) && exchange::first_not_utf8(name) == std::string::npos;
+         first_unprintable(name) == std::string::npos;
 }
 
 }  // namespace

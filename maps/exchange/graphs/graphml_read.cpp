@@ -10,6 +10,7 @@
 #include "maps/exchange/graphs/file_ids.hpp"
 #include "maps/exchange/graphs/graphml.hpp"
 #include "maps/exchange/graphs/graphml_values.hpp"
+#include "maps/exchange/graphs/imported_names.hpp"
 
 namespace cairn {
 namespace {
@@ -188,6 +189,8 @@ class GraphmlReader {
       if (!numbers) landmark.name = ids[i];
       take_node(values, landmark, nodes_[i]);
       if (landmark.name.empty() && file_ids[i].id == 0) landmark.name = ids[i];
+      exchange::check_name(source_, offset_of(nodes_[i]), "name", landmark.name);
+      exchange::check_name(source_, offset_of(nodes_[i]), "category", landmark.category);
       landmarks_.push_back(landmark.id);
       imported_.graph.add(std::move(landmark));
     }

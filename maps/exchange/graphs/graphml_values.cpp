@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "maps/base/json_text.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/base/text.hpp"
 #include "maps/exchange/graphs/file_ids.hpp"
@@ -22,6 +23,8 @@ constexpr double kMaxExact = static_cast<double>(kMaxFileId);
 void check_text(const SourceText& source, std::string_view text, std::size_t offset) {
   if (first_not_utf8(text) != std::string_view::npos)
     source.fail(offset, "the text names a character that does not exist (&#...;)");
+  if (const std::size_t found = first_unprintable(text, kLineCharacters); found != std::string_view::npos)
+    source.fail(offset, "the text " + in_quotes(text) + " holds " + name_of_unprintable(text, found));
 }
 
 GraphmlValues::GraphmlValues(const SourceText& source, std::vector<GraphmlValue> values)

@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "maps/base/json_text.hpp"
 #include "maps/base/spelling.hpp"
+#include "maps/exchange/graphs/imported_names.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn::exchange {
 
@@ -31,6 +34,18 @@ template <class Json>
 std::string category_in(const Json& properties) {
   const Json* category = metadata_in(properties, "class");
   return category != nullptr && category->is_string() ? category->template get<std::string>() : "";
+}
+
+// Fails where a name or category with a control character stands in the feature that begins there. A name stands in the
+// metadata or beside them.
+template <class Json>
+void check_names(const SourceText& source, std::size_t begin, const Json& properties, const Landmark& landmark) {
+  const auto offset = [&](const char* key) {
+    return metadata_in(properties, key) != nullptr ? offset_of(source, begin, {"properties", "metadata", key})
+                                                   : offset_of(source, begin, {"properties", key});
+  };
+  check_name(source, offset("name"), "name", landmark.name);
+  check_name(source, offset("class"), "category", landmark.category);
 }
 
 // 0: not set.

@@ -193,6 +193,7 @@ class Nav2Reader {
     node.landmark.T_map_landmark = {point[0].get<double>(), point[1].get<double>(), 0.0};
     node.landmark.name = exchange::name_in(feature.properties());
     node.landmark.category = exchange::category_in(feature.properties());
+    exchange::check_names(source_, feature.offset(), feature.properties(), node.landmark);
     if (node.id == 0 && node.landmark.name.empty()) node.landmark.name = "0";
     Json kept = kept_of(feature, node.id);
     if (point.size() == 3) kept["z"] = point[2];

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <memory>
 
+#include "maps/base/output_file.hpp"
 #include "maps/base/source_text.hpp"
 
 namespace cairn {
@@ -109,6 +110,14 @@ File memory_file(const char* name) {
   return File(::fdopen(::memfd_create(name, MFD_CLOEXEC), "w+"));
 }
 
+std::string bytes_of(std::FILE* file) {
+  std::string bytes;
+  std::array<char, 65536> block{};
+  std::rewind(file);
+  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file)) bytes.append(block.data(), got);
+  return bytes;
+}
+
 std::string first_line_of(std::FILE* file) {
   std::rewind(file);
   std::string text(300, '\0');
@@ -160,13 +169,17 @@ std::string gnuplot_script(const Chart& chart) {
 }
 
 ChartOutcome write_chart(const std::filesystem::path& file, const Chart& chart) {
-  File picture(std::fopen(file.c_str(), "wbe"));
-  if (!picture) return failed(file.string() + " cannot be written", errno);
-  ChartOutcome outcome = run_gnuplot(gnuplot_script(chart), picture.get());
-  picture.reset();
-  std::error_code ignored;
-  if (outcome.drawn && std::filesystem::file_size(file, ignored) == 0) outcome = {false, "gnuplot drew nothing"};
-  if (!outcome.drawn) std::filesystem::remove(file, ignored);
+  const File picture = memory_file("chart");
+  if (!picture) return failed("no memory for a chart", errno);
+  const ChartOutcome outcome = run_gnuplot(gnuplot_script(chart), picture.get());
+  if (!outcome.drawn) return outcome;
+  const std::string bytes = bytes_of(picture.get());
+  if (bytes.empty()) return {false, "gnuplot drew nothing"};
+  try {
+    replace_file(file, bytes);
+  } catch (const OutputError& error) {
+    return {false, file.string() + " " + error.what()};
+  }
   return outcome;
 }
 

@@ -8,7 +8,7 @@
 namespace cairn::log_common {
 namespace {
 
-constexpr unsigned kChunk = 1U << 17U;
+constexpr unsigned kChunk = 1U << 17U;  // looked at the budget between two
 constexpr std::size_t kLargestText = std::size_t{1} << 30U;
 
 // A pipe would be waited for without end.
@@ -52,7 +52,14 @@ struct LogText::Reader {
   }
 };
 
-LogText::LogText(const std::filesystem::path& file) : name_(file.string()), reader_(std::make_unique<Reader>(file)) {
+void check_budget(const Budget& budget, const std::string& file, int line) {
+  if (budget.exhausted())
+    throw ReadingEnded({file, line, line > 0 ? 1 : 0},
+                       budget.cancelled() ? "reading this log was cancelled" : "reading this log took too long");
+}
+
+LogText::LogText(const std::filesystem::path& file, const Budget& budget)
+    : name_(file.string()), budget_(budget), reader_(std::make_unique<Reader>(file)) {
   if (fill() && buffer_.starts_with("\xEF\xBB\xBF")) begin_ = 3;  // a byte order mark
 }
 
@@ -60,6 +67,7 @@ LogText::~LogText() = default;
 
 bool LogText::fill() {
   if (reader_->ended) return false;
+  check_budget(budget_, name_, line_number_);
   damage_ = reader_->append_to(buffer_);
   return true;
 }
@@ -103,10 +111,11 @@ bool LogText::next(std::string_view& line) {
   return true;
 }
 
-std::string text_of_file(const std::filesystem::path& file) {
+std::string text_of_file(const std::filesystem::path& file, const Budget& budget) {
   LogText::Reader reader(file);
   std::string all;
   while (!reader.ended) {
+    check_budget(budget, file.string());
     const std::string damage = reader.append_to(all);
     if (!damage.empty()) throw ConfigError({file.string(), 0, 0}, damage);
     if (all.size() > kLargestText) throw ConfigError({file.string(), 0, 0}, "the log is larger than 1 GiB");

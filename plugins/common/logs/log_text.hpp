@@ -1,4 +1,5 @@
-// A text file line by line, plain or gzip (its first bytes say which), in bounded memory.
+// A text file line by line, plain or gzip (its first bytes say which), in bounded memory. The budget is looked at
+// before every 128 KiB of text, so that a small file that unpacks to gigabytes can be given up at any time.
 #pragma once
 
 #include <filesystem>
@@ -7,16 +8,23 @@
 #include <string_view>
 
 #include "framework/config/config_value.hpp"
+#include "framework/contracts/budget.hpp"
 
 namespace cairn::log_common {
+
+// The budget of the reading is exhausted; no rule for bad lines applies to that.
+class ReadingEnded : public ConfigError {
+ public:
+  using ConfigError::ConfigError;
+};
 
 class LogText {
  public:
   // Longer lines are no lines of any log we know.
   static constexpr std::size_t kLongestLine = std::size_t{1} << 20U;
 
-  // Throws ConfigError when the file cannot be read.
-  explicit LogText(const std::filesystem::path& file);
+  // Throws ConfigError when the file cannot be read, ReadingEnded when the budget is exhausted.
+  explicit LogText(const std::filesystem::path& file, const Budget& budget = {});
   ~LogText();
   LogText(const LogText&) = delete;
   LogText& operator=(const LogText&) = delete;
@@ -24,6 +32,7 @@ class LogText {
   // The next line without its end mark, valid until the next call; false at the end of the file.
   // Throws ConfigError for a line that is too long (the next call goes on behind it) and where the
   // gzip data is cut off or damaged (the half line there is dropped; the next call says end).
+  // Throws ReadingEnded when the budget is exhausted.
   bool next(std::string_view& line);
 
   [[nodiscard]] int line_number() const { return line_number_; }  // of the latest line, from 1
@@ -36,6 +45,7 @@ class LogText {
   [[nodiscard]] std::string_view take(std::size_t end);
 
   std::string name_;
+  Budget budget_;
   std::unique_ptr<Reader> reader_;
   std::string buffer_;
   std::size_t begin_ = 0;  // of what has not been given out
@@ -43,7 +53,11 @@ class LogText {
   std::string damage_;  // what is wrong with the compressed data, until it has been reported
 };
 
-// The whole of such a file. Throws ConfigError when it cannot be read, is damaged or is larger than 1 GiB.
-[[nodiscard]] std::string text_of_file(const std::filesystem::path& file);
+// The whole of such a file. Throws ConfigError when it cannot be read, is damaged or is larger than 1 GiB, ReadingEnded
+// when the budget is exhausted.
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& file, const Budget& budget = {});
+
+// Throws ReadingEnded at this line when the budget is exhausted.
+void check_budget(const Budget& budget, const std::string& file, int line = 0);
 
 }  // namespace cairn::log_common

@@ -41,7 +41,7 @@ void ScanLog::add_recorded(const Scan& scan, std::size_t source, std::vector<dou
 
 SourcePlace ScanLog::read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take,
                                 std::optional<char> separator) {
-  LogText text(file);
+  LogText text(file, budget_);
   LogLine line(text.name());
   std::string_view content;
   for (bool more = true; more;) {
@@ -51,6 +51,8 @@ SourcePlace ScanLog::read_lines(const std::filesystem::path& file, const std::fu
       line.cut(content, text.line_number(), separator);
       if (!trimmed(content).empty()) take(line);
     } catch (const RefusedLine&) {
+      throw;
+    } catch (const ReadingEnded&) {
       throw;
     } catch (const ConfigError& error) {
       bad_line(error);

@@ -84,7 +84,9 @@ class RefusedLine : public ConfigError {
 
 class ScanLog {
  public:
-  ScanLog(std::string file_name, const LogRules& rules) : file_(std::move(file_name)), rules_(rules) {}
+  // budget: of the reading.
+  ScanLog(std::string file_name, const LogRules& rules, const Budget& budget = {})
+      : file_(std::move(file_name)), rules_(rules), budget_(budget) {}
 
   // Where the ranges of a scan were taken: readings without their ranges. The number serves in add().
   // A key that is known already gives its number; make is called for a new one only.
@@ -106,7 +108,7 @@ class ScanLog {
   void set_start(const Pose2& T_map_start) { start_ = T_map_start; }
 
   // Takes every line of a file that is not blank, cut as LogLine::cut does; one at which take throws ConfigError is a
-  // bad line. Returns the place of the last.
+  // bad line. Returns the place of the last. Throws ReadingEnded when the budget is exhausted.
   SourcePlace read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take,
                          std::optional<char> separator = {});
   // Refuses or counts, by the rule.
@@ -137,6 +139,7 @@ class ScanLog {
 
   std::string file_;
   LogRules rules_;
+  Budget budget_;
   std::map<std::string, std::size_t> sources_by_key_;
   std::vector<std::vector<RangeReading>> sources_;
   std::vector<Kept> scans_;

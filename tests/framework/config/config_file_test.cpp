@@ -116,6 +116,12 @@ TEST(ConfigFile, SaysWhatIsWrongAndWhere) {
 
 TEST(ConfigFile, RefusesWhatIsNotText) {
   EXPECT_EQ(parse_error("a: 1\nb: \x04 c\n"), "m.yaml:2:4: a control character \"\\x04\"; a file holds text only");
+  EXPECT_EQ(parse_error("a: \xC2\x9B"), "m.yaml:1:4: a control character \"\\u009b\"; a file holds text only");
+  EXPECT_EQ(parse_error("a: \xE2\x80\xAE"), "m.yaml:1:4: a control character \"\\u202e\"; a file holds text only");
+  EXPECT_EQ(parse_error("a:\n  b: \"x\\e[2J\"\n"),
+            "m.yaml:2:6: the text \"x\\x1b[2J\" holds the control character \\x1b")
+      << "written as an escape";
+  EXPECT_EQ(parse_error("\"\\u202E\": 1\n"), "m.yaml:1:1: the text \"\\u202e\" holds the control character \\u202e");
   EXPECT_EQ(parse_error(std::string("a\0b", 3)), "m.yaml:1:2: a control character \"\\x00\"; a file holds text only");
   EXPECT_EQ(parse_error("\xff\xfe"
                         "a"),

@@ -142,6 +142,8 @@ TEST(RmfNavGraph, FaultsAreRefusedWithTheirPlace) {
             "nav.yaml:2:1: unknown key \"levles\" (did you mean \"levels\"?)");
   EXPECT_EQ(refusal(changed(kNav, "[3, 4,", "[.nan, 4,")).substr(0, 14), "nav.yaml:6:10:");
   EXPECT_EQ(refusal(changed(kNav, "speed_limit: 0.5", "speed_limit: -1")).substr(0, 14), "nav.yaml:9:30:");
+  EXPECT_THAT(refusal(changed(kNav, "name: desk", "name: \"a\\nb\"")),
+              testing::MatchesRegex("nav.yaml:[0-9]+:[0-9]+: name \"a.nb\" holds the control character .x0a"));
   EXPECT_THAT(refusal("levels: [1]"), HasSubstr("nav.yaml:1:9: levels must be a map"));
   EXPECT_THAT(refusal("levels: {L1: {vertices: [], lanes: []}}"), HasSubstr("the levels hold no vertex"));
   EXPECT_THAT(refusal("levels: {L1: {vertices: [[1]], lanes: []}}"), HasSubstr("a vertex must be [x, y, {...}]"));

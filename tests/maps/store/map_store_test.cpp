@@ -146,6 +146,15 @@ TEST_F(MapStore, SavesThroughALinkWithoutReplacingTheLink) {
   expect_equal(load_map(file("real.cairn")), small_map());
 }
 
+TEST_F(MapStore, InAnOutputFolderALinkIsReplacedAndItsFileIsLeftAsItIs) {
+  write_bytes(file("victim"), "precious");
+  fs::create_symlink("victim", file("link.cairn"));
+  save_map(file("link.cairn"), small_map(), Links::replace);
+  EXPECT_FALSE(fs::is_symlink(file("link.cairn")));
+  expect_equal(load_map(file("link.cairn")), small_map());
+  EXPECT_EQ(bytes_of(file("victim")), "precious");
+}
+
 TEST_F(MapStore, DoesNotOverwriteAFileThatIsNoMap) {
   write_bytes(file(), "mission: office\n");
   EXPECT_THROW(save_map(file(), small_map()), StoreError);

@@ -1,7 +1,9 @@
 // What a saved map file may be made of, and what load_map says to it.
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
+#include "maps/store/repair.hpp"
 #include "tests/maps/store/store_fixture.hpp"
 
 namespace cairn {
@@ -28,6 +30,27 @@ TEST_F(MapStore, RefusesNewerAndUnknownVersions) {
   EXPECT_EQ(refusal_after("PRAGMA user_version = 2"),
             "was written with schema version 2, this Cairn reads up to version 1: use a newer Cairn");
   EXPECT_EQ(refusal_after("PRAGMA user_version = -1"), "has schema version -1, the first one is 1");
+}
+
+TEST_F(MapStore, RefusesTextsThatSteerATerminal) {
+  for (const auto& [sql, told] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"UPDATE landmarks SET name = 'a' || char(27) || '[2J' WHERE id = 1",
+            "table landmarks: column name holds the control character \\x1b"},
+           {"UPDATE landmarks SET category = char(8238) WHERE id = 1",
+            "table landmarks: column category holds the control character \\u202e"},
+           {"UPDATE shapes SET category = char(155)",
+            "table shapes: column category holds the control character \\u009b"},
+           {"UPDATE shapes SET kind = 'x' || char(10)", "table shapes: kind \"x\\n\" is not circle"},
+           {"UPDATE meta SET value = char(127) WHERE key = 'note'",
+            "table meta: column value holds the control character \\u007f"}}) {
+    write_bytes(file(), small_map_bytes());
+    run_sql(file(), sql);
+    const SalvagedMap salvaged = salvage_map(file());
+    EXPECT_TRUE(std::ranges::any_of(salvaged.losses, [&, text = std::string(told)](const StoreLoss& loss) {
+      return ("table " + loss.table + ": " + loss.what).find(text.substr(text.find(": ") + 2)) != std::string::npos &&
+             text.starts_with("table " + loss.table);
+    })) << sql;
+  }
 }
 
 TEST_F(MapStore, RefusesATruncatedFileAtEveryLength) {

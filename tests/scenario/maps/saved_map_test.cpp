@@ -260,11 +260,12 @@ TEST(SavedMap, TwoRunsDoNotWriteIntoOneFolder) {
   const fs::path folder = fresh_folder("held");
   const fs::path mission = small_mission(folder, "{}", "[wait: 6]");
   fs::create_directories(folder / "out");
-  const int held = ::open((folder / "out").c_str(), O_RDONLY | O_DIRECTORY);
+  const int held = ::open((folder / "out/.cairn.lock").c_str(), O_RDWR | O_CREAT, 0600);
   ASSERT_EQ(::flock(held, LOCK_EX), 0);
+  ASSERT_EQ(::write(held, "4321\n", 5), 5);
   const Finished second = run_mission(mission, folder / "out");
   EXPECT_EQ(second.exit_status, 2);
-  EXPECT_THAT(second.err, HasSubstr("another run is writing into this folder"));
+  EXPECT_THAT(second.err, HasSubstr("another run (process 4321) is writing into this folder"));
   ::close(held);
   EXPECT_EQ(run_mission(mission, folder / "out").exit_status, 0);
 }

@@ -1,11 +1,15 @@
 #include "framework/program/common/output_files.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 namespace cairn {
 namespace {
@@ -55,8 +59,38 @@ TEST_F(OutputFiles, AFileThatCannotBeWrittenIsNamedWithTheReason) {
 TEST_F(OutputFiles, AFolderIsHeldByOneRunOnly) {
   make_folder(folder_);
   hold_folder(folder_);
+  EXPECT_THAT([&] { hold_folder(folder_, std::chrono::milliseconds(100)); },
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("another run (process " + std::to_string(::getpid()) + ") is writing into this folder")));
+  EXPECT_EQ(fs::status(folder_ / kFolderLock).permissions(), fs::perms(0600));
+}
+
+TEST_F(OutputFiles, AHolderThatGoesInTimeIsWaitedFor) {
+  make_folder(folder_);
+  const int held = ::open((folder_ / kFolderLock).c_str(), O_RDWR | O_CREAT, 0600);
+  ASSERT_EQ(::flock(held, LOCK_EX), 0);
+  EXPECT_THAT([&] { hold_folder(folder_, std::chrono::milliseconds(50)); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("another run is writing into this folder")))
+      << "it has not said who it is";
+  std::thread holder([held] { ::close(held); });
+  EXPECT_NO_THROW(hold_folder(folder_, std::chrono::seconds(60)));
+  holder.join();
+}
+
+TEST_F(OutputFiles, ALinkOrAPipeInPlaceOfTheLockIsAnError) {
+  make_folder(folder_);
+  write_file(folder_ / "victim", "precious");
+  const fs::path lock = folder_ / kFolderLock;
+  fs::create_symlink("victim", lock);
   EXPECT_THAT([&] { hold_folder(folder_); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("another run is writing into this folder")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("is a symbolic link, which is not followed; remove it")));
+  fs::remove(lock);
+  fs::create_hard_link(folder_ / "victim", lock);
+  EXPECT_THROW(hold_folder(folder_), std::runtime_error);
+  fs::remove(lock);
+  ASSERT_EQ(::mkfifo(lock.c_str(), 0600), 0);
+  EXPECT_THROW(hold_folder(folder_), std::runtime_error);
+  EXPECT_EQ(text_of(folder_ / "victim"), "precious");
 }
 
 }  // namespace

@@ -110,6 +110,7 @@ TEST(GraphList, RefusesDuplicatesDanglingEdgesAndNothing) {
 }
 
 TEST(GraphList, RefusesNamesThatNobodyCanRead) {
+  EXPECT_EQ(refused("node 1 0 0 ab\xE2\x80\xAE\n"), "1:14: the name \"ab\\u202e\" holds a control character");
   EXPECT_EQ(refused("node 1 0 0 a\x1B[2J\n"), "1:13: the name \"a\\x1b[2J\" holds a control character");
   EXPECT_EQ(refused("node 1 0 0 a\xC3\n"), "1:13: is not UTF-8 text");
 }

@@ -123,6 +123,10 @@ TEST(GraphMl, RefusesBadNodes) {
   EXPECT_EQ(refused(node("1", "<data key=\"d9\">[1]</data>")), "2:65: annotations must be the text of a JSON object");
   EXPECT_EQ(refused(node("1", "<data key=\"d2\">&#xD800;</data>")),
             "2:65: the text names a character that does not exist (&#...;)");
+  EXPECT_EQ(refused(node("1", "<data key=\"d2\">a&#x1B;[2J</data>")),
+            "2:65: the text \"a\\x1b[2J\" holds the control character \\x1b");
+  EXPECT_EQ(refused(node("1", "<data key=\"d2\">a&#10;b</data>")), "2:2: the name \"a\\nb\" holds a control character");
+  EXPECT_EQ(refused(node("a&#x202E;")), "2:2: the text \"a\\u202e\" holds the control character \\u202e");
   EXPECT_EQ(refused("<node id=\"&#x110000;\"/>"), "2:2: the text names a character that does not exist (&#...;)");
   EXPECT_EQ(refused(node("1", "<graph edgedefault=\"directed\"/>")), "2:65: a graph within a node is not read");
   EXPECT_EQ(refused(""), "1:773: the graph holds no node");

@@ -131,6 +131,13 @@ TEST(Nav2Routes, IdsAreUniqueAcrossNodesAndEdges) {
               ElementsAre("1 edge: the id is a node's, so it got one above all others: nav2 wants them unique"));
 }
 
+TEST(Nav2Routes, NamesAndCategoriesHoldNoControlCharacters) {
+  EXPECT_EQ(refused(node(R"("id": 3, "name": "a\u001b[2J")")),
+            "4:53: the name \"a\\x1b[2J\" holds a control character");
+  EXPECT_EQ(refused(node(R"("id": 3, "metadata": {"class": "\u202edock"})")),
+            "4:67: the category \"\\u202edock\" holds a control character");
+}
+
 TEST(Nav2Routes, EdgesHaveRealCoordinates) {
   LandmarkGraph graph = read({kTwoNodes}).graph;
   graph.add_route({3, 1, 2, 5.0, {}, false, false, 0});

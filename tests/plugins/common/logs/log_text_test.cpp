@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+#include <chrono>
+
 #include "plugins/common/logs/log_line.hpp"
 #include "tests/plugins/log_files.hpp"
 
@@ -41,6 +44,24 @@ TEST(LogText, GoesOnThroughSeveralGzipMembers) {
   const log_files::LogFolder folder;
   EXPECT_THAT(lines_of(folder, folder.write("a.gz", folder.gzip("one\nt") + folder.gzip("wo\n"))),
               ElementsAre("1|one", "2|two"));
+}
+
+// 64 MiB of zeros in some 65 KB: one line without end.
+TEST(LogText, ReadingABombEndsWithItsBudget) {
+  const log_files::LogFolder folder;
+  const std::filesystem::path bomb = folder.write("bomb.gz", folder.gzip(std::string(std::size_t{64} << 20U, '\0')));
+  std::atomic<bool> cancel = true;
+  EXPECT_THROW(LogText(bomb, {.cancel = &cancel}), ReadingEnded);
+  EXPECT_THROW((void)text_of_file(bomb, {.cancel = &cancel}), ReadingEnded);
+  cancel = false;
+  LogText text(bomb, {.cancel = &cancel});
+  cancel = true;
+  std::string_view line;
+  EXPECT_THAT([&] { text.next(line); },
+              ::testing::ThrowsMessage<ReadingEnded>(HasSubstr("bomb.gz:1:1: reading this log was cancelled")));
+  const Budget late{.deadline = Budget::Clock::now() - std::chrono::seconds(1)};
+  EXPECT_THAT([&] { (void)text_of_file(bomb, late); },
+              ::testing::ThrowsMessage<ReadingEnded>(HasSubstr("reading this log took too long")));
 }
 
 TEST(LogText, AnEmptyFileHasNoLines) {
