@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "framework/modules/printable.hpp"
 #include "maps/base/in_parallel.hpp"
+#include "maps/base/printable.hpp"
 
 namespace cairn {
 namespace {
@@ -81,7 +81,7 @@ void ModuleLibrary::Files::adopt(std::unique_ptr<LoadedPlugin> plugin) {
 void ModuleLibrary::Files::add_modules(File& file, const std::vector<ModuleSummary>& modules) {
   for (const ModuleSummary& module : modules) {
     if (const Module* taken = find(module.name))
-      faults_.push_back(file.file.string() + ": the name \"" + printable(module.name) + "\" is taken by " +
+      faults_.push_back(file.file.string() + ": the name \"" + printable_excerpt(module.name) + "\" is taken by " +
                         taken->file->file.string());
     else
       modules_.push_back({module, &file, {}});
@@ -130,7 +130,7 @@ void ModuleLibrary::Files::connect(File& file) {
     if (found != file.plugin->modules.end())
       module.entry = {&*found, file.plugin.get()};
     else
-      faults_.push_back(file.file.string() + ": does not register \"" + printable(module.summary.name) +
+      faults_.push_back(file.file.string() + ": does not register \"" + printable_excerpt(module.summary.name) +
                         "\" any more, as it did in its trial");
   }
 }

@@ -11,7 +11,7 @@
 #include <exception>
 #include <mutex>
 
-#include "framework/modules/printable.hpp"
+#include "maps/base/printable.hpp"
 
 namespace cairn {
 namespace {
@@ -81,7 +81,7 @@ const shared_library& open(const std::filesystem::path& file) {
     library.load(boost::dll::fs::path(std::filesystem::absolute(file).string()),
                  boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
   } catch (const std::exception& error) {
-    throw PluginError(file, "cannot be opened as a module: " + printable(error.what(), 1000));
+    throw PluginError(file, "cannot be opened as a module: " + printable_excerpt(error.what(), 1000));
   }
   const std::lock_guard lock(mutex);
   return kept.emplace_back(std::move(library));
@@ -111,7 +111,7 @@ LoadedPlugin load_plugin(const std::filesystem::path& file, const std::function<
   try {
     library.get<void(Registrar&)>(kRegisterSymbol)(registrar);
   } catch (const std::exception& error) {
-    throw PluginError(file, "threw while registering: " + printable(error.what()));
+    throw PluginError(file, "threw while registering: " + printable_excerpt(error.what()));
   } catch (...) {
     throw PluginError(file, "threw something that is no std::exception while registering");
   }

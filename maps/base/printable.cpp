@@ -76,6 +76,15 @@ std::string printable(std::string_view text, std::string_view allowed) {
   return shown;
 }
 
+std::string printable_excerpt(std::string_view text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return printable(text);
+  const auto is_inside_a_character = [&](std::size_t i) {
+    return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
+  };
+  while (max_bytes > 0 && is_inside_a_character(max_bytes)) --max_bytes;
+  return printable(text.substr(0, max_bytes)) + "...";
+}
+
 std::string name_of_unprintable(std::string_view text, std::size_t offset) {
   const Character character = character_at(text, offset);
   return (character.is_utf8 ? "the control character " : "the byte ") + escaped(text, offset, character);

@@ -19,6 +19,9 @@ inline constexpr std::string_view kLineCharacters = "\n\t\r";  // what texts of 
 // stays the same JSON value.
 [[nodiscard]] std::string printable(std::string_view text, std::string_view allowed = {});
 
+// The same of its first bytes, with "..." for the rest; not cut within a character.
+[[nodiscard]] std::string printable_excerpt(std::string_view text, std::size_t max_bytes = 400);
+
 // "the control character \x1b" for an error about the character at that offset.
 [[nodiscard]] std::string name_of_unprintable(std::string_view text, std::size_t offset);
 

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "framework/modules/plugin_loader.hpp"
-#include "framework/modules/printable.hpp"
 #include "framework/modules/trial/child_process.hpp"
+#include "maps/base/printable.hpp"
 
 namespace cairn {
 namespace {
@@ -56,7 +56,7 @@ TrialOutcome outcome_of_end(const ChildEnd& end, std::chrono::milliseconds limit
     outcome.fault += " while the program ended";
   else
     outcome.fault += end.reported.starts_with(kRegistering) ? " while it registered" : " while it was opened";
-  if (!end.printed.empty()) outcome.fault += "; it printed \"" + printable(end.printed, kMaxShown) + "\"";
+  if (!end.printed.empty()) outcome.fault += "; it printed \"" + printable_excerpt(end.printed, kMaxShown) + "\"";
   return outcome;
 }
 
@@ -83,7 +83,7 @@ int run_module_trial(const std::filesystem::path& file) {
   } catch (const PluginError& error) {
     outcome.fault = error.reason();
   } catch (const std::exception& error) {
-    outcome.fault = printable(error.what());
+    outcome.fault = printable_excerpt(error.what());
   }
   report(std::string(kOutcome) + text_of(outcome));
   return 0;

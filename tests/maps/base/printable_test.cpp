@@ -50,5 +50,12 @@ TEST(InQuotes, HoldsNothingThatSteersATerminal) {
   EXPECT_EQ(in_quotes("a\n\x1B[2J\xC2\x9B\xE2\x80\xAE\x9B"), "\"a\\n\\x1b[2J\\u009b\\u202e\\x9b\"");
 }
 
+TEST(Printable, AnExcerptIsCutButNotWithinACharacter) {
+  EXPECT_EQ(printable_excerpt("abcdef", 3), "abc...");
+  EXPECT_EQ(printable_excerpt("abc", 3), "abc");
+  EXPECT_EQ(printable_excerpt("a€b", 2), "a...");
+  EXPECT_EQ(printable_excerpt("a\x1b[2J", 2), "a\\x1b...");
+}
+
 }  // namespace
 }  // namespace cairn
