@@ -64,10 +64,10 @@ TEST(ChildTrial, AFileThatHangsIsGivenUp) {
 
 TEST(ChildTrial, WhatAFilePrintsOrThrowsIsShownHarmless) {
   EXPECT_EQ(outcome_of("prints_and_crashes").fault,
-            "crashed (SIGSEGV) while it registered; it printed \"\\x1b[2Jout\\nerr\\x0d\\x07\"");
-  EXPECT_EQ(outcome_of("throws_when_opened").fault, "cannot be opened as a module: no \\x1b[31mlicence\\nfound");
+            "crashed (SIGSEGV) while it registered; it printed \"\\x1b[2Jout\\x0aerr\\x0d\\x07\"");
+  EXPECT_EQ(outcome_of("throws_when_opened").fault, "cannot be opened as a module: no \\x1b[31mlicence\\x0afound");
   const TrialOutcome outcome = outcome_of("throws_when_registering");
-  EXPECT_EQ(outcome.fault, "threw while registering: no \\x1b[31mlicence\\nfound");
+  EXPECT_EQ(outcome.fault, "threw while registering: no \\x1b[31mlicence\\x0afound");
   EXPECT_FALSE(outcome.is_fatal);
 }
 

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "framework/modules/printable.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/base/in_parallel.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -43,7 +43,7 @@ void check_names(CheckedFile& checked, const std::vector<KnownModule>& others) {
   if (checked.modules.empty()) faults.emplace_back("it registers nothing");
   std::set<std::string> own;
   for (const ModuleSummary& module : checked.modules) {
-    const std::string name = printable(module.name);
+    const std::string name = printable_excerpt(module.name);
     if (!is_plain_name(module.name))
       faults.push_back("the name \"" + name + "\" is not of lower-case letters, digits and _");
     if (module.summary.empty()) faults.push_back(name + " has no one-line description");
@@ -105,8 +105,8 @@ std::string long_text(const CheckedFile& checked) {
   if (checked.is_loadable)
     text = "symbols   cairn_abi_stamp, cairn_register_module\nstamp     " + text_of(this_abi_stamp()) + "\n";
   for (const ModuleSummary& module : checked.modules)
-    text +=
-        fmt::format("registers {} {}: {}\n", name_of(module.kind), printable(module.name), printable(module.summary));
+    text += fmt::format("registers {} {}: {}\n", name_of(module.kind), printable_excerpt(module.name),
+                        printable(module.summary));
   for (const std::string& fault : checked.faults)
     text += "wrong     " + (checked.is_loadable ? "" : checked.file.string() + ": ") + fault + "\n";
   return checked.faults.empty() ? text + "usable\n" : text;
@@ -115,7 +115,7 @@ std::string long_text(const CheckedFile& checked) {
 std::string line_text(const CheckedFile& checked) {
   std::vector<std::string> words;
   for (const ModuleSummary& module : checked.modules)
-    words.push_back(std::string(name_of(module.kind)) + " " + printable(module.name));
+    words.push_back(std::string(name_of(module.kind)) + " " + printable_excerpt(module.name));
   std::string fault = joined(checked.faults, "; ");
   for (std::size_t at = 0; (at = fault.find("\n  ", at)) != std::string::npos;) fault.replace(at, 3, " ");
   return checked.file.string() + ": " + (fault.empty() ? "ok: " + joined(words) : fault) + "\n";

@@ -4,10 +4,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "framework/modules/printable.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -67,8 +67,8 @@ int plugins_list(const CommonOptions& common) {
       list.push_back(
           {{"kind", kind}, {"name", module.name}, {"module", file}, {"version", version}, {"summary", module.summary}});
     else
-      std::cout << fmt::format("{:<13} {:<18} {:<22} {:<8} {}\n", kind, printable(module.name), file, version,
-                               printable(module.summary));
+      std::cout << fmt::format("{:<13} {:<18} {:<22} {:<8} {}\n", kind, printable_excerpt(module.name), file, version,
+                               printable_excerpt(module.summary));
   }
   const std::vector<std::string> faults = library.faults();
   if (common.json) print_json({{"modules", list}, {"faults", faults}});
