@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "maps/base/spelling.hpp"
+
 namespace cairn {
 namespace {
 
@@ -45,14 +47,15 @@ TEST_F(TextFilesTest, OnlyPlainNamesAreWritten) {
   for (const char* name : {"", ".", "..", "a/b", "a\\b", "a\nb"}) {
     const Status status = texts.write({name, "text", false});
     EXPECT_EQ(status.progress, Progress::failure) << name;
-    EXPECT_EQ(status.reason, "\"" + std::string(name) + "\" is not a plain file name");
+    EXPECT_EQ(status.reason, in_quotes(name) + " is not a plain file name");
   }
 }
 
 TEST_F(TextFilesTest, AFileThatCannotBeWrittenIsAFailure) {
   std::filesystem::create_directories(folder_ / "taken");
   TextFiles texts(folder_, false);
-  EXPECT_EQ(texts.write({"taken", "text", false}).reason, "taken could not be written");
+  EXPECT_EQ(texts.write({"taken", "text", false}).reason,
+            "taken could not be written: cannot be written: Is a directory");
 }
 
 }  // namespace
