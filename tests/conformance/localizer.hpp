@@ -78,7 +78,7 @@ class LocalizerConformance : public Conformance<Localizer> {
 
  private:
   const OccupancyGrid unknown_grid_{0.05};
-  const LandmarkGraph no_landmarks_;
+  const LandmarkGraph no_landmarks_{};
   const OccupancyGrid room_grid_ = grid_of_room(0.05);
   const LandmarkGraph post_ = landmark_at(kPostOfRoom);
 };
