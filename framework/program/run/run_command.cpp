@@ -10,7 +10,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "framework/safety/fatal_ends.hpp"
 #include "framework/mission/resume.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/modules/fence.hpp"
@@ -26,6 +25,7 @@
 #include "framework/program/run/progress_line.hpp"
 #include "framework/reporting/recording.hpp"
 #include "framework/reporting/report.hpp"
+#include "framework/safety/fatal_ends.hpp"
 
 namespace cairn {
 namespace {
@@ -207,7 +207,8 @@ int run(const RunCommand& command, const CommonOptions& common) {
   try {
     return run_mission(command, common);
   } catch (const CancelledEarly& cancelled) {
-    std::cerr << "cancelled before the mission began: " << cancelled.what() << "\n";
+    (common.json ? std::cerr : std::cout)
+        << "\n  outcome     cancelled: cancelled by the user before the mission began: " << cancelled.what() << "\n";
     if (common.json) print_json({{"outcome", name_of(MissionOutcome::cancelled)}, {"reason", cancelled.what()}});
     return kExitNotSolved;
   }
