@@ -1,6 +1,7 @@
 // Planner (plugin kind `planner`): from a place to a place, for missions, their behaviours and `cairn plan`.
 //
-// It composes a PathPlanner and a RoutePlanner. One of these alone serves as a planner too (adapters/lone_planners.hpp).
+// It composes a PathPlanner and a RoutePlanner. One of these alone serves as a planner too
+// (adapters/lone_planners.hpp).
 #pragma once
 
 #include <cstdint>

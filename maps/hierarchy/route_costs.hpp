@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "maps/grid/occupancy_grid.hpp"
 #include "maps/clustering/network.hpp"
+#include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "maps/geometry/contour.hpp"
 #include "maps/clustering/cluster_tree.hpp"
+#include "maps/geometry/contour.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/pictures/drawing/label_placer.hpp"
 #include "maps/pictures/drawing/legend.hpp"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/geometry/contour.hpp"
 #include "maps/grid/occupancy_grid.hpp"
-#include "maps/clustering/cluster_tree.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {

@@ -116,9 +116,8 @@ TEST_F(FatalModules, CheckHasALineForEveryFileAndOneObjectForAll) {
   EXPECT_EQ(lines.size(), answer["files"].size());
   EXPECT_THAT(lines, testing::Contains(AllOf(HasSubstr("muriel.so: ok: map muriel"))));
   EXPECT_THAT(lines, testing::Contains(HasSubstr("exits_3_when_registering.so: called exit(3) while it registered")));
-  EXPECT_THAT(
-      lines,
-      testing::Contains(HasSubstr("throws_when_registering.so: threw while registering: no \\x1b[31mlicence\\x0afound")));
+  EXPECT_THAT(lines, testing::Contains(HasSubstr(
+                         "throws_when_registering.so: threw while registering: no \\x1b[31mlicence\\x0afound")));
 }
 
 TEST_F(FatalModules, CheckOfGoodFilesSucceedsAndTriesThemAnew) {

@@ -21,7 +21,9 @@ namespace {
 // A map or a text named by mistake is not drawn over; a link is replaced itself.
 void check_may_be_replaced(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error)) || std::filesystem::file_size(file, error) == 0) return;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error)) ||
+      std::filesystem::file_size(file, error) == 0)
+    return;
   std::array<png_byte, 8> beginning{};
   std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(beginning.data()), beginning.size());
   if (png_sig_cmp(beginning.data(), 0, beginning.size()) != 0)

@@ -1,7 +1,8 @@
 // Every shipped module of kind `path_planner` passes the suite of its kind; `ompl` with each of its algorithms, left to
 // itself, and however the robot moves.
-#include "planners/ompl/search/algorithms.hpp"
 #include "tests/conformance/path_planner.hpp"
+
+#include "planners/ompl/search/algorithms.hpp"
 
 namespace cairn::conformance {
 namespace {

@@ -78,7 +78,8 @@ TEST_F(MissionModulesTest, GoOnWithAMapThatTheMapModuleMustTakeOver) {
 TEST(ModuleSeed, IsAnotherForEachMissionKindAndIndex) {
   std::set<std::uint64_t> seeds;
   for (std::int64_t mission = 0; mission < 20; ++mission)
-    for (const PluginKind kind : {PluginKind::sensor, PluginKind::localizer, PluginKind::planner, PluginKind::behaviour})
+    for (const PluginKind kind :
+         {PluginKind::sensor, PluginKind::localizer, PluginKind::planner, PluginKind::behaviour})
       for (const std::size_t index : {0, 1, 2, 100, 101, 102, 10000}) seeds.insert(module_seed(mission, kind, index));
   EXPECT_EQ(seeds.size(), 20U * 4U * 7U);
   EXPECT_EQ(module_seed(7, PluginKind::sensor), module_seed(7, PluginKind::sensor, 0));

@@ -62,7 +62,8 @@ double error_after_a_round(ScanToMap& localizer, double range_offset_m = 0.0) {
   Pose2 T_odom_robot;
   double worst_m = 0.0;
   for (int i = 0; i < 100; ++i) {
-    const Pose2 estimate = localizer.update(scan(T_map_robot, T_odom_robot, range_offset_m), nothing_known()).T_map_robot;
+    const Pose2 estimate =
+        localizer.update(scan(T_map_robot, T_odom_robot, range_offset_m), nothing_known()).T_map_robot;
     worst_m = std::max(worst_m, (estimate.position() - T_map_robot.position()).norm());
     T_map_robot = T_map_robot * Pose2{0.03, 0.0, radians(3.6)};
     T_odom_robot = T_odom_robot * Pose2{0.03 * 1.05, 0.0, radians(3.6) * 1.1};
