@@ -23,7 +23,7 @@ std::vector<LandmarkId> landmarks_of(const std::string& text, const LandmarkGrap
 }
 
 Status answer(bool holds, std::string reason) {
-  return {holds ? Progress::success : Progress::failure, std::move(reason)};
+  return {holds ? StepState::success : StepState::failure, std::move(reason)};
 }
 
 Status known(const std::string& landmark, const LandmarkGraph& graph) {

@@ -13,9 +13,9 @@ std::string_view name_of(RunEnd end) {
 }
 
 void NodeRuns::add(const TreeNode& node, const NodeReport& how, double begun_s) {
-  const RunEnd end = how.is_halted                              ? RunEnd::halted
-                     : how.status.progress == Progress::success ? RunEnd::success
-                                                                : RunEnd::failure;
+  const RunEnd end = how.is_halted                            ? RunEnd::halted
+                     : how.status.state == StepState::success ? RunEnd::success
+                                                              : RunEnd::failure;
   const bool at_once = how.end_s - begun_s < kAtOnce_s;
   const auto last = last_.find(node.path);
   if (at_once && last != last_.end()) {

@@ -47,12 +47,12 @@ Status TreeRunner::tick_node(std::size_t at) {
   if (!state.is_running) begin(at);
   ++state.report.ticks;
   Status status = tick_kind(at);
-  if (status.progress == Progress::running) {
+  if (status.state == StepState::running) {
     report_start(at);
     return status;
   }
   end(at, status);
-  if (state.is_forgiven && at != 0) status.progress = Progress::success;
+  if (state.is_forgiven && at != 0) status.state = StepState::success;
   return status;
 }
 
@@ -65,9 +65,9 @@ Status TreeRunner::tick_kind(std::size_t at) {
     case NodeKind::fallback:
       return tick_fallback(state);
     case NodeKind::reactive_sequence:
-      return tick_reactive(state, Progress::success);
+      return tick_reactive(state, StepState::success);
     case NodeKind::reactive_fallback:
-      return tick_reactive(state, Progress::failure);
+      return tick_reactive(state, StepState::failure);
     case NodeKind::parallel:
       return tick_parallel(state);
     case NodeKind::repeat:
@@ -78,14 +78,14 @@ Status TreeRunner::tick_kind(std::size_t at) {
       return tick_timeout(state);
     case NodeKind::inverse: {
       Status status = tick_node(state.children.front());
-      if (status.progress == Progress::running) return status;
-      const bool has_failed = status.progress == Progress::failure;
-      status.progress = has_failed ? Progress::success : Progress::failure;
+      if (status.state == StepState::running) return status;
+      const bool has_failed = status.state == StepState::failure;
+      status.state = has_failed ? StepState::success : StepState::failure;
       return status;
     }
     case NodeKind::force_success: {
       Status status = tick_node(state.children.front());
-      if (status.progress == Progress::failure) status.progress = Progress::success;
+      if (status.state == StepState::failure) status.state = StepState::success;
       return status;
     }
     default:
@@ -95,7 +95,7 @@ Status TreeRunner::tick_kind(std::size_t at) {
   LeafTick leaf = host_.tick_leaf(*state.node);
   state.reported = leaf.status;
   state.is_forgiven = leaf.is_forgiven;
-  if (leaf.wanted && leaf.status.progress == Progress::running) {
+  if (leaf.wanted && leaf.status.state == StepState::running) {
     driver_ = at;
     wanted_ = leaf.wanted;
   }
@@ -107,12 +107,12 @@ std::string TreeRunner::failure_of(std::size_t at, const std::string& reason) co
 }
 
 Status TreeRunner::tick_sequence(State& state) {
-  Status status{Progress::success, ""};
+  Status status{StepState::success, ""};
   while (state.next < state.children.size()) {
     const std::size_t child = state.children[state.next];
     status = tick_node(child);
-    if (status.progress == Progress::running) return status;
-    if (status.progress == Progress::failure) return {Progress::failure, failure_of(child, status.reason)};
+    if (status.state == StepState::running) return status;
+    if (status.state == StepState::failure) return {StepState::failure, failure_of(child, status.reason)};
     ++state.next;
   }
   return status;
@@ -122,25 +122,25 @@ Status TreeRunner::tick_fallback(State& state) {
   while (state.next < state.children.size()) {
     const std::size_t child = state.children[state.next];
     Status status = tick_node(child);
-    if (status.progress != Progress::failure) return status;
+    if (status.state != StepState::failure) return status;
     state.failures += (state.failures.empty() ? "" : "; ") + failure_of(child, status.reason);
     ++state.next;
   }
-  return {Progress::failure, state.failures};
+  return {StepState::failure, state.failures};
 }
 
-Status TreeRunner::tick_reactive(State& state, Progress go_on) {
+Status TreeRunner::tick_reactive(State& state, StepState go_on) {
   Status status{go_on, ""};
   std::string failures;
   for (std::size_t i = 0; i < state.children.size(); ++i) {
     status = tick_node(state.children[i]);
-    if (status.progress == Progress::failure)
+    if (status.state == StepState::failure)
       failures += (failures.empty() ? "" : "; ") + failure_of(state.children[i], status.reason);
-    if (status.progress == go_on) continue;
+    if (status.state == go_on) continue;
     halt_children(state, i + 1, "an earlier child of " + state.node->name + " comes first");
     break;
   }
-  if (status.progress == Progress::failure) status.reason = failures;
+  if (status.state == StepState::failure) status.reason = failures;
   return status;
 }
 
@@ -150,7 +150,7 @@ Status TreeRunner::tick_parallel(State& state) {
   std::optional<std::size_t> driver;
   std::optional<Twist> wanted;
   for (std::size_t i = 0; i < state.children.size(); ++i) {
-    if (state.outcomes[i].progress != Progress::running) continue;
+    if (state.outcomes[i].state != StepState::running) continue;
     driver_.reset();
     state.outcomes[i] = tick_node(state.children[i]);
     if (!driver_) continue;
@@ -160,7 +160,7 @@ Status TreeRunner::tick_parallel(State& state) {
       halt_children(state, 0, reason);
       driver_.reset();
       wanted_.reset();
-      return {Progress::failure, reason};
+      return {StepState::failure, reason};
     }
     driver = driver_;
     wanted = wanted_;
@@ -179,16 +179,16 @@ std::optional<Status> TreeRunner::decided(const State& state) const {
   std::string failures;
   for (std::size_t i = 0; i < state.children.size(); ++i) {
     const Status& outcome = state.outcomes[i];
-    succeeded += outcome.progress == Progress::success ? 1 : 0;
-    if (outcome.progress != Progress::failure) continue;
+    succeeded += outcome.state == StepState::success ? 1 : 0;
+    if (outcome.state != StepState::failure) continue;
     ++failed;
     failures += (failures.empty() ? "" : "; ") + failure_of(state.children[i], outcome.reason);
   }
   const TreeNode& node = *state.node;
   if (failed >= node.fail_at || state.children.size() - failed < node.succeed_at)
-    return Status{Progress::failure, failures};
+    return Status{StepState::failure, failures};
   if (succeeded >= node.succeed_at)
-    return Status{Progress::success,
+    return Status{StepState::success,
                   std::to_string(succeeded) + " of " + std::to_string(state.children.size()) + " done"};
   return std::nullopt;
 }
@@ -196,26 +196,26 @@ std::optional<Status> TreeRunner::decided(const State& state) const {
 // The next round begins with the next tick, so that no tick is without end.
 Status TreeRunner::tick_repeat(State& state) {
   const std::size_t child = state.children.front();
-  const Status status = tick_node(child);
-  if (status.progress == Progress::running) return status;
+  Status status = tick_node(child);
+  if (status.state == StepState::running) return status;
   const int times = state.node->times;
   ++state.rounds;
-  if (status.progress == Progress::failure)
-    return {Progress::failure, failure_of(child, status.reason) + " (round " + rounds_text(state.rounds, times) + ")"};
-  if (state.rounds == times) return {Progress::success, "did all " + std::to_string(times) + " rounds"};
-  return {Progress::running, "did round " + rounds_text(state.rounds, times)};
+  if (status.state == StepState::failure)
+    return {StepState::failure, failure_of(child, status.reason) + " (round " + rounds_text(state.rounds, times) + ")"};
+  if (state.rounds == times) return {StepState::success, "did all " + std::to_string(times) + " rounds"};
+  return {StepState::running, "did round " + rounds_text(state.rounds, times)};
 }
 
 Status TreeRunner::tick_retry(State& state) {
   const std::size_t child = state.children.front();
   Status status = tick_node(child);
-  if (status.progress != Progress::failure) return status;
+  if (status.state != StepState::failure) return status;
   const int times = state.node->times;
   ++state.rounds;
   if (state.rounds == times)
-    return {Progress::failure,
+    return {StepState::failure,
             failure_of(child, status.reason) + " (attempt " + rounds_text(state.rounds, times) + ")"};
-  return {Progress::running, "attempt " + rounds_text(state.rounds, times) + " failed"};
+  return {StepState::running, "attempt " + rounds_text(state.rounds, times) + " failed"};
 }
 
 Status TreeRunner::tick_timeout(State& state) {
@@ -224,7 +224,7 @@ Status TreeRunner::tick_timeout(State& state) {
   const std::string reason =
       states_[child].node->name + " has not ended within " + config_detail::number_text(state.node->after_s) + " s";
   halt_children(state, 0, reason);
-  return {Progress::failure, reason};
+  return {StepState::failure, reason};
 }
 
 void TreeRunner::begin(std::size_t at) {
@@ -253,7 +253,7 @@ void TreeRunner::report_start(std::size_t at) {
 void TreeRunner::end(std::size_t at, const Status& status) {
   State& state = states_[at];
   NodeReport& report = state.report;
-  const bool has_changed = state.is_reported || report.is_halted || report.status.progress != status.progress;
+  const bool has_changed = state.is_reported || report.is_halted || report.status.state != status.state;
   state.is_running = false;
   report.status = status;
   report.is_halted = false;
@@ -281,7 +281,7 @@ void TreeRunner::halt_node(std::size_t at, const std::string& reason) {
   if (!state.is_running) return;
   halt_children(state, 0, reason);
   state.is_running = false;
-  state.report.status = {Progress::failure, reason};
+  state.report.status = {StepState::failure, reason};
   state.report.is_halted = true;
   state.report.end_s = now_s_;
   if (driver_ == at) {
@@ -297,7 +297,7 @@ void TreeRunner::abandon(double time_s, const std::string& reason) {
   for (State& state : states_) {
     if (!state.is_running) continue;
     state.is_running = false;
-    state.report.status = {Progress::failure, reason};
+    state.report.status = {StepState::failure, reason};
     state.report.is_halted = true;
     state.report.end_s = time_s;
     host_.ran(*state.node, state.report, state.begun_s);

@@ -126,7 +126,7 @@ class TreeRunner {
   Status tick_kind(std::size_t at);
   Status tick_sequence(State& state);
   Status tick_fallback(State& state);
-  Status tick_reactive(State& state, Progress go_on);
+  Status tick_reactive(State& state, StepState go_on);
   Status tick_parallel(State& state);
   std::optional<Status> decided(const State& state) const;
   Status tick_repeat(State& state);

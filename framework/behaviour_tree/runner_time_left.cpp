@@ -71,7 +71,7 @@ TimeLeft TreeRunner::left_of(std::size_t at, const Reckoning& reckoning) const {
       return left;
     case NodeKind::parallel:
       for (std::size_t i = 0; i < state.children.size(); ++i)
-        if (i >= state.outcomes.size() || state.outcomes[i].progress == Progress::running)
+        if (i >= state.outcomes.size() || state.outcomes[i].state == StepState::running)
           left = side_by_side(std::move(left), child(i));
       return left;
     case NodeKind::repeat:

@@ -11,7 +11,7 @@ using nlohmann::ordered_json;
 
 constexpr int kMaxDepth = 6;  // of the text that text_of() writes
 constexpr std::size_t kMaxBytes = 16U << 20U;
-constexpr std::array kOutcomes{"running", "success", "failure"};  // in the order of Progress
+constexpr std::array kOutcomes{"running", "success", "failure"};  // in the order of StepState
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::invalid_argument(what);
@@ -41,7 +41,7 @@ Status outcome_of(const ordered_json& value) {
   if (!value.is_object()) fail("an outcome is not an object");
   const std::string name = text_in(value, "outcome");
   for (std::size_t i = 0; i < kOutcomes.size(); ++i)
-    if (name == kOutcomes[i]) return {static_cast<Progress>(i), text_in(value, "reason")};
+    if (name == kOutcomes[i]) return {static_cast<StepState>(i), text_in(value, "reason")};
   fail("an outcome is called \"" + name.substr(0, 40) + "\"");
 }
 
@@ -69,8 +69,7 @@ std::string text_of(const TreeState& state) {
   for (const NodeState& node : state.running) {
     ordered_json outcomes = ordered_json::array();
     for (const Status& outcome : node.outcomes)
-      outcomes.push_back(
-          {{"outcome", kOutcomes[static_cast<std::size_t>(outcome.progress)]}, {"reason", outcome.reason}});
+      outcomes.push_back({{"outcome", kOutcomes[static_cast<std::size_t>(outcome.state)]}, {"reason", outcome.reason}});
     nodes.push_back({{"path", node.path},
                      {"next", node.next},
                      {"rounds", node.rounds},

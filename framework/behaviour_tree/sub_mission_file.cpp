@@ -17,8 +17,8 @@ std::filesystem::path resolved(const std::filesystem::path& file) {
 }
 
 bool is_below(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  const std::filesystem::path way = resolved(file).lexically_relative(folder);
-  return !way.empty() && *way.begin() != "..";
+  const std::filesystem::path relative = resolved(file).lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
 }
 
 // A sentence quotes what was found, or gives it after a colon.

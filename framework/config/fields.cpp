@@ -166,7 +166,7 @@ std::filesystem::path to_path(const ConfigValue& value, const std::string& key) 
 }
 
 std::string to_file_name(const ConfigValue& value, const std::string& key) {
-  const std::string name = to_text(value, key);
+  std::string name = to_text(value, key);
   const auto is_kept_out = [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' '; };
   if (name.empty() || name == "." || name == ".." || name.size() > kMaxFileName ||
       std::ranges::any_of(name, is_kept_out))

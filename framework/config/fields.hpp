@@ -97,7 +97,7 @@ class Fields {
  public:
   // Number: double or std::optional<double>, which has no default. Owner: Config or a base of it.
   template <class Number, class Owner>
-  FieldSpec& number(std::string key, Number Owner::*member, Range range, std::string unit, std::string meaning) {
+  FieldSpec& number(std::string key, Number Owner::*member, Range range, const std::string& unit, std::string meaning) {
     std::string default_text;
     if constexpr (std::is_same_v<Number, double>) default_text = config_detail::number_text(defaults_.*member);
     const auto read = [range, unit](const ConfigValue& v, const std::string& name) {
@@ -109,7 +109,7 @@ class Fields {
   // Degrees in the file, radians in the struct; the range is in degrees, the unit may be "deg/s" and the like.
   template <class Number, class Owner>
   FieldSpec& angle(std::string key, Number Owner::*member, Range range_deg, std::string meaning,
-                   std::string unit = "deg") {
+                   const std::string& unit = "deg") {
     std::string default_text;
     if constexpr (std::is_same_v<Number, double>) default_text = config_detail::number_text(degrees(defaults_.*member));
     const auto read = [range_deg, unit](const ConfigValue& v, const std::string& name) {
@@ -171,7 +171,8 @@ class Fields {
                config_detail::each_by(config_detail::to_path));
   }
   // The range is that of each coordinate.
-  FieldSpec& point(std::string key, Point Config::*member, std::string unit, std::string meaning, Range range = {}) {
+  FieldSpec& point(std::string key, Point Config::*member, const std::string& unit, std::string meaning,
+                   Range range = {}) {
     const Point& at = defaults_.*member;
     const std::string default_text =
         "[" + config_detail::number_text(at.x()) + ", " + config_detail::number_text(at.y()) + "]";
@@ -180,15 +181,16 @@ class Fields {
     };
     return measured(add(std::move(key), "point", std::move(meaning), default_text, member, read), unit, range);
   }
-  FieldSpec& point(std::string key, std::optional<Point> Config::*member, std::string unit, std::string meaning) {
+  FieldSpec& point(std::string key, std::optional<Point> Config::*member, const std::string& unit,
+                   std::string meaning) {
     const auto read = [](const ConfigValue& v, const std::string& name) { return config_detail::to_point(v, name); };
     return measured(add(std::move(key), "point", std::move(meaning), "", member, read), unit);
   }
-  FieldSpec& points(std::string key, std::vector<Point> Config::*member, std::string unit, std::string meaning) {
+  FieldSpec& points(std::string key, std::vector<Point> Config::*member, const std::string& unit, std::string meaning) {
     return measured(add(std::move(key), "list of points", std::move(meaning), "", member, config_detail::to_points),
                     unit);
   }
-  FieldSpec& numbers(std::string key, std::vector<double> Config::*member, Range range, std::string unit,
+  FieldSpec& numbers(std::string key, std::vector<double> Config::*member, Range range, const std::string& unit,
                      std::string meaning) {
     const auto read = [range](const ConfigValue& v, const std::string& name) {
       return config_detail::to_numbers(v, name, range);

@@ -11,10 +11,10 @@
 
 namespace cairn {
 
-enum class Progress { running, success, failure };
+enum class StepState { running, success, failure };
 
 struct Status {
-  Progress progress = Progress::running;
+  StepState state = StepState::running;
   std::string reason;  // for people: what it is doing, or why it ended
   // While it runs: about how long it still takes, where it can say. For people; decides nothing.
   std::optional<double> left_s{};
@@ -28,14 +28,21 @@ struct OutputText {
   bool append = false;  // to what this mission has written there before; otherwise it takes the place of that
 };
 
-// What a behaviour may ask for. Each is carried out by the host, inside its own limits. "Throws": std::runtime_error.
-class BehaviourContext {
+// What a behaviour may ask for, in three parts. Each request is carried out by the host, inside its own limits.
+// "Throws": std::runtime_error.
+
+class MotionRequests {
  public:
-  virtual ~BehaviourContext() = default;
+  virtual ~MotionRequests() = default;
   virtual void drive(const Twist& wanted) = 0;  // for this tick; no call: stop. Throws: no drive, no number
   // By the mission's controller, at once; the robot moves only by drive(). Throws: no controller.
   virtual ControlResult control(const ControlRequest& request) = 0;
   virtual PlanResult plan(const PlanRequest& request) = 0;  // by the mission's planner, at once; without one, no_route
+};
+
+class OutputRequests {
+ public:
+  virtual ~OutputRequests() = default;
   // Asks the mission's planner and adds its answer to a file of the output folder, one JSON object a line. Success when
   // it is solved; failure with the reason, which is in the file too, unless the question makes no sense on this map.
   virtual Status answer(const PlanQuestion& question, const std::string& file_name) = 0;
@@ -43,12 +50,18 @@ class BehaviourContext {
   virtual Status save(const std::string& file_name) = 0;
   // Success, or failure with its reason. Files of earlier missions are replaced, whatever is asked for.
   virtual Status write(const OutputText& output) = 0;
-  virtual void say(const std::string& sentence) = 0;  // an event for people
-  // Places that steps hand to later ones, saved with the mission's progress: what output() was last given under that
-  // name; none: nothing yet.
-  virtual std::optional<Place> input(const std::string& name) = 0;
+  virtual void report(const std::string& sentence) = 0;  // an event for people
+};
+
+// Places that steps hand to later ones, saved with the mission's progress.
+class NamedPlaces {
+ public:
+  virtual ~NamedPlaces() = default;
+  virtual std::optional<Place> input(const std::string& name) = 0;  // what output() was last given; none: nothing yet
   virtual void output(const std::string& name, const Place& place) = 0;
 };
+
+class BehaviourContext : public MotionRequests, public OutputRequests, public NamedPlaces {};
 
 class Behaviour {
  public:

@@ -51,7 +51,7 @@ ordered_json json_of(const std::vector<StepReport>& steps) {
   ordered_json list = ordered_json::array();
   for (const StepReport& step : steps)
     list.push_back({{"step", step.name},
-                    {"outcome", step.status.progress == Progress::success ? "success" : "failure"},
+                    {"outcome", step.status.state == StepState::success ? "success" : "failure"},
                     {"reason", step.status.reason},
                     {"begin_s", rounded(step.begin_s)},
                     {"end_s", rounded(step.end_s)}});
@@ -61,7 +61,7 @@ ordered_json json_of(const std::vector<StepReport>& steps) {
 ordered_json json_of(const std::vector<NodeReport>& nodes) {
   const auto outcome_of = [](const NodeReport& node) {
     if (node.is_halted) return "halted";
-    return node.status.progress == Progress::success ? "success" : "failure";
+    return node.status.state == StepState::success ? "success" : "failure";
   };
   ordered_json list = ordered_json::array();
   for (const NodeReport& node : nodes)
@@ -194,7 +194,7 @@ struct Sentence {
     return "plan: " + std::string(name_of(e.result.outcome)) + (e.result.reason.empty() ? "" : ", " + e.result.reason);
   }
   static std::string ended(const Status& status) {
-    return std::string(" ends: ") + (status.progress == Progress::success ? "success" : "failure") +
+    return std::string(" ends: ") + (status.state == StepState::success ? "success" : "failure") +
            (status.reason.empty() ? "" : ", " + status.reason);
   }
   std::string operator()(const StepStarted& e) const { return fmt::format("step {} ({}) begins", e.index + 1, e.name); }

@@ -31,10 +31,10 @@ RobotModel calibrated(const RobotModel& robot, double far_enough_m) {
 bool comes_near(const RangeReading& reading, const Pose2& T_map_robot, const Point& p, double within_m) {
   constexpr double kSpare_rad = radians(2.0);
   const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
-  const Point way = p - T_map_sensor.position();
-  const double distance_m = way.norm();
+  const Point offset = p - T_map_sensor.position();
+  const double distance_m = offset.norm();
   if (distance_m <= within_m) return true;
-  const double off_axis_rad = std::abs(wrap_angle(std::atan2(way.y(), way.x()) - T_map_sensor.theta_rad));
+  const double off_axis_rad = std::abs(wrap_angle(std::atan2(offset.y(), offset.x()) - T_map_sensor.theta_rad));
   return off_axis_rad <= reading.half_beam_rad + std::asin(within_m / distance_m) + kSpare_rad;
 }
 

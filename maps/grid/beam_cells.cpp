@@ -86,14 +86,14 @@ void spans_of_cone(const Beam& beam, const Point& apex, double reach, std::vecto
 }
 
 void spans_of_ray(const Beam& beam, const Point& apex, double reach, std::vector<CellSpan>& spans) {
-  const Point way = reach * beam.T_map_sensor.direction();
-  const Point tip = apex + way;
+  const Point offset = reach * beam.T_map_sensor.direction();
+  const Point tip = apex + offset;
   const int y_last = floor_of(std::max(apex.y(), tip.y()));
   for (int y = floor_of(std::min(apex.y(), tip.y())); y <= y_last; ++y) {
     Interval x{std::min(apex.x(), tip.x()), std::max(apex.x(), tip.x())};
-    if (way.y() != 0.0) {
-      const double x_below = apex.x() + (y - apex.y()) / way.y() * way.x();
-      const double x_above = apex.x() + (y + 1 - apex.y()) / way.y() * way.x();
+    if (offset.y() != 0.0) {
+      const double x_below = apex.x() + (y - apex.y()) / offset.y() * offset.x();
+      const double x_above = apex.x() + (y + 1 - apex.y()) / offset.y() * offset.x();
       x.cut(std::min(x_below, x_above), std::max(x_below, x_above));
     }
     if (x.low <= x.high) spans.push_back({y, floor_of(x.low), floor_of(x.high) + 1});

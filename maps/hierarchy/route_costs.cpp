@@ -10,7 +10,7 @@
 namespace cairn {
 namespace {
 
-constexpr double kRoomy_m = 0.5;       // clearance of the robot's edge from which a metre counts as one
+constexpr double kWide_m = 0.5;        // clearance of the robot's edge from which a metre counts as one
 constexpr double kNarrowWeight = 4.0;  // what a metre without any room counts on top
 
 double turning_of(const std::vector<Pose2>& trajectory) {
@@ -27,7 +27,7 @@ double time_of(const Route& route, const RouteCostRules& rules) {
 }
 
 double weight_at(const Point& p_map, const DistanceField& field, double radius_m) {
-  return room_weight(field.distance_m(field.cell_at(p_map)) - radius_m);
+  return clearance_weight(field.distance_m(field.cell_at(p_map)) - radius_m);
 }
 
 double crampedness_of(const Route& route, const DistanceField& field, double radius_m) {
@@ -53,8 +53,8 @@ std::string_view unit_of(CostKind kind) {
   return kind == CostKind::time ? "s" : "m";
 }
 
-double room_weight(double room_m) {
-  return 1.0 + kNarrowWeight * std::clamp(1.0 - room_m / kRoomy_m, 0.0, 1.0);
+double clearance_weight(double clearance_m) {
+  return 1.0 + kNarrowWeight * std::clamp(1.0 - clearance_m / kWide_m, 0.0, 1.0);
 }
 
 RouteCost route_cost(CostKind kind, const RouteCostRules& rules) {

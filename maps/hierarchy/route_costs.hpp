@@ -18,7 +18,7 @@ enum class CostKind : std::uint8_t {
 [[nodiscard]] std::string_view unit_of(CostKind kind);  // m or s
 
 // What a metre counts, by clearance, where the robot's edge keeps so much room: 1 where there is enough.
-[[nodiscard]] double room_weight(double room_m);
+[[nodiscard]] double clearance_weight(double clearance_m);
 
 struct RouteCostRules {
   double speed_mps = 0.4;    // within the route's own limit

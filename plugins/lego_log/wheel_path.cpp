@@ -6,7 +6,7 @@
 namespace cairn::lego_log {
 
 void Wheels::describe(Fields<Wheels>& fields) {
-  fields.number("m_per_tick", &Wheels::m_per_tick, {1e-9, 1.0}, "m", "way of a wheel a tick");
+  fields.number("m_per_tick", &Wheels::m_per_tick, {1e-9, 1.0}, "m", "distance of a wheel a tick");
   fields.number("axle_m", &Wheels::axle_m, {0.001, 100.0}, "m", "between the wheels");
 }
 

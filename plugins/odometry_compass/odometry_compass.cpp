@@ -38,8 +38,8 @@ MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
   noise.heading_rad_per_m = std::max(config.min_heading_rad_per_m, robot.odometry_error.heading_rad_per_m);
   noise.turn_as_distance_m_per_rad = config.turn_as_distance_m_per_rad;
   noise.bias_rad = config.local_bias_ratio * robot.compass_error.local_bias_rad;
-  // The bias is a smooth function of the place, not of the way: over short ways it changes less than a Gauss-Markov
-  // process of the same scale does, and it comes back where the robot comes back.
+  // The bias is a smooth function of the place, not of the path: over short distances it changes less than a
+  // Gauss-Markov process of the same scale does, and it comes back where the robot comes back.
   noise.bias_scale_m = kSmoothness * std::max(0.01, robot.compass_error.local_bias_scale_m);
   return noise;
 }
@@ -150,8 +150,8 @@ bool OdometryCompass::could_slip(double turned_rad) const {
   return about_half_track_m_ <= 0.0 ? drift_rolled_m_ > 0.0 : drift_rolled_m_ >= turned_rad * about_half_track_m_;
 }
 
-// A wheel that slips turns the robot, and the robot has gone less far: where only one of the wheels, by the way that it
-// turned, can have done so, that is known, about.
+// A wheel that slips turns the robot, and the robot has gone less far: where only one of the wheels, by the distance
+// that it turned, can have done so, that is known, about.
 void OdometryCompass::follow_slip(double turned_rad) {
   if (about_half_track_m_ <= 0.0) return;
   const double lost_m = std::min(std::abs(turned_rad) * about_half_track_m_, 0.5 * drift_rolled_m_);

@@ -23,10 +23,10 @@ struct Nearest {
   bool at_rim = false;
 
   void consider(const Point& target) {
-    const Point way = target - from_m;
-    const double range_m = way.norm();
+    const Point offset = target - from_m;
+    const double range_m = offset.norm();
     if (range_m >= best_m) return;
-    const double off_axis_rad = std::abs(std::atan2(cross(axis, way), axis.dot(way)));
+    const double off_axis_rad = std::abs(std::atan2(cross(axis, offset), axis.dot(offset)));
     if (off_axis_rad > half_beam_rad * (1.0 + 1e-9)) return;
     best_m = range_m;
     target_m = target;

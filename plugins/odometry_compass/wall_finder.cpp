@@ -72,7 +72,7 @@ void WallFinder::take(const Observation& observation) {
   }
 }
 
-// The odometry's way with a heading that the compass keeps: a scalar Kalman filter. What the compass is off by hardly
+// The odometry's path with a heading that the compass keeps: a scalar Kalman filter. What the compass is off by hardly
 // changes over the length of a memory.
 void WallFinder::steady(const Pose2& step, const std::optional<double>& compass_rad) {
   T_odom_robot_ = T_odom_robot_ * step;
@@ -258,9 +258,9 @@ double WallFinder::point_rms_m(const Line& line) const {
     squares = 0.0;
     for (const Echo& echo : echoes_) {
       if (!speaks_for(echo, line, rules_.inlier_m)) continue;
-      const Point way = point_m - (echo.at_m - here_m);
-      const double range_m = std::max(way.norm(), 1e-3);
-      const Point slope = way / range_m;
+      const Point offset = point_m - (echo.at_m - here_m);
+      const double range_m = std::max(offset.norm(), 1e-3);
+      const Point slope = offset / range_m;
       information += slope * slope.transpose();
       gradient += (echo.range_m - range_m) * slope;
       squares += (echo.range_m - range_m) * (echo.range_m - range_m);

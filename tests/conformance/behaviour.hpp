@@ -43,26 +43,26 @@ TEST_P(BehaviourConformance, IsMadeTwiceAndDestroyedUnused) {
 TEST_P(BehaviourConformance, OutlivesTheLibraryThatMadeIt) {
   const auto behaviour = GetParam().make_outliving_library();
   BehaviourHost host;
-  EXPECT_NE(host.run(*behaviour, kWhile_s).progress, Progress::failure) << host.record();
+  EXPECT_NE(host.run(*behaviour, kWhile_s).state, StepState::failure) << host.record();
 }
 
 TEST_P(BehaviourConformance, RunsOrEndsWithASentenceAndFiniteOrders) {
   const auto behaviour = make();
   BehaviourHost host;
   Status status;
-  for (int i = 0; i < 1200 && status.progress == Progress::running; ++i) {
+  for (int i = 0; i < 1200 && status.state == StepState::running; ++i) {
     status = host.tick(*behaviour);
     ASSERT_EQ(host.fault(), "") << "velocities must be finite";
     ASSERT_NE(status.reason, "") << "say what the step is doing, or why it ended";
   }
-  EXPECT_NE(status.progress, Progress::failure) << "nothing is in the way of this step: " << status.reason;
+  EXPECT_NE(status.state, StepState::failure) << "nothing is in the way of this step: " << status.reason;
 }
 
 TEST_P(BehaviourConformance, AHaltAsksForNothing) {
   const auto behaviour = make();
   BehaviourHost host;
   for (int i = 0; i < 40; ++i) {
-    if (host.tick(*behaviour).progress != Progress::running) break;
+    if (host.tick(*behaviour).state != StepState::running) break;
   }
   const std::string before = host.record();
   behaviour->halt();
@@ -119,7 +119,7 @@ TEST_P(BehaviourConformance, TwoObjectsShareNothing) {
   const auto alone = make(7);
   BehaviourHost host;
   for (int i = 0; i < 200; ++i)
-    if (host.tick(*alone).progress != Progress::running) break;
+    if (host.tick(*alone).state != StepState::running) break;
   const auto behaviour = make(7);
   const auto other = make(7);
   BehaviourHost own;
@@ -127,8 +127,8 @@ TEST_P(BehaviourConformance, TwoObjectsShareNothing) {
   others.T_map_robot = {5.0, 1.0, 2.0};
   bool other_runs = true;
   for (int i = 0; i < 200; ++i) {
-    other_runs = other_runs && others.tick(*other).progress == Progress::running;
-    if (own.tick(*behaviour).progress != Progress::running) break;
+    other_runs = other_runs && others.tick(*other).state == StepState::running;
+    if (own.tick(*behaviour).state != StepState::running) break;
   }
   EXPECT_EQ(own.record(), host.record()) << "another object of the module changed what this one asks for";
 }

@@ -91,21 +91,21 @@ PlanResult BehaviourHost::plan(const PlanRequest& request) {
 
 Status BehaviourHost::save(const std::string& file_name) {
   record_ += "save " + file_name + "\n";
-  return {Progress::success, "saved " + file_name};
+  return {StepState::success, "saved " + file_name};
 }
 
 Status BehaviourHost::answer(const PlanQuestion& question, const std::string& file_name) {
   record_ += "answer " + question.from + " to " + question.to + " into " + file_name + "\n";
-  if (finds_no_route) return {Progress::failure, "no way leads there"};
-  return {Progress::success, "answered into " + file_name};
+  if (finds_no_route) return {StepState::failure, "no way leads there"};
+  return {StepState::success, "answered into " + file_name};
 }
 
 Status BehaviourHost::write(const OutputText& output) {
   record_ += (output.append ? "append to " : "write ") + output.file_name + "\n" + output.text;
-  return {Progress::success, "wrote " + output.file_name};
+  return {StepState::success, "wrote " + output.file_name};
 }
 
-void BehaviourHost::say(const std::string& sentence) {
+void BehaviourHost::report(const std::string& sentence) {
   record_ += "say " + sentence + "\n";
 }
 
@@ -136,7 +136,7 @@ Status BehaviourHost::tick(Behaviour& behaviour) {
 
 Status BehaviourHost::run(Behaviour& behaviour, double at_most_s) {
   Status status;
-  for (int ticks = static_cast<int>(at_most_s / 0.05); ticks > 0 && status.progress == Progress::running; --ticks)
+  for (int ticks = static_cast<int>(at_most_s / 0.05); ticks > 0 && status.state == StepState::running; --ticks)
     status = tick(behaviour);
   return status;
 }

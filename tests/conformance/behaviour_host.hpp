@@ -21,7 +21,7 @@ class BehaviourHost : public BehaviourContext {
   Status save(const std::string& file_name) override;
   Status answer(const PlanQuestion& question, const std::string& file_name) override;
   Status write(const OutputText& output) override;
-  void say(const std::string& sentence) override;
+  void report(const std::string& sentence) override;
   std::optional<Place> input(const std::string& name) override;
   void output(const std::string& name, const Place& place) override;
 

@@ -92,9 +92,9 @@ std::string text_of(const RouteResult& result) {
 }
 
 std::string text_of(const Status& status) {
-  const char* const word = status.progress == Progress::running   ? "running: "
-                           : status.progress == Progress::success ? "success: "
-                                                                  : "failure: ";
+  const char* const word = status.state == StepState::running   ? "running: "
+                           : status.state == StepState::success ? "success: "
+                                                                : "failure: ";
   return word + status.reason;
 }
 

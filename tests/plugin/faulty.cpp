@@ -128,10 +128,10 @@ class NanDetector : public Detector {
 
 class HangingBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, BehaviourContext& orders) override {
-    orders.drive({0.1, 0.0});
+  Status tick(const WorldView&, BehaviourContext& context) override {
+    context.drive({0.1, 0.0});
     hang();
-    orders.say("back again");
+    context.report("back again");
     return {};
   }
   void halt() override {}
@@ -142,15 +142,15 @@ class LateBehaviour : public Behaviour {
  public:
   Status tick(const WorldView&, BehaviourContext&) override {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    return {Progress::success, "late, but here"};
+    return {StepState::success, "late, but here"};
   }
   void halt() override {}
 };
 
 class NanBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, BehaviourContext& orders) override {
-    orders.drive({std::numeric_limits<double>::quiet_NaN(), 0.0});
+  Status tick(const WorldView&, BehaviourContext& context) override {
+    context.drive({std::numeric_limits<double>::quiet_NaN(), 0.0});
     return {};
   }
   void halt() override {}
@@ -203,13 +203,13 @@ void add_ending(Registrar& registrar, const char* name) {
 
 class FailingBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, BehaviourContext&) override { return {Progress::failure, "does not feel like it"}; }
+  Status tick(const WorldView&, BehaviourContext&) override { return {StepState::failure, "does not feel like it"}; }
   void halt() override {}
 };
 
 class EndlessBehaviour : public Behaviour {
  public:
-  Status tick(const WorldView&, BehaviourContext&) override { return {Progress::running, "going on"}; }
+  Status tick(const WorldView&, BehaviourContext&) override { return {StepState::running, "going on"}; }
   void halt() override {}
 };
 

@@ -138,7 +138,7 @@ TEST_F(HangingMission, ABehaviourThatNeverReturnsIsGivenUpAndTheMapIsSaved) {
   EXPECT_TRUE(runner.gave_up());
   EXPECT_EQ(result.outcome, MissionOutcome::module_fault);
   EXPECT_EQ(result.reason, "module hang has not returned from stage behaviour for 200 ms and was given up");
-  EXPECT_EQ(result.steps.at(0).status.progress, Progress::failure);
+  EXPECT_EQ(result.steps.at(0).status.state, StepState::failure);
   EXPECT_TRUE(fs::exists(folder_ / "fenced.cairn"));
   EXPECT_NE(runner.grid(), nullptr);
 }
@@ -155,7 +155,7 @@ TEST_F(HangingMission, WhatComesBackAfterItWasGivenUpTouchesNothingMore) {
   runner.subscribe(listener);
   const MissionResult result = runner.run();
   EXPECT_EQ(result.reason, "module late has not returned from stage behaviour for 200 ms and was given up");
-  EXPECT_EQ(result.nodes.at(0).status.progress, Progress::failure);
+  EXPECT_EQ(result.nodes.at(0).status.state, StepState::failure);
   const int reported = listener.reported;
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
   EXPECT_EQ(listener.reported, reported);

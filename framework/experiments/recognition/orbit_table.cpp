@@ -67,6 +67,7 @@ std::vector<OrbitSeries> orbit_templates(const ExperimentConfig& config, const R
     for (const OrbitSample& sample : row->orbit)
       for (const auto& [orientation_deg, degree] : sample.templates) orientations.insert(orientation_deg);
   std::vector<OrbitSeries> all;
+  all.reserve(orientations.size());
   for (const int orientation_deg : orientations)
     all.push_back(series_of(config, rows, template_name(config, orientation_deg), [&](const OrbitSample& sample) {
       const auto found = sample.templates.find(orientation_deg);

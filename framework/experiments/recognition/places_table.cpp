@@ -37,12 +37,14 @@ std::string line(const ExperimentConfig& config, const Rows& rows, std::size_t i
   std::string text = fmt::format("| {} | {} |", place.name, place.looks_at);
   for (std::size_t k = 0; k < config.categories.size(); ++k) {
     std::vector<double> values;
+    values.reserve(runs.size());
     for (const auto& degrees : runs) values.push_back(degrees[k]);
     text += fmt::format(" {} |", text_of(estimate_of(values), 2));
   }
   for (std::size_t k = 0; k < config.categories.size(); ++k)
     text += place.expected.empty() ? " |" : fmt::format(" {:.1f} |", place.expected[k]);
   std::vector<double> margins;
+  margins.reserve(runs.size());
   for (const auto& degrees : runs) margins.push_back(margin_of(degrees, true_one));
   const auto on_top = std::ranges::count_if(margins, [](double margin) { return margin > 0.0; });
   return text + fmt::format(" {} | {} | {} | {} |\n", text_of(estimate_of(margins), 2),

@@ -21,7 +21,7 @@ void TrialsConfig::describe(Fields<TrialsConfig>& fields) {
   fields.number("battery_ratio", &C::battery_ratio, {0.0, 1.0}, "",
                 "share of the missions whose battery lasts 5 to 20 minutes; the others have none that empties");
   fields.number(
-      "room_m", &C::room_m, {0.0, 1.0}, "m",
+      "clearance_m", &C::clearance_m, {0.0, 1.0}, "m",
       "beside the footprint's disc, at the place and all along the path to it, for a goal to count as reachable");
   fields.number("off_m", &C::off_m, {0.01, 10.0}, "m",
                 "beyond the goal's tolerance_m, from the goal in truth: reached; from its own estimate: displaced");

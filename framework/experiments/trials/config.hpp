@@ -23,7 +23,7 @@ struct TrialsConfig {
   double fault_for_s = 8.0;
   double battery_ratio = 0.0;
   // How it is judged.
-  double room_m = 0.12;
+  double clearance_m = 0.12;
   double off_m = 0.3;
   double fast_mps = 0.05;
   double longest_stand_s = 120.0;

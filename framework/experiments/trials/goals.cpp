@@ -94,7 +94,7 @@ class Judge {
       : config_(config),
         evidence_(evidence),
         world_(*evidence.mission.world),
-        space_(world_, evidence.mission.robot.radius_m + config.room_m),
+        space_(world_, evidence.mission.robot.radius_m + config.clearance_m),
         faults_(faults_of(evidence.mission)) {}
 
   [[nodiscard]] GoalVerdict judge(const TreeNode& leaf, const Goal& goal, const std::vector<const NodeRun*>& runs);

@@ -32,7 +32,7 @@ class Drawing {
       : config_(config),
         robot_(robot),
         world_(world),
-        space_(world, robot.radius_m + config.room_m),
+        space_(world, robot.radius_m + config.clearance_m),
         seed_(seed),
         chance_(seed, kSteps) {}
 
@@ -71,12 +71,12 @@ Point Drawing::with_room() {
     if (Point p_m = anywhere(); space_.has_room(p_m)) return p_m;
   throw ConfigError({robot_.name, 0, 0}, fmt::format("the robot and {:g} m beside it have room nowhere in the random "
                                                      "world of seed {}",
-                                                     config_.room_m, seed_));
+                                                     config_.clearance_m, seed_));
 }
 
 bool Drawing::is_clear_of_traffic(const Point& p_m) const {
   const auto near_door = [&](const WorldDoor& door) {
-    return distance_to_segment_m(p_m, door.from_m, door.to_m) < robot_.radius_m + config_.room_m;
+    return distance_to_segment_m(p_m, door.from_m, door.to_m) < robot_.radius_m + config_.clearance_m;
   };
   const auto near_mover = [&](const WorldMover& mover) { return (mover.path_m.front() - p_m).norm() < kFromMover_m; };
   return std::ranges::none_of(world_.doors, near_door) && std::ranges::none_of(world_.movers, near_mover);

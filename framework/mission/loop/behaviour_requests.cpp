@@ -66,7 +66,7 @@ Status BehaviourRequests::answer(const PlanQuestion& question, const std::string
   try {
     task = task_of(question, host_.world.graph, clusters, host_.world.pose.T_map_robot);
   } catch (const std::exception& error) {
-    return {Progress::failure, error.what()};
+    return {StepState::failure, error.what()};
   }
   task.request.radius_m = host_.mission.robot.radius_m;
   task.request.seed = module_seed(host_.mission.config.seed, PluginKind::planner, kQuestionSeed);
@@ -80,18 +80,18 @@ Status BehaviourRequests::answer(const PlanQuestion& question, const std::string
                                               .with_times = false}) +
                                     "\n",
                                 true});
-  if (written.progress != Progress::success) return written;
-  if (result.outcome == PlanOutcome::solved) return {Progress::success, fmt::format("{:.2f} m", result.length_m)};
-  return {Progress::failure, std::string(name_of(result.outcome)) + ": " + result.reason};
+  if (written.state != StepState::success) return written;
+  if (result.outcome == PlanOutcome::solved) return {StepState::success, fmt::format("{:.2f} m", result.length_m)};
+  return {StepState::failure, std::string(name_of(result.outcome)) + ": " + result.reason};
 }
 
 Status BehaviourRequests::save(const std::string& file_name) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
   host_.monitor.stop();
   if (std::string refusal = host_.saving.refusal_of(file_name); !refusal.empty())
-    return {Progress::failure, std::move(refusal)};
+    return {StepState::failure, std::move(refusal)};
   Status saved = host_.saving.save(file_name);
-  asked_.has_failed_to_save |= saved.progress != Progress::success;
+  asked_.has_failed_to_save |= saved.state != StepState::success;
   return saved;
 }
 
@@ -100,7 +100,7 @@ Status BehaviourRequests::write(const OutputText& output) {
   return texts_.write(output);
 }
 
-void BehaviourRequests::say(const std::string& sentence) {
+void BehaviourRequests::report(const std::string& sentence) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
   host_.publisher.publish(Message{sentence});
 }

@@ -16,10 +16,10 @@ LeafTick Leaves::tick_leaf(const TreeNode& node) {
   requests_.begin(node);
   const Status status =
       leaf.behaviour.call([&](Behaviour& behaviour) { return behaviour.tick(world_.view(), requests_); });
-  leaf.has_ended = status.progress != Progress::running;
+  leaf.has_ended = status.state != StepState::running;
   const LeafRequests asked = requests_.take();
   has_failed_to_save_ = asked.has_failed_to_save;
-  return {status, asked.wanted, has_failed_to_save_ && status.progress == Progress::failure};
+  return {status, asked.wanted, has_failed_to_save_ && status.state == StepState::failure};
 }
 
 void Leaves::halt_leaf(const TreeNode& node) {

@@ -54,7 +54,7 @@ std::string MapSaving::refusal_of(const std::string& file_name) const {
 
 Status MapSaving::save(const std::string& file_name) {
   Status saved = write(file_name);
-  if (saved.progress != Progress::success && not_saved_.empty()) not_saved_ = saved.reason;
+  if (saved.state != StepState::success && not_saved_.empty()) not_saved_ = saved.reason;
   return saved;
 }
 
@@ -75,7 +75,7 @@ std::string MapSaving::save_last(bool is_done) {
   const std::string name = mission_.config.mission + ".cairn";
   keep_finished_map(name, is_done);
   const Status saved = write(name);
-  if (saved.progress != Progress::success) {
+  if (saved.state != StepState::success) {
     not_saved_ = saved.reason;
     if (autosaves.saved > 0)
       not_saved_ += "; " + autosaver_.file().filename().string() + " holds it up to " +
@@ -88,16 +88,16 @@ std::string MapSaving::save_last(bool is_done) {
 }
 
 Status MapSaving::write(const std::string& file_name) {
-  if (world_.grid == nullptr) return {Progress::failure, "there is no map to save"};
+  if (world_.grid == nullptr) return {StepState::failure, "there is no map to save"};
   explored_ratio_ = world_.explored_ratio();
   try {
     save_map(options_.folder / file_name, content_(planning_.clusters()), Links::replace);
   } catch (const std::exception& error) {
-    return {Progress::failure, std::string("the map could not be saved: ") + error.what()};
+    return {StepState::failure, std::string("the map could not be saved: ") + error.what()};
   }
   map_file_ = file_name;
   publisher_.publish(MapSaved{file_name});
-  return {Progress::success, "saved " + file_name};
+  return {StepState::success, "saved " + file_name};
 }
 
 }  // namespace cairn

@@ -39,7 +39,7 @@ StepsTick Steps::tick(double time_s) {
   if (!is_under_way_) begin(step.name, time_s);
   const Status status = tree.tick(time_s);
   const Twist wanted = tree.wanted().value_or(Twist{});
-  if (status.progress == Progress::running) return {wanted, false};
+  if (status.state == StepState::running) return {wanted, false};
   end(step, status, time_s);
   return {wanted, true};
 }
@@ -57,13 +57,13 @@ void Steps::end(const TreeNode& step, const Status& status, double time_s) {
   is_under_way_ = false;
   ++step_;
   const bool is_forgiven = step.kind == NodeKind::behaviour && leaves_.has_failed_to_save();
-  if (status.progress == Progress::failure && !is_forgiven)
+  if (status.state == StepState::failure && !is_forgiven)
     failure_ = "step " + std::to_string(step_) + " (" + step.name + "): " + status.reason;
 }
 
 void Steps::close_report(double time_s, const std::string& reason) {
   tree_left_ = trees_[step_].state();
-  reports_.back().status = {Progress::failure, reason};
+  reports_.back().status = {StepState::failure, reason};
   reports_.back().end_s = time_s;
 }
 

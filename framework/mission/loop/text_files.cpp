@@ -9,7 +9,7 @@ Status TextFiles::write(const OutputText& output) {
   const std::string& name = output.file_name;
   const bool is_plain =
       !name.empty() && name != "." && name != ".." && name.find_first_of("/\\\n") == std::string::npos;
-  if (!is_plain) return {Progress::failure, in_quotes(name) + " is not a plain file name"};
+  if (!is_plain) return {StepState::failure, in_quotes(name) + " is not a plain file name"};
   const bool is_ours = goes_on_ || written_.contains(name);
   try {
     if (output.append && is_ours)
@@ -17,10 +17,10 @@ Status TextFiles::write(const OutputText& output) {
     else
       replace_file(folder_ / name, output.text, {.sync = false});  // the tick does not wait for the disk
   } catch (const OutputError& error) {
-    return {Progress::failure, name + " could not be written: " + error.what()};
+    return {StepState::failure, name + " could not be written: " + error.what()};
   }
   written_.insert(name);
-  return {Progress::success, "wrote " + name};
+  return {StepState::success, "wrote " + name};
 }
 
 }  // namespace cairn

@@ -14,7 +14,7 @@ constexpr double kReportEvery_s = 60.0;  // the same, where nothing can be drawn
 constexpr std::size_t kMaxColumns = 110;
 
 std::string ended_text(const std::string& which, const std::string& name, const Status& status, bool is_halted) {
-  const char* const how = is_halted ? "halted" : status.progress == Progress::success ? "done" : "failed";
+  const char* const how = is_halted ? "halted" : status.state == StepState::success ? "done" : "failed";
   return fmt::format("step {}: {} {}{}", which, name, how, status.reason.empty() ? "" : " (" + status.reason + ")");
 }
 

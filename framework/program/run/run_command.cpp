@@ -145,31 +145,50 @@ bool try_to_write(const std::filesystem::path& file, const std::string& text) {
   }
 }
 
-int run_mission(const RunCommand& command, const CommonOptions& common) {
-  const auto begin = std::chrono::steady_clock::now();
-  ControlFlags& flags = flags_of_signals();
-  std::optional<std::int64_t> seed = command.seed;
-  const std::optional<SavedMap> resume = map_to_resume(command, seed);
-  const Mission mission = load_mission(command.mission, command.overrides, seed);
-  const ModuleLibrary library = module_library(common);
-  for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
-  handle_fatal_ends();
-  make_folder(command.out);
-  hold_folder(command.out);
-  std::ostream& people = common.json ? std::cerr : std::cout;
-  const bool live = isatty(common.json ? STDERR_FILENO : STDOUT_FILENO) != 0;
-  people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
-  RunControl control(flags, mission.config.mission);
-  std::unique_ptr<ControlServer> server = control_server(command.out, control);
-  RunOptions options{command.out, command.realtime, &flags.cancel, true, resume ? &*resume : nullptr, &control};
-  MissionRunner runner = runner_of(mission, library, options, command);
-  keep_earlier_run(command, mission.config, people);
-  RunReport report;
-  MissionResult result;
+// What the run leaves behind, after its last event: files, pictures, and the summary for people or as JSON.
+class RunResults {
+ public:
+  RunResults(const RunCommand& command, const CommonOptions& common, const Mission& mission)
+      : command_(command), common_(common), mission_(mission) {}
+
+  // Whether the report was written.
+  bool write(const RunReport& report, const MissionResult& result, const MissionRunner& runner) {
+    const auto write_report = [&] {
+      const std::string text = report.report_json(mission_, result, runner.graph(), pictures_.files);
+      return try_to_write(command_.out / "report.json", text);
+    };
+    // First of all, since drawing may take long, or end the program; then once more with the names of the pictures.
+    const bool is_written = write_report();
+    try_to_write(command_.out / "timing.json", timing_json(runner.times()) + "\n");
+    pictures_ = draw_run(command_.out, mission_, runner, result, report);
+    return pictures_.files.empty() ? is_written : write_report();
+  }
+
+  void print(const RunReport& report, const MissionResult& result, const MissionRunner& runner) const {
+    const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    std::ostream& people = common_.json ? std::cerr : std::cout;
+    print_times(people, runner.times());
+    print_summary(people, mission_, result, runner, report, pictures_, command_.out, wall_s);
+    if (common_.json)
+      std::cout << report.summary_json(mission_, result, runner, command_.out, pictures_.files, wall_s) << "\n";
+  }
+
+ private:
+  const RunCommand& command_;
+  const CommonOptions& common_;
+  const Mission& mission_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  RunPictures pictures_;
+};
+
+MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
+                                 RunReport& report, std::ostream& people) {
   std::optional<RunRecording> recording;
   if (!mission.config.record.empty()) recording.emplace(command.out / mission.config.record, runner.T_map_start());
+  std::ostream terminal(terminal_of(people));
+  const bool live = isatty(&people == &std::cerr ? STDERR_FILENO : STDOUT_FILENO) != 0;
+  MissionResult result;
   {
-    std::ostream terminal(terminal_of(people));
     ProgressLine progress(terminal, live, [&] { return runner.status(); });
     runner.subscribe(report);
     if (recording) runner.subscribe(*recording);
@@ -178,19 +197,31 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   }
   for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
   if (recording) finish(*recording);
-  const auto write_report = [&](const std::vector<std::string>& pictures) {
-    return try_to_write(command.out / "report.json", report.report_json(mission, result, runner.graph(), pictures));
-  };
-  // First of all, since drawing may take long, or end the program; then once more with the names of the pictures.
-  bool reported = write_report({});
-  try_to_write(command.out / "timing.json", timing_json(runner.times()) + "\n");
-  const RunPictures pictures = draw_run(command.out, mission, runner, result, report);
-  if (!pictures.files.empty()) reported = write_report(pictures.files);
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  print_times(people, runner.times());
-  print_summary(people, mission, result, runner, report, pictures, command.out, wall_s);
-  if (common.json)
-    std::cout << report.summary_json(mission, result, runner, command.out, pictures.files, wall_s) << "\n";
+  return result;
+}
+
+int run_mission(const RunCommand& command, const CommonOptions& common) {
+  ControlFlags& flags = flags_of_signals();
+  std::optional<std::int64_t> seed = command.seed;
+  const std::optional<SavedMap> resume = map_to_resume(command, seed);
+  const Mission mission = load_mission(command.mission, command.overrides, seed);
+  RunResults results(command, common, mission);
+  const ModuleLibrary library = module_library(common);
+  for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
+  handle_fatal_ends();
+  make_folder(command.out);
+  hold_folder(command.out);
+  std::ostream& people = common.json ? std::cerr : std::cout;
+  people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
+  RunControl control(flags, mission.config.mission);
+  std::unique_ptr<ControlServer> server = control_server(command.out, control);
+  RunOptions options{command.out, command.realtime, &flags.cancel, true, resume ? &*resume : nullptr, &control};
+  MissionRunner runner = runner_of(mission, library, options, command);
+  keep_earlier_run(command, mission.config, people);
+  RunReport report;
+  const MissionResult result = run_with_listeners(command, mission, runner, report, people);
+  const bool is_reported = results.write(report, result, runner);
+  results.print(report, result, runner);
   if (runner.gave_up()) {
     // The lost call still runs: nothing that it may use can be torn down.
     server.reset();
@@ -198,7 +229,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
     std::cerr.flush();
     std::_Exit(kExitNotSolved);
   }
-  return result.outcome == MissionOutcome::done && reported ? kExitDone : kExitNotSolved;
+  return result.outcome == MissionOutcome::done && is_reported ? kExitDone : kExitNotSolved;
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ TravelCost::TravelCost(const OccupancyGrid& grid, const DiscSpace& space, const 
       base_ = 1.0 / rules.speed_mps;
       break;
     case Objective::clearance:
-      room_ = 1.0;
+      clearance_ = 1.0;
       break;
     case Objective::weighted:
       base_ = rules.length_weight + rules.time_weight / rules.speed_mps;
-      room_ = rules.clearance_weight;
+      clearance_ = rules.clearance_weight;
       break;
   }
 }
@@ -27,8 +27,8 @@ double TravelCost::per_m_at(const Point& p_map) const {
   double per_m = base_;
   const DistanceField& field = space_.field();
   // From the middle of the cell to the nearest wall's face, which matters where cells are large.
-  const double room_m = field.distance_m(field.cell_at(p_map)) - 0.5 * field.cell_m() - rules_.radius_m;
-  if (room_ > 0.0) per_m += room_ * (room_weight(room_m) - 1.0);
+  const double clearance_m = field.distance_m(field.cell_at(p_map)) - 0.5 * field.cell_m() - rules_.radius_m;
+  if (clearance_ > 0.0) per_m += clearance_ * (clearance_weight(clearance_m) - 1.0);
   const bool unknown =
       rules_.unknown_weight > 1.0 && grid_.state(grid_.cell_at(p_map), space_.rules().thresholds) == CellState::unknown;
   return unknown ? per_m * rules_.unknown_weight : per_m;
@@ -36,7 +36,7 @@ double TravelCost::per_m_at(const Point& p_map) const {
 
 double TravelCost::between(const Point& from, const Point& to) const {
   const double length_m = (to - from).norm();
-  if (room_ <= 0.0 && rules_.unknown_weight <= 1.0) return base_ * length_m;
+  if (clearance_ <= 0.0 && rules_.unknown_weight <= 1.0) return base_ * length_m;
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / space_.cell_m())));
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) sum += per_m_at(from + (i + 0.5) / steps * (to - from));

@@ -50,8 +50,8 @@ class TravelCost {
   const OccupancyGrid& grid_;
   const DiscSpace& space_;
   TravelCostRules rules_;
-  double base_ = 1.0;  // of every metre
-  double room_ = 0.0;  // of what room_weight() adds to 1
+  double base_ = 1.0;       // of every metre
+  double clearance_ = 0.0;  // of what clearance_weight() adds to 1
 };
 
 }  // namespace cairn

@@ -155,10 +155,10 @@ double Dock::wanted_m(const RobotModel& robot) const {
 Status Dock::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
-    return {Progress::failure, "time is up on the way to " + where(world)};
+    return {StepState::failure, "time is up on the way to " + where(world)};
   if (landmark_ == 0) return begin(world, context);
   const Landmark* const landmark = world.graph.find(landmark_);
-  if (landmark == nullptr) return {Progress::failure, lost(landmark_, world.graph)};
+  if (landmark == nullptr) return {StepState::failure, lost(landmark_, world.graph)};
   switch (mode_) {
     case Mode::drive:
       return drive(world, context);
@@ -172,16 +172,16 @@ Status Dock::tick(const WorldView& world, BehaviourContext& context) {
 
 Status Dock::begin(const WorldView& world, BehaviourContext& context) {
   const ChosenLandmark chosen = choose_landmark(name_, world, context);
-  if (!chosen.unknown.empty()) return {Progress::failure, chosen.unknown};
+  if (!chosen.unknown.empty()) return {StepState::failure, chosen.unknown};
   landmark_ = chosen.id;
   if (config_.facing == DockConfig::Facing::away &&
       wanted_m(world.robot) < world.robot.radius_m + config_.approach.room_to_turn_m)
-    return {Progress::failure, "at " + metres(config_.distance_m) + " there is no room for the robot to turn away"};
+    return {StepState::failure, "at " + metres(config_.distance_m) + " there is no room for the robot to turn away"};
   const Landmark& landmark = *world.graph.find(landmark_);
   outward_rad_ = landmark.T_map_landmark.theta_rad + side_rad_;
   if (!choose_approach_pose(world, landmark))
-    return {Progress::failure, where(world) + " is blocked: there is no free path to it on the map"};
-  return {Progress::running, "going to " + where(world)};
+    return {StepState::failure, where(world) + " is blocked: there is no free path to it on the map"};
+  return {StepState::running, "going to " + where(world)};
 }
 
 // The longest run-up that nothing stands in; one from where the map knows of no room only when there is no other.
@@ -208,23 +208,23 @@ bool Dock::choose_approach_pose(const WorldView& world, const Landmark& landmark
 
 Status Dock::drive(const WorldView& world, BehaviourContext& context) {
   const Status status = driver_.tick(approach_pose_, world, context);
-  if (status.progress == Progress::running)
-    return {Progress::running, status.reason + ", to " + where(world), status.left_s};
-  if (status.progress == Progress::failure)
-    return {Progress::failure, "cannot get to " + where(world) + ": " + status.reason};
+  if (status.state == StepState::running)
+    return {StepState::running, status.reason + ", to " + where(world), status.left_s};
+  if (status.state == StepState::failure)
+    return {StepState::failure, "cannot get to " + where(world) + ": " + status.reason};
   mode_ = Mode::approach;
   progress_.restart();
-  return {Progress::running, "before " + where(world)};
+  return {StepState::running, "before " + where(world)};
 }
 
 // What has been seen meanwhile has moved the landmark on the map.
 Status Dock::go_again(const WorldView& world, const Landmark& landmark) {
   if (++again_ > config_.approach.max_again || !choose_approach_pose(world, landmark))
-    return {Progress::failure, "cannot get before " + where(world) + ": the landmark moves on the map"};
+    return {StepState::failure, "cannot get before " + where(world) + ": the landmark moves on the map"};
   driver_.restart();
   echoes_.forget();
   mode_ = Mode::drive;
-  return {Progress::running, "going to " + where(world) + " again"};
+  return {StepState::running, "going to " + where(world) + " again"};
 }
 
 double Dock::mapped_outline_m(const OccupancyGrid& grid, const DockAxis& line) const {
@@ -241,11 +241,11 @@ Status Dock::approach(const WorldView& world, BehaviourContext& context, const L
     wanted_ = {};
     progress_.restart();  // waiting is not being blocked
     if (world.time_s - *echoes_.between_since_s() > config_.patience_s)
-      return {Progress::failure, "something stands between the robot and " + where(world)};
-    return {Progress::running, "waiting: something is before " + where(world)};
+      return {StepState::failure, "something stands between the robot and " + where(world)};
+    return {StepState::running, "waiting: something is before " + where(world)};
   }
   if (progress_.is_stuck(world, wanted_))
-    return {Progress::failure,
+    return {StepState::failure,
             "blocked " + metres(gap_m_) + " before " + where(world) + ", not at " + metres(config_.distance_m)};
   const double left_m = line.along_m(pose.position()) - echoes_.outline_m().value_or(mapped_m) - wanted_m(world.robot);
   gap_m_ = left_m + config_.distance_m;
@@ -260,14 +260,14 @@ Status Dock::approach(const WorldView& world, BehaviourContext& context, const L
   if (is_there && std::abs(error_rad) <= config_.approach.faced_rad) {
     if (!still_since_s_) still_since_s_ = world.time_s;
     if (world.time_s - *still_since_s_ < config_.approach.settle_s)
-      return {Progress::running, "looking once more at " + where(world)};
+      return {StepState::running, "looking once more at " + where(world)};
     mode_ = Mode::turn;
     return turn(world, context, landmark);
   }
   still_since_s_.reset();
   wanted_ = twist_towards(is_there ? 0.0 : left_m, error_rad, world.robot);
   context.drive(wanted_);
-  return {Progress::running, metres(gap_m_) + " before " + where(world)};
+  return {StepState::running, metres(gap_m_) + " before " + where(world)};
 }
 
 // Along the axis once it is faced, the slower the nearer. left_m 0: on the spot.
@@ -290,10 +290,10 @@ Status Dock::turn(const WorldView& world, BehaviourContext& context, const Landm
   if (can_turn && std::abs(error_rad) > config_.approach.faced_rad) {
     context.drive(motion::turn_by(error_rad, std::min(config_.approach.final_turn_radps, world.robot.max_w_radps),
                                   config_.driving.turn));
-    return {Progress::running, "turning at " + where(world)};
+    return {StepState::running, "turning at " + where(world)};
   }
-  return {Progress::success, "docked at " + where(world) + ", " + metres(gap_m_) + " from it by " +
-                                 (echoes_.outline_m() ? "its echoes" : "the map")};
+  return {StepState::success, "docked at " + where(world) + ", " + metres(gap_m_) + " from it by " +
+                                  (echoes_.outline_m() ? "its echoes" : "the map")};
 }
 
 }  // namespace cairn::behaviours

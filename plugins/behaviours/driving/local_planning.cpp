@@ -19,8 +19,8 @@ void OptimismSettings::describe(Fields<OptimismSettings>& fields) {
 std::optional<LocalPath> LocalPlanning::path(const Point& goal, Optimism optimism, const WorldView& world,
                                              const LocalMap& map, const BlockageLook& look) const {
   const bool is_narrow = optimism == Optimism::narrow_gaps;
-  for (const double room_m : {map.settings().clearance_m, map.settings().tight_clearance_m}) {
-    const double clearance_m = is_narrow ? settings_.narrow_gap_radius_m - world.robot.radius_m : room_m;
+  for (const double wall_clearance_m : {map.settings().clearance_m, map.settings().tight_clearance_m}) {
+    const double clearance_m = is_narrow ? settings_.narrow_gap_radius_m - world.robot.radius_m : wall_clearance_m;
     const FreeSpace space = map.space(world, clearance_m, optimism, goal, look.doubts());
     std::vector<Point> points = space.path_to(space.cell_at(goal));
     if (points.size() >= 2) {

@@ -4,7 +4,7 @@ namespace cairn::behaviours {
 
 void PlanningSettings::describe(Fields<PlanningSettings>& fields) {
   using C = PlanningSettings;
-  fields.numbers("rooms_m", &C::rooms_m, {0.0, 5.0}, "m",
+  fields.numbers("clearances_m", &C::clearances_m, {0.0, 5.0}, "m",
                  "room that the planner is asked to leave beside the robot, one after the other until it finds a path; "
                  "[0.12, 0.06, 0] unless given");
   fields.number("plans_apart_s", &C::plans_apart_s, {0.0, 600.0}, "s", "between two plans of one drive");
@@ -19,7 +19,7 @@ void PlannerRequests::tick(double time_s) {
   std::erase_if(closed_until_s_, [&](const auto& closed) { return closed.second < time_s; });
 }
 
-PlanResult PlannerRequests::ask(const Place& goal, const WorldView& world, BehaviourContext& context) {
+PlanResult PlannerRequests::ask(const Place& goal, const WorldView& world, MotionRequests& context) {
   PlanRequest request;
   request.from.pose = world.pose.T_map_robot;
   request.to = goal;
@@ -31,8 +31,8 @@ PlanResult PlannerRequests::ask(const Place& goal, const WorldView& world, Behav
   for (const bool with_closed : {true, false}) {
     if (!with_closed && request.closed.empty()) break;
     if (!with_closed) request.closed.clear();
-    for (const double room_m : settings_.rooms_m) {
-      request.radius_m = world.robot.radius_m + room_m;
+    for (const double clearance_m : settings_.clearances_m) {
+      request.radius_m = world.robot.radius_m + clearance_m;
       result = context.plan(request);
       for (const RouteId route : result.blocked_routes) close(route, world.time_s);
       if (result.outcome == PlanOutcome::solved) return result;

@@ -12,7 +12,7 @@
 namespace cairn::behaviours {
 
 struct PlanningSettings {
-  std::vector<double> rooms_m{0.12, 0.06, 0.0};
+  std::vector<double> clearances_m{0.12, 0.06, 0.0};
   double plans_apart_s = 1.0;
   double local_plans_apart_s = 3.0;
   int max_plans = 200;
@@ -26,7 +26,7 @@ class PlannerRequests {
 
   // Every tick: opens routes that were closed for long enough.
   void tick(double time_s);
-  [[nodiscard]] PlanResult ask(const Place& goal, const WorldView& world, BehaviourContext& context);
+  [[nodiscard]] PlanResult ask(const Place& goal, const WorldView& world, MotionRequests& context);
   void close(RouteId route, double time_s) { closed_until_s_[route] = time_s + settings_.closed_for_s; }
 
   // Whether the last plan, also one on the local map, is long enough ago.

@@ -66,25 +66,25 @@ Status RouteDriver::travel(const WorldView& world, BehaviourContext& context) {
   const ControlResult step = follower_.step(world, map_, context);
   if (step.state == ControlState::arrived) return arrive(world, context);
   if (step.state == ControlState::blocked) {
-    if (!has_reported_wait_) context.say("waits: blocked at " + described(world.pose.T_map_robot.position()));
+    if (!has_reported_wait_) context.report("waits: blocked at " + described(world.pose.T_map_robot.position()));
     has_reported_wait_ = true;
-    return {Progress::running, "waiting until the path is free"};
+    return {StepState::running, "waiting until the path is free"};
   }
-  if (follower_.leg() != Leg::route) return {Progress::running, "under way"};
-  return {Progress::running, "under way", follower_.left_s(step, world)};
+  if (follower_.leg() != Leg::route) return {StepState::running, "under way"};
+  return {StepState::running, "under way", follower_.left_s(step, world)};
 }
 
 Status RouteDriver::arrive(const WorldView& world, BehaviourContext& context) {
   if (follower_.leg() == Leg::escape) {
     set_mode(Mode::plan, world.time_s);
-    return {Progress::running, "has left the tight place"};
+    return {StepState::running, "has left the tight place"};
   }
   if (follower_.leg() != Leg::route) return begin_look_from_here(world, context);
   set_mode(Mode::face, world.time_s);
   return face(world, context);
 }
 
-Status RouteDriver::face(const WorldView& world, BehaviourContext& context) {
+Status RouteDriver::face(const WorldView& world, MotionRequests& context) {
   const FaceSettings& face = settings_.driving.face;
   const motion::TurnSettings& turn = settings_.driving.turn;
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
@@ -92,9 +92,9 @@ Status RouteDriver::face(const WorldView& world, BehaviourContext& context) {
   const double error_rad =
       goal.pose && goal.heading_matters ? wrap_angle(goal.pose->theta_rad - world.pose.T_map_robot.theta_rad) : 0.0;
   if (!can_turn || std::abs(error_rad) <= face.faced_rad || world.time_s - mode_since_s_ > face.at_most_s)
-    return {Progress::success, "there"};
+    return {StepState::success, "there"};
   follower_.drive_towards(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
-  return {Progress::running, "turning to its heading"};
+  return {StepState::running, "turning to its heading"};
 }
 
 }  // namespace cairn::behaviours

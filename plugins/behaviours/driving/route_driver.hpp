@@ -46,7 +46,7 @@ class RouteDriver {
   // route_driver.cpp: along the path, and at its end.
   Status travel(const WorldView& world, BehaviourContext& context);
   Status arrive(const WorldView& world, BehaviourContext& context);
-  Status face(const WorldView& world, BehaviourContext& context);
+  Status face(const WorldView& world, MotionRequests& context);
 
   // route_driver_planning.cpp: which path.
   Status plan(const WorldView& world, BehaviourContext& context);

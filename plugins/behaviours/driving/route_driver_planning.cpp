@@ -7,17 +7,17 @@
 namespace cairn::behaviours {
 
 Status RouteDriver::plan(const WorldView& world, BehaviourContext& context) {
-  if (!requests_.may_plan(world.time_s)) return {Progress::running, "waiting to plan again"};
+  if (!requests_.may_plan(world.time_s)) return {StepState::running, "waiting to plan again"};
   if (requests_.is_used_up()) return give_up(world);
   if (ladder_.plans_round_it() && plan_locally(world, Optimism::none)) {
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "going round what blocked it"};
+    return {StepState::running, "going round what blocked it"};
   }
   const PlanResult result = requests_.ask(goal_.place(), world, context);
   if (result.outcome != PlanOutcome::solved) return without_route(result, world, context);
   take_route(result, world);
   set_mode(Mode::travel, world.time_s);
-  return {Progress::running, "under way"};
+  return {StepState::running, "under way"};
 }
 
 // Something has turned up on the path: another path, if there is one.
@@ -61,23 +61,23 @@ bool RouteDriver::plan_locally(const WorldView& world, Optimism optimism) {
 
 Status RouteDriver::without_route(const PlanResult& result, const WorldView& world, BehaviourContext& context) {
   const std::string why = std::string(name_of(result.outcome)) + ": " + result.reason;
-  const Status failed{Progress::failure, why + (tried_.empty() ? "" : "; " + tried_)};
+  const Status failed{StepState::failure, why + (tried_.empty() ? "" : "; " + tried_)};
   if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return failed;
   if (result.outcome == PlanOutcome::start_blocked && begin_escape(world)) {
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "leaving a tight place"};
+    return {StepState::running, "leaving a tight place"};
   }
   const std::optional<Point> goal = goal_.point(world.graph);
   if (const auto path = goal ? local_planning_.next_path(*goal, world, map_, look_) : std::nullopt) {
     take_local(*path, world);
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, path->optimism == Optimism::narrow_gaps ? "trying an opening that looks too narrow"
-                                                                       : "under way on the local map"};
+    return {StepState::running, path->optimism == Optimism::narrow_gaps ? "trying an opening that looks too narrow"
+                                                                        : "under way on the local map"};
   }
   if (begin_look(result.outcome, world)) {
-    context.say("no path now (" + why + "): looks again at " + described(look_.target().at));
+    context.report("no path now (" + why + "): looks again at " + described(look_.target().at));
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "going to look at " + described(look_.target().at)};
+    return {StepState::running, "going to look at " + described(look_.target().at)};
   }
   return failed;
 }

@@ -28,12 +28,12 @@ Status RouteDriver::recover(const WorldView& world, BehaviourContext& context) {
   if (follower_.optimism() >= Optimism::unknown_free && by) map_.shut(*by, world.time_s + recovery.shut_for_s);
   if (ladder_.round() >= 2) close_route_here(world, context);
   if (next == Recovery::yield && begin_yield(world)) {
-    context.say(where + "yields");
+    context.report(where + "yields");
     set_mode(Mode::travel, world.time_s);
-    return {Progress::running, "yielding"};
+    return {StepState::running, "yielding"};
   }
   const bool looks = ladder_.without_yielding() == Recovery::back_up_and_look;
-  context.say(where + (looks ? "backs up and looks" : "backs up and turns"));
+  context.report(where + (looks ? "backs up and looks" : "backs up and turns"));
   set_mode(Mode::back_up, world.time_s);
   back_up_.begin(world, ladder_.back_up_times());
   return back_up(world, context);
@@ -75,7 +75,7 @@ void RouteDriver::close_route_here(const WorldView& world, BehaviourContext& con
   const RouteId route = follower_.route_ahead();
   if (route == 0) return;
   requests_.close(route, world.time_s);
-  context.say("closes route R" + std::to_string(route) + " for a while");
+  context.report("closes route R" + std::to_string(route) + " for a while");
 }
 
 Status RouteDriver::back_up(const WorldView& world, BehaviourContext& context) {
@@ -84,7 +84,7 @@ Status RouteDriver::back_up(const WorldView& world, BehaviourContext& context) {
   };
   if (const std::optional<Twist> twist = back_up_.tick(world, is_blocked)) {
     follower_.drive_towards(*twist, world, context);
-    return {Progress::running, "backing up"};
+    return {StepState::running, "backing up"};
   }
   if (ladder_.without_yielding() == Recovery::back_up_and_look) {
     BlockageLook::Target target = look_.target_at(*ladder_.blocked_by());
@@ -104,7 +104,7 @@ Status RouteDriver::turn(const WorldView& world, BehaviourContext& context) {
     return plan(world, context);
   }
   follower_.drive_towards(*twist, world, context);
-  return {Progress::running, "turning to look round"};
+  return {StepState::running, "turning to look round"};
 }
 
 // The near echoes of what blocks the robot are of before; and once more when it has gone.
@@ -124,7 +124,7 @@ Status RouteDriver::look(const WorldView& world, BehaviourContext& context) {
   const bool is_open = look_.has_opened(world, map_.echoes(), follower_.obstacles());
   const BlockageLook::Target& target = look_.target();
   if (looked_s < target.at_least_s || (!is_open && looked_s < target.at_most_s))
-    return {Progress::running, "looking whether the path is free again"};
+    return {StepState::running, "looking whether the path is free again"};
   if (target.is_live && is_open) map_.forget_echoes(world);
   set_mode(Mode::plan, world.time_s);
   return plan(world, context);
@@ -132,10 +132,10 @@ Status RouteDriver::look(const WorldView& world, BehaviourContext& context) {
 
 Status RouteDriver::give_up(const WorldView& world) const {
   const Point at = world.pose.T_map_robot.position();
-  return {Progress::failure, "blocked at " + described(at) + ": waited, backed up, looked and planned again " +
-                                 std::to_string(ladder_.round() - 1) + " times at this place, " +
-                                 std::to_string(requests_.plans()) + " plans in all" +
-                                 (tried_.empty() ? "" : "; " + tried_)};
+  return {StepState::failure, "blocked at " + described(at) + ": waited, backed up, looked and planned again " +
+                                  std::to_string(ladder_.round() - 1) + " times at this place, " +
+                                  std::to_string(requests_.plans()) + " plans in all" +
+                                  (tried_.empty() ? "" : "; " + tried_)};
 }
 
 }  // namespace cairn::behaviours

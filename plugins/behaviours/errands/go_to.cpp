@@ -40,11 +40,11 @@ void GoTo::halt() {
 Status GoTo::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
-    return {Progress::failure, "time is up on the way to " + destination(world)};
+    return {StepState::failure, "time is up on the way to " + destination(world)};
   return facing_since_s_ ? face(world, context) : drive_there(world, context);
 }
 
-FoundPlace GoTo::find_goal(const WorldView& world, BehaviourContext& context) const {
+FoundPlace GoTo::find_goal(const WorldView& world, NamedPlaces& context) const {
   FoundPlace found;
   if (config_.at_m) {
     found.place.pose = Pose2{config_.at_m->x(), config_.at_m->y(), config_.angle_rad.value_or(0.0)};
@@ -65,19 +65,19 @@ Status GoTo::drive_there(const WorldView& world, BehaviourContext& context) {
   if (!goal_) {
     driver_.restart();
     FoundPlace found = find_goal(world, context);
-    if (!found.unknown.empty()) return {Progress::failure, found.unknown};
+    if (!found.unknown.empty()) return {StepState::failure, found.unknown};
     goal_ = std::move(found.place);
   }
   const Status status = driver_.tick(*goal_, world, context);
-  if (status.progress == Progress::running)
-    return {Progress::running, status.reason + ", to " + destination(world), status.left_s};
-  if (status.progress == Progress::failure)
-    return {Progress::failure, status.reason + "; on the way to " + destination(world)};
+  if (status.state == StepState::running)
+    return {StepState::running, status.reason + ", to " + destination(world), status.left_s};
+  if (status.state == StepState::failure)
+    return {StepState::failure, status.reason + "; on the way to " + destination(world)};
   facing_since_s_ = world.time_s;
   return face(world, context);
 }
 
-Status GoTo::face(const WorldView& world, BehaviourContext& context) {
+Status GoTo::face(const WorldView& world, MotionRequests& context) {
   const Pose2& pose = world.pose.T_map_robot;
   const Landmark* landmark = world.graph.find(driver_.goal_landmark());
   double error_rad = 0.0;
@@ -89,10 +89,10 @@ Status GoTo::face(const WorldView& world, BehaviourContext& context) {
   const bool can_turn = world.robot.kinematics == Kinematics::differential;
   if (!can_turn || std::abs(error_rad) <= config_.driving.face.faced_rad ||
       world.time_s - *facing_since_s_ > config_.driving.face.at_most_s)
-    return {Progress::success, "at " + destination(world)};
+    return {StepState::success, "at " + destination(world)};
   const motion::TurnSettings& turn = config_.driving.turn;
   context.drive(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn));
-  return {Progress::running, "turning to " + destination(world)};
+  return {StepState::running, "turning to " + destination(world)};
 }
 
 std::string GoTo::destination(const WorldView& world) const {

@@ -33,8 +33,8 @@ class GoTo : public Behaviour {
 
  private:
   Status drive_there(const WorldView& world, BehaviourContext& context);
-  Status face(const WorldView& world, BehaviourContext& context);
-  [[nodiscard]] FoundPlace find_goal(const WorldView& world, BehaviourContext& context) const;
+  Status face(const WorldView& world, MotionRequests& context);
+  [[nodiscard]] FoundPlace find_goal(const WorldView& world, NamedPlaces& context) const;
   [[nodiscard]] std::string destination(const WorldView& world) const;
 
   GoToConfig config_;

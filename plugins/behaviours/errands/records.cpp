@@ -71,7 +71,7 @@ CaptureTemplate::CaptureTemplate(const CaptureTemplateConfig& config)
 
 Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& context) {
   const FoundPlace found = find_place(at_, world.graph);
-  if (!found.unknown.empty()) return {Progress::failure, found.unknown};
+  if (!found.unknown.empty()) return {StepState::failure, found.unknown};
   Point at;
   if (found.place.pose)
     at = found.place.pose->position();
@@ -82,11 +82,11 @@ Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& context) 
     const std::string text = template_text(category_, captured, "a mission's map");
     (void)parse_landmark_shape(text, file_name_);
     const Status written = context.write({file_name_, text});
-    if (written.progress != Progress::success) return written;
-    return {Progress::success,
+    if (written.state != StepState::success) return written;
+    return {StepState::success,
             written.reason + ": " + category_ + ", " + number("%.2f m across", captured.contour.outer_diameter_m())};
   } catch (const std::exception& nothing_there) {  // or nothing that a template file can hold
-    return {Progress::failure, std::string("no template of ") + category_ + ": " + nothing_there.what()};
+    return {StepState::failure, std::string("no template of ") + category_ + ": " + nothing_there.what()};
   }
 }
 
@@ -127,7 +127,7 @@ PlanQuery::PlanQuery(const PlanQueryConfig& config)
 
 Status PlanQuery::tick(const WorldView&, BehaviourContext& context) {
   const Status status = context.answer(question_, file_name_);
-  return {status.progress, question_.from + " -> " + question_.to + ": " + status.reason};
+  return {status.state, question_.from + " -> " + question_.to + ": " + status.reason};
 }
 
 void LogConfig::describe(Fields<LogConfig>& fields) {
@@ -172,8 +172,8 @@ Log::Log(const LogConfig& config) {
 Status Log::tick(const WorldView& world, BehaviourContext& context) {
   std::string line;
   for (const Piece& piece : segments_) line += piece.is_name ? value_of(piece.text, world) : piece.text;
-  context.say(line);
-  return {Progress::success, line.empty() ? "said nothing" : line};
+  context.report(line);
+  return {StepState::success, line.empty() ? "said nothing" : line};
 }
 
 }  // namespace cairn::behaviours

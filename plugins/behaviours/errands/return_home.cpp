@@ -26,7 +26,7 @@ void ReturnHome::halt() {
 Status ReturnHome::tick(const WorldView& world, BehaviourContext& context) {
   const std::string home = to_.empty() ? "home at " + described(world.T_map_start.position()) : "home at " + to_;
   if (!begun_s_) begun_s_ = world.time_s;
-  if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up on the way " + home};
+  if (world.time_s - *begun_s_ >= config_.at_most_s) return {StepState::failure, "time is up on the way " + home};
   if (goal_ && names_retired(*goal_, world.graph)) goal_.reset();
   if (!goal_) {
     driver_.restart();
@@ -36,15 +36,15 @@ Status ReturnHome::tick(const WorldView& world, BehaviourContext& context) {
       goal.heading_matters = true;
     } else {
       FoundPlace found = find_landmarks(to_, world.graph);
-      if (!found.unknown.empty()) return {Progress::failure, found.unknown};
+      if (!found.unknown.empty()) return {StepState::failure, found.unknown};
       goal = std::move(found.place);
     }
     goal_ = goal;
   }
   const Status status = driver_.tick(*goal_, world, context);
-  if (status.progress == Progress::running) return {Progress::running, status.reason + ", " + home, status.left_s};
-  if (status.progress == Progress::failure) return {Progress::failure, status.reason + "; on the way " + home};
-  return {Progress::success, home};
+  if (status.state == StepState::running) return {StepState::running, status.reason + ", " + home, status.left_s};
+  if (status.state == StepState::failure) return {StepState::failure, status.reason + "; on the way " + home};
+  return {StepState::success, home};
 }
 
 }  // namespace cairn::behaviours

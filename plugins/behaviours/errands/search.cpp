@@ -79,17 +79,17 @@ std::string Search::in_round() const {
 std::optional<Status> Search::between(const WorldView& world, BehaviourContext& context) {
   if (waits_since_s_ && world.time_s - *waits_since_s_ < config_.between_rounds.pause_s) {
     context.drive({});
-    return Status{Progress::running, "waiting before it looks at all once more"};
+    return Status{StepState::running, "waiting before it looks at all once more"};
   }
   waits_since_s_.reset();
   if (!room_) return std::nullopt;
   const Status status = driver_.tick(*room_, world, context);
   const std::string place = described(room_->pose->position());
   const bool is_late = world.time_s - to_room_since_s_ >= config_.between_rounds.to_room_at_most_s;
-  if (status.progress == Progress::running && !is_late)
-    return Status{Progress::running, "trying to get to " + place + " (" + status.reason + ")"};
-  if (status.progress != Progress::success)
-    context.say("does not get to " + place + ": " + (is_late ? "it takes too long" : status.reason));
+  if (status.state == StepState::running && !is_late)
+    return Status{StepState::running, "trying to get to " + place + " (" + status.reason + ")"};
+  if (status.state != StepState::success)
+    context.report("does not get to " + place + ": " + (is_late ? "it takes too long" : status.reason));
   driver_.restart();
   room_.reset();
   return std::nullopt;
@@ -100,32 +100,32 @@ Status Search::nothing_left(const std::string& found, const std::string& why, co
   const std::string so_far = found + in_round() + ": " + why;
   const std::optional<Point> place = explore_.room_out_of_reach(world, been_at_);
   if (place) {
-    context.say(so_far + "; tries to get to " + described(*place));
+    context.report(so_far + "; tries to get to " + described(*place));
     been_at_.push_back(*place);
     room_ = Place{Pose2{place->x(), place->y(), 0.0}, false, {}};
     to_room_since_s_ = world.time_s;
-    return {Progress::running, "trying to get to " + described(*place)};
+    return {StepState::running, "trying to get to " + described(*place)};
   }
-  if (round_ >= config_.rounds) return {Progress::failure, so_far};
-  context.say(so_far + "; looks at all once more");
+  if (round_ >= config_.rounds) return {StepState::failure, so_far};
+  context.report(so_far + "; looks at all once more");
   explore_.halt();
   been_at_.clear();
   ++round_;
   waits_since_s_ = world.time_s;
-  return {Progress::running, "looks at all once more"};
+  return {StepState::running, "looks at all once more"};
 }
 
 Status Search::tick(const WorldView& world, BehaviourContext& context) {
   const std::vector<LandmarkId> found = world.graph.of_category(category_);
   if (found.size() >= static_cast<std::size_t>(config_.until)) {
     if (!config_.output.empty()) context.output(config_.output, Place{std::nullopt, false, found});
-    return {Progress::success, "found " + category_ + ": " + labels_of(found, world.graph)};
+    return {StepState::success, "found " + category_ + ": " + labels_of(found, world.graph)};
   }
   if (!begun_s_) begun_s_ = world.time_s;
   const std::string count = std::to_string(found.size()) + " of " + std::to_string(config_.until) + " " + category_ +
                             " found" + (found.empty() ? "" : " (" + labels_of(found, world.graph) + ")");
   const double left_s = *begun_s_ + config_.at_most_s - world.time_s;
-  if (left_s <= 0.0) return {Progress::failure, count + "; time is up" + in_round()};
+  if (left_s <= 0.0) return {StepState::failure, count + "; time is up" + in_round()};
   const Point here = world.pose.T_map_robot.position();
   if (std::ranges::none_of(been_at_,
                            [&](const Point& p) { return (p - here).norm() < config_.between_rounds.been_apart_m; }))
@@ -135,13 +135,13 @@ Status Search::tick(const WorldView& world, BehaviourContext& context) {
     status = *now;
   } else {
     status = explore_.tick(world, context);
-    if (status.progress == Progress::success)
+    if (status.state == StepState::success)
       status = nothing_left(count, status.reason, world, context);
-    else if (status.progress == Progress::failure)
+    else if (status.state == StepState::failure)
       status.reason = count + "; " + status.reason;
   }
-  if (status.progress != Progress::running) return status;
-  return {Progress::running, status.reason + "; " + count, std::min(status.left_s.value_or(left_s), left_s)};
+  if (status.state != StepState::running) return status;
+  return {StepState::running, status.reason + "; " + count, std::min(status.left_s.value_or(left_s), left_s)};
 }
 
 }  // namespace cairn::behaviours

@@ -69,17 +69,17 @@ Status DriveTo::tick(const WorldView& world, BehaviourContext& context) {
     const Point end = stretch_.path().back();
     std::snprintf(text, sizeof text, "blocked at (%.2f, %.2f) on the way to (%.2f, %.2f)", pose.x_m, pose.y_m, end.x(),
                   end.y());
-    return {Progress::failure, text};
+    return {StepState::failure, text};
   }
   ControlResult step = stretch_.ask(context);
   if (step.state == ControlState::arrived) {
-    if (next_ >= points_m_.size()) return {Progress::success, "drove all points"};
+    if (next_ >= points_m_.size()) return {StepState::success, "drove all points"};
     begin_stretch(stretch_.path().back());
     step = stretch_.ask(context);
   }
   stretch_.drive(step.twist, context);
   std::snprintf(text, sizeof text, "driving to (%.2f, %.2f)", stretch_.path().back().x(), stretch_.path().back().y());
-  return {Progress::running, text, left_s(step, world.robot)};
+  return {StepState::running, text, left_s(step, world.robot)};
 }
 
 // To the last point, as if never blocked.
@@ -98,8 +98,8 @@ void WaitConfig::describe(Fields<WaitConfig>& fields) {
 Status Wait::tick(const WorldView& world, BehaviourContext&) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ < config_.for_s)
-    return {Progress::running, "waiting", config_.for_s - (world.time_s - *begun_s_)};
-  return {Progress::success, "waited"};
+    return {StepState::running, "waiting", config_.for_s - (world.time_s - *begun_s_)};
+  return {StepState::success, "waited"};
 }
 
 void SaveConfig::describe(Fields<SaveConfig>& fields) {

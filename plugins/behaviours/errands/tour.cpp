@@ -35,7 +35,7 @@ void Tour::halt() {
 
 Status Tour::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_s_) begun_s_ = world.time_s;
-  if (world.time_s - *begun_s_ >= config_.at_most_s) return {Progress::failure, "time is up: " + visits_.summary()};
+  if (world.time_s - *begun_s_ >= config_.at_most_s) return {StepState::failure, "time is up: " + visits_.summary()};
   return visits_.tick(world, context);
 }
 
@@ -64,19 +64,20 @@ std::vector<PlaceName> Patrol::all_landmarks(const LandmarkGraph& graph, Behavio
     if (places.size() < kMaxPlaces) places.push_back({"L" + std::to_string(id), std::nullopt});
   const std::size_t all = graph.landmarks().size();
   if (all > places.size())
-    context.say("a round has " + std::to_string(kMaxPlaces) + " places at most: " +
-                std::to_string(all - places.size()) + " of " + std::to_string(all) + " landmarks are left out of it");
+    context.report("a round has " + std::to_string(kMaxPlaces) +
+                   " places at most: " + std::to_string(all - places.size()) + " of " + std::to_string(all) +
+                   " landmarks are left out of it");
   return places;
 }
 
 Status Patrol::begin_round(const WorldView& world, BehaviourContext& context) {
   const bool chooses_itself = places_.empty();
   std::vector<PlaceName> places = chooses_itself ? all_landmarks(world.graph, context) : places_;
-  if (places.empty()) return {Progress::failure, "there is nothing to patrol: the map holds no landmark"};
+  if (places.empty()) return {StepState::failure, "there is nothing to patrol: the map holds no landmark"};
   round_.emplace(config_, seed_, std::move(places), chooses_itself ? Unknown::left_out : Unknown::as_skip_says);
   const std::string of = rounds_wanted_ == 0 ? "" : " of " + std::to_string(rounds_wanted_);
-  context.say("round " + std::to_string(rounds_done_ + 1) + of + " begins");
-  return {Progress::running, "round " + std::to_string(rounds_done_ + 1) + of};
+  context.report("round " + std::to_string(rounds_done_ + 1) + of + " begins");
+  return {StepState::running, "round " + std::to_string(rounds_done_ + 1) + of};
 }
 
 // The next round begins with the next tick: no tick is without end.
@@ -84,16 +85,16 @@ Status Patrol::tick(const WorldView& world, BehaviourContext& context) {
   if (!round_) return begin_round(world, context);
   const Status status = round_->tick(world, context);
   const std::string number = "round " + std::to_string(rounds_done_ + 1);
-  if (status.progress != Progress::success) return {status.progress, number + ": " + status.reason, status.left_s};
+  if (status.state != StepState::success) return {status.state, number + ": " + status.reason, status.left_s};
   ++rounds_done_;
   visited_ += round_->visited();
   left_out_ += round_->left_out();
-  context.say(number + " is done: " + round_->summary());
+  context.report(number + " is done: " + round_->summary());
   round_.reset();
-  if (rounds_done_ != rounds_wanted_) return {Progress::running, number + " is done"};
-  return {Progress::success, std::to_string(rounds_done_) + (rounds_done_ == 1 ? " round, " : " rounds, ") +
-                                 std::to_string(visited_) + " places visited" +
-                                 (left_out_ == 0 ? "" : ", " + std::to_string(left_out_) + " left out")};
+  if (rounds_done_ != rounds_wanted_) return {StepState::running, number + " is done"};
+  return {StepState::success, std::to_string(rounds_done_) + (rounds_done_ == 1 ? " round, " : " rounds, ") +
+                                  std::to_string(visited_) + " places visited" +
+                                  (left_out_ == 0 ? "" : ", " + std::to_string(left_out_) + " left out")};
 }
 
 }  // namespace cairn::behaviours

@@ -50,7 +50,7 @@ Status Visits::find_order(const WorldView& world, BehaviourContext& context) {
   if (cost_m_.empty()) cost_m_.assign(all, std::vector<double>(all, 0.0));
   if (from_ + 1 < all) {
     ask_next_length(world, context);
-    return {Progress::running, "asking for the routes between " + std::to_string(all - 1) + " places"};
+    return {StepState::running, "asking for the routes between " + std::to_string(all - 1) + " places"};
   }
   std::vector<Stop> in_order;
   for (const std::size_t stop : shortest_order(cost_m_)) in_order.push_back(stops_[stop - 1]);
@@ -58,8 +58,8 @@ Status Visits::find_order(const WorldView& world, BehaviourContext& context) {
   ordered_ = true;
   std::vector<std::string> names;
   for (const Stop& stop : stops_) names.push_back(stop.chosen ? "L" + std::to_string(*stop.chosen) : stop.name.text);
-  context.say("the shortest order is " + joined(names));
-  return {Progress::running, "has found the shortest order"};
+  context.report("the shortest order is " + joined(names));
+  return {StepState::running, "has found the shortest order"};
 }
 
 // Routes count the same in both directions.
@@ -103,36 +103,36 @@ Status Visits::drive(const WorldView& world, BehaviourContext& context) {
   const Status status = driver_.tick(*goal_, world, context);
   const std::string& name = stops_[next_].name.text;
   const std::string number = std::to_string(next_ + 1) + " of " + std::to_string(stops_.size());
-  if (status.progress == Progress::running)
-    return {Progress::running, status.reason + ", to " + name + ", place " + number, status.left_s};
-  if (status.progress == Progress::failure) {
-    if (settings_.skip) context.say("leaves out " + name + ": " + status.reason);
+  if (status.state == StepState::running)
+    return {StepState::running, status.reason + ", to " + name + ", place " + number, status.left_s};
+  if (status.state == StepState::failure) {
+    if (settings_.skip) context.report("leaves out " + name + ": " + status.reason);
     return leave_out(status.reason, settings_.skip);
   }
   const Landmark* landmark = world.graph.find(driver_.goal_landmark());
   visited_.push_back(landmark == nullptr ? name : described(*landmark));
-  context.say("at " + visited_.back() + ", place " + number);
+  context.report("at " + visited_.back() + ", place " + number);
   waiting_since_s_ = world.time_s;
   return wait(world);
 }
 
 Status Visits::wait(const WorldView& world) {
-  if (world.time_s - *waiting_since_s_ < settings_.wait_s) return {Progress::running, "waiting at " + visited_.back()};
+  if (world.time_s - *waiting_since_s_ < settings_.wait_s) return {StepState::running, "waiting at " + visited_.back()};
   waiting_since_s_.reset();
   goal_.reset();
   driver_.restart();
-  if (++next_ == stops_.size()) return {Progress::success, summary()};
-  return {Progress::running, "has been at " + visited_.back()};
+  if (++next_ == stops_.size()) return {StepState::success, summary()};
+  return {StepState::running, "has been at " + visited_.back()};
 }
 
 Status Visits::leave_out(const std::string& why, bool may_be_left_out) {
   const std::string place = stops_[next_].name.text + " (" + why + ")";
-  if (!may_be_left_out) return {Progress::failure, "cannot get to " + place + "; " + summary()};
+  if (!may_be_left_out) return {StepState::failure, "cannot get to " + place + "; " + summary()};
   left_out_.push_back(place);
   goal_.reset();
   driver_.restart();
-  if (++next_ < stops_.size()) return {Progress::running, "leaves out " + left_out_.back()};
-  return {visited_.empty() ? Progress::failure : Progress::success, summary()};
+  if (++next_ < stops_.size()) return {StepState::running, "leaves out " + left_out_.back()};
+  return {visited_.empty() ? StepState::failure : StepState::success, summary()};
 }
 
 std::string Visits::summary() const {

@@ -32,7 +32,7 @@ Status Exploration::tick(const WorldView& world, BehaviourContext& context) {
   travelled_.add(world.pose.T_map_robot);
   chooser_.see(world);
   follower_.see(world, chooser_.near_echoes());
-  if (world.time_s - begun_s_ >= config_.at_most_s) return {Progress::success, "time is up: " + summary(world)};
+  if (world.time_s - begun_s_ >= config_.at_most_s) return {StepState::success, "time is up: " + summary(world)};
   switch (mode_) {
     case Mode::look_around:
       return look_around(world, context);
@@ -74,7 +74,7 @@ Status Exploration::look_around(const WorldView& world, BehaviourContext& contex
   }
   const double turn_radps = std::min(config_.exploring.motion.look_around_radps, world.robot.max_w_radps);
   follower_.drive({0.0, turn_radps}, world, context);
-  return {Progress::running, "looking around"};
+  return {StepState::running, "looking around"};
 }
 
 bool Exploration::needs_choice(const WorldView& world) const {
@@ -92,7 +92,7 @@ bool Exploration::choose(const WorldView& world, BehaviourContext& context) {
   follower_.take(task_->path);
   if (task_->kind == TaskKind::orbit && (task_->about - announced_).norm() > config_.orbit_distance_m) {
     announced_ = task_->about;
-    context.say(sentence_of(*task_));
+    context.report(sentence_of(*task_));
   }
   return true;
 }
@@ -110,13 +110,13 @@ Status Exploration::travel(const WorldView& world, BehaviourContext& context) {
     if (!choose(world, context)) return nothing_left(world, context);
   } else if (blocked) {
     follower_.drive({}, world, context);
-    return {Progress::running, "something has turned up on the path"};
+    return {StepState::running, "something has turned up on the path"};
   }
   const bool is_orbit = task_->kind == TaskKind::orbit && is_on_orbit(world);
   const double speed_limit_mps = is_orbit ? config_.orbit_speed_mps : std::numeric_limits<double>::infinity();
   const ControlResult step = follower_.step(speed_limit_mps, world, context);
   if (step.state == ControlState::arrived) arrive(world);
-  return {Progress::running, task_ ? sentence_of(*task_) : "choosing what to do next"};
+  return {StepState::running, task_ ? sentence_of(*task_) : "choosing what to do next"};
 }
 
 void Exploration::arrive(const WorldView& world) {
@@ -148,7 +148,7 @@ Status Exploration::face(const WorldView& world, BehaviourContext& context) {
     task_.reset();
     set_mode(Mode::travel, world.time_s);
   }
-  return {Progress::running, "facing what is still unknown"};
+  return {StepState::running, "facing what is still unknown"};
 }
 
 Status Exploration::get_unstuck(const WorldView& world, BehaviourContext& context) {
@@ -176,7 +176,7 @@ Status Exploration::back_off(const WorldView& world, BehaviourContext& context) 
     return travel(world, context);
   }
   follower_.drive(*twist, world, context);
-  return {Progress::running, "backing off"};
+  return {StepState::running, "backing off"};
 }
 
 // Once more round before the end: what seems to shut the robot in may be noise.
@@ -192,25 +192,25 @@ Status Exploration::nothing_left(const WorldView& world, BehaviourContext& conte
 
 Status Exploration::finished(const WorldView& world) const {
   if (travelled_.driven_m >= config_.exploring.motion.moved_m)
-    return {Progress::success, "nothing left to explore: " + summary(world)};
+    return {StepState::success, "nothing left to explore: " + summary(world)};
   if (blockages_.is_any()) return cannot_get_away();
   const FreeSpace space = chooser_.space(world);
   const Cell here = space.cell_at(world.pose.T_map_robot.position());
   const bool can_move = std::any_of(std::begin(kNeighbours), std::end(kNeighbours), [&](Cell step) {
     return space.reaches(here + step) || space.reaches(here + step + step);
   });
-  if (can_move) return {Progress::success, "nothing left to explore: " + summary(world)};
+  if (can_move) return {StepState::success, "nothing left to explore: " + summary(world)};
   char text[128];
   std::snprintf(text, sizeof text, "cannot move: no known free place with %.2f m of room is in reach of (%.2f, %.2f)",
                 space.min_distance_m(), travelled_.T_map_last.x_m, travelled_.T_map_last.y_m);
-  return {Progress::failure, text};
+  return {StepState::failure, text};
 }
 
 Status Exploration::cannot_get_away() const {
   char text[96];
   std::snprintf(text, sizeof text, "cannot get away from (%.2f, %.2f): blocked wherever it turns",
                 travelled_.T_map_last.x_m, travelled_.T_map_last.y_m);
-  return {Progress::failure, text};
+  return {StepState::failure, text};
 }
 
 std::string Exploration::summary(const WorldView& world) const {

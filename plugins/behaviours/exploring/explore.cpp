@@ -25,7 +25,7 @@ Status Explore::tick(const WorldView& world, BehaviourContext& context) {
     begun_s_ = world.time_s;
   }
   Status status = run_->tick(world, context);
-  if (status.progress != Progress::running) return status;
+  if (status.state != StepState::running) return status;
   status.left_s = progress_->left_s(world);
   if (status.left_s) status.left_s = std::min(*status.left_s, begun_s_ + config_.at_most_s - world.time_s);
   return status;

@@ -39,11 +39,11 @@ Status Inspect::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (landmark_ == 0) return begin(world, context);
   const Landmark* const landmark = world.graph.find(landmark_);
-  if (landmark == nullptr) return {Progress::failure, lost(landmark_, world.graph)};
+  if (landmark == nullptr) return {StepState::failure, lost(landmark_, world.graph)};
   landmark_orbit_.see(world);
   if (world.time_s - *begun_s_ >= config_.at_most_s) {
     if (orbits_ > 0) return finish(*landmark, "time is up");
-    return {Progress::failure, "time is up before an orbit round " + described(*landmark) + " was done"};
+    return {StepState::failure, "time is up before an orbit round " + described(*landmark) + " was done"};
   }
   switch (mode_) {
     case Mode::drive:
@@ -58,30 +58,30 @@ Status Inspect::tick(const WorldView& world, BehaviourContext& context) {
 
 Status Inspect::begin(const WorldView& world, BehaviourContext& context) {
   const ChosenLandmark chosen = choose_landmark(name_, world, context);
-  if (!chosen.unknown.empty()) return {Progress::failure, chosen.unknown};
+  if (!chosen.unknown.empty()) return {StepState::failure, chosen.unknown};
   landmark_ = chosen.id;
   degree_before_ = degree_at_begin_ = world.graph.find(landmark_)->degree;
-  return {Progress::running, "going to " + described(*world.graph.find(landmark_))};
+  return {StepState::running, "going to " + described(*world.graph.find(landmark_))};
 }
 
 Status Inspect::drive(const WorldView& world, BehaviourContext& context, const Landmark& landmark) {
   const bool is_near =
       (landmark.T_map_landmark.position() - world.pose.T_map_robot.position()).norm() <= config_.orbit.near_m &&
       choose_path(world, landmark);
-  Status status{Progress::success, ""};
+  Status status{StepState::success, ""};
   if (!is_near) {
     Place goal;
     goal.landmarks = {landmark_};
     status = driver_.tick(goal, world, context);
   }
-  if (status.progress == Progress::running)
-    return {Progress::running, status.reason + ", to " + described(landmark), status.left_s};
-  if (status.progress == Progress::failure)
-    return {Progress::failure, "cannot get to " + described(landmark) + ": " + status.reason};
+  if (status.state == StepState::running)
+    return {StepState::running, status.reason + ", to " + described(landmark), status.left_s};
+  if (status.state == StepState::failure)
+    return {StepState::failure, "cannot get to " + described(landmark) + ": " + status.reason};
   mode_ = Mode::orbit;
   landmark_orbit_.begin();
   follower_.restart_progress();
-  return {Progress::running, "at " + described(landmark)};
+  return {StepState::running, "at " + described(landmark)};
 }
 
 bool Inspect::choose_path(const WorldView& world, const Landmark& landmark) {
@@ -112,7 +112,7 @@ Status Inspect::orbit(const WorldView& world, BehaviourContext& context, const L
     step = follower_.ask(context);
   }
   follower_.drive(step.twist, context);
-  return {Progress::running, "going round " + described(landmark) + ", orbit " + std::to_string(orbits_ + 1)};
+  return {StepState::running, "going round " + described(landmark) + ", orbit " + std::to_string(orbits_ + 1)};
 }
 
 Status Inspect::back_off(const WorldView& world, BehaviourContext& context) {
@@ -123,12 +123,12 @@ Status Inspect::back_off(const WorldView& world, BehaviourContext& context) {
                                        behind_m, world.robot.radius_m);
   if (!is_over) {
     context.drive({-config_.orbit.back_up_mps, 0.0});
-    return {Progress::running, "backing off"};
+    return {StepState::running, "backing off"};
   }
   mode_ = Mode::orbit;
   follower_.take({});
   follower_.restart_progress();
-  return {Progress::running, "has backed off"};
+  return {StepState::running, "has backed off"};
 }
 
 Status Inspect::end_orbit(const Landmark& landmark, BehaviourContext& context) {
@@ -136,25 +136,25 @@ Status Inspect::end_orbit(const Landmark& landmark, BehaviourContext& context) {
   follower_.take({});
   if (!landmark_orbit_.is_covered()) {
     if (orbits_ > 0) return finish(landmark, "it cannot be circled once more");
-    return {Progress::failure, described(landmark) + " cannot be circled: no free path leads round it"};
+    return {StepState::failure, described(landmark) + " cannot be circled: no free path leads round it"};
   }
   ++orbits_;
   const double risen = landmark.degree - degree_at_begin_;
   char text[96];
   std::snprintf(text, sizeof text, "orbit %d: degree %.3f -> %.3f", orbits_, degree_at_begin_, landmark.degree);
-  context.say(std::string(text) + " of " + described(landmark));
+  context.report(std::string(text) + " of " + described(landmark));
   degree_at_begin_ = landmark.degree;
   landmark_orbit_.begin();
   if (risen <= config_.gain) return finish(landmark, "it rises no more");
   if (orbits_ >= config_.rounds_at_most) return finish(landmark, "that was the last orbit");
-  return {Progress::running, "next orbit"};
+  return {StepState::running, "next orbit"};
 }
 
 Status Inspect::finish(const Landmark& landmark, const std::string& why) const {
   char text[96];
   std::snprintf(text, sizeof text, "degree %.3f -> %.3f in %d %s", degree_before_, landmark.degree, orbits_,
                 orbits_ == 1 ? "orbit" : "orbits");
-  return {Progress::success, described(landmark) + ": " + text + ", " + why};
+  return {StepState::success, described(landmark) + ": " + text + ", " + why};
 }
 
 }  // namespace cairn::behaviours

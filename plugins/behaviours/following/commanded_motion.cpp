@@ -21,11 +21,11 @@ Twist CommandedMotion::velocity(const WorldView& world) const {
   return {share * commanded_.v_mps, commanded_.w_radps};
 }
 
-void CommandedMotion::drive_towards(const Twist& target, const WorldView& world, BehaviourContext& context) {
+void CommandedMotion::drive_towards(const Twist& target, const WorldView& world, MotionRequests& context) {
   drive(motion::approached(velocity(world), target, period_s_, motion::accelerations_of(world.robot)), context);
 }
 
-void CommandedMotion::drive(const Twist& twist, BehaviourContext& context) {
+void CommandedMotion::drive(const Twist& twist, MotionRequests& context) {
   commanded_ = twist;
   context.drive(twist);
 }

@@ -10,9 +10,9 @@ class CommandedMotion {
   // Every tick, before anything is commanded.
   void tick(double time_s);
   // Drives at the target as soon as the robot's accelerations allow: turns in place, backing up.
-  void drive_towards(const Twist& target, const WorldView& world, BehaviourContext& context);
+  void drive_towards(const Twist& target, const WorldView& world, MotionRequests& context);
   // Drives as the controller says, which has kept to the accelerations.
-  void drive(const Twist& twist, BehaviourContext& context);
+  void drive(const Twist& twist, MotionRequests& context);
 
   // As last commanded, less what the collision monitor has cut.
   [[nodiscard]] Twist velocity(const WorldView& world) const;

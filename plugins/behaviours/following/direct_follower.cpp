@@ -2,7 +2,7 @@
 
 namespace cairn::behaviours {
 
-ControlResult DirectFollower::ask(BehaviourContext& context) {
+ControlResult DirectFollower::ask(MotionRequests& context) {
   ControlRequest request = path_.request();
   request.speed_mps = speed_mps_;
   request.tolerance_m = tolerance_m_;
@@ -12,7 +12,7 @@ ControlResult DirectFollower::ask(BehaviourContext& context) {
   return result;
 }
 
-void DirectFollower::drive(const Twist& wanted, BehaviourContext& context) {
+void DirectFollower::drive(const Twist& wanted, MotionRequests& context) {
   wanted_ = wanted;
   context.drive(wanted);
 }

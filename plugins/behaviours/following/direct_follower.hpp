@@ -25,8 +25,8 @@ class DirectFollower {
   // Once a tick of following: no progress for the patience.
   [[nodiscard]] bool is_stuck(const WorldView& world) { return progress_.is_stuck(world, wanted_); }
   // What the controller says; driven by drive().
-  ControlResult ask(BehaviourContext& context);
-  void drive(const Twist& wanted, BehaviourContext& context);
+  ControlResult ask(MotionRequests& context);
+  void drive(const Twist& wanted, MotionRequests& context);
   // The robot does something else: nothing is wanted along the path.
   void stop() { wanted_ = {}; }
 

@@ -67,7 +67,7 @@ bool RouteFollower::is_path_blocked(const WorldView& world, const LocalMap& map)
          map.is_blocked(world, path_.points(), path_.along_m(), settings_.blocked_ahead_m, margin_m);
 }
 
-ControlResult RouteFollower::step(const WorldView& world, const LocalMap& map, BehaviourContext& context) {
+ControlResult RouteFollower::step(const WorldView& world, const LocalMap& map, MotionRequests& context) {
   ControlRequest request = path_.request();
   request.speed_mps = wish_.speed_mps;
   if (map.ignores_near(world.pose.T_map_robot.position(), settings_.slow_within_m + world.robot.radius_m))
@@ -93,7 +93,7 @@ double RouteFollower::left_s(const ControlResult& step, const WorldView& world) 
   return step.left_m / std::min(speed_mps_, world.robot.max_v_mps);
 }
 
-void RouteFollower::drive_towards(const Twist& target, const WorldView& world, BehaviourContext& context) {
+void RouteFollower::drive_towards(const Twist& target, const WorldView& world, MotionRequests& context) {
   motion_.drive_towards(target, world, context);
 }
 

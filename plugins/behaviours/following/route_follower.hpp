@@ -51,11 +51,11 @@ class RouteFollower {
   // Whether something has turned up on the path ahead.
   [[nodiscard]] bool is_path_blocked(const WorldView& world, const LocalMap& map) const;
   // Drives on. Slowly where the map has something that the path ignores.
-  ControlResult step(const WorldView& world, const LocalMap& map, BehaviourContext& context);
+  ControlResult step(const WorldView& world, const LocalMap& map, MotionRequests& context);
   // Until the end of the path, as after this step.
   [[nodiscard]] double left_s(const ControlResult& step, const WorldView& world) const;
   // Not along the path.
-  void drive_towards(const Twist& target, const WorldView& world, BehaviourContext& context);
+  void drive_towards(const Twist& target, const WorldView& world, MotionRequests& context);
 
   [[nodiscard]] Leg leg() const { return leg_; }
   [[nodiscard]] const std::vector<Point>& path() const { return path_.points(); }

@@ -58,7 +58,8 @@ void OpeningSettings::describe(Fields<OpeningSettings>& fields) {
                 "a place out of reach is a room from this size on");
   fields.number("room_to_drive_m2", &C::room_to_drive_m2, {0.0, 1e4}, "m2",
                 "the robot keeps less room beside it when that leads to so much more; what is seen through a door");
-  fields.number("room_weight", &C::room_weight, {0.0, 1000.0}, "", "metres of path that a metre of room is worth");
+  fields.number("clearance_weight", &C::clearance_weight, {0.0, 1000.0}, "",
+                "metres of path that a metre of room is worth");
   fields.number("roomy_m", &C::roomy_m, {0.0, 50.0}, "m", "more room than this is no better");
   fields.number("same_m", &C::same_m, {0.0, 50.0}, "m", "openings and places this near to each other are the same");
 }
@@ -100,7 +101,8 @@ std::optional<Point> room_out_of_reach(const FreeSpace& space, const Point& from
   if (largest == rooms.end()) return std::nullopt;
   // Well inside, so that from there the room is nearer than what it comes from.
   const auto worth_m = [&](Cell c) {
-    return settings.room_weight * std::min(space.distance_m(c), settings.roomy_m) - (space.centre_of(c) - from).norm();
+    return settings.clearance_weight * std::min(space.distance_m(c), settings.roomy_m) -
+           (space.centre_of(c) - from).norm();
   };
   return space.centre_of(*std::ranges::max_element(*largest, [&](Cell a, Cell b) { return worth_m(a) < worth_m(b); }));
 }

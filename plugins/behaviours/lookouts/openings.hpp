@@ -15,7 +15,7 @@ struct OpeningSettings {
   double room_behind_m2 = 1.0;
   double room_out_of_reach_m2 = 0.5;
   double room_to_drive_m2 = 0.2;
-  double room_weight = 4.0;
+  double clearance_weight = 4.0;
   double roomy_m = 0.8;
   double same_m = 0.5;
   static void describe(Fields<OpeningSettings>& fields);

@@ -1,4 +1,4 @@
-// The suites can fail: each faulty module of faulty_modules.cpp fails the test that is for its fault.
+// The suites can fail: each faulty module of this folder fails the test that is for its fault.
 #include <gmock/gmock.h>
 
 #include <array>

@@ -26,7 +26,7 @@ class Conditions : public testing::Test {
     return check_(steps.front(), world);
   }
   [[nodiscard]] bool holds(const std::string& yaml, double time_s = 0.0) {
-    return ask(yaml, time_s).progress == Progress::success;
+    return ask(yaml, time_s).state == StepState::success;
   }
 
   OccupancyGrid grid_{0.1};
@@ -56,11 +56,11 @@ TEST_F(Conditions, APlaceIsNearOrNot) {
 }
 
 TEST_F(Conditions, ABatteryIsAboveItsShareOrNotKnown) {
-  EXPECT_EQ(ask("battery_above: 0.3"), (Status{Progress::failure, "the sensor reports no battery"}));
+  EXPECT_EQ(ask("battery_above: 0.3"), (Status{StepState::failure, "the sensor reports no battery"}));
   seen_.emplace();
-  EXPECT_EQ(ask("battery_above: 0"), (Status{Progress::failure, "the sensor reports no battery"}));
+  EXPECT_EQ(ask("battery_above: 0"), (Status{StepState::failure, "the sensor reports no battery"}));
   seen_->battery_ratio = 0.31;
-  EXPECT_EQ(ask("battery_above: 0.3"), (Status{Progress::success, "31.0 % of the battery is left"}));
+  EXPECT_EQ(ask("battery_above: 0.3"), (Status{StepState::success, "31.0 % of the battery is left"}));
   EXPECT_FALSE(holds("battery_above: {ratio: 0.31}"));
 }
 

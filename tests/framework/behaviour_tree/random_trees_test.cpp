@@ -50,7 +50,7 @@ class Oracle {
 class Leaf : public Oracle {
  public:
   Leaf(const TreeNode& node, ScriptedLeaves& leaves) : node_(node), leaves_(leaves) {}
-  char step(double) override { return letter_of(leaves_.tick_leaf(node_).status.progress); }
+  char step(double) override { return letter_of(leaves_.tick_leaf(node_).status.state); }
   void halted() override { leaves_.halt_leaf(node_); }
 
  private:
@@ -214,7 +214,7 @@ TEST(RandomTrees, TickAndHaltTheirLeavesAsTheOracleDoes) {
     TreeRunner runner(root, of_runner);
     const std::unique_ptr<Oracle> oracle = oracle_of(root, of_oracle);
     for (int tick = 0; tick < 40; ++tick) {
-      const char answer = letter_of(runner.tick(tick).progress);
+      const char answer = letter_of(runner.tick(tick).state);
       ended += answer == 'R' ? 0 : 1;
       ASSERT_EQ(answer, oracle->tick(tick)) << "seed " << seed << ", tick " << tick;
       if (pick(chance, 15) == 0) {
@@ -264,7 +264,7 @@ TEST(RandomTrees, GoOnFromTheirSavedStateAsTheUninterruptedTreeDoes) {
     TreeRunner restored(root, fresh);
     restored.restore(saved, killed_at - 1);
     for (int tick = killed_at; tick < killed_at + 20; ++tick) {
-      ASSERT_EQ(letter_of(runner.tick(tick).progress), letter_of(restored.tick(tick).progress))
+      ASSERT_EQ(letter_of(runner.tick(tick).state), letter_of(restored.tick(tick).state))
           << "seed " << seed << ", killed at " << killed_at << ", tick " << tick;
       ASSERT_EQ(without_halts_of_fresh_leaves(leaves.log), without_halts_of_fresh_leaves(fresh.log))
           << "seed " << seed << ", killed at " << killed_at << ", tick " << tick;

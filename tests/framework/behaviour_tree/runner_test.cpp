@@ -34,7 +34,7 @@ Ran run(const TreeNode& root, ScriptedLeaves& leaves, int ticks) {
   Ran ran;
   for (int i = 0; i < ticks; ++i) {
     if (i > 0) leaves.log += " | ";
-    ran.outcomes += letter_of(runner.tick(i * kTick_s).progress);
+    ran.outcomes += letter_of(runner.tick(i * kTick_s).state);
   }
   ran.log = leaves.log;
   return ran;
@@ -166,7 +166,7 @@ TEST(TreeRunner, HaltGoesThroughTheTreeInReverseOrder) {
       "{after_s: 9, do: e}}}, f]]");
   ScriptedLeaves leaves({{"a", "S"}, {"b", "R"}, {"c", "F"}, {"d", "R"}, {"e", "R"}, {"f", "S"}});
   TreeRunner runner(steps.front(), leaves);
-  EXPECT_EQ(runner.tick(0.0).progress, Progress::running);
+  EXPECT_EQ(runner.tick(0.0).state, StepState::running);
   EXPECT_EQ(leaves.log, "a b c d e f");
   leaves.log.clear();
   runner.halt(1.0, "enough");
@@ -175,7 +175,7 @@ TEST(TreeRunner, HaltGoesThroughTheTreeInReverseOrder) {
   EXPECT_EQ(leaves.log, "!e !d !b") << "once";
   EXPECT_FALSE(runner.is_running());
   leaves.log.clear();
-  EXPECT_EQ(runner.tick(3.0).progress, Progress::running);
+  EXPECT_EQ(runner.tick(3.0).state, StepState::running);
   EXPECT_EQ(leaves.log, "a b c d e f") << "afresh";
 }
 
@@ -214,9 +214,9 @@ TEST(TreeRunner, TwoChildrenOfAParallelThatBothDriveAreAFailureThatNamesThem) {
   const auto steps = steps_of("[fallback: [{parallel: [{sequence: [a, b]}, c, d]}, e]]");
   ScriptedLeaves leaves({{"a", "S"}, {"b", "r"}, {"c", "Rr"}, {"d", "R"}, {"e", "r"}});
   TreeRunner runner(steps.front(), leaves);
-  EXPECT_EQ(runner.tick(0.0).progress, Progress::running);
+  EXPECT_EQ(runner.tick(0.0).state, StepState::running);
   leaves.log.clear();
-  EXPECT_EQ(runner.tick(1.0).progress, Progress::running) << "the fallback goes on with e";
+  EXPECT_EQ(runner.tick(1.0).state, StepState::running) << "the fallback goes on with e";
   EXPECT_EQ(leaves.log, "b c !d !c !b e");
   EXPECT_EQ(runner.wanted()->v_mps, 'e');
   EXPECT_EQ(runner.reports().at(1).status.reason, "b (1/1/1/2) and c (1/1/2) drive at the same time");
@@ -229,7 +229,7 @@ TEST(TreeRunner, AReasonSaysWhichChildFailed) {
     TreeRunner runner(steps.front(), leaves);
     Status status;
     for (int i = 0; i < ticks; ++i) status = runner.tick(i * kTick_s);
-    EXPECT_EQ(status.progress, Progress::failure);
+    EXPECT_EQ(status.state, StepState::failure);
     return status.reason;
   };
   EXPECT_EQ(reason("[sequence: [s, a]]", 1), "a: no a");
@@ -249,7 +249,7 @@ TEST(TreeRunner, NodesThatBeginAndEndInOneTickAreReportedWhenTheirOutcomeChanges
     using ScriptedLeaves::ScriptedLeaves;
     LeafTick tick_leaf(const TreeNode& leaf) override {
       if (leaf.kind != NodeKind::landmark_known) return ScriptedLeaves::tick_leaf(leaf);
-      return {{++asked_ < 4 ? Progress::failure : Progress::success, ""}};
+      return {{++asked_ < 4 ? StepState::failure : StepState::success, ""}};
     }
 
    private:
@@ -276,9 +276,9 @@ TEST(TreeRunner, ReportsHoldWhatHasComeOfEachNodeThatWasTicked) {
   EXPECT_EQ(reports[2].runs, 2);
   EXPECT_EQ(reports[2].begin_s, 0.0);
   EXPECT_EQ(reports[2].end_s, 2.0);
-  EXPECT_EQ(reports[2].status, (Status{Progress::failure, "no a"}));
+  EXPECT_EQ(reports[2].status, (Status{StepState::failure, "no a"}));
   EXPECT_EQ(reports[3].path, "1/2");
-  EXPECT_EQ(reports[3].status, (Status{Progress::failure, "enough"}));
+  EXPECT_EQ(reports[3].status, (Status{StepState::failure, "enough"}));
   EXPECT_EQ(reports[3].begin_s, 2.0);
   EXPECT_EQ(reports[3].end_s, 9.0);
 }

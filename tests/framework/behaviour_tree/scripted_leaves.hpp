@@ -30,11 +30,11 @@ class ScriptedLeaves : public TreeHost {
     LeafTick tick;
     const char letter = script[at];
     if (letter >= 'a' && letter <= 'z') tick.wanted = Twist{static_cast<double>(leaf.name.front()), 0.0};
-    tick.status.progress = letter == 'R' || letter == 'r'   ? Progress::running
-                           : letter == 'S' || letter == 's' ? Progress::success
-                                                            : Progress::failure;
+    tick.status.state = letter == 'R' || letter == 'r'   ? StepState::running
+                        : letter == 'S' || letter == 's' ? StepState::success
+                                                         : StepState::failure;
     tick.is_forgiven = letter == 'X';
-    tick.status.reason = tick.status.progress == Progress::failure ? "no " + leaf.name : "";
+    tick.status.reason = tick.status.state == StepState::failure ? "no " + leaf.name : "";
     return tick;
   }
   void halt_leaf(const TreeNode& leaf) override {
@@ -43,7 +43,7 @@ class ScriptedLeaves : public TreeHost {
   }
   void started(const TreeNode& node) override { reported += "+" + node.path + " "; }
   void ended(const TreeNode& node, const NodeReport& how) override {
-    reported += (how.is_halted ? "H" : how.status.progress == Progress::success ? "S" : "F") + node.path + " ";
+    reported += (how.is_halted ? "H" : how.status.state == StepState::success ? "S" : "F") + node.path + " ";
   }
 
   std::string log;       // leaves in the order in which they were ticked, !leaf halted
@@ -55,8 +55,8 @@ class ScriptedLeaves : public TreeHost {
   std::map<std::string, std::size_t> ticks_;
 };
 
-inline char letter_of(Progress progress) {
-  return progress == Progress::running ? 'R' : progress == Progress::success ? 'S' : 'F';
+inline char letter_of(StepState state) {
+  return state == StepState::running ? 'R' : state == StepState::success ? 'S' : 'F';
 }
 
 }  // namespace cairn::testing_tree

@@ -76,10 +76,10 @@ TEST(TreeState, GoesOnInTheRoundThatWasUnderWay) {
   ScriptedLeaves after({{"a", "S"}, {"b", "R"}});
   TreeRunner restored(steps.front(), after);
   restored.restore(killed.state(), 3.0);
-  EXPECT_EQ(letter_of(restored.tick(4.0).progress), 'R');
+  EXPECT_EQ(letter_of(restored.tick(4.0).state), 'R');
   EXPECT_EQ(after.log, "b");
   const Status timed_out = restored.tick(6.0);
-  EXPECT_EQ(timed_out.progress, Progress::failure);
+  EXPECT_EQ(timed_out.state, StepState::failure);
   EXPECT_THAT(timed_out.reason, HasSubstr("(round 2 of 3)"));
 }
 

@@ -22,7 +22,7 @@ struct HandOverConfig {
 
 class HandOver : public Behaviour {
  public:
-  Status tick(const WorldView&, BehaviourContext&) override { return {Progress::success, ""}; }
+  Status tick(const WorldView&, BehaviourContext&) override { return {StepState::success, ""}; }
   void halt() override {}
 };
 

@@ -152,14 +152,14 @@ Status FakeHost::tick(Behaviour& behaviour) {
 std::optional<double> FakeHost::first_left_s(Behaviour& behaviour, double at_most_s) {
   const double end_s = time_s + at_most_s;
   Status status;
-  while (status.progress == Progress::running && !status.left_s && time_s < end_s) status = tick(behaviour);
+  while (status.state == StepState::running && !status.left_s && time_s < end_s) status = tick(behaviour);
   return status.left_s;
 }
 
 Status FakeHost::run(Behaviour& behaviour, double at_most_s) {
   const double end_s = time_s + at_most_s;
   Status status;
-  while (status.progress == Progress::running && time_s < end_s) status = tick(behaviour);
+  while (status.state == StepState::running && time_s < end_s) status = tick(behaviour);
   return status;
 }
 

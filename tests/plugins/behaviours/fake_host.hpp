@@ -32,18 +32,18 @@ class FakeHost : public BehaviourContext {
   PlanResult plan(const PlanRequest& request) override;
   Status save(const std::string& file_name) override {
     saved.push_back(file_name);
-    return {Progress::success, "saved " + file_name};
+    return {StepState::success, "saved " + file_name};
   }
   Status answer(const PlanQuestion& question, const std::string& file_name) override {
     asked.push_back(question);
-    return {Progress::success, "answered into " + file_name};
+    return {StepState::success, "answered into " + file_name};
   }
   Status write(const OutputText& output) override {
     if (!output.append) written[output.file_name].clear();
     written[output.file_name] += output.text;
-    return {Progress::success, "wrote " + output.file_name};
+    return {StepState::success, "wrote " + output.file_name};
   }
-  void say(const std::string& sentence) override { said.push_back(sentence); }
+  void report(const std::string& sentence) override { said.push_back(sentence); }
   std::optional<Place> input(const std::string& name) override {
     const auto found = values.find(name);
     return found == values.end() ? std::nullopt : std::optional(found->second);

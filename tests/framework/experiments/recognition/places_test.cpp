@@ -33,7 +33,7 @@ World world_with_square() {
 }
 
 StepReport step_until(double end_s) {
-  return {"drive", {Progress::success, ""}, 0.0, end_s};
+  return {"drive", {StepState::success, ""}, 0.0, end_s};
 }
 
 DegreeSample sample(double time_s, const Point& at_m, double circle, double square) {

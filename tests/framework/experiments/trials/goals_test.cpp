@@ -31,7 +31,7 @@ struct Trial {
   }
   void fault(const std::string& list) { mission.config.sensor.config = parse_config_text("faults: " + list, "m.yaml"); }
   // The leaf ran and ended so.
-  void ran(const std::string& path, double begin_s, double end_s, Progress how, bool halted = false) {
+  void ran(const std::string& path, double begin_s, double end_s, StepState how, bool halted = false) {
     NodeReport report;
     report.path = path;
     report.status = {how, "as it was"};
@@ -75,8 +75,8 @@ TEST(TrialGoals, ASuccessCountsOnlyWhereTheRobotTrulyIs) {
   Trial trial;
   trial.steps("[{goto: {at_m: [3, 1]}}, {goto: {at_m: [3, 3]}}]");
   trial.drive({{1, 1}, {2, 1}, {3.3, 1}, {3, 1.5}, {3, 2.5}});
-  trial.ran("1", 0.0, 2.0, Progress::success);
-  trial.ran("2", 2.0, 4.0, Progress::success);
+  trial.ran("1", 0.0, 2.0, StepState::success);
+  trial.ran("2", 2.0, 4.0, StepState::success);
   const auto goals = trial.judge();
   ASSERT_EQ(goals.size(), 2U);
   EXPECT_EQ(goals[0].goal, "goto (3.00, 1.00)");
@@ -91,8 +91,8 @@ TEST(TrialGoals, ALeafThatRanAgainEndsAsTheLastTime) {
   Trial trial;
   trial.steps("[{retry: {times: 2, do: {goto: {at_m: [3, 1]}}}}, {goto: {at_m: [5, 1]}}]");
   trial.drive({{1, 1}, {2, 1}, {3, 1}});
-  trial.ran("1/1", 0.0, 1.0, Progress::failure);
-  trial.ran("1/1", 1.0, 2.0, Progress::success);
+  trial.ran("1/1", 0.0, 1.0, StepState::failure);
+  trial.ran("1/1", 1.0, 2.0, StepState::success);
   const auto goals = trial.judge();
   ASSERT_EQ(goals.size(), 1U) << "the second goal was never begun";
   EXPECT_EQ(goals[0].end, GoalEnd::reached);
@@ -103,8 +103,8 @@ TEST(TrialGoals, FailedAndHaltedOnesAreMissed) {
   Trial trial;
   trial.steps("[{goto: {at_m: [3, 1]}}, {goto: {at_m: [3, 1]}}]");
   trial.drive({{1, 1}, {2, 1}, {2, 1}});
-  trial.ran("1", 0.0, 1.0, Progress::failure);
-  trial.ran("2", 1.0, 2.0, Progress::failure, true);
+  trial.ran("1", 0.0, 1.0, StepState::failure);
+  trial.ran("2", 1.0, 2.0, StepState::failure, true);
   const auto goals = trial.judge();
   EXPECT_EQ(goals[0].end, GoalEnd::failed);
   EXPECT_EQ(goals[0].reason, "as it was");
@@ -120,10 +120,10 @@ TEST(TrialGoals, WithoutRoomOrWayAGoalIsNotReachable) {
   trial.mission.world->doors = {door};
   trial.steps("[{goto: {at_m: [4, 2]}}, {goto: {at_m: [0.3, 1]}}, {goto: {at_m: [5, 1]}}, {goto: {at_m: [5, 1]}}]");
   trial.drive(std::vector<Point>(10, Point(1, 1)));
-  trial.ran("1", 0.0, 9.0, Progress::failure);
-  trial.ran("2", 0.0, 9.0, Progress::failure);
-  trial.ran("3", 0.0, 4.0, Progress::failure);
-  trial.ran("4", 0.0, 6.0, Progress::failure);
+  trial.ran("1", 0.0, 9.0, StepState::failure);
+  trial.ran("2", 0.0, 9.0, StepState::failure);
+  trial.ran("3", 0.0, 4.0, StepState::failure);
+  trial.ran("4", 0.0, 6.0, StepState::failure);
   const auto goals = trial.judge();
   EXPECT_FALSE(goals[0].is_reachable) << "in the square";
   EXPECT_FALSE(goals[1].is_reachable) << "less than the radius and 0.12 m from the wall";
@@ -138,10 +138,10 @@ TEST(TrialGoals, FaultsStrikeWhileTheyLastAndDisplaceUntilTheEstimateIsRight) {
   trial.drive(std::vector<Point>(5, Point(3, 1)), 0.5);
   trial.drive(std::vector<Point>(3, Point(3, 1)), 0.5);
   trial.drive(std::vector<Point>(3, Point(3, 1)), 0.2);
-  trial.ran("1", 0.0, 1.0, Progress::success);
-  trial.ran("2", 2.5, 4.0, Progress::success);
-  trial.ran("3", 6.0, 7.0, Progress::success);
-  trial.ran("4", 8.0, 10.0, Progress::success);
+  trial.ran("1", 0.0, 1.0, StepState::success);
+  trial.ran("2", 2.5, 4.0, StepState::success);
+  trial.ran("3", 6.0, 7.0, StepState::success);
+  trial.ran("4", 8.0, 10.0, StepState::success);
   const auto goals = trial.judge();
   EXPECT_FALSE(goals[0].is_struck || goals[0].is_displaced) << "off by itself: no fault's fault";
   EXPECT_TRUE(goals[1].is_struck);
@@ -155,9 +155,9 @@ TEST(TrialGoals, ATourMustHaveBeenEverywhere) {
   Trial trial;
   trial.steps("[{tour: {places: [[3, 1], [1, 3]]}}, {patrol: {rounds: 1, places: [[3, 1], [5, 3]]}}, return_home]");
   trial.drive({{1, 1}, {3, 1}, {1, 3}, {1, 1.2}});
-  trial.ran("1", 0.0, 2.0, Progress::success);
-  trial.ran("2", 0.0, 3.0, Progress::success);
-  trial.ran("3", 2.0, 3.0, Progress::success);
+  trial.ran("1", 0.0, 2.0, StepState::success);
+  trial.ran("2", 0.0, 3.0, StepState::success);
+  trial.ran("3", 2.0, 3.0, StepState::success);
   const auto goals = trial.judge();
   ASSERT_EQ(goals.size(), 3U);
   EXPECT_EQ(goals[0].end, GoalEnd::reached);
@@ -169,9 +169,9 @@ TEST(TrialGoals, ALandmarkIsReachedWhereTheMapSaysToStandIfItIsTrue) {
   Trial trial;
   trial.steps("[{goto: nearest square}, {goto: {landmark: nearest square}}, {goto: nearest circle}]");
   trial.drive({{1, 1}, {3.3, 2.0}, {2.5, 2.0}});
-  trial.ran("1", 0.0, 1.0, Progress::success);
-  trial.ran("2", 1.0, 2.0, Progress::success);
-  trial.ran("3", 1.0, 2.0, Progress::failure);
+  trial.ran("1", 0.0, 1.0, StepState::success);
+  trial.ran("2", 1.0, 2.0, StepState::success);
+  trial.ran("3", 1.0, 2.0, StepState::failure);
   EXPECT_FALSE(trial.judge()[0].is_mapped);
   EXPECT_EQ(trial.judge()[0].end, GoalEnd::false_success) << "the map held none";
   Landmark landmark;
@@ -200,7 +200,7 @@ TEST(TrialGoals, APlaceThatTheMapDoesNotKnowWasNeverExplored) {
   trial.grid = OccupancyGrid(0.05);
   trial.steps("[{goto: {at_m: [3, 1]}}]");
   trial.drive({{1, 1}, {1, 1}});
-  trial.ran("1", 0.0, 1.0, Progress::failure);
+  trial.ran("1", 0.0, 1.0, StepState::failure);
   EXPECT_FALSE(trial.judge()[0].is_mapped);
 }
 

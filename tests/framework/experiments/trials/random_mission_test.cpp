@@ -66,7 +66,7 @@ TEST(RandomMission, IsWholeOnEverySeedAndAsRandomAsItSays) {
     const Drawn drawn = draw(config, seed, folder_of("whole"));
     for (const TreeNode* leaf : behaviours_of(drawn.mission.steps)) nodes.insert(leaf->choice.name);
     EXPECT_GE(drawn.mission.steps.size(), 2U + static_cast<std::size_t>(config.min_goals));
-    const TrueSpace space(*drawn.mission.world, drawn.mission.robot.radius_m + config.room_m - 0.001);
+    const TrueSpace space(*drawn.mission.world, drawn.mission.robot.radius_m + config.clearance_m - 0.001);
     EXPECT_TRUE(space.has_room(drawn.mission.config.start.at_m)) << "seed " << seed;
     silent += count(drawn.text, "silent: true");
     batteries += count(drawn.text, "battery:");

@@ -55,9 +55,9 @@ TEST_F(BehaviourRequestsTest, WithoutAPlannerThereIsNoRoute) {
 }
 
 TEST_F(BehaviourRequestsTest, ASaveThatFailsIsRememberedForItsLeaf) {
-  EXPECT_EQ(requests().save("a.cairn").progress, Progress::success);
+  EXPECT_EQ(requests().save("a.cairn").state, StepState::success);
   EXPECT_FALSE(requests().take().has_failed_to_save);
-  EXPECT_EQ(requests().save("no_such_folder/a.cairn").progress, Progress::failure);
+  EXPECT_EQ(requests().save("no_such_folder/a.cairn").state, StepState::failure);
   EXPECT_TRUE(requests().take().has_failed_to_save);
   EXPECT_FALSE(requests().take().has_failed_to_save);
 }
@@ -73,7 +73,7 @@ TEST_F(BehaviourRequestsTest, AnAnswerIsALineWithoutTheTimesThatItTook) {
   question.from = "0.5,0.5";
   question.to = "2.5,0.5";
   const Status status = requests().answer(question, "answers.json");
-  EXPECT_EQ(status.progress, Progress::success) << status.reason;
+  EXPECT_EQ(status.state, StepState::success) << status.reason;
   EXPECT_EQ(status.reason, "2.00 m");
   std::ifstream in(folder_ / "answers.json");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -86,12 +86,12 @@ TEST_F(BehaviourRequestsTest, AQuestionThatMakesNoSenseIsAFailureAndWritesNothin
   PlanQuestion question;
   question.from = "0.5,0.5";
   question.to = "L99";
-  EXPECT_EQ(requests().answer(question, "answers.json").progress, Progress::failure);
+  EXPECT_EQ(requests().answer(question, "answers.json").state, StepState::failure);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "answers.json"));
 }
 
 TEST_F(BehaviourRequestsTest, WhatItSaysIsPublished) {
-  requests().say("looks for a door");
+  requests().report("looks for a door");
   EXPECT_THAT(events_.names, ElementsAre("looks for a door"));
 }
 

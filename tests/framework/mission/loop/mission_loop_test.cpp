@@ -146,7 +146,7 @@ class SpyBehaviour : public Behaviour {
     notes_.seen.push_back(text_of(world));
     if (++tick_ == 2) (void)context.plan({});
     context.drive({0.1, 0.0});
-    if (tick_ == 6) return {Progress::success, "seen enough"};
+    if (tick_ == 6) return {StepState::success, "seen enough"};
     return {};
   }
   void halt() override {}
@@ -288,7 +288,7 @@ class Hanging : public Behaviour {
   Status tick(const WorldView&, BehaviourContext&) override {
     strings_->clock->advance(std::chrono::hours(1));
     strings_->released.wait();
-    return {Progress::success, "late, but here"};
+    return {StepState::success, "late, but here"};
   }
   void halt() override {}
 
@@ -322,8 +322,8 @@ TEST_F(LoopOfSpies, AModuleThatDoesNotReturnIsGivenUpByTheMissionsClockAndTouche
     const MissionResult result = runner.run();
     EXPECT_TRUE(runner.gave_up());
     EXPECT_EQ(result.reason, "module hang has not returned from stage behaviour for 30000 ms and was given up");
-    EXPECT_EQ(result.steps.at(0).status.progress, Progress::failure);
-    EXPECT_EQ(result.nodes.at(0).status.progress, Progress::failure);
+    EXPECT_EQ(result.steps.at(0).status.state, StepState::failure);
+    EXPECT_EQ(result.nodes.at(0).status.state, StepState::failure);
     EXPECT_EQ(result.map_file, "still.cairn");
   }
   const int events = listener.events;

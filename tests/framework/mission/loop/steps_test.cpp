@@ -31,8 +31,10 @@ class Scripted : public Behaviour {
     if (letter == 'r') orders.drive({0.1, 0.0});
     if (letter == 'N') return orders.save("no_such_folder/map.cairn");
     if (letter == 'T') throw std::runtime_error("broken");
-    const Progress progress = letter == 'S' ? Progress::success : letter == 'F' ? Progress::failure : Progress::running;
-    return {progress, letter == 'F' ? "no" : ""};
+    const StepState state = letter == 'S'   ? StepState::success
+                            : letter == 'F' ? StepState::failure
+                                            : StepState::running;
+    return {state, letter == 'F' ? "no" : ""};
   }
   void halt() override {
     if (config_.script.ends_with("h")) throw std::runtime_error("cannot halt");
@@ -74,9 +76,9 @@ class MissionOfTrees : public testing::Test {
     std::vector<std::string> texts;
     for (const NodeReport& node : result.nodes)
       texts.push_back(node.path + " " + node.kind + " " +
-                      (node.is_halted                              ? "halted"
-                       : node.status.progress == Progress::success ? "success"
-                                                                   : "failure"));
+                      (node.is_halted                            ? "halted"
+                       : node.status.state == StepState::success ? "success"
+                                                                 : "failure"));
     return texts;
   }
 

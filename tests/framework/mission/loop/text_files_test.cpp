@@ -29,16 +29,16 @@ TEST_F(TextFilesTest, AddsToWhatTheSameMissionHasWrittenAndToNothingElse) {
   std::ofstream(folder_ / "answers.json") << "old\n";
   TextFiles texts(folder_, false);
   EXPECT_EQ(texts.write({"answers.json", "one\n", true}).reason, "wrote answers.json");
-  EXPECT_EQ(texts.write({"answers.json", "two\n", true}).progress, Progress::success);
+  EXPECT_EQ(texts.write({"answers.json", "two\n", true}).state, StepState::success);
   EXPECT_EQ(text_of("answers.json"), "one\ntwo\n");
-  EXPECT_EQ(texts.write({"answers.json", "new\n", false}).progress, Progress::success);
+  EXPECT_EQ(texts.write({"answers.json", "new\n", false}).state, StepState::success);
   EXPECT_EQ(text_of("answers.json"), "new\n");
 }
 
 TEST_F(TextFilesTest, AMissionThatGoesOnAddsToItsEarlierTexts) {
   std::ofstream(folder_ / "answers.json") << "old\n";
   TextFiles texts(folder_, true);
-  EXPECT_EQ(texts.write({"answers.json", "new\n", true}).progress, Progress::success);
+  EXPECT_EQ(texts.write({"answers.json", "new\n", true}).state, StepState::success);
   EXPECT_EQ(text_of("answers.json"), "old\nnew\n");
 }
 
@@ -46,7 +46,7 @@ TEST_F(TextFilesTest, OnlyPlainNamesAreWritten) {
   TextFiles texts(folder_, false);
   for (const char* name : {"", ".", "..", "a/b", "a\\b", "a\nb"}) {
     const Status status = texts.write({name, "text", false});
-    EXPECT_EQ(status.progress, Progress::failure) << name;
+    EXPECT_EQ(status.state, StepState::failure) << name;
     EXPECT_EQ(status.reason, in_quotes(name) + " is not a plain file name");
   }
 }

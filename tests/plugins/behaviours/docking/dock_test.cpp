@@ -78,7 +78,7 @@ TEST(Dock, StopsAtTheDistanceOnEachSideAndFacesTheLandmark) {
     FakeHost host = room();
     Dock step = dock(std::string("{landmark: L1, distance_m: 0.2, side: ") + side + "}");
     const Status status = host.run(step, 200.0);
-    ASSERT_EQ(status.progress, Progress::success) << side << ": " << status.reason << host.picture();
+    ASSERT_EQ(status.state, StepState::success) << side << ": " << status.reason << host.picture();
     EXPECT_THAT(status.reason, HasSubstr(std::string("docked at the ") + side + " side of L1 (square), 0.2"));
     EXPECT_THAT(status.reason, HasSubstr("by the map"));
     EXPECT_NEAR(gap_m(host), 0.2, 0.03 + 0.03) << side;  // the map knows the outline to half a cell
@@ -92,7 +92,7 @@ TEST(Dock, TakesSidesInTheLandmarksOwnFrameAndFacesAway) {
   FakeHost host = room(std::numbers::pi / 2);  // its front is in the north
   Dock step = dock("{landmark: nearest square, side_deg: -90, facing: away}");
   const Status status = host.run(step, 200.0);
-  ASSERT_EQ(status.progress, Progress::success) << status.reason;
+  ASSERT_EQ(status.state, StepState::success) << status.reason;
   EXPECT_THAT(status.reason, HasSubstr("the side at -90 deg of L1 (square)"));
   EXPECT_NEAR(gap_m(host), 0.4, 0.06);
   EXPECT_GT(host.T_map_robot.x_m, kCentre.x() + 0.5) << "its right is in the east" << host.picture();
@@ -130,7 +130,7 @@ TEST(Dock, BelievesTheEchoesMoreThanTheMap) {
     host.observe = [nearer_m](const FakeHost& now) { return ahead(now, nearer_m); };
     Dock step = dock("{landmark: L1, side: right}");
     const Status status = host.run(step, 200.0);
-    ASSERT_EQ(status.progress, Progress::success) << status.reason;
+    ASSERT_EQ(status.state, StepState::success) << status.reason;
     EXPECT_THAT(status.reason, HasSubstr("by its echoes"));
     EXPECT_NEAR(gap_m(host) - nearer_m, 0.4, 0.03) << nearer_m;
   }
@@ -145,7 +145,7 @@ TEST(Dock, WaitsForWhatStandsBetweenAndFailsWhenItStays) {
   Dock step = dock("{landmark: L1, side: right, patience_s: 5}");
   const Status status = host.run(step, 200.0);
   EXPECT_EQ(status,
-            (Status{Progress::failure, "something stands between the robot and the right side of L1 (square)"}));
+            (Status{StepState::failure, "something stands between the robot and the right side of L1 (square)"}));
 }
 
 bool is_near(const FakeHost& host) {
@@ -182,16 +182,16 @@ TEST(Dock, WaitingForWhatStandsBetweenDoesNotCountAsBeingBlocked) {
   };
   Dock step = dock("{landmark: L1, side: right, patience_s: 5}");
   const Status status = host.run(step, 200.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason;
+  EXPECT_EQ(status.state, StepState::success) << status.reason;
 }
 
 TEST(Dock, StaysOnItsSideWhenTheLandmarkIsTurnedOnTheMap) {
   FakeHost host = room();
   Dock step = dock("{landmark: L1, side: right}");
-  EXPECT_EQ(host.run(step, 4.0).progress, Progress::running);
+  EXPECT_EQ(host.run(step, 4.0).state, StepState::running);
   host.graph.find(1)->T_map_landmark.theta_rad = std::numbers::pi / 2;  // a square looks the same
   const Status status = host.run(step, 200.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason;
+  EXPECT_EQ(status.state, StepState::success) << status.reason;
   EXPECT_LT(host.T_map_robot.y_m, kCentre.y() - 0.5) << host.picture();
   EXPECT_NEAR(gap_m(host), 0.4, 0.06);
 }
@@ -200,7 +200,7 @@ TEST(Dock, FailsWhereTheSideIsBlocked) {
   FakeHost host = room();
   Dock step = dock("{landmark: L1, side: back}");
   const Status status = host.run(step, 60.0);
-  EXPECT_EQ(status, (Status{Progress::failure,
+  EXPECT_EQ(status, (Status{StepState::failure,
                             "the back side of L1 (square) is blocked: there is no free path to it on the map"}));
   EXPECT_EQ(host.driven_m, 0.0);
 }
@@ -212,7 +212,7 @@ TEST(Dock, FailsWhenItIsBlocked) {
   };
   Dock step = dock("{landmark: L1, side: right, patience_s: 3}");
   const Status status = host.run(step, 120.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("blocked 0.5"));
   EXPECT_THAT(status.reason, HasSubstr("before the right side of L1 (square), not at 0.40 m"));
 }

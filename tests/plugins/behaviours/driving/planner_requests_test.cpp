@@ -33,9 +33,9 @@ struct Asking : testing::Test {
 
 TEST_F(Asking, ForLessAndLessRoomUntilThereIsAPath) {
   (void)ask(0.0);
-  std::vector<double> rooms_m;
-  for (const PlanRequest& request : host.planned) rooms_m.push_back(request.radius_m - host.robot.radius_m);
-  EXPECT_THAT(rooms_m, ElementsAre(testing::DoubleNear(0.12, 1e-9), testing::DoubleNear(0.06, 1e-9), 0.0));
+  std::vector<double> clearances_m;
+  for (const PlanRequest& request : host.planned) clearances_m.push_back(request.radius_m - host.robot.radius_m);
+  EXPECT_THAT(clearances_m, ElementsAre(testing::DoubleNear(0.12, 1e-9), testing::DoubleNear(0.06, 1e-9), 0.0));
   answer.outcome = PlanOutcome::solved;
   (void)ask(10.0);
   EXPECT_EQ(host.planned.size(), 1U);

@@ -58,7 +58,7 @@ TEST(RouteDriver, DrivesThroughADoor) {
   FakeHost host(kTwoDoors, kKnown);
   Driving driving({}, kOtherRoom);
   const Status status = host.run(driving, 120.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m);
 }
 
@@ -66,7 +66,7 @@ TEST(RouteDriver, TurnsToTheHeadingOfTheGoal) {
   FakeHost host(kTwoDoors, kKnown);
   Place goal{Pose2{1.0, 1.0, radians(120.0)}, true, {}};
   Driving driving({}, goal);
-  EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
+  EXPECT_EQ(host.run(driving, 120.0).state, StepState::success);
   EXPECT_NEAR(degrees(host.T_map_robot.theta_rad), 120.0, 4.0);
 }
 
@@ -76,7 +76,7 @@ TEST(RouteDriver, TakesTheOtherDoorWhenOneCloses) {
   host.run(driving, 2.0);
   close_door(host, true);
   const Status status = host.run(driving, 200.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m) << host.picture();
 }
 
@@ -87,10 +87,10 @@ TEST(RouteDriver, LooksWhetherADoorHasOpenedAgain) {
   host.run(driving, 2.0);
   close_door(host, true);
   Status status = host.run(driving, 25.0);
-  EXPECT_EQ(status.progress, Progress::running) << status.reason;
+  EXPECT_EQ(status.state, StepState::running) << status.reason;
   close_door(host, true, false);
   status = host.run(driving, 200.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_THAT(host.said, Contains(HasSubstr("looks again at")));
 }
 
@@ -101,7 +101,7 @@ TEST(RouteDriver, SaysWhatItHasTriedWhenBothDoorsStayClosed) {
   close_door(host, true);
   close_door(host, false);
   const Status status = host.run(driving, 1000.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("no_route"));
   EXPECT_THAT(status.reason, HasSubstr("looked"));
 }
@@ -121,7 +121,7 @@ TEST(RouteDriver, WaitsFirstAndThenClimbsTheLadder) {
   host.run(driving, 2.5);
   EXPECT_EQ(host.T_map_robot.x_m, x_m) << "waits";
   const Status status = host.run(driving, 300.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_GT(host.time_s, held_s + 6.0);
   EXPECT_THAT(status.reason, HasSubstr("blocked at ("));
   EXPECT_THAT(status.reason, HasSubstr("waited, backed up, looked and planned again 2 times"));
@@ -145,7 +145,7 @@ TEST(RouteDriver, YieldsToSomebodyWhoWaits) {
       return is_held ? Twist{0.0, wanted.w_radps} : wanted;
     };
     const Status status = host.run(driving, 400.0);
-    EXPECT_EQ(status.progress, is_gone ? Progress::success : Progress::failure) << status.reason << host.picture();
+    EXPECT_EQ(status.state, is_gone ? StepState::success : StepState::failure) << status.reason << host.picture();
     EXPECT_LT(host.time_s, 390.0);
     return is_gone;
   };
@@ -182,7 +182,7 @@ void run_until_look(FakeHost& host, Driving& driving, bool looks, double at_most
   Status status;
   do {
     status = host.tick(driving);
-  } while (host.time_s < until_s && status.progress == Progress::running &&
+  } while (host.time_s < until_s && status.state == StepState::running &&
            status.reason.starts_with("looking") != looks);
 }
 
@@ -200,7 +200,7 @@ TEST(RouteDriver, LooksAtWhatHoldsItBackUntilItHasGone) {
   run_until_look(host, driving, false, 60.0);
   EXPECT_LT(host.time_s, looks_s + 10.0 + 4.0) << "goes on as soon as echoes come from behind";
   const Status status = host.run(driving, 60.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
 }
 
 TEST(RouteDriver, LooksForLongWhereItStaysInTheWay) {
@@ -227,7 +227,7 @@ TEST(RouteDriver, ACarBacksUpInsteadOfYielding) {
       const bool is_held = pose.x_m > 1.2 && wanted.v_mps > 0.0 && std::abs(pose.theta_rad) < 1.5;
       return is_held ? Twist{0.0, wanted.w_radps} : wanted;
     };
-    EXPECT_EQ(host.run(driving, 600.0).progress, Progress::failure);
+    EXPECT_EQ(host.run(driving, 600.0).state, StepState::failure);
     const bool yielded =
         std::ranges::any_of(host.said, [](const std::string& text) { return text.ends_with("yields"); });
     EXPECT_EQ(yielded, !is_car);
@@ -250,7 +250,7 @@ TEST(RouteDriver, LooksAtABlockedGoalFromBesideIt) {
   };
   Driving driving({}, kOtherRoom);
   const Status status = host.run(driving, 120.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_THAT(host.said, Contains(HasSubstr("looks again at (3.30, 0.50)")));
 }
 
@@ -262,7 +262,7 @@ TEST(RouteDriver, GoesOnWhenWhatWasInTheWayHasGone) {
   host.run(driving, 3.0);
   host.collision_monitor = nullptr;
   const std::size_t plans = host.planned.size();
-  EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
+  EXPECT_EQ(host.run(driving, 120.0).state, StepState::success);
   EXPECT_EQ(host.planned.size(), plans) << "waiting was enough";
 }
 
@@ -325,7 +325,7 @@ TEST(RouteDriver, FindsAWayOutWhereTheMapSaysItStandsInAWall) {
   };
   Driving driving({}, Place{Pose2{1.2, 0.5, 0.0}, false, {}});
   const Status status = host.run(driving, 120.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
 }
 
 // Over a whole drive, with a blockage and turns in place.
@@ -337,7 +337,7 @@ TEST(RouteDriver, KeepsWithinTheDynamicWindowFromTickToTick) {
     ordered.push_back(wanted);
     return wanted;
   };
-  EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
+  EXPECT_EQ(host.run(driving, 120.0).state, StepState::success);
   const double max_v = host.robot.max_acceleration_mps2 * 0.04 + 1e-9;
   const double max_w = host.robot.max_turn_acceleration_radps2 * 0.04 + 1e-9;
   for (std::size_t i = 1; i + 1 < ordered.size(); ++i) {
@@ -352,7 +352,7 @@ TEST(RouteDriver, BeginsAfreshAfterARestart) {
   host.run(driving, 2.0);
   const std::size_t plans = host.planned.size();
   driving.halt();
-  EXPECT_EQ(host.run(driving, 120.0).progress, Progress::success);
+  EXPECT_EQ(host.run(driving, 120.0).state, StepState::success);
   EXPECT_GT(host.planned.size(), plans);
 }
 

@@ -62,7 +62,7 @@ TEST(GoTo, ReachesAPlaceWithinTheTolerance) {
   FakeHost host(kRoom, kKnown);
   GoTo go(config_at({2.4, 1.4}), 1);
   const Status status = host.run(go, 120.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_LT((host.T_map_robot.position() - Point{2.4, 1.4}).norm(), 0.1 + 1e-9);
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m);
 }
@@ -72,7 +72,7 @@ TEST(GoTo, TurnsToTheWantedAngle) {
   GoToConfig config = config_at({1.0, 0.5});
   config.angle_rad = radians(135.0);
   GoTo go(config, 1);
-  EXPECT_EQ(host.run(go, 120.0).progress, Progress::success);
+  EXPECT_EQ(host.run(go, 120.0).state, StepState::success);
   EXPECT_NEAR(degrees(host.T_map_robot.theta_rad), 135.0, 4.0);
   EXPECT_TRUE(host.planned.at(0).to.heading_matters);
 }
@@ -81,7 +81,7 @@ TEST(GoTo, FacesTheLandmarkInTheEnd) {
   FakeHost host = host_with_landmarks();
   GoTo go(config_for("desk"), 1);
   const Status status = host.run(go, 120.0);
-  EXPECT_EQ(status, (Status{Progress::success, "at desk (square)"}));
+  EXPECT_EQ(status, (Status{StepState::success, "at desk (square)"}));
   EXPECT_LT(std::abs(motion::heading_error(host.T_map_robot, {2.5, 1.2})), radians(4.0));
 }
 
@@ -89,7 +89,7 @@ TEST(GoTo, AsksForAllLandmarksOfTheNearestCategory) {
   FakeHost host = host_with_landmarks();
   host.graph.add(landmark_at("square", {0.5, 1.5, 0}, {0.5, 1.2, 0}));
   GoTo go(config_for("nearest square"), 5);
-  EXPECT_EQ(host.tick(go).progress, Progress::running);
+  EXPECT_EQ(host.tick(go).state, StepState::running);
   ASSERT_EQ(host.planned.size(), 1U);
   EXPECT_EQ(host.planned[0].to.landmarks, (std::vector<LandmarkId>{2, 3}));
   EXPECT_EQ(host.planned[0].seed, 5U);
@@ -101,11 +101,11 @@ TEST(GoTo, LooksItsGoalUpAgainWhenOneOfItsLandmarksIsRetired) {
   FakeHost host = host_with_landmarks();
   host.graph.add(landmark_at("square", {0.5, 1.5, 0}, {0.5, 1.2, 0}));
   GoTo go(config_for("nearest square"), 5);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(host.tick(go).progress, Progress::running);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(host.tick(go).state, StepState::running);
   host.graph.retire(3, "merged into L2");
   host.planned.clear();
   const Status status = host.run(go, 60.0);
-  EXPECT_EQ(status, (Status{Progress::success, "at desk (square)"}));
+  EXPECT_EQ(status, (Status{StepState::success, "at desk (square)"}));
   ASSERT_FALSE(host.planned.empty());
   for (const PlanRequest& request : host.planned) EXPECT_EQ(request.to.landmarks, (std::vector<LandmarkId>{2}));
 }
@@ -114,7 +114,7 @@ TEST(GoTo, NamesTheLandmarksThereAreWhenItDoesNotKnowOne) {
   FakeHost host = host_with_landmarks();
   GoTo go(config_for("desc"), 1);
   const Status status = host.tick(go);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("no landmark \"desc\""));
   EXPECT_THAT(status.reason, HasSubstr("did you mean \"desk\"?"));
   EXPECT_THAT(status.reason, HasSubstr("the map holds L1 (circle), desk (square)"));
@@ -124,7 +124,7 @@ TEST(GoTo, NamesTheNearestCategoryWhenItDoesNotKnowOne) {
   FakeHost host = host_with_landmarks();
   GoTo go(config_for("nearest squre"), 1);
   const Status status = host.tick(go);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("did you mean \"square\"?"));
   EXPECT_TRUE(host.planned.empty());
 }
@@ -145,7 +145,7 @@ TEST(GoTo, GivesUpWithThePlannersOutcomeAndSentence) {
   };
   GoTo go(config_at({1.5, 1.5}), 1);
   const Status status = host.run(go, 600.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, StartsWith("goal_blocked: the goal lies in a wall"));
   EXPECT_THAT(status.reason, HasSubstr("on the way to (1.50, 1.50)"));
 }
@@ -160,7 +160,7 @@ TEST(GoTo, DoesNotTakeAnApproximatePlanForAPlan) {
     return result;
   };
   GoTo go(config_at({1.5, 1.6}), 1);  // in the bar: elsewhere it would find a path on the local map
-  EXPECT_EQ(host.run(go, 600.0).progress, Progress::failure);
+  EXPECT_EQ(host.run(go, 600.0).state, StepState::failure);
 }
 
 TEST(GoTo, PlansAgainWhenSomethingTurnsUpOnThePath) {
@@ -169,7 +169,7 @@ TEST(GoTo, PlansAgainWhenSomethingTurnsUpOnThePath) {
   host.run(go, 1.0);
   for (double x = 1.2; x < 1.5; x += 0.1) host.solidify({x, 0.75});
   const Status status = host.run(go, 120.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_GT(host.planned.size(), 1U);
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m) << host.picture();
 }
@@ -180,7 +180,7 @@ TEST(GoTo, FailsWhenTheWayHasBeenClosed) {
   host.run(go, 1.0);
   for (double y = 0.05; y < 0.95; y += 0.1) host.solidify({1.45, y});
   const Status status = host.run(go, 600.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, StartsWith("no_route: "));
 }
 
@@ -189,7 +189,7 @@ TEST(GoTo, GivesUpAfterBeingBlockedAgainAndAgain) {
   host.collision_monitor = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
   GoTo go(config_at({2.4, 1.4}), 1);
   const Status status = host.run(go, 600.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, StartsWith("blocked at ("));
   EXPECT_THAT(status.reason, HasSubstr("on the way to (2.40, 1.40)"));
 }
@@ -199,7 +199,7 @@ TEST(GoTo, FailsWhenItsTimeIsUp) {
   GoToConfig config = config_at({2.4, 1.4});
   config.at_most_s = 2.0;
   GoTo go(config, 1);
-  EXPECT_EQ(host.run(go, 60.0), (Status{Progress::failure, "time is up on the way to (2.40, 1.40)"}));
+  EXPECT_EQ(host.run(go, 60.0), (Status{StepState::failure, "time is up on the way to (2.40, 1.40)"}));
 }
 
 TEST(GoTo, MovesAwayFromAWallWhenThePlannerFindsTheStartBlocked) {
@@ -212,7 +212,7 @@ TEST(GoTo, MovesAwayFromAWallWhenThePlannerFindsTheStartBlocked) {
     result.path = {*request.from.pose, {0.8, 0.6, 0}};
     return result;
   };
-  EXPECT_EQ(host.run(go, 60.0).progress, Progress::success) << host.picture();
+  EXPECT_EQ(host.run(go, 60.0).state, StepState::success) << host.picture();
 }
 
 TEST(GoTo, NeedsExactlyOneGoal) {
@@ -236,7 +236,7 @@ TEST(GoTo, GoesToThePlaceThatAnEarlierStepGives) {
   there.halt();
   host.values["found"] = Place{Pose2{1.5, 0.5, 0.0}, false, {}};
   const Status status = host.run(there, 60.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_EQ(status.reason, "at the place \"found\"");
 }
 
@@ -245,7 +245,7 @@ TEST(GoTo, BeginsAfreshAfterAHalt) {
   GoTo go(config_at({2.4, 1.4}), 1);
   host.run(go, 2.0);
   go.halt();
-  EXPECT_EQ(host.run(go, 120.0).progress, Progress::success);
+  EXPECT_EQ(host.run(go, 120.0).state, StepState::success);
   EXPECT_GE(host.planned.size(), 2U);
 }
 

@@ -44,7 +44,7 @@ TEST(CaptureTemplate, WritesATemplateThatLoads) {
   FakeHost host = room();
   CaptureTemplate step = capture("{at: L1, name: crate}");
   const Status status = host.tick(step);
-  ASSERT_EQ(status.progress, Progress::success) << status.reason;
+  ASSERT_EQ(status.state, StepState::success) << status.reason;
   EXPECT_THAT(status.reason, HasSubstr("wrote crate.yaml: crate, 0."));
   ASSERT_TRUE(host.written.contains("crate.yaml"));
   const LandmarkShape shape = parse_landmark_shape(host.written["crate.yaml"], "crate.yaml");
@@ -58,7 +58,7 @@ TEST(CaptureTemplate, OfAPlaceWithNothingFails) {
   FakeHost host = room();
   CaptureTemplate step = capture("{at: [0.5, 1.1], name: air, file: nothing.yaml, radius_m: 0.2}");
   const Status status = host.tick(step);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("no template of air: "));
   EXPECT_TRUE(host.written.empty());
   CaptureTemplate unknown = capture("{at: nearest bax, name: crate}");
@@ -80,7 +80,7 @@ TEST(PlanQuery, AsksTheWholeQuestion) {
   PlanQuery step(
       config_of<PlanQueryConfig>("{from: L2, to: nearest box, avoid: [L3], closed: [R4], alternatives: 2, cost: time, "
                                  "explain: true, file: a.jsonl}"));
-  EXPECT_EQ(host.tick(step), (Status{Progress::success, "L2 -> nearest box: answered into a.jsonl"}));
+  EXPECT_EQ(host.tick(step), (Status{StepState::success, "L2 -> nearest box: answered into a.jsonl"}));
   ASSERT_EQ(host.asked.size(), 1U);
   EXPECT_EQ(host.asked[0].from, "L2");
   EXPECT_EQ(host.asked[0].to, "nearest box");
@@ -110,7 +110,7 @@ TEST(Log, SaysALineWithTheValuesOfTheMoment) {
   Log step(
       config_of<LogConfig>("'at {place} after {time}: {landmarks} landmarks, {nearest} in {distance}, battery "
                            "{battery}, {{so}}'"));
-  EXPECT_EQ(host.tick(step).progress, Progress::success);
+  EXPECT_EQ(host.tick(step).state, StepState::success);
   EXPECT_THAT(host.said, ElementsAre("at (0.55, 0.35) after 12 s: 1 landmarks, L1 (box) in 1.33 m, battery unknown, "
                                      "{so}"));
   host.observe = [](const FakeHost&) {

@@ -90,17 +90,17 @@ TEST(Search, EndsAsSoonAsEnoughLandmarksOfTheCategoryAreKnown) {
   Search step = search("{category: square, until: 2}");
   host.graph.add(landmark_at("square", {1.0, 3.0, 0.0}, {1.0, 3.0, 0.0}));
   host.graph.add(landmark_at("circle", {3.0, 3.0, 0.0}, {3.0, 3.0, 0.0}));
-  EXPECT_EQ(host.run(step, 10.0).progress, Progress::running);
+  EXPECT_EQ(host.run(step, 10.0).state, StepState::running);
   EXPECT_GT(host.driven_m, 0.0);
   host.graph.add(landmark_at("square", {3.0, 1.0, 0.0}, {3.0, 1.0, 0.0}));
-  EXPECT_EQ(host.tick(step), (Status{Progress::success, "found square: L1, L3"}));
+  EXPECT_EQ(host.tick(step), (Status{StepState::success, "found square: L1, L3"}));
 }
 
 TEST(Search, FailsWhenAllIsExploredWithout) {
   FakeHost host(kRoom);
   Search step = search("{category: square, rounds: 1}");
   const Status status = host.run(step, 1500.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("0 of 1 square found in round 1 of 1: nothing left to explore: "))
       << host.picture();
   EXPECT_GT(known_ratio(host.grid), 0.9);
@@ -110,7 +110,7 @@ TEST(Search, LooksAtAllOnceMore) {
   const auto driven_m = [](const std::string& rounds) {
     FakeHost host(kRoom);
     Search step = search("{category: square, at_most_s: 4000, rounds: " + rounds + "}");
-    EXPECT_EQ(host.run(step, 4100.0).progress, Progress::failure);
+    EXPECT_EQ(host.run(step, 4100.0).state, StepState::failure);
     const auto reported = std::ranges::count_if(
         host.said, [](const std::string& text) { return text.starts_with("0 of 1 square found in round 1 of 2: "); });
     EXPECT_EQ(reported, rounds == "2" ? 1 : 0);
@@ -132,12 +132,12 @@ TEST(Search, GetsIntoARoomWhoseDoorHasOpened) {
   shut_door(true);
   Search step = search("{category: square, at_most_s: 900, look_closer_m: 0}");
   Status status;
-  while (host.time_s < 900.0 && (status = host.tick(step)).progress == Progress::running) {
+  while (host.time_s < 900.0 && (status = host.tick(step)).state == StepState::running) {
     if (host.said.size() == 1) shut_door(false);  // the first round is over
     if (host.T_map_robot.x_m > 2.6 && host.graph.landmarks().empty())
       host.graph.add(landmark_at("square", {3.0, 1.0, 0.0}, {3.0, 1.0, 0.0}));
   }
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
 }
 
 TEST(Search, FailsWhenItsTimeIsUp) {
@@ -145,7 +145,7 @@ TEST(Search, FailsWhenItsTimeIsUp) {
   Search step = search("{category: square, at_most_s: 20, until: 2}");
   host.graph.add(landmark_at("square", {1.0, 3.0, 0.0}, {1.0, 3.0, 0.0}));
   const Status status = host.run(step, 60.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("1 of 2 square found (L1); time is up in round 1 of 3"));
 }
 
@@ -190,7 +190,7 @@ TEST(Inspect, CirclesOnceWhenTheDegreeDoesNotRise) {
   FakeHost host = room_with_block();
   Inspect step = inspect("L1");
   const Status status = host.run(step, 300.0);
-  EXPECT_EQ(status, (Status{Progress::success, "L1 (square): degree 0.700 -> 0.700 in 1 orbit, it rises no more"}));
+  EXPECT_EQ(status, (Status{StepState::success, "L1 (square): degree 0.700 -> 0.700 in 1 orbit, it rises no more"}));
   EXPECT_GT(turned_round_rad(host), radians(300.0)) << host.picture();
   EXPECT_GT(host.nearest_solid_m, host.robot.radius_m);
 }
@@ -200,7 +200,7 @@ TEST(Inspect, GoesOnAsLongAsTheDegreeRises) {
   Inspect step = inspect("{landmark: nearest square, rounds_at_most: 4}");
   Status status;
   std::size_t orbits = 0;
-  while (status.progress == Progress::running && host.time_s < 600.0) {
+  while (status.state == StepState::running && host.time_s < 600.0) {
     status = host.tick(step);
     if (host.said.size() == orbits) continue;
     orbits = host.said.size();
@@ -210,12 +210,12 @@ TEST(Inspect, GoesOnAsLongAsTheDegreeRises) {
   FakeHost rising = room_with_block();
   Inspect again = inspect("{landmark: nearest square, rounds_at_most: 4}");
   status = {};
-  while (status.progress == Progress::running && rising.time_s < 900.0) {
+  while (status.state == StepState::running && rising.time_s < 900.0) {
     status = rising.tick(again);
     // Rises through the first two orbits.
     if (rising.said.size() < 2) rising.graph.find(1)->degree = std::min(0.9, 0.7 + 0.0005 * rising.time_s);
   }
-  EXPECT_EQ(status.progress, Progress::success) << status.reason;
+  EXPECT_EQ(status.state, StepState::success) << status.reason;
   EXPECT_THAT(status.reason, AllOf(HasSubstr("degree 0.700 -> "), HasSubstr("it rises no more")));
   EXPECT_GE(rising.said.size(), 2U);
   EXPECT_GT(turned_round_rad(rising), radians(600.0)) << rising.picture();
@@ -225,11 +225,11 @@ TEST(Inspect, EndsAfterItsLastLapHoweverTheDegreeRises) {
   FakeHost host = room_with_block();
   Inspect step = inspect("{landmark: L1, rounds_at_most: 1, orbit_speed_mps: 0.2}");
   Status status;
-  while (status.progress == Progress::running && host.time_s < 600.0) {
+  while (status.state == StepState::running && host.time_s < 600.0) {
     host.graph.find(1)->degree = 0.7 + 0.001 * host.time_s;
     status = host.tick(step);
   }
-  EXPECT_EQ(status.progress, Progress::success);
+  EXPECT_EQ(status.state, StepState::success);
   EXPECT_THAT(status.reason, HasSubstr("in 1 orbit, that was the last orbit"));
 }
 
@@ -250,9 +250,9 @@ TEST(Inspect, SaysSoWhenTheLandmarkIsUnknownOrGone) {
   Inspect unknown = inspect("nearest cirle");
   EXPECT_THAT(host.run(unknown, 10.0).reason, HasSubstr("no landmark of category \"cirle\""));
   Inspect step = inspect("L1");
-  EXPECT_EQ(host.run(step, 5.0).progress, Progress::running);
+  EXPECT_EQ(host.run(step, 5.0).state, StepState::running);
   host.graph.retire(1, "seen free");
-  EXPECT_EQ(host.tick(step), (Status{Progress::failure, "L1 is not a landmark any more: seen free"}));
+  EXPECT_EQ(host.tick(step), (Status{StepState::failure, "L1 is not a landmark any more: seen free"}));
   EXPECT_THAT(error_of([] { inspect("{landmark: L1, rounds_at_most: 0}"); }),
               HasSubstr("mission.yaml:1:32: rounds_at"));
   EXPECT_THAT(error_of([] { inspect("{landmrk: L1}"); }), HasSubstr("(did you mean \"landmark\"?)"));

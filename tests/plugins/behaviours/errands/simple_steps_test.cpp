@@ -48,7 +48,7 @@ TEST(Drive, PassesEveryPointInOrder) {
   FakeHost host(kHall);
   const std::vector<Point> points{{1.5, 0.6}, {1.5, 1.0}, {2.4, 0.5}};
   DriveTo drive({.points_m = points}, 1);
-  EXPECT_EQ(host.run(drive, 60.0), (Status{Progress::success, "drove all points"}));
+  EXPECT_EQ(host.run(drive, 60.0), (Status{StepState::success, "drove all points"}));
   for (const Point& p : points) EXPECT_LT(nearest_m(host.driven, p), 0.06) << host.picture();
 }
 
@@ -60,7 +60,7 @@ TEST(Drive, DrivesThroughGentleBendsWithoutStopping) {
     points.push_back({1.2 + 0.3 * std::sin(a), 0.7 - 0.3 * std::cos(a)});
   }
   DriveTo drive({.points_m = points}, 1);
-  EXPECT_EQ(host.run(drive, 60.0).progress, Progress::success);
+  EXPECT_EQ(host.run(drive, 60.0).state, StepState::success);
   EXPECT_LT(host.time_s, 2.0 * std::numbers::pi * 0.3 / 0.2 + 12.0);
 }
 
@@ -68,7 +68,7 @@ TEST(Drive, FailsWhenItIsBlocked) {
   FakeHost host(kHall);
   DriveTo drive({.points_m = {{2.9, 0.65}}, .patience_s = 3.0}, 1);
   const Status status = host.run(drive, 60.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("on the way to (2.90, 0.65)"));
 }
 
@@ -78,7 +78,7 @@ TEST(Drive, FailsWhenItsTurnInPlaceIsHeld) {
   host.collision_monitor = [](const Pose2&, const Twist&) { return Twist{}; };
   DriveTo drive({.points_m = {host.T_map_robot * Point(-0.3, 0.0)}, .patience_s = 3.0}, 1);
   const Status status = host.run(drive, 60.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_NEAR(host.time_s, 3.0, 0.2);
 }
 
@@ -86,7 +86,7 @@ TEST(Drive, ScatteredPointsDifferBySeedAndStayNear) {
   const auto end_of = [](std::uint64_t seed) {
     FakeHost host(kHall);
     DriveTo drive({.points_m = {{1.6, 0.7}}, .scatter_m = 0.2}, seed);
-    EXPECT_EQ(host.run(drive, 60.0).progress, Progress::success);
+    EXPECT_EQ(host.run(drive, 60.0).state, StepState::success);
     return host.driven.back().position();
   };
   for (const std::uint64_t seed : {1U, 2U, 3U})
@@ -98,13 +98,13 @@ TEST(Drive, ScatteredPointsDifferBySeedAndStayNear) {
 TEST(Drive, WithoutPointsIsDoneAtOnce) {
   FakeHost host(kHall);
   DriveTo drive(DriveConfig{}, 1);
-  EXPECT_EQ(host.tick(drive).progress, Progress::success);
+  EXPECT_EQ(host.tick(drive).state, StepState::success);
 }
 
 TEST(Wait, StandsStillForItsTime) {
   FakeHost host(kHall);
   Wait wait({.for_s = 3.0});
-  EXPECT_EQ(host.run(wait, 60.0).progress, Progress::success);
+  EXPECT_EQ(host.run(wait, 60.0).state, StepState::success);
   EXPECT_NEAR(host.time_s, 3.0, 0.1);
   EXPECT_EQ(host.driven_m, 0.0);
 }
@@ -114,13 +114,13 @@ TEST(Wait, BeginsAfreshAfterAHalt) {
   Wait wait({.for_s = 3.0});
   host.run(wait, 2.0);
   wait.halt();
-  EXPECT_EQ(host.run(wait, 2.0).progress, Progress::running);
+  EXPECT_EQ(host.run(wait, 2.0).state, StepState::running);
 }
 
 TEST(Save, AsksForTheFileByName) {
   FakeHost host(kHall);
   Save save({.file = scalar("office.cairn")});
-  EXPECT_EQ(host.tick(save), (Status{Progress::success, "saved office.cairn"}));
+  EXPECT_EQ(host.tick(save), (Status{StepState::success, "saved office.cairn"}));
   EXPECT_THAT(host.saved, ElementsAre("office.cairn"));
 }
 

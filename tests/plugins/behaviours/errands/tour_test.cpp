@@ -55,7 +55,7 @@ TEST(Tour, VisitsAllPlacesInTheGivenOrder) {
   FakeHost host = hall();
   Tour step = tour("{places: [L1, nearest circle, [1.5, 0.5]], tolerance_m: 0.05}");
   const Status status = host.run(step, 200.0);
-  EXPECT_EQ(status, (Status{Progress::success, "visited 3 of 3 places: L1 (square), L2 (circle), (1.50, 0.50)"}));
+  EXPECT_EQ(status, (Status{StepState::success, "visited 3 of 3 places: L1 (square), L2 (circle), (1.50, 0.50)"}));
   for (const Point& p : {Point(2.6, 1.2), Point(0.5, 1.2), Point(1.5, 0.5)}) EXPECT_LT(nearest_m(host, p), 0.12);
   EXPECT_LT((host.T_map_robot.position() - Point(1.5, 0.5)).norm(), 0.12);
 }
@@ -65,9 +65,9 @@ TEST(Tour, TakesTheShortestOrderWhenAsked) {
   FakeHost shortest = hall();
   Tour as_given = tour("[[2.6, 0.5], [0.5, 0.5], [2.0, 0.5]]");
   Tour as_short = tour("{places: [[2.6, 0.5], [0.5, 0.5], [2.0, 0.5]], order: shortest}");
-  EXPECT_EQ(given.run(as_given, 200.0).progress, Progress::success);
+  EXPECT_EQ(given.run(as_given, 200.0).state, StepState::success);
   EXPECT_EQ(shortest.run(as_short, 200.0),
-            (Status{Progress::success, "visited 3 of 3 places: (0.50, 0.50), (2.00, 0.50), (2.60, 0.50)"}));
+            (Status{StepState::success, "visited 3 of 3 places: (0.50, 0.50), (2.00, 0.50), (2.60, 0.50)"}));
   EXPECT_THAT(shortest.said.front(), HasSubstr("the shortest order is (0.50, 0.50), (2.00, 0.50), (2.60, 0.50)"));
   EXPECT_LT(shortest.driven_m, 0.7 * given.driven_m);
 }
@@ -76,7 +76,7 @@ TEST(Tour, FailsAtAPlaceThatCannotBeReached) {
   FakeHost host = hall();
   Tour step = tour("[[3.5, 0.5], L1]");
   const Status status = host.run(step, 400.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("cannot get to (3.50, 0.50) (no_route: "));
   EXPECT_THAT(status.reason, HasSubstr("; visited 0 of 2 places"));
 }
@@ -85,7 +85,7 @@ TEST(Tour, LeavesOutWhatCannotBeReachedWhenAskedTo) {
   FakeHost host = hall();
   Tour step = tour("{places: [[3.5, 0.5], L1, nearest squirrel], skip: true}");
   const Status status = host.run(step, 600.0);
-  EXPECT_EQ(status.progress, Progress::success);
+  EXPECT_EQ(status.state, StepState::success);
   EXPECT_THAT(status.reason, HasSubstr("visited 1 of 3 places: L1 (square); left out: (3.50, 0.50) (no_route: "));
   EXPECT_THAT(status.reason, HasSubstr("nearest squirrel (no landmark of category \"squirrel\""));
 }
@@ -94,7 +94,7 @@ TEST(Tour, OfNothingThatCanBeReachedFails) {
   FakeHost host = hall();
   Tour step = tour("{places: [L7, L8], skip: true, order: shortest}");
   const Status status = host.run(step, 60.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason,
               AllOf(HasSubstr("visited 0 of 2 places; left out: "), HasSubstr("L7 (no landmark \"L7\"")));
 }
@@ -103,7 +103,7 @@ TEST(Tour, WaitsAtEachPlaceAndRunsOutOfTime) {
   FakeHost host = hall();
   Tour step = tour("{places: [[0.5, 0.5], [0.9, 0.5]], wait_s: 20, at_most_s: 30}");
   const Status status = host.run(step, 200.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("time is up: visited"));
   EXPECT_NEAR(host.time_s, 30.0, 0.1);
 }
@@ -132,7 +132,7 @@ TEST(Tour, ReportsWhereItsSettingsAreWrong) {
 TEST(Patrol, GoesItsRoundsAndCountsThem) {
   FakeHost host = hall();
   Patrol step(config_of<PatrolConfig>("{places: [L1, L2], rounds: 2, wait_s: 1}"), 1);
-  EXPECT_EQ(host.run(step, 600.0), (Status{Progress::success, "2 rounds, 4 places visited"}));
+  EXPECT_EQ(host.run(step, 600.0), (Status{StepState::success, "2 rounds, 4 places visited"}));
   std::vector<std::string> rounds;
   for (const std::string& line : host.said)
     if (line.ends_with("begins")) rounds.push_back(line);
@@ -143,7 +143,7 @@ TEST(Patrol, WithoutPlacesVisitsAllLandmarksThatAreKnownWhenARoundBegins) {
   FakeHost host = hall();
   Patrol step(config_of<PatrolConfig>("forever"), 1);
   while (host.said.empty() || !host.said.back().starts_with("round 2 begins")) {
-    ASSERT_EQ(host.tick(step).progress, Progress::running);
+    ASSERT_EQ(host.tick(step).state, StepState::running);
     ASSERT_LT(host.time_s, 300.0);
     if (host.time_s > 5.0 && host.graph.landmarks().size() == 2)
       host.graph.add(landmark_at("triangle", {1.5, 0.3, 0.0}, {1.5, 0.5, 0.0}));
@@ -153,7 +153,7 @@ TEST(Patrol, WithoutPlacesVisitsAllLandmarksThatAreKnownWhenARoundBegins) {
   ASSERT_NE(done, host.said.end());
   EXPECT_THAT(*done, HasSubstr("visited 2 of 2 places"));
   while (!host.said.back().starts_with("round 2 is done")) {
-    ASSERT_EQ(host.tick(step).progress, Progress::running);
+    ASSERT_EQ(host.tick(step).state, StepState::running);
     ASSERT_LT(host.time_s, 600.0);
   }
   EXPECT_THAT(host.said.back(), HasSubstr("visited 3 of 3 places"));
@@ -163,24 +163,24 @@ TEST(Patrol, LeavesOutALandmarkThatItChoseItselfAndThatIsRetiredDuringTheRound) 
   FakeHost host = hall();
   host.graph.add(landmark_at("triangle", {1.5, 0.3, 0.0}, {1.5, 0.5, 0.0}));
   Patrol step(config_of<PatrolConfig>("1"), 1);
-  EXPECT_EQ(host.run(step, 1.0).progress, Progress::running);
+  EXPECT_EQ(host.run(step, 1.0).state, StepState::running);
   host.graph.retire(3, "merged into L2");
-  EXPECT_EQ(host.run(step, 300.0), (Status{Progress::success, "1 round, 2 places visited, 1 left out"}));
+  EXPECT_EQ(host.run(step, 300.0), (Status{StepState::success, "1 round, 2 places visited, 1 left out"}));
   EXPECT_THAT(host.said.back(), HasSubstr("left out: L3 (no landmark \"L3\""));
 
   FakeHost asked = hall();
   asked.graph.add(landmark_at("triangle", {1.5, 0.3, 0.0}, {1.5, 0.5, 0.0}));
   Patrol named(config_of<PatrolConfig>("{rounds: 1, places: [L1, L3]}"), 1);
-  EXPECT_EQ(asked.run(named, 1.0).progress, Progress::running);
+  EXPECT_EQ(asked.run(named, 1.0).state, StepState::running);
   asked.graph.retire(3, "merged into L2");
-  EXPECT_EQ(asked.run(named, 300.0).progress, Progress::failure) << "that one was asked for";
+  EXPECT_EQ(asked.run(named, 300.0).state, StepState::failure) << "that one was asked for";
 }
 
 TEST(Patrol, SaysHowManyLandmarksARoundLeavesOut) {
   FakeHost host = hall();
   for (int i = 0; i < 51; ++i) host.graph.add(landmark_at("circle", {1.5, 0.3, 0.0}, {1.5, 0.5, 0.0}));
   Patrol step(config_of<PatrolConfig>("1"), 1);
-  EXPECT_EQ(host.tick(step).progress, Progress::running);
+  EXPECT_EQ(host.tick(step).state, StepState::running);
   EXPECT_THAT(host.said, ElementsAre("a round has 50 places at most: 3 of 53 landmarks are left out of it",
                                      "round 1 of 1 begins"));
 }
@@ -188,7 +188,8 @@ TEST(Patrol, SaysHowManyLandmarksARoundLeavesOut) {
 TEST(Patrol, FailsWithoutLandmarksAndReportsWrongRounds) {
   FakeHost host(kHall, {.all_known = true});
   Patrol step(config_of<PatrolConfig>("3"), 1);
-  EXPECT_EQ(host.run(step, 10.0), (Status{Progress::failure, "there is nothing to patrol: the map holds no landmark"}));
+  EXPECT_EQ(host.run(step, 10.0),
+            (Status{StepState::failure, "there is nothing to patrol: the map holds no landmark"}));
   const auto patrol = [](const char* yaml) { return Patrol(config_of<PatrolConfig>(yaml), 1); };
   EXPECT_EQ(error_of([&] { patrol("{rounds: forevr}"); }),
             "mission.yaml:1:10: rounds must be forever or a number, found \"forevr\" (did you mean \"forever\"?)");
@@ -200,7 +201,7 @@ TEST(ReturnHome, GoesBackToWhereTheMissionBeganAndFacesAsThere) {
   FakeHost host = hall();
   host.T_map_start = {2.6, 0.5, 1.0};
   ReturnHome step(config_of<ReturnHomeConfig>("{}"), 1);
-  EXPECT_EQ(host.run(step, 100.0), (Status{Progress::success, "home at (2.60, 0.50)"}));
+  EXPECT_EQ(host.run(step, 100.0), (Status{StepState::success, "home at (2.60, 0.50)"}));
   EXPECT_LT((host.T_map_robot.position() - Point(2.6, 0.5)).norm(), 0.13);
   EXPECT_NEAR(host.T_map_robot.theta_rad, 1.0, radians(4.0));
 }
@@ -209,7 +210,7 @@ TEST(ReturnHome, GoesToItsDockByName) {
   FakeHost host = hall();
   host.graph.find(1)->name = "dock";
   ReturnHome step(config_of<ReturnHomeConfig>("dock"), 1);
-  EXPECT_EQ(host.run(step, 100.0), (Status{Progress::success, "home at dock"}));
+  EXPECT_EQ(host.run(step, 100.0), (Status{StepState::success, "home at dock"}));
   EXPECT_LT((host.T_map_robot.position() - Point(2.6, 1.2)).norm(), 0.13);
   ReturnHome lost(config_of<ReturnHomeConfig>("dok"), 1);
   EXPECT_THAT(host.run(lost, 10.0).reason, HasSubstr("no landmark \"dok\" (did you mean \"dock\"?)"));

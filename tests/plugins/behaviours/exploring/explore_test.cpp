@@ -110,7 +110,7 @@ TEST(Explore, KnowsTheWholeRoomInTheEndAndTouchesNothing) {
   FakeHost host(kRoomWithObject);
   Explore explore({});
   const Status status = host.run(explore, 900.0);
-  EXPECT_EQ(status.progress, Progress::success) << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << host.picture();
   EXPECT_EQ(missed_cells(host), 0) << host.picture();
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m + 0.05) << host.picture();
 }
@@ -118,7 +118,7 @@ TEST(Explore, KnowsTheWholeRoomInTheEndAndTouchesNothing) {
 TEST(Explore, CirclesAnObjectThatStandsFree) {
   FakeHost host(kRoomWithObject);
   Explore explore({});
-  EXPECT_EQ(host.run(explore, 900.0).progress, Progress::success);
+  EXPECT_EQ(host.run(explore, 900.0).state, StepState::success);
   EXPECT_GE(coverage_deg(host.driven, kObjectCentre, 0.25 + 0.9), 330.0) << host.picture();
   // A second orbit would be more than 4 m longer.
   EXPECT_LT(host.driven_m, 18.5) << host.picture();
@@ -130,7 +130,7 @@ TEST(Explore, DrivesNoLapsWhenItNeedNotLookCloser) {
   config.look_closer_m = 0.0;
   config.until_known_ratio = 1.0;
   Explore explore(config);
-  EXPECT_EQ(host.run(explore, 900.0).progress, Progress::success);
+  EXPECT_EQ(host.run(explore, 900.0).state, StepState::success);
   EXPECT_LT(host.driven_m, 6.0) << host.picture();
   EXPECT_LE(missed_cells(host), 20) << host.picture();
 }
@@ -138,7 +138,7 @@ TEST(Explore, DrivesNoLapsWhenItNeedNotLookCloser) {
 TEST(Explore, GoesThroughTheDoorwayToTheNextRoom) {
   FakeHost host(kTwoRooms);
   Explore explore({});
-  EXPECT_EQ(host.run(explore, 900.0).progress, Progress::success) << host.picture();
+  EXPECT_EQ(host.run(explore, 900.0).state, StepState::success) << host.picture();
   EXPECT_EQ(missed_cells(host), 0) << host.picture();
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m) << host.picture();
 }
@@ -146,7 +146,7 @@ TEST(Explore, GoesThroughTheDoorwayToTheNextRoom) {
 TEST(Explore, PassesEveryWallThatItCanSeeWithinTheLookingDistance) {
   FakeHost host(kTwoRooms);
   Explore explore({});
-  EXPECT_EQ(host.run(explore, 900.0).progress, Progress::success);
+  EXPECT_EQ(host.run(explore, 900.0).state, StepState::success);
   for (const Point& wall : {Point{0.1, 1.0}, Point{1.2, 0.1}, Point{4.9, 1.0}, Point{3.7, 2.0}, Point{4.9, 1.9}}) {
     double nearest_m = 1e9;
     for (const Pose2& pose : host.driven) nearest_m = std::min(nearest_m, (pose.position() - wall).norm());
@@ -158,7 +158,7 @@ TEST(Explore, EndsInAClosedCell) {
   FakeHost host(kClosedCell);
   Explore explore({});
   const Status status = host.run(explore, 120.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason;
+  EXPECT_EQ(status.state, StepState::success) << status.reason;
   EXPECT_LT(host.time_s, 60.0);
 }
 
@@ -168,7 +168,7 @@ TEST(Explore, StopsWhenItsTimeIsUpAndSaysSo) {
   config.at_most_s = 20.0;
   Explore explore(config);
   const Status status = host.run(explore, 900.0);
-  EXPECT_EQ(status.progress, Progress::success);
+  EXPECT_EQ(status.state, StepState::success);
   EXPECT_THAT(status.reason, StartsWith("time is up"));
   EXPECT_NEAR(host.time_s, 20.0, 0.1);
 }
@@ -177,7 +177,7 @@ TEST(Explore, BeginsNearAWall) {
   FakeHost host(kRoomWithObject);
   host.T_map_robot = {0.34, 0.36, radians(-90.0)};  // 2 to 4 cm between the robot's edge and two walls
   Explore explore({});
-  EXPECT_EQ(host.run(explore, 900.0).progress, Progress::success) << host.picture();
+  EXPECT_EQ(host.run(explore, 900.0).state, StepState::success) << host.picture();
   EXPECT_EQ(missed_cells(host), 0) << host.picture();
 }
 
@@ -185,7 +185,7 @@ TEST(Explore, FailsWhenItCannotMove) {
   FakeHost host("#####\n#...#\n#.R.#\n#...#\n#####", {.character_m = 0.15});
   Explore explore({});
   const Status status = host.run(explore, 120.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("cannot move"));
 }
 
@@ -194,7 +194,7 @@ TEST(Explore, FailsWhenTheStopLayerNeverLetsItGo) {
   host.collision_monitor = [](const Pose2&, const Twist& wanted) { return Twist{0.0, wanted.w_radps}; };
   Explore explore({});
   const Status status = host.run(explore, 600.0);
-  EXPECT_EQ(status.progress, Progress::failure);
+  EXPECT_EQ(status.state, StepState::failure);
   EXPECT_THAT(status.reason, HasSubstr("blocked wherever it turns"));
 }
 
@@ -208,7 +208,7 @@ TEST(Explore, IsNotTrappedByAPlaceWhereItIsBlocked) {
   };
   Explore explore({});
   const Status status = host.run(explore, 900.0);
-  EXPECT_EQ(status.progress, Progress::success) << status.reason << host.picture();
+  EXPECT_EQ(status.state, StepState::success) << status.reason << host.picture();
   EXPECT_LT(host.time_s, 600.0);
   EXPECT_GE(coverage_deg(host.driven, kObjectCentre, 0.25 + 0.9), 250.0) << host.picture();
 }
@@ -231,8 +231,8 @@ TEST(Explore, BeginsAfreshAfterAHalt) {
   Explore explore(config);
   host.run(explore, 8.0);
   explore.halt();
-  EXPECT_EQ(host.run(explore, 8.0).progress, Progress::running);
-  EXPECT_EQ(host.run(explore, 8.0).progress, Progress::success);
+  EXPECT_EQ(host.run(explore, 8.0).state, StepState::running);
+  EXPECT_EQ(host.run(explore, 8.0).state, StepState::success);
 }
 
 }  // namespace

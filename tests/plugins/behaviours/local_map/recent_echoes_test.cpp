@@ -28,7 +28,7 @@ class Hearing : public Behaviour {
       echoes.forget(world);
     else
       echoes.see(world);
-    return {Progress::running, ""};
+    return {StepState::running, ""};
   }
   void halt() override {}
   RecentEchoes echoes;

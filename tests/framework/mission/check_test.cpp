@@ -1,0 +1,64 @@
+#include "framework/mission/check.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/framework/mission/still_modules.hpp"
+
+namespace cairn {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class MissionCheckTest : public testing::Test {
+ protected:
+  MissionCheckTest()
+      : folder_(std::filesystem::path(testing::TempDir()) / ("cairn_check_" + std::to_string(getpid()))),
+        file_(folder_ / "mission.yaml") {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "robot.yaml") << "name: r\nradius_m: 0.2\nsonars: [{x_m: 0.1, y_m: 0, angle_deg: 0}]\n";
+  }
+  ~MissionCheckTest() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] MissionCheck check(const std::string& localizer, const std::string& steps,
+                                   const std::vector<std::string>& overrides = {}) const {
+    std::ofstream(file_) << "mission: m\nrobot: robot.yaml\nsensor: {plugin: still_sensor}\nlocalizer: {plugin: "
+                         << localizer << "}\nmap: {plugin: still_map}\nsteps: " << steps << "\n";
+    return check_mission(file_, overrides, still::library());
+  }
+
+  const std::filesystem::path folder_;
+  const std::filesystem::path file_;
+};
+
+TEST_F(MissionCheckTest, AGoodMissionHasNoErrorsAndCountsItsSteps) {
+  const MissionCheck good = check("still_localizer", "[{still_step: {}}, {sequence: [{still_step: {}}]}]");
+  EXPECT_THAT(good.errors, IsEmpty());
+  EXPECT_EQ(good.mission, "m");
+  EXPECT_EQ(good.steps, 2U);
+  EXPECT_EQ(good.nodes, 3U);
+}
+
+TEST_F(MissionCheckTest, AllErrorsAreFoundAtOnceEachWithItsPlace) {
+  const MissionCheck bad = check("still_localiser", "[{still_stp: {}}]");
+  EXPECT_THAT(bad.errors, ElementsAre(HasSubstr("mission.yaml:4:"), HasSubstr("did you mean \"still_step\"?")));
+}
+
+TEST_F(MissionCheckTest, ModulesAreNotMadeOfAFileThatCannotBeRead) {
+  EXPECT_THAT(check("still_localiser", "[{still_step: {}}]", {"seeed=1"}).errors, SizeIs(1));
+}
+
+TEST_F(MissionCheckTest, AMissingFileIsAnErrorLikeOthers) {
+  const MissionCheck none = check_mission(folder_ / "none.yaml", {}, still::library());
+  EXPECT_EQ(none.mission, "");
+  EXPECT_THAT(none.errors, ElementsAre(HasSubstr("none.yaml")));
+}
+
+}  // namespace
+}  // namespace cairn
