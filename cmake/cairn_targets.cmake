@@ -10,7 +10,8 @@ target_compile_options(cairn_private_options INTERFACE
 if(NOT CAIRN_SANITIZERS)
   # What a fault in memory can do: little. tests/architecture/hardened.sh looks at what was built.
   target_compile_options(cairn_private_options INTERFACE
-                         -fstack-protector-strong $<$<CONFIG:Release,RelWithDebInfo>:-D_FORTIFY_SOURCE=2>)
+                         -fstack-protector-strong -fstack-clash-protection
+                         $<$<CONFIG:Release,RelWithDebInfo>:-D_FORTIFY_SOURCE=2>)
   target_link_options(cairn_private_options INTERFACE -Wl,-z,relro,-z,now,-z,noexecstack)
 endif()
 if(CAIRN_SANITIZERS)

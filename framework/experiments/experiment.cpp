@@ -71,9 +71,9 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
     if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
     if (config.experiment == ExperimentKind::orbit)
       require_one(mission, config.orbit->around, "the orbit goes round", job.mission);
-    MissionRunner(mission, library, {job.out, false, nullptr});
+    const MissionRunner tried(mission, library, {job.out, false, nullptr});
     for (const ComparedDetector& detector : config.detectors)
-      MissionRunner(with_detector(mission, detector, library), library, {job.out, false, nullptr});
+      const MissionRunner compared(with_detector(mission, detector, library), library, {job.out, false, nullptr});
   }
 }
 

@@ -149,7 +149,7 @@ class Drawing {  // one level, in its own units, y upwards
  private:
   // Two vertices that are almost one give measurements by which all others lie anywhere.
   [[nodiscard]] Point placed(std::size_t i, const Transform& transform) const {
-    const Point at_m = transform(vertices_[i].at_m);
+    Point at_m = transform(vertices_[i].at_m);
     if (!(std::abs(at_m.x()) <= kMaxCoordinate && std::abs(at_m.y()) <= kMaxCoordinate))
       throw ConfigError(list_in(level_, "vertices")[i].place,
                         "by the level's measurements and fiducials the vertex is more than 1000 km away");

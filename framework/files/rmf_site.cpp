@@ -1,5 +1,7 @@
 #include "framework/files/rmf_site.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -62,9 +64,9 @@ void check_keys(const ConfigValue& map, const std::vector<std::string>& known, c
   for (const ConfigValue::Entry& entry : map.entries) {
     if (std::ranges::find(known, entry.key) != known.end()) continue;
     const std::string hint = did_you_mean(entry.key, known);
-    const std::string sentence = "unknown key " + in_quotes(entry.key) + hint + " in " + what;
+    const std::string sentence = fmt::format("unknown key {}{} in {}", in_quotes(entry.key), hint, what);
     if (!hint.empty()) throw ConfigError(entry.key_place, sentence);
-    warnings.push_back(entry.key_place.text() + ": " + sentence + ", not read");
+    warnings.push_back(fmt::format("{}: {}, not read", entry.key_place.text(), sentence));
   }
 }
 

@@ -91,6 +91,7 @@ Contour contour_of_category(const std::string& category, const SourcePlace& plac
   const auto shape = std::ranges::find(shapes, category, &LandmarkShape::category);
   if (shape != shapes.end()) return shape->contour;
   std::vector<std::string> known;
+  known.reserve(shapes.size());
   for (const LandmarkShape& s : shapes) known.push_back(s.category);
   throw ConfigError(place, "no template of the category " + in_quotes(category) + did_you_mean(category, known) +
                                "; known: " + (known.empty() ? "none" : joined(known)));

@@ -46,6 +46,7 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
 
 std::vector<std::string> categories_of(const std::vector<LandmarkShape>& shapes) {
   std::vector<std::string> categories;
+  categories.reserve(shapes.size());
   for (const LandmarkShape& shape : shapes) categories.push_back(shape.category);
   return categories;
 }

@@ -11,7 +11,7 @@ namespace cairn {
 namespace {
 
 constexpr double kWide_m = 0.5;        // clearance of the robot's edge from which a metre counts as one
-constexpr double kNarrowWeight = 4.0;  // what a metre without any room counts on top
+constexpr double kNarrowWeight = 4.0;  // what a metre without any clearance counts on top
 
 double turning_of(const std::vector<Pose2>& trajectory) {
   double turning_rad = 0.0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "maps/base/portable_random.hpp"
@@ -182,9 +183,9 @@ std::string random_world_yaml(const RandomWorldConfig& config, const std::vector
   room_m.y() = chance.between(config.smallest_room_m.y(), config.largest_room_m.y());
   std::vector<Thing> things;
   const int landmarks = chance.whole(config.min_landmarks, std::max(config.min_landmarks, config.max_landmarks));
-  for (int i = 0; i < landmarks; ++i) things.push_back(landmark(config, shapes, chance));
+  std::generate_n(std::back_inserter(things), landmarks, [&] { return landmark(config, shapes, chance); });
   const int distractors = chance.whole(0, config.max_distractors);
-  for (int i = 0; i < distractors; ++i) things.push_back(distractor(chance));
+  std::generate_n(std::back_inserter(things), distractors, [&] { return distractor(chance); });
   while (!place_all(config, room_m, things, chance)) room_m += Point(0.25, 0.25);
   PortableRandom moving(seed ^ 0x6d6f76696e670000ULL);  // streams of their own: without them the rest stays as it is
   PortableRandom opening(seed ^ 0x646f6f7273000000ULL);

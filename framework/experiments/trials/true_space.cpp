@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "maps/geometry/segments.hpp"
@@ -35,9 +36,8 @@ bool TrueSpace::has_room(const Point& p_m) const {
 }
 
 Point TrueSpace::centre_of(std::size_t cell) const {
-  const std::size_t width = static_cast<std::size_t>(width_);
-  return world_.min_m +
-         kCell_m * Point(static_cast<double>(cell % width) + 0.5, static_cast<double>(cell / width) + 0.5);
+  const std::lldiv_t row = std::lldiv(static_cast<long long>(cell), width_);
+  return world_.min_m + kCell_m * Point(static_cast<double>(row.rem) + 0.5, static_cast<double>(row.quot) + 0.5);
 }
 
 TrueSpace::Cells TrueSpace::cells_near(const Point& p_m, double within_m) const {

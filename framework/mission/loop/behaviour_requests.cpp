@@ -72,14 +72,14 @@ Status BehaviourRequests::answer(const PlanQuestion& question, const std::string
   task.request.seed = module_seed(host_.mission.config.seed, PluginKind::planner, kQuestionSeed);
   const PlanResult result =
       plan_tour([&](const PlanRequest& request) { return plan(request); }, task.request, task.via);
-  const Status written = write({file_name,
-                                json_text_of({.question = question,
-                                              .result = result,
-                                              .graph = host_.world.graph,
-                                              .clusters = clusters,
-                                              .with_times = false}) +
-                                    "\n",
-                                true});
+  Status written = write({file_name,
+                          json_text_of({.question = question,
+                                        .result = result,
+                                        .graph = host_.world.graph,
+                                        .clusters = clusters,
+                                        .with_times = false}) +
+                              "\n",
+                          true});
   if (written.state != StepState::success) return written;
   if (result.outcome == PlanOutcome::solved) return {StepState::success, fmt::format("{:.2f} m", result.length_m)};
   return {StepState::failure, std::string(name_of(result.outcome)) + ": " + result.reason};

@@ -1,12 +1,11 @@
 // Experiments as the program runs them, and the files that ship.
 
-#include "framework/experiments/experiment.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "framework/experiments/experiment.hpp"
 #include "framework/mission/mission.hpp"
 #include "maps/store/map_store.hpp"
 #include "tests/scenario/program.hpp"
