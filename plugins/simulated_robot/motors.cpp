@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace cairn {
 
@@ -15,12 +16,15 @@ void Motors::command(const Twist& twist, double valid_for_s) {
   }
   wanted_ = twist;
   valid_for_s_ = valid_for_s;
+  is_new_command_ = true;
   is_stopped_.store(false, std::memory_order_relaxed);
 }
 
 Twist Motors::turn(double for_s, bool has_power) {
   constexpr double kRounding_s = 1e-9;
-  const bool counts = valid_for_s_ > kRounding_s && !is_stopped_.load(std::memory_order_relaxed);
+  const bool is_new_command = std::exchange(is_new_command_, false);
+  const bool is_stopped = is_stopped_.load(std::memory_order_relaxed) && !is_new_command;
+  const bool counts = valid_for_s_ > kRounding_s && !is_stopped;
   valid_for_s_ -= for_s;
   const Twist wanted = counts && has_power ? wanted_ : Twist{};
   Twist next;

@@ -14,7 +14,8 @@ class Motors {
 
   // For so long at most. Throws std::invalid_argument when not finite.
   void command(const Twist& twist, double valid_for_s);
-  // Until the next command. From any thread.
+  // Until the next command. From any thread. The first turn after a command is made all the same: no simulated time has
+  // passed between the two, and a mission must not depend on how fast the machine was in between.
   void stop() noexcept { is_stopped_.store(true, std::memory_order_relaxed); }
   // How the wheels turn for a time, on the mean; without power or a command that counts they brake.
   [[nodiscard]] Twist turn(double for_s, bool has_power);
@@ -29,6 +30,7 @@ class Motors {
   RobotModel robot_;
   Twist wanted_;
   double valid_for_s_ = 0.0;              // from now on
+  bool is_new_command_ = false;           // no turn has been made since
   std::atomic<bool> is_stopped_ = false;  // since the last command
   Twist twist_;
 };

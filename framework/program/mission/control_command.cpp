@@ -112,7 +112,7 @@ ordered_json status_without_answer(const std::filesystem::path& folder, Reached 
 }
 
 ordered_json parsed(const std::filesystem::path& folder, const std::string& line) {
-  const ordered_json answer = ordered_json::parse(line, nullptr, false);
+  ordered_json answer = ordered_json::parse(line, nullptr, false);
   if (!answer.is_object() || !answer.contains("ok"))
     throw std::runtime_error(folder.string() + ": what listens there is no mission");
   if (!answer["ok"].is_boolean() || !answer["ok"].get<bool>())

@@ -56,6 +56,7 @@ void check_names(CheckedFile& checked, const std::vector<KnownModule>& others) {
 
 std::vector<CheckedFile> checked_files(const std::vector<std::filesystem::path>& files, const CommonOptions& common) {
   std::vector<CheckedFile> all;
+  all.reserve(files.size());
   for (const std::filesystem::path& file : files) all.push_back({file});
   const std::shared_ptr<const ModuleTrial> trial = module_trial();
   in_parallel(all.size(), [&](std::size_t i) {

@@ -46,7 +46,7 @@ ordered_json schema_of_field(const FieldSpec& field);
 // Of a schema or a nested field: its map, or the bare value that its shorthand takes.
 template <class Described>
 ordered_json map_or_shorthand(const Described& described) {
-  const ordered_json object = object_of(described.fields, described.one_of, false);
+  ordered_json object = object_of(described.fields, described.one_of, false);
   for (const FieldSpec& field : described.fields)
     if (field.key == described.shorthand) return {{"anyOf", {object, schema_of_field(field)}}};
   return object;
@@ -59,9 +59,9 @@ ordered_json map_of(const FieldSpec& field) {
 }
 
 ordered_json shape_of(const FieldSpec& field) {
-  const ordered_json point = {
+  ordered_json point = {
       {"type", "array"}, {"items", bounded("number", field.range)}, {"minItems", 2}, {"maxItems", 2}};
-  const ordered_json place = {{"anyOf", {kText, point}}};
+  ordered_json place = {{"anyOf", {kText, point}}};
   if (field.type == "number" || field.type == "integer") return bounded(field.type.c_str(), field.range);
   if (field.type == "flag") return {{"type", "boolean"}};
   if (field.type == "choice") return {{"enum", field.choices}};

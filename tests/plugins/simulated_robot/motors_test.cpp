@@ -54,12 +54,27 @@ TEST(Motors, BrakeWhenTheTimeOfTheirCommandHasPassed) {
   EXPECT_EQ(motors.twist(), Twist{});
 }
 
+// The stop of a watcher that finds the machine slow, between the host's command and the simulator's next step.
+TEST(Motors, AStopBeforeAnyTimeHasPassedSinceTheCommandDoesNotChangeTheNextTurn) {
+  Motors motors(robot_of(1.0));
+  Motors undisturbed(robot_of(1.0));
+  for (int i = 0; i < 20; ++i) {
+    motors.command({0.3, 0.1}, kAlways_s);
+    undisturbed.command({0.3, 0.1}, kAlways_s);
+    if (i % 3 == 0) motors.stop();
+    EXPECT_EQ(motors.turn(0.04, true), undisturbed.turn(0.04, true)) << i;
+    if (i % 3 == 1) motors.stop();
+  }
+}
+
 TEST(Motors, BrakeWhenTheyAreStoppedUntilTheNextCommand) {
   Motors motors(robot_of(1.0));
   motors.command({0.3, 0.0}, kAlways_s);
   for (int i = 0; i < 5; ++i) (void)motors.turn(0.1, true);
   motors.stop();
-  for (int i = 0; i < 5; ++i) (void)motors.turn(0.1, true);
+  (void)motors.turn(0.1, true);
+  EXPECT_LT(motors.twist().v_mps, 0.3) << "at once, when time has passed since the command";
+  for (int i = 0; i < 4; ++i) (void)motors.turn(0.1, true);
   EXPECT_EQ(motors.twist(), Twist{});
   motors.command({0.3, 0.0}, kAlways_s);
   (void)motors.turn(0.1, true);
