@@ -183,6 +183,7 @@ void split(const GroupingGraph& graph, const std::vector<std::int32_t>& members,
   const Groups inner = depth > 8 ? by_growth(part, most) : components_of(part, propose(part, wanted));
   for (const auto& group : members_of(inner)) {
     std::vector<std::int32_t> nodes;
+    nodes.reserve(group.size());
     for (const std::int32_t i : group) nodes.push_back(members[static_cast<std::size_t>(i)]);
     if (nodes.size() > 1 && size_of(graph, nodes) > most) {
       split(graph, nodes, most, propose, groups, next, depth + 1);

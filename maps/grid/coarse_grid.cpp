@@ -101,7 +101,8 @@ CoarseGrid::Sums CoarseGrid::sums_of(const OccupancyGrid& grid, Cell coarse) con
   Sums sums;
   for (int y = below.min.y; y < below.max.y; y += rows) {
     const CellBox some{{below.min.x, y}, {below.max.x, std::min(y + rows, below.max.y)}};
-    const std::span<std::uint8_t> read = std::span(values).first(static_cast<std::size_t>(n_ * some.height()));
+    const std::span<std::uint8_t> read =
+        std::span(values).first(static_cast<std::size_t>(n_) * static_cast<std::size_t>(some.height()));
     grid.copy_ol(some, read);
     for (const std::int32_t ol : read) {
       const std::int32_t is_high = ol > kUnknownOl ? 1 : 0;

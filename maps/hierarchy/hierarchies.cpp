@@ -3,7 +3,7 @@
 namespace cairn {
 
 Hierarchies::Hierarchies(const LandmarkGraph& graph, ClusterTree clusters, RouteCostRules rules)
-    : graph_(graph), clusters_(std::move(clusters)), rules_(std::move(rules)) {}
+    : graph_(graph), clusters_(std::move(clusters)), rules_(rules) {}
 
 // All kinds have the clusters of the first, so that names mean the same.
 const Hierarchy& Hierarchies::by(CostKind kind) const {

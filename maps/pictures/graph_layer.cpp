@@ -26,6 +26,7 @@ template <class Place>
 void draw_contour(Canvas& canvas, const Contour& contour, Colour colour, double line_px, Place place) {
   for (const std::vector<Point>& outline : contour.outlines_m(kCircleCorners)) {
     std::vector<Pixel> corners;
+    corners.reserve(outline.size());
     for (const Point& p : outline) corners.push_back(place(p));
     canvas.fill_polygon(corners, {colour, 0.2});
     canvas.outline(corners, {colour, line_px});

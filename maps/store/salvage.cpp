@@ -49,7 +49,9 @@ class Copying {
 
  private:
   [[nodiscard]] std::string select(const std::string& behind) const { return "SELECT * FROM " + table_->name + behind; }
-  void lose(const std::string& what, std::optional<MetreBox> box = {}) { losses_.push_back({table_->name, what, box}); }
+  void lose(const std::string& what, const std::optional<MetreBox>& box = {}) {
+    losses_.push_back({table_->name, what, box});
+  }
 
   void copy_readable() {
     const std::string forwards = copy_in_order(table_->key);

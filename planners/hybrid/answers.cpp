@@ -12,6 +12,7 @@ namespace {
 
 std::vector<Point> points_on(const std::vector<Pose2>& path) {
   std::vector<Point> points;
+  points.reserve(path.size());
   for (const Pose2& pose : path) points.push_back(pose.position());
   return points;
 }

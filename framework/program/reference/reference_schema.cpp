@@ -59,8 +59,7 @@ ordered_json map_of(const FieldSpec& field) {
 }
 
 ordered_json shape_of(const FieldSpec& field) {
-  ordered_json point = {
-      {"type", "array"}, {"items", bounded("number", field.range)}, {"minItems", 2}, {"maxItems", 2}};
+  ordered_json point = {{"type", "array"}, {"items", bounded("number", field.range)}, {"minItems", 2}, {"maxItems", 2}};
   ordered_json place = {{"anyOf", {kText, point}}};
   if (field.type == "number" || field.type == "integer") return bounded(field.type.c_str(), field.range);
   if (field.type == "flag") return {{"type", "boolean"}};

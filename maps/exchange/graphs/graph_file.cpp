@@ -22,6 +22,7 @@ constexpr std::array kExtensions{Extension{".graph", GraphFormat::list}, Extensi
 
 std::vector<std::string> graph_extensions() {
   std::vector<std::string> texts;
+  texts.reserve(kExtensions.size());
   for (const Extension& extension : kExtensions) texts.emplace_back(extension.text);
   return texts;
 }

@@ -171,7 +171,7 @@ std::string gnuplot_script(const Chart& chart) {
 ChartOutcome write_chart(const std::filesystem::path& file, const Chart& chart) {
   const File picture = memory_file("chart");
   if (!picture) return failed("no memory for a chart", errno);
-  const ChartOutcome outcome = run_gnuplot(gnuplot_script(chart), picture.get());
+  ChartOutcome outcome = run_gnuplot(gnuplot_script(chart), picture.get());
   if (!outcome.drawn) return outcome;
   const std::string bytes = bytes_of(picture.get());
   if (bytes.empty()) return {false, "gnuplot drew nothing"};

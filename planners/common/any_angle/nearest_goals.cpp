@@ -7,6 +7,7 @@ namespace cairn {
 std::vector<RankedGoal> nearest_first(const std::vector<GoalPlace>& goals, const Point& from, const DiscRoutes& routes,
                                       const Budget& budget) {
   std::vector<RankedGoal> ranked;
+  ranked.reserve(goals.size());
   for (const GoalPlace& goal : goals)
     ranked.push_back({goal, goals.size() == 1 ? 0.0 : routes.length_lower_bound_m(from, goal.pose.position(), budget)});
   std::stable_sort(ranked.begin(), ranked.end(), [](const RankedGoal& a, const RankedGoal& b) {

@@ -16,6 +16,7 @@ int across_parts(int a, int b) {
 
 std::vector<PartedPoint> parted(const std::vector<Point>& route) {
   std::vector<PartedPoint> points;
+  points.reserve(route.size());
   for (const Point& point : route) points.push_back({point, 0});
   return points;
 }
@@ -57,7 +58,7 @@ class CornerCutter {
     const Point corner = furthest(seen, a, [&](const Point& p) { return fits(p, c.at); });
     const PartedPoint turn{corner, seen == b.at ? b.part : across};
     const int from_turn = corner == seen ? c.part : across;
-    const std::vector<PartedPoint> points = cut_off(a, turn, {c.at, from_turn});
+    std::vector<PartedPoint> points = cut_off(a, turn, {c.at, from_turn});
     // Parts of free segments are free but for the last digit.
     const bool same = points.size() == 1 && corner == b.at;
     if (!same && !(fits(a, points.front().at) && fits(points.back().at, c.at))) return {b};
@@ -113,6 +114,7 @@ class CornerCutter {
 
 std::vector<Point> points_of(const std::vector<PartedPoint>& route) {
   std::vector<Point> points;
+  points.reserve(route.size());
   for (const PartedPoint& point : route) points.push_back(point.at);
   return points;
 }

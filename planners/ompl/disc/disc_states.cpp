@@ -213,7 +213,7 @@ void add_route(KnownStates& states, const std::vector<Point>& route) {
   constexpr double kMaxSteps = 40.0;
   const double length_m = length_of(route);
   for (std::size_t i = 0; i < route.size(); ++i) {
-    const Point before = route[i == 0 ? 0 : i - 1];
+    const Point& before = route[i == 0 ? 0 : i - 1];
     const int steps =
         std::max(1, static_cast<int>(std::ceil((route[i] - before).norm() / std::max(length_m / kMaxSteps, 1e-9))));
     for (int k = i == 0 ? steps : 1; k <= steps; ++k) {

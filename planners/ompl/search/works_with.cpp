@@ -4,7 +4,7 @@ namespace cairn {
 namespace {
 
 // What runs of OMPL 1.5.2 in a room with a box showed, from several seeds and headings.
-bool works_where_ways_back_differ(Algorithm algorithm) {
+bool works_where_motions_have_a_direction(Algorithm algorithm) {
   using enum Algorithm;
   switch (algorithm) {
     case prm:  // edges without direction: paths drive some against it, into walls
@@ -15,7 +15,6 @@ bool works_where_ways_back_differ(Algorithm algorithm) {
     case bi_est:  // trees from the goal whose motions were checked in reverse
     case bkpiece:
     case sbl:
-      return false;
     case lbt_rrt:   // aborts the process on an assertion, where distances are not symmetric
     case ait_star:  // the same for Dubins; without a path for most seeds otherwise
     case fmt:       // a minute and more without looking at its termination condition, or no path
@@ -33,11 +32,11 @@ bool works_with(MotionKind kind, Algorithm algorithm) {
     case MotionKind::holonomic:
       return true;
     case MotionKind::differential:
-      return works_where_ways_back_differ(algorithm);
+      return works_where_motions_have_a_direction(algorithm);
     case MotionKind::dubins:
       // RRTConnect's trees hardly ever meet when both headings point along the path: no path from any of
       // twelve seeds, where RRT finds one from each.
-      return algorithm != rrt_connect && works_where_ways_back_differ(algorithm);
+      return algorithm != rrt_connect && works_where_motions_have_a_direction(algorithm);
     case MotionKind::reeds_shepp:
       // LazyRRT hangs for some seeds; AIT* finds no path for half of them, and takes 0.3 s from one look at its
       // termination condition to the next; of BFMT* some paths touch. With 3000 iterations FMT*, RRT# and RRTX do not

@@ -43,7 +43,7 @@ double pair_angle_deg(const EdgePicture& picture) {
   for (const double a : angles)
     for (const double b : angles) {
       const double between = std::abs(degrees(wrap_angle(a - b)));
-      if (between >= kFrom && between <= kTo) ++pairs[static_cast<std::size_t>((between - kFrom) / kBin + 0.5)];
+      if (between >= kFrom && between <= kTo) ++pairs[static_cast<std::size_t>(std::lround((between - kFrom) / kBin))];
     }
   return kFrom + kBin * static_cast<double>(std::ranges::max_element(pairs) - pairs.begin());
 }

@@ -66,7 +66,8 @@ void SearchingDetector::add_peaks(const cv::Mat& degrees, std::size_t index, con
   }
 }
 
-SearchingDetector::SearchingDetector(std::string name, std::shared_ptr<const TemplateSet> templates, double tau_match)
+SearchingDetector::SearchingDetector(const std::string& name, std::shared_ptr<const TemplateSet> templates,
+                                     double tau_match)
     : templates_(usable(std::move(templates), name)), tau_match_(tau_match), reach_(reach_of(templates_->templates)) {}
 
 DetectionReport SearchingDetector::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {

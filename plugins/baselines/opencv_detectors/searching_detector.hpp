@@ -44,7 +44,7 @@ class SearchingDetector : public Detector {
 
  protected:
   // Throws std::invalid_argument without templates and on a template without cells.
-  SearchingDetector(std::string name, std::shared_ptr<const TemplateSet> templates, double tau_match);
+  SearchingDetector(const std::string& name, std::shared_ptr<const TemplateSet> templates, double tau_match);
 
   // Where templates fit above tau_match when centred on cells of the box. None when the budget ended it,
   // which is asked before each template: the next change makes up for it.
