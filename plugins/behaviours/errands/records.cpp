@@ -81,7 +81,7 @@ Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& context) 
     const CapturedOutline captured = captured_outline(world.grid, at, radius_m_);
     const std::string text = template_text(category_, captured, "a mission's map");
     (void)parse_landmark_shape(text, file_name_);
-    const Status written = context.write({file_name_, text});
+    Status written = context.write({file_name_, text});
     if (written.state != StepState::success) return written;
     return {StepState::success,
             written.reason + ": " + category_ + ", " + number("%.2f m across", captured.contour.outer_diameter_m())};

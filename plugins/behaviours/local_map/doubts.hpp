@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "maps/geometry/pose.hpp"
 #include "plugins/behaviours/local_map/cell_layer.hpp"
 
 namespace cairn::behaviours {
