@@ -25,6 +25,10 @@ constexpr int kBatch = 8;             // new echoes before the next search
 constexpr double kPointRatio = 0.75;  // a line must fit so much better than a point
 constexpr double kCurved_m = 0.010;   // how far a round thing must leave the line to be distinguished from it
 
+std::size_t vote_index(int direction, int distance) {
+  return static_cast<std::size_t>(direction) * kDistances + static_cast<std::size_t>(distance);
+}
+
 }  // namespace
 
 struct WallFinder::Fit {
@@ -171,10 +175,10 @@ bool WallFinder::count_votes() {
       if (bin < 0 || bin + 1 >= kDistances) continue;
       const int row = ((i % kDirections) + kDirections) % kDirections;
       // Twice as fine as a bin: neighbours overlap.
-      ++votes_[static_cast<std::size_t>(row * kDistances + bin)];
+      ++votes_[vote_index(row, bin)];
       const double in_bin = (distance_m + kBeyond_m) / kStep_m - bin;
       const int next = in_bin < 0.5 ? bin - 1 : bin + 1;
-      if (next >= 0) ++votes_[static_cast<std::size_t>(row * kDistances + next)];
+      if (next >= 0) ++votes_[vote_index(row, next)];
     }
   }
   return true;
@@ -185,13 +189,15 @@ std::optional<WallFinder::Line> WallFinder::strongest() {
   const auto best = std::max_element(votes_.begin(), votes_.end());
   if (*best < rules_.min_echoes) return std::nullopt;
   const int at = static_cast<int>(best - votes_.begin());
+  const int best_row = at / kDistances;
+  const int best_bin = at % kDistances;
   for (int i = -3; i <= 3; ++i)
     for (int k = -3; k <= 3; ++k) {
-      const int bin = at % kDistances + k;
-      const int row = (at / kDistances + i + kDirections) % kDirections;
-      if (bin >= 0 && bin < kDistances) votes_[static_cast<std::size_t>(row * kDistances + bin)] = 0;
+      const int bin = best_bin + k;
+      const int row = (best_row + i + kDirections) % kDirections;
+      if (bin >= 0 && bin < kDistances) votes_[vote_index(row, bin)] = 0;
     }
-  return Line{wrap_angle((at / kDistances) * kStep_rad), (at % kDistances + 0.5) * kStep_m - kBeyond_m};
+  return Line{wrap_angle(best_row * kStep_rad), (best_bin + 0.5) * kStep_m - kBeyond_m};
 }
 
 bool WallFinder::speaks_for(const Echo& echo, const Line& line, double within_m) const {

@@ -175,7 +175,7 @@ void check_columns(const TableLogConfig& config) {
 
 ScanLog read_table_log(const TableLogConfig& config, const RobotModel& robot, const Budget& budget) {
   check_columns(config);
-  const std::vector<RangeReading> readings = empty_readings(config, robot);
+  std::vector<RangeReading> readings = empty_readings(config, robot);
   const std::vector<int> columns = range_columns(config, readings.size());
   const double metres = metres_per(config.range_unit);
   ScanLog scans(config.file.string(), config, budget);

@@ -139,8 +139,8 @@ void FastMatcher::choose_layout(std::size_t width, std::size_t height) {
 }
 
 void FastMatcher::prepare_maps(const GradientField& field) {
-  const auto width = static_cast<std::size_t>(places_.width() + 2 * reach_);
-  const auto height = static_cast<std::size_t>(places_.height() + 2 * reach_);
+  const auto width = static_cast<std::size_t>(places_.width()) + 2 * static_cast<std::size_t>(reach_);
+  const auto height = static_cast<std::size_t>(places_.height()) + 2 * static_cast<std::size_t>(reach_);
   choose_layout(width, height);
   const Cell first = places_.min - Cell{reach_, reach_};
   project({field.x_from(first), field.y_from(first), field.stride(), width, height, shift_, offset_},
@@ -149,7 +149,7 @@ void FastMatcher::prepare_maps(const GradientField& field) {
 }
 
 void FastMatcher::prepare_places(std::span<const CellSpan> region) {
-  const auto rows = static_cast<std::size_t>(places_.height() + 1);
+  const auto rows = static_cast<std::size_t>(places_.height()) + 1;
   block_count_ = rounded_up(rows / 2 * block_maps_.stride, kPlacesPerGroup);
   place_start_.assign(rounded_up(rows * place_maps_.stride, kPlacesPerPiece) + kPlacesPerPiece, kOutside);
   place_sums_.resize(place_start_.size());
