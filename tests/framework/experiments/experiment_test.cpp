@@ -19,7 +19,7 @@ class ExperimentTest : public testing::Test {
 
   // A short drive along a wall, in two variants on two seeds.
   [[nodiscard]] ExperimentConfig config() const {
-    const std::string shipped = std::string(CAIRN_SOURCE_DIR) + "/config";
+    const std::string shipped = CAIRN_SOURCE_DIR "/config";
     std::ofstream(folder_ / "drive.yaml")
         << "mission: drive\nrobot: " << shipped << "/robots/pioneer1_true_pose.yaml\nworld: " << shipped
         << "/worlds/mapping_smooth_hallway.yaml\nstart: {at_m: [1.727, 1.774]}\n"
