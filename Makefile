@@ -1,6 +1,6 @@
 # Each verb works alone on a fresh Debian 12 machine: it installs what packages.txt lists (only what
 # is missing), configures and builds.
-.PHONY: configure build demo test check fuzz package bench deps experiment reference
+.PHONY: configure build demo test check fuzz fuzz-long package bench deps experiment reference
 .DEFAULT_GOAL := build
 
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo -E)
@@ -45,6 +45,10 @@ check: build
 
 fuzz: deps
 	@cmake/fuzz.sh $(FUZZ)
+
+# Until each reader has had 20 minutes of CPU time, over several evenings.
+fuzz-long: deps
+	@cmake/fuzz_long.sh $(FUZZ)
 
 bench: build
 	@cmake --build --preset release --target cairn_benches

@@ -1,8 +1,19 @@
+# cairn_export_only(TARGET LIST): it exports what exports/LIST.map says, and nothing else. Not with sanitizers, which need
+# more.
+function(cairn_export_only target list)
+  if(NOT CAIRN_SANITIZERS)
+    set(file ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/exports/${list}.map)
+    target_link_options(${target} PRIVATE -Wl,--version-script=${file})
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${file})
+  endif()
+endfunction()
+
 # cairn_add_module(NAME [CORE sources... | ROOMS rooms...] [LINK ...]): NAME.so from module.cpp. CORE gives the algorithm
 # files, which become NAME_core, a static library that tests can link; LINK goes with them. ROOMS are object libraries
 # cairn_ROOM that hold these files instead, a folder each.
 #
 # The same function makes Cairn's own modules and, installed with the CMake package, everybody else's.
+# A module exports what exports/module.map names, whatever it is made of.
 # The module lands in ${CMAKE_BINARY_DIR}/lib/cairn, for `cairn --plugins`; installed under the prefix
 # of Cairn, the program finds it by itself.
 function(cairn_add_module name)
@@ -25,6 +36,7 @@ function(cairn_add_module name)
   endif()
   if(NOT CAIRN_SANITIZERS)  # whose functions are in the program
     target_link_options(${name} PRIVATE -Wl,--no-undefined)  # found when linking, not when loading
+    cairn_export_only(${name} module)
   endif()
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                                            LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/cairn

@@ -21,6 +21,8 @@ if(CAIRN_SANITIZERS)
   target_link_options(cairn_private_options INTERFACE -fsanitize=${CAIRN_SANITIZERS})
 endif()
 
+include(${CMAKE_CURRENT_LIST_DIR}/cairn_add_module.cmake)
+
 # cairn_add_room(NAME SOURCES ... [USES rooms...] [PRIVATE ...]): the sources of one room, as objects of the library
 # that cairn_add_library(... ROOMS ...) or cairn_add_module(... ROOMS ...) makes of several. USES are the arrows that tests/architecture checks.
 function(cairn_add_room name)
@@ -46,9 +48,8 @@ function(cairn_add_library name)
   target_link_libraries(${name} PUBLIC Eigen3::Eigen ${arg_PUBLIC} PRIVATE ${arg_ROOMS} cairn_private_options ${arg_PRIVATE})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${short_name} BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN"
                                            SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  cairn_export_only(${name} library)
 endfunction()
-
-include(${CMAKE_CURRENT_LIST_DIR}/cairn_add_module.cmake)
 
 # How a test's own code is optimized: half the time to compile it, and hardly any to run it.
 function(cairn_test_options name)

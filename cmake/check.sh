@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What `make check` runs beside the tests: formatting, clang-tidy, and the unit tests under
-# AddressSanitizer and UndefinedBehaviorSanitizer.
+# AddressSanitizer and UndefinedBehaviorSanitizer, those with threads under ThreadSanitizer.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
@@ -16,6 +16,9 @@ git ls-files 'maps/*.cpp' 'framework/*.cpp' 'plugins/*.cpp' 'planners/*.cpp' |
 
 echo "== address and undefined behaviour sanitizers"
 cmake/sanitized_tests.sh
+
+echo "== thread sanitizer"
+cmake/thread_sanitized_tests.sh
 
 echo "== fuzzers of all readers, ${FUZZ_S:-60} s each"
 cmake/fuzz.sh

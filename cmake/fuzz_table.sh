@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the fuzzers have run, as the table of docs/results/fuzzing.md: the turns in build/fuzz/turns.log, or in the files named,
-# added up for each reader. A line of them: end, reader, inputs, CPU seconds, ok or broken.
+# added up for each reader. A line of them: end, reader, inputs, CPU seconds, ok or broken, commit.
 set -eu
 export LC_ALL=C
 [ $# -gt 0 ] || set -- "$(dirname "$0")/../build/fuzz/turns.log"

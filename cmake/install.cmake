@@ -27,6 +27,7 @@ configure_package_config_file(cmake/cairnConfig.cmake.in ${CMAKE_BINARY_DIR}/cai
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/cairnConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/cairnConfig.cmake ${CMAKE_BINARY_DIR}/cairnConfigVersion.cmake
               cmake/cairn_add_module.cmake DESTINATION ${package_folder})
+install(FILES cmake/exports/module.map DESTINATION ${package_folder}/exports)
 configure_file(cmake/cairn.pc.in ${CMAKE_BINARY_DIR}/cairn.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/cairn.pc DESTINATION lib/pkgconfig)
 

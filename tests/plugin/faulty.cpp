@@ -225,6 +225,10 @@ void register_module(Registrar& registrar) {
       [](const CountingConfig& c, const ModuleContext&) { return std::make_unique<CountingSensor>(c.readings); });
   add_plain<Sensor, NanSensor>(registrar, "nan_sensor");
   add_plain<Sensor, LeapingSensor>(registrar, "leaping_sensor");
+  registrar.add<Sensor, NoConfig>("refusing_sensor", "for tests",
+                                  [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Sensor> {
+                                    throw ConfigError({"robot.yaml", 3, 9}, "there is no such port");
+                                  });
   add_plain<Localizer, StillLocalizer>(registrar, "still_localizer");
   add_plain<Localizer, NanLocalizer>(registrar, "nan_localizer");
   add_plain<Mapper, EmptyMapper>(registrar, "empty_map");

@@ -131,6 +131,28 @@ TEST(ModuleLibrary, AnObjectOutlivesTheLibraryThatLoadedIt) {
   EXPECT_EQ(localizer->update({}, {grid, landmarks}).T_map_robot, Pose2{});
 }
 
+// The module and the host have type information of their own, which is compared by name.
+TEST(ModuleLibrary, AnErrorThatAModuleThrowsIsCaughtByItsType) {
+  const ModuleLibrary library({folder_of("faulty")});
+  const RobotModel robot;
+  try {
+    (void)library.make<Sensor>(choice_of("refusing_sensor"), {{robot}});
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.place().line, 3);
+    EXPECT_THAT(error.what(), HasSubstr("there is no such port"));
+  }
+}
+
+TEST(ModuleLibrary, AnObjectOfAModuleIsCastToTheInterfacesThatItHas) {
+  const ModuleLibrary library({folder_of("faulty")});
+  const RobotModel robot;
+  const auto sensor = library.make<Sensor>(choice_of("counting_sensor"), {{robot}});
+  ASSERT_NE(sensor->drive(), nullptr);
+  EXPECT_EQ(dynamic_cast<Drive*>(sensor.get()), sensor->drive());
+  EXPECT_EQ(dynamic_cast<Localizer*>(sensor.get()), nullptr);
+}
+
 TEST(ModuleLibrary, UnknownConfigKeysAreRefused) {
   const ModuleLibrary library({folder_of("faulty")});
   const RobotModel robot;

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
+#include <thread>
+#include <vector>
 
 namespace cairn {
 namespace {
@@ -16,14 +19,14 @@ using testing::StartsWith;
 // Counts how often it is asked.
 class CountingTrial : public ModuleTrial {
  public:
-  CountingTrial(int& count, TrialOutcome& outcome) : count_(count), outcome_(outcome) {}
+  CountingTrial(std::atomic<int>& count, TrialOutcome& outcome) : count_(count), outcome_(outcome) {}
   [[nodiscard]] TrialOutcome outcome_of(const fs::path&) const override {
     ++count_;
     return outcome_;
   }
 
  private:
-  int& count_;
+  std::atomic<int>& count_;
   TrialOutcome& outcome_;
 };
 
@@ -50,7 +53,7 @@ class CachedTrialOfAFile : public testing::Test {
 
   const fs::path folder_ = fs::path(testing::TempDir()) / ("cairn_cached_trial_" + std::to_string(::getpid()));
   const fs::path file_ = folder_ / "module.so";
-  int count_ = 0;
+  std::atomic<int> count_ = 0;
   TrialOutcome outcome_;
 };
 
@@ -128,6 +131,22 @@ TEST_F(CachedTrialOfAFile, WhatIsNoPlainFileIsLeftToTheTrial) {
   EXPECT_FALSE(trial(folder_ / "cache").outcome_of(folder_ / "none.so").is_remembered);
   EXPECT_FALSE(trial(folder_ / "cache").outcome_of(folder_).is_remembered);
   EXPECT_EQ(count_, 2);
+}
+
+TEST_F(CachedTrialOfAFile, ManyThreadsMayAskAtOnce) {
+  const CachedTrial shared = trial(folder_ / "cache");
+  std::vector<TrialOutcome> outcomes(6);
+  {
+    std::vector<std::jthread> threads;
+    for (TrialOutcome& outcome : outcomes) threads.emplace_back([&] { outcome = shared.outcome_of(file_); });
+  }
+  for (const TrialOutcome& outcome : outcomes) {
+    EXPECT_EQ(outcome.fault, "");
+    ASSERT_EQ(outcome.modules.size(), 1U);
+    EXPECT_EQ(outcome.modules[0].name, "one");
+  }
+  EXPECT_GE(count_, 1);
+  EXPECT_TRUE(outcome().is_remembered);
 }
 
 }  // namespace
