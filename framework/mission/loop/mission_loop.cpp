@@ -61,6 +61,7 @@ MissionLoop::Ending MissionLoop::loop() {
     wait_while_paused();
     if (budget_.cancelled()) return {MissionOutcome::cancelled, "cancelled by the user"};
     Sensed sensed = sense();
+    if (sensed.step.state == SensorState::fault && budget_.cancelled()) continue;
     if (sensed.step.state == SensorState::fault) return {MissionOutcome::sensor_fault, sensed.step.reason};
     if (sensed.step.state == SensorState::end_of_data) return at_end_of_data(sensed.step.reason);
     if (is_known_already(sensed.step.observation)) continue;
