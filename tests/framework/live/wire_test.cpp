@@ -9,7 +9,7 @@
 namespace cairn::live {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInf = std::numeric_limits<double>::infinity();
 
 RobotModel two_sonars() {
   RobotModel robot;
@@ -42,7 +42,7 @@ TEST(Wire, AnObservationComesBackToTheLastBit) {
   seen.compass_rad = -1.0 / 7.0;
   seen.bumped = true;
   seen.battery_ratio = 0.9;
-  seen.ranges = {reading_of(0, 1.0 / 3.0), reading_of(1, kInfinity), reading_of(1, -kInfinity),
+  seen.ranges = {reading_of(0, 1.0 / 3.0), reading_of(1, kInf), reading_of(1, -kInf),
                  reading_of(0, std::numeric_limits<double>::quiet_NaN())};
   RangeReading laser = reading_of(0, 7.0);
   laser.sensor = 40;
@@ -73,8 +73,8 @@ TEST(Wire, WhatTheRobotsFileSaysNeedNotBeSaid) {
   ASSERT_EQ(seen.ranges.size(), 3U);
   EXPECT_EQ(seen.ranges[0].T_robot_sensor, (Pose2{0.13, 0.0, 0.0}));
   EXPECT_EQ(seen.ranges[0].range_m, 2.5);
-  EXPECT_EQ(seen.ranges[1].range_m, kInfinity) << "beyond the transducer's reach";
-  EXPECT_EQ(seen.ranges[2].range_m, -kInfinity);
+  EXPECT_EQ(seen.ranges[1].range_m, kInf) << "beyond the transducer's reach";
+  EXPECT_EQ(seen.ranges[2].range_m, -kInf);
   EXPECT_FALSE(seen.compass_rad);
 }
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr double kCommandValid_s = 0.5;  // the default
+constexpr double kCommandValid_s = 0.25;  // the default
 constexpr double kTick_s = 0.04;
 constexpr double kBraking_s = 0.15;  // from 0.3 m/s with 4 x 0.5 m/s2
 
@@ -33,7 +33,7 @@ class RemoteBase : public testing::Test {
     const std::string both = "robot: " + robot + "\nstart: {at_m: [1, 2], angle_deg: 0}\n";
     write_text(folder_ / "base.yaml", "mission: base\nworld: world.yaml\n" + both +
                                           "sensor: {plugin: simulated_robot}\nlocalizer: {plugin: odometry_compass}\n"
-                                          "map: {plugin: muriel}\nsteps: []\n");
+                                          "map: {plugin: muriel}\nsteps: [wait: 1]\n");
     write_text(folder_ / "mission.yaml",
                "mission: remote\n" + both +
                    "sensor: {plugin: remote_base, socket: base.sock, reconnect_s: 20}\n"
@@ -156,7 +156,7 @@ TEST_F(RemoteBase, OneClientDrivesAtATime) {
   EXPECT_THAT(other.output(), HasSubstr("another client drives this base"));
 }
 
-TEST_F(RemoteBase, ABaseOfTwentyLinesOfPythonIsDriven) {
+TEST_F(RemoteBase, ABaseOfThirtyLinesOfPythonIsDriven) {
   const std::string page = text_of_file(source_folder() + "/docs/live.md");
   const std::string begin = "```python\n";
   const std::size_t at = page.find(begin);
