@@ -46,9 +46,11 @@ void CollisionMonitor::order(const Twist& twist) {
   drive_.call([&](Drive& drive) { drive.command(twist, command_valid_s_); });
   const std::int64_t now = now_ns();
   const bool was_standing = std::exchange(is_standing_, false);
-  stalled_s_ = is_stalled_.exchange(false) && !was_standing
-                   ? std::optional(1e-9 * static_cast<double>(now - ordered_ns_))
-                   : std::nullopt;
+  // Also when the whole process stood: then the drive's own time has stopped the wheels.
+  const bool was_long = now - ordered_ns_ >= stop_after_ns_;
+  const bool was_stalled = is_stalled_.exchange(false) || was_long;
+  stalled_s_ =
+      was_stalled && !was_standing ? std::optional(1e-9 * static_cast<double>(now - ordered_ns_)) : std::nullopt;
   ordered_ns_ = now;
 }
 

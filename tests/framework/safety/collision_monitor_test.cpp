@@ -116,6 +116,14 @@ TEST_F(MonitorOfADrive, DrivesOnWithTheNextTickAndSaysHowLongTheRobotStood) {
   EXPECT_FALSE(monitor_.stalled_s()) << "once";
 }
 
+TEST_F(MonitorOfADrive, SaysSoAlsoWhenTheWholeProcessStood) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  wall_clock_->advance(std::chrono::milliseconds(800));
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  ASSERT_TRUE(monitor_.stalled_s()) << "no other thread has run to stop the wheels: the drive's own time has";
+  EXPECT_NEAR(*monitor_.stalled_s(), 0.8, 1e-9);
+}
+
 TEST_F(MonitorOfADrive, StopsTheWheelsAlsoWhileACommandDoesNotReturn) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
   drive_->on_command = [&] {

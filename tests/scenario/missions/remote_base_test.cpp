@@ -128,6 +128,8 @@ TEST_F(RemoteBase, ABaseThatComesBackIsDrivenOn) {
   base_->send(SIGKILL);
   (void)base_->exit_status();
   fs::remove(log_);
+  const double gone_s = monotonic_s();
+  ASSERT_TRUE(wait_for([&] { return monotonic_s() > gone_s + 1.0; })) << "long enough to be reported";
   start_base();
   EXPECT_TRUE(wait_until_driving(log_)) << base_->output() << mission_->output();
   mission_->send(SIGINT);
