@@ -48,6 +48,7 @@ class Bases {
 
  private:
   static constexpr int kNap_ms = 20;
+  static constexpr int kTicks = 3000;  // then what it says is no observation, which ends it for good
   static bool has_text(const Descriptor& socket) {
     pollfd ready{socket.get(), POLLIN, 0};
     return ::poll(&ready, 1, kNap_ms) == 1;
@@ -61,12 +62,14 @@ class Bases {
     const Subject<Sensor> robot = module<Sensor>(kModules, "simulated_robot");
     live::ServedRobot served(robot.make(), robot.setup().robot);
     live::LineReader reader;
+    int ticks = 0;
     while (!is_over_) {
       if (!has_text(client)) continue;
       if (!reader.read(client.get())) return;
       while (const auto line = reader.next()) {
         (void)served.take(*line);
-        if (served.take_request()) (void)live::send_now(client.get(), served.tick().line + "\n");
+        if (served.take_request())
+          (void)live::send_now(client.get(), (++ticks > kTicks ? "the end" : served.tick().line) + "\n");
       }
     }
   }
