@@ -144,6 +144,12 @@ TemplateSet render_templates(const Mission& mission, double cell_m, const Module
                            mission.config.map, modules, TemplateCache(template_cache_folder()));
 }
 
+std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary& library) {
+  MissionModules built;
+  built.T_map_start = start_of(mission.config);
+  return build_sensor(mission, library, built);
+}
+
 std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library, double cell_m) {
   MissionModules built;
   built.T_map_start = start_of(mission.config);

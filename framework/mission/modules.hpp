@@ -42,6 +42,9 @@ struct MissionModules {
 [[nodiscard]] std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library,
                                                        double cell_m);
 
+// The mission's sensor alone, from the mission's start.
+[[nodiscard]] std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary& library);
+
 // A seed of its own for each module of a mission.
 [[nodiscard]] std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index = 0);
 

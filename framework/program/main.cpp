@@ -39,6 +39,17 @@ void add_run(CLI::App& app, CommandLine& line) {
   sub->add_flag("--realtime", c->realtime, "pace simulated time to the clock");
 }
 
+void add_base(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] = add_command(app, line, base, "base", "Serve a mission's robot and world as a base of its own");
+  sub->add_option("MISSION", c->mission, "mission file whose robot, world and sensor are served")->required();
+  sub->add_option("--listen", c->listen, "path of a socket, or localhost:PORT")->required();
+  add_number(sub, "--pace", c->pace, "simulated seconds a second; 0: an observation each time that the client asks",
+             0.0, 1000.0);
+  sub->add_option("--log", c->log, "file for one line a tick: what was ordered and what was driven");
+  sub->add_option("--seed", c->seed, "seed, in place of the mission's")->check(seed_range());
+  add_repeatable(sub, "--set", c->overrides, "override a setting: --set start.angle_deg=90 (may be repeated)");
+}
+
 void add_plan(CLI::App& app, CommandLine& line) {
   const auto [sub, c] = add_command(app, line, plan, "plan", "Ask a saved map for a route");
   sub->add_option("MAP", c->map, "saved map (*.cairn)")->required();
@@ -234,7 +245,7 @@ int main_of(int argc, char** argv) {
   add_repeatable(&app, "--plugins", line.common.plugin_folders, "further folder of modules (may be repeated)");
   app.add_flag("--json", line.common.json, "JSON on standard output; text for people on standard error");
   for (const auto add :
-       {add_run, add_mission, add_plan, add_map, add_map_files, add_map_name, add_map_lint, add_template,
+       {add_run, add_base, add_mission, add_plan, add_map, add_map_files, add_map_name, add_map_lint, add_template,
         add_template_capture, add_plugins, add_plugins_new, add_reference, add_experiment})
     add(app, line);
   try {

@@ -1,6 +1,7 @@
 #include "framework/safety/collision_monitor.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -44,9 +45,19 @@ void CollisionMonitor::order(const Twist& twist) {
   } const end{ordering_since_ns_};
   drive_.call([&](Drive& drive) { drive.command(twist, command_valid_s_); });
   const std::int64_t now = now_ns();
+  const bool was_standing = std::exchange(is_standing_, false);
+  // Also when the whole process stood: then the drive's own time has stopped the wheels.
+  const bool was_long = now - ordered_ns_ >= stop_after_ns_;
+  const bool was_stalled = is_stalled_.exchange(false) || was_long;
   stalled_s_ =
-      is_stalled_.exchange(false) ? std::optional(1e-9 * static_cast<double>(now - ordered_ns_)) : std::nullopt;
+      was_stalled && !was_standing ? std::optional(1e-9 * static_cast<double>(now - ordered_ns_)) : std::nullopt;
   ordered_ns_ = now;
+}
+
+void CollisionMonitor::stand() {
+  if (!drive_) return;
+  drive_.call([&](Drive& drive) { drive.command(Twist{}, command_valid_s_); });
+  is_standing_ = true;
 }
 
 void CollisionMonitor::stop() {

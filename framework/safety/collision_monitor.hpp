@@ -35,14 +35,17 @@ class CollisionMonitor {
   // Once a tick: limits the wanted velocity by what this observation and those before have shown, and orders it.
   // Throws ModuleFault.
   DriveCommand drive(const Observation& observation, const Twist& wanted);
-  // The robot stands until the next drive(). Throws ModuleFault.
+  // The robot brakes as when it is commanded to, and stands until the next drive(): before the host does something that
+  // may take long. That is no stall. Throws ModuleFault.
+  void stand();
+  // It stops at once, because something has failed, until the next drive(). Throws ModuleFault.
   void stop();
 
   // From another thread, every few milliseconds: stops the wheels when no tick has ended for stop_after_s. Whether it
   // has done so now.
   bool stop_if_stalled() noexcept;
   // How long the wheels have been stopped for that before the last drive(), which has let them go on; none: they were
-  // not.
+  // not, or stood already.
   [[nodiscard]] std::optional<double> stalled_s() const { return stalled_s_; }
   // From any thread, and from a signal handler.
   void stop_at_once() noexcept;
@@ -64,6 +67,7 @@ class CollisionMonitor {
   std::atomic<std::int64_t> ordering_since_ns_{0};  // 0: not under way
   std::atomic<std::int64_t> ordered_ns_{0};         // the last tick's end
   std::atomic<bool> is_stalled_{false};
+  bool is_standing_ = false;  // since the last tick: on purpose
   std::optional<double> stalled_s_;
 };
 

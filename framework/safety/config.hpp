@@ -12,8 +12,8 @@ struct CollisionMonitorConfig {
   double slow_m = 0.1;            // beyond the margin: only slowly
   double stale_s = 1.0;           // how long an echo counts, and how long a transducer may be silent
   std::optional<double> blind_s;  // without any reading for so long, no driving; none: one and a half periods of them
-  double command_valid_s = 0.5;   // the wheels stop by themselves so long after the last command
-  double stop_after_s = 0.5;      // and are stopped when no tick has ended for so long, by the wall clock
+  double command_valid_s = 0.25;  // the wheels stop by themselves so long after the last command
+  double stop_after_s = 0.25;     // and are stopped when no tick has ended for so long, by the wall clock
   static void describe(Fields<CollisionMonitorConfig>& fields);
 };
 

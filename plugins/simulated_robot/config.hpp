@@ -59,6 +59,7 @@ struct SimulatedRobotConfig {
   bool fire_all = false;
   double tick_s = 0.04;
   bool compass = true;
+  double emergency_braking_ratio = 4.0;
   double turn_as_distance_m_per_rad = 0.1;
   EchoConfig echo;
   std::vector<FaultConfig> faults;
@@ -70,6 +71,8 @@ struct SimulatedRobotConfig {
     fields.number("tick_s", &SimulatedRobotConfig::tick_s, {0.001, 10.0}, "s",
                   "time between observations of a robot whose firing period is 0 (all its transducers at once)");
     fields.flag("compass", &SimulatedRobotConfig::compass, "whether the robot has one");
+    fields.number("emergency_braking_ratio", &SimulatedRobotConfig::emergency_braking_ratio, {1.0, 100.0}, "",
+                  "so much harder than by command it brakes when it is stopped or a command's time has passed");
     fields.number("turn_as_distance_m_per_rad", &SimulatedRobotConfig::turn_as_distance_m_per_rad, {0, 10}, "m/rad",
                   "driven distance that a turn in place counts as for the heading error of the odometry");
     fields.group("echo", &SimulatedRobotConfig::echo, "the sonar model");

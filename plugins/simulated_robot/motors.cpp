@@ -27,11 +27,12 @@ Twist Motors::turn(double for_s, bool has_power) {
   const bool counts = valid_for_s_ > kRounding_s && !is_stopped;
   valid_for_s_ -= for_s;
   const Twist wanted = counts && has_power ? wanted_ : Twist{};
+  const double ratio = counts ? 1.0 : emergency_ratio_;
   Twist next;
   next.v_mps = approached(twist_.v_mps, std::clamp(wanted.v_mps, -robot_.max_v_mps, robot_.max_v_mps),
-                          robot_.max_acceleration_mps2 * for_s);
+                          ratio * robot_.max_acceleration_mps2 * for_s);
   next.w_radps = approached(twist_.w_radps, std::clamp(wanted.w_radps, -robot_.max_w_radps, robot_.max_w_radps),
-                            robot_.max_turn_acceleration_radps2 * for_s);
+                            ratio * robot_.max_turn_acceleration_radps2 * for_s);
   if (robot_.kinematics == Kinematics::car && robot_.min_turning_radius_m > 0.0) {
     const double tightest_radps = std::abs(next.v_mps) / robot_.min_turning_radius_m;
     next.w_radps = std::clamp(next.w_radps, -tightest_radps, tightest_radps);

@@ -33,7 +33,7 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
       scene_(checked(world)),
       traffic_(*world, robot, T_map_start),
       body_(robot, scene_),
-      motors_(robot),
+      motors_(robot, config.emergency_braking_ratio),
       battery_(config.battery),
       odometer_(robot.odometry_error, config.turn_as_distance_m_per_rad, seed),
       sonars_(config, robot, scene_, seed),

@@ -59,7 +59,7 @@ PlanResult BehaviourRequests::plan(const PlanRequest& request) {
 
 Status BehaviourRequests::answer(const PlanQuestion& question, const std::string& file_name) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
-  host_.monitor.stop();
+  host_.monitor.stand();
   const bool names_clusters = !question.avoid.empty() || question.explain;
   const ClusterTree clusters = names_clusters ? host_.planning.clusters() : ClusterTree{};
   PlanTask task;
@@ -87,7 +87,7 @@ Status BehaviourRequests::answer(const PlanQuestion& question, const std::string
 
 Status BehaviourRequests::save(const std::string& file_name) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
-  host_.monitor.stop();
+  host_.monitor.stand();
   if (std::string refusal = host_.saving.refusal_of(file_name); !refusal.empty())
     return {StepState::failure, std::move(refusal)};
   Status saved = host_.saving.save(file_name);

@@ -61,6 +61,7 @@ MissionLoop::Ending MissionLoop::loop() {
     wait_while_paused();
     if (budget_.cancelled()) return {MissionOutcome::cancelled, "cancelled by the user"};
     Sensed sensed = sense();
+    if (sensed.step.state == SensorState::fault && budget_.cancelled()) continue;
     if (sensed.step.state == SensorState::fault) return {MissionOutcome::sensor_fault, sensed.step.reason};
     if (sensed.step.state == SensorState::end_of_data) return at_end_of_data(sensed.step.reason);
     if (is_known_already(sensed.step.observation)) continue;
@@ -102,7 +103,10 @@ void MissionLoop::tick(Sensed sensed) {
   const StepsTick steps = pauses_.is_paused() ? StepsTick{} : steps_.tick(world_.time_s);
   if (steps.has_ended_step) planning_.connect(perception_.tracker(), world_.view());
   world_.driven = monitor_.drive(observation, steps.wanted);
-  if (const auto for_s = monitor_.stalled_s()) publisher_.publish(stalled_for(*for_s));
+  if (const auto for_s = monitor_.stalled_s()) {
+    publisher_.publish(stalled_for(*for_s));
+    stalled_stage_ = StageClock::kHost;
+  }
 
   publisher_.publish(TickDone{});
   if (options_.control != nullptr) options_.control->tick([this] { return status(); });

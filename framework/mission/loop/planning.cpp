@@ -17,7 +17,7 @@ Planning::Planning(const Mission& mission, const StagedModules& modules, const L
                    {mission.robot.max_v_mps, mission.robot.max_w_radps, mission.robot.radius_m}) {}
 
 PlanResult Planning::plan(const PlanRequest& request, WorldView world) {
-  monitor_.stop();
+  monitor_.stand();
   hierarchies_.update();
   world.hierarchies = &hierarchies_;
   return modules_.planner.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
@@ -25,7 +25,7 @@ PlanResult Planning::plan(const PlanRequest& request, WorldView world) {
 
 void Planning::connect(LandmarkTracker& tracker, const WorldView& world) {
   if (!modules_.routes || tracker.graph().landmarks().empty()) return;
-  monitor_.stop();
+  monitor_.stand();
   const auto plan = [&](const PlanRequest& request) {
     return modules_.routes.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
   };

@@ -36,6 +36,16 @@ struct RunCommand {
 };
 int run(const RunCommand& command, const CommonOptions& common);
 
+struct BaseCommand {
+  std::filesystem::path mission;
+  std::string listen;  // path of a socket, or localhost:PORT
+  double pace = 1.0;   // 0: an observation each time that the client asks
+  std::filesystem::path log;
+  std::optional<std::int64_t> seed;
+  std::vector<std::string> overrides;
+};
+int base(const BaseCommand& command, const CommonOptions& common);
+
 struct MissionCheckCommand {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> overrides;

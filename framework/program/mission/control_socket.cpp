@@ -55,17 +55,6 @@ Descriptor new_socket(const std::filesystem::path& folder, int flags = 0) {
 
 }  // namespace
 
-Descriptor::Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  return *this;
-}
-
-Descriptor::~Descriptor() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 Descriptor listen_in(const std::filesystem::path& folder) {
   std::error_code error;
   if (std::filesystem::is_socket(folder / kControlSocket, error)) remove_socket(folder);

@@ -9,23 +9,12 @@
 #include <optional>
 #include <string>
 
+#include "framework/live/descriptor.hpp"
+
 namespace cairn {
 
 inline constexpr const char* kControlSocket = "control.sock";
 inline constexpr std::size_t kMaxCommandBytes = 256;
-
-// Closed with its owner.
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept;
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  ~Descriptor();
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 // Listens there without waiting in accept(); only the user may connect. Takes a socket away that an earlier run has
 // left: hold the folder first. Throws std::runtime_error with the reason.

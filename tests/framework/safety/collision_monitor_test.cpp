@@ -57,7 +57,19 @@ TEST_F(MonitorOfADrive, OrdersNoMoreThanWhatIsSeenAllowsAndSaysWhatItLeftOut) {
   EXPECT_GT(monitor_.figures().stopped_s, 0.0);
 }
 
-TEST_F(MonitorOfADrive, StopsWhileTheHostIsBusyAndDrivesOnWithTheNextTick) {
+TEST_F(MonitorOfADrive, StandsWhileTheHostIsBusyAndDrivesOnWithTheNextTick) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  monitor_.stand();
+  EXPECT_EQ(drive_->commands.back(), Twist{}) << "no emergency";
+  EXPECT_EQ(drive_->stops, 0);
+  wall_clock_->advance(std::chrono::milliseconds(800));
+  (void)monitor_.stop_if_stalled();
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  EXPECT_EQ(drive_->commands.back(), (Twist{0.1, 0.0}));
+  EXPECT_FALSE(monitor_.stalled_s()) << "it stood on purpose";
+}
+
+TEST_F(MonitorOfADrive, StopsAtOnceWhenSomethingHasFailed) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
   monitor_.stop();
   EXPECT_EQ(drive_->stops, 1);
@@ -82,7 +94,7 @@ TEST_F(MonitorOfADrive, ACommandCountsForItsTimeOnly) {
 
 TEST_F(MonitorOfADrive, StopsTheWheelsOnceWhenNoTickEndsForLong) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
-  wall_clock_->advance(std::chrono::milliseconds(490));
+  wall_clock_->advance(std::chrono::milliseconds(240));
   EXPECT_FALSE(monitor_.stop_if_stalled());
   EXPECT_EQ(drive_->stops, 0);
   wall_clock_->advance(std::chrono::milliseconds(20));
@@ -102,6 +114,14 @@ TEST_F(MonitorOfADrive, DrivesOnWithTheNextTickAndSaysHowLongTheRobotStood) {
   EXPECT_NEAR(*monitor_.stalled_s(), 0.8, 1e-9);
   (void)monitor_.drive(observation(1.0 + 2.0 * kTick_s), {0.1, 0.0});
   EXPECT_FALSE(monitor_.stalled_s()) << "once";
+}
+
+TEST_F(MonitorOfADrive, SaysSoAlsoWhenTheWholeProcessStood) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  wall_clock_->advance(std::chrono::milliseconds(800));
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  ASSERT_TRUE(monitor_.stalled_s()) << "no other thread has run to stop the wheels: the drive's own time has";
+  EXPECT_NEAR(*monitor_.stalled_s(), 0.8, 1e-9);
 }
 
 TEST_F(MonitorOfADrive, StopsTheWheelsAlsoWhileACommandDoesNotReturn) {

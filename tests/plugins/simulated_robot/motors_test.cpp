@@ -81,6 +81,20 @@ TEST(Motors, BrakeWhenTheyAreStoppedUntilTheNextCommand) {
   EXPECT_GT(motors.twist().v_mps, 0.0);
 }
 
+TEST(Motors, BrakeHarderInAnEmergencyThanByCommand) {
+  const auto after = [&](auto end) {
+    Motors motors(robot_of(0.5), 4.0);
+    motors.command({0.4, 0.0}, 0.8);
+    for (int i = 0; i < 8; ++i) (void)motors.turn(0.1, true);
+    end(motors);
+    (void)motors.turn(0.1, true);
+    return motors.twist().v_mps;
+  };
+  EXPECT_NEAR(after([](Motors& motors) { motors.command({}, kAlways_s); }), 0.35, 1e-12);
+  EXPECT_NEAR(after([](Motors& motors) { motors.stop(); }), 0.2, 1e-12);
+  EXPECT_NEAR(after([](Motors&) {}), 0.2, 1e-12) << "the time of the command has passed";
+}
+
 TEST(Motors, KeepACarToItsTurningRadius) {
   RobotModel car = robot_of(100.0);
   car.kinematics = Kinematics::car;
