@@ -59,8 +59,8 @@ void DrivenPath::thin() {
     if (!goes) poses_[kept++] = poses_[i];
   }
   poses_.resize(kept);
+  if (kept <= max_poses_ - max_poses_ / 8) return;
   const std::size_t left = max_poses_ - max_poses_ / 4;
-  if (kept <= left) return;
   const auto second = poses_.begin() + 1;
   poses_.erase(second, second + static_cast<std::ptrdiff_t>(kept - left));
 }

@@ -53,6 +53,7 @@ TEST(DrivenPath, BetweenPlacesThatWereNotBothPassedThereIsNone) {
 DrivenPath rounds(int count, std::size_t max_poses) {
   DrivenPath driven(max_poses);
   for (double y_m = 1.5; y_m > 0.0; y_m -= 0.05) driven.record({2.0, y_m, -1.57});
+  for (double x_m = 2.0; x_m > 0.0; x_m -= 0.05) driven.record({x_m, 0.0, 3.14});
   for (int i = 0; i < count; ++i) {
     for (double x_m = 0.0; x_m < 4.0; x_m += 0.05) driven.record({x_m, 0.0, 0.0});
     for (double y_m = 0.0; y_m < 3.0; y_m += 0.05) driven.record({4.0, y_m, 1.57});
