@@ -98,8 +98,8 @@ class RunReportOfALongMission : public testing::Test {
   }
 
   const OccupancyGrid grid_{0.05};
-  const LandmarkGraph graph_;
-  const RobotModel robot_;
+  const LandmarkGraph graph_{};
+  const RobotModel robot_{};
 };
 
 TEST_F(RunReportOfALongMission, HasABoundedSize) {
