@@ -14,7 +14,7 @@ namespace cairn {
 
 class DrivenPath {
  public:
-  static constexpr std::size_t kMaxPoses = 20000;
+  static constexpr std::size_t kMaxPoses = 12000;
 
   explicit DrivenPath(std::size_t max_poses = kMaxPoses) : max_poses_(max_poses) {}
   DrivenPath(std::vector<Pose2> poses, std::size_t max_poses) : poses_(std::move(poses)), max_poses_(max_poses) {}

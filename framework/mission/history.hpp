@@ -10,8 +10,8 @@ namespace cairn {
 
 struct HistoryConfig {
   std::size_t max_path_poses = DrivenPath::kMaxPoses;
-  std::size_t max_samples = 20000;
-  std::size_t max_events = 20000;
+  std::size_t max_samples = 10000;
+  std::size_t max_events = 10000;
   static void describe(Fields<HistoryConfig>& fields);
 };
 

@@ -31,7 +31,7 @@ struct PoseErrorFigures {
 class PoseErrors {
  public:
   // max_samples: then one in two seconds is kept, one in four, and so on; medians are of those that are kept.
-  explicit PoseErrors(std::size_t max_samples = 20000) : samples_(max_samples) {}
+  explicit PoseErrors(std::size_t max_samples = 10000) : samples_(max_samples) {}
 
   // Once a tick, with the true pose where it is known. Samples once a second.
   void note(const WorldView& world, const std::optional<Pose2>& true_T_map_robot);
