@@ -79,7 +79,8 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
 
 // What a run is measured by while it lasts.
 struct Listeners {
-  explicit Listeners(const Mission& mission) : held_out(mission.config.hold_out_every, mission.config.seed) {}
+  explicit Listeners(const Mission& mission)
+      : report(mission.config.history), held_out(mission.config.hold_out_every, mission.config.seed) {}
   void subscribe_to(MissionRunner& runner) {
     runner.subscribe(report);
     runner.subscribe(known);

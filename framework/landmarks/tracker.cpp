@@ -31,13 +31,13 @@ void absorb(Landmark& landmark, const Landmark& other) {
 }  // namespace
 
 LandmarkTracker::LandmarkTracker(const LandmarksConfig& config, const RobotModel& robot,
-                                 std::vector<LandmarkShape> shapes)
-    : config_(config), shapes_(std::move(shapes)), connector_(config, robot) {}
+                                 std::vector<LandmarkShape> shapes, std::size_t max_path_poses)
+    : config_(config), shapes_(std::move(shapes)), driven_(max_path_poses), connector_(config, robot) {}
 
 void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path) {
   graph_ = std::move(graph);
   candidates_ = std::move(candidates);
-  driven_ = DrivenPath(std::move(driven_path));
+  driven_ = DrivenPath(std::move(driven_path), driven_.max_poses());
 }
 
 std::vector<LandmarkTracker::Change> LandmarkTracker::update(const Matching& matching) {

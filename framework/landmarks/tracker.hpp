@@ -14,8 +14,10 @@ namespace cairn {
 
 class LandmarkTracker {
  public:
-  // The shapes tell which cells are a landmark's own; one of another category is never retired.
-  LandmarkTracker(const LandmarksConfig& config, const RobotModel& robot, std::vector<LandmarkShape> shapes);
+  // The shapes tell which cells are a landmark's own; one of another category is never retired. max_path_poses: of the
+  // driven path.
+  LandmarkTracker(const LandmarksConfig& config, const RobotModel& robot, std::vector<LandmarkShape> shapes,
+                  std::size_t max_path_poses = DrivenPath::kMaxPoses);
 
   enum class ChangeKind { found, changed, retired };
   struct Change {

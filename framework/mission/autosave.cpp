@@ -1,6 +1,7 @@
 #include "framework/mission/autosave.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "maps/hierarchy/hierarchy.hpp"
 
@@ -16,7 +17,7 @@ void AutosaveConfig::describe(Fields<AutosaveConfig>& fields) {
 }
 
 Autosaver::Autosaver(std::filesystem::path file, double every_s, std::shared_ptr<const WallClock> wall_clock)
-    : file_(std::move(file)), every_(every_s), wall_clock_(std::move(wall_clock)) {}
+    : every_(every_s), wall_clock_(std::move(wall_clock)), updater_(std::move(file)) {}
 
 Autosaver::~Autosaver() {
   finish();
@@ -59,7 +60,9 @@ void Autosaver::finish() {
     ending_ = true;
     changed_.notify_all();
   }
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  thread_.join();
+  updater_.drop_earlier();
 }
 
 void Autosaver::write_copies() {
@@ -83,7 +86,7 @@ void Autosaver::write(SavedMap& copy) {
   outcome.time_s = copy.progress ? copy.progress->time_s : 0.0;
   try {
     copy.clusters = Hierarchy(copy.graph, copy.clusters).tree();
-    save_map(file_, copy, Links::replace);
+    updater_.save(copy);
     outcome.saved = true;
   } catch (const std::exception& error) {
     outcome.reason = error.what();
@@ -93,6 +96,7 @@ void Autosaver::write(SavedMap& copy) {
   outcome.took_ms = 1e3 * took_s;
   longest_write_ = std::max(longest_write_, std::chrono::duration<double>(took_s));
   figures_.writing_s += seconds_since(begin);
+  figures_.written_bytes = updater_.bytes_written();
   note(std::move(outcome));
 }
 
@@ -114,12 +118,70 @@ AutosaveFigures Autosaver::figures() const {
   return figures_;
 }
 
-std::optional<std::filesystem::path> keep_earlier_autosave(const std::filesystem::path& file) {
+namespace {
+
+std::filesystem::path numbered(std::filesystem::path file, int number) {
+  const std::string extension = file.extension().string();
+  return file.replace_extension("." + std::to_string(number) + extension);
+}
+
+// As far as its mission had come; less than any when it cannot be read.
+double time_in(const std::filesystem::path& map) {
+  try {
+    const auto progress = MapFile(map).without_cells().progress;
+    return progress ? progress->time_s : 0.0;
+  } catch (const StoreError&) {
+    return -1.0;
+  }
+}
+
+// "office.autosave.3.cairn" of "office.autosave.cairn".
+bool is_kept_autosave(const std::filesystem::path& kept, const std::filesystem::path& file) {
+  const std::string name = kept.stem().string();
+  const std::string before = file.stem().string() + ".";
+  return kept.extension() == file.extension() && name.starts_with(before) && name.size() > before.size() &&
+         name.find_first_not_of("0123456789", before.size()) == std::string::npos;
+}
+
+std::vector<std::filesystem::path> kept_autosaves(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> kept;
+  std::error_code error;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (is_kept_autosave(entry.path(), file) && std::filesystem::is_regular_file(entry.symlink_status()))
+      kept.push_back(folder / entry.path().filename());
+  std::ranges::sort(kept);
+  return kept;
+}
+
+}  // namespace
+
+std::optional<KeptAutosave> keep_earlier_autosave(const std::filesystem::path& file,
+                                                  const std::filesystem::path& resumed) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  const auto is_resumed = [&](const std::filesystem::path& map) {
+    std::error_code missing;
+    return std::filesystem::equivalent(map, resumed, missing);
+  };
+  std::vector<std::filesystem::path> all = kept_autosaves(file);
+  std::erase_if(all, is_resumed);
+  all.insert(all.begin(), file);  // of those that hold as much, the last one
+  const std::filesystem::path furthest = *std::ranges::max_element(all, {}, time_in);
+  std::filesystem::path name = numbered(file, 1);
+  if (is_resumed(name)) name = numbered(file, 2);
+  if (furthest != name) std::filesystem::rename(furthest, name, error);
+  if (error) return std::nullopt;
+  for (const std::filesystem::path& other : all)
+    if (other != furthest && other != name) std::filesystem::remove(other, error);
+  return KeptAutosave{name, static_cast<int>(all.size()) - 1};
+}
+
+std::optional<std::filesystem::path> keep_under_free_name(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   for (int number = 1;; ++number) {
-    std::filesystem::path kept = file;
-    kept.replace_extension("." + std::to_string(number) + file.extension().string());
+    const std::filesystem::path kept = numbered(file, number);
     if (std::filesystem::exists(kept, error)) continue;
     std::filesystem::rename(file, kept, error);
     return error ? std::nullopt : std::optional(kept);

@@ -1,5 +1,5 @@
 // Saves the map of a running mission every so often, beside the mission: the loop hands over a copy, a thread of
-// its own compresses and writes it.
+// its own compresses it and writes what has changed.
 //
 // What is in an autosave never changes what the mission does. Intervals are wall clock: what a crash costs is what
 // somebody has waited for.
@@ -16,7 +16,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/modules/wall_clock.hpp"
-#include "maps/store/map_store.hpp"
+#include "maps/store/map_updater.hpp"
 
 namespace cairn {
 
@@ -33,6 +33,7 @@ struct AutosaveFigures {
   double last_time_s = 0.0;  // mission time that the last one saved holds
   double in_loop_s = 0.0;    // wall clock that the mission has waited for its copies
   double writing_s = 0.0;    // wall clock of the thread that writes
+  std::uint64_t written_bytes = 0;
 };
 
 class Autosaver {
@@ -49,7 +50,7 @@ class Autosaver {
   [[nodiscard]] bool is_due();
   // taken: when the copy was begun. Its clusters may be those of an earlier state: they are brought in line here.
   void save(SavedMap copy, WallClock::Time taken);
-  // Waits until nothing is being written. Nothing may be saved afterwards.
+  // Waits until nothing is being written; what was beside the file is gone. Nothing may be saved afterwards.
   void finish();
 
   struct Outcome {
@@ -61,7 +62,7 @@ class Autosaver {
   // What has come of the last copy, once.
   [[nodiscard]] std::optional<Outcome> last_outcome();
   [[nodiscard]] AutosaveFigures figures() const;
-  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] const std::filesystem::path& file() const { return updater_.file(); }
 
  private:
   void write_copies();
@@ -69,13 +70,14 @@ class Autosaver {
   void note(Outcome outcome);
   [[nodiscard]] double seconds_since(WallClock::Time begin) const;
 
-  const std::filesystem::path file_;
   const std::chrono::duration<double> every_;
   const std::shared_ptr<const WallClock> wall_clock_;
   // Of the mission's thread only.
   std::optional<WallClock::Time> last_;   // when the last copy was taken
   std::optional<WallClock::Time> asked_;  // when it was last asked whether one is due
   std::chrono::duration<double> longest_tick_{0.0};
+
+  MapUpdater updater_;  // of the thread that writes only
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -89,8 +91,17 @@ class Autosaver {
   std::thread thread_;
 };
 
-// An autosave that an earlier run has left in the folder is the only thing that it has left: gives it a free name
-// ("office.autosave.1.cairn") and returns that. Nothing when there is none, or it cannot be moved.
-[[nodiscard]] std::optional<std::filesystem::path> keep_earlier_autosave(const std::filesystem::path& file);
+struct KeptAutosave {
+  std::filesystem::path file;
+  int removed = 0;  // that held less
+};
+// An autosave that an earlier run has left in the folder is the only thing that it has left. Of it and of those that
+// were kept before, the one whose mission had come furthest gets the name "office.autosave.1.cairn"; the others are
+// removed, so that there are two with this run's. resumed: the map that this run goes on from stays as it is. Nothing
+// when the last run has left none, or it cannot be moved.
+[[nodiscard]] std::optional<KeptAutosave> keep_earlier_autosave(const std::filesystem::path& file,
+                                                                const std::filesystem::path& resumed = {});
+// Gives the file a free name ("office.1.cairn") and returns that. Nothing when it cannot be moved.
+[[nodiscard]] std::optional<std::filesystem::path> keep_under_free_name(const std::filesystem::path& file);
 
 }  // namespace cairn

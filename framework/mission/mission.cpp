@@ -101,6 +101,7 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
                  "every n-th range reading is held out of the map, so that an experiment can measure how well the "
                  "map predicts it; 0: none");
   fields.group("autosave", &C::autosave, "the map is saved while the mission runs, for `cairn run --resume`");
+  fields.group("history", &C::history, "how much is remembered of a long mission");
   fields.raw("steps", &C::steps, "list of steps",
              "behaviours and other nodes one after the other, each `{name: settings}`: docs/missions.md");
 }

@@ -14,6 +14,7 @@
 #include "framework/files/template_settings.hpp"
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/autosave.hpp"
+#include "framework/mission/history.hpp"
 #include "framework/safety/config.hpp"
 #include "maps/landmarks/landmark_template.hpp"
 
@@ -47,6 +48,7 @@ struct MissionConfig {
   std::string record;
   int hold_out_every = 0;
   AutosaveConfig autosave;
+  HistoryConfig history;
   ConfigValue steps;
   static void describe(Fields<MissionConfig>& fields);
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/contracts/world_view.hpp"
+#include "framework/reporting/thinned_series.hpp"
 
 namespace cairn {
 
@@ -29,15 +30,21 @@ struct PoseErrorFigures {
 
 class PoseErrors {
  public:
+  // max_samples: then one in two seconds is kept, one in four, and so on; medians are of those that are kept.
+  explicit PoseErrors(std::size_t max_samples = 10000) : samples_(max_samples) {}
+
   // Once a tick, with the true pose where it is known. Samples once a second.
   void note(const WorldView& world, const std::optional<Pose2>& true_T_map_robot);
 
   // None where the truth was never known.
   [[nodiscard]] std::optional<PoseErrorFigures> figures() const;
-  [[nodiscard]] const std::vector<PoseErrorSample>& samples() const { return samples_; }
+  [[nodiscard]] const std::vector<PoseErrorSample>& samples() const { return samples_.samples(); }
 
  private:
-  std::vector<PoseErrorSample> samples_;
+  ThinnedSeries<PoseErrorSample> samples_;
+  std::optional<PoseErrorSample> last_;
+  double worst_m_ = 0.0;
+  double worst_rad_ = 0.0;
   std::int64_t corrections_ = 0;
   std::int64_t refused_ = 0;
 };

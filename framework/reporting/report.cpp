@@ -114,7 +114,8 @@ ordered_json json_of(const AutosaveFigures& autosave) {
           {"failed", autosave.failed},
           {"reason", autosave.failure},
           {"in_loop_s", rounded(autosave.in_loop_s)},
-          {"writing_s", rounded(autosave.writing_s)}};
+          {"writing_s", rounded(autosave.writing_s)},
+          {"written_bytes", autosave.written_bytes}};
 }
 
 ordered_json json_of(const CollisionMonitorFigures& figures) {
@@ -219,20 +220,27 @@ struct Sentence {
 
 }  // namespace
 
+RunReport::RunReport(const HistoryConfig& history)
+    : max_contacts_(history.max_events),
+      degrees_(history.max_samples),
+      pose_errors_(history.max_samples),
+      events_(history.max_events) {}
+
 void RunReport::on(const Event& event, const MissionView& view) {
   timeline_.on(event, view);
   if (const auto* done = std::get_if<MatchingDone>(&event)) {
     const Matching& matching = done->matching;
-    degrees_.push_back({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
-                        true_pose(view).value_or(view.world.pose.T_map_robot).position()});
+    degrees_.add({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
+                  true_pose(view).value_or(view.world.pose.T_map_robot).position()});
   }
   if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world, true_pose(view));
   if (std::holds_alternative<Bumped>(event)) note_contact(view);
   const std::string sentence = std::visit(Sentence{}, event);
-  if (!sentence.empty()) events_.push_back(at_time(view.world.time_s, sentence));
+  if (!sentence.empty()) events_.add(at_time(view.world.time_s, sentence));
 }
 
 void RunReport::note_contact(const MissionView& view) {
+  if (contacts_.size() >= max_contacts_) return;
   if (view.truth && view.truth->contact) contacts_.push_back({view.world.time_s, *view.truth->contact});
 }
 
@@ -256,14 +264,16 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   report["pictures"] = pictures;
   if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
   ordered_json degrees = ordered_json::array();
-  for (const DegreeSample& sample : degrees_) {
+  for (const DegreeSample& sample : degrees_.samples()) {
     ordered_json row = {{"time_s", rounded(sample.time_s)}};
     for (const CategoryDegree& d : sample.degrees) row[d.category] = rounded(d.degree);
     degrees.push_back(std::move(row));
   }
   report["degrees"] = degrees;
   report["pose_errors"] = json_of(pose_errors_.samples());
-  report["events"] = events_;
+  if (degrees_.every() > 1) report["degrees_every"] = degrees_.every();
+  report["events"] = events_.sentences();
+  if (events_.left_out() > 0) report["events_left_out"] = events_.left_out();
   return report.dump(2, ' ', false, kBadText) + "\n";
 }
 

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "framework/mission/events.hpp"
+#include "framework/mission/history.hpp"
 #include "framework/mission/runner.hpp"
+#include "framework/reporting/event_log.hpp"
 #include "framework/reporting/pose_errors.hpp"
+#include "framework/reporting/thinned_series.hpp"
 #include "framework/reporting/timeline.hpp"
 
 namespace cairn {
@@ -30,6 +33,9 @@ struct TimedContact {
 
 class RunReport : public Listener {
  public:
+  // history: bounds its size, and that of the report.
+  explicit RunReport(const HistoryConfig& history = {});
+
   void on(const Event& event, const MissionView& view) override;
 
   // The same bytes for the same build, mission and seed: no clock, no path of this machine.
@@ -41,7 +47,7 @@ class RunReport : public Listener {
                                          const MissionRunner& runner, const std::filesystem::path& out,
                                          const std::vector<std::string>& pictures, double wall_s) const;
 
-  [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_; }
+  [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_.samples(); }
   [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
   [[nodiscard]] const PoseErrors& pose_errors() const { return pose_errors_; }
   [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
@@ -49,11 +55,12 @@ class RunReport : public Listener {
  private:
   void note_contact(const MissionView& view);
 
-  std::vector<DegreeSample> degrees_;
+  const std::size_t max_contacts_;
+  ThinnedSeries<DegreeSample> degrees_;
   std::vector<TimedContact> contacts_;
   PoseErrors pose_errors_;
   RunTimeline timeline_;
-  std::vector<std::string> events_;  // sentences with their time
+  EventLog events_;  // sentences with their time
 };
 
 // Wall-clock times of modules as JSON; not in the report, which is the same in every run.

@@ -201,6 +201,16 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
   }
 }
 
+bool exchange_files(const std::filesystem::path& file, const std::filesystem::path& other) {
+  struct stat found {};
+  struct stat found_other {};
+  const bool has_modes = ::stat(file.c_str(), &found) == 0 && ::stat(other.c_str(), &found_other) == 0;
+  if (has_modes && found.st_mode != found_other.st_mode) ::chmod(other.c_str(), found.st_mode & 0777);
+  if (::renameat2(AT_FDCWD, file.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) != 0) return false;
+  sync_folder_of(file);
+  return true;
+}
+
 void append_to_file(const std::filesystem::path& file, std::string_view bytes) {
   OutputDescriptor opened(
       ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kNewFile));

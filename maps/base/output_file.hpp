@@ -33,6 +33,10 @@ void replace_file(const std::filesystem::path& file, std::string_view bytes, con
 // The same; throws std::runtime_error, "FILE: cannot be written: REASON".
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
+// Two files of one folder change their names, both at once; modes stay with the names. False where the file system
+// cannot: then nothing has changed.
+[[nodiscard]] bool exchange_files(const std::filesystem::path& file, const std::filesystem::path& other);
+
 // Adds to the end of a file, which is made when it is not there. Throws OutputError for what is not a plain file.
 void append_to_file(const std::filesystem::path& file, std::string_view bytes);
 

@@ -137,4 +137,8 @@ bool may_be_replaced(const std::filesystem::path& file, Links links) {
   return header.empty() || names_its_program(header);
 }
 
+void require_replaceable(const std::filesystem::path& file, Links links) {
+  if (!may_be_replaced(file, links)) throw StoreError("is there already and is not a saved map: it is left as it is");
+}
+
 }  // namespace cairn::store

@@ -49,5 +49,7 @@ void check_header(const std::filesystem::path& file);
 // Whether the file is absent, empty or begins as a saved map of any version, so that saving a map over it destroys
 // nothing else that was named by mistake. A link that is replaced itself may.
 [[nodiscard]] bool may_be_replaced(const std::filesystem::path& file, Links links);
+// Throws StoreError unless it may.
+void require_replaceable(const std::filesystem::path& file, Links links);
 
 }  // namespace cairn::store

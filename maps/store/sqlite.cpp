@@ -12,6 +12,7 @@ namespace cairn::store {
 namespace {
 
 constexpr int kMaxValueBytes = 256 << 20;
+constexpr int kBusyFor_ms = 3000;  // another may be reading the autosave before, which becomes the next one
 
 const char* name_of(int type) {
   switch (type) {
@@ -41,6 +42,7 @@ Database::Database(const std::string& name, int flags) {
   if (handle == nullptr) throw StoreError("SQLite is out of memory");
   if (code != SQLITE_OK) fail();
   sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kMaxValueBytes);
+  sqlite3_busy_timeout(handle, kBusyFor_ms);
   // The file may come from anywhere: nothing in its schema may call functions with side effects.
   sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
@@ -76,6 +78,13 @@ std::string Database::serialized() const {
                                                               sqlite3_free);
   if (bytes == nullptr) throw StoreError("SQLite has no memory for it; a map's file can have 2 GB at most");
   return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
+}
+
+std::int64_t Database::pages_written() const {
+  int pages = 0;
+  int highest = 0;
+  sqlite3_db_status(handle_.get(), SQLITE_DBSTATUS_CACHE_WRITE, &pages, &highest, 0);
+  return pages;
 }
 
 void Database::fail() const {

@@ -26,6 +26,8 @@ class Database {
   void execute(const std::string& sql);
   // The bytes that the database would have as a file.
   [[nodiscard]] std::string serialized() const;
+  // Since it was opened, to files: also to those that were attached and still are.
+  [[nodiscard]] std::int64_t pages_written() const;
 
  private:
   friend class Statement;

@@ -62,7 +62,7 @@ Status MapSaving::save(const std::string& file_name) {
 void MapSaving::keep_finished_map(const std::string& name, bool is_done) {
   const bool is_earlier = map_file_ != name && !options_.is_resumed;
   if (is_done || !is_earlier || !is_of_a_finished_mission(options_.folder / name)) return;
-  if (const auto kept = keep_earlier_autosave(options_.folder / name))
+  if (const auto kept = keep_under_free_name(options_.folder / name))
     publisher_.publish(Message{"this mission did not end: the map of an earlier one that did is kept as " +
                                kept->filename().string()});
 }

@@ -13,7 +13,7 @@ Perception::Perception(const Mission& mission, const StagedModules& modules, con
     : config_(mission.config),
       modules_(modules),
       budget_(budget),
-      tracker_(mission.config.landmarks, mission.robot, mission.shapes),
+      tracker_(mission.config.landmarks, mission.robot, mission.shapes, mission.config.history.max_path_poses),
       hold_out_(mission.config.hold_out_every, mission.config.seed) {}
 
 void Perception::restore(const SavedMap& map) {

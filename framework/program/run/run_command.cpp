@@ -120,8 +120,11 @@ void keep_earlier_run(const RunCommand& command, const MissionConfig& config, st
   const std::filesystem::path file = command.out / autosave_file_of(config);
   std::error_code error;
   if (config.autosave.every_s <= 0.0 || std::filesystem::equivalent(file, command.resume, error)) return;
-  if (const auto kept = keep_earlier_autosave(file))
-    people << "an earlier run here did not end: its map is kept as " << kept->string() << " (--resume continues it)\n";
+  const auto kept = keep_earlier_autosave(file, command.resume);
+  if (!kept) return;
+  people << "an earlier run here did not end: its map is kept as " << kept->file.string() << " (--resume continues it)";
+  if (kept->removed > 0) people << "; of " << kept->removed + 1 << " autosaves, this one's mission had come furthest";
+  people << "\n";
 }
 
 // Without it the mission runs all the same, and signals still reach it.
@@ -218,7 +221,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunOptions options{command.out, command.realtime, &flags.cancel, true, resume ? &*resume : nullptr, &control};
   MissionRunner runner = runner_of(mission, library, options, command);
   keep_earlier_run(command, mission.config, people);
-  RunReport report;
+  RunReport report(mission.config.history);
   const MissionResult result = run_with_listeners(command, mission, runner, report, people);
   const bool is_reported = results.write(report, result, runner);
   results.print(report, result, runner);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <vector>
 
 #include "tests/framework/modules/test_clock.hpp"
 
@@ -28,6 +30,14 @@ class AutosaverTest : public testing::Test {
       if (auto outcome = autosaver.last_outcome()) return *outcome;
       std::this_thread::yield();
     }
+  }
+
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      all.push_back(entry.path().filename().string());
+    std::ranges::sort(all);
+    return all;
   }
 
   const std::filesystem::path folder_ =
@@ -89,12 +99,80 @@ TEST_F(AutosaverTest, AFileThatCannotBeWrittenIsCountedWithTheFirstReason) {
   EXPECT_EQ(autosaver.figures().failure, outcome.reason);
 }
 
-TEST_F(AutosaverTest, AnEarlierAutosaveIsKeptUnderTheNextFreeName) {
+TEST_F(AutosaverTest, ALaterAutosaveWritesOnlyWhatHasChanged) {
+  Autosaver autosaver(file_, 30.0, clock_);
+  SavedMap map = map_at(1.0);
+  for (int i = 0; i < 20000; ++i) map.driven_path.push_back({0.05 * i, 0.0, 0.1});
+  std::uint64_t before = 0;
+  for (int i = 0; i < 4; ++i) {
+    before = autosaver.figures().written_bytes;
+    map.progress->time_s = i;
+    map.driven_path.push_back({0.0, 0.05 * i, 0.1});
+    autosaver.save(map, clock_->now());
+    ASSERT_TRUE(outcome_of(autosaver).saved);
+  }
+  EXPECT_EQ(load_map(file_).driven_path, map.driven_path);
+  ASSERT_GT(std::filesystem::file_size(file_), 500'000U);
+  EXPECT_LT(autosaver.figures().written_bytes - before, 50'000U);
+  autosaver.finish();
+  EXPECT_EQ(names().size(), 1U) << "nothing is left beside it";
+}
+
+TEST_F(AutosaverTest, TheAutosaveOfAnEarlierRunIsKept) {
   EXPECT_FALSE(keep_earlier_autosave(file_));
-  std::ofstream(folder_ / "a.autosave.1.cairn") << "taken";
-  std::ofstream(file_) << "earlier";
-  EXPECT_EQ(keep_earlier_autosave(file_), folder_ / "a.autosave.2.cairn");
+  save_map(file_, map_at(5.0));
+  const auto kept = keep_earlier_autosave(file_);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->file, folder_ / "a.autosave.1.cairn");
+  EXPECT_EQ(kept->removed, 0);
   EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+// A run that is started again and again, and fails each time.
+TEST_F(AutosaverTest, TwoAutosavesAreKeptHoweverManyRunsDoNotEnd) {
+  for (const double time_s : {3.0, 1.0, 80000.0, 2.0, 2.0, 5.0}) {
+    static_cast<void>(keep_earlier_autosave(file_));
+    save_map(file_, map_at(time_s));
+  }
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.autosave.1.cairn", "a.autosave.cairn"}));
+  EXPECT_EQ(load_map(folder_ / "a.autosave.1.cairn").progress->time_s, 80000.0) << "the one that had come furthest";
+  EXPECT_EQ(load_map(file_).progress->time_s, 5.0);
+}
+
+TEST_F(AutosaverTest, OfThoseThatHoldAsMuchTheLastIsKept) {
+  SavedMap map = map_at(3.0);
+  save_map(folder_ / "a.autosave.1.cairn", map);
+  map.properties["note"] = "later";
+  save_map(file_, map);
+  EXPECT_EQ(keep_earlier_autosave(file_)->removed, 1);
+  EXPECT_EQ(load_map(folder_ / "a.autosave.1.cairn").properties["note"], "later");
+}
+
+TEST_F(AutosaverTest, AllThatEarlierVersionsHaveKeptBecomeOne) {
+  for (int i = 1; i <= 6; ++i)
+    save_map(folder_ / ("a.autosave." + std::to_string(i) + ".cairn"), map_at(i == 4 ? 100.0 : i));
+  std::ofstream(folder_ / "a.autosave.old.cairn") << "of somebody else";
+  std::ofstream(folder_ / "b.autosave.1.cairn") << "of another mission";
+  std::ofstream(file_) << "damaged";
+  EXPECT_EQ(keep_earlier_autosave(file_)->removed, 6);
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.autosave.1.cairn", "a.autosave.old.cairn", "b.autosave.1.cairn"}));
+  EXPECT_EQ(load_map(folder_ / "a.autosave.1.cairn").progress->time_s, 100.0);
+}
+
+TEST_F(AutosaverTest, TheMapThatARunGoesOnFromIsNotTouched) {
+  const std::filesystem::path resumed = folder_ / "a.autosave.1.cairn";
+  save_map(resumed, map_at(3.0));
+  save_map(file_, map_at(9.0));
+  EXPECT_EQ(keep_earlier_autosave(file_, resumed)->file, folder_ / "a.autosave.2.cairn");
+  EXPECT_EQ(load_map(resumed).progress->time_s, 3.0);
+}
+
+TEST_F(AutosaverTest, AFileIsKeptUnderTheNextFreeName) {
+  EXPECT_FALSE(keep_under_free_name(folder_ / "a.cairn"));
+  std::ofstream(folder_ / "a.1.cairn") << "taken";
+  std::ofstream(folder_ / "a.cairn") << "earlier";
+  EXPECT_EQ(keep_under_free_name(folder_ / "a.cairn"), folder_ / "a.2.cairn");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.cairn"));
 }
 
 }  // namespace

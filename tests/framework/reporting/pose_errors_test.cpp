@@ -52,6 +52,16 @@ TEST(PoseErrors, ReportsTheMedianTheTailTheWorstAndTheLast) {
   EXPECT_NEAR(figures.worst_deg, degrees(0.1), 1e-9);
 }
 
+TEST(PoseErrors, OfALongRunFewerSamplesStayButTheWorstAndTheLastAreExact) {
+  PoseErrors errors(100);
+  for (int second = 0; second < 10000; ++second) note(errors, second, second == 777 ? 2.0 : 0.1 + 1e-6 * second);
+  EXPECT_LE(errors.samples().size(), 100U);
+  EXPECT_NEAR(errors.samples()[1].time_s - errors.samples()[0].time_s, 128.0, 1e-9);
+  EXPECT_NEAR(errors.figures()->worst_m, 2.0, 1e-9);
+  EXPECT_NEAR(errors.figures()->last_m, 0.109999, 1e-9);
+  EXPECT_NEAR(errors.figures()->median_m, 0.105, 1e-4);
+}
+
 TEST(PoseErrors, MeasuresTheErrorByTheEstimatesOwnDeviations) {
   PoseErrors errors;
   note(errors, 0.0, 0.3, -0.4);

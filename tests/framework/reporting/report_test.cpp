@@ -77,5 +77,49 @@ TEST(RunReport, ListsTheContactsThatTheSimulationJudged) {
             "\"could_be_seen\": true\n    }\n  ]");
 }
 
+class RunReportOfALongMission : public testing::Test {
+ protected:
+  // Per second of mission time a tick, a matching, a contact and a message.
+  std::string report_after(int seconds, const HistoryConfig& history) {
+    RunReport report(history);
+    Observation observation;
+    for (int i = 0; i < seconds; ++i) {
+      const WorldView world{grid_, graph_, robot_, {}, static_cast<double>(i), &observation};
+      MissionView view{world};
+      view.truth = GroundTruth{{}, Contact{0.25, true}};
+      report.on(TickDone{}, view);
+      Matching matching;
+      matching.degrees = {{"square", 0.5, 0.0, {}, true}, {"circle", 0.4, 0.0, {}, true}};
+      report.on(MatchingDone{matching}, view);
+      report.on(Bumped{}, view);
+      report.on(Message{"round " + std::to_string(i)}, view);
+    }
+    return report.report_json({}, {}, graph_, {});
+  }
+
+  const OccupancyGrid grid_{0.05};
+  const LandmarkGraph graph_{};
+  const RobotModel robot_{};
+};
+
+TEST_F(RunReportOfALongMission, HasABoundedSize) {
+  const HistoryConfig history{.max_path_poses = 1000, .max_samples = 200, .max_events = 200};
+  const std::string hour = report_after(3600, history);
+  const std::string day = report_after(86400, history);
+  EXPECT_LT(hour.size(), 120'000U);
+  EXPECT_LT(day.size(), 120'000U);
+  EXPECT_NE(day.find(": round 0\""), std::string::npos);
+  EXPECT_NE(day.find(": round 86399\""), std::string::npos) << "how it ended is there";
+  EXPECT_NE(day.find("\"degrees_every\": 512"), std::string::npos);
+  EXPECT_NE(day.find("\"events_left_out\": 172600"), std::string::npos);
+}
+
+TEST_F(RunReportOfALongMission, UpToTheBoundsIsWhole) {
+  const std::string bounded = report_after(190, {.max_samples = 200, .max_events = 400});
+  EXPECT_EQ(bounded, report_after(190, {}));
+  EXPECT_EQ(bounded.find("degrees_every"), std::string::npos);
+  EXPECT_EQ(bounded.find("events_left_out"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -100,6 +100,19 @@ TEST_F(OutputFile, KeepsTheModeOfTheFileThatItReplaces) {
   EXPECT_EQ(fs::status(file_).permissions(), fs::perms(0600));
 }
 
+TEST_F(OutputFile, ExchangedFilesHaveEachOthersContentAndTheModesOfTheirNames) {
+  const fs::path other = folder_ / "b.json";
+  write_file(file_, "a");
+  write_file(other, "b");
+  fs::permissions(file_, fs::perms(0640));
+  ASSERT_TRUE(exchange_files(file_, other));
+  EXPECT_EQ(text_of(file_), "b");
+  EXPECT_EQ(text_of(other), "a");
+  EXPECT_EQ(fs::status(file_).permissions(), fs::perms(0640));
+  EXPECT_FALSE(exchange_files(file_, folder_ / "missing.json"));
+  EXPECT_EQ(text_of(file_), "b");
+}
+
 TEST_F(OutputFile, WhatCannotBeWrittenIsNamedAndTheOldContentStays) {
   write_file(file_, "old");
   rlimit before{};

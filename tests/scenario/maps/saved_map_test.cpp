@@ -131,6 +131,38 @@ TEST(SavedMap, IsWholeAfterAKillAtAnyMomentAndTheMissionGoesOnFromIt) {
       kills.losses_s.back(), static_cast<int>(more), every_s);
 }
 
+// An autosave that was written in parts, against the same map written as a whole.
+TEST(SavedMap, AMissionGoesOnFromItsAutosaveAsFromAWholeMap) {
+  const fs::path folder = fresh_folder("parts");
+  const fs::path mission = small_mission(folder, "{every_s: 0.02}", kExplore);
+  (void)kill_cairn({"run", mission.string(), "--out", (folder / "killed").string()}, "autosaved", 0.4);
+  const fs::path parts = folder / "parts.cairn";
+  fs::path left = folder / "killed/office.autosave.cairn";
+  if (!fs::exists(left)) left = folder / "killed/office.cairn";
+  fs::copy_file(left, parts);
+  save_map(folder / "whole.cairn", load_map(parts));
+  for (const std::string name : {"parts", "whole"}) {
+    const std::string map = folder / (name + ".cairn");
+    const Finished resumed = run_mission(mission, folder / name, {"--resume", map});
+    ASSERT_EQ(resumed.exit_status, 0) << resumed.err;
+  }
+  for (const char* file : {"report.json", "office.cairn"})
+    EXPECT_TRUE(text_of_file(folder / "parts" / file) == text_of_file(folder / "whole" / file)) << file;
+}
+
+TEST(SavedMap, HoweverManyRunsAreKilledInAFolderTwoAutosavesAreKept) {
+  const fs::path folder = fresh_folder("two");
+  const fs::path mission = small_mission(folder, "{every_s: 0.02}", kExplore);
+  for (int i = 0; i < 4; ++i)
+    (void)kill_cairn({"run", mission.string(), "--out", (folder / "out").string()}, "autosaved", 0.0);
+  std::vector<std::string> autosaves;
+  for (const auto& entry : fs::directory_iterator(folder / "out"))
+    if (const std::string name = entry.path().filename(); name.starts_with("office.autosave"))
+      autosaves.push_back(name);
+  EXPECT_THAT(autosaves, testing::UnorderedElementsAre("office.autosave.cairn", "office.autosave.1.cairn"));
+  for (const std::string& name : autosaves) EXPECT_NO_THROW((void)load_map(folder / "out" / name));
+}
+
 TEST(SavedMap, EveryMapModulesMissionIsGoneOnWith) {
   for (const std::string map : {"bayes", "himm", "murphy", "muriel"}) {
     SCOPED_TRACE(map);
