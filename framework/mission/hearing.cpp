@@ -13,7 +13,7 @@ std::string why(DeafCause cause) {
     case DeafCause::missed_echo:
       return "where the map predicts an echo";
     case DeafCause::silent_ring:
-      return "nor does any other one, where the map predicts echoes";
+      return "like all others there, where the map predicts echoes";
     case DeafCause::deaf_neighbour:
       return "beside one that is deaf";
     case DeafCause::bump:

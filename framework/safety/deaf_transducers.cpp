@@ -8,8 +8,11 @@
 namespace cairn {
 namespace {
 
-constexpr double kRound_s = 0.2;        // answers that come sooner after each other are one round
-constexpr double kRingSilent_s = 0.25;  // at least, before a ring is taken to be deaf
+constexpr double kRound_s = 0.2;         // answers that come sooner after each other are one round
+constexpr double kGroupSilent_s = 0.25;  // at least, before a ring is taken to be deaf
+// Of the whole ring, its left and its right half: a smooth wall at a slant may be heard by nobody of a half for long.
+constexpr std::array<double, 3> kUncertainWeights{0.5, 0.25, 0.25};
+constexpr double kBesideMiddle = 0.05;  // sine of what looks straight ahead or back, and belongs to no half
 constexpr double kNeighbour_rad = radians(60.5);
 constexpr double kBumpedSide_rad = radians(60.5);
 constexpr double kSwept_rad =
@@ -32,8 +35,7 @@ void DeafTransducers::forget() {
     transducer.counted_s = transducer.stamp_s = -1e9;
     transducer.silent_rounds = transducer.missed_rounds = 0;
   }
-  missed_in_a_row_ = 0;
-  last_echo_s_ = -1e9;
+  groups_ = {};
   has_place_ = false;
   changes_.clear();
 }
@@ -48,11 +50,11 @@ void DeafTransducers::see(const Observation& observation, std::span<const Expect
   for (const RangeReading& reading : observation.ranges) {
     if (!says_something(reading)) continue;
     Transducer& transducer = transducer_of(reading);
-    const bool is_expected = std::ranges::any_of(expected, [&](const ExpectedEcho& echo) {
-      return echo.sensor == reading.sensor && echo.range_m <= config_.within_m;
+    const auto echo = std::ranges::find_if(expected, [&](const ExpectedEcho& one) {
+      return one.sensor == reading.sensor && one.range_m <= config_.within_m;
     });
     if (is_no_echo(reading))
-      take_silence(transducer, is_expected);
+      take_silence(transducer, echo == expected.end() ? nullptr : &*echo);
     else
       take_echo(transducer);
   }
@@ -72,26 +74,36 @@ DeafTransducers::Transducer& DeafTransducers::transducer_of(const RangeReading& 
 void DeafTransducers::take_echo(Transducer& transducer) {
   transducer.is_silent = false;
   transducer.silent_rounds = transducer.missed_rounds = 0;
-  missed_in_a_row_ = 0;
-  last_echo_s_ = stamp_s_;
+  for (std::size_t i = 0; i < kGroups; ++i)
+    if (is_in(i, transducer)) groups_[i] = {0.0, stamp_s_};
   silent_path_m_ = 0.0;
   set_deaf(transducer, false, DeafCause::missed_echo);
 }
 
-void DeafTransducers::take_silence(Transducer& transducer, bool is_expected) {
+bool DeafTransducers::is_in(std::size_t group, const Transducer& transducer) {
+  const double left = std::sin(transducer.axis_rad);
+  return group == 0 || (group == 1 ? left > kBesideMiddle : left < -kBesideMiddle);
+}
+
+void DeafTransducers::take_silence(Transducer& transducer, const ExpectedEcho* expected) {
   transducer.is_silent = true;
-  if (is_expected) ++missed_in_a_row_;
+  for (std::size_t i = 0; i < kGroups && expected != nullptr; ++i)
+    if (is_in(i, transducer)) groups_[i].missed += expected->is_certain ? 1.0 : kUncertainWeights[i];
   if (stamp_s_ - transducer.counted_s < kRound_s) return;
   transducer.counted_s = stamp_s_;
   ++transducer.silent_rounds;
-  if (is_expected) ++transducer.missed_rounds;
+  if (expected != nullptr && expected->is_certain) ++transducer.missed_rounds;
 }
 
 void DeafTransducers::judge() {
-  const bool is_ring_deaf = missed_in_a_row_ >= config_.ring_echoes && stamp_s_ - last_echo_s_ >= kRingSilent_s;
+  std::array<bool, kGroups> are_deaf{};
+  for (std::size_t i = 0; i < kGroups; ++i)
+    are_deaf[i] = groups_[i].missed >= config_.ring_echoes && stamp_s_ - groups_[i].last_echo_s >= kGroupSilent_s;
   for (Transducer& transducer : transducers_) {
     if (transducer.missed_rounds >= config_.rounds) set_deaf(transducer, true, DeafCause::missed_echo);
-    if (is_ring_deaf && transducer.is_silent) set_deaf(transducer, true, DeafCause::silent_ring);
+    for (std::size_t i = 0; i < kGroups; ++i)
+      if (are_deaf[i] && transducer.is_silent && is_in(i, transducer))
+        set_deaf(transducer, true, DeafCause::silent_ring);
   }
 }
 

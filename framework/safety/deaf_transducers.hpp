@@ -3,13 +3,15 @@
 //
 // It counts as deaf
 // - when it has said "no echo" for some rounds where an echo was expected,
-// - when no transducer of the ring has answered several expected echoes in a row: then all that are silent,
+// - when no transducer of the ring, or of its left or right half, has answered several expected echoes in a row: then
+//   all of these that are silent,
 // - when it is silent beside a deaf one, as long as that,
 // - when it was silent and the robot has bumped into something at its side.
 // An echo ends it. Expectations are plain numbers: this class knows no map, and trusts whoever makes them with slowing
 // the robot down only.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -22,6 +24,7 @@ namespace cairn {
 struct ExpectedEcho {
   int sensor = 0;
   double range_m = 0.0;
+  bool is_certain = true;  // false: of something that a good transducer may not hear, for its shape or its slant
 };
 
 enum class DeafCause { missed_echo, silent_ring, deaf_neighbour, bump };
@@ -69,9 +72,16 @@ class DeafTransducers {
     bool is_deaf = false;
   };
 
+  // The whole ring, its left and its right half.
+  struct Group {
+    double missed = 0.0;  // expected echoes in a row; uncertain ones count less
+    double last_echo_s = -1e9;
+  };
+  static constexpr std::size_t kGroups = 3;
+  [[nodiscard]] static bool is_in(std::size_t group, const Transducer& transducer);
   [[nodiscard]] Transducer& transducer_of(const RangeReading& reading);
   void take_echo(Transducer& transducer);
-  void take_silence(Transducer& transducer, bool is_expected);
+  void take_silence(Transducer& transducer, const ExpectedEcho* expected);
   void judge();
   void spread();
   void set_deaf(Transducer& transducer, bool is_deaf, DeafCause cause);
@@ -82,8 +92,7 @@ class DeafTransducers {
   std::vector<Transducer> transducers_;  // as they were heard of
   std::vector<int> deaf_;
   std::vector<HearingChange> changes_;
-  int missed_in_a_row_ = 0;     // expected echoes, by any transducer
-  double last_echo_s_ = -1e9;   // of any
+  std::array<Group, kGroups> groups_;
   double silent_path_m_ = 0.0;  // driven since
   bool has_place_ = false;
   Point at_odom_{0.0, 0.0};

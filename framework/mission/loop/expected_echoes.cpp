@@ -7,7 +7,7 @@
 namespace cairn {
 namespace {
 
-constexpr int kRays = 7;
+constexpr std::size_t kRays = 7;
 constexpr double kNotFree_cells = 2.5;  // before a wall, where the map blurs it
 constexpr double kFlat_cells = 1.5;     // off the line through them all
 
@@ -34,36 +34,44 @@ bool is_sure(const PoseEstimate& pose, const DeafConfig& config) {
   return position_m <= config.max_pose_m && heading_rad <= config.max_heading_rad;
 }
 
-}  // namespace
+using Hits = std::array<std::optional<Point>, kRays>;
 
-std::optional<double> expected_echo_m(const OccupancyGrid& grid, const Pose2& T_map_sensor, double half_beam_rad,
-                                      const DeafConfig& config) {
-  const OccupancyThresholds thresholds = OccupancyThresholds::of(0.35, config.occupied_p);
-  const double reach_m = config.within_m / std::cos(std::min(half_beam_rad, radians(30.0)));
-  std::array<Point, kRays> hits;
+// Whether all of them lie on a line nearly perpendicular to the axis, which is x:  x = m + s (y - n).
+bool is_wall_across(const Hits& hits, double cell_m, double max_incidence_rad) {
   Point middle(0.0, 0.0);
-  double nearest_m = reach_m;
-  for (int i = 0; i < kRays; ++i) {
-    const double bearing_rad = half_beam_rad * (2.0 * i / (kRays - 1) - 1.0);
-    const std::optional<Point> hit = hit_of(grid, thresholds, T_map_sensor, bearing_rad, reach_m);
-    if (!hit) return std::nullopt;
-    hits[static_cast<std::size_t>(i)] = *hit;
-    middle += *hit / kRays;
-    nearest_m = std::min(nearest_m, hit->norm());
+  for (const std::optional<Point>& hit : hits) {
+    if (!hit) return false;
+    middle += *hit / static_cast<double>(kRays);
   }
-  // A line x = m + s (y - n) through them: the axis is x.
   double xy = 0.0;
   double yy = 1e-9;
-  for (const Point& hit : hits) {
-    xy += (hit - middle).x() * (hit - middle).y();
-    yy += (hit - middle).y() * (hit - middle).y();
+  for (const std::optional<Point>& hit : hits) {
+    xy += (*hit - middle).x() * (*hit - middle).y();
+    yy += (*hit - middle).y() * (*hit - middle).y();
   }
   const double slope = xy / yy;
-  if (std::abs(std::atan(slope)) > config.max_incidence_rad) return std::nullopt;
-  const bool is_flat = std::ranges::all_of(hits, [&](const Point& hit) {
-    return std::abs((hit - middle).x() - slope * (hit - middle).y()) <= kFlat_cells * grid.cell_m();
+  if (std::abs(std::atan(slope)) > max_incidence_rad) return false;
+  return std::ranges::all_of(hits, [&](const std::optional<Point>& hit) {
+    return std::abs((*hit - middle).x() - slope * (*hit - middle).y()) <= kFlat_cells * cell_m;
   });
-  return is_flat && nearest_m <= config.within_m ? std::optional(nearest_m) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ExpectedEcho> expected_echo(const OccupancyGrid& grid, const Pose2& T_map_sensor, double half_beam_rad,
+                                          const DeafConfig& config, int sensor) {
+  const OccupancyThresholds thresholds = OccupancyThresholds::of(0.35, config.occupied_p);
+  const double reach_m = config.within_m / std::cos(std::min(half_beam_rad, radians(30.0)));
+  Hits hits;
+  double nearest_m = reach_m;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const double bearing_rad = half_beam_rad * (2.0 * static_cast<double>(i) / (kRays - 1) - 1.0);
+    hits[i] = hit_of(grid, thresholds, T_map_sensor, bearing_rad, reach_m);
+    if (hits[i]) nearest_m = std::min(nearest_m, hits[i]->norm());
+  }
+  const bool is_in_the_middle = hits[kRays / 2 - 1] && hits[kRays / 2] && hits[kRays / 2 + 1];
+  if (!is_in_the_middle || nearest_m > config.within_m) return std::nullopt;
+  return ExpectedEcho{sensor, nearest_m, is_wall_across(hits, grid.cell_m(), config.max_incidence_rad)};
 }
 
 std::vector<ExpectedEcho> expected_echoes(const Observation& observation, const OccupancyGrid& grid,
@@ -73,8 +81,8 @@ std::vector<ExpectedEcho> expected_echoes(const Observation& observation, const 
   for (const RangeReading& reading : observation.ranges) {
     if (!is_no_echo(reading) || reading.half_beam_rad <= 0.0 || !is_finite(reading.T_robot_sensor)) continue;
     const Pose2 T_map_sensor = pose.T_map_robot * reading.T_robot_sensor;
-    if (const auto range_m = expected_echo_m(grid, T_map_sensor, reading.half_beam_rad, config))
-      expected.push_back({reading.sensor, *range_m});
+    if (const auto echo = expected_echo(grid, T_map_sensor, reading.half_beam_rad, config, reading.sensor))
+      expected.push_back(*echo);
   }
   return expected;
 }

@@ -19,7 +19,8 @@ class Ring {
   explicit Ring(const DeafConfig& config = {}) : transducers(config, 1.0) {}
 
   // A round in which these hear something, and of the silent ones these should have.
-  void round(const std::vector<int>& hear, const std::vector<int>& should_hear = {}, double driven_m = 0.0) {
+  void round(const std::vector<int>& hear, const std::vector<int>& should_hear = {}, double driven_m = 0.0,
+             bool is_certain = true) {
     Observation seen;
     seen.stamp_s = stamp_s_ += kRound_s;
     seen.T_odom_robot = {x_m_ += driven_m, 0.0, 0.0};
@@ -28,7 +29,7 @@ class Ring {
       const bool hears = std::ranges::find(hear, i) != hear.end();
       seen.ranges.push_back(reading(hears ? 1.5 : kInfinity, radians(kAngles_deg[static_cast<std::size_t>(i)]), i));
     }
-    for (const int sensor : should_hear) expected.push_back({sensor, 1.5});
+    for (const int sensor : should_hear) expected.push_back({sensor, 1.5, is_certain});
     transducers.see(seen, expected);
   }
   void rounds(int count, const std::vector<int>& hear, const std::vector<int>& should_hear) {
@@ -88,6 +89,18 @@ TEST(DeafTransducers, AWholeRingIsFoundSoonerThanOneTransducer) {
   ring.rounds(2, {}, {2, 3, 4});
   EXPECT_EQ(ring.transducers.deaf(), kAll);
   EXPECT_TRUE(ring.transducers.is_towards(0.0));
+}
+
+TEST(DeafTransducers, UncertainEchoesCountLessAndOnlyWhenNobodyOfARingOrHalfHears) {
+  Ring one;
+  for (int i = 0; i < 50; ++i) one.round({0, 1, 2, 4, 5, 6}, {3}, 0.0, false);
+  EXPECT_TRUE(one.transducers.deaf().empty());
+  Ring half;
+  for (int i = 0; i < 6; ++i) half.round({3, 4, 5, 6}, {0, 1, 2}, 0.0, false);
+  EXPECT_EQ(half.transducers.deaf(), (std::vector{0, 1, 2}));
+  Ring whole;
+  for (int i = 0; i < 3; ++i) whole.round({}, {2, 3, 4}, 0.0, false);
+  EXPECT_EQ(whole.transducers.deaf(), kAll);
 }
 
 TEST(DeafTransducers, SilenceSpreadsFromADeafOneToSilentNeighboursOnly) {

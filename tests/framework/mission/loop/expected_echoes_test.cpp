@@ -20,43 +20,50 @@ OccupancyGrid grid_with_wall(double wall_m, double slope = 0.0) {
   return grid;
 }
 
-std::optional<double> expected(const OccupancyGrid& grid, const Pose2& T_map_sensor = {},
-                               const DeafConfig& config = {}) {
-  return expected_echo_m(grid, T_map_sensor, radians(15.0), config);
+enum class Expectation { none, uncertain, certain };
+
+Expectation expected(const OccupancyGrid& grid, const Pose2& T_map_sensor = {}, const DeafConfig& config = {}) {
+  const auto echo = expected_echo(grid, T_map_sensor, radians(15.0), config, 0);
+  return !echo ? Expectation::none : echo->is_certain ? Expectation::certain : Expectation::uncertain;
 }
 
-TEST(ExpectedEchoes, AWallThatFillsTheBeamIsExpectedToEcho) {
-  const auto range_m = expected(grid_with_wall(1.2));
-  ASSERT_TRUE(range_m);
-  EXPECT_NEAR(*range_m, 1.2, 0.06);
+TEST(ExpectedEchoes, AWallThatFillsTheBeamIsCertainToEcho) {
+  const auto echo = expected_echo(grid_with_wall(1.2), {}, radians(15.0), {}, 3);
+  ASSERT_TRUE(echo);
+  EXPECT_NEAR(echo->range_m, 1.2, 0.06);
+  EXPECT_EQ(echo->sensor, 3);
+  EXPECT_TRUE(echo->is_certain);
 }
 
-TEST(ExpectedEchoes, AWallFarAwayIsNot) {
-  EXPECT_FALSE(expected(grid_with_wall(2.3)));
-  EXPECT_TRUE(expected(grid_with_wall(2.3), {}, {.within_m = 3.0}));
+TEST(ExpectedEchoes, AWallFarAwayIsNotExpectedTo) {
+  EXPECT_EQ(expected(grid_with_wall(2.3)), Expectation::none);
+  EXPECT_EQ(expected(grid_with_wall(2.3), {}, {.within_m = 3.0}), Expectation::certain);
 }
 
-TEST(ExpectedEchoes, AWallSeenAtASlantIsNot) {
-  EXPECT_TRUE(expected(grid_with_wall(1.2, std::tan(radians(8.0)))));
-  EXPECT_FALSE(expected(grid_with_wall(1.2, std::tan(radians(25.0)))));
-  EXPECT_FALSE(expected(grid_with_wall(1.2), {0.0, 0.0, radians(30.0)}));
+TEST(ExpectedEchoes, AWallSeenAtASlantIsUncertain) {
+  EXPECT_EQ(expected(grid_with_wall(1.2, std::tan(radians(8.0)))), Expectation::certain);
+  EXPECT_EQ(expected(grid_with_wall(1.2, std::tan(radians(25.0)))), Expectation::uncertain);
+  EXPECT_EQ(expected(grid_with_wall(1.2), {0.0, 0.0, radians(30.0)}), Expectation::uncertain);
 }
 
-TEST(ExpectedEchoes, WhatFillsOnlyAPartOfTheBeamIsNot) {
-  OccupancyGrid grid = grid_with_wall(3.5);
-  for (int y = -2; y < 2; ++y) grid.set_log_odds({24, y}, 800);
-  EXPECT_FALSE(expected(grid));
+TEST(ExpectedEchoes, WhatFillsOnlyTheMiddleOfTheBeamIsUncertainAndWhatIsBesideItIsNotExpected) {
+  OccupancyGrid post = grid_with_wall(3.5);
+  for (int y = -4; y < 4; ++y) post.set_log_odds({24, y}, 800);
+  EXPECT_EQ(expected(post), Expectation::uncertain);
+  OccupancyGrid beside = grid_with_wall(3.5);
+  for (int y = 2; y < 8; ++y) beside.set_log_odds({24, y}, 800);
+  EXPECT_EQ(expected(beside), Expectation::none);
 }
 
 TEST(ExpectedEchoes, NothingIsExpectedBehindUnknownSpaceOrOfAWallThatIsUncertain) {
   OccupancyGrid hidden = grid_with_wall(1.2);
   for (int y = -20; y < 20; ++y)
     for (int x = 8; x < 14; ++x) hidden.set_log_odds({x, y}, 0);
-  EXPECT_FALSE(expected(hidden));
+  EXPECT_EQ(expected(hidden), Expectation::none);
   OccupancyGrid uncertain = grid_with_wall(1.2);
   for (int y = -20; y < 20; ++y)
     for (int x = 23; x < 28; ++x) uncertain.set_log_odds({x, y}, 200);
-  EXPECT_FALSE(expected(uncertain));
+  EXPECT_EQ(expected(uncertain), Expectation::none);
 }
 
 TEST(ExpectedEchoes, OnlyReadingsOfConesWithoutEchoAreAskedAndOnlyWhileThePoseIsSure) {
