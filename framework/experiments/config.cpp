@@ -183,6 +183,9 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.group("seeds", &C::seeds, "which seeds");
   fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6}, "as the missions' setting of this name");
   fields.number("tolerance_m", &C::tolerance_m, {0.0, 100.0}, "m", "a landmark further from the truth counts as false");
+  fields.number(
+      "max_contact_mps", &C::max_contact_mps, {0.0, 10.0}, "m/s",
+      "limit of `missions` and `trials`: no contact, seen or not, is faster by the truth; adds a table of contacts");
   fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
                 "share of good runs (of `trials`: of reached goals among the reachable ones that no fault took away) "
                 "that makes the experiment a success");

@@ -65,8 +65,9 @@ struct ExperimentConfig {
   std::string baseline;                     // a variant's name
   SeedRange seeds;
   int hold_out_every = 0;
-  double tolerance_m = 0.10;    // a landmark further from the truth is false
-  double at_least_ratio = 0.0;  // share of good runs that makes the experiment a success
+  double tolerance_m = 0.10;              // a landmark further from the truth is false
+  std::optional<double> max_contact_mps;  // limit of missions and trials
+  double at_least_ratio = 0.0;            // share of good runs that makes the experiment a success
   std::vector<std::string> overrides;
   std::vector<std::string> categories;  // columns of the table of places
   std::vector<PlaceConfig> places;

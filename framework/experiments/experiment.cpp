@@ -115,6 +115,7 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
   if (config.experiment == ExperimentKind::trials && !was_cancelled)
     row.trial =
         judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
+  row.contacts = listeners.report.contacts();
   row.step_rad = mission.template_settings.step_rad;
   if (config.experiment == ExperimentKind::orbit)
     row.orbit =

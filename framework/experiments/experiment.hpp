@@ -35,6 +35,7 @@ struct ExperimentRow {
   std::vector<OrbitSample> orbit;        // of the experiment's lap
   std::vector<Verdict> verdicts;         // of an experiment of recognition or of curves
   std::vector<DetectorSweep> sweeps;     // of an experiment of curves, one a detector
+  std::vector<TimedContact> contacts;    // by the truth, where it is known
   std::optional<TrialVerdict> trial;     // of an experiment of trials
   StageTime tick;                        // wall clock of the host's ticks, all but the sensor's part
   double step_rad = 0.0;                 // between the orientations of the templates

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "framework/experiments/contacts.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
 #include "framework/experiments/recognition/orbit_table.hpp"
 #include "framework/experiments/recognition/places_table.hpp"
@@ -260,7 +261,7 @@ std::string table_head(const std::vector<std::string>& columns, std::size_t text
 std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   switch (config.experiment) {
     case ExperimentKind::missions:
-      return missions_table(config, rows);
+      return missions_table(config, rows) + contacts_table(config, rows);
     case ExperimentKind::maps:
       return maps_table(config, rows);
     case ExperimentKind::places:
@@ -272,7 +273,7 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
     case ExperimentKind::curves:
       return curves_table(config, rows);
     case ExperimentKind::trials:
-      return trials_table(config, rows);
+      return trials_table(config, rows) + contacts_table(config, rows);
   }
   return {};
 }

@@ -11,6 +11,8 @@ void FaultRates::describe(Fields<FaultRates>& fields) {
   fields.number("compass_jump", &C::compass_jump, kRate, "1/h", "by up to 90 deg either way");
   fields.number("silent", &C::silent, kRate, "1/h", "no ranges");
   fields.number("kidnap", &C::kidnap, kRate, "1/h", "to a free place of the world, turned anyhow");
+  fields.number("deaf", &C::deaf, kRate, "1/h",
+                "the whole ring without echo, its left half, its right half, or each one by half a chance");
 }
 
 }  // namespace cairn

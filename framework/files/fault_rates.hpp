@@ -13,6 +13,7 @@ struct FaultRates {
   double compass_jump = 0.0;
   double silent = 0.0;
   double kidnap = 0.0;
+  double deaf = 0.0;
   static void describe(Fields<FaultRates>& fields);
 };
 

@@ -12,6 +12,7 @@
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/ground_truth.hpp"
 #include "framework/contracts/world_view.hpp"
+#include "framework/safety/deaf_transducers.hpp"
 
 namespace cairn {
 
@@ -76,6 +77,15 @@ struct Message {
   std::string sentence;
 };
 struct Bumped {};
+// Transducers that the collision monitor does not believe any more when they say "no echo", and those of them that have
+// heard something again. Numbers rise.
+struct WentDeaf {
+  std::vector<int> sensors;
+  DeafCause cause = DeafCause::missed_echo;
+};
+struct HearsAgain {
+  std::vector<int> sensors;
+};
 // The mission's clock stands from here on: the robot is stopped, readings still come.
 struct Paused {};
 struct Resumed {
@@ -84,7 +94,7 @@ struct Resumed {
 
 using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
                            NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Stalled, Message, Bumped,
-                           Paused, Resumed>;
+                           WentDeaf, HearsAgain, Paused, Resumed>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

@@ -56,6 +56,7 @@ struct MissionResult {
   double explored_ratio = 0.0;                     // of the map as it was last saved, or would have been
   std::optional<double> resumed_s = std::nullopt;  // mission time at which this run went on from a saved map
   CollisionMonitorFigures collision_monitor{};
+  std::string hearing{};  // for people: which transducers were deaf, and when; empty: none
   AutosaveFigures autosave{};
   std::string map_file;  // name in the output folder; empty: could not be saved
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "framework/mission/hearing.hpp"
+
 namespace cairn {
 namespace {
 
@@ -118,10 +120,12 @@ ordered_json json_of(const AutosaveFigures& autosave) {
           {"written_bytes", autosave.written_bytes}};
 }
 
-ordered_json json_of(const CollisionMonitorFigures& figures) {
+ordered_json json_of(const CollisionMonitorFigures& figures, const std::string& hearing) {
   return {{"slowed_s", rounded(figures.slowed_s)},
           {"stopped_s", rounded(figures.stopped_s)},
-          {"stale_s", rounded(figures.stale_s)}};
+          {"stale_s", rounded(figures.stale_s)},
+          {"deaf_s", rounded(figures.deaf_s)},
+          {"deaf", hearing}};
 }
 
 ordered_json json_of(const std::vector<TimedContact>& contacts) {
@@ -145,7 +149,7 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
           {"readings", result.readings},
           {"collisions", result.collisions},
           {"contacts", json_of(contacts)},
-          {"collision_monitor", json_of(result.collision_monitor)},
+          {"collision_monitor", json_of(result.collision_monitor, result.hearing)},
           {"distance_m", rounded(result.distance_m)},
           {"time_s", rounded(result.time_s)}};
 }
@@ -214,6 +218,8 @@ struct Sentence {
   }
   std::string operator()(const Message& e) const { return e.sentence; }
   std::string operator()(const Bumped&) const { return "bumped into something"; }
+  std::string operator()(const WentDeaf& e) const { return text_of(e); }
+  std::string operator()(const HearsAgain& e) const { return text_of(e); }
   std::string operator()(const Paused&) const { return "paused"; }
   std::string operator()(const Resumed&) const { return "resumed"; }
 };

@@ -28,9 +28,10 @@ void CollisionMonitor::attach(Staged<Drive> drive) {
   wheels_ = drive_ ? &drive_.unwatched() : nullptr;
 }
 
-DriveCommand CollisionMonitor::drive(const Observation& observation, const Twist& wanted) {
+DriveCommand CollisionMonitor::drive(const Observation& observation, const Twist& wanted,
+                                     std::span<const ExpectedEcho> expected) {
   if (!drive_) return {};
-  limiter_.see(observation);
+  limiter_.see(observation, expected);
   const Twist allowed = limiter_.limit(wanted);
   order(allowed);
   return {allowed, limiter_.speed_reduction_ratio(wanted, allowed)};

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "framework/contracts/sensor.hpp"
 #include "framework/modules/staged.hpp"
@@ -33,8 +34,9 @@ class CollisionMonitor {
   [[nodiscard]] bool has_drive() const { return static_cast<bool>(drive_); }
 
   // Once a tick: limits the wanted velocity by what this observation and those before have shown, and orders it.
+  // expected: what its readings should have heard, where somebody knows; it only ever slows the robot.
   // Throws ModuleFault.
-  DriveCommand drive(const Observation& observation, const Twist& wanted);
+  DriveCommand drive(const Observation& observation, const Twist& wanted, std::span<const ExpectedEcho> expected = {});
   // The robot brakes as when it is commanded to, and stands until the next drive(): before the host does something that
   // may take long. That is no stall. Throws ModuleFault.
   void stand();
@@ -51,6 +53,8 @@ class CollisionMonitor {
   void stop_at_once() noexcept;
 
   [[nodiscard]] const CollisionMonitorFigures& figures() const { return limiter_.figures(); }
+  // Which transducers are deaf, and what of that has changed with the last drive().
+  [[nodiscard]] const DeafTransducers& hearing() const { return limiter_.hearing(); }
 
  private:
   [[nodiscard]] std::int64_t now_ns() const noexcept;

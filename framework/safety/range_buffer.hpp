@@ -38,6 +38,8 @@ class RangeBuffer {
   void forget();
 
   [[nodiscard]] const std::vector<SeenPoint>& points() const { return points_; }
+  // How long an echo counts: as asked for, or as a round and a half of the transducers takes.
+  [[nodiscard]] double kept_s() const { return kept_s_; }
   // Whether a transducer that has answered lately (be it with "no echo") looks into that direction of the robot.
   [[nodiscard]] bool covers(double direction_rad) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "framework/safety/swept_footprint.hpp"
@@ -30,15 +31,20 @@ double share_for(double distance_m, double speed_mps, double deceleration_mps2, 
 }  // namespace
 
 VelocityLimiter::VelocityLimiter(const CollisionMonitorConfig& config, const RobotModel& robot)
-    : config_(config), robot_(robot), memory_(robot, config.stale_s), period_s_(robot.firing_period_s) {}
+    : config_(config),
+      robot_(robot),
+      memory_(robot, config.stale_s),
+      hearing_(config.deaf, memory_.kept_s()),
+      period_s_(robot.firing_period_s) {}
 
-void VelocityLimiter::see(const Observation& observation) {
+void VelocityLimiter::see(const Observation& observation, std::span<const ExpectedEcho> expected) {
   const double passed_s = observation.stamp_s - stamp_s_;
   const bool jumped_back = begun_ && passed_s <= 0.0;
   useless_ = jumped_back || !is_placed(observation);
   if (useless_) {
     // What was seen before is of no known time or place; a clock that has jumped back goes on from there.
     memory_.forget();
+    hearing_.forget();
     if (jumped_back) stamp_s_ = last_reading_s_ = observation.stamp_s;
     return;
   }
@@ -47,6 +53,7 @@ void VelocityLimiter::see(const Observation& observation) {
   begun_ = true;
   stamp_s_ = observation.stamp_s;
   memory_.see(observation);
+  hearing_.see(observation, expected);
   if (std::any_of(observation.ranges.begin(), observation.ranges.end(), says_something)) note_reading();
   feel_bump(observation.bumped);
 }
@@ -72,6 +79,7 @@ void VelocityLimiter::feel_bump(bool bumped) {
     const double side_rad = allowed_.v_mps > 0.0 ? 0.0 : std::numbers::pi;
     for (const double off_rad : {-kBumpSide_rad, 0.0, kBumpSide_rad})
       memory_.feel(robot_.radius_m * Point(std::cos(side_rad + off_rad), std::sin(side_rad + off_rad)));
+    hearing_.feel_bump(side_rad);
   }
   bumped_ = bumped;
   if (bumped) driven_ = {};
@@ -131,9 +139,18 @@ Twist VelocityLimiter::cut(const Twist& clamped) const {
   double share = std::min(max_mps / speed_mps, allowed_share(clamped, config_.margin_m));
   if (v_mps > kCreep_mps && !memory_.covers(clamped.v_mps > 0.0 ? 0.0 : std::numbers::pi))
     share = std::min(share, kCreep_mps / v_mps);
+  if (const double unheard_mps = max_unheard_mps(clamped); v_mps > unheard_mps)
+    share = std::min(share, unheard_mps / v_mps);
   if (share >= 1.0) return clamped;
   if (share <= 0.0) return {0.0, robot_.polygon_m.empty() ? clamped.w_radps : 0.0};
   return {share * clamped.v_mps, share * clamped.w_radps};
+}
+
+// Of a motion to where transducers are deaf.
+double VelocityLimiter::max_unheard_mps(const Twist& twist) const {
+  if (twist.v_mps == 0.0) return std::numeric_limits<double>::infinity();
+  if (hearing_.is_towards(twist.v_mps > 0.0 ? 0.0 : std::numbers::pi)) return kCreep_mps;
+  return hearing_.is_ring_silent() ? config_.deaf.silent_mps : std::numeric_limits<double>::infinity();
 }
 
 Twist VelocityLimiter::limit(const Twist& wanted) {
@@ -154,6 +171,7 @@ Twist VelocityLimiter::allowed_of(const Twist& wanted) {
   const bool moves = allowed.v_mps != 0.0 || (clamped.v_mps == 0.0 && allowed.w_radps != 0.0);
   if (!moves) figures_.stopped_s += tick_s_;
   if (moves && allowed != clamped) figures_.slowed_s += tick_s_;
+  if (moves && std::abs(clamped.v_mps) > max_unheard_mps(clamped)) figures_.deaf_s += tick_s_;
   return allowed;
 }
 

@@ -5,14 +5,16 @@
 // robot needs to stand: its reaction (a tick, and until the transducer fires again) and its braking distance. The speed
 // is cut, on the same arc, until nothing seen lies in the zone; what approaches by itself makes the zone longer. The
 // arc that the robot is on, before it has come to the wanted one, counts as well. Slow zone: the same with a wider
-// margin, in which the robot only goes slowly. Where no transducer looks it creeps.
+// margin, in which the robot only goes slowly. Where no transducer looks, or a deaf one alone, it creeps.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/safety/config.hpp"
+#include "framework/safety/deaf_transducers.hpp"
 #include "framework/safety/range_buffer.hpp"
 
 namespace cairn {
@@ -22,13 +24,14 @@ class VelocityLimiter {
   VelocityLimiter(const CollisionMonitorConfig& config, const RobotModel& robot);
 
   // Every observation, in order. One whose stamp is not later than the last one's, or whose stamp or odometry is no
-  // number, is stale as a whole.
-  void see(const Observation& observation);
+  // number, is stale as a whole. expected: of its readings, what they should have heard; it only ever slows the robot.
+  void see(const Observation& observation, std::span<const ExpectedEcho> expected = {});
   // The wanted velocity, within the robot's limits and what the sensors allow. Once after each see().
   [[nodiscard]] Twist limit(const Twist& wanted);
   // Share of a wanted speed, or of a wanted turn in place, that an allowed one leaves out: 0 none, 1 all.
   [[nodiscard]] double speed_reduction_ratio(const Twist& wanted, const Twist& allowed) const;
   [[nodiscard]] const CollisionMonitorFigures& figures() const { return figures_; }
+  [[nodiscard]] const DeafTransducers& hearing() const { return hearing_; }
 
  private:
   [[nodiscard]] bool is_stale() const;
@@ -38,11 +41,13 @@ class VelocityLimiter {
   [[nodiscard]] Twist next_towards(const Twist& twist) const;
   [[nodiscard]] Twist allowed_of(const Twist& wanted);
   [[nodiscard]] Twist cut(const Twist& clamped) const;
+  [[nodiscard]] double max_unheard_mps(const Twist& twist) const;
   [[nodiscard]] double allowed_share(const Twist& twist, double margin_m) const;
 
   CollisionMonitorConfig config_;
   RobotModel robot_;
   RangeBuffer memory_;
+  DeafTransducers hearing_;
   double tick_s_ = 0.0;  // between the last two observations
   double stamp_s_ = 0.0;
   double period_s_ = 0.0;       // of readings

@@ -17,8 +17,8 @@ void check_fault(FaultConfig& fault, const ConfigValue& value) {
       throw ConfigError(
           value.find("dead")->items[i].place,
           "each item of dead must be the number of a transducer, found " + config_detail::number_text(fault.dead[i]));
-  if (const ConfigValue* reads = value.find("reads"); reads != nullptr && kind != "dead")
-    throw ConfigError(reads->place, "reads goes with dead");
+  if (const ConfigValue* reads = value.find("reads"); reads != nullptr && kind != "dead" && kind != "deaf")
+    throw ConfigError(reads->place, "reads goes with dead and deaf");
   if (const ConfigValue* for_s = value.find("for_s"); for_s != nullptr && kind == "kidnap")
     throw ConfigError(for_s->place, "kidnap happens once, at at_s; for_s goes with the other faults");
 }
@@ -52,12 +52,14 @@ void FaultConfig::describe(Fields<FaultConfig>& fields) {
       "list of integers";
   fields.choice("reads", &C::reads, {{"no_echo", DeadReading::no_echo}, {"nothing", DeadReading::nothing}},
                 "of dead ones: no_echo, as a ranger reports it that waits in vain, or no reading at all");
+  fields.choice("deaf", &C::deaf, {{"whole", RingPart::whole}, {"left", RingPart::left}, {"right", RingPart::right}},
+                "all transducers are dead, or those that look to that side, straight ahead and straight back included");
   fields.group("stuck", &C::stuck, "a transducer that reads the same all the time");
   fields.group("slip", &C::slip, "the odometry counts what the wheels turn, the robot goes less far");
   fields.angle("compass_jump_deg", &C::compass_jump_rad, {-180.0, 180.0}, "so much is added to what the compass reads");
   fields.flag("silent", &C::silent, "no ranges at all; clock and odometry go on");
   fields.group("kidnap", &C::kidnap, "the robot is carried elsewhere, of which its wheels know nothing");
-  fields.one_of({"dead", "stuck", "slip", "compass_jump_deg", "silent", "kidnap"});
+  fields.one_of({"dead", "deaf", "stuck", "slip", "compass_jump_deg", "silent", "kidnap"});
 }
 
 void RandomFaultsConfig::describe(Fields<RandomFaultsConfig>& fields) {

@@ -11,6 +11,7 @@ namespace cairn {
 
 enum class DeadReading { no_echo, nothing };
 enum class Wheel { left, right, both };
+enum class RingPart { none, whole, left, right };
 
 struct StuckConfig {
   int sonar = 0;
@@ -30,12 +31,13 @@ struct KidnapConfig {
   static void describe(Fields<KidnapConfig>& fields);
 };
 
-// One fault: exactly one of dead, stuck, slip, compass_jump, silent and kidnap.
+// One fault: exactly one of dead, deaf, stuck, slip, compass_jump, silent and kidnap.
 struct FaultConfig {
   double at_s = 0.0;
   std::optional<double> for_s;  // none: for ever
   std::vector<double> dead;     // whole numbers
   DeadReading reads = DeadReading::no_echo;
+  RingPart deaf = RingPart::none;  // becomes a list of dead ones
   std::optional<StuckConfig> stuck;
   std::optional<SlipConfig> slip;
   std::optional<double> compass_jump_rad;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t kFirstPurpose = 200;  // of the streams of the kinds
 constexpr int kPlaceTries = 1000;
 
-enum Kind : std::size_t { dead, stuck, slip, compass_jump, silent, kidnapping };
+enum Kind : std::size_t { dead, stuck, slip, compass_jump, silent, kidnapping, deaf };
 
 bool has_extent(const World& world) {
   return (world.max_m.array() > world.min_m.array()).all();
@@ -65,14 +65,18 @@ std::optional<std::string> not_free(const Pose2& T_map_robot, const RobotModel& 
 Faults::Faults(std::vector<FaultConfig> scheduled, const std::optional<RandomFaultsConfig>& random,
                const RobotModel& robot, const World& world, std::uint64_t seed)
     : robot_(robot), world_(world), to_come_(std::move(scheduled)), last_m_(robot.sonars.size()) {
-  for (const FaultConfig& fault : to_come_) check(fault, robot, world);
+  for (FaultConfig& fault : to_come_) {
+    check(fault, robot, world);
+    if (fault.deaf != RingPart::none) fault.dead = transducers_of(fault.deaf);
+  }
   std::stable_sort(to_come_.begin(), to_come_.end(),
                    [](const FaultConfig& a, const FaultConfig& b) { return a.at_s < b.at_s; });
   if (!random) return;
   random_for_s_ = random->for_s;
   const FaultRates& rates = random->per_hour;
   std::size_t kind = 0;
-  for (const double rate : {rates.dead, rates.stuck, rates.slip, rates.compass_jump, rates.silent, rates.kidnap}) {
+  for (const double rate :
+       {rates.dead, rates.stuck, rates.slip, rates.compass_jump, rates.silent, rates.kidnap, rates.deaf}) {
     if (rate > 0.0) {
       chances_.push_back({kind, rate, NoiseStream(seed, kFirstPurpose + kind), 0.0});
       chances_.back().wait();
@@ -107,7 +111,7 @@ void Faults::begin(const FaultConfig& fault) {
 std::optional<FaultConfig> Faults::random_fault(std::size_t kind, NoiseStream& noise) const {
   FaultConfig fault;
   fault.for_s = random_for_s_;
-  if ((kind == dead || kind == stuck) && robot_.sonars.empty()) return std::nullopt;
+  if ((kind == dead || kind == stuck || kind == deaf) && robot_.sonars.empty()) return std::nullopt;
   switch (kind) {
     case dead:
       fault.dead = {static_cast<double>(one_of(robot_.sonars.size(), noise))};
@@ -125,11 +129,36 @@ std::optional<FaultConfig> Faults::random_fault(std::size_t kind, NoiseStream& n
     case silent:
       fault.silent = true;
       break;
+    case deaf:
+      fault.dead = deaf_part(noise);
+      break;
     default:
       fault.kidnap = free_place(noise);
       if (!fault.kidnap) return std::nullopt;
   }
   return fault;
+}
+
+// Numbers of the transducers that look there.
+std::vector<double> Faults::transducers_of(RingPart part) const {
+  constexpr double kStraight = 1e-6;
+  std::vector<double> found;
+  for (std::size_t i = 0; i < robot_.sonars.size(); ++i) {
+    const double left = std::sin(robot_.sonars[i].T_robot_sonar.theta_rad);
+    if ((part != RingPart::left || left > -kStraight) && (part != RingPart::right || left < kStraight))
+      found.push_back(static_cast<double>(i));
+  }
+  return found;
+}
+
+// The whole, a half, or any of them.
+std::vector<double> Faults::deaf_part(NoiseStream& noise) const {
+  const int part = 1 + one_of(4, noise);
+  if (part < 4) return transducers_of(static_cast<RingPart>(part));
+  std::vector<double> some;
+  for (std::size_t i = 0; i < robot_.sonars.size(); ++i)
+    if (noise.uniform() < 0.5) some.push_back(static_cast<double>(i));
+  return some;
 }
 
 std::optional<KidnapConfig> Faults::free_place(NoiseStream& noise) const {

@@ -47,6 +47,8 @@ class Faults {
   void begin(const FaultConfig& fault);
   // Nothing where the robot or the world has no place for it.
   [[nodiscard]] std::optional<FaultConfig> random_fault(std::size_t kind, NoiseStream& noise) const;
+  [[nodiscard]] std::vector<double> transducers_of(RingPart part) const;
+  [[nodiscard]] std::vector<double> deaf_part(NoiseStream& noise) const;
   [[nodiscard]] std::optional<KidnapConfig> free_place(NoiseStream& noise) const;
 
   RobotModel robot_;

@@ -18,6 +18,7 @@ enum Purpose : std::uint64_t { kSteps = 1, kBattery, kFirstFault = 10 };  // of 
 constexpr int kGoalTries = 10000;
 constexpr double kFaultsFor_s = 3600.0;
 constexpr double kFromMover_m = 1.0;
+constexpr double kDeafFor_s = 30.0;  // on average
 
 // As YAML takes any path.
 std::string yaml_quoted(const std::filesystem::path& path) {
@@ -47,6 +48,7 @@ class Drawing {
   [[nodiscard]] bool is_clear_of_traffic(const Point& p_m) const;
   std::string fault_lines();
   std::string fault(const std::string& kind, PortableRandom& chance);
+  std::string deaf_part(PortableRandom& chance);
   std::string go_to_place();
   std::string go_to_landmark();
   std::string places();
@@ -101,23 +103,37 @@ std::string Drawing::fault(const std::string& kind, PortableRandom& chance) {
   }
   if (kind == "compass_jump") return fmt::format("{}compass_jump_deg: {:.1f}", lasting, chance.between(-90.0, 90.0));
   if (kind == "silent") return lasting + "silent: true";
+  if (kind == "deaf") return deaf_part(chance);
   const Point to_m = with_room();
   return fmt::format("kidnap: {{to_m: [{:.3f}, {:.3f}], angle_deg: {:.1f}}}", to_m.x(), to_m.y(),
                      chance.between(0.0, 360.0));
 }
 
+// The whole ring, a half, or about half of it; for kDeafFor_s on average.
+std::string Drawing::deaf_part(PortableRandom& chance) {
+  const std::string lasting = fmt::format("for_s: {:.1f}, ", chance.wait(1.0 / kDeafFor_s));
+  const std::array parts{"whole", "left", "right"};
+  const int part = chance.whole(0, 3);
+  if (part < 3) return lasting + "deaf: " + parts[static_cast<std::size_t>(part)];
+  std::string sonars;
+  for (std::size_t i = 0; i < robot_.sonars.size(); ++i)
+    if (chance.share() < 0.5) sonars += (sonars.empty() ? "" : ", ") + std::to_string(i);
+  return lasting + (sonars.empty() ? "deaf: whole" : "dead: [" + sonars + "]");
+}
+
 std::string Drawing::fault_lines() {
   const FaultRates& rates = config_.faults_per_hour;
-  const std::array<std::pair<const char*, double>, 6> kinds{{{"dead", rates.dead},
+  const std::array<std::pair<const char*, double>, 7> kinds{{{"dead", rates.dead},
                                                              {"stuck", rates.stuck},
                                                              {"slip", rates.slip},
                                                              {"compass_jump", rates.compass_jump},
                                                              {"silent", rates.silent},
-                                                             {"kidnap", rates.kidnap}}};
+                                                             {"kidnap", rates.kidnap},
+                                                             {"deaf", rates.deaf}}};
   std::string text;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const auto& [kind, per_hour] = kinds[i];
-    const bool needs_sonars = i < 2;
+    const bool needs_sonars = i < 2 || i == 6;
     if (per_hour <= 0.0 || (needs_sonars && robot_.sonars.empty())) continue;
     PortableRandom chance(seed_, kFirstFault + i);
     for (double at_s = chance.wait(per_hour / 3600.0); at_s < kFaultsFor_s; at_s += chance.wait(per_hour / 3600.0))

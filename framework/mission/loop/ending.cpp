@@ -66,6 +66,7 @@ void MissionLoop::finish() {
     // It has failed already and is being left; there is no one to report to.
   }
   publish_any(pauses_.end(clock_.paused_s()));
+  if (ending_.outcome != MissionOutcome::done && hearing_.is_deaf()) add_sentence(ending_.reason, hearing_.summary());
   for (const std::string& fault : steps_.halt(clock_.time_s(), ending_.reason)) add_sentence(ending_.reason, fault);
   try {
     if (ending_.outcome != MissionOutcome::cancelled && world_.grid != nullptr)
@@ -129,6 +130,7 @@ MissionResult MissionLoop::result() const {
   result.explored_ratio = saving_.explored_ratio();
   result.resumed_s = clock_.resumed_s();
   result.collision_monitor = monitor_.figures();
+  result.hearing = hearing_.summary();
   result.autosave = saving_.figures();
   result.map_file = saving_.map_file();
   return result;

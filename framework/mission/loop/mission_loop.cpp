@@ -1,5 +1,7 @@
 #include "framework/mission/loop/mission_loop.hpp"
 
+#include "framework/mission/loop/expected_echoes.hpp"
+
 namespace cairn {
 namespace {
 
@@ -93,7 +95,8 @@ void MissionLoop::tick(Sensed sensed) {
   if (counts_.count(observation)) publisher_.publish(Bumped{});
 
   world_.pose = perception_.localize(observation);
-  const CellChanges& cells = perception_.map(observation, world_.pose);
+  const std::vector<ExpectedEcho> expected = expected_of(observation);
+  const CellChanges& cells = perception_.map(observation, world_.pose, monitor_.hearing().deaf());
   const Recognition recognised = perception_.recognise(cells, world_.time_s);
   world_.coarse = recognised.coarse;
   counts_.count_matchings(recognised.matchings);
@@ -102,7 +105,9 @@ void MissionLoop::tick(Sensed sensed) {
   if (monitor_.has_drive()) publish_any(pauses_.apply(clock_.paused_s()));
   const StepsTick steps = pauses_.is_paused() ? StepsTick{} : steps_.tick(world_.time_s);
   if (steps.has_ended_step) planning_.connect(perception_.tracker(), world_.view());
-  world_.driven = monitor_.drive(observation, steps.wanted);
+  world_.driven = monitor_.drive(observation, steps.wanted, expected);
+  if (monitor_.has_drive())
+    for (const Event& event : hearing_.update(monitor_.hearing(), world_.time_s)) publisher_.publish(event);
   if (const auto for_s = monitor_.stalled_s()) {
     publisher_.publish(stalled_for(*for_s));
     stalled_stage_ = StageClock::kHost;
@@ -111,6 +116,12 @@ void MissionLoop::tick(Sensed sensed) {
   publisher_.publish(TickDone{});
   if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   saving_.autosave();
+}
+
+// By the map as it was before this observation.
+std::vector<ExpectedEcho> MissionLoop::expected_of(const Observation& observation) const {
+  if (!monitor_.has_drive()) return {};
+  return expected_echoes(observation, *world_.grid, world_.pose, mission_.config.collision_monitor.deaf);
 }
 
 // As fast as the wall clock when the user wants it so, and while nothing but time passes.

@@ -9,6 +9,7 @@
 #include "framework/mission/clock/mission_clock.hpp"
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
+#include "framework/mission/hearing.hpp"
 #include "framework/mission/loop/perception.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"
@@ -57,6 +58,7 @@ class MissionLoop {
   Ending loop();
   Sensed sense();
   void tick(Sensed sensed);
+  [[nodiscard]] std::vector<ExpectedEcho> expected_of(const Observation& observation) const;
   void keep_pace();
   [[nodiscard]] std::optional<Ending> ending_after_tick() const;
   [[nodiscard]] Ending at_end_of_data(const std::string& reason) const;
@@ -83,6 +85,7 @@ class MissionLoop {
   Pauses pauses_;
   RunCounts counts_;
   CollisionMonitor monitor_;
+  HearingRecord hearing_;
   std::atomic<StageClock::Id> stalled_stage_{StageClock::kHost};
   Planning planning_;
   MapSaving saving_;

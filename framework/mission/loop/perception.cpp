@@ -1,6 +1,9 @@
 #include "framework/mission/loop/perception.hpp"
 
+#include <algorithm>
+
 #include "framework/modules/plausibility.hpp"
+#include "framework/safety/deaf_transducers.hpp"
 
 namespace cairn {
 namespace {
@@ -44,12 +47,18 @@ PoseEstimate Perception::localize(const Observation& observation) {
   return pose;
 }
 
-const CellChanges& Perception::map(const Observation& observation, const PoseEstimate& pose) {
+const CellChanges& Perception::map(const Observation& observation, const PoseEstimate& pose,
+                                   std::span<const int> deaf) {
   tracker_.record_pose(pose.T_map_robot);
-  const bool all = config_.hold_out_every == 0;
+  const auto is_unheard = [&](const RangeReading& reading) {
+    return is_no_echo(reading) && std::ranges::binary_search(deaf, reading.sensor);
+  };
+  const bool all = config_.hold_out_every == 0 && deaf.empty();
   if (!all) {
     for_map_ = observation;
-    std::erase_if(for_map_.ranges, [&](const RangeReading&) { return hold_out_.next(); });
+    if (config_.hold_out_every > 0)
+      std::erase_if(for_map_.ranges, [&](const RangeReading&) { return hold_out_.next(); });
+    std::erase_if(for_map_.ranges, is_unheard);
   }
   const Observation& seen = all ? observation : for_map_;
   return modules_.mapper.call([&](Mapper& mapper) -> const CellChanges& { return mapper.integrate(seen, pose); });

@@ -34,8 +34,8 @@ class Perception {
 
   // The stages of a tick, in their order.
   [[nodiscard]] PoseEstimate localize(const Observation& observation);
-  // Which cells may have changed; valid until the next call.
-  const CellChanges& map(const Observation& observation, const PoseEstimate& pose);
+  // Which cells may have changed; valid until the next call. Of deaf transducers "no echo" is no news for the map.
+  const CellChanges& map(const Observation& observation, const PoseEstimate& pose, std::span<const int> deaf = {});
   [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s);
 
   [[nodiscard]] LandmarkTracker& tracker() { return tracker_; }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "framework/experiments/contacts.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
 #include "framework/experiments/report.hpp"
 #include "framework/experiments/trials/table.hpp"
@@ -49,6 +50,7 @@ int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentR
       count([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::cancelled; }) > 0;
   const auto done = count([](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::done; });
   const auto good = count([](const ExperimentRow& row) { return row.is_good(); });
+  if (!keeps_contact_limit(config, rows)) return kExitNotSolved;
   if (config.experiment == ExperimentKind::trials)
     return !cancelled && broken_limits(config, rows).empty() && too_long(config, rows).empty() ? kExitDone
                                                                                                : kExitNotSolved;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "framework/mission/hearing.hpp"
 #include "maps/base/printable.hpp"
 
 namespace cairn {
@@ -54,6 +55,8 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     report(time_s, "autosave failed, the mission continues: " + e->reason);
   if (const auto* e = std::get_if<Message>(&event)) report(time_s, e->sentence);
   if (std::holds_alternative<Bumped>(event)) report(time_s, "bumped into something: stopped");
+  if (const auto* e = std::get_if<WentDeaf>(&event)) report(time_s, text_of(*e));
+  if (const auto* e = std::get_if<HearsAgain>(&event)) report(time_s, text_of(*e));
   if (std::holds_alternative<Paused>(event)) {
     report(time_s, "paused: `cairn mission resume` or SIGUSR2 lets it go on");
     out_ << std::flush;

@@ -223,6 +223,56 @@ TEST(VelocityLimiter, KeepsToTheRobotsLimitsAndRefusesWhatIsNoNumber) {
   EXPECT_EQ(layer.limit({std::numeric_limits<double>::quiet_NaN(), 0.0}), Twist{});
 }
 
+// In turns of a round; what is ahead is expected.
+void listen(VelocityLimiter& layer, double from_s, int rounds, const Seen& seen, bool is_expected) {
+  const std::vector<ExpectedEcho> expected =
+      is_expected ? std::vector<ExpectedEcho>{{0, 1.0}} : std::vector<ExpectedEcho>{};
+  for (int i = 0; i < rounds; ++i) layer.see(observation(from_s + 0.28 * i, seen), expected);
+}
+
+TEST(VelocityLimiter, CreepsToWhereADeafTransducerLooksUntilItHearsAgain) {
+  VelocityLimiter layer = layer_that_sees({1.0, 3.0, 3.0});
+  listen(layer, 2.0, 3, {.behind_m = 3.0}, true);
+  EXPECT_NEAR(layer.limit({0.4, 0.1}).v_mps, 0.04, 1e-12);
+  EXPECT_NEAR(layer.limit({0.4, 0.1}).w_radps, 0.01, 1e-12) << "on the same arc";
+  EXPECT_EQ(layer.limit({-0.3, 0.0}).v_mps, -0.3) << "who looks back hears";
+  EXPECT_EQ(layer.limit({0.0, 1.0}).w_radps, 1.0);
+  EXPECT_GT(layer.figures().deaf_s, 0.0);
+  listen(layer, 4.0, 1, {3.0, 3.0, 3.0}, false);
+  EXPECT_EQ(layer.limit({0.4, 0.1}).v_mps, 0.4);
+}
+
+TEST(VelocityLimiter, ARobotThatHasHeardNothingForMetresGoesSlowly) {
+  VelocityLimiter layer({}, a_robot());
+  for (int i = 0; i < 40; ++i) layer.see(observation(1.0 + kTick_s * i, {}, {0.1 * i, 0.0, 0.0}));
+  EXPECT_NEAR(layer.limit({0.4, 0.0}).v_mps, CollisionMonitorConfig{}.deaf.silent_mps, 1e-12);
+  layer.see(observation(5.0, {.left_m = 3.0}, {4.0, 0.0, 0.0}));
+  EXPECT_EQ(layer.limit({0.4, 0.0}).v_mps, 0.4);
+}
+
+TEST(VelocityLimiter, AfterABumpThatNobodyHeardComeItCreepsToThatSideUntilAnEchoComesBack) {
+  VelocityLimiter layer = layer_that_sees({.left_m = 3.0});
+  (void)layer.limit({0.3, 0.0});
+  Observation bump = observation(2.0, {.left_m = 3.0});
+  bump.bumped = true;
+  layer.see(bump);
+  EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.0) << "first not at all";
+  layer.see(observation(8.0, {.left_m = 3.0}, {-0.3, 0.0, 0.0}));
+  layer.see(observation(8.0 + kTick_s, {.left_m = 3.0}, {-0.3, 0.0, 0.0}));
+  EXPECT_NEAR(layer.limit({0.3, 0.0}).v_mps, 0.04, 1e-12);
+  layer.see(observation(8.1, {3.0, kInfinity, 3.0}, {-0.3, 0.0, 0.0}));
+  EXPECT_EQ(layer.limit({0.3, 0.0}).v_mps, 0.3);
+}
+
+// Whoever predicts echoes may be wrong: it makes the robot slower, never faster.
+TEST(VelocityLimiter, WrongExpectationsOnlyEverTakeAway) {
+  for (const bool is_expected : {false, true}) {
+    VelocityLimiter layer = layer_that_sees({.ahead_m = 0.13});
+    listen(layer, 2.0, 10, {.ahead_m = 0.13}, is_expected);
+    EXPECT_EQ(layer.limit({0.4, 0.0}).v_mps, 0.0);
+  }
+}
+
 CollisionMonitorConfig loaded(const std::map<std::string, std::string>& settings) {
   std::string text;
   for (const auto& [key, value] : settings) text += key + ": " + value + "\n";
@@ -231,8 +281,13 @@ CollisionMonitorConfig loaded(const std::map<std::string, std::string>& settings
 
 // The laxest that each setting may be, alone and all together.
 TEST(VelocityLimiter, NoLegalSettingSwitchesItOff) {
-  const std::map<std::string, std::string> laxest{
-      {"margin_m", "0.01"}, {"slow_m", "0.02"}, {"stale_s", "0.2"}, {"blind_s", "1"}};
+  const std::map<std::string, std::string> laxest{{"margin_m", "0.01"},
+                                                  {"slow_m", "0.02"},
+                                                  {"stale_s", "0.2"},
+                                                  {"blind_s", "1"},
+                                                  {"deaf",
+                                                   "{rounds: 6, ring_echoes: 12, within_m: 1, "
+                                                   "silent_m: 10, silent_mps: 0.1}"}};
   std::vector<std::map<std::string, std::string>> all{laxest};
   for (const auto& setting : laxest) all.push_back({setting});
   for (const auto& settings : all) {
@@ -242,6 +297,9 @@ TEST(VelocityLimiter, NoLegalSettingSwitchesItOff) {
     VelocityLimiter blind = layer_that_sees({3.0, 3.0, 3.0}, a_robot(), config);
     for (double stamp_s = 1.08; stamp_s < 2.1; stamp_s += kTick_s) blind.see(without_readings(stamp_s));
     EXPECT_EQ(blind.limit({0.4, 0.0}), Twist{});
+    VelocityLimiter deaf = layer_that_sees({1.0, 3.0, 3.0}, a_robot(), config);
+    listen(deaf, 2.0, 6, {.behind_m = 3.0, .left_m = 3.0}, true);
+    EXPECT_NEAR(deaf.limit({0.4, 0.0}).v_mps, 0.04, 1e-12);
   }
 }
 
@@ -251,7 +309,10 @@ TEST(VelocityLimiter, SettingsThatWouldSwitchItOffAreRefused) {
                                                                                   {"stale_s", "0"},
                                                                                   {"stale_s", "0.1"},
                                                                                   {"blind_s", "1.5"},
-                                                                                  {"blind_s", "10"}})
+                                                                                  {"blind_s", "10"},
+                                                                                  {"deaf", "{rounds: 7}"},
+                                                                                  {"deaf", "{silent_mps: 0.2}"},
+                                                                                  {"deaf", "{silent_m: 100}"}})
     EXPECT_THROW((void)loaded({{key, text}}), ConfigError) << key << " " << text;
 }
 

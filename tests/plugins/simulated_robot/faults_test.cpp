@@ -75,6 +75,30 @@ TEST(Faults, ADeadTransducerCanReportNothingAtAll) {
   EXPECT_EQ(seen[kAfter].ranges.size(), 2U);
 }
 
+TEST(Faults, ADeafRingHearsNothingAndADeafHalfLeavesTheOtherSide) {
+  RobotModel robot = two_sonars();
+  robot.sonars.push_back(SonarModel{{0, 0, radians(-90.0)}});
+  const auto deaf_of = [&](const std::string& part) {
+    const auto seen = run(with_fault("deaf: " + part), {}, 3.0, robot);
+    std::vector<int> deaf;
+    for (const RangeReading& reading : seen[kIn].ranges)
+      if (reading.range_m == kInf) deaf.push_back(reading.sensor);
+    for (const RangeReading& reading : seen[kAfter].ranges) EXPECT_NE(reading.range_m, kInf);
+    return deaf;
+  };
+  EXPECT_EQ(deaf_of("whole"), (std::vector{0, 1, 2}));
+  EXPECT_EQ(deaf_of("left"), (std::vector{0, 1})) << "ahead belongs to both";
+  EXPECT_EQ(deaf_of("right"), (std::vector{0, 2}));
+}
+
+TEST(Faults, ADeafRingCanStrikeByChance) {
+  const auto seen = run(config_of("random_faults: {per_hour: {deaf: 600}, for_s: 1}"), {}, 200.0);
+  const auto silent = std::ranges::count_if(seen, [](const Witnessed& at) {
+    return at.ranges.size() == 2 && at.ranges[0].range_m == kInf && at.ranges[1].range_m == kInf;
+  });
+  EXPECT_GT(silent, 25) << "the whole of it for a second, some time";
+}
+
 TEST(Faults, AStuckTransducerReadsItsRangeOrItsLastReading) {
   const Twist ahead{0.4, 0.0};
   const auto at_range = run(with_fault("stuck: {sonar: 0, range_m: 0.7}"), ahead, 3.0);

@@ -117,6 +117,24 @@ TEST(Driving, PassesADoorOfSeventyCentimetres) {
   }
 }
 
+bool has_event(const json& report, const std::string& text) {
+  return std::ranges::any_of(
+      report["events"], [&](const json& event) { return event.get<std::string>().find(text) != std::string::npos; });
+}
+
+// Deaf for a minute on its way.
+TEST(Driving, ARingThatGoesDeafMeetsNothingFastAndGoesOnWhenItHearsAgain) {
+  for (const std::string part : {"whole", "left", "right"}) {
+    const json report = run("deaf_" + part, kRoom, ", faults: [{at_s: 6, for_s: 60, deaf: " + part + "}]", "1", "600");
+    EXPECT_EQ(report["outcome"], "done") << report["reason"];
+    for (const json& touch : report["contacts"]) EXPECT_LE(touch["speed_mps"].get<double>(), 0.1) << part << touch;
+    EXPECT_TRUE(has_event(report, "the robot creeps")) << part << report["events"];
+    EXPECT_TRUE(has_event(report, "again")) << part << report["events"];
+    EXPECT_GT(report["collision_monitor"]["deaf_s"], 0.0) << part;
+    EXPECT_NE(report["collision_monitor"]["deaf"], "") << part;
+  }
+}
+
 TEST(Driving, StandsWhileItsSensorsAreSilentAndGoesOnAfter) {
   const json report = run("silent", kRoom, ", faults: [{at_s: 6, for_s: 8, silent: true}]");
   EXPECT_EQ(report["outcome"], "done") << report["reason"];

@@ -109,6 +109,15 @@ TEST(RandomMission, AnotherRateOfOneFaultLeavesTheOthersAsTheyWere) {
   EXPECT_EQ(std::regex_replace(many, std::regex("    - [^\n]*stuck[^\n]*\n"), ""), few);
 }
 
+TEST(RandomMission, DeafRingsAreWholeHalvesAndPartsAndEndSomeTime) {
+  TrialsConfig config;
+  config.faults_per_hour.deaf = 30;
+  std::string text;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) text += draw(config, seed, folder_of("deaf")).text;
+  for (const char* part : {"deaf: whole", "deaf: left", "deaf: right", "dead: ["}) EXPECT_GT(count(text, part), 5U);
+  EXPECT_EQ(count(text, "at_s:"), count(text, "for_s:"));
+}
+
 TEST(RandomMission, WithoutRatesThereAreNoFaults) {
   EXPECT_THAT(draw({}, 7, folder_of("none")).text, Not(HasSubstr("faults")));
 }

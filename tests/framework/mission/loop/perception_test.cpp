@@ -128,6 +128,18 @@ TEST_F(PerceptionTest, ReadingsThatAreHeldOutAreHiddenFromTheMapOnly) {
   EXPECT_EQ(mapper_->readings, 6U);
 }
 
+TEST_F(PerceptionTest, WhatDeafTransducersDoNotHearIsHiddenFromTheMap) {
+  (void)perception().begin();
+  Observation seen = observation(3);
+  for (int i = 0; i < 3; ++i) seen.ranges[static_cast<std::size_t>(i)].sensor = i;
+  seen.ranges[1].range_m = 1.0;
+  const PoseEstimate pose = perception().localize(seen);
+  perception().map(seen, pose, std::vector<int>{0, 1});
+  EXPECT_EQ(mapper_->readings, 2U) << "an echo is one, whoever hears it";
+  perception().map(seen, pose);
+  EXPECT_EQ(mapper_->readings, 5U);
+}
+
 TEST_F(PerceptionTest, APoseThatIsNotFiniteIsAFaultOfTheLocalizer) {
   (void)perception().begin();
   localizer_->offset_m = std::numeric_limits<double>::infinity();
