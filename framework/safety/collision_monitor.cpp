@@ -33,18 +33,23 @@ DriveCommand CollisionMonitor::drive(const Observation& observation, const Twist
   if (!drive_) return {};
   limiter_.see(observation, expected);
   const Twist allowed = limiter_.limit(wanted);
-  order(allowed);
+  order(allowed, limiter_.is_blind_for_long());
   return {allowed, limiter_.speed_reduction_ratio(wanted, allowed)};
 }
 
-void CollisionMonitor::order(const Twist& twist) {
+void CollisionMonitor::order(const Twist& twist, bool at_once) {
   const std::scoped_lock lock(ordering_);
   ordering_since_ns_ = now_ns();
   struct End {
     std::atomic<std::int64_t>& since;
     ~End() { since = 0; }
   } const end{ordering_since_ns_};
-  drive_.call([&](Drive& drive) { drive.command(twist, command_valid_s_); });
+  drive_.call([&](Drive& drive) {
+    if (at_once)
+      drive.stop();
+    else
+      drive.command(twist, command_valid_s_);
+  });
   const std::int64_t now = now_ns();
   const bool was_standing = std::exchange(is_standing_, false);
   // Also when the whole process stood: then the drive's own time has stopped the wheels.

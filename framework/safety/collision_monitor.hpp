@@ -58,7 +58,8 @@ class CollisionMonitor {
 
  private:
   [[nodiscard]] std::int64_t now_ns() const noexcept;
-  void order(const Twist& twist);
+  // at_once: the robot stops as hard as it can, and twist is none.
+  void order(const Twist& twist, bool at_once);
 
   VelocityLimiter limiter_;
   const double command_valid_s_;

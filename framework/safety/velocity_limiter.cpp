@@ -85,6 +85,10 @@ void VelocityLimiter::feel_bump(bool bumped) {
   if (bumped) driven_ = {};
 }
 
+bool VelocityLimiter::is_blind_for_long() const {
+  return begun_ && is_stale() && (useless_ || stamp_s_ - last_reading_s_ > config_.command_valid_s);
+}
+
 bool VelocityLimiter::is_stale() const {
   const double blind_s = config_.blind_s.value_or(kBlindPeriods * period_s_);
   return !begun_ || useless_ || stamp_s_ - last_reading_s_ > blind_s;

@@ -28,6 +28,8 @@ class VelocityLimiter {
   void see(const Observation& observation, std::span<const ExpectedEcho> expected = {});
   // The wanted velocity, within the robot's limits and what the sensors allow. Once after each see().
   [[nodiscard]] Twist limit(const Twist& wanted);
+  // Nothing has been read for longer than a command counts, or the clock stands: to stop as commanded takes too long.
+  [[nodiscard]] bool is_blind_for_long() const;
   // Share of a wanted speed, or of a wanted turn in place, that an allowed one leaves out: 0 none, 1 all.
   [[nodiscard]] double speed_reduction_ratio(const Twist& wanted, const Twist& allowed) const;
   [[nodiscard]] const CollisionMonitorFigures& figures() const { return figures_; }

@@ -77,6 +77,26 @@ TEST_F(MonitorOfADrive, StopsAtOnceWhenSomethingHasFailed) {
   EXPECT_EQ(drive_->commands.back(), (Twist{0.1, 0.0}));
 }
 
+TEST_F(MonitorOfADrive, StopsAsCommandedWithoutReadingsAndAtOnceWhenTheyAreMissingForLong) {
+  (void)monitor_.drive(observation(1.0), {0.3, 0.0});
+  double stamp_s = 1.0 + kTick_s;
+  for (; stamp_s < 1.24; stamp_s += kTick_s) (void)monitor_.drive(without_readings(stamp_s), {0.3, 0.0});
+  EXPECT_EQ(drive_->commands.back(), Twist{});
+  EXPECT_EQ(drive_->stops, 0) << "one round that is missing is no emergency";
+  const std::size_t commands = drive_->commands.size();
+  for (; stamp_s < 1.5; stamp_s += kTick_s) (void)monitor_.drive(without_readings(stamp_s), {0.3, 0.0});
+  EXPECT_GE(drive_->stops, 4);
+  EXPECT_LE(drive_->commands.size(), commands + 1) << "a command would let it brake more gently again";
+  (void)monitor_.drive(observation(stamp_s), {0.3, 0.0});
+  EXPECT_GT(drive_->commands.back().v_mps, 0.0) << "it goes on by itself";
+}
+
+TEST_F(MonitorOfADrive, StopsAtOnceWhenTheClockStands) {
+  (void)monitor_.drive(observation(1.0), {0.3, 0.0});
+  (void)monitor_.drive(observation(1.0), {0.3, 0.0});
+  EXPECT_EQ(drive_->stops, 1);
+}
+
 TEST_F(MonitorOfADrive, ADriveThatThrowsIsAFaultOfItsModule) {
   drive_->is_broken = true;
   try {
