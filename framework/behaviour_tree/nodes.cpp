@@ -114,7 +114,7 @@ void LandmarkKnownSettings::describe(Fields<LandmarkKnownSettings>& fields) {
 
 void ExploredSettings::describe(Fields<ExploredSettings>& fields) {
   fields.number("at_least_ratio", &ExploredSettings::at_least_ratio, {0.0, 1.0}, "",
-                "share of known cells within the outermost walls, as `explore` counts it");
+                "share of known cells in the smallest box around everything occupied, as `explore` counts it");
   fields.shorthand("at_least_ratio");
 }
 

@@ -1,4 +1,4 @@
-// A plain controller, to read and to start from: pure pursuit that stops before what is on its arc and waits until it
+// A plain controller, to read as an example: pure pursuit that stops before what is on its arc and waits until it
 // has gone. It never goes round anything; the behaviour that drives plans another path.
 #pragma once
 

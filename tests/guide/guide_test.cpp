@@ -1,4 +1,4 @@
-// The plugin guide's code is this folder's code, and its mission does what the guide says.
+// The code and the files of guides are this folder's, and their missions do what the guides say.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,6 +17,7 @@ using testing::HasSubstr;
 
 const std::filesystem::path kSource = CAIRN_SOURCE_DIR;
 const std::filesystem::path kFolder = kSource / "tests/guide/pillar_finder";
+const std::filesystem::path kOwnMission = kSource / "tests/guide/own_mission";
 const std::string kModules = std::string(CAIRN_BINARY_DIR) + "/tests/guide";
 
 std::string guide() {
@@ -24,8 +25,7 @@ std::string guide() {
 }
 
 // The texts between ```LANGUAGE and ```.
-std::vector<std::string> blocks_of(const std::string& language) {
-  const std::string text = guide();
+std::vector<std::string> blocks_of(const std::string& language, const std::string& text = guide()) {
   const std::string begin = "\n```" + language + "\n";
   std::vector<std::string> blocks;
   for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at)) {
@@ -35,9 +35,9 @@ std::vector<std::string> blocks_of(const std::string& language) {
   return blocks;
 }
 
-std::string all_files_with(const std::vector<std::string>& extensions) {
+std::string all_files_with(const std::vector<std::string>& extensions, const std::filesystem::path& folder = kFolder) {
   std::string text;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     for (const std::string& extension : extensions)
       if (entry.path().extension() == extension) text += "\n" + text_of_file(entry.path());
   return text;
@@ -53,6 +53,33 @@ TEST(Guide, EveryBlockOfConfigurationStandsInAFileThatIsRun) {
   const std::string files = all_files_with({".yaml"});
   EXPECT_GE(blocks_of("yaml").size(), 1U);
   for (const std::string& block : blocks_of("yaml")) EXPECT_THAT(files, HasSubstr("\n" + block));
+}
+
+TEST(Guide, TheDriveOfTheSensorGuideStandsInACompiledFile) {
+  const std::string code = all_files_with({".hpp"}, kSource / "tests/guide/wheels");
+  const std::vector<std::string> blocks = blocks_of("cpp", text_of_file(kSource / "docs/write-a-sensor.md"));
+  EXPECT_EQ(blocks.size(), 1U);
+  for (const std::string& block : blocks) EXPECT_THAT(code, HasSubstr("\n" + block));
+}
+
+TEST(Guide, TheFilesOfYourOwnMissionAreThoseThatAreRun) {
+  const std::vector<std::string> blocks = blocks_of("yaml", text_of_file(kSource / "docs/your-own-mission.md"));
+  std::vector<std::string> files;
+  for (const char* file : {"world.yaml", "templates/crate.yaml", "robot.yaml", "mission.yaml"})
+    files.push_back(text_of_file(kOwnMission / file));
+  EXPECT_EQ(blocks, files);
+}
+
+TEST(Guide, YourOwnMissionFindsTheCrateAndReturns) {
+  const std::filesystem::path out = fresh_folder("own_mission");
+  const Finished finished =
+      run_cairn({"run", (kOwnMission / "mission.yaml").string(), "--out", out.string(), "--json"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto report = nlohmann::json::parse(finished.out);
+  ASSERT_EQ(report["landmarks"].size(), 1U) << report["landmarks"].dump(1);
+  EXPECT_EQ(report["landmarks"][0]["category"], "crate");
+  EXPECT_NEAR(report["landmarks"][0]["x_m"].get<double>(), 3.4, 0.1);
+  EXPECT_NEAR(report["landmarks"][0]["y_m"].get<double>(), 2.6, 0.1);
 }
 
 TEST(Guide, TheMissionFindsBothPillarsAndNothingElse) {

@@ -42,6 +42,16 @@ TEST_F(PluginsNew, WritesAWholeProjectOfEveryKindWithoutAnyMarkLeft) {
   }
 }
 
+// The scaffold's own controller needs a build; a shipped one shows that the mission asks for the avoidance of
+// obstacles.
+TEST_F(PluginsNew, TheMissionOfAControllerHasSomethingInTheWay) {
+  ASSERT_EQ(make("controller", "my_controller").exit_status, 0);
+  const Finished finished = run_cairn({"run", (project_ / "mission.yaml").string(), "--set",
+                                       "controller.plugin=plain_pursuit", "--out", (project_ / "out").string()});
+  EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("waits: blocked at"));
+}
+
 TEST_F(PluginsNew, AnUnknownKindNamesTheNearest) {
   expect_refused(make("detektor", "my_detector"), "no kind of module \"detektor\" (did you mean \"detector\"?)");
 }
