@@ -25,10 +25,6 @@ constexpr int kBatch = 8;             // new echoes before the next search
 constexpr double kPointRatio = 0.75;  // a line must fit so much better than a point
 constexpr double kCurved_m = 0.010;   // how far a round thing must leave the line to be distinguished from it
 
-std::size_t vote_index(int direction, int distance) {
-  return static_cast<std::size_t>(direction) * kDistances + static_cast<std::size_t>(distance);
-}
-
 }  // namespace
 
 struct WallFinder::Fit {

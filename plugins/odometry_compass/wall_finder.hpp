@@ -75,6 +75,9 @@ class WallFinder {
   static constexpr int kMaxEchoes = 256;
   static constexpr int kDirections = 120;
   static constexpr int kDistances = 144;
+  [[nodiscard]] static constexpr std::size_t vote_index(int direction, int distance) {
+    return static_cast<std::size_t>(direction) * kDistances + static_cast<std::size_t>(distance);
+  }
 
   WallFinderRules rules_;
   std::vector<Echo> echoes_;  // oldest first
