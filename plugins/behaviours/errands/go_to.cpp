@@ -8,7 +8,8 @@ namespace cairn::behaviours {
 void GoToConfig::describe(Fields<GoToConfig>& fields) {
   using C = GoToConfig;
   fields.raw("landmark", &C::landmark, "place",
-             "where to go: a landmark's id (L3) or name, `nearest CATEGORY`, or a place `[x, y]`; this, at_m or input");
+             "where to go: a landmark's id (L3) or name, a category, `nearest CATEGORY`, or a place `[x, y]`; this, "
+             "at_m or input");
   fields.point("at_m", &C::at_m, "m", "where to go: a place of the map");
   fields.input("input", &C::input, "where to go: the place that an earlier step gives by `output` under this name");
   fields.angle("angle_deg", &C::angle_rad, {-360.0, 360.0},
