@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "framework/config/config_errors.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -129,8 +130,10 @@ ConfigError with_place_of_use(const ConfigError& error, const ConfigValue& value
   std::set<std::string> files;
   collect_files(value, files);
   files.erase(place.file);
-  if (!files.contains(error.place().file)) return error;
-  return {error.place(), error.sentence() + " (given as a parameter to " + place.text() + ")"};
+  return each_changed(error, [&](const ConfigError& one) -> ConfigError {
+    if (!files.contains(one.place().file)) return one;
+    return {one.place(), one.sentence() + " (given as a parameter to " + place.text() + ")"};
+  });
 }
 
 }  // namespace cairn

@@ -30,7 +30,7 @@ std::string text_of(const TimeLeft& left) {
   const std::string without = joined(left.without);
   const bool is_known = without.empty() || left.about_s >= 0.5;
   std::string text = is_known ? fmt::format("about {:.0f} s left", left.about_s) : std::string("time left unknown");
-  if (is_known && !without.empty()) text += " without " + without;
+  if (is_known && !without.empty()) text += "; " + without + " not counted";
   return is_known || !std::isfinite(left.max_s) ? text : text + fmt::format(", at most {:.0f} s", left.max_s);
 }
 

@@ -20,7 +20,7 @@ void add_unknown(TimeLeft& left, const std::string& what);
 // At most so long.
 [[nodiscard]] TimeLeft cut(TimeLeft left, double max_s);
 
-// "about 80 s left", "about 80 s left without goto, save", "time left unknown, at most 900 s".
+// "about 80 s left", "about 80 s left; goto, save not counted", "time left unknown, at most 900 s".
 [[nodiscard]] std::string text_of(const TimeLeft& left);
 
 }  // namespace cairn

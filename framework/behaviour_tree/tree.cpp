@@ -1,6 +1,7 @@
 #include "framework/behaviour_tree/tree.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 
 #include "framework/behaviour_tree/parameters.hpp"
@@ -87,7 +88,7 @@ class TreeReader {
     try {
       work();
     } catch (const ConfigError& error) {
-      errors_.push_back(error);
+      std::ranges::move(each_of(error), std::back_inserter(errors_));
     }
   }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "maps/base/spelling.hpp"
@@ -25,15 +26,21 @@ struct SourcePlace {
 // Bad input from outside: what() is "file:line:column: sentence".
 class ConfigError : public std::runtime_error {
  public:
-  ConfigError(const SourcePlace& place, const std::string& sentence)
-      : std::runtime_error(place.text() + ": " + sentence), place_(place), sentence_(sentence) {}
+  ConfigError(const SourcePlace& place, const std::string& sentence, std::vector<ConfigError> others = {})
+      : std::runtime_error(place.text() + ": " + sentence),
+        place_(place),
+        sentence_(sentence),
+        others_(std::move(others)) {}
 
   [[nodiscard]] const SourcePlace& place() const { return place_; }
   [[nodiscard]] const std::string& sentence() const { return sentence_; }
+  // Further mistakes that were found together with this one (config_errors.hpp); none has others of its own.
+  [[nodiscard]] const std::vector<ConfigError>& others() const { return others_; }
 
  private:
   SourcePlace place_;
   std::string sentence_;
+  std::vector<ConfigError> others_;
 };
 
 class ConfigValue {

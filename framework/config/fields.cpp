@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "maps/base/text.hpp"
 
@@ -84,20 +85,21 @@ const FieldSpec* field_of(const Schema& schema, std::string_view key) {
   return at == schema.fields.end() ? nullptr : &*at;
 }
 
-[[noreturn]] void fail_unknown(const ConfigValue::Entry& entry, const Schema& schema, const std::string& what) {
+// lists: all keys that there are, which is said once of a map.
+[[noreturn]] void fail_unknown(const ConfigValue::Entry& entry, const Schema& schema, const std::string& what,
+                               bool lists) {
   const std::vector<std::string> known = keys_of(schema);
-  const std::string allowed = known.empty() ? "; it takes none" : "; known: " + joined(known);
+  const std::string allowed = !lists ? "" : known.empty() ? "; it takes none" : "; known: " + joined(known);
   throw ConfigError(entry.key_place,
                     "unknown key " + in_quotes(entry.key) + " in " + what + did_you_mean(entry.key, known) + allowed);
 }
 
-void check_required(const Schema& schema, const ConfigValue& value, const std::string& what) {
+void check_required(const Schema& schema, const ConfigValue& value, const std::string& what, ConfigErrors& errors) {
   const bool is_shorthand = value.kind == ConfigValue::Kind::scalar || value.kind == ConfigValue::Kind::list;
   for (const FieldSpec& field : schema.fields) {
     const bool is_given = is_shorthand ? field.key == schema.shorthand : value.find(field.key) != nullptr;
-    if (field.required && !is_given) {
-      throw ConfigError(value.place, what + " lacks the key " + in_quotes(field.key) + ": " + field.meaning);
-    }
+    if (field.required && !is_given)
+      errors.add({value.place, what + " lacks the key " + in_quotes(field.key) + ": " + field.meaning});
   }
 }
 
@@ -107,27 +109,34 @@ void load_short_form(const FieldSpec& field, void* config, const ConfigValue& va
     field.load(config, value);
   } catch (const ConfigError& error) {
     if (error.place() != value.place || !error.sentence().starts_with(field.key + " must ")) throw;
-    throw ConfigError(value.place, what + ": " + error.sentence());
+    throw ConfigError(value.place, what + ": " + error.sentence(), error.others());
   }
 }
 
 }  // namespace
 
 void Schema::load_into(void* config, const ConfigValue& value, const std::string& what) const {
+  ConfigErrors errors;
   if (value.kind == ConfigValue::Kind::scalar || value.kind == ConfigValue::Kind::list) {
     if (shorthand.empty()) throw ConfigError(value.place, what + " must be a map, found " + found_text(value));
     const FieldSpec* field = field_of(*this, shorthand);
     if (field == nullptr) throw std::logic_error(what + ": the shorthand \"" + shorthand + "\" is not a field");
-    check_required(*this, value, what);
+    check_required(*this, value, what, errors);
+    errors.throw_if_any();
     load_short_form(*field, config, value, what);
     return;
   }
+  bool has_listed = false;
   for (const ConfigValue::Entry& entry : value.entries) {
-    const FieldSpec* field = field_of(*this, entry.key);
-    if (field == nullptr) fail_unknown(entry, *this, what);
-    field->load(config, entry.value);
+    if (errors.is_full()) break;
+    errors.attempt([&] {
+      const FieldSpec* field = field_of(*this, entry.key);
+      if (field == nullptr) fail_unknown(entry, *this, what, !std::exchange(has_listed, true));
+      field->load(config, entry.value);
+    });
   }
-  check_required(*this, value, what);
+  check_required(*this, value, what, errors);
+  errors.throw_if_any();
 }
 
 namespace config_detail {

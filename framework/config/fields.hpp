@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/config/config_errors.hpp"
 #include "framework/config/config_value.hpp"
 #include "framework/config/schema.hpp"
 #include "maps/geometry/pose.hpp"
@@ -34,13 +35,15 @@ namespace cairn {
 template <class Config>
 class Fields;
 
+// defaults: what is left out in a file; a group's are those of the struct around it.
 template <class Config>
-[[nodiscard]] Schema schema_of() {
-  Fields<Config> fields;
+[[nodiscard]] Schema schema_of(const Config& defaults = {}) {
+  Fields<Config> fields(defaults);
   Config::describe(fields);
   return std::move(fields).take();
 }
 
+// Throws ConfigError: the first mistake, with all others that do not depend on it.
 template <class Config>
 [[nodiscard]] Config load_config(const ConfigValue& value, const std::string& what) {
   Config config;
@@ -75,7 +78,10 @@ template <class Read>
 [[nodiscard]] auto each_by(Read read) {
   return [read](const ConfigValue& value, const std::string& key) {
     std::vector<decltype(read(value, key))> out;
-    for (const ConfigValue& item : to_list(value, key)) out.push_back(read(item, key));
+    ConfigErrors errors;
+    for (const ConfigValue& item : to_list(value, key))
+      if (!errors.is_full()) errors.attempt([&] { out.push_back(read(item, key)); });
+    errors.throw_if_any();
     return out;
   };
 }
@@ -95,6 +101,8 @@ template <class Integer>
 template <class Config>
 class Fields {
  public:
+  explicit Fields(const Config& defaults = {}) : defaults_(defaults) {}
+
   // Number: double or std::optional<double>, which has no default. Owner: Config or a base of it.
   template <class Number, class Owner>
   FieldSpec& number(std::string key, Number Owner::*member, Range range, const std::string& unit, std::string meaning) {
@@ -204,20 +212,25 @@ class Fields {
   // A nested struct with its own describe(); what the file leaves out stays as the outer struct has it.
   template <class Sub>
   FieldSpec& group(std::string key, Sub Config::*member, std::string meaning) {
-    FieldSpec& f = nested<Sub>(add(std::move(key), "map", std::move(meaning), "", member, loaded_by<Sub>()));
-    f.load = [member, key = f.key, schema = schema_of<Sub>()](void* c, const ConfigValue& v) {
+    Schema schema = schema_of<Sub>(defaults_.*member);
+    FieldSpec& f = nested(schema_.fields.emplace_back(), schema);
+    f.key = std::move(key);
+    f.type = "map";
+    f.meaning = std::move(meaning);
+    f.load = [member, key = f.key, schema = std::move(schema)](void* c, const ConfigValue& v) {
       schema.load_into(&(static_cast<Config*>(c)->*member), v, key);
     };
     return f;
   }
   template <class Sub>
   FieldSpec& group(std::string key, std::optional<Sub> Config::*member, std::string meaning) {
-    return nested<Sub>(add(std::move(key), "map", std::move(meaning), "", member, loaded_by<Sub>()));
+    return nested(add(std::move(key), "map", std::move(meaning), "", member, loaded_by<Sub>()), schema_of<Sub>());
   }
   template <class Sub>
   FieldSpec& list(std::string key, std::vector<Sub> Config::*member, std::string meaning) {
-    return nested<Sub>(
-        add(std::move(key), "list of maps", std::move(meaning), "", member, config_detail::each_by(loaded_by<Sub>())));
+    return nested(
+        add(std::move(key), "list of maps", std::move(meaning), "", member, config_detail::each_by(loaded_by<Sub>())),
+        schema_of<Sub>());
   }
   // A module of a kind (as name_of(PluginKind) says it) with its settings.
   FieldSpec& plugin(std::string key, PluginChoice Config::*member, std::string kind, std::string meaning) {
@@ -271,16 +284,14 @@ class Fields {
       return sub;
     };
   }
-  template <class Sub>
-  static FieldSpec& nested(FieldSpec& field) {
-    Schema schema = schema_of<Sub>();
-    field.fields = std::move(schema.fields);
-    field.shorthand = std::move(schema.shorthand);
-    field.one_of = std::move(schema.one_of);
+  static FieldSpec& nested(FieldSpec& field, const Schema& schema) {
+    field.fields = schema.fields;
+    field.shorthand = schema.shorthand;
+    field.one_of = schema.one_of;
     return field;
   }
 
-  Config defaults_{};
+  Config defaults_;
   Schema schema_;
 };
 

@@ -45,7 +45,8 @@ struct Schema {
   // the struct asks config_detail::exactly_one_of which one it is.
   std::vector<std::string> one_of;
 
-  // Loads a map (or the shorthand) into a config object. what: "robot", "plugin explore", ...
+  // Loads a map (or the shorthand) into a config object. what: "robot", "plugin explore", ... Throws ConfigError: the
+  // first mistake, with all others that do not depend on it; what is right is loaded then too.
   void load_into(void* config, const ConfigValue& value, const std::string& what) const;
 };
 

@@ -40,6 +40,8 @@ struct Matching {
   std::optional<Detection> detection;
   // Best of every template, best first and one an orientation; for charts, only when a detector is asked.
   std::vector<TemplateDegree> templates;
+  // A category fits when its degree is above this, where a detector has such a threshold; for charts.
+  std::optional<double> fits_above{};
 };
 
 struct DetectionReport {

@@ -14,7 +14,7 @@ void look_at(const std::filesystem::path& file, const std::vector<std::string>& 
   for (const ConfigError& error : read.errors) check.errors.emplace_back(error.what());
   for (const ConfigError& error : read.step_errors) check.errors.emplace_back(error.what());
   // Modules are made of the robot and the world.
-  if (!read.errors.empty()) return;
+  if (!read.has_files) return;
   for (std::string& error : check_modules(read.mission, library)) check.errors.push_back(std::move(error));
 }
 

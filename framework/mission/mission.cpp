@@ -62,6 +62,55 @@ void check_autosave(const ConfigValue& root, const std::string& mission, const s
   if (file == mission + ".cairn") refuse(" is the name of the map that the mission saves at its end");
 }
 
+// What the work reads of a file. A file that cannot be read at all is wrong where it is named; what is wrong within it
+// has its place there.
+template <class Work>
+auto read_at(const ConfigValue& name, const std::string& key, const std::filesystem::path& file, const Work& work) {
+  try {
+    return work();
+  } catch (const ConfigError& error) {
+    if (error.place() != SourcePlace{file.string(), 0, 0}) throw;
+    std::error_code unknown;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(file, unknown);
+    throw ConfigError(name.place, key + ": " + (unknown ? file : whole).string() + ": " + error.sentence());
+  }
+}
+
+SourcePlace start_place_of(const ConfigValue& root) {
+  const ConfigValue* const start = root.find("start");
+  const ConfigValue* const at = start == nullptr ? nullptr : start->find("at_m");
+  return at != nullptr ? at->place : start != nullptr ? start->place : root.place;
+}
+
+// What the mission's settings name. Whether all of it could be read.
+bool read_files(const ConfigValue& root, Mission& mission, ConfigErrors& errors) {
+  const std::size_t errors_before = errors.all().size();
+  const MissionConfig& config = mission.config;
+  if (!config.robot.empty())
+    errors.attempt([&] {
+      mission.robot = read_at(*root.find("robot"), "robot", config.robot, [&] { return load_robot(config.robot); });
+    });
+  bool has_shapes = false;
+  errors.attempt([&] {
+    if (!config.detector.name.empty()) use_detector(mission, config.detector);
+    has_shapes = true;
+  });
+  const ConfigValue* const world = root.find("world");
+  if (!config.world.empty())
+    errors.attempt([&] {
+      read_at(*world, "world", config.world, [&] {
+        // Without the templates, what the world says of their landmarks cannot be read.
+        if (!has_shapes) return (void)read_config_file(config.world);
+        mission.world = load_world(config.world, mission.shapes);
+      });
+      if (!mission.world) return;
+      mission.world_fingerprint = fingerprint_of(bytes_of(config.world));
+      check_sizes(mission.shapes, *mission.world, mission.template_settings.templates);
+    });
+  const bool has_names = !config.robot.empty() && (world == nullptr || !config.world.empty());
+  return has_names && !errors.is_full() && errors.all().size() == errors_before;
+}
+
 }  // namespace
 
 void StartConfig::describe(Fields<StartConfig>& fields) {
@@ -114,8 +163,12 @@ void use_detector(Mission& mission, const PluginChoice& detector) {
   mission.config.detector = detector;
   mission.template_settings = template_settings_of(mission.config.detector);
   mission.shapes.clear();
-  if (!mission.template_settings.templates.empty())
-    mission.shapes = load_landmark_shapes(mission.template_settings.templates);
+  const std::filesystem::path& folder = mission.template_settings.templates;
+  if (folder.empty()) return;
+  const ConfigValue& settings = mission.config.detector.config;
+  const ConfigValue* const named = settings.find("templates");
+  mission.shapes =
+      read_at(named == nullptr ? settings : *named, "templates", folder, [&] { return load_landmark_shapes(folder); });
 }
 
 ReadMission read_mission(const std::filesystem::path& file, const std::vector<std::string>& overrides,
@@ -124,24 +177,13 @@ ReadMission read_mission(const std::filesystem::path& file, const std::vector<st
   for (const std::string& assignment : overrides) apply_override(root, assignment);
   ReadMission read;
   Mission& mission = read.mission;
-  mission.config = load_config<MissionConfig>(root, "mission");
-  check_autosave(root, mission.config.mission, mission.config.autosave.file);
+  ConfigErrors errors;
+  errors.attempt([&] { schema_of<MissionConfig>().load_into(&mission.config, root, "mission"); });
+  errors.attempt([&] { check_autosave(root, mission.config.mission, mission.config.autosave.file); });
   if (seed) mission.config.seed = *seed;
-  const auto attempt = [&](auto work) {
-    try {
-      work();
-    } catch (const ConfigError& error) {
-      read.errors.push_back(error);
-    }
-  };
-  attempt([&] { mission.robot = load_robot(mission.config.robot); });
-  attempt([&] {
-    if (!mission.config.detector.name.empty()) use_detector(mission, mission.config.detector);
-    if (mission.config.world.empty()) return;
-    mission.world = load_world(mission.config.world, mission.shapes);
-    mission.world_fingerprint = fingerprint_of(bytes_of(mission.config.world));
-    check_sizes(mission.shapes, *mission.world, mission.template_settings.templates);
-  });
+  mission.start_place = start_place_of(root);
+  read.has_files = read_files(root, mission, errors);
+  read.errors = errors.all();
   MissionTree tree = read_mission_tree(mission.config.steps, file);
   mission.steps = std::move(tree.steps);
   read.step_errors = std::move(tree.errors);

@@ -59,6 +59,7 @@ struct Mission {
   RobotModel robot;
   std::optional<World> world;
   std::string world_fingerprint;  // of its file; empty without one
+  SourcePlace start_place;        // of `start`, or of the file that lacks it
   std::vector<LandmarkShape> shapes;
   std::vector<TreeNode> steps;
 };
@@ -74,11 +75,12 @@ void use_detector(Mission& mission, const PluginChoice& detector);
                                    std::optional<std::int64_t> seed = std::nullopt);
 
 struct ReadMission {
-  Mission mission;                       // without what could not be read
-  std::vector<ConfigError> errors;       // of the files that it names; load_mission throws the first there is
+  Mission mission;                  // without what could not be read
+  bool has_files = false;           // robot, world and templates: modules can be made
+  std::vector<ConfigError> errors;  // of its settings and of the files that it names; load_mission throws the first
   std::vector<ConfigError> step_errors;  // then the first of these
 };
-// All that is wrong, not only the first. Throws ConfigError when the mission's own settings are wrong.
+// All that is wrong, not only the first. Throws ConfigError when the file itself cannot be read.
 [[nodiscard]] ReadMission read_mission(const std::filesystem::path& file,
                                        const std::vector<std::string>& overrides = {},
                                        std::optional<std::int64_t> seed = std::nullopt);

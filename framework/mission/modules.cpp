@@ -90,9 +90,11 @@ std::shared_ptr<Behaviour> build_behaviour(const Mission& mission, const ModuleL
   try {
     return build<Behaviour>(library, node.choice, context);
   } catch (const ConfigError& error) {
-    // A module knows no place for a setting that is not there.
-    if (error.place().file.empty()) throw ConfigError(node.place, error.sentence());
-    throw with_place_of_use(error, node.choice.config, node.place);
+    throw each_changed(error, [&](const ConfigError& one) -> ConfigError {
+      // A module knows no place for a setting that is not there.
+      if (one.place().file.empty()) return {node.place, one.sentence()};
+      return with_place_of_use(one, node.choice.config, node.place);
+    });
   }
 }
 
@@ -102,6 +104,13 @@ void check_has_steps(const MissionConfig& config, const std::vector<TreeNode>& s
   if (fenced("sensor", config.sensor.name, [&] { return sensor.drive(); }) == nullptr) return;
   throw ConfigError(config.sensor.config.place, "the mission has no steps, and " + config.sensor.name +
                                                     " drives: say under `steps` what is to be done");
+}
+
+// A simulated robot knows at once whether it can stand where the mission puts it.
+void check_can_start(const Mission& mission, Sensor& sensor) {
+  if (!mission.world) return;
+  const SensorStep step = fenced("sensor", mission.config.sensor.name, [&] { return sensor.next(Budget{}); });
+  if (step.state == SensorState::fault) throw ConfigError(mission.start_place, step.reason);
 }
 
 Pose2 start_of(const MissionConfig& config) {
@@ -192,7 +201,7 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
     try {
       make();
     } catch (const ConfigError& error) {
-      errors.emplace_back(error.what());
+      for (const ConfigError& one : each_of(error)) errors.emplace_back(one.what());
     } catch (const ModuleFault& fault) {
       errors.emplace_back(fault.what());
     }
@@ -201,11 +210,17 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
   MissionModules built;
   built.T_map_start = start_of(config);
   attempt([&] {
+    if (config.sensor.name.empty()) return;
     const auto sensor = build_sensor(mission, library, built);
     check_has_steps(config, mission.steps, *sensor);
+    check_can_start(mission, *sensor);
   });
-  attempt([&] { (void)build_localizer(mission, library, built); });
-  attempt([&] { built.mapper = build_mapper(mission, library); });
+  attempt([&] {
+    if (!config.localizer.name.empty()) (void)build_localizer(mission, library, built);
+  });
+  attempt([&] {
+    if (!config.map.name.empty()) built.mapper = build_mapper(mission, library);
+  });
   attempt([&] {
     if (config.detector.name.empty() || !built.mapper) return;
     Mission ideal = mission;

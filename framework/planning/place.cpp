@@ -84,6 +84,8 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
     return place;
   }
   if (place_text.empty()) refuse(place_text, "is empty");
+  // A bare category is its nearest landmark, unless a landmark is called so.
+  if (Place place{std::nullopt, false, graph.of_category(place_text)}; !place.landmarks.empty()) return place;
   if (place_text + " " == kNearest) refuse(place_text, "names no category");
   if (numbers(place_text))
     refuse(place_text, "is one number" + std::string(graph.find_by_name("L" + place_text) == nullptr
@@ -91,7 +93,10 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
                                                          : " (did you mean \"L" + place_text + "\"?)"));
   if (begins_with_a_coordinate(place_text)) refuse(place_text, "is not made of numbers alone");
   std::vector<std::string> names;
-  for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    names.push_back(label_of(landmark));
+    if (!landmark.category.empty()) names.push_back(landmark.category);
+  }
   throw PlaceError("unknown place \"" + place_text + "\"" + did_you_mean(place_text, names) + "; " +
                    std::string(kWhatAPlaceIs));
 }

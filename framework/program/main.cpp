@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <optional>
@@ -23,6 +24,8 @@
 
 namespace cairn {
 namespace {
+
+constexpr const char* kPictureToWrite = "picture to write, in place of an older one; without it, ";
 
 CLI::Range seed_range() {
   return {std::int64_t{0}, std::int64_t{9000000000000000}};
@@ -63,7 +66,8 @@ void add_plan(CLI::App& app, CommandLine& line) {
   sub->add_option("--cost", c->question.cost, "what routes over the landmarks are compared by")
       ->check(CLI::IsMember({"length", "time", "clearance"}))
       ->capture_default_str();
-  sub->add_flag("--explain", c->question.explain, "say how the landmark graph gave the answer");
+  sub->add_flag("--explain", c->question.explain,
+                "say what the path is made of, and how the landmark graph gave the answer");
   sub->add_flag("--trajectory", c->question.trajectory, "say when the robot is where, within its speeds");
   sub->add_option("--queries", c->queries,
                   "file of queries, one {\"id\",\"from\",\"to\"} a line, or - (docs/graphs.md)");
@@ -72,8 +76,9 @@ void add_plan(CLI::App& app, CommandLine& line) {
   sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
   add_repeatable(
       sub, "--set", c->settings,
-      "setting of the planner module (may be repeated): --set route.margin_m=0.05 or --set "
-      "route.algorithm=RRTConnect, without route. when it is `--planner ompl`; `cairn plugins info ompl` lists them");
+      "setting of the planner module (may be repeated), as in a mission's `planner`. Of hybrid: --set "
+      "route.margin_m=0.05, where route is the module that plans on the grid; of ompl alone: --planner ompl --set "
+      "margin_m=0.05. `cairn plugins info hybrid` and `cairn plugins info ompl` list them");
   sub->add_option("--robot", c->robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
   add_number(sub, "--radius-m", c->radius_m, "robot radius, in place of the one saved in the map or of the robot file",
              0.0, kMaxRadius_m);
@@ -95,7 +100,7 @@ void add_map(CLI::App& app, CommandLine& line) {
   const auto [repair, r] = add("repair", "Save what a damaged map still holds", map_repair);
   repair->add_option("-o,--out", r->repaired, "saved map to write; never the damaged one")->required();
   const auto [render, c] = add("render", "Draw a map into a PNG file", map_render);
-  render->add_option("-o,--out", c->picture, "picture to write")->capture_default_str();
+  render->add_option("-o,--out", c->picture, kPictureToWrite + std::string("map.png, which must not exist yet"));
 }
 
 void add_map_name(CLI::App& app, CommandLine& line) {
@@ -135,7 +140,7 @@ void add_template(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"sensed", "ideal"}))
       ->capture_default_str();
   preview->add_option("--robot", c->robot, "robot file whose sonars sense the templates");
-  preview->add_option("-o,--out", c->picture, "picture to write")->capture_default_str();
+  preview->add_option("-o,--out", c->picture, kPictureToWrite + std::string("templates.png, which must not exist yet"));
 }
 
 void add_template_capture(CLI::App& app, CommandLine& line) {
@@ -156,6 +161,8 @@ void add_plugins(CLI::App& app, CommandLine& line) {
   });
   const auto [info, i] = add_command(*plugins, line, plugins_info, "info", "Settings of one module");
   info->add_option("NAME", i->name, "module")->required();
+  info->add_option("GROUP", i->group, "a group of its settings, as driving or driving.look");
+  info->add_flag("--all", i->all, "with what stands in groups");
   const auto [check, c] =
       add_command(*plugins, line, plugins_check, "check",
                   "Whether files are modules that this program can use: tries each in a process of its own");
@@ -253,6 +260,9 @@ int main_of(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return parse_error_sentence(app, error, argc, argv);
   }
+  for (const std::filesystem::path& folder : line.common.plugin_folders)
+    if (!std::filesystem::is_directory(folder))
+      throw std::runtime_error("--plugins " + folder.string() + ": no such folder");
   const int status = line.action();
   if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
   return status;

@@ -237,7 +237,7 @@ void RunReport::on(const Event& event, const MissionView& view) {
   if (const auto* done = std::get_if<MatchingDone>(&event)) {
     const Matching& matching = done->matching;
     degrees_.add({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
-                  true_pose(view).value_or(view.world.pose.T_map_robot).position()});
+                  true_pose(view).value_or(view.world.pose.T_map_robot).position(), matching.fits_above});
   }
   if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world, true_pose(view));
   if (std::holds_alternative<Bumped>(event)) note_contact(view);

@@ -23,6 +23,7 @@ struct DegreeSample {
   std::vector<CategoryDegree> degrees;
   std::vector<TemplateDegree> templates{};  // where the detector reports them
   Point robot_m{0.0, 0.0};                  // in truth where that is known, otherwise as estimated
+  std::optional<double> fits_above{};       // as Matching has it
 };
 
 // A touch that the simulation judged.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "maps/base/text.hpp"
+#include "maps/landmarks/route_count.hpp"
 #include "maps/pictures/drawing/colours.hpp"
 #include "maps/pictures/graph_layer.hpp"
 #include "maps/pictures/robot_layer.hpp"
@@ -179,7 +180,7 @@ std::string subtitle_of(const MapPicture& picture) {
   }
   if (picture.graph != nullptr) {
     add(counted(picture.graph->landmarks().size(), "landmark"));
-    add(counted(picture.graph->routes().size(), "route"));
+    add(counted_routes(*picture.graph));
   }
   return words;
 }

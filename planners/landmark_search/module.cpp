@@ -11,7 +11,7 @@ void register_module(cairn::Registrar& registrar) {
       "shortest path from landmark to landmark over the stored routes, exact and fast on graphs of any size",
       [](const cairn::NoConfig&, const cairn::ModuleContext&) { return std::make_unique<cairn::LandmarkSearch>(); });
   registrar.add<cairn::RoutePlanner, cairn::NoConfig>(
-      "flat_search", "the same by Dijkstra over the whole graph, to compare with",
+      "flat_search", "the shortest path over the stored routes by Dijkstra's algorithm, to compare with",
       [](const cairn::NoConfig&, const cairn::ModuleContext&) { return std::make_unique<cairn::FlatSearch>(); });
 }
 

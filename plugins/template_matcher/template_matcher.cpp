@@ -82,6 +82,7 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   const std::vector<TemplateMatch> matches = refined(on_cells);
   Matching matching;
   matching.trigger = trigger;
+  matching.fits_above = rule_.tau_match;
   matching.region_cells = static_cast<int>(region.size()) * coarse_.n() * coarse_.n();
   matching.region_centre_m = 0.5 * (grid.centre_of(box.min) + grid.centre_of(box.max - Cell{1, 1}));
   matching.degrees = degrees_by_category(matches, *templates_, grid, rule_);

@@ -85,7 +85,7 @@ int plan(const PlanCommand& command, const CommonOptions& common);
 
 struct MapCommand {
   std::filesystem::path map;
-  std::filesystem::path picture = "map.png";
+  std::filesystem::path picture;  // empty: map.png, unless there is one
   std::filesystem::path repaired;
 };
 int map_info(const MapCommand& command, const CommonOptions& common);
@@ -164,7 +164,7 @@ struct TemplateCommand {
   std::string rendering = "sensed";
   double cell_m = 0.05;
   double step_deg = 15.0;
-  std::filesystem::path picture = "templates.png";
+  std::filesystem::path picture{};  // empty: templates.png, unless there is one
 };
 // Rendered as a mission with this robot would have them; what: of the command, for an error.
 [[nodiscard]] Mission template_mission(const TemplateCommand& command, const std::string& what);
@@ -184,6 +184,8 @@ int template_capture(const CaptureCommand& command, const CommonOptions& common)
 
 struct PluginsCommand {
   std::string name;
+  std::string group;  // of its settings, as driving.look; empty: the module itself
+  bool all = false;   // with what stands in groups
 };
 int plugins_list(const CommonOptions& common);
 int plugins_info(const PluginsCommand& command, const CommonOptions& common);

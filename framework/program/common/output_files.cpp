@@ -59,6 +59,15 @@ void name_holder(int lock) {
 
 }  // namespace
 
+std::filesystem::path file_to_write(const std::filesystem::path& named, const std::string& usual) {
+  if (!named.empty()) return named;
+  std::error_code error;
+  if (std::filesystem::exists(std::filesystem::symlink_status(usual, error)))
+    throw std::runtime_error(usual +
+                             " exists already; name a file by -o FILE, which is written in place of an older one");
+  return usual;
+}
+
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 
 #include "maps/base/output_file.hpp"
 
@@ -16,5 +17,8 @@ inline constexpr const char* kFolderLock = ".cairn.lock";
 void hold_folder(const std::filesystem::path& folder, std::chrono::milliseconds within = std::chrono::seconds(3));
 
 void make_folder(const std::filesystem::path& folder);
+
+// A file that was asked for by name, or the usual one, which takes the place of no other. Throws when there is one.
+[[nodiscard]] std::filesystem::path file_to_write(const std::filesystem::path& named, const std::string& usual);
 
 }  // namespace cairn

@@ -11,6 +11,7 @@
 #include "framework/program/common/print.hpp"
 #include "framework/program/map/exchange_report.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/base/text.hpp"
 #include "maps/exchange/graphs/graph_file.hpp"
 #include "maps/exchange/grids/moving_ai_map.hpp"
 #include "maps/hierarchy/hierarchy.hpp"
@@ -35,9 +36,10 @@ int import_graph(const ExchangeCommand& command, ImportedGraph imported, const C
   const std::vector<std::string> warnings = about(command.from, std::move(imported.warnings));
   const std::size_t landmarks = map.graph.landmarks().size();
   const std::size_t routes = map.graph.routes().size();
-  print_report({{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", warnings}},
-               fmt::format("wrote {}: {} landmarks, {} routes", command.to.string(), landmarks, routes), warnings,
-               common);
+  print_report(
+      {{"map", command.to.string()}, {"landmarks", landmarks}, {"routes", routes}, {"warnings", warnings}},
+      fmt::format("wrote {}: {}, {}", command.to.string(), counted(landmarks, "landmark"), counted(routes, "route")),
+      warnings, common);
   return kExitDone;
 }
 

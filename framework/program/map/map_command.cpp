@@ -5,10 +5,13 @@
 #include <optional>
 
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/output_files.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/base/printable.hpp"
+#include "maps/base/text.hpp"
 #include "maps/clustering/cluster_levels.hpp"
+#include "maps/landmarks/route_count.hpp"
 #include "maps/store/repair.hpp"
 
 namespace cairn {
@@ -81,11 +84,11 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
                              map.progress->step_name.empty() ? "all steps done"
                                                              : fmt::format("at step {}: {}", map.progress->step + 1,
                                                                            printable(map.progress->step_name)));
-  std::cout << fmt::format("  {} landmarks, {} routes\n", map.graph.landmarks().size(), map.graph.routes().size());
+  std::cout << "  " << counted(map.graph.landmarks().size(), "landmark") << ", " << counted_routes(map.graph) << "\n";
   int level = 0;
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
-    std::cout << fmt::format("  level {}: {} clusters, {} landmarks on their boundaries\n", ++level, clusters,
-                             boundary);
+    std::cout << fmt::format("  level {}: {}, {} on their boundaries\n", ++level, counted(clusters, "cluster"),
+                             counted(boundary, "landmark"));
   list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
     return fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),
                        printable(landmark.category), landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
@@ -99,8 +102,9 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
 }
 
 int map_render(const MapCommand& command, const CommonOptions& common) {
-  draw_saved_map(command.picture, load_map(command.map), command.map.filename().string());
-  print({{"picture", command.picture.string()}}, "wrote " + command.picture.string() + "\n", common);
+  const std::filesystem::path picture = file_to_write(command.picture, "map.png");
+  draw_saved_map(picture, load_map(command.map), command.map.filename().string());
+  print({{"picture", picture.string()}}, "wrote " + picture.string() + "\n", common);
   return kExitDone;
 }
 

@@ -5,6 +5,8 @@
 
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
+#include "maps/base/text.hpp"
+#include "maps/landmarks/route_count.hpp"
 #include "maps/store/repair.hpp"
 #include "maps/store/value_check.hpp"
 
@@ -123,10 +125,10 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
   save_map(command.repaired, salvaged.map, Links::replace);
   std::ostream& people = common.json ? std::cerr : std::cout;
   for (const StoreLoss& loss : salvaged.losses) people << "  " << text_of(loss) << "\n";
-  people << fmt::format(
-      "{}: {}; {} landmarks, {} routes, {:.1f} % known within its outermost walls\n", command.repaired.string(),
-      salvaged.losses.empty() ? "nothing was lost" : "saved without the above", salvaged.map.graph.landmarks().size(),
-      salvaged.map.graph.routes().size(), 100.0 * known_ratio(salvaged.map.grid));
+  people << fmt::format("{}: {}; {}, {}, {:.1f} % known within its outermost walls\n", command.repaired.string(),
+                        salvaged.losses.empty() ? "nothing was lost" : "saved without the above",
+                        counted(salvaged.map.graph.landmarks().size(), "landmark"), counted_routes(salvaged.map.graph),
+                        100.0 * known_ratio(salvaged.map.grid));
   if (common.json)
     print_json({{"file", command.map.string()},
                 {"map", command.repaired.string()},

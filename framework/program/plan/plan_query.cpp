@@ -30,15 +30,18 @@ void report_explanation(std::string& out, const RouteExplanation& explanation, C
 }
 
 // What the path is made of, in its order.
-void report_segments(std::string& out, const PlanResult& result) {
+void report_segments(std::string& out, const PlanResult& result, bool on_grid) {
   if (result.segments.empty()) return;
-  const char* between = "  made of";
+  const char* between = "  path:";
+  double length_m = 0.0;
   for (const PathSegment& piece : result.segments) {
-    out += fmt::format("{} {}", between, name_of(piece.origin));
-    if (piece.route != 0) out += fmt::format(" R{}", piece.route);
-    out += fmt::format(" {:.2f} m", piece.length_m);
+    out += fmt::format("{} {:.2f} m {}", between, piece.length_m, name_of(piece.origin));
+    if (piece.route != 0) out += fmt::format(" (R{})", piece.route);
+    length_m += piece.length_m;
     between = ",";
   }
+  if (!on_grid)
+    out += fmt::format("; {:.2f} m in all, which the costs of the routes put at {:.2f} m", length_m, result.cost_m);
   if (result.length_lower_bound_m)
     out += fmt::format("; no path can be shorter than {:.2f} m", *result.length_lower_bound_m);
   out += "\n";
@@ -68,7 +71,7 @@ std::string text_of(const PlanQuery& query, const PlanResult& result, const Save
     list(other.landmarks);
     out += "\n";
   }
-  if (query.question.explain) report_segments(out, result);
+  if (query.question.explain) report_segments(out, result, on_grid);
   if (result.explanation)
     report_explanation(out, *result.explanation, cost_kind_of(query.question.cost), map, clusters);
   return out;

@@ -100,19 +100,6 @@ ordered_json json_of(const CheckedFile& checked) {
           {"faults", faults}};
 }
 
-// Of one file that was asked for, with all that is known of it.
-std::string long_text(const CheckedFile& checked) {
-  std::string text;
-  if (checked.is_loadable)
-    text = "symbols   cairn_abi_stamp, cairn_register_module\nstamp     " + text_of(this_abi_stamp()) + "\n";
-  for (const ModuleSummary& module : checked.modules)
-    text += fmt::format("registers {} {}: {}\n", name_of(module.kind), printable_excerpt(module.name),
-                        printable(module.summary));
-  for (const std::string& fault : checked.faults)
-    text += "wrong     " + (checked.is_loadable ? "" : checked.file.string() + ": ") + fault + "\n";
-  return checked.faults.empty() ? text + "usable\n" : text;
-}
-
 std::string line_text(const CheckedFile& checked) {
   std::vector<std::string> words;
   for (const ModuleSummary& module : checked.modules)
@@ -135,7 +122,7 @@ int plugins_check(const PluginsCheckCommand& command, const CommonOptions& commo
   bool all_good = folder_faults.empty();
   for (const CheckedFile& file : checked) {
     all_good = all_good && file.faults.empty();
-    people << (is_one ? long_text(file) : line_text(file));
+    people << line_text(file);
     rows.push_back(json_of(file));
   }
   for (const std::string& fault : folder_faults) std::cerr << fault << "\n";

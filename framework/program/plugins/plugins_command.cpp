@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
+#include "framework/program/plugins/settings_text.hpp"
 #include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 
@@ -14,29 +16,6 @@ namespace cairn {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string allowed_text(const FieldSpec& field) {
-  if (!field.choices.empty()) return joined(field.choices, " | ");
-  const bool low = std::isfinite(field.range.min);
-  const bool high = std::isfinite(field.range.max);
-  if (low && high) return fmt::format("{:g} .. {:g}", field.range.min, field.range.max);
-  if (low) return fmt::format(">= {:g}", field.range.min);
-  return high ? fmt::format("<= {:g}", field.range.max) : "";
-}
-
-void print_fields(const std::vector<FieldSpec>& fields, const std::string& indent) {
-  for (const FieldSpec& field : fields) {
-    std::string about = field.type;
-    if (!field.unit.empty()) about += ", " + field.unit;
-    if (const std::string allowed = allowed_text(field); !allowed.empty()) about += ", " + allowed;
-    if (field.required)
-      about += ", required";
-    else if (!field.default_text.empty())
-      about += ", default " + field.default_text;
-    std::cout << indent << field.key << "  (" << about << ")\n" << indent << "    " << field.meaning << "\n";
-    print_fields(field.fields, indent + "    ");
-  }
-}
 
 ordered_json json_of(const std::vector<FieldSpec>& fields) {
   ordered_json list = ordered_json::array();
@@ -52,6 +31,11 @@ ordered_json json_of(const std::vector<FieldSpec>& fields) {
     list.push_back(std::move(item));
   }
   return list;
+}
+
+std::string first_group(const std::vector<FieldSpec>& fields) {
+  const auto group = std::ranges::find_if(fields, [](const FieldSpec& field) { return !field.fields.empty(); });
+  return group == fields.end() ? "" : group->key;
 }
 
 }  // namespace
@@ -86,19 +70,23 @@ int plugins_info(const PluginsCommand& command, const CommonOptions& common) {
     throw std::runtime_error("no module \"" + name + "\"" + did_you_mean(name, names) + "; `cairn plugins` lists them");
   }
   const RegisteredModule& module = *entry->module;
+  const std::vector<FieldSpec>& fields = group_of(module, command.group);
   if (common.json) {
     print_json({{"kind", std::string(name_of(module.kind))},
                 {"name", module.name},
                 {"summary", module.summary},
                 {"file", entry->plugin->file.string()},
-                {"fields", json_of(module.schema.fields)}});
+                {"fields", json_of(fields)}});
     return kExitDone;
   }
   std::cout << module.name << ": " << name_of(module.kind) << "\n"
             << module.summary << "\nfrom " << entry->plugin->file.string() << "\n";
-  if (!module.schema.shorthand.empty()) std::cout << "a bare value stands for `" << module.schema.shorthand << "`\n";
-  std::cout << "\n";
-  print_fields(module.schema.fields, "  ");
+  if (!module.schema.shorthand.empty() && command.group.empty())
+    std::cout << "a bare value stands for `" << module.schema.shorthand << "`\n";
+  std::cout << "\n" << settings_text(fields, command.all);
+  if (const std::string group = first_group(fields); !command.all && !group.empty())
+    std::cout << "\n`cairn plugins info " << name << " " << (command.group.empty() ? "" : command.group + ".") << group
+              << "` lists what stands in a group, --all everything\n";
   return kExitDone;
 }
 

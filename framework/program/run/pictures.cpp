@@ -49,6 +49,8 @@ Chart chart_of(const std::vector<DegreeSample>& samples) {
   chart.x_label = "time, s";
   chart.y_label = "degree";
   for (auto& [category, line] : series) chart.series.push_back(std::move(line));
+  if (!samples.empty() && samples.back().fits_above)
+    chart.horizontal_lines = {{"a match counts above", *samples.back().fits_above}};
   return chart;
 }
 
@@ -59,6 +61,7 @@ Chart chart_of(const std::vector<PoseErrorSample>& samples) {
   chart.title = "Error of the position";
   chart.x_label = "time, s";
   chart.y_label = "m";
+  chart.from_zero = true;
   chart.series.push_back(std::move(error));
   return chart;
 }
@@ -103,7 +106,7 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
       CoarsePicture coarse;
       coarse.coarse = runner.coarse_grid();
       coarse.grid = runner.grid();
-      coarse.title = "OG2 of " + mission.config.mission;
+      coarse.title = mission.config.mission + ", coarse grid (OG2)";
       write_coarse_picture(file, coarse);
     });
   // A detector may report nothing below its threshold.

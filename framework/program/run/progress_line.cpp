@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "framework/mission/hearing.hpp"
 #include "maps/base/printable.hpp"
@@ -17,6 +18,10 @@ constexpr std::size_t kMaxColumns = 110;
 std::string ended_text(const std::string& which, const std::string& name, const Status& status, bool is_halted) {
   const char* const how = is_halted ? "halted" : status.state == StepState::success ? "done" : "failed";
   return fmt::format("step {}: {} {}{}", which, name, how, status.reason.empty() ? "" : " (" + status.reason + ")");
+}
+
+std::string with_article(const std::string& category) {
+  return (std::string_view("aeiou").find(category.front()) == std::string_view::npos ? "a " : "an ") + category;
 }
 
 }  // namespace
@@ -39,13 +44,12 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     else
       report(time_s, progress_text(status_()));
   }
-  if (const auto* e = std::get_if<LandmarkChanged>(&event); e != nullptr && e->is_new)
-    report(time_s,
-           fmt::format("found {}: {} at ({:.2f}, {:.2f}), degree {:.2f}", label_of(e->landmark), e->landmark.category,
-                       e->landmark.T_map_landmark.x_m, e->landmark.T_map_landmark.y_m, e->landmark.degree));
+  if (const auto* e = std::get_if<LandmarkChanged>(&event)) report_landmark(*e, time_s);
+  if (!has_begun_) remember_categories(view.world.graph);
   report_nodes(event, time_s);
   if (const auto* e = std::get_if<Autosaved>(&event)) {
-    report(time_s, fmt::format("autosaved {}: all up to {:.3f} s, in {:.0f} ms", e->file_name, e->time_s, e->took_ms));
+    report(time_s,
+           fmt::format("autosaved {} (state at {:.3f} s, written in {:.0f} ms)", e->file_name, e->time_s, e->took_ms));
     out_ << std::flush;
   }
   if (const auto* e = std::get_if<Stalled>(&event))
@@ -63,6 +67,24 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
   }
   if (const auto* e = std::get_if<Resumed>(&event))
     report(time_s, e->paused_s ? fmt::format("resumed after {:.1f} s", *e->paused_s) : "resumed");
+}
+
+// A map that the mission goes on with holds some already.
+void ProgressLine::remember_categories(const LandmarkGraph& graph) {
+  has_begun_ = true;
+  for (const auto& [id, landmark] : graph.landmarks()) categories_[id] = landmark.category;
+}
+
+void ProgressLine::report_landmark(const LandmarkChanged& change, double time_s) {
+  const Landmark& landmark = change.landmark;
+  const std::string place = fmt::format("at ({:.2f}, {:.2f}), degree {:.2f}", landmark.T_map_landmark.x_m,
+                                        landmark.T_map_landmark.y_m, landmark.degree);
+  const std::string earlier = std::exchange(categories_[landmark.id], landmark.category);
+  if (change.is_new)
+    report(time_s, fmt::format("found {}: {} {}", label_of(landmark), landmark.category, place));
+  else if (!earlier.empty() && earlier != landmark.category)
+    report(time_s, fmt::format("{} is {} now, no longer {}, {}", label_of(landmark), with_article(landmark.category),
+                               with_article(earlier), place));
 }
 
 // What control nodes and conditions make of it stands in the report.

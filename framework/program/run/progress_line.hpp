@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -12,7 +13,7 @@
 
 namespace cairn {
 
-// "step 1 of 3: explore, 63 % known, about 80 s left without goto, save".
+// "step 1 of 3: explore, 63 % known, about 80 s left; goto, save not counted".
 [[nodiscard]] std::string progress_text(const RunStatus& status);
 
 class ProgressLine : public Listener {
@@ -26,6 +27,8 @@ class ProgressLine : public Listener {
 
  private:
   void report(double time_s, const std::string& sentence);
+  void report_landmark(const LandmarkChanged& change, double time_s);
+  void remember_categories(const LandmarkGraph& graph);
   void report_nodes(const Event& event, double time_s);
   void clear();
   void draw();
@@ -35,6 +38,8 @@ class ProgressLine : public Listener {
   std::function<RunStatus()> status_;
   std::size_t drawn_ = 0;  // characters
   double drawn_at_s_ = 0.0;
+  std::map<LandmarkId, std::string> categories_;  // as reported last
+  bool has_begun_ = false;
 };
 
 }  // namespace cairn

@@ -26,6 +26,8 @@
 #include "framework/reporting/recording.hpp"
 #include "framework/reporting/report.hpp"
 #include "framework/safety/fatal_ends.hpp"
+#include "maps/base/text.hpp"
+#include "maps/landmarks/route_count.hpp"
 
 namespace cairn {
 namespace {
@@ -70,10 +72,10 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
   if (const auto error = report.pose_errors().figures())
     out << fmt::format("  pose error  median {:.3f} m, 95 % {:.3f} m, worst {:.3f} m; {} corrections, {} refused\n",
                        error->median_m, error->p95_m, error->worst_m, error->corrections, error->refused);
-  out << fmt::format("  readings    {}, matchings {}, landmarks {}, routes {}\n", result.readings, result.matchings,
-                     runner.graph().landmarks().size(), runner.graph().routes().size());
-  out << fmt::format("  took        {:.1f} s, {:.0f} times faster than real time\n", wall_s,
-                     result.time_s / std::max(wall_s, 1e-9));
+  out << fmt::format("  readings    {}, {}, {}, {}\n", result.readings, counted(result.matchings, "matching"),
+                     counted(runner.graph().landmarks().size(), "landmark"), counted_routes(runner.graph()));
+  const double speed = result.time_s / std::max(wall_s, 1e-9);
+  out << fmt::format("  took        {:.1f} s, {:.{}f} x real time\n", wall_s, speed, speed < 10.0 ? 1 : 0);
   if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
   if (!result.map_file.empty()) out << "  map         " << (folder / result.map_file).string() << "\n";
   if (std::filesystem::exists(folder / "report.json"))

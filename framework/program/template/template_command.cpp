@@ -10,6 +10,7 @@
 #include "framework/modules/fence.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/modules.hpp"
+#include "framework/program/common/output_files.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/base/text.hpp"
 #include "maps/pictures/template_sheet.hpp"
@@ -63,13 +64,14 @@ int template_list(const TemplateCommand& command, const CommonOptions& common) {
 }
 
 int template_preview(const TemplateCommand& command, const CommonOptions& common) {
+  const std::filesystem::path picture = file_to_write(command.picture, "templates.png");
   const Mission mission = template_mission(command, "preview");
   const ModuleLibrary library = module_library(common);
   const TemplateSet set =
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, command.cell_m, library); });
-  write_template_sheet(command.picture, set, command.folder.string() + ", " + command.rendering);
-  print({{"picture", command.picture.string()}, {"templates", set.templates.size()}},
-        fmt::format("wrote {} templates to {}\n", set.templates.size(), command.picture.string()), common);
+  write_template_sheet(picture, set, command.folder.string() + ", " + command.rendering);
+  print({{"picture", picture.string()}, {"templates", set.templates.size()}},
+        fmt::format("wrote {} templates to {}\n", set.templates.size(), picture.string()), common);
   return kExitDone;
 }
 

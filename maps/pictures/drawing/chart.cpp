@@ -162,6 +162,7 @@ std::string gnuplot_script(const Chart& chart) {
     script += ")\n";
   }
   if (chart.of_shares) script += "set xrange [0:1.01]\nset yrange [0:1.01]\n";
+  if (chart.from_zero) script += "set yrange [0:*]\nset offsets 0, 0, graph 0.05, 0\n";
   if (chart.log_x) script += "set logscale x\n";
   if (chart.log_y) script += "set logscale y\n";
   for (std::size_t i = 0; i < chart.series.size(); ++i) script += data_of(chart.series[i], i);

@@ -32,6 +32,7 @@ struct Chart {
   std::vector<HorizontalLine> horizontal_lines;  // dashed
   std::vector<std::string> x_names;              // in place of numbers, at x = 0, 1, ...
   bool of_shares = false;                        // both axes from 0 to 1
+  bool from_zero = false;                        // the y axis begins at 0: nothing is less
   bool log_x = false;
   bool log_y = false;
 };

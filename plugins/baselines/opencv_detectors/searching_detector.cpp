@@ -83,6 +83,7 @@ DetectionReport SearchingDetector::detect(const OccupancyGrid& grid, const CellC
     report.matchings.push_back(matching_of(found));
   if (report.matchings.empty()) report.matchings.emplace_back();
   for (Matching& matching : report.matchings) {
+    matching.fits_above = tau_match_;
     matching.region_cells = centres.width() * centres.height();
     matching.region_centre_m = 0.5 * (grid.centre_of(centres.min) + grid.centre_of(centres.max - Cell{1, 1}));
   }

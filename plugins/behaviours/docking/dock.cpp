@@ -80,7 +80,8 @@ void ApproachSettings::describe(Fields<ApproachSettings>& fields) {
 
 void DockConfig::describe(Fields<DockConfig>& fields) {
   using C = DockConfig;
-  fields.raw("landmark", &C::landmark, "text", "a landmark's id (L3) or name, or `nearest CATEGORY`").required = true;
+  fields.raw("landmark", &C::landmark, "text", "a landmark's id (L3) or name, a category, or `nearest CATEGORY`")
+      .required = true;
   fields.raw("side", &C::side, "choice", "of the landmark, in its own frame: front is its x axis; this or side_deg")
       .choices = kSides;
   fields.angle("side_deg", &C::side_rad, {-360.0, 360.0}, "the same as an angle, anticlockwise from its x axis");

@@ -7,8 +7,9 @@
 namespace cairn::behaviours {
 void GoToConfig::describe(Fields<GoToConfig>& fields) {
   using C = GoToConfig;
-  fields.raw("landmark", &C::landmark, "text",
-             "where to go: a landmark's id (L3) or name, or `nearest CATEGORY`; this, at_m or input");
+  fields.raw("landmark", &C::landmark, "place",
+             "where to go: a landmark's id (L3) or name, a category, `nearest CATEGORY`, or a place `[x, y]`; this, "
+             "at_m or input");
   fields.point("at_m", &C::at_m, "m", "where to go: a place of the map");
   fields.input("input", &C::input, "where to go: the place that an earlier step gives by `output` under this name");
   fields.angle("angle_deg", &C::angle_rad, {-360.0, 360.0},
@@ -20,8 +21,6 @@ void GoToConfig::describe(Fields<GoToConfig>& fields) {
 
 GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed_(seed), driver_(config, seed) {
   const bool names_landmark = config.landmark.kind != ConfigValue::Kind::null;
-  if (config.landmark.kind == ConfigValue::Kind::list)
-    throw ConfigError(config.landmark.place, "goto: landmark must be text; a place is written `{at_m: [x, y]}`");
   if (names_landmark && config.at_m)
     throw ConfigError(config.landmark.place, "goto: landmark and at_m exclude each other");
   if (!config.input.empty() && (names_landmark || config.at_m))
@@ -30,7 +29,12 @@ GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed
     throw ConfigError(config.landmark.place,
                       "goto: needs a landmark (`landmark: nearest square`), a place (`at_m: [x, y]`) or the place that "
                       "an earlier step gives (`input: NAME`)");
-  if (names_landmark) landmark_name_ = to_landmark_name(config.landmark, "landmark");
+  if (config.landmark.kind == ConfigValue::Kind::list) {
+    config_.at_m = config_detail::to_point(config.landmark, "goto");
+    config_.landmark = {};
+  } else if (names_landmark) {
+    landmark_name_ = to_landmark_name(config.landmark, "landmark");
+  }
 }
 
 void GoTo::halt() {

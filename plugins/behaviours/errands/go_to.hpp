@@ -14,7 +14,7 @@
 namespace cairn::behaviours {
 
 struct GoToConfig : RouteSettings {
-  ConfigValue landmark;  // text: `L3`, a name, or `nearest CATEGORY`
+  ConfigValue landmark;  // `L3`, a name, `nearest CATEGORY`, or [x, y]
   std::optional<Point> at_m;
   std::optional<double> angle_rad;
   std::string input;  // a place that an earlier step gives

@@ -55,7 +55,8 @@ std::vector<std::string> texts_of(const ConfigValue& list, const std::string& ke
 
 void CaptureTemplateConfig::describe(Fields<CaptureTemplateConfig>& fields) {
   using C = CaptureTemplateConfig;
-  fields.raw("at", &C::at, "place", "`[x, y]`, a landmark's id (L3) or name, or `nearest CATEGORY`").required = true;
+  fields.raw("at", &C::at, "place", "`[x, y]`, a landmark's id (L3) or name, a category, or `nearest CATEGORY`")
+      .required = true;
   fields.raw("name", &C::name, "text", "the category of the template").required = true;
   fields.raw("file", &C::file, "text", "its name in the output folder; without it, the category and .yaml");
   fields.number("radius_m", &C::radius_m, {0.05, 10.0}, "m", "what lies wholly within this of the place");

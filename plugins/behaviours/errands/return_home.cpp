@@ -6,8 +6,9 @@ namespace cairn::behaviours {
 
 void ReturnHomeConfig::describe(Fields<ReturnHomeConfig>& fields) {
   using C = ReturnHomeConfig;
-  fields.raw("to", &C::to, "text",
-             "a landmark's id (L3) or name, or `nearest CATEGORY`; without it, the pose where the mission began");
+  fields.raw(
+      "to", &C::to, "text",
+      "a landmark's id (L3) or name, a category, or `nearest CATEGORY`; without it, the pose where the mission began");
   RouteSettings::describe_route(fields);
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to get there; when it is up the step has failed");
   fields.shorthand("to");

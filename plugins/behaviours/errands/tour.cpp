@@ -18,7 +18,8 @@ void TourConfig::describe(Fields<TourConfig>& fields) {
   using C = TourConfig;
   fields
       .raw("places", &C::places, "list of places",
-           "each `[x, y]`, a landmark's id (L3) or name, or `nearest CATEGORY`: the nearest when it is gone to, with "
+           "each `[x, y]`, a landmark's id (L3) or name, a category, or `nearest CATEGORY`: the nearest when it is "
+           "gone to, with "
            "`shortest` from where the tour begins")
       .required = true;
   describe_visits(fields);

@@ -8,7 +8,8 @@ namespace cairn::behaviours {
 
 void InspectConfig::describe(Fields<InspectConfig>& fields) {
   using C = InspectConfig;
-  fields.raw("landmark", &C::landmark, "text", "a landmark's id (L3) or name, or `nearest CATEGORY`").required = true;
+  fields.raw("landmark", &C::landmark, "text", "a landmark's id (L3) or name, a category, or `nearest CATEGORY`")
+      .required = true;
   fields.number("distance_m", &C::distance_m, {0.1, 5.0}, "m", "from its edge to the robot's centre on an orbit");
   fields.integer("rounds_at_most", &C::rounds_at_most, {1.0, 100.0}, "orbits, whatever the degree does");
   fields.number("gain", &C::gain, {0.0, 1.0}, "",

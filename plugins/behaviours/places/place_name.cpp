@@ -5,6 +5,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/config/named_category.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -23,6 +24,18 @@ std::string known_landmarks(const LandmarkGraph& graph) {
   return "the map holds " + list;
 }
 
+// "2.0,1.0", as `cairn plan` takes places; no landmark is called so.
+bool reads_as_coordinates(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  return comma != std::string_view::npos && number_from<double>(trimmed(text.substr(0, comma))) &&
+         number_from<double>(trimmed(text.substr(comma + 1, text.find(',', comma + 1) - comma - 1)));
+}
+
+void refuse_coordinates(const ConfigValue& value, const std::string& key, const std::string& text) {
+  if (reads_as_coordinates(text))
+    throw ConfigError(value.place, key + ": a place is written [x, y], found the text " + in_quotes(text));
+}
+
 }  // namespace
 
 PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
@@ -32,6 +45,7 @@ PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
     throw ConfigError(value.place, key + ": " + in_quotes(name.text) +
                                        " is not a place; one is [x, y], a landmark's id (L3) or name, or `nearest "
                                        "CATEGORY`");
+  refuse_coordinates(value, key, name.text);
   return name;
 }
 
@@ -40,6 +54,7 @@ std::string to_landmark_name(const ConfigValue& value, const std::string& key) {
   if (names_nothing(name))
     throw ConfigError(value.place, key + ": " + in_quotes(name) +
                                        " is not a landmark; one is an id (L3), a name, or `nearest CATEGORY`");
+  refuse_coordinates(value, key, name);
   return name;
 }
 
@@ -58,7 +73,13 @@ FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph) {
     found.unknown = "no landmark of category \"" + category + "\"" + did_you_mean(category, names);
   } else {
     if (const Landmark* landmark = graph.find_by_name(name)) return {{std::nullopt, false, {landmark->id}}, ""};
-    for (const auto& [id, landmark] : graph.landmarks()) names.push_back(label_of(landmark));
+    // A bare category is its nearest landmark, unless a landmark is called so.
+    found.place.landmarks = graph.of_category(name);
+    if (!found.place.landmarks.empty()) return found;
+    for (const auto& [id, landmark] : graph.landmarks()) {
+      names.push_back(label_of(landmark));
+      if (!landmark.category.empty()) names.push_back(landmark.category);
+    }
     found.unknown = "no landmark \"" + name + "\"" + did_you_mean(name, names);
   }
   found.unknown += "; " + known_landmarks(graph);

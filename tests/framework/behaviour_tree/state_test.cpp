@@ -123,7 +123,7 @@ TEST(TimeLeft, IsCutByTimeoutsAndSaysWhatItLeavesOut) {
   EXPECT_DOUBLE_EQ(left.max_s, 2.0);
   EXPECT_DOUBLE_EQ(left.about_s, 2.0);
   EXPECT_THAT(left.without, ElementsAre("c"));
-  EXPECT_EQ(text_of(left), "about 2 s left without c");
+  EXPECT_EQ(text_of(left), "about 2 s left; c not counted");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(TimeLeft, ALimitCutsBothTimes) {
 
 TEST(TimeLeft, IsSaidWithWhatIsNotKnown) {
   EXPECT_EQ(text_of({80.0}), "about 80 s left");
-  EXPECT_EQ(text_of({80.0, INFINITY, {"goto", "save"}}), "about 80 s left without goto, save");
+  EXPECT_EQ(text_of({80.0, INFINITY, {"goto", "save"}}), "about 80 s left; goto, save not counted");
   EXPECT_EQ(text_of({0.0, 900.0, {"goto"}}), "time left unknown, at most 900 s");
 }
 

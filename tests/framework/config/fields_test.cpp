@@ -24,6 +24,24 @@ struct Inner {
   }
 };
 
+// A struct of its own that has other defaults inside than the inner ones have by themselves.
+struct Middle {
+  Inner inner{.width_m = 0.75, .count = 4};
+  static void describe(Fields<Middle>& fields) { fields.group("inner", &Middle::inner, "what is inside"); }
+};
+struct Outer {
+  Inner inner{.width_m = 1.25, .count = 7};
+  Middle middle{.inner = {.width_m = 1.5, .count = 8}};
+  Middle plain;
+  std::optional<Inner> extra;
+  static void describe(Fields<Outer>& fields) {
+    fields.group("inner", &Outer::inner, "what is inside");
+    fields.group("middle", &Outer::middle, "with a part");
+    fields.group("plain", &Outer::plain, "the same, as it is by itself");
+    fields.group("extra", &Outer::extra, "what may be there");
+  }
+};
+
 struct Example {
   double speed_mps = 0.4;
   std::optional<double> limit_m;
@@ -218,6 +236,64 @@ TEST(Fields, DescribeThemselves) {
   EXPECT_EQ(field("gait").default_text, "trot");
   EXPECT_EQ(field("at_m").default_text, "[1, 2]");
   EXPECT_EQ(field("inner").fields.at(1).key, "count");
+}
+
+TEST(Fields, TheDefaultOfAGroupIsThatOfTheStructAroundIt) {
+  const std::vector<FieldSpec> fields = schema_of<Outer>().fields;
+  const auto loaded = load_config<Outer>(parse_config_text("middle: {}", "m.yaml"), "outer");
+  const auto expect_as_listed = [](const std::vector<FieldSpec>& inner, const Inner& value) {
+    EXPECT_EQ(inner.at(0).default_text, config_detail::number_text(value.width_m));
+    EXPECT_EQ(inner.at(1).default_text, std::to_string(value.count));
+  };
+  expect_as_listed(fields.at(0).fields, loaded.inner);
+  expect_as_listed(fields.at(1).fields.at(0).fields, loaded.middle.inner);
+  expect_as_listed(fields.at(2).fields.at(0).fields, loaded.plain.inner);
+  expect_as_listed(fields.at(3).fields, Inner{});
+  EXPECT_EQ(loaded.middle.inner.count, 8);
+  EXPECT_EQ(loaded.plain.inner.count, 4);
+}
+
+std::vector<std::string> load_errors(const std::string& text) {
+  try {
+    (void)load(text);
+  } catch (const ConfigError& error) {
+    std::vector<std::string> sentences;
+    for (const ConfigError& one : each_of(error)) sentences.push_back(one.what());
+    return sentences;
+  }
+  return {};
+}
+
+TEST(Fields, MistakesThatDoNotDependOnEachOtherAreReportedTogether) {
+  const std::vector<std::string> errors = load_errors(
+      "cells: 0\nloudd: true\nspeedd_mps: 1\nmany: [{width_m: 3}, {width_m: 1}, {cont: 1}]\n"
+      "inner: {count: 0}\nat_m: [1, 2]\n");
+  EXPECT_EQ(errors, (std::vector<std::string>{
+                        "/c/e.yaml:1:8: cells must be a whole number from 1 to 100, found \"0\"",
+                        "/c/e.yaml:2:1: unknown key \"loudd\" in example (did you mean \"loud\"?); known: speed_mps, "
+                        "limit_m, turn_deg, cells, seed, small, loud, name, gait, file, at_m, corners_m, weights, "
+                        "inner, extra, many, planner, rest",
+                        "/c/e.yaml:3:1: unknown key \"speedd_mps\" in example (did you mean \"speed_mps\"?)",
+                        "/c/e.yaml:4:18: width_m must be a number from 0 to 2 m, found \"3\"",
+                        "/c/e.yaml:4:37: unknown key \"cont\" in many (did you mean \"count\"?); known: width_m, count",
+                        "/c/e.yaml:4:36: many lacks the key \"width_m\": how wide",
+                        "/c/e.yaml:5:16: count must be a whole number from 1 to 10, found \"0\"",
+                        "/c/e.yaml:5:8: inner lacks the key \"width_m\": how wide"}));
+}
+
+TEST(Fields, AfterAHundredMistakesNoMoreAreLookedFor) {
+  std::string text;
+  for (int i = 0; i < 200; ++i) text += "key_" + std::to_string(i) + ": 1\n";
+  EXPECT_EQ(load_errors(text).size(), ConfigErrors::kMax);
+}
+
+TEST(Fields, WhatIsRightIsLoadedBesideWhatIsWrong) {
+  Example example;
+  EXPECT_THROW(schema_of<Example>().load_into(
+                   &example, parse_config_text("cells: 0\nspeed_mps: 1\nmany: [1, 9]", "m.yaml"), "example"),
+               ConfigError);
+  EXPECT_EQ(example.speed_mps, 1.0);
+  EXPECT_EQ(example.cells, 5);
 }
 
 TEST(Fields, AShorthandThatIsNoFieldIsABug) {

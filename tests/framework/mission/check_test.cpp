@@ -51,7 +51,29 @@ TEST_F(MissionCheckTest, AllErrorsAreFoundAtOnceEachWithItsPlace) {
 }
 
 TEST_F(MissionCheckTest, ModulesAreNotMadeOfAFileThatCannotBeRead) {
-  EXPECT_THAT(check("still_localiser", "[{still_step: {}}]", {"seeed=1"}).errors, SizeIs(1));
+  EXPECT_THAT(check("still_localiser", "[{still_step: {}}]", {"robot=nowhere.yaml"}).errors, SizeIs(1));
+}
+
+TEST_F(MissionCheckTest, ASlipAmongTheSettingsHidesNothingElse) {
+  const MissionCheck bad = check("still_localiser", "[{still_stp: {}}, {repeat: 3}]",
+                                 {"start.at_m=5", "seeed=1", "watchdog=2", "detector.plugin=still_detektor"});
+  EXPECT_THAT(bad.errors,
+              ElementsAre(HasSubstr("at_m must be a point [x, y]"), HasSubstr("did you mean \"seed\"?"),
+                          HasSubstr("did you mean \"watchdog_s\"?"), HasSubstr("mission.yaml:6:"),
+                          HasSubstr("still_localizer"), HasSubstr("still_detector"), HasSubstr("still_step")));
+}
+
+TEST_F(MissionCheckTest, FilesThatAreMissingAreAllNamedWhereTheMissionNamesThem) {
+  const MissionCheck bad =
+      check("still_localizer", "[{still_step: {}}]",
+            {"world=nowhere/world.yaml", "detector.plugin=still_detector", "detector.templates=nowhere/templates"});
+  const std::string here = std::filesystem::current_path().string();
+  EXPECT_THAT(bad.errors, ElementsAre("--set detector.templates: templates: " + here +
+                                          "/nowhere/templates: no such folder of templates",
+                                      "--set world: world: " + here + "/nowhere/world.yaml: no such file"));
+  std::filesystem::remove(folder_ / "robot.yaml");
+  EXPECT_THAT(check("still_localizer", "[{still_step: {}}]").errors,
+              ElementsAre(file_.string() + ":2:8: robot: " + (folder_ / "robot.yaml").string() + ": no such file"));
 }
 
 TEST_F(MissionCheckTest, AMissingFileIsAnErrorLikeOthers) {

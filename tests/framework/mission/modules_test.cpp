@@ -60,6 +60,31 @@ TEST_F(MissionModulesTest, ACheckFindsEveryModuleThatIsWrong) {
   EXPECT_THAT(errors, ElementsAre(HasSubstr("no_localizer"), HasSubstr("no_step")));
 }
 
+class FaultySensor : public Sensor {
+ public:
+  SensorStep next(const Budget&) override {
+    SensorStep step;
+    step.state = SensorState::fault;
+    step.reason = "the robot cannot start in a wall";
+    return step;
+  }
+};
+
+TEST_F(MissionModulesTest, ACheckFindsAStartInAWorldThatTheSensorRefuses) {
+  Registrar registrar;
+  registrar.add<Sensor, NoConfig>("faulty_sensor", "has a fault at once", [](const NoConfig&, const SensorContext&) {
+    return std::make_unique<FaultySensor>();
+  });
+  ModuleLibrary library = still::library();
+  library.add("(the test's own)", registrar);
+  mission_.config.sensor.name = "faulty_sensor";
+  mission_.config.sensor.config.entries.clear();
+  mission_.start_place = {"m.yaml", 5, 16};
+  EXPECT_TRUE(check_modules(mission_, library).empty()) << "a sensor of a real robot is not asked";
+  mission_.world = World{};
+  EXPECT_THAT(check_modules(mission_, library), ElementsAre("m.yaml:5:16: the robot cannot start in a wall"));
+}
+
 TEST_F(MissionModulesTest, GoOnWithAMapThatTheMapModuleMustTakeOver) {
   SavedMap map;
   map.grid = OccupancyGrid(0.1);

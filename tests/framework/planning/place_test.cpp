@@ -63,6 +63,14 @@ TEST(Place, NearestTakesEveryLandmarkOfTheCategory) {
   EXPECT_EQ(parse_place("nearest circle", two_landmarks()).landmarks, std::vector<LandmarkId>{2});
 }
 
+TEST(Place, ABareCategoryIsItsNearestLandmarkUnlessALandmarkIsCalledSo) {
+  EXPECT_EQ(parse_place("circle", two_landmarks()).landmarks, std::vector<LandmarkId>{2});
+  EXPECT_TRUE(error_of("circel").starts_with("unknown place \"circel\" (did you mean \"circle\"?)"));
+  LandmarkGraph graph = two_landmarks();
+  graph.find(1)->name = "circle";
+  EXPECT_EQ(parse_place("circle", graph).landmarks, std::vector<LandmarkId>{1});
+}
+
 TEST(Place, AnUnknownCategoryNamesTheNearestKnownOne) {
   EXPECT_EQ(error_of("nearest sqare"),
             "no landmark of category \"sqare\" (did you mean \"square\"?); the map holds: circle, square");

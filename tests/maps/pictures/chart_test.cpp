@@ -51,6 +51,15 @@ TEST_F(Charts, RunNothingThatANameSays) {
   }
 }
 
+TEST_F(Charts, BeginAtZeroWhereNothingIsLess) {
+  Chart chart;
+  chart.series = {{"error", {{0, 0.0}, {1, 0.02}}, SeriesStyle::lines, {}}};
+  EXPECT_THAT(gnuplot_script(chart), testing::Not(HasSubstr("set yrange")));
+  chart.from_zero = true;
+  EXPECT_THAT(gnuplot_script(chart), HasSubstr("set yrange [0:*]\n"));
+  EXPECT_TRUE(write_chart(file("error.png"), chart).drawn);
+}
+
 TEST_F(Charts, NamePlacesAndDrawErrorBarsWhereTheyAreGiven) {
   Chart chart;
   chart.series = {{"muriel", {{0, 0.2}, {1, 0.3}}, SeriesStyle::points, {0.01, 0.02}}};

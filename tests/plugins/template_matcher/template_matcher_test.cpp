@@ -66,6 +66,7 @@ TEST(TemplateMatcher, ReportsEveryCategoryInEveryMatching) {
   const DetectionReport report = matcher.detect(grid, everything_in(grid.bounds()), {});
   ASSERT_FALSE(report.matchings.empty());
   for (const Matching& m : report.matchings) {
+    EXPECT_EQ(m.fits_above, 0.6);
     ASSERT_EQ(m.degrees.size(), 3U);
     EXPECT_EQ(m.degrees[0].category, "circle");
     EXPECT_EQ(m.degrees[1].category, "square");

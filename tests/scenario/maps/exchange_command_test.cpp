@@ -144,7 +144,7 @@ TEST_F(Exchange, InfoShowsTheLevelsAndTheFirstOfMany) {
   EXPECT_EQ(done({"info", file("g.cairn")})["levels"],
             (json{{{"clusters", 2}, {"boundary", 2}}, {{"clusters", 1}, {"boundary", 0}}}));
   const std::string shown = run_cairn({"map", "info", file("g.cairn")}).out;
-  EXPECT_THAT(shown, HasSubstr("60 landmarks, 1 routes\n"));
+  EXPECT_THAT(shown, HasSubstr("60 landmarks, 1 route (one way)\n"));
   EXPECT_THAT(shown, HasSubstr("level 1: 2 clusters, 2 landmarks on their boundaries\n"));
   EXPECT_THAT(shown, HasSubstr("L50 "));
   EXPECT_THAT(shown, testing::Not(HasSubstr("L51 ")));

@@ -75,9 +75,9 @@ void expect_all_up_to_the_last_autosave(const Killed& killed, double age_s, cons
   });
   ASSERT_NE(last, killed.lines.rend());
   ASSERT_TRUE(map.progress);
-  EXPECT_GE(map.progress->time_s + 0.0006, number_behind(last->text, "all up to "));
+  EXPECT_GE(map.progress->time_s + 0.0006, number_behind(last->text, "(state at "));
   if (killed.has_ended) return;
-  kills.losses_s.push_back(age_s + 1e-3 * number_behind(last->text, "s, in "));
+  kills.losses_s.push_back(age_s + 1e-3 * number_behind(last->text, "s, written in "));
 }
 
 void kill_and_go_on(const fs::path& mission, const fs::path& out, double delay_s, Kills& kills) {

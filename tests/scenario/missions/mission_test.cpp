@@ -66,6 +66,31 @@ TEST(MissionCommand, CheckReportsAllErrorsOfTheTreeAndOfTheModules) {
   }
 }
 
+TEST(MissionCommand, CheckFindsAStartThatTheWorldHasNoRoomFor) {
+  const auto folder = fresh_folder("mission_start");
+  const std::string file = mission_in(folder, "  - wait: 1\n").string();
+  for (const auto& [at, why] : {std::pair("[0, 0]", "it would overlap"), std::pair("[-30, 2]", "lies outside")}) {
+    const Finished finished = run_cairn({"mission", "check", file, "--set", std::string("start.at_m=") + at});
+    EXPECT_EQ(finished.exit_status, 2) << at;
+    EXPECT_THAT(finished.err, AllOf(HasSubstr("--set start.at_m: the robot cannot start at ("), HasSubstr(why)));
+  }
+  write_text(file, text_of_file(file).replace(text_of_file(file).find("1.727"), 5, "-9.99"));
+  EXPECT_THAT(run_cairn({"mission", "check", file}).err, HasSubstr(file + ":4:15: the robot cannot start at (-9.99, "));
+}
+
+TEST(MissionCommand, CheckNamesMissingFilesWhereTheMissionDoes) {
+  const auto folder = fresh_folder("mission_elsewhere");
+  std::filesystem::create_directories(folder / "copied");
+  const std::string file = (folder / "copied/office.yaml").string();
+  std::filesystem::copy_file(config("missions/office.yaml"), file);
+  const Finished finished = run_cairn({"mission", "check", file});
+  EXPECT_EQ(finished.exit_status, 2);
+  for (const char* named : {"robots/pioneer1.yaml: no such file", "worlds/office.yaml: no such file",
+                            "templates: no such folder of templates"})
+    EXPECT_THAT(finished.err, HasSubstr((folder / named).string()));
+  EXPECT_THAT(finished.err, AllOf(HasSubstr(file + ":"), HasSubstr(": robot: "), HasSubstr(": world: ")));
+}
+
 TEST(MissionCommand, CheckReportsWhatCannotBeReadAtAll) {
   const Finished finished = run_cairn({"mission", "check", config("missions/ofice.yaml")});
   EXPECT_EQ(finished.exit_status, 2);

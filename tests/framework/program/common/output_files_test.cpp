@@ -56,6 +56,16 @@ TEST_F(OutputFiles, AFileThatCannotBeWrittenIsNamedWithTheReason) {
               ThrowsMessage<std::runtime_error>(HasSubstr("a: cannot be written: No such file or directory")));
 }
 
+TEST_F(OutputFiles, AUsualNameTakesThePlaceOfNoOtherFile) {
+  make_folder(folder_);
+  const std::string usual = (folder_ / "map.png").string();
+  EXPECT_EQ(file_to_write("", usual), usual);
+  write_file(usual, "a picture");
+  EXPECT_THAT([&] { (void)file_to_write("", usual); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("map.png exists already; name a file by -o FILE")));
+  EXPECT_EQ(file_to_write(usual, "other.png"), usual) << "it was asked for";
+}
+
 TEST_F(OutputFiles, AFolderIsHeldByOneRunOnly) {
   make_folder(folder_);
   hold_folder(folder_);

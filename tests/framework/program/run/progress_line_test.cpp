@@ -24,9 +24,17 @@ class ProgressLineTest : public testing::Test {
   }
   RunStatus status_;
   std::ostringstream out_;
-  const LandmarkGraph graph_;
+  LandmarkGraph graph_;
   const RobotModel robot_;
 };
+
+Landmark square() {
+  Landmark landmark;
+  landmark.category = "square";
+  landmark.T_map_landmark = {1.5, 2.0, 0.0};
+  landmark.degree = 0.61;
+  return landmark;
+}
 
 TEST(ProgressText, NamesTheStepAndWhatIsKnown) {
   RunStatus status;
@@ -69,6 +77,36 @@ TEST_F(ProgressLineTest, AStallSaysForHowLongAndWhere) {
   EXPECT_EQ(out_.str(),
             "    3.0 s  the robot was stopped: no tick had ended for 1.25 s (in stage detector of module "
             "template_matcher); it goes on\n");
+}
+
+TEST_F(ProgressLineTest, ALandmarkIsReportedWhenItIsFoundAndWhenItsCategoryChanges) {
+  ProgressLine line(out_, false, [&] { return status_; });
+  Landmark landmark = square();
+  landmark.id = 1;
+  publish(line, LandmarkChanged{landmark, true}, 3.0);
+  landmark.degree = 0.7;
+  publish(line, LandmarkChanged{landmark, false}, 4.0);
+  landmark.category = "octagon";
+  publish(line, LandmarkChanged{landmark, false}, 5.0);
+  EXPECT_EQ(out_.str(),
+            "    3.0 s  found L1: square at (1.50, 2.00), degree 0.61\n"
+            "    5.0 s  L1 is an octagon now, no longer a square, at (1.50, 2.00), degree 0.70\n");
+}
+
+TEST_F(ProgressLineTest, TheCategoryOfALandmarkThatWasKnownBeforeMayChangeToo) {
+  Landmark landmark = square();
+  landmark.id = graph_.add(landmark);
+  ProgressLine line(out_, false, [&] { return status_; });
+  publish(line, TickDone{}, 1.0);
+  landmark.category = "circle";
+  publish(line, LandmarkChanged{landmark, false}, 2.0);
+  EXPECT_THAT(out_.str(), HasSubstr("L1 is a circle now, no longer a square"));
+}
+
+TEST_F(ProgressLineTest, AnAutosaveSaysHowFarItReaches) {
+  ProgressLine line(out_, false, [&] { return status_; });
+  publish(line, Autosaved{"m.autosave.cairn", 12.5, 183.2}, 13.0);
+  EXPECT_EQ(out_.str(), "   13.0 s  autosaved m.autosave.cairn (state at 12.500 s, written in 183 ms)\n");
 }
 
 TEST_F(ProgressLineTest, TheOutcomeOfAStepIsNamedWithItsReason) {

@@ -249,9 +249,21 @@ TEST(GoTo, BeginsAfreshAfterAHalt) {
   EXPECT_GE(host.planned.size(), 2U);
 }
 
-TEST(GoTo, SaysHowAPlaceIsWrittenWhereItsPairStandsAlone) {
-  EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("[1, 2]"), 1); }),
-            "mission.yaml:1:1: goto: landmark must be text; a place is written `{at_m: [x, y]}`");
+TEST(GoTo, AnswersToAPairAsToAPlaceOfTheMap) {
+  FakeHost host(kRoom, kKnown);
+  GoTo there(config_of<GoToConfig>("[1.5, 0.5]"), 1);
+  EXPECT_EQ(host.run(there, 60.0).reason, "at (1.50, 0.50)");
+  there.halt();
+  EXPECT_EQ(host.run(there, 60.0).state, StepState::success) << "again after a halt";
+}
+
+TEST(GoTo, SaysHowAPlaceIsWritten) {
+  EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("[1, 2, 3]"), 1); }),
+            "mission.yaml:1:1: goto must be a point [x, y], found a list of 3");
+  EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("'2.0, 1.0'"), 1); }),
+            "mission.yaml:1:1: landmark: a place is written [x, y], found the text \"2.0, 1.0\"");
+  EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("{landmark: [1, 2], at_m: [1, 2]}"), 1); }),
+            "mission.yaml:1:12: goto: landmark and at_m exclude each other");
 }
 
 }  // namespace

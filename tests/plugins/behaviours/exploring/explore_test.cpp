@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/plugins/behaviours/fake_host.hpp"
@@ -233,6 +234,20 @@ TEST(Explore, BeginsAfreshAfterAHalt) {
   explore.halt();
   EXPECT_EQ(host.run(explore, 8.0).state, StepState::running);
   EXPECT_EQ(host.run(explore, 8.0).state, StepState::success);
+}
+
+// They differ from those of backing up elsewhere.
+TEST(Explore, ListsTheDefaultsThatApply) {
+  const Schema schema = schema_of<ExploreConfig>();
+  const std::vector<FieldSpec>* fields = &schema.fields;
+  for (const char* key : {"exploring", "blocked", "back_up"})
+    fields = &std::ranges::find(*fields, key, &FieldSpec::key)->fields;
+  const auto listed = [&](const char* key) { return std::ranges::find(*fields, key, &FieldSpec::key)->default_text; };
+  const auto loaded = load_config<ExploreConfig>(parse_config_text("", "mission.yaml"), "explore");
+  const BackUpSettings& back_up = loaded.exploring.blocked.back_up;
+  EXPECT_EQ(listed("distance_m"), config_detail::number_text(back_up.distance_m));
+  EXPECT_EQ(listed("at_most_s"), config_detail::number_text(back_up.at_most_s));
+  EXPECT_EQ(listed("distance_m"), "0.15");
 }
 
 }  // namespace

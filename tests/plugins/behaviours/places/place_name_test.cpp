@@ -35,5 +35,18 @@ TEST(PlaceNames, ALongListOfLandmarksIsCut) {
   EXPECT_EQ(find_landmarks("nearest square", graph).place.landmarks.size(), 13U);
 }
 
+TEST(PlaceNames, ABareCategoryIsItsNearestLandmarkUnlessALandmarkIsCalledSo) {
+  LandmarkGraph graph;
+  for (const char* category : {"square", "circle", "square"}) {
+    Landmark landmark;
+    landmark.category = category;
+    graph.add(landmark);
+  }
+  EXPECT_THAT(find_landmarks("square", graph).place.landmarks, ElementsAre(1, 3));
+  EXPECT_THAT(find_landmarks("sqare", graph).unknown, HasSubstr("no landmark \"sqare\" (did you mean \"square\"?)"));
+  graph.find(2)->name = "square";
+  EXPECT_THAT(find_landmarks("square", graph).place.landmarks, ElementsAre(2));
+}
+
 }  // namespace
 }  // namespace cairn::behaviours
