@@ -71,7 +71,7 @@ auto read_at(const ConfigValue& name, const std::string& key, const std::filesys
   } catch (const ConfigError& error) {
     if (error.place() != SourcePlace{file.string(), 0, 0}) throw;
     std::error_code unknown;
-    const std::filesystem::path whole = std::filesystem::weakly_canonical(file, unknown);
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
     throw ConfigError(name.place, key + ": " + (unknown ? file : whole).string() + ": " + error.sentence());
   }
 }
