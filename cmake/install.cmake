@@ -11,7 +11,7 @@ install(TARGETS cairn_pictures cairn_experiments LIBRARY DESTINATION lib NAMELIN
 # Headers keep the paths that sources include them by. The saved map's inner headers stay home.
 install(DIRECTORY maps DESTINATION include/cairn FILES_MATCHING PATTERN *.hpp
         PATTERN pictures EXCLUDE PATTERN store EXCLUDE)
-install(FILES maps/store/map_store.hpp maps/store/repair.hpp DESTINATION include/cairn/maps/store)
+install(FILES maps/store/map_store.hpp maps/store/map_updater.hpp maps/store/repair.hpp DESTINATION include/cairn/maps/store)
 install(DIRECTORY framework DESTINATION include/cairn FILES_MATCHING PATTERN *.hpp
         PATTERN experiments EXCLUDE PATTERN program EXCLUDE PATTERN scaffold EXCLUDE)
 install(DIRECTORY config framework/scaffold DESTINATION share/cairn)

@@ -1,8 +1,6 @@
 // A file descriptor that is closed with its owner.
 #pragma once
 
-#include <unistd.h>
-
 #include <utility>
 
 namespace cairn {
@@ -15,9 +13,7 @@ class Descriptor {
     std::swap(fd_, other.fd_);
     return *this;
   }
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
+  ~Descriptor();
   [[nodiscard]] int get() const { return fd_; }
 
  private:

@@ -15,8 +15,9 @@ constexpr std::array<double, 3> kUncertainWeights{0.5, 0.25, 0.25};
 constexpr double kBesideMiddle = 0.05;  // sine of what looks straight ahead or back, and belongs to no half
 constexpr double kNeighbour_rad = radians(60.5);
 constexpr double kBumpedSide_rad = radians(60.5);
-constexpr double kSwept_rad =
-    radians(40.0);  // to both sides of the motion: what a footprint sweeps before it can stand
+// To both sides of the motion: what a footprint sweeps before it can stand. A transducer at 30 degrees that is deaf
+// between good ones costs nothing; one whose whole side is deaf does.
+constexpr double kSwept_rad = radians(35.0);
 constexpr double kStep_rad = radians(5.0);
 constexpr double kBesideDeafBeam_rad = radians(10.0);  // beyond its beam a transducer hears what is near, as well
 

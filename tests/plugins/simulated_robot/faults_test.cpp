@@ -222,17 +222,19 @@ TEST(Faults, EveryKindStrikesByChance) {
 
 TEST(Faults, SayWhatIsWrongWithThem) {
   EXPECT_EQ(error_of("faults:\n  - {at_s: 1}\n"),
-            "m.yaml:2:5: a fault needs one of dead, stuck, slip, compass_jump_deg, silent, kidnap");
-  EXPECT_EQ(error_of("faults:\n  - {at_s: 1, silent: true, dead: [0]}\n"),
-            "m.yaml:2:29: a fault takes only one of dead, stuck, slip, compass_jump_deg, silent, kidnap, found both "
-            "\"silent\" and \"dead\"");
+            "m.yaml:2:5: a fault needs one of dead, deaf, stuck, slip, compass_jump_deg, silent, kidnap");
+  EXPECT_EQ(
+      error_of("faults:\n  - {at_s: 1, silent: true, dead: [0]}\n"),
+      "m.yaml:2:29: a fault takes only one of dead, deaf, stuck, slip, compass_jump_deg, silent, kidnap, found both "
+      "\"silent\" and \"dead\"");
   EXPECT_THAT(error_of("faults: [{at_s: 1, silnt: true}]"), HasSubstr("(did you mean \"silent\"?)"));
   EXPECT_THAT(error_of("faults: [{at_s: 1, slip: {wheel: lefft}}]"), HasSubstr("(did you mean \"left\"?)"));
   EXPECT_THAT(error_of("faults: [{silent: true}]"), HasSubstr("lacks the key \"at_s\""));
   EXPECT_EQ(error_of("faults: [{at_s: 1, dead: [0, 7]}]"), "m.yaml:1:10: the robot has no transducer 7; it has 0 to 0");
   EXPECT_EQ(error_of("faults: [{at_s: 1, dead: [0.5]}]"),
             "m.yaml:1:27: each item of dead must be the number of a transducer, found 0.5");
-  EXPECT_EQ(error_of("faults: [{at_s: 1, silent: true, reads: nothing}]"), "m.yaml:1:41: reads goes with dead");
+  EXPECT_EQ(error_of("faults: [{at_s: 1, silent: true, reads: nothing}]"),
+            "m.yaml:1:41: reads goes with dead and deaf");
   EXPECT_THAT(error_of("faults: [{at_s: 1, for_s: 2, kidnap: {to_m: [1, 1]}}]"), HasSubstr("kidnap happens once"));
   EXPECT_EQ(error_of("faults: [{at_s: 1, kidnap: {to_m: [0.1, 2]}}]"),
             "m.yaml:1:10: the robot cannot be put down at (0.10, 2.00) m: it would overlap wall 1");

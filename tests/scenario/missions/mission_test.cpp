@@ -69,7 +69,7 @@ TEST(MissionCommand, CheckReportsAllErrorsOfTheTreeAndOfTheModules) {
 TEST(MissionCommand, CheckFindsAStartThatTheWorldHasNoRoomFor) {
   const auto folder = fresh_folder("mission_start");
   const std::string file = mission_in(folder, "  - wait: 1\n").string();
-  for (const auto& [at, why] : {std::pair("[0, 0]", "it would overlap"), std::pair("[-30, 2]", "lies outside")}) {
+  for (const auto& [at, why] : {std::pair("[3, 0.7]", "it would overlap"), std::pair("[-30, 2]", "lies outside")}) {
     const Finished finished = run_cairn({"mission", "check", file, "--set", std::string("start.at_m=") + at});
     EXPECT_EQ(finished.exit_status, 2) << at;
     EXPECT_THAT(finished.err, AllOf(HasSubstr("--set start.at_m: the robot cannot start at ("), HasSubstr(why)));
