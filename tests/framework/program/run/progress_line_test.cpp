@@ -25,7 +25,7 @@ class ProgressLineTest : public testing::Test {
   RunStatus status_;
   std::ostringstream out_;
   LandmarkGraph graph_;
-  const RobotModel robot_;
+  const RobotModel robot_{};
 };
 
 Landmark square() {
