@@ -77,7 +77,10 @@ int open_new_or_ours(const std::filesystem::path& name) {
   if (made >= 0) return made;
   if (errno != EEXIST) fail_output("cannot be written", errno);
   OutputDescriptor found(::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (found.get() < 0 && errno == ENOENT) return -1;
   if (found.get() >= 0 && is_our_plain_file(found.get())) return found.release();
+  // What has been renamed meanwhile is no longer here, and what is here now is the next writer's.
+  if (found.get() >= 0 && !is_still_named(found.get(), name)) return -1;
   if (::unlink(name.c_str()) != 0 && errno != ENOENT) fail_output("cannot be written", errno);
   return -1;
 }

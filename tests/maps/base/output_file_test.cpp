@@ -150,7 +150,7 @@ TEST_F(OutputFile, WritersOfOneFileTakeTurns) {
   std::vector<std::thread> writers;
   for (int i = 0; i < 8; ++i)
     writers.emplace_back([this, i] {
-      for (int n = 0; n < 20; ++n)
+      for (int n = 0; n < 500; ++n)
         replace_file(file_, std::string(10'000, static_cast<char>('a' + i)), {.sync = false});
     });
   for (std::thread& writer : writers) writer.join();
