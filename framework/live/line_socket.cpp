@@ -61,7 +61,7 @@ Descriptor new_socket(const Address& address) {
 }
 
 // One whose owner was killed: nobody listens there.
-void remove_left_behind(const Address& address) {
+void remove_stale_socket(const Address& address) {
   std::error_code none;
   if (!std::filesystem::is_socket(address.socket, none)) return;
   std::string error;
@@ -98,7 +98,7 @@ Descriptor listen_at(const Address& address) {
     if (ntohl(name.internet.sin_addr.s_addr) >> 24U != 127U) fail(address, "a base listens on this computer only");
     ::setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   } else {
-    remove_left_behind(address);
+    remove_stale_socket(address);
     // Before it is bound, so that nobody else may connect at any time.
     if (::fchmod(made.get(), S_IRUSR | S_IWUSR) != 0) fail(address, std::strerror(errno));
   }

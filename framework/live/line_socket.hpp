@@ -28,7 +28,7 @@ struct Address {
 // Lines as they come, empty ones left out.
 class LineReader {
  public:
-  // Reads what is there. False when the other end has gone, or says a line beyond all limits.
+  // Reads what is there. False when the other end has gone, or sends a line beyond all limits.
   [[nodiscard]] bool read(int socket);
   [[nodiscard]] std::optional<std::string> next();
   void clear();

@@ -15,16 +15,16 @@ ServedRobot::ServedRobot(std::shared_ptr<Sensor> robot, const RobotModel& model)
 
 std::string ServedRobot::take(const std::string& line) {
   try {
-    const ClientLine said = client_line(line);
-    if (said.kind == ClientLine::Kind::command) {
-      robot_->drive()->command(said.twist, said.valid_for_s);
-      orders_.order(said.twist, said.valid_for_s, stamp_s_);
+    const ClientLine message = client_line(line);
+    if (message.kind == ClientLine::Kind::command) {
+      robot_->drive()->command(message.twist, message.valid_for_s);
+      orders_.order(message.twist, message.valid_for_s, stamp_s_);
     }
-    if (said.kind == ClientLine::Kind::stop) {
+    if (message.kind == ClientLine::Kind::stop) {
       robot_->drive()->stop();
       orders_.stop();
     }
-    is_asked_ = is_asked_ || said.kind == ClientLine::Kind::next;
+    is_asked_ = is_asked_ || message.kind == ClientLine::Kind::next;
     return {};
   } catch (const std::exception& error) {
     robot_->drive()->stop();

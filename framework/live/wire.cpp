@@ -137,12 +137,12 @@ std::string fault_line(const std::string& reason) {
 
 BaseLine base_line(std::string_view line, const RobotModel& robot) {
   const json root = parsed(line);
-  BaseLine said;
+  BaseLine message;
   if (const auto fault = root.find("fault"); fault != root.end())
-    said.fault = fault->is_string() ? fault->get<std::string>() : "a fault without words";
+    message.fault = fault->is_string() ? fault->get<std::string>() : "a fault without words";
   else if (root.contains("stamp_s"))
-    said.observation = observation_of(root, robot);
-  return said;
+    message.observation = observation_of(root, robot);
+  return message;
 }
 
 CommandLine::CommandLine(const Twist& twist, double valid_for_s) {
@@ -154,18 +154,18 @@ CommandLine::CommandLine(const Twist& twist, double valid_for_s) {
 
 ClientLine client_line(std::string_view line) {
   const json root = parsed(line);
-  ClientLine said;
+  ClientLine message;
   if (root.contains("stop")) {
-    said.kind = ClientLine::Kind::stop;
+    message.kind = ClientLine::Kind::stop;
   } else if (root.contains("next")) {
-    said.kind = ClientLine::Kind::next;
+    message.kind = ClientLine::Kind::next;
   } else if (root.contains("v_mps")) {
-    said.kind = ClientLine::Kind::command;
-    said.twist = {number_of(root, "v_mps"), number_of(root, "w_radps")};
-    said.valid_for_s = number_of(root, "valid_for_s");
-    if (said.valid_for_s < 0.0) throw std::runtime_error("\"valid_for_s\" must be 0 or more");
+    message.kind = ClientLine::Kind::command;
+    message.twist = {number_of(root, "v_mps"), number_of(root, "w_radps")};
+    message.valid_for_s = number_of(root, "valid_for_s");
+    if (message.valid_for_s < 0.0) throw std::runtime_error("\"valid_for_s\" must be 0 or more");
   }
-  return said;
+  return message;
 }
 
 }  // namespace cairn::live

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "framework/mission/hearing.hpp"
+#include "framework/mission/hearing/hearing_record.hpp"
 
 namespace cairn {
 namespace {

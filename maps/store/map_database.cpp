@@ -1,9 +1,9 @@
 #include "maps/store/map_database.hpp"
 
 #include "maps/store/file.hpp"
-#include "maps/store/reading.hpp"
 #include "maps/store/schema.hpp"
-#include "maps/store/tables.hpp"
+#include "maps/store/tables/reading.hpp"
+#include "maps/store/tables/tables.hpp"
 
 namespace cairn::store {
 namespace {

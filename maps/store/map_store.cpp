@@ -2,8 +2,8 @@
 
 #include "maps/store/file.hpp"
 #include "maps/store/map_database.hpp"
-#include "maps/store/reading.hpp"
-#include "maps/store/tables.hpp"
+#include "maps/store/tables/reading.hpp"
+#include "maps/store/tables/tables.hpp"
 
 namespace cairn {
 

@@ -4,9 +4,9 @@
 
 #include "maps/hierarchy/hierarchy.hpp"
 #include "maps/store/file.hpp"
-#include "maps/store/reading.hpp"
 #include "maps/store/schema.hpp"
-#include "maps/store/tables.hpp"
+#include "maps/store/tables/reading.hpp"
+#include "maps/store/tables/tables.hpp"
 
 namespace cairn {
 namespace store {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMaxProbes = 500'000;
 
-std::string bytes_of(const std::filesystem::path& file) {
+std::string content_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw StoreError("cannot be read");
@@ -273,7 +273,7 @@ int schema_version_of(const std::filesystem::path& file) {
 SalvagedMap salvage_map(const std::filesystem::path& file) {
   using namespace store;
   return in_file(file, [&] {
-    const std::string bytes = std::filesystem::is_regular_file(file) ? bytes_of(file) : std::string();
+    const std::string bytes = std::filesystem::is_regular_file(file) ? content_of(file) : std::string();
     if (!names_its_program(bytes))
       if (auto salvaged = salvaged_past_header(bytes)) return *std::move(salvaged);
     const int version = check_kind(file);

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "maps/store/codec.hpp"
+#include "maps/store/tables/codec.hpp"
 
 namespace cairn::store {
 namespace {

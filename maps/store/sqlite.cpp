@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "maps/base/printable.hpp"
-#include "maps/store/codec.hpp"
+#include "maps/store/tables/codec.hpp"
 
 namespace cairn::store {
 namespace {

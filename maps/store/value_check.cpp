@@ -11,10 +11,10 @@
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/store/file.hpp"
-#include "maps/store/reading.hpp"
 #include "maps/store/schema.hpp"
 #include "maps/store/sqlite.hpp"
-#include "maps/store/trajectory.hpp"
+#include "maps/store/tables/reading.hpp"
+#include "maps/store/tables/trajectory.hpp"
 
 namespace cairn::store {
 namespace {

@@ -45,7 +45,7 @@ void Config::describe(Fields<Config>& fields) {
   fields.text("host", &Config::host, "without a socket: the base's computer, localhost or an IPv4 address");
   fields.integer("port", &Config::port, {0, 65535}, "without a socket: the TCP port on which the base listens");
   fields.number("silent_s", &Config::silent_s, {0.1, 60.0}, "s",
-                "a base that says nothing for so long is connected to again");
+                "a base that sends nothing for so long is connected to again");
   fields.number("reconnect_s", &Config::reconnect_s, {0.0, 3600.0}, "s",
                 "without an observation for so long the mission ends; less than the mission's watchdog_s");
 }
@@ -63,11 +63,11 @@ RemoteBase::RemoteBase(const Config& config, const RobotModel& robot)
 SensorStep RemoteBase::next(const Budget& budget) {
   if (!fault_.empty()) return fault_of(fault_);
   const double begin_s = now_s();
-  heard_s_ = begin_s;
+  received_s_ = begin_s;
   while (!budget.exhausted()) {
     std::optional<Observation> seen;
     try {
-      seen = wait_a_little();
+      seen = wait_for_observation();
     } catch (const std::exception& error) {
       fault_ = "the base at " + live::text_of(address_) + " " + error.what();
       disconnect("");
@@ -76,15 +76,15 @@ SensorStep RemoteBase::next(const Budget& budget) {
     if (seen) return {SensorState::observation, std::move(*seen), {}};
     if (const double waited_s = now_s() - begin_s; waited_s > config_.reconnect_s) {
       fault_ = "no observation from the base at " + live::text_of(address_) + " for " + seconds(waited_s) +
-               (trouble_.empty() ? "" : ": " + trouble_);
-      disconnect(trouble_);
+               (disconnect_reason_.empty() ? "" : ": " + disconnect_reason_);
+      disconnect(disconnect_reason_);
       return fault_of(fault_);
     }
   }
   return fault_of("cancelled while waiting for the base at " + live::text_of(address_));
 }
 
-std::optional<Observation> RemoteBase::wait_a_little() {
+std::optional<Observation> RemoteBase::wait_for_observation() {
   if (!is_connected_) connect();
   if (!is_connected_) {
     std::this_thread::sleep_for(kTryAgainAfter);
@@ -94,31 +94,31 @@ std::optional<Observation> RemoteBase::wait_a_little() {
   pollfd ready{link_.get(), POLLIN, 0};
   (void)::poll(&ready, 1, kWait_ms);
   const bool is_there = reader_.read(link_.get());
-  std::optional<Observation> seen = heard();
+  std::optional<Observation> seen = received();
   if (!is_there)
-    disconnect(trouble_.empty() ? "it has closed the connection" : trouble_);
-  else if (now_s() - heard_s_ > config_.silent_s)
-    disconnect("it says nothing");
+    disconnect(disconnect_reason_.empty() ? "it has closed the connection" : disconnect_reason_);
+  else if (now_s() - received_s_ > config_.silent_s)
+    disconnect("it sends nothing");
   return seen;
 }
 
-std::optional<Observation> RemoteBase::heard() {
+std::optional<Observation> RemoteBase::received() {
   std::vector<Observation> seen;
   const double arrived_s = now_s();
   while (const auto line = reader_.next()) {
-    live::BaseLine said;
+    live::BaseLine message;
     try {
-      said = live::base_line(*line, robot_);
+      message = live::base_line(*line, robot_);
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(std::string("said what is no observation: ") + error.what() + " in " +
+      throw std::runtime_error(std::string("sent what is no observation: ") + error.what() + " in " +
                                in_quotes(line->substr(0, kQuotedBytes)));
     }
-    if (!said.fault.empty()) trouble_ = said.fault;
-    if (said.observation) seen.push_back(continuity_.continued(std::move(*said.observation), arrived_s));
+    if (!message.fault.empty()) disconnect_reason_ = message.fault;
+    if (message.observation) seen.push_back(continuity_.continued(std::move(*message.observation), arrived_s));
   }
   if (seen.empty()) return std::nullopt;
-  heard_s_ = arrived_s;
-  trouble_.clear();
+  received_s_ = arrived_s;
+  disconnect_reason_.clear();
   is_asked_ = false;
   return live::assembled(std::move(seen));
 }
@@ -128,14 +128,14 @@ void RemoteBase::connect() {
   std::string error;
   const Descriptor made = live::connect_to(address_, error);
   if (made.get() < 0) {
-    trouble_ = error;
+    disconnect_reason_ = error;
     return;
   }
   ::dup3(made.get(), link_.get(), O_CLOEXEC);
   is_connected_ = true;
   is_asked_ = false;
   is_stop_sent_ = live::send_now(link_.get(), live::kStopLine);
-  heard_s_ = now_s();
+  received_s_ = now_s();
   reader_.clear();
 }
 
@@ -144,7 +144,7 @@ void RemoteBase::disconnect(const std::string& why) {
   ::dup3(nowhere_.get(), link_.get(), O_CLOEXEC);
   is_connected_ = false;
   continuity_.interrupt();
-  trouble_ = why;
+  disconnect_reason_ = why;
 }
 
 void RemoteBase::command(const Twist& twist, double valid_for_s) {

@@ -45,8 +45,8 @@ class RemoteBase final : public Sensor, public Drive {
   void connect();
   void disconnect(const std::string& why);
   // The observations that have come, as one; connects and waits up to some ms for them.
-  [[nodiscard]] std::optional<Observation> wait_a_little();
-  [[nodiscard]] std::optional<Observation> heard();
+  [[nodiscard]] std::optional<Observation> wait_for_observation();
+  [[nodiscard]] std::optional<Observation> received();
   [[nodiscard]] static double now_s();
 
   Config config_;
@@ -56,11 +56,11 @@ class RemoteBase final : public Sensor, public Drive {
   Descriptor nowhere_;
   Descriptor link_;
   bool is_connected_ = false;
-  std::string trouble_;  // why it is not connected
-  std::string fault_;    // that has ended it
+  std::string disconnect_reason_;  // why it is not connected
+  std::string fault_;              // that has ended it
   live::LineReader reader_;
   live::Continuity continuity_;
-  double heard_s_ = 0.0;
+  double received_s_ = 0.0;
   bool is_asked_ = false;
   std::atomic<bool> is_stop_sent_{false};
 };

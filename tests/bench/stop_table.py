@@ -272,7 +272,7 @@ def cases():
     yield Case("full disk", "host", act=lambda link, mission: None, more="record: stop.log\n",
                limits=[(resource.RLIMIT_FSIZE, 8192)], drives_on=True)
     yield Case("unplugged: the connection is cut", "sensor", act=lambda link, mission: link.cut())
-    yield Case("unplugged: the base says nothing", "sensor", act=lambda link, mission: setattr(link, "is_silent", True))
+    yield Case("unplugged: the base sends nothing", "sensor", act=lambda link, mission: setattr(link, "is_silent", True))
     yield Case("unplugged: no ranges", "sensor", act=lambda link, mission: setattr(
         link, "change", lambda seen: {**seen, "ranges": []}))
 
@@ -282,7 +282,7 @@ def cases():
     yield Case("the base's clock steps 1 h back", "sensor", act=clock(-3600.0), drives_on=True)
     yield Case("the base's clock stands", "sensor", act=lambda link, mission: setattr(
         link, "change", lambda seen: {**seen, "stamp_s": 5.0}))
-    yield Case("the base says what is no observation", "sensor", act=lambda link, mission: setattr(
+    yield Case("the base sends what is no observation", "sensor", act=lambda link, mission: setattr(
         link, "change", lambda seen: {"stamp_s": "noon"}))
 
 

@@ -5,8 +5,8 @@
 namespace cairn {
 namespace {
 
-// In short naps: a log may hold a gap of hours, and the user may want to end it in there.
-constexpr std::chrono::nanoseconds kLongestNap = std::chrono::milliseconds(20);
+// In short waits: a log may hold a gap of hours, and the user may want to end it in there.
+constexpr std::chrono::nanoseconds kMaxWait = std::chrono::milliseconds(20);
 
 }  // namespace
 
@@ -16,8 +16,8 @@ void Pace::keep(double stamp_s, const Budget& budget) {
   while (!budget.cancelled()) {
     const std::chrono::duration<double> rest = until - (wall_clock_->now() - begin_->wall);
     if (rest.count() <= 0.0) return;
-    const std::chrono::duration<double> nap = std::min<std::chrono::duration<double>>(rest, kLongestNap);
-    wall_clock_->sleep_for(std::chrono::ceil<std::chrono::nanoseconds>(nap));
+    const std::chrono::duration<double> wait = std::min<std::chrono::duration<double>>(rest, kMaxWait);
+    wall_clock_->sleep_for(std::chrono::ceil<std::chrono::nanoseconds>(wait));
   }
 }
 

@@ -1,6 +1,6 @@
 #include "framework/mission/loop/mission_loop.hpp"
 
-#include "framework/mission/loop/expected_echoes.hpp"
+#include "framework/mission/hearing/expected_echoes.hpp"
 
 namespace cairn {
 namespace {

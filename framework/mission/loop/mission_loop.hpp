@@ -9,7 +9,7 @@
 #include "framework/mission/clock/mission_clock.hpp"
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
-#include "framework/mission/hearing.hpp"
+#include "framework/mission/hearing/hearing_record.hpp"
 #include "framework/mission/loop/perception.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"

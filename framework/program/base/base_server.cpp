@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLongestNap(50);    // then it looks whether it is to end
+constexpr milliseconds kMaxWait(50);       // then it looks whether it is to end
 constexpr milliseconds kMaxBehind(200);    // what is missed beyond that is not made up for
 constexpr double kNotSteppedYet_s = 0.04;  // until the second tick shows the period
 
@@ -48,16 +48,16 @@ void BaseServer::run(const std::atomic<bool>& end) {
 void BaseServer::wait_until(Clock::time_point due, const std::atomic<bool>& end) {
   do {
     const auto left = std::chrono::ceil<milliseconds>(due - Clock::now());
-    const auto nap = pace_ > 0.0 ? std::clamp(left, milliseconds(0), kLongestNap) : kLongestNap;
+    const auto wait = pace_ > 0.0 ? std::clamp(left, milliseconds(0), kMaxWait) : kMaxWait;
     pollfd ready[] = {{listening_.get(), POLLIN, 0}, {client_.get(), POLLIN, 0}};
-    if (::poll(ready, 2, static_cast<int>(nap.count())) <= 0) continue;
-    hear_client();
-    let_in();
+    if (::poll(ready, 2, static_cast<int>(wait.count())) <= 0) continue;
+    read_client();
+    accept_client();
     if (pace_ <= 0.0) return;
   } while (!end && Clock::now() < due);
 }
 
-void BaseServer::hear_client() {
+void BaseServer::read_client() {
   if (client_.get() < 0) return;
   bool is_there = reader_.read(client_.get());
   while (const auto line = reader_.next())
@@ -67,7 +67,7 @@ void BaseServer::hear_client() {
 }
 
 // The robot goes on as it was ordered, for as long as that counts, whoever comes.
-void BaseServer::let_in() {
+void BaseServer::accept_client() {
   while (true) {
     Descriptor caller(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
     if (caller.get() < 0) return;
@@ -80,7 +80,7 @@ void BaseServer::let_in() {
     client_ = std::move(caller);
     reader_.clear();
     writer_.clear();
-    hear_client();
+    read_client();
   }
 }
 

@@ -33,8 +33,8 @@ class BaseServer {
   using Clock = std::chrono::steady_clock;
 
   void wait_until(Clock::time_point due, const std::atomic<bool>& end);
-  void hear_client();
-  void let_in();
+  void read_client();
+  void accept_client();
   void tick();
   void schedule(double stamp_s);
   void write_log(const live::ServedRobot::Tick& tick);

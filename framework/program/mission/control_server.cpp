@@ -31,7 +31,7 @@ constexpr seconds kEndWithin(60);   // the map is saved
 constexpr seconds kLineWithin(2);
 constexpr std::size_t kMaxAnswers = 16;   // at once, to `status` and to all else
 constexpr std::size_t kMaxCallers = 128;  // who say nothing yet; beyond that, whoever has been there longest goes
-constexpr int kLetInAtOnce = 64;
+constexpr int kAcceptAtOnce = 64;
 constexpr std::chrono::milliseconds kNoneLeftFor(100);
 
 double rounded(double value) {
@@ -128,8 +128,8 @@ ControlServer::~ControlServer() {
 
 void ControlServer::serve() {
   while (wait_for_callers()) {
-    hear_callers();
-    let_in();
+    read_callers();
+    accept_clients();
   }
 }
 
@@ -145,8 +145,8 @@ bool ControlServer::wait_for_callers() {
   return ready[1].revents == 0;
 }
 
-void ControlServer::let_in() {
-  for (int i = 0; i < kLetInAtOnce; ++i) {
+void ControlServer::accept_clients() {
+  for (int i = 0; i < kAcceptAtOnce; ++i) {
     Descriptor connection(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     if (connection.get() < 0) {
       if (errno == EAGAIN || errno == EINTR || errno == ECONNABORTED) return;
@@ -161,22 +161,22 @@ void ControlServer::let_in() {
       continue;
     }
     callers_.push_back({std::move(connection), Clock::now() + kLineWithin});
-    if (!hear(callers_.back())) callers_.pop_back();  // most have sent their line already
+    if (!read_caller(callers_.back())) callers_.pop_back();  // most have sent their line already
     if (callers_.size() > kMaxCallers) callers_.pop_front();
   }
 }
 
-void ControlServer::hear_callers() {
+void ControlServer::read_callers() {
   const Clock::time_point now = Clock::now();
   std::erase_if(callers_, [&](Caller& caller) {
-    if (!hear(caller)) return true;
+    if (!read_caller(caller)) return true;
     if (caller.until > now) return false;
     write_line(caller.connection.get(), command_rule());
     return true;
   });
 }
 
-bool ControlServer::hear(Caller& caller) {
+bool ControlServer::read_caller(Caller& caller) {
   std::array<char, kMaxCommandBytes + 2> buffer{};
   const ssize_t got = ::recv(caller.connection.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
   if (got < 0) return errno == EAGAIN || errno == EINTR;

@@ -1,5 +1,5 @@
 // Answers on the control socket of a running mission. One thread listens, takes connections in and reads their commands
-// as they come, so that a crowd that connects and says nothing holds nobody up; every command is answered in a thread
+// as they come, so that a crowd that connects and sends nothing holds nobody up; every command is answered in a thread
 // of its own, so that nobody's "cancel" waits for the answer to another's "resume".
 #pragma once
 
@@ -32,7 +32,7 @@ class ControlServer {
   ~ControlServer();
 
  private:
-  struct Caller {  // who has not said a command yet
+  struct Caller {  // who has not sent a command yet
     Descriptor connection;
     std::chrono::steady_clock::time_point until;
     std::string text{};
@@ -44,10 +44,10 @@ class ControlServer {
   };
   void serve();
   [[nodiscard]] bool wait_for_callers();  // false: it is to end
-  void let_in();
-  void hear_callers();
+  void accept_clients();
+  void read_callers();
   // False when nothing more is to be heard from the caller.
-  bool hear(Caller& caller);
+  bool read_caller(Caller& caller);
   void begin_answer(Descriptor connection, const std::string& command);
 
   std::filesystem::path folder_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "framework/mission/hearing.hpp"
+#include "framework/mission/hearing/hearing_record.hpp"
 #include "maps/base/printable.hpp"
 
 namespace cairn {

@@ -1,12 +1,12 @@
-#include "maps/store/trajectory.hpp"
+#include "maps/store/tables/trajectory.hpp"
 
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "maps/landmarks/landmark_graph.hpp"
-#include "maps/store/codec.hpp"
 #include "maps/store/map_store.hpp"
+#include "maps/store/tables/codec.hpp"
 
 namespace cairn::store {
 namespace {

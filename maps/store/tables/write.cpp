@@ -2,9 +2,9 @@
 #include <charconv>
 
 #include "maps/base/source_text.hpp"
-#include "maps/store/codec.hpp"
-#include "maps/store/tables.hpp"
-#include "maps/store/trajectory.hpp"
+#include "maps/store/tables/codec.hpp"
+#include "maps/store/tables/tables.hpp"
+#include "maps/store/tables/trajectory.hpp"
 
 namespace cairn::store {
 namespace {

@@ -1,4 +1,4 @@
-#include "maps/store/codec.hpp"
+#include "maps/store/tables/codec.hpp"
 
 #include <zlib.h>
 

@@ -1,8 +1,8 @@
 #include <map>
 
 #include "maps/base/json_text.hpp"
-#include "maps/store/reading.hpp"
-#include "maps/store/tables.hpp"
+#include "maps/store/tables/reading.hpp"
+#include "maps/store/tables/tables.hpp"
 
 namespace cairn::store {
 

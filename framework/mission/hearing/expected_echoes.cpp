@@ -1,4 +1,4 @@
-#include "framework/mission/loop/expected_echoes.hpp"
+#include "framework/mission/hearing/expected_echoes.hpp"
 
 #include <algorithm>
 #include <array>

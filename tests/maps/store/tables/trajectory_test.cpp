@@ -1,4 +1,4 @@
-#include "maps/store/trajectory.hpp"
+#include "maps/store/tables/trajectory.hpp"
 
 #include <cstring>
 

@@ -1,10 +1,10 @@
 #include <charconv>
 
 #include "maps/base/spelling.hpp"
-#include "maps/store/codec.hpp"
-#include "maps/store/reading.hpp"
-#include "maps/store/tables.hpp"
-#include "maps/store/trajectory.hpp"
+#include "maps/store/tables/codec.hpp"
+#include "maps/store/tables/reading.hpp"
+#include "maps/store/tables/tables.hpp"
+#include "maps/store/tables/trajectory.hpp"
 
 namespace cairn::store {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/mission/hearing.hpp"
+#include "framework/mission/hearing/hearing_record.hpp"
 
 #include <gtest/gtest.h>
 
