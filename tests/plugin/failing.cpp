@@ -20,7 +20,21 @@ using std::chrono::steady_clock;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-enum class Fault { none, throws, hangs, stalls, crashes, aborts, exits, exits_at_once, absurd, grows, killed, stopped };
+enum class Fault {
+  none,
+  throws,
+  hangs,
+  stalls,
+  crashes,
+  aborts,
+  exits,
+  exits_at_once,
+  absurd,
+  floods,
+  grows,
+  killed,
+  stopped
+};
 
 // What every one of the modules is made with.
 struct Settings {
@@ -42,6 +56,7 @@ struct Settings {
                    {"exit", Fault::exits},
                    {"_exit", Fault::exits_at_once},
                    {"absurd", Fault::absurd},
+                   {"flood", Fault::floods},
                    {"growth", Fault::grows},
                    {"kill", Fault::killed},
                    {"stop", Fault::stopped}},
@@ -60,7 +75,7 @@ class Failure {
   Failure(const Failure&) = delete;
   Failure& operator=(const Failure&) = delete;
 
-  // True, once: what is returned now is to be absurd.
+  // True, once: what is returned now is to be absurd, or too much.
   bool is_absurd() {
     const steady_clock::time_point now = steady_clock::now();
     if (!begin_) begin_ = now;
@@ -108,6 +123,7 @@ class Failure {
         ::kill(::getpid(), SIGSTOP);
         break;
       case Fault::absurd:
+      case Fault::floods:
         return true;
       case Fault::none:
         break;
@@ -182,15 +198,31 @@ class FailingMapper : public Mapper {
 
 class FailingDetector : public Detector {
  public:
-  FailingDetector(const Settings& settings, const DetectorContext&) : failure_(settings) {}
+  FailingDetector(const Settings& settings, const DetectorContext&)
+      : floods_(settings.fault == Fault::floods), failure_(settings) {}
   DetectionReport detect(const OccupancyGrid&, const CellChanges&, const Budget&) override {
     if (!failure_.is_absurd()) return {};
+    if (floods_) return flood();
     Matching matching;
     matching.detection = Detection{"ghost", {1e9, 0.0, 0.0}, 0.9, {}};
     return {{matching}};
   }
 
  private:
+  // Sound, each of them; the host has many seconds of work with all of them.
+  static DetectionReport flood() {
+    constexpr int kASide = 200;
+    DetectionReport report;
+    for (int i = 0; i < kASide * kASide; ++i) {
+      Matching matching;
+      const Point at_m(i % kASide - kASide / 2, i / kASide - kASide / 2);
+      matching.detection = Detection{"ghost", {at_m.x(), at_m.y(), 0.0}, 0.9, {}};
+      report.matchings.push_back(matching);
+    }
+    return report;
+  }
+
+  bool floods_;
   Failure failure_;
 };
 
