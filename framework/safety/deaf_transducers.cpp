@@ -33,7 +33,7 @@ bool is_no_echo(const RangeReading& reading) {
 
 void DeafTransducers::forget() {
   for (Transducer& transducer : transducers_) {
-    transducer.counted_s = transducer.stamp_s = -1e9;
+    transducer.counted_s = transducer.stamp_s = transducer.echo_s = -1e9;
     transducer.silent_rounds = transducer.missed_rounds = 0;
   }
   groups_ = {};
@@ -74,6 +74,7 @@ DeafTransducers::Transducer& DeafTransducers::transducer_of(const RangeReading& 
 
 void DeafTransducers::take_echo(Transducer& transducer) {
   transducer.is_silent = false;
+  transducer.echo_s = stamp_s_;
   transducer.silent_rounds = transducer.missed_rounds = 0;
   for (std::size_t i = 0; i < kGroups; ++i)
     if (is_in(i, transducer)) groups_[i] = {0.0, stamp_s_};
@@ -108,14 +109,16 @@ void DeafTransducers::judge() {
   }
 }
 
-// Halves of a ring fail together, and not every transducer of them looks at a wall.
+// Halves of a ring fail together, and not every transducer of them looks at a wall. Who has answered since did not fail
+// with that one.
 void DeafTransducers::spread() {
   for (bool has_spread = !deaf_.empty(); has_spread;) {
     has_spread = false;
     for (Transducer& transducer : transducers_) {
       if (transducer.is_deaf || transducer.silent_rounds < config_.rounds) continue;
       const bool has_deaf_neighbour = std::ranges::any_of(transducers_, [&](const Transducer& other) {
-        return other.is_deaf && between(other.axis_rad, transducer.axis_rad) <= kNeighbour_rad;
+        return other.is_deaf && transducer.echo_s <= other.deaf_s &&
+               between(other.axis_rad, transducer.axis_rad) <= kNeighbour_rad;
       });
       if (!has_deaf_neighbour) continue;
       set_deaf(transducer, true, DeafCause::deaf_neighbour);
@@ -133,6 +136,7 @@ void DeafTransducers::feel_bump(double side_rad) {
 void DeafTransducers::set_deaf(Transducer& transducer, bool is_deaf, DeafCause cause) {
   if (transducer.is_deaf == is_deaf) return;
   transducer.is_deaf = is_deaf;
+  if (is_deaf) transducer.deaf_s = stamp_s_;
   changes_.push_back({transducer.sensor, is_deaf, cause});
   const auto at = std::ranges::lower_bound(deaf_, transducer.sensor);
   if (is_deaf)

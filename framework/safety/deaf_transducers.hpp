@@ -5,7 +5,7 @@
 // - when it has said "no echo" for some rounds where an echo was expected,
 // - when no transducer of the ring, or of its left or right half, has answered several expected echoes in a row: then
 //   all of these that are silent,
-// - when it is silent beside a deaf one, as long as that,
+// - when it is silent beside a deaf one, as long as that, and has not answered since that one went deaf,
 // - when it was silent and the robot has bumped into something at its side.
 // An echo ends it. Expectations are plain numbers: this class knows no map, and trusts whoever makes them with slowing
 // the robot down only.
@@ -65,6 +65,8 @@ class DeafTransducers {
     double axis_rad = 0.0;
     double half_beam_rad = 0.0;
     double stamp_s = 0.0;     // of its last answer
+    double echo_s = -1e9;     // of its last echo
+    double deaf_s = -1e9;     // when it went deaf
     double counted_s = -1e9;  // of the last one that made a round
     int silent_rounds = 0;    // "no echo" in a row
     int missed_rounds = 0;    // of these, where an echo was expected

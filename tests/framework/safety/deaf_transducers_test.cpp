@@ -111,6 +111,19 @@ TEST(DeafTransducers, SilenceSpreadsFromADeafOneToSilentNeighboursOnly) {
   EXPECT_EQ(ring.transducers.deaf(), (std::vector{0, 1, 3}));
 }
 
+TEST(DeafTransducers, ANeighbourThatHasAnsweredSinceIsNotTakenForDeafAgainBeforeOpenSpace) {
+  const DeafConfig config;
+  Ring ring;
+  ring.rounds(config.rounds, {0, 1, 4, 5, 6}, {3});
+  EXPECT_EQ(ring.transducers.deaf(), (std::vector{2, 3})) << "2 was silent as long as 3, and may have failed with it";
+  ring.round({0, 1, 2, 4, 5, 6});
+  EXPECT_EQ(ring.transducers.deaf(), std::vector{3});
+  ring.rounds(50, {0, 1, 4, 5, 6}, {3});
+  EXPECT_EQ(ring.transducers.deaf(), std::vector{3});
+  ring.rounds(config.rounds, {0, 1, 4, 5, 6}, {2, 3});
+  EXPECT_EQ(ring.transducers.deaf(), (std::vector{2, 3})) << "it fails too, by what it misses itself";
+}
+
 TEST(DeafTransducers, OneThatIsDeafAloneKeepsNobodyBackWhereItsNeighboursLook) {
   Ring ring;
   ring.rounds(5, {0, 1, 3, 4, 5, 6}, {2});
