@@ -25,7 +25,7 @@ std::string counted_routes(const LandmarkGraph& graph) {
     else
       one_way += ways.up + ways.down;
   }
-  const std::string count = counted(graph.routes().size(), "route");
+  std::string count = counted(graph.routes().size(), "route");
   if (graph.routes().empty()) return count;
   if (both_ways == 0) return count + (one_way == 1 ? " (one way)" : " (all one way)");
   return count + " (" + counted(both_ways, "pair") + " both ways" +

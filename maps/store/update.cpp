@@ -50,7 +50,7 @@ std::string for_each(const std::vector<std::string>& columns, const std::string&
                      const std::string& between) {
   std::string text;
   for (const std::string& column : columns)
-    text += (text.empty() ? "" : separator) + before + column + between + column;
+    text.append(text.empty() ? "" : separator).append(before).append(column).append(between).append(column);
   return text;
 }
 

@@ -37,7 +37,7 @@ void add_fields(std::string& text, const std::vector<FieldSpec>& fields, bool al
     else if (!field.default_text.empty())
       about += ", default " + field.default_text;
     if (!all && !field.fields.empty()) about += ", a group of " + counted(count_of(field.fields), "setting");
-    text += indent + field.key + "  (" + about + ")\n" + indent + "    " + field.meaning + "\n";
+    text += fmt::format("{0}{1}  ({2})\n{0}    {3}\n", indent, field.key, about, field.meaning);
     if (all) add_fields(text, field.fields, all, indent + "    ");
   }
 }
