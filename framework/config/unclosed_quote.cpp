@@ -26,13 +26,15 @@ class NoEvents : public YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
+constexpr int kMaxDocuments = 2;  // more are refused anyway, and in some broken texts the parser finds them without end
+
 // A mark of the document's end is not allowed in a quote, and does no harm elsewhere.
 bool ends_in_quote(std::string_view text) {
   std::istringstream stream(std::string(text) + "\n...\n");
   NoEvents nothing;
   try {
     YAML::Parser parser(stream);
-    while (parser.HandleNextDocument(nothing)) {
+    for (int i = 0; i < kMaxDocuments && parser.HandleNextDocument(nothing); ++i) {
     }
   } catch (const YAML::Exception& error) {
     return error.msg == YAML::ErrorMsg::DOC_IN_SCALAR || error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;

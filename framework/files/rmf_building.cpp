@@ -126,6 +126,7 @@ class Drawing {  // one level, in its own units, y upwards
       Lane lane{vertex_index(value, 0, vertices_.size()), vertex_index(value, 1, vertices_.size()),
                 properties_of(value, 2)};
       check_orientation(lane.properties, "orientation");
+      check_orientation(lane.properties, "orientation_constraint");
       is_used[lane.from] = is_used[lane.to] = true;
       lanes.push_back(std::move(lane));
     }

@@ -71,6 +71,11 @@ TEST(ConfigFile, AliasesAreCopies) {
   EXPECT_EQ(root.find("c")->place.text(), "m.yaml:1:4") << "a bad value is where it is written";
 }
 
+TEST(ConfigFile, ABrokenTextOfWhichTheParserFindsDocumentsWithoutEndIsRefused) {
+  const std::string text = "!!str 2\n? key\n\"\"\"\"\"\"\"=\"\"\"\"\"\"{\"\"t: ~\nh: !!str 2\n? key\n: Value\n--- ";
+  EXPECT_THROW(parse_config_text(text, "m.yaml"), ConfigError);
+}
+
 // yaml-cpp takes the end of the text for the end of a quote.
 TEST(ConfigFile, AQuoteThatIsNeverClosedIsReportedWhereItIsOpened) {
   const std::string sentence = ": the quote that is opened here is never closed";
