@@ -80,8 +80,10 @@ bool CollisionMonitor::stop_if_stalled() noexcept {
   } else if (now_ns() - ordered_ns_ < stop_after_ns_) {
     return false;
   }
+  const bool is_new = !is_stalled_.exchange(true);  // before the stop, which may end the order that is under way
   wheels->stop();
-  return !is_stalled_.exchange(true);
+  if (!lock.owns_lock() && ordering_since_ns_ == 0) is_stalled_ = false;  // the order has ended meanwhile, and said so
+  return is_new;
 }
 
 void CollisionMonitor::stop_at_once() noexcept {

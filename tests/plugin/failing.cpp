@@ -211,11 +211,12 @@ class FailingDetector : public Detector {
  private:
   // Sound, each of them; the host has many seconds of work with all of them.
   static DetectionReport flood() {
-    constexpr int kASide = 200;
+    constexpr int kASide = 1000;
+    constexpr double kStep_m = 0.003;  // over what has been seen when the robot has driven a metre
     DetectionReport report;
     for (int i = 0; i < kASide * kASide; ++i) {
       Matching matching;
-      const Point at_m(i % kASide - kASide / 2, i / kASide - kASide / 2);
+      const Point at_m(1.0 + kStep_m * (i % kASide), 0.5 + kStep_m * (i / kASide));
       matching.detection = Detection{"ghost", {at_m.x(), at_m.y(), 0.0}, 0.9, {}};
       report.matchings.push_back(matching);
     }
