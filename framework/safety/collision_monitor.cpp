@@ -52,9 +52,8 @@ void CollisionMonitor::order(const Twist& twist, bool at_once) {
   });
   const std::int64_t now = now_ns();
   const bool was_standing = std::exchange(is_standing_, false);
-  // Also when the whole process stood: then the drive's own time has stopped the wheels.
-  const bool was_long = now - ordered_ns_ >= stop_after_ns_;
-  const bool was_stalled = is_stalled_.exchange(false) || was_long;
+  // By the time alone, whoever has stopped the wheels: when the whole process stood, the drive's own time has.
+  const bool was_stalled = now - ordered_ns_ >= stop_after_ns_;
   stalled_s_ =
       was_stalled && !was_standing ? std::optional(1e-9 * static_cast<double>(now - ordered_ns_)) : std::nullopt;
   ordered_ns_ = now;
@@ -70,20 +69,18 @@ void CollisionMonitor::stop() {
   if (drive_) drive_.call([](Drive& drive) { drive.stop(); });
 }
 
-bool CollisionMonitor::stop_if_stalled() noexcept {
+void CollisionMonitor::stop_if_stalled(const std::function<void()>& before_first_stop) {
   Drive* const wheels = wheels_;
-  if (wheels == nullptr || now_ns() - ordered_ns_ < stop_after_ns_) return false;
+  const std::int64_t after_ns = ordered_ns_;
+  if (wheels == nullptr || now_ns() - after_ns < stop_after_ns_) return;
   std::unique_lock lock(ordering_, std::defer_lock);
   if (!lock.try_lock()) {
     const std::int64_t since_ns = ordering_since_ns_;
-    if (since_ns == 0 || now_ns() - since_ns < kLongOrder_ns) return false;  // the tick is just ending
-  } else if (now_ns() - ordered_ns_ < stop_after_ns_) {
-    return false;
+    if (since_ns == 0 || now_ns() - since_ns < kLongOrder_ns) return;  // the tick is just ending
   }
-  const bool is_new = !is_stalled_.exchange(true);  // before the stop, which may end the order that is under way
+  if (ordered_ns_ != after_ns) return;  // it has ended
+  if (std::exchange(stopped_after_ns_, after_ns) != after_ns) before_first_stop();
   wheels->stop();
-  if (!lock.owns_lock() && ordering_since_ns_ == 0) is_stalled_ = false;  // the order has ended meanwhile, and said so
-  return is_new;
 }
 
 void CollisionMonitor::stop_at_once() noexcept {

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -43,11 +44,10 @@ class CollisionMonitor {
   // It stops at once, because something has failed, until the next drive(). Throws ModuleFault.
   void stop();
 
-  // From another thread, every few milliseconds: stops the wheels when no tick has ended for stop_after_s. Whether it
-  // has done so now.
-  bool stop_if_stalled() noexcept;
-  // How long the wheels have been stopped for that before the last drive(), which has let them go on; none: they were
-  // not, or stood already.
+  // From one other thread, every few milliseconds: stops the wheels as long as no tick has ended for stop_after_s.
+  // before_first_stop: called once for each such time, before what a stop may wake goes on.
+  void stop_if_stalled(const std::function<void()>& before_first_stop);
+  // How long no tick had ended when the last drive() let the wheels go on; none: not for long, or they stood already.
   [[nodiscard]] std::optional<double> stalled_s() const { return stalled_s_; }
   // From any thread, and from a signal handler.
   void stop_at_once() noexcept;
@@ -71,8 +71,8 @@ class CollisionMonitor {
   std::mutex ordering_;
   std::atomic<std::int64_t> ordering_since_ns_{0};  // 0: not under way
   std::atomic<std::int64_t> ordered_ns_{0};         // the last tick's end
-  std::atomic<bool> is_stalled_{false};
-  bool is_standing_ = false;  // since the last tick: on purpose
+  std::int64_t stopped_after_ns_ = 0;               // of the thread that watches: the tick's end that it stopped after
+  bool is_standing_ = false;                        // since the last tick: on purpose
   std::optional<double> stalled_s_;
 };
 

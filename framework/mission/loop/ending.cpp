@@ -16,7 +16,7 @@ void add_sentence(std::string& reason, const std::string& sentence) {
 
 void MissionLoop::stop_if_stalled() {
   const StageClock::Id stage = modules_.clock.current();
-  if (monitor_.stop_if_stalled()) stalled_stage_ = stage;
+  monitor_.stop_if_stalled([&] { stalled_stage_ = stage; });
 }
 
 bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <functional>
+#include <latch>
 #include <stdexcept>
 #include <thread>
 
@@ -31,12 +33,46 @@ class RecordingDrive : public Drive {
 class MonitorOfADrive : public testing::Test {
  protected:
   MonitorOfADrive() { monitor_.attach({drive_, clock_, stage_}); }
+  void watch() {
+    monitor_.stop_if_stalled([this] { ++stalls_; });
+  }
 
   StageClock clock_;
   const StageClock::Id stage_ = clock_.add("drive", "robot");
   const std::shared_ptr<RecordingDrive> drive_ = std::make_shared<RecordingDrive>();
   const std::shared_ptr<TestClock> wall_clock_ = std::make_shared<TestClock>();
   CollisionMonitor monitor_{CollisionMonitorConfig{}, a_robot(), wall_clock_};
+  int stalls_ = 0;
+};
+
+// One thread waits when it asks for the time for the nth time.
+class HeldUpClock final : public WallClock {
+ public:
+  [[nodiscard]] Time now() const override {
+    if (std::this_thread::get_id() == held_up_ && --asks_until_held_up_ == 0) {
+      is_held_up_.count_down();
+      released_.wait();
+    }
+    return clock_.now();
+  }
+  void sleep_for(std::chrono::nanoseconds duration) const override { clock_.sleep_for(duration); }
+  [[nodiscard]] bool wait_for(const std::future<void>& done, std::chrono::nanoseconds at_most) const override {
+    return clock_.wait_for(done, at_most);
+  }
+  void advance(std::chrono::nanoseconds duration) { clock_.advance(duration); }
+  void hold_up_this_thread(int nth_ask) {
+    asks_until_held_up_ = nth_ask;
+    held_up_ = std::this_thread::get_id();
+  }
+  void wait_until_one_is_held_up() { is_held_up_.wait(); }
+  void release() { released_.count_down(); }
+
+ private:
+  TestClock clock_;
+  std::atomic<std::thread::id> held_up_{};
+  mutable std::atomic<int> asks_until_held_up_{0};
+  mutable std::latch is_held_up_{1};
+  std::latch released_{1};
 };
 
 TEST_F(MonitorOfADrive, OrdersTheWantedVelocityWhereNothingIsNear) {
@@ -63,7 +99,7 @@ TEST_F(MonitorOfADrive, StandsWhileTheHostIsBusyAndDrivesOnWithTheNextTick) {
   EXPECT_EQ(drive_->commands.back(), Twist{}) << "no emergency";
   EXPECT_EQ(drive_->stops, 0);
   wall_clock_->advance(std::chrono::milliseconds(800));
-  (void)monitor_.stop_if_stalled();
+  watch();
   (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
   EXPECT_EQ(drive_->commands.back(), (Twist{0.1, 0.0}));
   EXPECT_FALSE(monitor_.stalled_s()) << "it stood on purpose";
@@ -115,19 +151,22 @@ TEST_F(MonitorOfADrive, ACommandCountsForItsTimeOnly) {
 TEST_F(MonitorOfADrive, StopsTheWheelsOnceWhenNoTickEndsForLong) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
   wall_clock_->advance(std::chrono::milliseconds(240));
-  EXPECT_FALSE(monitor_.stop_if_stalled());
+  watch();
+  EXPECT_EQ(stalls_, 0);
   EXPECT_EQ(drive_->stops, 0);
   wall_clock_->advance(std::chrono::milliseconds(20));
-  EXPECT_TRUE(monitor_.stop_if_stalled());
-  EXPECT_FALSE(monitor_.stop_if_stalled()) << "it is known already";
-  EXPECT_GE(drive_->stops, 1);
+  watch();
+  EXPECT_EQ(stalls_, 1);
+  watch();
+  EXPECT_EQ(stalls_, 1) << "it is known already";
+  EXPECT_EQ(drive_->stops, 2) << "a stop may be lost";
 }
 
 TEST_F(MonitorOfADrive, DrivesOnWithTheNextTickAndSaysHowLongTheRobotStood) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
   EXPECT_FALSE(monitor_.stalled_s());
   wall_clock_->advance(std::chrono::milliseconds(800));
-  EXPECT_TRUE(monitor_.stop_if_stalled());
+  watch();
   (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
   EXPECT_EQ(drive_->commands.back(), (Twist{0.1, 0.0}));
   ASSERT_TRUE(monitor_.stalled_s());
@@ -148,19 +187,50 @@ TEST_F(MonitorOfADrive, StopsTheWheelsAlsoWhileACommandDoesNotReturn) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
   drive_->on_command = [&] {
     wall_clock_->advance(std::chrono::milliseconds(600));
-    std::thread([&] { EXPECT_TRUE(monitor_.stop_if_stalled()); }).join();
+    std::thread([&] { watch(); }).join();
   };
   (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
   EXPECT_EQ(drive_->stops, 1);
+  EXPECT_EQ(stalls_, 1);
 }
 
 TEST_F(MonitorOfADrive, ATickThatIsJustEndingIsNotStopped) {
   (void)monitor_.drive(observation(1.0), {0.1, 0.0});
   wall_clock_->advance(std::chrono::milliseconds(600));
-  drive_->on_command = [&] { std::thread([&] { EXPECT_FALSE(monitor_.stop_if_stalled()); }).join(); };
+  drive_->on_command = [&] { std::thread([&] { watch(); }).join(); };
   (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
-  EXPECT_FALSE(monitor_.stop_if_stalled());
+  watch();
   EXPECT_EQ(drive_->stops, 0);
+  EXPECT_EQ(stalls_, 0);
+}
+
+// The thread that watches is held up while it asks for the time, until the tick it looks at is over and the next one
+// orders the drive.
+TEST_F(MonitorOfADrive, AStallIsReportedOnceHoweverLateTheOneWhoWatchesIs) {
+  const auto clock = std::make_shared<HeldUpClock>();
+  CollisionMonitor monitor(CollisionMonitorConfig{}, a_robot(), clock);
+  monitor.attach({drive_, clock_, stage_});
+  (void)monitor.drive(observation(1.0), {0.1, 0.0});
+  std::thread watching;
+  drive_->on_command = [&] {
+    clock->advance(std::chrono::milliseconds(600));
+    watching = std::thread([&] {
+      clock->hold_up_this_thread(2);
+      monitor.stop_if_stalled([] {});
+    });
+    clock->wait_until_one_is_held_up();
+  };
+  (void)monitor.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  EXPECT_TRUE(monitor.stalled_s());
+  drive_->on_command = [&] {
+    clock->release();
+    watching.join();
+  };
+  (void)monitor.drive(observation(1.0 + 2.0 * kTick_s), {0.1, 0.0});
+  EXPECT_FALSE(monitor.stalled_s()) << "that was told already";
+  drive_->on_command = {};
+  (void)monitor.drive(observation(1.0 + 3.0 * kTick_s), {0.1, 0.0});
+  EXPECT_FALSE(monitor.stalled_s());
 }
 
 TEST(CollisionMonitor, WithoutADriveNothingIsOrdered) {
@@ -168,7 +238,7 @@ TEST(CollisionMonitor, WithoutADriveNothingIsOrdered) {
   EXPECT_FALSE(monitor.has_drive());
   monitor.stop();
   monitor.stop_at_once();
-  EXPECT_FALSE(monitor.stop_if_stalled());
+  monitor.stop_if_stalled([] { FAIL(); });
   EXPECT_EQ(monitor.drive(observation(1.0), {0.1, 0.0}).commanded, Twist{});
 }
 
