@@ -209,7 +209,7 @@ class FailingDetector : public Detector {
   }
 
  private:
-  // Sound, each of them; the host has many seconds of work with all of them.
+  // Each of them is valid; the host is busy for more than a second with all of them.
   static DetectionReport flood() {
     constexpr int kASide = 1000;
     constexpr double kStep_m = 0.003;  // over what has been seen when the robot has driven a metre

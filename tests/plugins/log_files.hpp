@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <filesystem>
@@ -18,7 +19,8 @@ class LogFolder {
  public:
   LogFolder()
       : folder_(std::filesystem::path(testing::TempDir()) /
-                ("log_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) + "_" +
+                ("log_" + std::to_string(getpid()) + "_" +
+                 std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) + "_" +
                  testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(folder_);
   }

@@ -13,12 +13,36 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <list>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 namespace cairn::testing_program {
 namespace {
+
+// Removed when the test program ends, unless a test has failed: then they may show why.
+class RemovedFolders {
+ public:
+  RemovedFolders() = default;
+  RemovedFolders(const RemovedFolders&) = delete;
+  RemovedFolders& operator=(const RemovedFolders&) = delete;
+  ~RemovedFolders() {
+    std::error_code ignored;
+    if (getpid() != owner_ || testing::UnitTest::GetInstance()->Failed()) return;
+    for (const auto& folder : folders_) std::filesystem::remove_all(folder, ignored);
+  }
+
+  const std::filesystem::path& add(const std::filesystem::path& folder) {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folders_.emplace_back(folder);
+  }
+
+ private:
+  const pid_t owner_ = getpid();
+  std::list<std::filesystem::path> folders_;
+};
 
 struct Pipe {
   int read_end = -1;
@@ -195,10 +219,8 @@ int Conversation::exit_status() {
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / ("cairn_" + name + "_" + std::to_string(getpid()));
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
+  static RemovedFolders removed;
+  return removed.add(std::filesystem::path(testing::TempDir()) / ("cairn_" + name + "_" + std::to_string(getpid())));
 }
 
 std::string text_of_file(const std::filesystem::path& file) {

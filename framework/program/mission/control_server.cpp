@@ -30,7 +30,7 @@ constexpr seconds kTickWithin(10);  // a planner may be at work
 constexpr seconds kEndWithin(60);   // the map is saved
 constexpr seconds kLineWithin(2);
 constexpr std::size_t kMaxAnswers = 16;   // at once, to `status` and to all else
-constexpr std::size_t kMaxCallers = 128;  // who say nothing yet; beyond that, whoever has been there longest goes
+constexpr std::size_t kMaxCallers = 128;  // that have sent no command; beyond that, the oldest is disconnected
 constexpr int kAcceptAtOnce = 64;
 constexpr std::chrono::milliseconds kNoneLeftFor(100);
 

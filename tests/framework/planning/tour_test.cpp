@@ -22,7 +22,7 @@ double x_of(const Place& place) {
   return place.pose ? place.pose->x_m : static_cast<double>(place.landmarks.front());
 }
 
-// Landmarks in a row, 1 m apart: the stub goes from the first of a place straight to the last of the next.
+// Landmarks in a row, 1 m apart: the planner here goes from the first of a place straight to the last of the next.
 struct Row {
   std::vector<PlanRequest> asked;
   LandmarkId unreachable = 0;
@@ -33,7 +33,7 @@ struct Row {
     PlanResult leg;
     leg.settled = 5;
     leg.time_ms = {1.0, 2.0, 4.0};
-    leg.reason = "stub";
+    leg.reason = "no route";
     if (request.explain) leg.explanation = explanation_of(request);
     if (!request.to.landmarks.empty() && request.to.landmarks.back() == unreachable) return leg;
     leg.outcome = PlanOutcome::solved;
@@ -85,7 +85,7 @@ TEST(Tour, WithoutStopsItIsTheRequestAsItIs) {
   const PlanResult result = row.tour(request, {});
   ASSERT_EQ(row.asked.size(), 1U);
   EXPECT_EQ(row.asked[0].alternatives, 3);
-  EXPECT_EQ(result.reason, "stub");
+  EXPECT_EQ(result.reason, "no route");
   EXPECT_THAT(result.landmarks, ElementsAre(1, 4));
 }
 
@@ -103,7 +103,7 @@ TEST(Tour, PassesItsStopsInTheirOrderAndAddsUp) {
   EXPECT_DOUBLE_EQ(result.time_ms.graph_ms, 3.0);
   EXPECT_DOUBLE_EQ(result.time_ms.route_ms, 6.0);
   EXPECT_DOUBLE_EQ(result.time_ms.total_ms, 12.0);
-  EXPECT_EQ(result.reason, "leg 1 of 3: stub; leg 2 of 3: stub; leg 3 of 3: stub");
+  EXPECT_EQ(result.reason, "leg 1 of 3: no route; leg 2 of 3: no route; leg 3 of 3: no route");
   ASSERT_EQ(result.path.size(), 4U);
   EXPECT_DOUBLE_EQ(result.path[2].x_m, 2.0);
   EXPECT_FALSE(result.explanation);
@@ -160,7 +160,7 @@ TEST(Tour, EndsAtTheFirstLegWithoutAWayAndSaysWhich) {
   const PlanResult result = row.tour(from_to(at({1}), at({4})), {at({2}), at({3}), at({5})});
   EXPECT_EQ(row.asked.size(), 2U);
   EXPECT_EQ(result.outcome, PlanOutcome::no_route);
-  EXPECT_EQ(result.reason, "leg 2 of 4: stub");
+  EXPECT_EQ(result.reason, "leg 2 of 4: no route");
   EXPECT_THAT(result.landmarks, ElementsAre(1, 2));
   EXPECT_EQ(result.settled, 10);
 }
@@ -188,7 +188,7 @@ TEST(Tour, ClosedRoutesOfEarlierLegsAreNotBlamedForALegWithoutAWay) {
   row.unreachable = 4;
   PlanRequest request = from_to(at({1}), at({4}));
   request.explain = true;
-  request.closed = {8};  // the stub then has something better on the first leg only
+  request.closed = {8};  // the planner then has something better on the first leg only
   const PlanResult result = row.tour(request, {at({2})});
   EXPECT_EQ(result.outcome, PlanOutcome::no_route);
   ASSERT_TRUE(result.explanation);

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <regex>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "framework/files/template_file.hpp"
 #include "framework/files/world_file.hpp"
 #include "framework/mission/mission.hpp"
+#include "tests/framework/config/config_test_support.hpp"
 
 namespace cairn {
 namespace {
@@ -22,29 +22,23 @@ using testing::Not;
 
 const std::string kConfig = std::string(CAIRN_SOURCE_DIR) + "/config";
 
-std::filesystem::path folder_of(const std::string& test) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("random_mission_" + test);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 struct Drawn {
   std::string text;
   Mission mission;
 };
 
-Drawn draw(const TrialsConfig& config, std::uint64_t seed, const std::filesystem::path& folder) {
+Drawn draw(const TrialsConfig& config, std::uint64_t seed) {
+  const config_test::TestFolder folder;
   RandomWorldConfig worlds;
   worlds.max_movers = 3;
   worlds.max_doors = 2;
   const std::vector<LandmarkShape> shapes = load_landmark_shapes(kConfig + "/templates");
-  std::ofstream(folder / "world.yaml") << random_world_yaml(worlds, shapes, 0.1, seed);
+  const auto world = folder.write("world.yaml", random_world_yaml(worlds, shapes, 0.1, seed));
   const RobotModel robot = load_robot(kConfig + "/robots/pioneer1.yaml");
   const MissionFiles files{kConfig + "/robots/pioneer1.yaml", "world.yaml", kConfig + "/templates"};
   Drawn drawn;
-  drawn.text = random_mission_yaml(config, files, robot, load_world(folder / "world.yaml", shapes), seed);
-  std::ofstream(folder / "mission.yaml") << drawn.text;
-  drawn.mission = load_mission(folder / "mission.yaml");
+  drawn.text = random_mission_yaml(config, files, robot, load_world(world, shapes), seed);
+  drawn.mission = load_mission(folder.write("mission.yaml", drawn.text));
   return drawn;
 }
 
@@ -63,7 +57,7 @@ TEST(RandomMission, IsWholeOnEverySeedAndAsRandomAsItSays) {
   std::size_t batteries = 0;
   constexpr int kSeeds = 60;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const Drawn drawn = draw(config, seed, folder_of("whole"));
+    const Drawn drawn = draw(config, seed);
     for (const TreeNode* leaf : behaviours_of(drawn.mission.steps)) nodes.insert(leaf->choice.name);
     EXPECT_GE(drawn.mission.steps.size(), 2U + static_cast<std::size_t>(config.min_goals));
     const TrueSpace space(*drawn.mission.world, drawn.mission.robot.radius_m + config.clearance_m - 0.001);
@@ -79,9 +73,9 @@ TEST(RandomMission, IsWholeOnEverySeedAndAsRandomAsItSays) {
 TEST(RandomMission, TheSameSeedGivesTheSameText) {
   TrialsConfig config;
   config.faults_per_hour = {6, 6, 2, 2, 6, 1};
-  const std::string text = draw(config, 7, folder_of("same")).text;
-  EXPECT_EQ(draw(config, 7, folder_of("same")).text, text);
-  EXPECT_NE(draw(config, 8, folder_of("same")).text, text);
+  const std::string text = draw(config, 7).text;
+  EXPECT_EQ(draw(config, 7).text, text);
+  EXPECT_NE(draw(config, 8).text, text);
 }
 
 TEST(RandomMission, NeighbouringSeedsShareNoTimeOfAFault) {
@@ -90,7 +84,7 @@ TEST(RandomMission, NeighbouringSeedsShareNoTimeOfAFault) {
   std::multiset<std::string> times;
   const std::regex time("at_s: ([0-9.]+)");
   for (std::uint64_t seed = 8; seed < 16; ++seed) {
-    const std::string text = draw(config, seed, folder_of("times")).text;
+    const std::string text = draw(config, seed).text;
     for (std::sregex_iterator found(text.begin(), text.end(), time), end; found != end; ++found)
       times.insert((*found)[1]);
   }
@@ -102,9 +96,9 @@ TEST(RandomMission, NeighbouringSeedsShareNoTimeOfAFault) {
 TEST(RandomMission, AnotherRateOfOneFaultLeavesTheOthersAsTheyWere) {
   TrialsConfig config;
   config.faults_per_hour = {6, 0, 0, 0, 6, 0};
-  const std::string few = draw(config, 7, folder_of("rates")).text;
+  const std::string few = draw(config, 7).text;
   config.faults_per_hour.stuck = 60;
-  const std::string many = draw(config, 7, folder_of("rates")).text;
+  const std::string many = draw(config, 7).text;
   EXPECT_THAT(few, Not(HasSubstr("stuck")));
   EXPECT_EQ(std::regex_replace(many, std::regex("    - [^\n]*stuck[^\n]*\n"), ""), few);
 }
@@ -113,13 +107,13 @@ TEST(RandomMission, DeafRingsAreWholeHalvesAndPartsAndEndSomeTime) {
   TrialsConfig config;
   config.faults_per_hour.deaf = 30;
   std::string text;
-  for (std::uint64_t seed = 0; seed < 4; ++seed) text += draw(config, seed, folder_of("deaf")).text;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) text += draw(config, seed).text;
   for (const char* part : {"deaf: whole", "deaf: left", "deaf: right", "dead: ["}) EXPECT_GT(count(text, part), 5U);
   EXPECT_EQ(count(text, "at_s:"), count(text, "for_s:"));
 }
 
 TEST(RandomMission, WithoutRatesThereAreNoFaults) {
-  EXPECT_THAT(draw({}, 7, folder_of("none")).text, Not(HasSubstr("faults")));
+  EXPECT_THAT(draw({}, 7).text, Not(HasSubstr("faults")));
 }
 
 TEST(RandomMission, ARobotWithoutRoomIsRefused) {

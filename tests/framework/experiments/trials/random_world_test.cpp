@@ -2,12 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <regex>
 
 #include "framework/files/world_file.hpp"
+#include "tests/framework/config/config_test_support.hpp"
 
 namespace cairn {
 namespace {
@@ -17,10 +16,8 @@ std::vector<LandmarkShape> shapes() {
 }
 
 World loaded(const std::string& text) {
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / ("random_world_" + std::to_string(::getpid()) + ".yaml");
-  std::ofstream(file) << text;
-  return load_world(file, shapes());
+  const config_test::TestFolder folder;
+  return load_world(folder.write("world.yaml", text), shapes());
 }
 
 TEST(RandomWorld, LoadsAndKeepsItsGapsOnEverySeed) {
