@@ -68,6 +68,10 @@ void check_depth(const std::string& line, SourcePlace place) {
 }
 
 json object_of_line(const std::string& line, SourcePlace place) {
+  if (const std::size_t zero = line.find('\0'); zero != std::string::npos) {  // where the JSON library ends the text
+    place.column = static_cast<int>(zero) + 1;
+    throw ConfigError(place, "a zero byte");
+  }
   check_depth(line, place);
   std::set<std::string> keys;
   const auto refuse_twice = [&](int depth, json::parse_event_t event, const json& key) {

@@ -86,5 +86,9 @@ TEST(PlanQueryLine, WhatIsNoObjectIsRefused) {
   EXPECT_THAT(error_at(65, std::string(600, '[')), HasSubstr("nests deeper than 64 brackets"));
 }
 
+TEST(PlanQueryLine, NothingHidesBehindAZeroByte) {
+  EXPECT_THAT(error_at(13, std::string("{\"from\": \"a\"\0, \"cost\": \"length\"}", 32)), HasSubstr("a zero byte"));
+}
+
 }  // namespace
 }  // namespace cairn
