@@ -76,10 +76,13 @@ void check_own_folder(const MapServerFile& file, const std::filesystem::path& ya
                                             " is outside the folder of the map; --allow-outside reads it all the same");
 }
 
-// A picture that is not there is the YAML file's mistake.
+// The picture as it is named, or compressed by gzip beside it. One that is not there is the YAML file's mistake.
 std::string text_of_picture(const MapServerFile& file) {
+  std::filesystem::path compressed = file.picture;
+  compressed += ".gz";
+  const bool is_compressed = !std::filesystem::exists(file.picture) && std::filesystem::exists(compressed);
   try {
-    return exchange::text_of_file(file.picture);
+    return exchange::text_of_file(is_compressed ? compressed : file.picture);
   } catch (const ExchangeError& error) {
     throw ConfigError(file.picture_place, std::string("image: ") + error.what());
   }

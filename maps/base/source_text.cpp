@@ -1,12 +1,13 @@
 #include "maps/base/source_text.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <boost/locale/utf.hpp>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <memory>
 
 #include "maps/base/text.hpp"
 
@@ -14,7 +15,7 @@ namespace cairn::exchange {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
-constexpr std::size_t kBlock = std::size_t{1} << 20;
+constexpr unsigned kBlock = 1U << 20U;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
@@ -63,18 +64,23 @@ std::string text_of_file(const std::filesystem::path& file) {
   if (!std::filesystem::exists(status)) throw ExchangeError(file.string() + ": no such file");
   if (std::filesystem::is_directory(status)) throw ExchangeError(file.string() + ": is a folder");
   if (may_never_open(file)) throw ExchangeError(file.string() + ": is no file: a pipe, a socket or a device");
-  std::ifstream in(file, std::ios::binary);
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
   if (!in) throw ExchangeError(file.string() + ": cannot be read");
   std::string text;
-  // Block by block: what is not a plain file has no size to ask for.
-  while (in) {
+  // Block by block: what is not a plain file has no size to ask for. What is not compressed is read as it is.
+  while (true) {
     const std::size_t before = text.size();
     if (before > kMaxBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
     text.resize(before + kBlock);
-    in.read(text.data() + before, static_cast<std::streamsize>(kBlock));
-    text.resize(before + static_cast<std::size_t>(in.gcount()));
+    const int got = gzread(in.get(), text.data() + before, kBlock);
+    text.resize(before + static_cast<std::size_t>(std::max(0, got)));
+    if (got < static_cast<int>(kBlock)) break;
   }
-  if (in.bad()) throw ExchangeError(file.string() + ": cannot be read to its end");
+  int error_number = Z_OK;
+  (void)gzerror(in.get(), &error_number);
+  if (error_number == Z_BUF_ERROR) throw ExchangeError(file.string() + ": the compressed file is cut off");
+  if (error_number == Z_DATA_ERROR) throw ExchangeError(file.string() + ": the compressed file is damaged");
+  if (error_number != Z_OK) throw ExchangeError(file.string() + ": cannot be read to its end");
   return text;
 }
 

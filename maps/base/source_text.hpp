@@ -48,7 +48,8 @@ class SourceText {
 // /dev/fd/N) is none.
 [[nodiscard]] bool may_never_open(const std::filesystem::path& file);
 
-// All bytes of a file. Throws ExchangeError: no such file, a folder, larger than 4 GB, not readable to its end.
+// All bytes of a file, unpacked where it is compressed by gzip (its first bytes say so). Throws ExchangeError: no such
+// file, a folder, larger than 4 GB (unpacked), cut off, damaged, not readable to its end.
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& file);
 
 // The offset of the first byte that does not belong to a UTF-8 character, or npos.

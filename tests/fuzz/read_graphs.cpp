@@ -10,7 +10,9 @@
 #include "maps/exchange/graphs/graph_list.hpp"
 #include "maps/exchange/graphs/graphml.hpp"
 #include "maps/exchange/graphs/nav2_routes.hpp"
+#include "maps/exchange/graphs/patrolling_graph.hpp"
 #include "maps/exchange/graphs/rmf_nav_graph.hpp"
+#include "maps/exchange/graphs/tntp.hpp"
 #include "tests/fuzz/reader.hpp"
 
 namespace cairn::fuzz {
@@ -75,6 +77,23 @@ void read_again(const ExportedGraph& written, Parse parse) {
 }
 
 }  // namespace
+
+void read_patrolling_graph(Input input) {
+  try {
+    check(parse_patrolling_graph(text_of(input), "fuzzed").graph);
+  } catch (const ExchangeError&) {
+  }
+}
+
+void read_tntp(Input input) {
+  const std::string_view text = text_of(input);
+  const std::size_t end = text.find('\0');
+  if (end == std::string_view::npos) return;
+  try {
+    check(parse_tntp({text.substr(0, end), "net", text.substr(end + 1), "node"}).graph);
+  } catch (const ExchangeError&) {
+  }
+}
 
 void read_graph_list(Input input) {
   exchange(input, parse_graph_list, [](const ImportedGraph& read) { return graph_list_of(read.graph); });

@@ -50,6 +50,8 @@ void read_picture(Input input);
 void read_moving_ai_map(Input input);
 void read_moving_ai_scen(Input input);  // by the measurements' reader: the program has none
 void read_graph_list(Input input);
+void read_patrolling_graph(Input input);
+void read_tntp(Input input);  // the links, then the nodes behind a byte 0
 void read_graphml(Input input);
 void read_nav2_routes(Input input);
 void read_rmf(Input input);

@@ -20,6 +20,7 @@ constexpr std::array kReaders{
     Reader{"moving_ai_map", read_moving_ai_map},
     Reader{"moving_ai_scen", read_moving_ai_scen},
     Reader{"nav2_routes", read_nav2_routes},
+    Reader{"patrolling_graph", read_patrolling_graph},
     Reader{"picture", read_picture},
     Reader{"place", read_place},
     Reader{"plan_queries", read_plan_queries},
@@ -29,6 +30,7 @@ constexpr std::array kReaders{
     Reader{"saved_map", read_saved_map},
     Reader{"table_log", read_table_log},
     Reader{"template", read_template},
+    Reader{"tntp", read_tntp},
     Reader{"world", read_world},
     Reader{"yaml", read_yaml},
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "framework/contracts/robot_model.hpp"
 #include "framework/files/map_server_file.hpp"
@@ -23,8 +24,13 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::string_view kMovingAi = ".map";
-constexpr std::array<std::string_view, 3> kGridExtensions{kMovingAi, ".yaml", ".yml"};
+constexpr std::array<std::string_view, 2> kYaml{".yaml", ".yml"};
+constexpr std::array<std::string_view, 3> kPictures{".png", ".pgm", ".bmp"};
 constexpr double kMovingAiCell_m = 1.0;
+
+bool is_one_of(std::string_view extension, std::span<const std::string_view> known) {
+  return std::ranges::find(known, extension) != known.end();
+}
 
 int import_graph(const ExchangeCommand& command, ImportedGraph imported, const CommonOptions& common) {
   SavedMap map;
@@ -43,15 +49,29 @@ int import_graph(const ExchangeCommand& command, ImportedGraph imported, const C
   return kExitDone;
 }
 
-ImportedGrid read_grid(const ExchangeCommand& command) {
-  if (command.from.extension() != kMovingAi)
+// A picture alone says nothing of its scale; else it means what map_server's default settings say.
+ImportedGrid read_picture(const ExchangeCommand& command) {
+  const std::string name = command.from.string();
+  if (!command.cell_m)
+    throw std::runtime_error("map import: " + name +
+                             " is a picture: --cell-m must give the side of a pixel in metres; 0.05 is usual");
+  MapServerSettings settings;
+  settings.resolution_m = *command.cell_m;
+  ImportedGrid imported = grid_of(parse_grey_picture(exchange::text_of_file(command.from), name), settings, name);
+  imported.warnings = about(command.from, std::move(imported.warnings));
+  return imported;
+}
+
+ImportedGrid read_grid(const ExchangeCommand& command, const std::string& extension) {
+  if (is_one_of(extension, kPictures)) return read_picture(command);
+  if (extension != kMovingAi)
     return load_map_server(command.from, command.allow_outside ? PictureFolder::any : PictureFolder::own);
   return parse_moving_ai_map(exchange::text_of_file(command.from), command.from.string(),
                              command.cell_m.value_or(kMovingAiCell_m));
 }
 
-int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
-  ImportedGrid imported = read_grid(command);
+int import_grid(const ExchangeCommand& command, const std::string& extension, const CommonOptions& common) {
+  ImportedGrid imported = read_grid(command, extension);
   SavedMap map;
   map.grid = std::move(imported.grid);
   map.properties["imported_from"] = command.from.filename().string();
@@ -76,22 +96,26 @@ int import_grid(const ExchangeCommand& command, const CommonOptions& common) {
 }  // namespace
 
 int map_import(const ExchangeCommand& command, const CommonOptions& common) {
-  const std::string extension = command.from.extension().string();
+  const std::string extension = extension_of(command.from);
   const std::optional<GraphFormat> format = graph_format_of(command.from);
-  if (!format && std::ranges::find(kGridExtensions, extension) == kGridExtensions.end()) {
-    std::vector<std::string> known = graph_extensions();
-    known.insert(known.end(), kGridExtensions.begin(), kGridExtensions.end());
+  const bool is_yaml = is_one_of(extension, kYaml);
+  const bool has_own_scale = is_yaml || format.has_value();
+  if (!has_own_scale && extension != kMovingAi && !is_one_of(extension, kPictures)) {
+    std::vector<std::string> known = graph_extensions(GraphUse::read);
+    known.emplace_back(kMovingAi);
+    known.insert(known.end(), kYaml.begin(), kYaml.end());
+    known.insert(known.end(), kPictures.begin(), kPictures.end());
     fail_extension(command.from, "imported", known);
   }
-  if (command.cell_m && extension != kMovingAi)
-    throw std::runtime_error("map import: --cell-m is for Moving AI grids (*.map); " + command.from.string() +
-                             " says itself how large it is");
+  if (command.cell_m && has_own_scale)
+    throw std::runtime_error("map import: --cell-m is for Moving AI grids (*.map) and pictures; " +
+                             command.from.string() + " says itself how large it is");
   if (format) return import_graph(command, read_graph_file(command.from, *format), common);
-  if (extension != kMovingAi) {
+  if (is_yaml) {
     const ConfigValue root = parse_config_text(exchange::text_of_file(command.from), command.from.string());
     if (is_rmf(root)) return import_graph(command, rmf_graph_of(root), common);
   }
-  return import_grid(command, common);
+  return import_grid(command, extension, common);
 }
 
 }  // namespace cairn

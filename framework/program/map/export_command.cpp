@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -120,9 +121,11 @@ int map_export(const ExchangeCommand& command, const CommonOptions& common) {
   const bool is_picture = extension == kPicture;
   const bool is_rmf = is_nav_graph(command.to);
   const bool is_map_server = !is_rmf && (extension == kMapServer[0] || extension == kMapServer[1]);
-  const std::optional<GraphFormat> format = graph_format_of(command.to);
+  const std::vector<std::string> written_graphs = graph_extensions(GraphUse::written);
+  const bool is_graph = std::ranges::find(written_graphs, extension) != written_graphs.end();
+  const std::optional<GraphFormat> format = is_graph ? graph_format_of(command.to) : std::nullopt;
   if (!format && !is_picture && !is_map_server && !is_rmf) {
-    std::vector<std::string> known = graph_extensions();
+    std::vector<std::string> known = written_graphs;
     known.emplace_back(kPicture);
     known.insert(known.end(), kMapServer.begin(), kMapServer.end());
     fail_extension(command.to, "exported to", known);

@@ -9,6 +9,7 @@
 #include "maps/base/spelling.hpp"
 #include "maps/base/text.hpp"
 #include "maps/exchange/graphs/file_ids.hpp"
+#include "maps/exchange/graphs/line_tokens.hpp"
 #include "maps/exchange/graphs/losses.hpp"
 
 namespace cairn {
@@ -16,6 +17,7 @@ namespace {
 
 using exchange::FileId;
 using exchange::kLineBlanks;
+using exchange::LineTokens;
 using exchange::NodeIds;
 using exchange::SourceText;
 
@@ -37,86 +39,7 @@ struct ListedEdge {
   std::size_t offset = 0;  // of `from`; `to` is the next token
 };
 
-// The text, token by token and line by line.
-class Cursor {
- public:
-  explicit Cursor(const SourceText& source) : source_(source) {}
-
-  // To the next line; false behind the last.
-  bool next_line() {
-    if (next_ >= source_.text().size()) return false;
-    at_ = next_;
-    end_ = std::min(source_.text().find('\n', at_), source_.text().size());
-    next_ = end_ + 1;
-    return true;
-  }
-  [[nodiscard]] bool is_cut() const { return end_ == source_.text().size(); }
-
-  // The next token, empty at the end of the line.
-  std::string_view token() {
-    skip_blanks();
-    token_ = at_;
-    at_ = std::min(source_.text().find_first_of(" \t\r\n", at_), end_);
-    return source_.text().substr(token_, at_ - token_);
-  }
-  // What is left of the line, without blanks around it.
-  std::string_view rest() {
-    skip_blanks();
-    token_ = at_;
-    std::string_view left = source_.text().substr(at_, end_ - at_);
-    const std::size_t last = left.find_last_not_of(kLineBlanks);
-    return left.substr(0, last == std::string_view::npos ? 0 : last + 1);
-  }
-  [[nodiscard]] std::size_t offset() const { return token_; }  // of the last token
-
-  [[noreturn]] void fail(const std::string& sentence) const { fail_at(token_, sentence); }
-  [[noreturn]] void fail_at(std::size_t offset, const std::string& sentence) const {
-    if (is_cut()) source_.fail_cut(offset, sentence);
-    source_.fail(offset, sentence);
-  }
-
-  std::int64_t id(const char* what, const char* line) {
-    const std::string_view text = required(what, line);
-    const auto id = number_from<std::uint64_t>(text);
-    if (!id || *id > exchange::kMaxFileId)
-      fail(std::string(what) + " " + in_quotes(text) + " is not a whole number of 0 to " +
-           std::to_string(exchange::kMaxFileId));
-    return static_cast<std::int64_t>(*id);
-  }
-
-  double coordinate_m(const char* what, const char* line) {
-    const double value_m = number(what, line);
-    source_.check_coordinate(token_, value_m);
-    return value_m;
-  }
-
-  double number(const char* what, const char* line) {
-    const std::string_view text = required(what, line);
-    double value = 0.0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::invalid_argument || rest != text.data() + text.size())
-      fail(std::string(what) + " " + in_quotes(text) + " is not a number");
-    if (error != std::errc{} || !std::isfinite(value))
-      fail(std::string(what) + " " + in_quotes(text) + " is not allowed: it must be a finite number");
-    return value;
-  }
-
- private:
-  void skip_blanks() { at_ = std::min(source_.text().find_first_not_of(kLineBlanks, at_), end_); }
-  std::string_view required(const char* what, const char* line) {
-    const std::string_view text = token();
-    if (text.empty()) fail(std::string(what) + " is missing: " + line);
-    return text;
-  }
-
-  const SourceText& source_;
-  std::size_t at_ = 0;
-  std::size_t end_ = 0;
-  std::size_t next_ = 0;
-  std::size_t token_ = 0;
-};
-
-std::string_view name_of(Cursor& line) {
+std::string_view name_of(LineTokens& line) {
   const std::string_view name = line.rest();
   if (name.starts_with('#')) return {};
   if (const std::size_t control = first_unprintable(name); control != std::string_view::npos)
@@ -124,7 +47,7 @@ std::string_view name_of(Cursor& line) {
   return name;
 }
 
-ListedNode node_of(Cursor& line) {
+ListedNode node_of(LineTokens& line) {
   ListedNode node;
   node.id = line.id("the node's id", kNodeLine);
   node.offset = line.offset();
@@ -134,7 +57,7 @@ ListedNode node_of(Cursor& line) {
   return node;
 }
 
-ListedEdge edge_of(Cursor& line) {
+ListedEdge edge_of(LineTokens& line) {
   ListedEdge edge;
   edge.from = line.id("the id that the edge comes from", kEdgeLine);
   edge.offset = line.offset();
@@ -155,7 +78,7 @@ struct ListedGraph {
 
 ListedGraph listed_in(const SourceText& source) {
   ListedGraph lines;
-  Cursor line(source);
+  LineTokens line(source);
   while (line.next_line()) {
     const std::string_view word = line.token();
     if (word == "node") {

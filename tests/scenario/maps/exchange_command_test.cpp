@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "maps/store/map_store.hpp"
@@ -13,6 +15,11 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+
+void write_compressed(const std::string& file, const std::string& text) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> out(gzopen(file.c_str(), "wb"), gzclose);
+  ASSERT_EQ(gzwrite(out.get(), text.data(), static_cast<unsigned>(text.size())), static_cast<int>(text.size()));
+}
 
 class Exchange : public testing::Test {
  protected:
@@ -70,7 +77,7 @@ TEST_F(Exchange, RefusesExtensionsThatItDoesNotKnow) {
   EXPECT_EQ(
       refused({"import", "a.grph", "-o", file("g.cairn")}),
       "cairn: a.grph: cannot be imported: unknown extension \".grph\" (did you mean \".graph\"?); known are .graph, "
-      ".geojson, .json, .graphml, .map, .yaml, .yml\n");
+      ".geojson, .json, .graphml, .tntp, .map, .yaml, .yml, .png, .pgm, .bmp\n");
   EXPECT_EQ(refused({"export", file("g.cairn"), "-o", "a"}),
             "cairn: a: cannot be exported to: it has no extension; known are .graph, .geojson, .json, .graphml, .png, "
             ".yaml, .yml\n");
@@ -119,13 +126,58 @@ TEST_F(Exchange, AMapServerGridKeepsItsPlaceAndItsUnknown) {
             "cairn: " + file("m.yaml") + ":1:8: image: " + file("m.pgm") + ": no such file\n");
 }
 
+TEST_F(Exchange, APictureAloneNeedsTheSizeOfItsPixels) {
+  write_text(file("m.pgm"), "P2 3 1 255 0 205 254\n");
+  EXPECT_EQ(refused({"import", file("m.pgm"), "-o", file("g.cairn")}),
+            "cairn: map import: " + file("m.pgm") +
+                " is a picture: --cell-m must give the side of a pixel in metres; 0.05 is usual\n");
+  done({"import", file("m.pgm"), "-o", file("g.cairn"), "--cell-m", "0.1"});
+  const OccupancyGrid grid = load_map(file("g.cairn")).grid;
+  EXPECT_EQ(grid.cell_m(), 0.1);
+  EXPECT_EQ(grid.state(grid.cell_at({0.05, 0.05})), CellState::occupied);
+  EXPECT_EQ(grid.state(grid.cell_at({0.15, 0.05})), CellState::unknown);
+  EXPECT_EQ(grid.state(grid.cell_at({0.25, 0.05})), CellState::free);
+}
+
+TEST_F(Exchange, CompressedFilesComeInToo) {
+  write_compressed(file("roads.graph.gz"), "node 1 0 0\nnode 2 3 4\nedge 1 2 5\n");
+  EXPECT_EQ(done({"import", file("roads.graph.gz"), "-o", file("g.cairn")})["routes"], 1);
+  write_compressed(file("m.pgm.gz"), "P2 3 1 255 0 205 254\n");
+  write_text(file("m.yaml"),
+             "image: m.pgm\nresolution: 0.1\norigin: [-2, 1, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
+             "free_thresh: 0.196\n");
+  EXPECT_EQ(done({"import", file("m.yaml"), "-o", file("g.cairn")})["size_cells"], (json{3, 1}));
+  const std::string whole = text_of_file(file("roads.graph.gz"));
+  write_text(file("cut.graph.gz"), whole.substr(0, whole.size() - 10));
+  EXPECT_EQ(refused({"import", file("cut.graph.gz"), "-o", file("g.cairn")}),
+            "cairn: " + file("cut.graph.gz") + ": the compressed file is cut off\n");
+  EXPECT_THAT(refused({"export", file("g.cairn"), "-o", file("out.graph.gz")}), HasSubstr("unknown extension \".gz\""));
+}
+
+TEST_F(Exchange, ARoadNetworkIsReadFromItsTwoFiles) {
+  write_text(file("town_net.tntp"),
+             "<NUMBER OF LINKS> 1\n<FIRST THRU NODE> 2\n<END OF METADATA>\n~ a b c d ;\n"
+             "\t1\t2\t900\t5.5\t1 ;\n");
+  EXPECT_EQ(refused({"import", file("town_net.tntp"), "-o", file("g.cairn")}),
+            "cairn: " + file("town_net.tntp") + ": its nodes are missing: there is no town_node.tntp beside it\n");
+  write_text(file("town_node.tntp"), "Node X Y ;\n1 0 0 ;\n2 300 400 ;\n");
+  EXPECT_EQ(refused({"import", file("town_node.tntp"), "-o", file("g.cairn")}),
+            "cairn: " + file("town_node.tntp") +
+                ": a road network is named by its links, NAME_net.tntp; its nodes are "
+                "read from NAME_node.tntp beside it\n");
+  EXPECT_EQ(done({"import", file("town_net.tntp"), "-o", file("g.cairn")})["warnings"],
+            (json{file("town_net.tntp") + ": 1 zone: nodes below the first through node, 2, are passed like others"}));
+  EXPECT_EQ(graph().find_route(1)->cost_m, 5.5);
+  EXPECT_EQ(graph().find(1)->category, "zone");
+}
+
 TEST_F(Exchange, ABadGridIsRefusedWithItsPlace) {
   write_text(file("bad.map"), "type octile\nheight 1\nwidth 3\nmap\n.x.\n");
   EXPECT_EQ(refused({"import", file("bad.map"), "-o", file("g.cairn")}),
             "cairn: " + file("bad.map") + ":5:2: unknown cell \"x\": free are . G S, blocked are @ O T W\n");
   write_text(file("roads.graph"), "node 1 0 0\n");
   EXPECT_EQ(refused({"import", file("roads.graph"), "-o", file("g.cairn"), "--cell-m", "0.5"}),
-            "cairn: map import: --cell-m is for Moving AI grids (*.map); " + file("roads.graph") +
+            "cairn: map import: --cell-m is for Moving AI grids (*.map) and pictures; " + file("roads.graph") +
                 " says itself how large it is\n");
   EXPECT_FALSE(std::filesystem::exists(file("g.cairn")));
 }
