@@ -3,6 +3,8 @@
 namespace cairn::behaviours {
 namespace {
 
+constexpr int kRoundsAReport = 100;
+
 int to_rounds(const ConfigValue& value) {
   const bool is_text = value.kind == ConfigValue::Kind::scalar && value.kind_name() == "text";
   if (is_text && value.scalar == "forever") return 0;
@@ -46,6 +48,9 @@ void PatrolConfig::describe(Fields<PatrolConfig>& fields) {
   fields.raw(
       "places", &C::places, "list of places",
       "as those of `tour`; without them, all landmarks that are known when a round begins, the first 50 of more");
+  fields.number(
+      "min_round_s", &C::min_round_s, {0.0, 1e6}, "s",
+      "a round that took less is followed by a pause up to this time, as when the robot is at its only place");
   describe_visits(fields);
   fields.shorthand("rounds");
 }
@@ -77,21 +82,39 @@ Status Patrol::begin_round(const WorldView& world, BehaviourContext& context) {
   if (places.empty()) return {StepState::failure, "there is nothing to patrol: the map holds no landmark"};
   round_.emplace(config_, seed_, std::move(places), chooses_itself ? Unknown::left_out : Unknown::as_skip_says);
   const std::string of = rounds_wanted_ == 0 ? "" : " of " + std::to_string(rounds_wanted_);
-  context.report("round " + std::to_string(rounds_done_ + 1) + of + " begins");
+  round_begun_s_ = world.time_s;
+  if (is_reported()) context.report("round " + std::to_string(rounds_done_ + 1) + of + " begins");
   return {StepState::running, "round " + std::to_string(rounds_done_ + 1) + of};
 }
 
-// The next round begins with the next tick: no tick is without end.
+// Of rounds that are alike the first two, then one in a hundred, and the last.
+bool Patrol::is_reported() const {
+  const int round = rounds_done_ + 1;
+  return alike_rounds_ < 2 || round % kRoundsAReport == 0 || round == rounds_wanted_;
+}
+
+void Patrol::end_round(BehaviourContext& context) {
+  visited_ += round_->visited();
+  left_out_ += round_->left_out();
+  const std::string summary = round_->summary();
+  if (is_reported() || summary != last_summary_)
+    context.report("round " + std::to_string(rounds_done_ + 1) + " is done: " + summary);
+  alike_rounds_ = summary == last_summary_ ? alike_rounds_ + 1 : 1;
+  last_summary_ = summary;
+  ++rounds_done_;
+  round_.reset();
+}
+
 Status Patrol::tick(const WorldView& world, BehaviourContext& context) {
-  if (!round_) return begin_round(world, context);
+  if (!round_) {
+    const double next_s = round_begun_s_ ? *round_begun_s_ + config_.min_round_s : world.time_s;
+    if (world.time_s < next_s) return {StepState::running, "pausing before the next round", next_s - world.time_s};
+    return begin_round(world, context);
+  }
   const Status status = round_->tick(world, context);
   const std::string number = "round " + std::to_string(rounds_done_ + 1);
   if (status.state != StepState::success) return {status.state, number + ": " + status.reason, status.left_s};
-  ++rounds_done_;
-  visited_ += round_->visited();
-  left_out_ += round_->left_out();
-  context.report(number + " is done: " + round_->summary());
-  round_.reset();
+  end_round(context);
   if (rounds_done_ != rounds_wanted_) return {StepState::running, number + " is done"};
   return {StepState::success, std::to_string(rounds_done_) + (rounds_done_ == 1 ? " round, " : " rounds, ") +
                                   std::to_string(visited_) + " places visited" +

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/config/fields.hpp"
@@ -31,6 +32,7 @@ class Tour : public Behaviour {
 
 struct PatrolConfig : VisitSettings {
   ConfigValue patrol_rounds;  // a number, or `forever`
+  double min_round_s = 20.0;
   static void describe(Fields<PatrolConfig>& fields);
 };
 
@@ -43,6 +45,8 @@ class Patrol : public Behaviour {
 
  private:
   Status begin_round(const WorldView& world, BehaviourContext& context);
+  void end_round(BehaviourContext& context);
+  [[nodiscard]] bool is_reported() const;  // the round under way
   [[nodiscard]] std::vector<PlaceName> all_landmarks(const LandmarkGraph& graph, BehaviourContext& context) const;
 
   PatrolConfig config_;
@@ -53,6 +57,9 @@ class Patrol : public Behaviour {
   std::size_t visited_ = 0;
   std::size_t left_out_ = 0;
   std::optional<Visits> round_;
+  std::optional<double> round_begun_s_;
+  std::string last_summary_;
+  int alike_rounds_ = 0;  // in a row, by their summaries
 };
 
 }  // namespace cairn::behaviours

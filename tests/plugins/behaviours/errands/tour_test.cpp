@@ -185,6 +185,21 @@ TEST(Patrol, SaysHowManyLandmarksARoundLeavesOut) {
                                      "round 1 of 1 begins"));
 }
 
+TEST(Patrol, ARobotAtItsOnlyPlacePausesBetweenRoundsAndReportsFewOfThem) {
+  FakeHost host = hall();
+  Patrol step(config_of<PatrolConfig>("{places: [L1], rounds: forever, min_round_s: 10}"), 1);
+  EXPECT_EQ(host.run(step, 1000.0).state, StepState::running);
+  std::vector<std::string> done;
+  for (const std::string& line : host.said)
+    if (line.find("is done: ") != std::string::npos) done.push_back(line.substr(0, line.find(':')));
+  EXPECT_THAT(done, ElementsAre("round 1 is done", "round 2 is done"));
+  Patrol short_one(config_of<PatrolConfig>("{places: [L1], rounds: 5, min_round_s: 10}"), 1);
+  const double begun_s = host.time_s;
+  EXPECT_EQ(host.run(short_one, 1000.0).state, StepState::success);
+  EXPECT_GE(host.time_s - begun_s, 40.0) << "four pauses";
+  EXPECT_LE(host.time_s - begun_s, 60.0);
+}
+
 TEST(Patrol, FailsWithoutLandmarksAndReportsWrongRounds) {
   FakeHost host(kHall, {.all_known = true});
   Patrol step(config_of<PatrolConfig>("3"), 1);
