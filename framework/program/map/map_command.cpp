@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "framework/program/common/print.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/base/printable.hpp"
+#include "maps/base/spelling.hpp"
 #include "maps/base/text.hpp"
 #include "maps/clustering/cluster_levels.hpp"
 #include "maps/landmarks/route_count.hpp"
@@ -90,9 +92,10 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
     std::cout << fmt::format("  level {}: {}, {} on their boundaries\n", ++level, counted(clusters, "cluster"),
                              counted(boundary, "landmark"));
   list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
-    return fmt::format("  {:<6} {:<12} at ({:.2f}, {:.2f}), {:.0f} deg, degree {:.2f}\n", label_of(landmark),
+    const std::string name = landmark.name.empty() ? "" : ", " + in_quotes(landmark.name);
+    return fmt::format("  L{:<5} {:<12} at ({:.2f}, {:.2f}), {} deg, degree {:.2f}{}\n", landmark.id,
                        printable(landmark.category), landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
-                       degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
+                       std::lround(degrees(landmark.T_map_landmark.theta_rad)), landmark.degree, name);
   });
   list_first(map.graph.routes(), "routes", [](const Route& route) {
     return fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", route.id, route.from, route.to, route.cost_m,
