@@ -8,6 +8,15 @@ install(TARGETS cairn RUNTIME DESTINATION bin)
 install(TARGETS cairn_maps cairn_framework EXPORT cairn LIBRARY DESTINATION lib)
 install(TARGETS cairn_pictures cairn_experiments LIBRARY DESTINATION lib NAMELINK_SKIP)  # the program's alone
 
+# What must have been built.
+get_property(modules GLOBAL PROPERTY CAIRN_MODULES)
+list(TRANSFORM modules REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE files)
+foreach(target cairn cairn_maps cairn_framework cairn_pictures cairn_experiments)
+  list(APPEND files $<TARGET_FILE:${target}>)
+endforeach()
+list(JOIN files "\n" files)
+file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/to_install.txt CONTENT "${files}\n")
+
 # Headers keep the paths that sources include them by. The saved map's inner headers stay home.
 install(DIRECTORY maps DESTINATION include/cairn FILES_MATCHING PATTERN *.hpp
         PATTERN pictures EXCLUDE PATTERN store EXCLUDE)
