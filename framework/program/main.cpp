@@ -21,6 +21,7 @@
 #include "framework/program/common/mission_options.hpp"
 #include "framework/program/common/printable_stream.hpp"
 #include "framework/program/map/file_options.hpp"
+#include "framework/program/slam/slam_options.hpp"
 
 namespace cairn {
 namespace {
@@ -253,7 +254,7 @@ int main_of(int argc, char** argv) {
   app.add_flag("--json", line.common.json, "JSON on standard output; text for people on standard error");
   for (const auto add :
        {add_run, add_base, add_mission, add_plan, add_map, add_map_files, add_map_name, add_map_lint, add_template,
-        add_template_capture, add_plugins, add_plugins_new, add_reference, add_experiment})
+        add_template_capture, add_plugins, add_plugins_new, add_reference, add_experiment, add_slam})
     add(app, line);
   try {
     app.parse(argc, argv);

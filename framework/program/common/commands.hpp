@@ -46,6 +46,19 @@ struct BaseCommand {
 };
 int base(const BaseCommand& command, const CommonOptions& common);
 
+struct SlamEvalCommand {
+  std::filesystem::path relations;
+  std::filesystem::path poses;
+  double tolerance_s = 0.001;  // between a stamp of a relation and that of a pose
+};
+int slam_eval(const SlamEvalCommand& command, const CommonOptions& common);
+
+struct SlamSolveCommand {
+  std::filesystem::path graph;
+  std::filesystem::path out;  // empty: none
+};
+int slam_solve(const SlamSolveCommand& command, const CommonOptions& common);
+
 struct MissionCheckCommand {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> overrides;

@@ -1,0 +1,33 @@
+// The normal equations of a pose graph at given poses: H dx = -b, three rows a node.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <span>
+
+#include "maps/pose_graph/pose_graph.hpp"
+
+namespace cairn {
+
+// The lower half of H, and b. The graph has no place of its own: node 0 is tied to
+// where it is, in heading too unless there are headings; that changes no minimum.
+class NormalEquations {
+ public:
+  explicit NormalEquations(const PoseGraph& graph);
+
+  void fill(std::span<const Pose2> T_map_node);
+
+  [[nodiscard]] const Eigen::SparseMatrix<double>& hessian() const { return hessian_; }
+  [[nodiscard]] const Eigen::VectorXd& gradient() const { return gradient_; }
+
+ private:
+  void add_edge(const PoseEdge& edge, std::span<const Pose2> T_map_node);
+  // Of rows (3 a, ...) and columns (3 b, ...); of a block above the diagonal its transpose is added below.
+  void add_block(std::size_t a, std::size_t b, const Eigen::Matrix3d& block);
+
+  const PoseGraph& graph_;
+  std::vector<Eigen::Triplet<double>> triplets_;
+  Eigen::SparseMatrix<double> hessian_;
+  Eigen::VectorXd gradient_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,34 @@
+#include "maps/exchange/graphs/stamped_poses.hpp"
+
+#include "tests/maps/exchange/exchange_fixture.hpp"
+
+namespace cairn {
+namespace {
+
+TEST(StampedPoses, AreReadInBothForms) {
+  const auto poses =
+      parse_stamped_poses("# t x y theta\n1.5 2 -3 0.25\n\n2.5 1 0 9 0 0 0.7071067811865476 0.7071067811865476\n", "p");
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0].stamp_s, 1.5);
+  EXPECT_EQ(poses[0].T_map_robot, (Pose2{2.0, -3.0, 0.25}));
+  EXPECT_EQ(poses[1].T_map_robot.position(), Point(1.0, 0.0));
+  EXPECT_NEAR(poses[1].T_map_robot.theta_rad, radians(90.0), 1e-9);
+}
+
+TEST(StampedPoses, RelationsKeepWhatIsPlanar) {
+  const auto relations = parse_relations("1 2 0.4 -0.1 9 9 9 -0.07\n", "r");
+  ASSERT_EQ(relations.size(), 1U);
+  EXPECT_EQ(relations[0].to_s, 2.0);
+  EXPECT_EQ(relations[0].T_from_to, (Pose2{0.4, -0.1, -0.07}));
+}
+
+TEST(StampedPoses, RefuseWithThePlace) {
+  EXPECT_EQ(refusal_of(parse_stamped_poses, "1 2 3\n"), "1:6: theta is missing: T X Y THETA, or T X Y Z QX QY QZ QW");
+  EXPECT_EQ(refusal_of(parse_stamped_poses, "1 2 3 4 0 0 0 1 5\n"),
+            "1:17: \"5\" is too much: T X Y THETA, or T X Y Z QX QY QZ QW");
+  EXPECT_EQ(refusal_of(parse_relations, "1 2 0 0 0 0 0 x\n"), "1:15: yaw \"x\" is not a number");
+  EXPECT_EQ(refusal_of(parse_relations, "# none\n"), " holds no line T1 T2 DX DY DZ ROLL PITCH YAW");
+}
+
+}  // namespace
+}  // namespace cairn
