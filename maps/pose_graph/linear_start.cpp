@@ -5,7 +5,7 @@
 namespace cairn {
 namespace {
 
-constexpr double kTie = 1e6;  // of node 0 to where it is; the others have no place of their own
+constexpr double kAnchor = 1e6;  // of node 0 to where it is; the others have no place of their own
 
 // Adds information (v - u - step)' (v - u - step), or with a turn (v - turn u)' (v - turn u), to a system of two rows a
 // node: both are blocks of 2 x 2.
@@ -38,13 +38,6 @@ class TwoRowSystem {
   Eigen::VectorXd right_;
 };
 
-Eigen::Matrix2d rotation(double angle_rad) {
-  const Point axis = unit_vector(angle_rad);
-  Eigen::Matrix2d R;
-  R << axis, to_left(axis);
-  return R;
-}
-
 // Each heading as a free vector (cosine, sine), of which only the direction is taken in the end.
 std::optional<std::vector<double>> headings_of(const PoseGraph& graph) {
   TwoRowSystem system(graph.T_map_node.size());
@@ -56,7 +49,7 @@ std::optional<std::vector<double>> headings_of(const PoseGraph& graph) {
   }
   for (const HeadingPrior& prior : graph.headings)
     system.tie(prior.node, unit_vector(prior.heading_rad), prior.information);
-  if (graph.headings.empty()) system.tie(0, graph.T_map_node[0].direction(), kTie);
+  if (graph.headings.empty()) system.tie(0, graph.T_map_node[0].direction(), kAnchor);
   const auto vectors = system.solved();
   if (!vectors) return std::nullopt;
   std::vector<double> heading_rad(graph.T_map_node.size());
@@ -80,7 +73,7 @@ std::optional<Eigen::VectorXd> positions_of(const PoseGraph& graph, const std::v
     system.add_right(edge.from, -information * step);
     system.add_right(edge.to, information * step);
   }
-  system.tie(0, graph.T_map_node[0].position(), kTie);
+  system.tie(0, graph.T_map_node[0].position(), kAnchor);
   return system.solved();
 }
 

@@ -10,14 +10,6 @@ struct Jacobians {
   Eigen::Matrix3d by_to = Eigen::Matrix3d::Zero();
 };
 
-Eigen::Matrix2d rotation(double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  Eigen::Matrix2d rotation;
-  rotation << c, -s, s, c;
-  return rotation;
-}
-
 // Of error_of(), by the position in the map and the heading of either end.
 Jacobians jacobians_of(const PoseEdge& edge, const Pose2& T_map_from, const Pose2& T_map_to) {
   const Eigen::Matrix2d R_z_map = rotation(-edge.T_from_to.theta_rad - T_map_from.theta_rad);

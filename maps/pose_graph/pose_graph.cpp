@@ -2,6 +2,13 @@
 
 namespace cairn {
 
+Eigen::Matrix2d rotation(double angle_rad) {
+  const Point axis = unit_vector(angle_rad);
+  Eigen::Matrix2d R;
+  R << axis, to_left(axis);
+  return R;
+}
+
 Eigen::Vector3d error_of(const PoseEdge& edge, const Pose2& T_map_from, const Pose2& T_map_to) {
   const Pose2 difference = inverse(edge.T_from_to) * (inverse(T_map_from) * T_map_to);
   return {difference.x_m, difference.y_m, difference.theta_rad};

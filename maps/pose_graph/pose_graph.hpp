@@ -33,6 +33,8 @@ struct PoseGraph {
   std::vector<HeadingPrior> headings;
 };
 
+// Turns a vector by the angle.
+[[nodiscard]] Eigen::Matrix2d rotation(double angle_rad);
 // (x_m, y_m, theta_rad) of the error above.
 [[nodiscard]] Eigen::Vector3d error_of(const PoseEdge& edge, const Pose2& T_map_from, const Pose2& T_map_to);
 [[nodiscard]] double chi2_of(const PoseEdge& edge, std::span<const Pose2> T_map_node);
