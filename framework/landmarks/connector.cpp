@@ -53,7 +53,7 @@ struct LandmarkConnector::Round {
   const Plan& plan;
   std::uint64_t seed;
   std::vector<Point> changed_m;  // cells that have changed since the last connect()
-  std::map<LandmarkPair, Link> links = {};
+  std::map<RouteEnds, Link> links = {};
   JoinedLandmarks joined = {};
 };
 
@@ -68,14 +68,14 @@ void LandmarkConnector::connect(LandmarkGraph& graph, const DrivenPath& driven, 
 
   Round round{graph, driven, world.grid, plan, seed, {}};
   if (planned_on_) round.changed_m = centres_of_changed_states(*planned_on_, world.grid);
-  for (const LandmarkPair& pair : candidates.wanted(config_.routes_per_landmark)) join(round, pair);
+  for (const RouteEnds& pair : candidates.wanted(config_.routes_per_landmark)) join(round, pair);
   join_what_is_apart(round, candidates);
   remove_unwanted(round);
   links_ = std::move(round.links);
   planned_on_ = world.grid;
 }
 
-bool LandmarkConnector::join(Round& round, const LandmarkPair& pair) const {
+bool LandmarkConnector::join(Round& round, const RouteEnds& pair) const {
   const Landmark& from = *round.graph.find(pair.first);
   const Landmark& to = *round.graph.find(pair.second);
   const auto known = links_.find(pair);
@@ -87,23 +87,23 @@ bool LandmarkConnector::join(Round& round, const LandmarkPair& pair) const {
 // then whatever path the grid has. A robot that cannot turn on the spot might not follow that one.
 void LandmarkConnector::join_what_is_apart(Round& round, const JoinCandidates& candidates) const {
   JoinedLandmarks& joined = round.joined;
-  std::map<LandmarkPair, int> tries;
+  std::map<RouteEnds, int> tries;
   for (const auto& [pair, length_m] : candidates.by_length()) {
     if (joined.are_joined(pair.first, pair.second) || round.links.contains(pair)) continue;
     if (++tries[std::minmax({joined.set_of(pair.first), joined.set_of(pair.second)})] <= kMaxTries) join(round, pair);
   }
   if (robot_.kinematics != Kinematics::differential) return;
   for (std::size_t i = 0; i < candidates.by_length().size(); ++i) {
-    const LandmarkPair& pair = candidates.by_length()[i].pair;
+    const RouteEnds& pair = candidates.by_length()[i].pair;
     if (!joined.are_joined(pair.first, pair.second)) store(round, pair, over_cells(round, pair, candidates.path_of(i)));
   }
 }
 
 void LandmarkConnector::remove_unwanted(Round& round) const {
-  std::set<LandmarkPair> kept;
+  std::set<RouteEnds> kept;
   std::vector<RouteId> unwanted;
   for (const auto& [id, route] : round.graph.routes()) {
-    const LandmarkPair pair = std::minmax(route.from, route.to);
+    const RouteEnds pair = std::minmax(route.from, route.to);
     if (round.links.contains(pair) || !is_on_the_grid(route, round.graph)) continue;
     if (is_good(route, round) && round.joined.join(route.from, route.to)) kept.insert(pair);
     if (!kept.contains(pair)) unwanted.push_back(id);
@@ -155,7 +155,7 @@ LandmarkConnector::Link LandmarkConnector::planned(const Round& round, const Lan
   return link;
 }
 
-LandmarkConnector::Link LandmarkConnector::over_cells(const Round& round, const LandmarkPair& pair,
+LandmarkConnector::Link LandmarkConnector::over_cells(const Round& round, const RouteEnds& pair,
                                                       const std::vector<Cell>& cells) const {
   const Pose2 from = *round.graph.find(pair.first)->access;
   const Pose2 to = *round.graph.find(pair.second)->access;
@@ -164,7 +164,7 @@ LandmarkConnector::Link LandmarkConnector::over_cells(const Round& round, const 
   return link;
 }
 
-bool LandmarkConnector::store(Round& round, const LandmarkPair& pair, const Link& link) const {
+bool LandmarkConnector::store(Round& round, const RouteEnds& pair, const Link& link) const {
   round.links.insert_or_assign(pair, link);
   LandmarkGraph& graph = round.graph;
   const std::vector<Pose2> stretch = round.driven.between(link.from, link.to);
@@ -174,7 +174,7 @@ bool LandmarkConnector::store(Round& round, const LandmarkPair& pair, const Link
   route.driven = (!link.path || length_of(stretch) <= config_.driven_detour_ratio * link.length_m) &&
                  is_free(stretch, round.grid, planned_radius_m());
   if (!route.driven && !link.path) {
-    for (const auto& [from, to] : {pair, LandmarkPair(pair.second, pair.first)})
+    for (const auto& [from, to] : {pair, RouteEnds(pair.second, pair.first)})
       for (const RouteId id : routes_joining(graph, from, to)) graph.remove_route(id);
     return false;
   }

@@ -53,21 +53,21 @@ class LandmarkConnector {
   struct Round;
 
   // They say whether the pair is joined.
-  bool join(Round& round, const LandmarkPair& pair) const;
-  bool store(Round& round, const LandmarkPair& pair, const Link& link) const;
+  bool join(Round& round, const RouteEnds& pair) const;
+  bool store(Round& round, const RouteEnds& pair, const Link& link) const;
   void join_what_is_apart(Round& round, const JoinCandidates& candidates) const;
   void remove_unwanted(Round& round) const;
   [[nodiscard]] bool is_current(const Link& link, const Landmark& from, const Landmark& to,
                                 const std::vector<Point>& changed_m) const;
   [[nodiscard]] Link planned(const Round& round, const Landmark& from, const Landmark& to) const;
-  [[nodiscard]] Link over_cells(const Round& round, const LandmarkPair& pair, const std::vector<Cell>& cells) const;
+  [[nodiscard]] Link over_cells(const Round& round, const RouteEnds& pair, const std::vector<Cell>& cells) const;
   [[nodiscard]] bool is_good(const Route& route, const Round& round) const;
   // Of the disc that paths are planned for, so that they are free for the robot when rounded.
   [[nodiscard]] double planned_radius_m() const { return robot_.radius_m + kMaxRounding_m; }
 
   LandmarksConfig config_;
   RobotModel robot_;
-  std::map<LandmarkPair, Link> links_;
+  std::map<RouteEnds, Link> links_;
   std::optional<OccupancyGrid> planned_on_;  // the grid of the last connect()
 };
 

@@ -57,8 +57,8 @@ JoinCandidates::JoinCandidates(const LandmarkGraph& graph, const OccupancyGrid& 
     by_length_.push_back({{ids_[border.first], ids_[border.second]}, border.length_m});
 }
 
-std::vector<LandmarkPair> JoinCandidates::wanted(int nearest) const {
-  std::set<LandmarkPair> pairs;
+std::vector<RouteEnds> JoinCandidates::wanted(int nearest) const {
+  std::set<RouteEnds> pairs;
   JoinedLandmarks joined;
   Neighbours neighbours;
   for (const auto& [pair, length_m] : by_length_) {
