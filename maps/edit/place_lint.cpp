@@ -77,7 +77,8 @@ PlaceLint lint_places(const LandmarkGraph& graph, const OccupancyGrid& grid, con
     }
   }
   JoinedLandmarks joined = joined_by_routes(graph);
-  for (const TravelRegions::Border& border : TravelRegions(lattice, places).borders()) {
+  const TravelRegions regions(lattice, places);
+  for (const TravelRegions::Border& border : regions.borders()) {
     const LandmarkId from = ids[border.first];
     const LandmarkId to = ids[border.second];
     lint.on_grid.join(from, to);

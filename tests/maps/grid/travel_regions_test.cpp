@@ -63,7 +63,8 @@ TEST(TravelRegions, TheBordersHoldAMinimumSpanningForestOfAllTravel) {
       for (std::size_t b = a + 1; b < places.size(); ++b)
         if (lattice.fits(places[a])) all.push_back({travel_m(lattice, places[a], places[b]), a, b});
     std::vector<Edge> borders;
-    for (const auto& border : TravelRegions(lattice, places).borders())
+    const TravelRegions regions(lattice, places);
+    for (const TravelRegions::Border& border : regions.borders())
       borders.push_back({border.length_m, border.first, border.second});
     const auto expected = spanning_forest(all, places.size());
     const auto found = spanning_forest(borders, places.size());
