@@ -9,11 +9,12 @@ void LandmarksConfig::describe(Fields<LandmarksConfig>& fields) {
                  "matchings that must find it before it counts as a landmark");
   fields.number("freed_ratio", &C::freed_ratio, {0.5, 1.0}, "",
                 "a landmark is retired once this share of the cells inside its outline is seen free");
-  fields.integer("routes_per_landmark", &C::routes_per_landmark, {0.0, 100.0}, "joined to this many nearest others");
+  fields.integer("routes_per_landmark", &C::routes_per_landmark, {0.0, 100.0},
+                 "joined to this many nearest others by travel; more routes join what these leave apart");
   fields.number("driven_detour_ratio", &C::driven_detour_ratio, {1.0, 100.0}, "",
                 "a driven path is kept when it is at most this much longer than the planned one");
   fields.number("access_margin_m", &C::access_margin_m, {0.0, 1.0}, "m",
-                "free space kept round the robot at a landmark's approach pose");
+                "free space kept round the robot at a landmark's approach pose, where there is room");
 }
 
 }  // namespace cairn

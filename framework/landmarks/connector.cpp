@@ -1,41 +1,22 @@
 #include "framework/landmarks/connector.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 
+#include "framework/landmarks/approach_poses.hpp"
+#include "framework/landmarks/trajectories.hpp"
 #include "maps/geometry/segments.hpp"
 #include "maps/grid/differing_cells.hpp"
 #include "maps/grid/distance_field.hpp"
-#include "maps/grid/travel_field.hpp"
+#include "maps/landmarks/joined_landmarks.hpp"
 
 namespace cairn {
 namespace {
 
-constexpr double kAccessReach_m = 1.5;  // an approach pose lies no further from the landmark's centre
+constexpr int kMaxTries = 3;  // pairs planned to join the same two sets of landmarks, beyond those wanted anyway
 
-// The reachable cell nearest to the landmark, looking at it.
-std::optional<Pose2> approach_pose(const DistanceField& space, const TravelField& reach, const Point& landmark) {
-  const int radius = static_cast<int>(std::ceil(kAccessReach_m / space.cell_m()));
-  const Cell centre = space.cell_at(landmark);
-  std::optional<Cell> best;
-  double best_distance = kAccessReach_m;
-  for (int y = centre.y - radius; y <= centre.y + radius; ++y)
-    for (int x = centre.x - radius; x <= centre.x + radius; ++x) {
-      if (!reach.reaches({x, y})) continue;
-      const double distance = (space.centre_of({x, y}) - landmark).norm();
-      if (distance < best_distance) {
-        best_distance = distance;
-        best = Cell{x, y};
-      }
-    }
-  if (!best) return std::nullopt;
-  const Point at = space.centre_of(*best);
-  return Pose2{at.x(), at.y(), std::atan2(landmark.y() - at.y(), landmark.x() - at.x())};
-}
-
-// Open or not, in both directions.
+// Open or not, in one direction.
 std::vector<RouteId> routes_joining(const LandmarkGraph& graph, LandmarkId from, LandmarkId to) {
   std::vector<RouteId> ids;
   for (const RouteId id : graph.routes_from(from))
@@ -55,60 +36,79 @@ void put_route(LandmarkGraph& graph, Route route) {
   graph.add_route(std::move(route));
 }
 
-void remove_routes_but(LandmarkGraph& graph, const std::set<std::pair<LandmarkId, LandmarkId>>& kept) {
-  std::vector<RouteId> unwanted;
-  for (const auto& [id, route] : graph.routes())
-    if (!kept.contains(std::minmax(route.from, route.to))) unwanted.push_back(id);
-  for (const RouteId id : unwanted) graph.remove_route(id);
+bool is_on_the_grid(const Route& route, const LandmarkGraph& graph) {
+  return graph.find(route.from)->level == 0 && graph.find(route.to)->level == 0;
+}
+
+bool is_at(const Pose2& pose, const Pose2& place) {
+  return (pose.position() - place.position()).norm() <= std::numbers::sqrt2 * kMaxRounding_m;
 }
 
 }  // namespace
 
+struct LandmarkConnector::Round {
+  LandmarkGraph& graph;
+  const DrivenPath& driven;
+  const OccupancyGrid& grid;
+  const Plan& plan;
+  std::uint64_t seed;
+  std::vector<Point> changed_m;  // cells that have changed since the last connect()
+  std::map<RouteEnds, Link> links = {};
+  JoinedLandmarks joined = {};
+};
+
 void LandmarkConnector::connect(LandmarkGraph& graph, const DrivenPath& driven, const WorldView& world,
                                 const Plan& plan, std::uint64_t seed) {
-  find_access(graph, world);
-  const std::vector<Point> changed_m =
-      planned_on_ ? centres_of_changed_states(*planned_on_, world.grid) : std::vector<Point>{};
-  const std::vector<Pair> pairs = wanted_pairs(graph);
-  remove_routes_but(graph, {pairs.begin(), pairs.end()});
-  std::map<Pair, Link> links;
-  for (const Pair& pair : pairs) {
-    const Landmark& from = *graph.find(pair.first);
-    const Landmark& to = *graph.find(pair.second);
-    const auto known = links_.find(pair);
-    const bool is_kept = known != links_.end() && is_current(known->second, from, to, changed_m);
-    Link link = is_kept ? known->second : planned(from, to, plan, seed);
-    store(graph, pair, link, driven);
-    links.emplace(pair, std::move(link));
-  }
-  links_ = std::move(links);
+  const DistanceField space(world.grid, UnknownPolicy::avoid);
+  const DiscLattice lattice(space, planned_radius_m());
+  // Distances run between cell centres: half a diagonal on either side makes the disc fit.
+  const double clearance_m = robot_.radius_m + config_.access_margin_m + std::numbers::sqrt2 * space.cell_m() / 2;
+  find_approach_poses(graph, {space, lattice, clearance_m}, driven, world.pose.T_map_robot);
+  const JoinCandidates candidates(graph, world.grid, lattice);
+
+  Round round{graph, driven, world.grid, plan, seed, {}};
+  if (planned_on_) round.changed_m = centres_of_changed_states(*planned_on_, world.grid);
+  for (const RouteEnds& pair : candidates.wanted(config_.routes_per_landmark)) join(round, pair);
+  join_what_is_apart(round, candidates);
+  remove_unwanted(round);
+  links_ = std::move(round.links);
   planned_on_ = world.grid;
 }
 
-void LandmarkConnector::find_access(LandmarkGraph& graph, const WorldView& world) const {
-  const DistanceField space(world.grid, UnknownPolicy::avoid);
-  // Distances run between cell centres: half a diagonal on either side makes the disc fit.
-  const double clearance = robot_.radius_m + config_.access_margin_m + std::numbers::sqrt2 * world.grid.cell_m() / 2;
-  const TravelField reach(space, world.pose.T_map_robot.position(), clearance);
-  for (const auto& [id, landmark] : graph.landmarks())
-    graph.find(id)->access = approach_pose(space, reach, landmark.T_map_landmark.position());
+bool LandmarkConnector::join(Round& round, const RouteEnds& pair) const {
+  const Landmark& from = *round.graph.find(pair.first);
+  const Landmark& to = *round.graph.find(pair.second);
+  const auto known = links_.find(pair);
+  const bool is_kept = known != links_.end() && is_current(known->second, from, to, round.changed_m);
+  return store(round, pair, is_kept ? known->second : planned(round, from, to));
 }
 
-// Each landmark with its nearest others that have an approach pose too.
-std::vector<LandmarkConnector::Pair> LandmarkConnector::wanted_pairs(const LandmarkGraph& graph) const {
-  std::set<Pair> pairs;
-  for (const auto& [id, landmark] : graph.landmarks()) {
-    std::vector<std::pair<double, LandmarkId>> others;
-    for (const auto& [other_id, other] : graph.landmarks())
-      if (other_id != id)
-        others.emplace_back((other.T_map_landmark.position() - landmark.T_map_landmark.position()).norm(), other_id);
-    const auto count = std::min(others.size(), static_cast<std::size_t>(config_.routes_per_landmark));
-    const auto end = others.begin() + static_cast<std::ptrdiff_t>(count);
-    std::partial_sort(others.begin(), end, others.end());
-    for (auto other = others.begin(); other != end; ++other)
-      if (landmark.access && graph.find(other->second)->access) pairs.insert(std::minmax(id, other->second));
+// Sets that the wanted pairs have left apart, because the planner found no path for them: the next pairs between them,
+// then whatever path the grid has. A robot that cannot turn on the spot might not follow that one.
+void LandmarkConnector::join_what_is_apart(Round& round, const JoinCandidates& candidates) const {
+  JoinedLandmarks& joined = round.joined;
+  std::map<RouteEnds, int> tries;
+  for (const auto& [pair, length_m] : candidates.by_length()) {
+    if (joined.are_joined(pair.first, pair.second) || round.links.contains(pair)) continue;
+    if (++tries[std::minmax({joined.set_of(pair.first), joined.set_of(pair.second)})] <= kMaxTries) join(round, pair);
   }
-  return {pairs.begin(), pairs.end()};
+  if (robot_.kinematics != Kinematics::differential) return;
+  for (std::size_t i = 0; i < candidates.by_length().size(); ++i) {
+    const RouteEnds& pair = candidates.by_length()[i].pair;
+    if (!joined.are_joined(pair.first, pair.second)) store(round, pair, over_cells(round, pair, candidates.path_of(i)));
+  }
+}
+
+void LandmarkConnector::remove_unwanted(Round& round) const {
+  std::set<RouteEnds> kept;
+  std::vector<RouteId> unwanted;
+  for (const auto& [id, route] : round.graph.routes()) {
+    const RouteEnds pair = std::minmax(route.from, route.to);
+    if (round.links.contains(pair) || !is_on_the_grid(route, round.graph)) continue;
+    if (is_good(route, round) && round.joined.join(route.from, route.to)) kept.insert(pair);
+    if (!kept.contains(pair)) unwanted.push_back(id);
+  }
+  for (const RouteId id : unwanted) round.graph.remove_route(id);
 }
 
 // A path of at most that length stays where its distances from both ends add up to no more; the robot's disc reaches a
@@ -116,40 +116,68 @@ std::vector<LandmarkConnector::Pair> LandmarkConnector::wanted_pairs(const Landm
 bool LandmarkConnector::is_current(const Link& link, const Landmark& from, const Landmark& to,
                                    const std::vector<Point>& changed_m) const {
   if (link.from != *from.access || link.to != *to.access) return false;
-  if (!link.path) return changed_m.empty();
+  if (!link.is_planned) return changed_m.empty();
   const double within_m = link.length_m + 2.0 * (robot_.radius_m + planned_on_->cell_m());
   return std::ranges::none_of(changed_m, [&](const Point& at) {
     return (at - link.from.position()).norm() + (at - link.to.position()).norm() <= within_m;
   });
 }
 
-LandmarkConnector::Link LandmarkConnector::planned(const Landmark& from, const Landmark& to, const Plan& plan,
-                                                   std::uint64_t seed) const {
+// Open, free, and between the approach poses of its landmarks.
+bool LandmarkConnector::is_good(const Route& route, const Round& round) const {
+  const Landmark& from = *round.graph.find(route.from);
+  const Landmark& to = *round.graph.find(route.to);
+  return !route.closed && !route.trajectory.empty() && from.access && to.access &&
+         is_at(route.trajectory.front(), *from.access) && is_at(route.trajectory.back(), *to.access) &&
+         is_free(route.trajectory, round.grid, robot_.radius_m);
+}
+
+LandmarkConnector::Link LandmarkConnector::planned(const Round& round, const Landmark& from, const Landmark& to) const {
   PlanRequest request;
   request.from.pose = from.access;
   request.to.pose = to.access;
-  request.radius_m = robot_.radius_m + kMaxRounding_m;
-  request.seed = seed;
-  PlanResult result = plan(request);
-  Link link{*from.access, *to.access, std::nullopt, 0.0};
-  if (result.outcome != PlanOutcome::solved) return link;
-  link.path = std::move(result.path);
-  link.length_m = result.length_m;
+  request.radius_m = planned_radius_m();
+  request.seed = round.seed;
+  PlanResult result = round.plan(request);
+  Link link{*from.access, *to.access, std::nullopt};
+  if (result.outcome == PlanOutcome::solved) {
+    link.path = std::move(result.path);
+    link.length_m = result.length_m;
+    link.is_planned = true;
+    return link;
+  }
+  for (const RouteId id : routes_joining(round.graph, from.id, to.id)) {
+    const Route& known = *round.graph.find_route(id);
+    if (!is_good(known, round)) continue;
+    link.path = known.trajectory;
+    link.length_m = length_of(known.trajectory);
+  }
   return link;
 }
 
-void LandmarkConnector::store(LandmarkGraph& graph, const Pair& pair, const Link& link,
-                              const DrivenPath& driven) const {
-  if (!link.path) {
-    for (const auto& [from, to] : {pair, Pair(pair.second, pair.first)})
-      for (const RouteId id : routes_joining(graph, from, to)) graph.remove_route(id);
-    return;
-  }
-  const std::vector<Pose2> stretch = driven.between(link.from, link.to);
+LandmarkConnector::Link LandmarkConnector::over_cells(const Round& round, const RouteEnds& pair,
+                                                      const std::vector<Cell>& cells) const {
+  const Pose2 from = *round.graph.find(pair.first)->access;
+  const Pose2 to = *round.graph.find(pair.second)->access;
+  Link link{from, to, trajectory_over(from, cells, to, round.grid, planned_radius_m())};
+  link.length_m = length_of(*link.path);
+  return link;
+}
+
+bool LandmarkConnector::store(Round& round, const RouteEnds& pair, const Link& link) const {
+  round.links.insert_or_assign(pair, link);
+  LandmarkGraph& graph = round.graph;
+  const std::vector<Pose2> stretch = round.driven.between(link.from, link.to);
   Route route;
   route.from = pair.first;
   route.to = pair.second;
-  route.driven = !stretch.empty() && length_of(stretch) <= config_.driven_detour_ratio * link.length_m;
+  route.driven = (!link.path || length_of(stretch) <= config_.driven_detour_ratio * link.length_m) &&
+                 is_free(stretch, round.grid, planned_radius_m());
+  if (!route.driven && !link.path) {
+    for (const auto& [from, to] : {pair, RouteEnds(pair.second, pair.first)})
+      for (const RouteId id : routes_joining(graph, from, to)) graph.remove_route(id);
+    return false;
+  }
   route.trajectory = in_whole_steps(route.driven ? stretch : *link.path);
   route.cost_m = length_of(route.trajectory);
   Route back = route;
@@ -157,6 +185,8 @@ void LandmarkConnector::store(LandmarkGraph& graph, const Pair& pair, const Link
   back.trajectory = in_whole_steps(reversed(back.trajectory));
   put_route(graph, std::move(route));
   put_route(graph, std::move(back));
+  round.joined.join(pair.first, pair.second);
+  return true;
 }
 
 }  // namespace cairn

@@ -1,9 +1,14 @@
 // Joins the landmarks of a graph by routes, and keeps these up to date while map and landmarks change.
 //
-// Each landmark gets an approach pose (where a robot stands to be at it) and routes to and from its nearest others.
+// Each landmark gets an approach pose (approach_poses.hpp) and routes to and from its nearest others, by travel; more
+// routes join what these leave apart, so that the graph has a way between two landmarks whenever the grid has one
+// between their approach poses from cell centre to cell centre. The grid is that of level 0: landmarks of other levels,
+// and the routes that touch them, stay as they are.
+//
 // A pair that stays joined keeps its route ids. It is planned again only when one of its approach poses has moved or
 // when the grid has changed where a path no longer than the known one could pass; for a planner that finds shortest
-// paths this gives the routes that planning everything again would give.
+// paths this gives the routes that planning everything again would give. Where the planner finds no path, the known
+// route stays while it leads to the approach poses and is free on the grid.
 #pragma once
 
 #include <functional>
@@ -16,6 +21,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/driven_path.hpp"
+#include "framework/landmarks/join_candidates.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
@@ -26,31 +32,42 @@ class LandmarkConnector {
   LandmarkConnector(const LandmarksConfig& config, const RobotModel& robot) : config_(config), robot_(robot) {}
 
   using Plan = std::function<PlanResult(const PlanRequest&)>;
-  // A route is the path that the robot drove between the two where there is one, a planned one elsewhere. Whenever
-  // plan is called the graph is whole, so that a call which never returns costs the routes to come and nothing else.
+  // A route is the path that the robot drove between the two where there is one that is free, a planned one elsewhere.
+  // Where the planner finds none, whatever its reason, and a robot that turns on the spot would not be joined
+  // otherwise, it is the shortest one over cell centres. Routes that are not wanted any more go last, and none goes
+  // that alone joins two landmarks and is free. Whenever plan is called the graph is whole, so that a call which never
+  // returns costs the routes to come and nothing else.
   void connect(LandmarkGraph& graph, const DrivenPath& driven, const WorldView& world, const Plan& plan,
                std::uint64_t seed);
 
  private:
-  using Pair = std::pair<LandmarkId, LandmarkId>;  // the lower id first
   // What a pair was planned with, and the answer.
   struct Link {
     Pose2 from;
     Pose2 to;
-    std::optional<std::vector<Pose2>> path;  // none: there was no route
+    std::optional<std::vector<Pose2>> path;  // none: no route is known
     double length_m = 0.0;
+    bool is_planned = false;  // the path is the planner's answer
   };
+  // What one connect() works on and has done so far.
+  struct Round;
 
-  void find_access(LandmarkGraph& graph, const WorldView& world) const;
-  [[nodiscard]] std::vector<Pair> wanted_pairs(const LandmarkGraph& graph) const;
+  // They say whether the pair is joined.
+  bool join(Round& round, const RouteEnds& pair) const;
+  bool store(Round& round, const RouteEnds& pair, const Link& link) const;
+  void join_what_is_apart(Round& round, const JoinCandidates& candidates) const;
+  void remove_unwanted(Round& round) const;
   [[nodiscard]] bool is_current(const Link& link, const Landmark& from, const Landmark& to,
                                 const std::vector<Point>& changed_m) const;
-  [[nodiscard]] Link planned(const Landmark& from, const Landmark& to, const Plan& plan, std::uint64_t seed) const;
-  void store(LandmarkGraph& graph, const Pair& pair, const Link& link, const DrivenPath& driven) const;
+  [[nodiscard]] Link planned(const Round& round, const Landmark& from, const Landmark& to) const;
+  [[nodiscard]] Link over_cells(const Round& round, const RouteEnds& pair, const std::vector<Cell>& cells) const;
+  [[nodiscard]] bool is_good(const Route& route, const Round& round) const;
+  // Of the disc that paths are planned for, so that they are free for the robot when rounded.
+  [[nodiscard]] double planned_radius_m() const { return robot_.radius_m + kMaxRounding_m; }
 
   LandmarksConfig config_;
   RobotModel robot_;
-  std::map<Pair, Link> links_;
+  std::map<RouteEnds, Link> links_;
   std::optional<OccupancyGrid> planned_on_;  // the grid of the last connect()
 };
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <unordered_map>
 
+#include "maps/edit/place_lint.hpp"
 #include "maps/edit/route_lint.hpp"
 #include "maps/geometry/near_groups.hpp"
 #include "maps/landmarks/graph_parts.hpp"
@@ -31,7 +33,26 @@ LintFinding about(const LandmarkGraph& graph, std::string kind, LintSeverity sev
   return {std::move(kind), severity, std::move(ids), {}, at_m, sentence, std::move(advice)};
 }
 
-LintFinding about_part(const LandmarkGraph& graph, const GraphPart& part, const GraphParts& parts) {
+// Which of the sets that the grid joins have a share in these landmarks.
+std::set<LandmarkId> sets_of(const std::vector<LandmarkId>& landmarks, PlaceLint& places) {
+  std::set<LandmarkId> sets;
+  for (const LandmarkId id : landmarks) sets.insert(places.on_grid.set_of(id));
+  return sets;
+}
+
+// Why no route could lead from the main part to these landmarks, as the end of a sentence; empty where one could.
+std::string obstacle_to(const LandmarkGraph& graph, const GraphPart& part, const std::set<LandmarkId>& main_sets,
+                        PlaceLint& places) {
+  const LandmarkId first = part.landmarks.front();
+  if (const auto why = places.no_places.find(first); part.landmarks.size() == 1 && why != places.no_places.end())
+    return "; it has no approach pose: " + why->second;
+  for (const LandmarkId id : part.landmarks)
+    if (graph.find(id)->level != 0 || main_sets.contains(places.on_grid.set_of(id))) return "";
+  return "; the grid has no way there either";
+}
+
+LintFinding about_part(const LandmarkGraph& graph, const GraphPart& part, const GraphParts& parts,
+                       const std::string& obstacle) {
   const std::string labels = labels_of(graph, part.landmarks);
   const std::string main =
       fmt::format("the main part of the graph ({} of {} landmarks)", parts.main.size(), graph.landmarks().size());
@@ -45,15 +66,17 @@ LintFinding about_part(const LandmarkGraph& graph, const GraphPart& part, const 
                  "add a route that leads there");
   if (part.reach == Reach::cut_off)
     return about(graph, "cut_off", LintSeverity::warning, part.landmarks,
-                 fmt::format("{}: open routes lead neither there from {} nor back", labels, main),
+                 fmt::format("{}: open routes lead neither there from {} nor back{}", labels, main, obstacle),
                  "add routes both ways, or open closed ones again");
   return about(graph, "isolated", LintSeverity::warning, part.landmarks,
-               fmt::format("{}: no open route leads there or away", labels),
+               fmt::format("{}: no open route leads there or away{}", labels, obstacle),
                "add routes to it, or open closed ones again");
 }
 
-std::vector<LintFinding> lint_parts(const LandmarkGraph& graph) {
-  std::vector<LintFinding> findings;
+std::vector<LintFinding> lint_parts(const LandmarkGraph& graph, const OccupancyGrid& grid, const LintOptions& options) {
+  PlaceLint places = lint_places(graph, grid, options);
+  std::vector<LintFinding> findings = places.missing_routes;
+  if (graph.routes().empty()) std::ranges::move(lint_no_places(graph, places), std::back_inserter(findings));
   if (graph.landmarks().size() < 2) return findings;
   if (graph.routes().empty()) {
     std::vector<LandmarkId> ids;
@@ -64,7 +87,11 @@ std::vector<LintFinding> lint_parts(const LandmarkGraph& graph) {
     return findings;
   }
   const GraphParts parts = parts_of(graph);
-  for (const GraphPart& part : parts.others) findings.push_back(about_part(graph, part, parts));
+  const std::set<LandmarkId> main_sets = sets_of(parts.main, places);
+  for (const GraphPart& part : parts.others) {
+    const std::string obstacle = grid.bounds().empty() ? "" : obstacle_to(graph, part, main_sets, places);
+    findings.push_back(about_part(graph, part, parts, obstacle));
+  }
   return findings;
 }
 
@@ -160,7 +187,7 @@ std::string_view name_of(LintSeverity severity) {
 }
 
 std::vector<LintFinding> lint_graph(const LandmarkGraph& graph, const OccupancyGrid& grid, const LintOptions& options) {
-  std::vector<LintFinding> findings = lint_parts(graph);
+  std::vector<LintFinding> findings = lint_parts(graph, grid, options);
   std::ranges::move(lint_duplicates(graph, options.near_m), std::back_inserter(findings));
   std::ranges::move(lint_routes(graph, grid, options), std::back_inserter(findings));
   std::ranges::move(lint_names(graph), std::back_inserter(findings));

@@ -33,14 +33,14 @@ struct LintOptions {
 };
 
 // Errors first, then warnings, then notes; of one severity by kind, then by id. The grid is that of level 0.
-// Time: O((n + m) log n), and the cells under the trajectories. Kinds:
+// Time: O((n + m) log n), the cells under the trajectories, and O(cells log cells) of the grid. Kinds:
 //   trap, no_way_in, cut_off, isolated   what parts_of() says, one finding a part
-//   same_place, near_duplicate           one finding a group; the first whatever the category
-//   blocked_route                        the robot's disc touches a cell that is occupied (error) or unknown
-//   unchecked_routes                     there is no grid to check the trajectories on
-//   loose_ends                           a trajectory does not begin and end where its landmarks are
-//   too_cheap                            costs less than the straight line
-//   closed_route
+//   missing_route                        the robot can drive between two landmarks, but no open routes join them
+//   no_approach_pose                     of a graph without routes: no place to stand at a landmark; isolated says it,
+//   too same_place, near_duplicate           one finding a group; the first whatever the category blocked_route the
+//   robot's disc touches a cell that is occupied (error) or unknown unchecked_routes                     there is no
+//   grid to check the trajectories on loose_ends                           a trajectory does not begin and end where
+//   its landmarks are too_cheap                            costs less than the straight line closed_route
 //   name_taken_twice, misread_name       a name that stands for something else, too
 [[nodiscard]] std::vector<LintFinding> lint_graph(const LandmarkGraph& graph, const OccupancyGrid& grid,
                                                   const LintOptions& options);

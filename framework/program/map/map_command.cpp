@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/output_files.hpp"
@@ -13,6 +14,7 @@
 #include "maps/base/spelling.hpp"
 #include "maps/base/text.hpp"
 #include "maps/clustering/cluster_levels.hpp"
+#include "maps/landmarks/joined_landmarks.hpp"
 #include "maps/landmarks/route_count.hpp"
 #include "maps/store/repair.hpp"
 
@@ -28,6 +30,14 @@ ordered_json levels_json(const SavedMap& map) {
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
     levels.push_back({{"clusters", clusters}, {"boundary", boundary}});
   return levels;
+}
+
+// Sets of landmarks that open routes join, whichever their direction.
+std::size_t components_of(const LandmarkGraph& graph) {
+  JoinedLandmarks joined = joined_by_routes(graph);
+  std::set<LandmarkId> sets;
+  for (const auto& [id, landmark] : graph.landmarks()) sets.insert(joined.set_of(id));
+  return sets.size();
 }
 
 // The first of them, and how many more there are.
@@ -56,6 +66,7 @@ ordered_json json_of(const SavedMap& map, int schema) {
           {"origin_m", {corner.x(), corner.y()}},
           {"landmarks", map.graph.landmarks().size()},
           {"routes", map.graph.routes().size()},
+          {"components", components_of(map.graph)},
           {"levels", levels_json(map)},
           {"explored_ratio", known_ratio(map.grid)},
           {"progress", json_of(map.progress)}};
@@ -87,6 +98,8 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
                                                              : fmt::format("at step {}: {}", map.progress->step + 1,
                                                                            printable(map.progress->step_name)));
   std::cout << "  " << counted(map.graph.landmarks().size(), "landmark") << ", " << counted_routes(map.graph) << "\n";
+  if (!map.graph.landmarks().empty())
+    std::cout << fmt::format("  {} by open routes\n", counted(components_of(map.graph), "component"));
   int level = 0;
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
     std::cout << fmt::format("  level {}: {}, {} on their boundaries\n", ++level, counted(clusters, "cluster"),

@@ -3,44 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
+#include "framework/landmarks/trajectories.hpp"
 #include "maps/base/portable_random.hpp"
-#include "maps/grid/travel_field.hpp"
+#include "maps/landmarks/joined_landmarks.hpp"
+#include "tests/framework/landmarks/connecting.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr double kCell_m = 0.1;
-
-void fill(OccupancyGrid& grid, const CellBox& box, LogOdds value) {
-  for (int y = box.min.y; y < box.max.y; ++y)
-    for (int x = box.min.x; x < box.max.x; ++x) grid.set_log_odds({x, y}, value);
-}
-
-// Shortest paths from cell to cell, and how often it was asked.
-class GridPlanner {
- public:
-  GridPlanner(const OccupancyGrid& grid, const RobotModel& robot) : grid_(grid), robot_(robot) {}
-
-  PlanResult operator()(const PlanRequest& request) {
-    ++asked;
-    const DistanceField space(grid_, UnknownPolicy::avoid);
-    const TravelField travel(space, request.from.pose->position(), robot_.radius_m);
-    PlanResult result;
-    const std::vector<Cell> cells = travel.path_to(space.cell_at(request.to.pose->position()));
-    if (cells.empty()) return result;
-    result.outcome = PlanOutcome::solved;
-    for (const Cell& cell : cells) result.path.push_back({space.centre_of(cell).x(), space.centre_of(cell).y(), 0.0});
-    for (std::size_t i = 1; i < result.path.size(); ++i)
-      result.length_m += (result.path[i].position() - result.path[i - 1].position()).norm();
-    return result;
-  }
-
-  int asked = 0;
-
- private:
-  const OccupancyGrid& grid_;
-  const RobotModel& robot_;
-};
 
 class LandmarkConnectorTest : public testing::Test {
  protected:
@@ -51,21 +25,18 @@ class LandmarkConnectorTest : public testing::Test {
     add_landmark(7.0, 2.0);
   }
 
-  void add_landmark(double x_m, double y_m) {
-    Landmark landmark;
-    landmark.T_map_landmark = {x_m, y_m, 0.0};
-    graph_.add(landmark);
-    const Cell at = grid_.cell_at({x_m, y_m});
-    fill(grid_, {{at.x - 1, at.y - 1}, {at.x + 1, at.y + 1}}, 1000);
-  }
+  void add_landmark(double x_m, double y_m) { cairn::add_landmark(graph_, grid_, x_m, y_m); }
 
+  void connect_by(const LandmarkConnector::Plan& plan, LandmarkConnector& connector, LandmarkGraph& graph) {
+    PoseEstimate pose;
+    pose.T_map_robot = T_map_robot_;
+    connector.connect(graph, driven_, {grid_, graph, robot_, pose}, plan, 1);
+  }
+  void connect_by(const LandmarkConnector::Plan& plan) { connect_by(plan, connector_, graph_); }
   // How often the planner was asked.
   int connect(LandmarkConnector& connector, LandmarkGraph& graph) {
-    GridPlanner planner(grid_, robot_);
-    PoseEstimate pose;
-    pose.T_map_robot = {3.0, 1.0, 0.0};
-    const WorldView world{grid_, graph, robot_, pose, 0.0, nullptr, 0.0};
-    connector.connect(graph, driven_, world, std::ref(planner), 1);
+    GridPlanner planner(grid_, robot_.radius_m);
+    connect_by(std::ref(planner), connector, graph);
     return planner.asked;
   }
   int connect() { return connect(connector_, graph_); }
@@ -76,11 +47,30 @@ class LandmarkConnectorTest : public testing::Test {
     return ends;
   }
 
+  // Two rooms with four landmarks each, as far from each other as those of one room are near; a door joins them.
+  void make_two_rooms() {
+    graph_ = {};
+    grid_ = OccupancyGrid(kCell_m);
+    fill(grid_, {{0, 0}, {120, 40}}, -1000);
+    fill(grid_, {{59, 0}, {61, 40}}, 1000);
+    fill(grid_, {{59, 15}, {61, 25}}, -1000);
+    for (const double room_m : {0.0, 8.0})
+      for (const auto& [x_m, y_m] :
+           {std::pair(1.0, 1.0), std::pair(2.5, 1.0), std::pair(1.0, 3.0), std::pair(2.5, 3.0)})
+        add_landmark(room_m + x_m, y_m);
+  }
+
+  bool is_one_component() const {
+    JoinedLandmarks joined = joined_by_routes(graph_);
+    return std::ranges::all_of(graph_.landmarks(), [&](const auto& one) { return joined.set_of(one.first) == 1; });
+  }
+
   OccupancyGrid grid_{kCell_m};
   RobotModel robot_;
   LandmarksConfig config_;
   LandmarkGraph graph_;
   DrivenPath driven_;
+  Pose2 T_map_robot_{3.0, 1.0, 0.0};
   LandmarkConnector connector_{config_, robot_};
 };
 
@@ -113,7 +103,8 @@ TEST_F(LandmarkConnectorTest, ARouteThatIsBlockedGoesAndComesBackWhenItIsFreeAga
   connect();
   fill(grid_, {{29, 0}, {31, 40}}, 1000);
   connect();
-  // The robot stands right of the wall: L1 has no approach pose.
+  EXPECT_EQ(graph_.routes().size(), 2U) << "L1 stands behind the wall";
+  EXPECT_TRUE(graph_.find(1)->access) << "it can be approached all the same, once one is there";
   fill(grid_, {{29, 0}, {31, 40}}, -1000);
   connect();
   EXPECT_EQ(graph_.routes().size(), 6U);
@@ -152,6 +143,132 @@ TEST_F(LandmarkConnectorTest, APathThatTheRobotHasDrivenMeanwhileReplacesThePlan
   const Route driven = *graph_.route_between(1, 2);
   EXPECT_TRUE(driven.driven);
   EXPECT_EQ(driven.id, planned.id);
+}
+
+TEST_F(LandmarkConnectorTest, TwoJoinedRoomsAreOneComponent) {
+  make_two_rooms();
+  connect();
+  EXPECT_TRUE(is_one_component());
+}
+
+TEST_F(LandmarkConnectorTest, WhereTheRobotStandsDoesNotMatter) {
+  connect();
+  const LandmarkGraph expected = graph_;
+  for (const Pose2& bad : {Pose2{0.05, 0.05, 0.0}, Pose2{1.5, 2.0, 0.0}, Pose2{-3.0, 99.0, 0.0}}) {
+    LandmarkGraph graph;
+    for (const auto& [id, landmark] : graph_.landmarks()) {
+      Landmark fresh = landmark;
+      fresh.access.reset();
+      graph.add(fresh);
+    }
+    T_map_robot_ = bad;
+    LandmarkConnector connector(config_, robot_);
+    connect(connector, graph);
+    EXPECT_EQ(graph, expected) << "in a corner, inside a landmark, outside the map";
+  }
+}
+
+TEST_F(LandmarkConnectorTest, ARoutePastWhatThePlannerFindsNoPathThroughLeadsOverCells) {
+  make_two_rooms();
+  PlanResult given_up;
+  given_up.outcome = PlanOutcome::out_of_budget;
+  connect_by([&](const PlanRequest&) { return given_up; });
+  EXPECT_TRUE(is_one_component());
+  EXPECT_EQ(graph_.routes().size(), 14U) << "the spanning set alone";
+  for (const auto& [id, route] : graph_.routes()) {
+    EXPECT_TRUE(is_free(route.trajectory, grid_, robot_.radius_m));
+    EXPECT_LT(route.trajectory.size(), 12U) << "corners that need not be are dropped";
+  }
+}
+
+TEST_F(LandmarkConnectorTest, ARobotThatCannotTurnOnTheSpotIsJoinedByTheNextPairThatThePlannerCanJoin) {
+  make_two_rooms();
+  robot_.kinematics = Kinematics::car;
+  LandmarkConnector connector(config_, robot_);
+  GridPlanner planner(grid_, robot_.radius_m);
+  std::set<RouteEnds> refused;
+  connect_by(
+      [&](const PlanRequest& request) {
+        const bool through_the_door = (request.from.pose->x_m < 6.0) != (request.to.pose->x_m < 6.0);
+        if (through_the_door && refused.empty()) {
+          refused.insert({1, 5});
+          return PlanResult{};
+        }
+        return planner(request);
+      },
+      connector, graph_);
+  EXPECT_TRUE(is_one_component());
+  connect_by([&](const PlanRequest&) { return PlanResult{}; }, connector, graph_);
+  EXPECT_TRUE(is_one_component()) << "nothing has changed";
+}
+
+TEST_F(LandmarkConnectorTest, NoRouteGoesBeforeTheNewOnesStand) {
+  config_.routes_per_landmark = 1;
+  LandmarkConnector connector(config_, robot_);
+  connect(connector, graph_);
+  ASSERT_NE(graph_.route_between(1, 2), nullptr);
+  add_landmark(3.0, 2.0);  // between the two, which are no neighbours any more
+  GridPlanner planner(grid_, robot_.radius_m);
+  connect_by(
+      [&](const PlanRequest& request) {
+        EXPECT_NE(graph_.route_between(1, 2), nullptr);
+        EXPECT_NE(graph_.route_between(2, 1), nullptr);
+        return planner(request);
+      },
+      connector, graph_);
+  EXPECT_EQ(graph_.route_between(1, 2), nullptr);
+  EXPECT_TRUE(is_one_component());
+}
+
+TEST_F(LandmarkConnectorTest, AFreeRouteStaysWhenThePlannerGivesUp) {
+  GridPlanner planner(grid_, robot_.radius_m + 0.08);  // whose paths are free for the disc
+  connect_by(std::ref(planner));
+  const LandmarkGraph before = graph_;
+  fill(grid_, {{20, 33}, {60, 35}}, 1000);  // no route leads there, but shorter ones might
+  int asked = 0;
+  PlanResult given_up;
+  given_up.outcome = PlanOutcome::out_of_budget;
+  LandmarkConnector resumed(config_, robot_);
+  connect_by(
+      [&](const PlanRequest&) {
+        ++asked;
+        return given_up;
+      },
+      resumed, graph_);
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(graph_, before);
+  fill(grid_, {{29, 10}, {31, 40}}, 1000);  // in the way from L1
+  connect_by([&](const PlanRequest&) { return given_up; }, resumed, graph_);
+  EXPECT_TRUE(is_one_component());
+  for (const auto& [id, route] : graph_.routes()) EXPECT_TRUE(is_free(route.trajectory, grid_, robot_.radius_m));
+}
+
+TEST_F(LandmarkConnectorTest, ADrivenPathThatIsBlockedNowGivesWayToAPlannedOne) {
+  connect();
+  const Pose2 from = *graph_.find(1)->access;
+  const Pose2 to = *graph_.find(2)->access;
+  for (double s = 0.0; s <= 1.0; s += 0.01)
+    driven_.record({from.x_m + s * (to.x_m - from.x_m), from.y_m + s * (to.y_m - from.y_m), 0.0});
+  connect();
+  ASSERT_TRUE(graph_.route_between(1, 2)->driven);
+  fill(grid_, {{29, 12}, {31, 25}}, 1000);
+  connect();
+  EXPECT_FALSE(graph_.route_between(1, 2)->driven);
+}
+
+TEST_F(LandmarkConnectorTest, WhatBelongsToOtherFloorsStays) {
+  Landmark upstairs;
+  upstairs.T_map_landmark = {1.5, 2.0, 0.0};
+  upstairs.level = 1;
+  const LandmarkId lift = graph_.add(upstairs);
+  Route route;
+  route.from = 1;
+  route.to = lift;
+  route.cost_m = 4.0;
+  const RouteId id = graph_.add_route(route);
+  connect();
+  ASSERT_NE(graph_.find_route(id), nullptr);
+  EXPECT_FALSE(graph_.find(lift)->access);
 }
 
 // The same costs as planning all routes anew, whatever changes in the map.
