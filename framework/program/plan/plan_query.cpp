@@ -5,6 +5,12 @@
 namespace cairn {
 namespace {
 
+void report_search(std::string& out, const RouteExplanation& explanation) {
+  out += fmt::format("  answered by {} on ", explanation.search);
+  out += explanation.search_level == 0 ? "the landmark graph" : fmt::format("level {}", explanation.search_level);
+  out += ": " + explanation.search_reason + "\n";
+}
+
 void report_explanation(std::string& out, const RouteExplanation& explanation, CostKind kind, const SavedMap& map,
                         const ClusterTree& clusters) {
   const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no route";
@@ -17,6 +23,7 @@ void report_explanation(std::string& out, const RouteExplanation& explanation, C
       out += fmt::format(", {} at clusters of level {}", settled, level);
   }
   out += "\n";
+  if (!explanation.search.empty()) report_search(out, explanation);
   for (std::size_t level = explanation.clusters.size(); level-- > 0;) {
     out += fmt::format("  level {}:", level + 1);
     for (const ClusterId id : explanation.clusters[level]) out += " " + label_of(clusters.clusters.at(id), map.graph);
