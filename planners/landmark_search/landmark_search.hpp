@@ -14,7 +14,7 @@
 namespace cairn {
 
 struct LandmarkSearchConfig {
-  std::int64_t bidirectional_from = 20'000;  // measured: docs/results/graph.md
+  std::int64_t bidirectional_from = 2'000;  // measured: docs/results/graph.md
   static void describe(Fields<LandmarkSearchConfig>& fields) {
     fields.integer("bidirectional_from", &LandmarkSearchConfig::bidirectional_from, {0.0, 1e9},
                    "from this many landmarks on, the search goes from both ends; below, Boost.Graph's A* answers");

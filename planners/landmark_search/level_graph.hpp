@@ -37,6 +37,13 @@ class LevelEdgeIterator
   // First edge and end of a vertex: of the network (no cluster), or of the level of a cluster that it bounds.
   static std::pair<LevelEdgeIterator, LevelEdgeIterator> range(const Hierarchy& hierarchy, VertexIndex v,
                                                                ClusterIndex cluster, Routes routes) {
+    const LevelEdgeIterator first = first_of(hierarchy, v, cluster, routes);
+    LevelEdgeIterator last = first;
+    last.arc_ = first.arcs_end_;
+    last.other_ = first.others_;
+    return {first, last};
+  }
+  static LevelEdgeIterator first_of(const Hierarchy& hierarchy, VertexIndex v, ClusterIndex cluster, Routes routes) {
     LevelEdgeIterator first;
     first.vertex_ = v;
     first.routes_ = routes;
@@ -47,12 +54,10 @@ class LevelEdgeIterator
     } else {
       first.begin_in(hierarchy.overlay().passage(cluster), hierarchy.clustering().node(cluster).boundary);
     }
-    LevelEdgeIterator last = first;
-    last.arc_ = first.arcs_end_;
-    last.other_ = first.others_;
     first.skip();
-    return {first, last};
+    return first;
   }
+  [[nodiscard]] bool is_at_end() const { return arc_ == arcs_end_ && other_ == others_; }
 
  private:
   friend class boost::iterator_core_access;

@@ -6,7 +6,11 @@
 namespace cairn {
 
 QueryGraph::QueryGraph(const Hierarchy& hierarchy, const RouteQuery& query, const OpenClusters& clusters)
-    : hierarchy_(hierarchy), query_(query), clusters_(clusters), goals_(query.to) {
+    : hierarchy_(hierarchy),
+      query_(query),
+      clusters_(clusters),
+      goals_(query.to),
+      is_plain_(query.avoided.empty() && query.costs.empty()) {
   std::ranges::sort(goals_, [](const SearchEnd& a, const SearchEnd& b) {
     return std::pair(a.vertex, a.cost) < std::pair(b.vertex, b.cost);
   });
@@ -36,13 +40,10 @@ std::pair<QueryGraph::EdgeIterator, QueryGraph::EdgeIterator> QueryGraph::edges_
     first.ends_end_ = first.end_ + query_.from.size();
   } else if (v != goal()) {
     std::tie(first.end_, first.ends_end_) = goals_at(v);
-    std::tie(first.at_, first.last_) = LevelEdges::range(hierarchy_, v, clusters_.whole_around(v), Routes::all);
+    first.at_ = LevelEdges::first_of(hierarchy_, v, clusters_.whole_around(v), Routes::all);
   }
-  EdgeIterator last = first;
-  last.end_ = first.ends_end_;
-  last.at_ = first.last_;
-  first.skip();
-  return {first, last};
+  first.find_edge();
+  return {first, EdgeIterator()};
 }
 
 }  // namespace cairn

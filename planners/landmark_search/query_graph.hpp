@@ -44,7 +44,6 @@ class QueryGraph {
  private:
   using LevelEdges = LevelEdgeIterator<Direction::out>;
 
-  [[nodiscard]] bool is_plain() const { return query_.avoided.empty() && query_.costs.empty(); }
   [[nodiscard]] std::pair<const SearchEnd*, const SearchEnd*> goals_at(VertexIndex v) const;
   [[nodiscard]] GraphEdge as_asked(GraphEdge edge) const;  // its cost is kNoRoute when it is not to be taken
 
@@ -52,11 +51,12 @@ class QueryGraph {
   const RouteQuery& query_;
   const OpenClusters& clusters_;
   std::vector<SearchEnd> goals_;  // by rising vertex, then cost
+  bool is_plain_;                 // edges are those of the levels
 };
 
 // First the edges from start() or to goal(), then those of the level.
-class QueryGraph::EdgeIterator
-    : public boost::iterator_facade<QueryGraph::EdgeIterator, GraphEdge, boost::forward_traversal_tag, GraphEdge> {
+class QueryGraph::EdgeIterator : public boost::iterator_facade<QueryGraph::EdgeIterator, const GraphEdge,
+                                                               boost::forward_traversal_tag, const GraphEdge&> {
  public:
   EdgeIterator() = default;
 
@@ -64,32 +64,38 @@ class QueryGraph::EdgeIterator
   friend class boost::iterator_core_access;
   friend class QueryGraph;
 
-  void skip() {
-    if (end_ != ends_end_) return;
-    if (graph_->is_plain())
-      while (at_ != last_ && !((*at_).cost < kNoRoute)) ++at_;
-    else
-      while (at_ != last_ && !(graph_->as_asked(*at_).cost < kNoRoute)) ++at_;
+  void find_edge() {
+    if (end_ != ends_end_) {
+      edge_ = vertex_ == graph_->start() ? GraphEdge{vertex_, end_->vertex, 0, end_->cost}
+                                         : GraphEdge{vertex_, graph_->goal(), 0, end_->cost};
+      return;
+    }
+    for (; !at_.is_at_end(); ++at_) {
+      edge_ = graph_->is_plain_ ? *at_ : graph_->as_asked(*at_);
+      if (edge_.cost < kNoRoute) return;
+    }
   }
   void increment() {
     if (end_ != ends_end_)
       ++end_;
     else
       ++at_;
-    skip();
+    find_edge();
   }
-  [[nodiscard]] bool equal(const EdgeIterator& other) const { return end_ == other.end_ && at_ == other.at_; }
-  [[nodiscard]] GraphEdge dereference() const {
-    if (end_ == ends_end_) return graph_->is_plain() ? *at_ : graph_->as_asked(*at_);
-    return vertex_ == graph_->start() ? GraphEdge{vertex_, end_->vertex, 0, end_->cost}
-                                      : GraphEdge{vertex_, graph_->goal(), 0, end_->cost};
+  [[nodiscard]] bool is_at_end() const { return end_ == ends_end_ && at_.is_at_end(); }
+  // Of iterators of the same vertex; an end is a default one.
+  [[nodiscard]] bool equal(const EdgeIterator& other) const {
+    if (graph_ == nullptr || other.graph_ == nullptr) return is_at_end() == other.is_at_end();
+    return end_ == other.end_ && at_ == other.at_;
   }
+  [[nodiscard]] const GraphEdge& dereference() const { return edge_; }
 
   const QueryGraph* graph_ = nullptr;
   VertexIndex vertex_ = kNoVertex;
   const SearchEnd* end_ = nullptr;
   const SearchEnd* ends_end_ = nullptr;
-  LevelEdges at_, last_;
+  LevelEdges at_;
+  GraphEdge edge_;
 };
 
 inline VertexIndex source(const GraphEdge& edge, const QueryGraph&) {

@@ -13,6 +13,7 @@ void report_search(std::string& out, const RouteExplanation& explanation) {
 
 void report_explanation(std::string& out, const RouteExplanation& explanation, CostKind kind, const SavedMap& map,
                         const ClusterTree& clusters) {
+  if (!explanation.search.empty()) report_search(out, explanation);
   const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no route";
   out += fmt::format("  by {}: {}; settled", name_of(kind), cost);
   for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level) {
@@ -23,7 +24,6 @@ void report_explanation(std::string& out, const RouteExplanation& explanation, C
       out += fmt::format(", {} at clusters of level {}", settled, level);
   }
   out += "\n";
-  if (!explanation.search.empty()) report_search(out, explanation);
   for (std::size_t level = explanation.clusters.size(); level-- > 0;) {
     out += fmt::format("  level {}:", level + 1);
     for (const ClusterId id : explanation.clusters[level]) out += " " + label_of(clusters.clusters.at(id), map.graph);
