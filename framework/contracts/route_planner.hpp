@@ -41,6 +41,9 @@ struct RouteAlternative {
 
 // How the landmark graph gave its answer.
 struct RouteExplanation {
+  std::string search;         // the algorithm that answered, for people
+  int search_level = 0;       // the highest level on which it settled vertices; 0: the landmark graph itself
+  std::string search_reason;  // why this algorithm
   std::vector<std::int64_t> settled_of_level;    // vertices settled: [0] landmarks one by one, [l] clusters of level l
   std::vector<std::vector<ClusterId>> clusters;  // passed, in order: [0] of level 1, ...
   std::optional<double> cost;                    // by the kind asked for, in its unit; none: the graph has no route

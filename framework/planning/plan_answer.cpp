@@ -36,7 +36,10 @@ ordered_json json_of_explanation(const RouteExplanation& explanation, CostKind k
     for (const ClusterId id : level) names.push_back(label_of(clusters.clusters.at(id), graph));
     passed.push_back(names);
   }
-  return {{"levels", explanation.clusters.size()},
+  return {{"search", explanation.search},
+          {"search_level", explanation.search_level},
+          {"search_reason", explanation.search_reason},
+          {"levels", explanation.clusters.size()},
           {"settled_of_level", explanation.settled_of_level},
           {"clusters", passed},
           {"cost", json_of(explanation.cost)},

@@ -32,6 +32,7 @@ void append_explanation(std::optional<RouteExplanation>& sum, const std::optiona
     sum = leg;
     return;
   }
+  sum->search_level = std::max(sum->search_level, leg->search_level);
   sum->settled_of_level.resize(std::max(sum->settled_of_level.size(), leg->settled_of_level.size()));
   for (std::size_t l = 0; l < leg->settled_of_level.size(); ++l) sum->settled_of_level[l] += leg->settled_of_level[l];
   sum->clusters.resize(std::max(sum->clusters.size(), leg->clusters.size()));

@@ -45,13 +45,13 @@ ClusterTree cluster_landmarks(const LandmarkGraph& graph) {
 }
 
 Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters, RouteCost cost, const ClusterSizes& sizes)
-    : cost_(std::move(cost)), network_(graph, cost_), clustering_(network_, sizes, clusters) {
+    : cost_(std::move(cost)), network_(graph, cost_), bound_(graph, network_), clustering_(network_, sizes, clusters) {
   drop_needless_levels(clustering_);
   overlay_.build(network_, clustering_);
 }
 
 Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, const Proposal& propose)
-    : cost_(cost_by_length), network_(graph, cost_), clustering_(network_, sizes, propose) {
+    : cost_(cost_by_length), network_(graph, cost_), bound_(graph, network_), clustering_(network_, sizes, propose) {
   drop_needless_levels(clustering_);
   overlay_.build(network_, clustering_);
 }
@@ -67,8 +67,14 @@ Hierarchy::NetworkChanges Hierarchy::sync_network(const LandmarkGraph& graph, co
     if (graph.find(id) != nullptr && network_.vertex_of(id) == kNoVertex) {
       network_.sync_landmark(graph, id);
       synced.moved.push_back(network_.vertex_of(id));
+      bound_.set_place(graph, network_, network_.vertex_of(id));
     }
-  for (const RouteId id : routes) sync_route(graph, id, synced);
+  for (const LandmarkId id : changes.landmarks)
+    if (const VertexIndex v = network_.vertex_of(id); v != kNoVertex) bound_.set_place(graph, network_, v);
+  for (const RouteId id : routes) {
+    sync_route(graph, id, synced);
+    bound_.add_route(network_, id);
+  }
   for (const LandmarkId id : landmarks)
     if (const VertexIndex v = network_.vertex_of(id); v != kNoVertex && graph.find(id) == nullptr) {
       network_.sync_landmark(graph, id);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "maps/hierarchy/overlay.hpp"
+#include "maps/hierarchy/straight_bound.hpp"
 
 namespace cairn {
 
@@ -37,6 +38,7 @@ class Hierarchy {
   [[nodiscard]] const Network& network() const { return network_; }
   [[nodiscard]] const Clustering& clustering() const { return clustering_; }
   [[nodiscard]] const Overlay& overlay() const { return overlay_; }
+  [[nodiscard]] const StraightBound& bound() const { return bound_; }
   [[nodiscard]] int levels() const { return clustering_.levels(); }  // 0: the graph is searched as it is
   [[nodiscard]] ClusterTree tree() const { return clustering_.tree(network_); }
 
@@ -50,6 +52,7 @@ class Hierarchy {
 
   RouteCost cost_;
   Network network_;
+  StraightBound bound_;
   Clustering clustering_;
   Overlay overlay_;
 };

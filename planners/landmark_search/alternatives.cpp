@@ -8,7 +8,7 @@ namespace {
 
 class Yen {
  public:
-  Yen(const Hierarchy& hierarchy, const RouteQuery& query, HierarchySearch& search, const Budget& budget)
+  Yen(const Hierarchy& hierarchy, const RouteQuery& query, GraphSearch& search, const Budget& budget)
       : hierarchy_(hierarchy), query_(query), search_(search), budget_(budget) {}
 
   std::vector<GraphPath> after(const GraphPath& best, int count) {
@@ -95,7 +95,7 @@ class Yen {
 
   const Hierarchy& hierarchy_;
   const RouteQuery& query_;
-  HierarchySearch& search_;
+  GraphSearch& search_;
   const Budget& budget_;
   std::vector<GraphPath> taken_, candidates_;
   std::set<std::pair<VertexIndex, std::vector<RouteId>>> known_;
@@ -105,7 +105,7 @@ class Yen {
 }  // namespace
 
 std::vector<GraphPath> alternatives_to(const GraphPath& best, int count, const Hierarchy& hierarchy,
-                                       const RouteQuery& query, HierarchySearch& search, const Budget& budget) {
+                                       const RouteQuery& query, GraphSearch& search, const Budget& budget) {
   return Yen(hierarchy, query, search, budget).after(best, count);
 }
 

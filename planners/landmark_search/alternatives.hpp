@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "planners/landmark_search/hierarchy_search.hpp"
+#include "planners/landmark_search/graph_search.hpp"
 
 namespace cairn {
 
 // Up to `count` paths after `best`, which answers the query, by rising cost; fewer when there are no more or the
 // budget ends. Paths that take another of several parallel routes count as others. One search a landmark of each path.
 [[nodiscard]] std::vector<GraphPath> alternatives_to(const GraphPath& best, int count, const Hierarchy& hierarchy,
-                                                     const RouteQuery& query, HierarchySearch& search,
+                                                     const RouteQuery& query, GraphSearch& search,
                                                      const Budget& budget);
 
 }  // namespace cairn

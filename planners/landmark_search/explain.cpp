@@ -20,7 +20,7 @@ std::vector<std::vector<ClusterId>> clusters_along(const GraphPath& path, const 
 
 RouteExplanation explanation_of(const GraphPath& path, const RouteQuery& query, const RouteRequest& request,
                                 const LandmarkGraph& graph, const Hierarchy& hierarchy, const RouteCost& cost,
-                                HierarchySearch& search, const Budget& budget) {
+                                GraphSearch& search, const Budget& budget) {
   RouteExplanation explanation;
   explanation.settled_of_level = path.settled_of_level;
   explanation.clusters = clusters_along(path, hierarchy.clustering());

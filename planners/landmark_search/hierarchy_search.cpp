@@ -4,34 +4,12 @@
 #include <functional>
 
 #include "planners/landmark_search/answers.hpp"
+#include "planners/landmark_search/refinement.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr std::size_t kFewestSlots = 256;
-
-// Where the two halves of a path pass the same vertex, what lies between costs nothing (or it would not be the
-// cheapest path) and is left out.
-void remove_loops(GraphPath& path) {
-  std::vector<VertexIndex> rising = path.vertices;
-  std::sort(rising.begin(), rising.end());
-  if (std::adjacent_find(rising.begin(), rising.end()) == rising.end()) return;
-  std::unordered_map<VertexIndex, std::size_t> at;
-  at.reserve(path.vertices.size());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < path.vertices.size(); ++i) {
-    const auto [first, fresh] = at.emplace(path.vertices[i], kept);
-    if (!fresh) {
-      for (std::size_t k = first->second + 1; k < kept; ++k) at.erase(path.vertices[k]);
-      kept = first->second;
-    } else if (kept > 0) {
-      path.routes[kept - 1] = path.routes[i - 1];
-    }
-    path.vertices[kept++] = path.vertices[i];
-  }
-  path.vertices.resize(kept);
-  path.routes.resize(kept == 0 ? 0 : kept - 1);
-}
 
 }  // namespace
 
@@ -49,41 +27,16 @@ GraphPath HierarchySearch::find(const Hierarchy& hierarchy, const RouteQuery& qu
 void HierarchySearch::begin(const Hierarchy& hierarchy, const RouteQuery& query) {
   hierarchy_ = &hierarchy;
   query_ = &query;
+  open_.begin(hierarchy, query);
   best_ = kNoRoute;
   frontier_ = {0.0, 0.0};
   meeting_ = {};
-  opened_.resize(hierarchy.clustering().end(), 0);
-  if (++query_number_ == 0) {
-    std::fill(opened_.begin(), opened_.end(), 0);
-    query_number_ = 1;
-  }
   nodes_.clear();
   frontier_ = {};
   slots_.assign(kFewestSlots, kNone);
-  for (const auto* ends : {&query.from, &query.to})
-    for (const SearchEnd& end : *ends) look_into_clusters_of(end.vertex);
-  for (const VertexIndex v : query.avoided) look_into_clusters_of(v);
-  for (const auto& [route, cost] : query.costs) look_into_clusters_with(route);
   for (auto& queue : queues_) queue.clear();
   for (const int side : {0, 1})
     for (const SearchEnd& end : side == 0 ? query.from : query.to) relax(side, node_at(end.vertex), end.cost, kNone, 0);
-}
-
-void HierarchySearch::look_into_clusters_of(VertexIndex v) {
-  const Clustering& clustering = hierarchy_->clustering();
-  for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
-       c = hierarchy_->overlay().parent_of(c))
-    opened_[c] = query_number_;
-}
-
-// Those that hold both ends of the route; others know it as an arc that leaves them.
-void HierarchySearch::look_into_clusters_with(RouteId route) {
-  const Clustering& clustering = hierarchy_->clustering();
-  const auto [from, to] = hierarchy_->network().ends_of(route);
-  if (from == kNoVertex) return;
-  ClusterIndex a = clustering.leaf_of(from);
-  for (ClusterIndex b = clustering.leaf_of(to); a != b; b = clustering.node(b).parent) a = clustering.node(a).parent;
-  for (; a != kNoCluster; a = clustering.node(a).parent) opened_[a] = query_number_;
 }
 
 HierarchySearch::NodeIndex& HierarchySearch::slot_of(VertexIndex v) {
@@ -110,17 +63,13 @@ HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v, ClusterIndex 
 
 HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v) {
   if (const NodeIndex known = slot_of(v); known != kNone) return known;
-  const Clustering& clustering = hierarchy_->clustering();
-  ClusterIndex whole = kNoCluster;
-  for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
-       c = hierarchy_->overlay().parent_of(c))
-    whole = c;
+  const ClusterIndex whole = open_.whole_around(v);
   if (whole != kNoCluster) {
     // It will be settled soon, and on large graphs most of the time goes by waiting for memory.
     const char* const passage = reinterpret_cast<const char*>(&hierarchy_->overlay().passage(whole));
     for (std::size_t line = 0; line < sizeof(Passage); line += 64) __builtin_prefetch(passage + line);
   }
-  return node_at(v, whole, whole == kNoCluster ? 0 : position_of(clustering.node(whole).boundary, v));
+  return node_at(v, whole, whole == kNoCluster ? 0 : position_of(hierarchy_->clustering().node(whole).boundary, v));
 }
 
 double HierarchySearch::cost_of(const Arc& arc) const {
@@ -216,30 +165,6 @@ void HierarchySearch::run(const Budget& budget, GraphPath& path) {
   }
 }
 
-void HierarchySearch::append(VertexIndex from, VertexIndex to, GraphPath& path) const {
-  path.routes.push_back(hierarchy_->network().cheapest(from, to)->route);
-  path.vertices.push_back(to);
-}
-
-// Along the tree of paths from boundary vertex `from`, which leads back from its inner vertices.
-void HierarchySearch::unpack_passage(ClusterIndex cluster, std::size_t from, std::size_t to, GraphPath& path) const {
-  const Passage& passage = hierarchy_->overlay().passage(cluster);
-  const ClusterNode& node = hierarchy_->clustering().node(cluster);
-  const std::uint16_t* const before = passage.before.data() + from * passage.inner.size();
-  std::vector<std::uint16_t> chain{passage.at[to]};
-  while (chain.back() != passage.at[from]) chain.push_back(before[chain.back()]);
-  for (std::size_t i = chain.size() - 1; i > 0; --i) {
-    const std::size_t p = chain[i];
-    const std::size_t q = chain[i - 1];
-    const std::size_t member = node.level == 1 ? 0 : passage.member_of(p);
-    const bool within = node.level > 1 && passage.member_of(q) == member;
-    if (within)
-      unpack_passage(node.members[member], p - passage.member_begin[member], q - passage.member_begin[member], path);
-    else
-      append(passage.inner[p], passage.inner[q], path);
-  }
-}
-
 void HierarchySearch::unpack_step(int side, NodeIndex at, GraphPath& path) const {
   const Node& node = nodes_[at];
   const Label& label = node.label[static_cast<std::size_t>(side)];
@@ -248,9 +173,9 @@ void HierarchySearch::unpack_step(int side, NodeIndex at, GraphPath& path) const
     path.routes.push_back(label.route);
     path.vertices.push_back(side == 0 ? node.vertex : before.vertex);
   } else if (side == 0) {
-    unpack_passage(node.cluster, before.index, node.index, path);
+    append_passage(*hierarchy_, node.cluster, before.index, node.index, path);
   } else {
-    unpack_passage(node.cluster, node.index, before.index, path);
+    append_passage(*hierarchy_, node.cluster, node.index, before.index, path);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "maps/base/text.hpp"
 #include "maps/hierarchy/hierarchies.hpp"
 #include "planners/landmark_search/alternatives.hpp"
 #include "planners/landmark_search/answers.hpp"
@@ -66,7 +67,7 @@ std::vector<LandmarkId> landmarks_of(const GraphPath& path, const Network& netwo
   return landmarks;
 }
 
-RouteResult search_graph(const RouteRequest& request, const WorldView& world, HierarchySearch& search,
+RouteResult search_graph(const RouteRequest& request, const WorldView& world, GraphSearch& search,
                          const Budget& budget) {
   RouteResult result;
   result.outcome = PlanOutcome::unknown_place;
@@ -102,23 +103,42 @@ RouteResult search_graph(const RouteRequest& request, const WorldView& world, Hi
 
 }  // namespace
 
-std::unique_ptr<HierarchySearch> LandmarkSearch::borrow() const {
+std::unique_ptr<LandmarkSearch::Searches> LandmarkSearch::borrow() const {
   const std::scoped_lock lock(idle_lock_);
-  if (idle_.empty()) return std::make_unique<HierarchySearch>();
-  std::unique_ptr<HierarchySearch> search = std::move(idle_.back());
+  if (idle_.empty()) return std::make_unique<Searches>();
+  std::unique_ptr<Searches> searches = std::move(idle_.back());
   idle_.pop_back();
-  return search;
+  return searches;
 }
 
-void LandmarkSearch::give_back(std::unique_ptr<HierarchySearch> search) const {
+void LandmarkSearch::give_back(std::unique_ptr<Searches> searches) const {
   const std::scoped_lock lock(idle_lock_);
-  idle_.push_back(std::move(search));
+  idle_.push_back(std::move(searches));
+}
+
+bool LandmarkSearch::is_for_boost(const LandmarkGraph& graph) const {
+  return graph.landmarks().size() < static_cast<std::size_t>(config_.bidirectional_from);
+}
+
+void LandmarkSearch::name_search(const RouteRequest& request, const LandmarkGraph& graph,
+                                 RouteExplanation& explanation) const {
+  const bool boost = is_for_boost(graph);
+  explanation.search = boost ? "Boost.Graph's A*" : "the search from both ends";
+  explanation.search_reason =
+      fmt::format("{}, {} bidirectional_from ({})", counted(graph.landmarks().size(), "landmark"),
+                  boost ? "fewer than" : "not fewer than", config_.bidirectional_from);
+  if (request.alternatives > 0) explanation.search_reason += "; alternatives by Yen's method over the same search";
+  for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level)
+    if (explanation.settled_of_level[level] > 0) explanation.search_level = static_cast<int>(level);
 }
 
 RouteResult LandmarkSearch::plan(const RouteRequest& request, const WorldView& world, const Budget& budget) const {
-  std::unique_ptr<HierarchySearch> search = borrow();
-  RouteResult result = search_graph(request, world, *search, budget);
-  give_back(std::move(search));
+  std::unique_ptr<Searches> searches = borrow();
+  GraphSearch& search = is_for_boost(world.graph) ? static_cast<GraphSearch&>(searches->boost)
+                                                  : static_cast<GraphSearch&>(searches->bidirectional);
+  RouteResult result = search_graph(request, world, search, budget);
+  give_back(std::move(searches));
+  if (result.explanation) name_search(request, world.graph, *result.explanation);
   if (result.outcome == PlanOutcome::solved)
     result.cost_m = cost_m_of(result.landmarks, result.routes, request, world.graph);
   for (RouteAlternative& other : result.alternatives)

@@ -5,8 +5,15 @@
 namespace cairn {
 namespace {
 
+void report_search(std::string& out, const RouteExplanation& explanation) {
+  out += fmt::format("  answered by {} on ", explanation.search);
+  out += explanation.search_level == 0 ? "the landmark graph" : fmt::format("level {}", explanation.search_level);
+  out += ": " + explanation.search_reason + "\n";
+}
+
 void report_explanation(std::string& out, const RouteExplanation& explanation, CostKind kind, const SavedMap& map,
                         const ClusterTree& clusters) {
+  if (!explanation.search.empty()) report_search(out, explanation);
   const std::string cost = explanation.cost ? fmt::format("{:.2f} {}", *explanation.cost, unit_of(kind)) : "no route";
   out += fmt::format("  by {}: {}; settled", name_of(kind), cost);
   for (std::size_t level = 0; level < explanation.settled_of_level.size(); ++level) {

@@ -40,9 +40,9 @@ void count_queries(benchmark::State& state, const Hierarchy& hierarchy) {
   for (int i = 0; i < 2000; ++i) {
     const RouteQuery query{{{any(random)}}, {{any(random)}}, {}, {}};
     const auto begin = std::chrono::steady_clock::now();
-    const Way way = search.find(hierarchy, query, {});
+    const GraphPath path = search.find(hierarchy, query, {});
     us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
-    settled.push_back(static_cast<double>(way.settled));
+    settled.push_back(static_cast<double>(path.settled));
   }
   const auto median = [](std::vector<double>& values) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());

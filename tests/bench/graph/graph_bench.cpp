@@ -116,9 +116,9 @@ void query(benchmark::State& state) {
   const auto find = [&](const std::pair<LandmarkId, LandmarkId>& pair) {
     const Network& network = site.hierarchy.network();
     const RouteQuery query{{{network.vertex_of(pair.first)}}, {{network.vertex_of(pair.second)}}, {}, {}};
-    const Way way = search.find(site.hierarchy, query, {});
-    benchmark::DoNotOptimize(way.routes.data());
-    return way.settled;
+    const GraphPath path = search.find(site.hierarchy, query, {});
+    benchmark::DoNotOptimize(path.routes.data());
+    return path.settled;
   };
   for (auto _ : state) {
     for (const auto& pair : pairs) ours.time([&] { return find(pair); });

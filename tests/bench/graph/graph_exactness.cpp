@@ -37,16 +37,16 @@ double difference_ratio(double a, double b) {
   return std::isinf(a) || std::isinf(b) ? kNoRoute : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
 }
 
-bool is_sound(const Way& way, LandmarkId from, LandmarkId to, const LandmarkGraph& graph) {
+bool is_sound(const GraphPath& path, LandmarkId from, LandmarkId to, const LandmarkGraph& graph) {
   LandmarkId at = from;
   double cost = 0.0;
-  for (const RouteId id : way.routes) {
+  for (const RouteId id : path.routes) {
     const Route* const route = graph.find_route(id);
     if (route == nullptr || route->closed || route->from != at) return false;
     at = route->to;
     cost += route->cost_m;
   }
-  return at == to && difference_ratio(cost, way.cost) <= kEqual_ratio;
+  return at == to && difference_ratio(cost, path.cost) <= kEqual_ratio;
 }
 
 Comparison compare(const LandmarkGraph& graph, std::size_t queries, std::uint64_t seed) {
@@ -64,15 +64,15 @@ Comparison compare(const LandmarkGraph& graph, std::size_t queries, std::uint64_
     for (std::size_t i = 0; i < kGoals && comparison.queries < queries; ++i, ++comparison.queries) {
       const std::size_t goal = any(random);
       const Network& network = hierarchy.network();
-      const Way way =
+      const GraphPath path =
           search.find(hierarchy, {{{network.vertex_of(from)}}, {{network.vertex_of(ids[goal])}}, {}, {}}, {});
       // Boost's infinite is the greatest finite number.
       const double expected = costs[goal] < std::numeric_limits<double>::max() ? costs[goal] : kNoRoute;
-      const double ratio = difference_ratio(way.cost, expected);
+      const double ratio = difference_ratio(path.cost, expected);
       comparison.worst_ratio = std::max(comparison.worst_ratio, ratio);
       if (ratio <= kEqual_ratio) ++comparison.equal;
       if (std::isinf(expected)) ++comparison.without_a_way;
-      if (!std::isinf(way.cost) && !is_sound(way, from, ids[goal], graph)) ++comparison.broken_ways;
+      if (!std::isinf(path.cost) && !is_sound(path, from, ids[goal], graph)) ++comparison.broken_ways;
     }
   }
   return comparison;

@@ -56,6 +56,8 @@ struct Row {
   [[nodiscard]] RouteExplanation explanation_of(const PlanRequest& request) const {
     RouteExplanation explanation;
     const bool first = asked.size() == 1;
+    explanation.search = "a search";
+    explanation.search_level = first ? 0 : 1;
     explanation.settled_of_level = first ? std::vector<std::int64_t>{4} : std::vector<std::int64_t>{3, 2};
     explanation.clusters =
         first ? std::vector<std::vector<ClusterId>>{{1}} : std::vector<std::vector<ClusterId>>{{1, 2}, {9}};
@@ -176,6 +178,8 @@ TEST(Tour, ExplanationsAddUp) {
   request.explain = true;
   const PlanResult result = row.tour(request, {at({2})});
   ASSERT_TRUE(result.explanation);
+  EXPECT_EQ(result.explanation->search, "a search");
+  EXPECT_EQ(result.explanation->search_level, 1);
   EXPECT_THAT(result.explanation->settled_of_level, ElementsAre(7, 2));
   EXPECT_THAT(result.explanation->clusters, ElementsAre(ElementsAre(1, 2), ElementsAre(9)));
   EXPECT_EQ(result.explanation->cost, 14.0);

@@ -64,6 +64,30 @@ TEST(Explain, WithoutAWayTheReasonSaysWhetherClosedRoutesAreToBlame) {
   EXPECT_EQ(world.plan(LandmarkSearch(), request(3, 1)).reason, "no open route leads from L3 to L1");
 }
 
+TEST(Explain, SaysWhichSearchAnsweredAndWhy) {
+  const GraphWorld world = line_of(4);
+  const auto explained = [&](std::int64_t bidirectional_from, int alternatives) {
+    RouteRequest asked = request(1, 4);
+    asked.alternatives = alternatives;
+    return world.plan(LandmarkSearch({bidirectional_from}), asked).explanation.value();
+  };
+  EXPECT_EQ(explained(5, 0).search, "Boost.Graph's A*");
+  EXPECT_EQ(explained(5, 0).search_reason, "4 landmarks, fewer than bidirectional_from (5)");
+  EXPECT_EQ(explained(4, 0).search, "the search from both ends");
+  EXPECT_EQ(explained(4, 2).search_reason,
+            "4 landmarks, not fewer than bidirectional_from (4); alternatives by Yen's method over the same search");
+  EXPECT_EQ(explained(4, 0).search_level, 0);
+}
+
+TEST(Explain, SaysOnWhichLevelTheSearchWas) {
+  const GraphWorld world = line_of(800);
+  const Hierarchies hierarchies = world.hierarchies();
+  const Hierarchy& hierarchy = hierarchies.by(CostKind::length);
+  EXPECT_EQ(world.plan(LandmarkSearch(), request(1, 800), {}, &hierarchies).explanation->search_level,
+            hierarchy.levels());
+  EXPECT_EQ(world.plan(LandmarkSearch(), request(1, 1), {}, &hierarchies).explanation->search_level, 0);
+}
+
 TEST(Explain, NamesTheClustersOfEveryLevelAlongTheWayAndCountsWhatWasSettled) {
   const GraphWorld world = line_of(800);
   const Hierarchies hierarchies = world.hierarchies();

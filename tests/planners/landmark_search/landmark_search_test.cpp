@@ -20,6 +20,9 @@ using test::GraphWorld;
 using test::line_of;
 using test::request;
 
+constexpr LandmarkSearchConfig kBoost{.bidirectional_from = 1'000'000'000};
+constexpr LandmarkSearchConfig kBothEnds{.bidirectional_from = 0};
+
 // The searches over the landmark graph, which must agree.
 class GraphPlanner : public ::testing::TestWithParam<const char*> {
  protected:
@@ -27,7 +30,8 @@ class GraphPlanner : public ::testing::TestWithParam<const char*> {
     const std::string kind = GetParam();
     if (kind == "Flat") return world.plan(FlatSearch(), asked, budget);
     const Hierarchies hierarchies = world.hierarchies();
-    return world.plan(LandmarkSearch(), asked, budget, kind == "OnHierarchies" ? &hierarchies : nullptr);
+    const LandmarkSearch search(kind.starts_with("Boost") ? kBoost : kBothEnds);
+    return world.plan(search, asked, budget, kind.ends_with("OnHierarchies") ? &hierarchies : nullptr);
   }
   static RouteResult plan(const GraphWorld& world, std::vector<LandmarkId> from, std::vector<LandmarkId> to,
                           const Budget& budget = {}) {
@@ -35,7 +39,9 @@ class GraphPlanner : public ::testing::TestWithParam<const char*> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(, GraphPlanner, ::testing::Values("Flat", "Alone", "OnHierarchies"),
+INSTANTIATE_TEST_SUITE_P(, GraphPlanner,
+                         ::testing::Values("Flat", "BoostAlone", "BoostOnHierarchies", "BothEndsAlone",
+                                           "BothEndsOnHierarchies"),
                          [](const auto& one) { return std::string(one.param); });
 
 TEST_P(GraphPlanner, TakesTheCheaperOfTwoWaysAndNotTheShorterList) {
@@ -71,10 +77,12 @@ TEST_P(GraphPlanner, WithSeveralGoalsTakesTheCheapest) {
 
 TEST(LandmarkSearch, SettlesLittleMoreThanLiesBetween) {
   const GraphWorld world = line_of(1000);
-  EXPECT_LE(world.plan(LandmarkSearch(), request({1}, {10})).settled, 10);
   const Hierarchies hierarchies = world.hierarchies();
-  EXPECT_LE(world.plan(LandmarkSearch(), request({1}, {1000}), {}, &hierarchies).settled, 200)
-      << "most clusters are passed as a whole";
+  for (const LandmarkSearchConfig& config : {kBoost, kBothEnds}) {
+    EXPECT_LE(world.plan(LandmarkSearch(config), request({1}, {10})).settled, 10);
+    EXPECT_LE(world.plan(LandmarkSearch(config), request({1}, {1000}), {}, &hierarchies).settled, 200)
+        << "most clusters are passed as a whole";
+  }
 }
 
 TEST_P(GraphPlanner, FromALandmarkToItselfCostsNothing) {
@@ -182,7 +190,8 @@ TEST(LandmarkSearch, CostsTheSameWithHierarchiesAndWithoutAndAsTheFlatSearch) {
   world.graph = test::random_graph(900, 31);
   const Hierarchies hierarchies = world.hierarchies();
   ASSERT_GE(hierarchies.by(CostKind::length).levels(), 2);
-  const LandmarkSearch search;
+  const LandmarkSearch boost(kBoost);
+  const LandmarkSearch both_ends(kBothEnds);
   std::mt19937_64 random(31);
   const auto any = [&] { return static_cast<LandmarkId>(1 + random() % 900); };
   for (int i = 0; i < 60; ++i) {
@@ -191,12 +200,13 @@ TEST(LandmarkSearch, CostsTheSameWithHierarchiesAndWithoutAndAsTheFlatSearch) {
     asked.avoid = {any(), any(), any()};
     asked.closed = {any(), any()};
     const RouteResult flat = world.plan(FlatSearch(), asked);
-    for (const Hierarchies* const given : {&hierarchies, static_cast<const Hierarchies*>(nullptr)}) {
-      const RouteResult result = world.plan(search, asked, {}, given);
-      ASSERT_EQ(result.outcome, flat.outcome) << i;
-      EXPECT_EQ(result.reason, result.outcome == PlanOutcome::solved ? result.reason : flat.reason) << i;
-      EXPECT_NEAR(result.cost_m, flat.cost_m, 1e-9) << i;
-    }
+    for (const LandmarkSearch* const search : {&boost, &both_ends})
+      for (const Hierarchies* const given : {&hierarchies, static_cast<const Hierarchies*>(nullptr)}) {
+        const RouteResult result = world.plan(*search, asked, {}, given);
+        ASSERT_EQ(result.outcome, flat.outcome) << i;
+        EXPECT_EQ(result.reason, result.outcome == PlanOutcome::solved ? result.reason : flat.reason) << i;
+        EXPECT_NEAR(result.cost_m, flat.cost_m, 1e-9) << i;
+      }
   }
 }
 

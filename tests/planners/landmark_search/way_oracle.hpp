@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planners/landmark_search/hierarchy_search.hpp"
+#include "planners/landmark_search/graph_search.hpp"
 
 namespace cairn::test {
 

@@ -258,12 +258,25 @@ TEST_F(GraphQueries, OverManyLandmarksTheExplanationReportsClustersAndLevels) {
   EXPECT_EQ(explanation["clusters"].size(), levels);
   EXPECT_EQ(explanation["settled_of_level"].size(), levels + 1);
   EXPECT_GT(explanation["clusters"][0].size(), 1U);
+  EXPECT_EQ(explanation["search"], "Boost.Graph's A*");
+  EXPECT_EQ(explanation["search_reason"], "400 landmarks, fewer than bidirectional_from (2000)");
+  EXPECT_GE(explanation["search_level"], 1);
   std::int64_t settled = 0;
   for (const json& of_level : explanation["settled_of_level"]) settled += of_level.get<std::int64_t>();
   EXPECT_EQ(answer["settled"], settled);
   const std::string first = explanation["clusters"][0][0];
   EXPECT_THAT(first, testing::StartsWith("C1:L"));
   EXPECT_THAT(run({"--from", "L1", "--to", "L400", "--explain"}).out, HasSubstr("\n  level 1: " + first + " "));
+}
+
+TEST_F(GraphQueries, TheExplanationSaysWhichSearchAnsweredAndFromWhereOnItIsAnother) {
+  import(kHouse);
+  EXPECT_THAT(run({"--from", "L1", "--to", "L3", "--explain"}).out,
+              HasSubstr("\n  answered by Boost.Graph's A* on the landmark graph: "));
+  const std::vector<std::string> other{"--explain", "--set", "graph.bidirectional_from=3"};
+  const json answer = from_to("L1", "L3", other);
+  EXPECT_EQ(answer["explanation"]["search"], "the search from both ends");
+  EXPECT_EQ(answer["cost_m"], from_to("L1", "L3", {})["cost_m"]);
 }
 
 TEST_F(GraphQueries, ANamedClusterIsAvoidedWhole) {

@@ -1,7 +1,9 @@
-#include "planners/landmark_search/hierarchy_search.hpp"
+#include "planners/landmark_search/graph_search.hpp"
 
 #include <gtest/gtest.h>
 
+#include "planners/landmark_search/boost_search.hpp"
+#include "planners/landmark_search/hierarchy_search.hpp"
 #include "tests/maps/drawn_graph.hpp"
 #include "tests/maps/hierarchy/graph_laws.hpp"
 #include "tests/planners/landmark_search/way_oracle.hpp"
@@ -22,7 +24,7 @@ constexpr ClusterSizes kMiddle{16, 3, 40};
 
 // What the search makes of a question is what Dijkstra makes of it.
 void expect_cheapest(const Question& question, const Hierarchy& hierarchy, const LandmarkGraph& graph,
-                     HierarchySearch& search, const std::string& where) {
+                     GraphSearch& search, const std::string& where) {
   const GraphPath path = search.find(hierarchy, query_of(question, hierarchy.network()), {});
   const double want = cheapest(graph, question);
   ASSERT_FALSE(path.stopped);
@@ -30,8 +32,7 @@ void expect_cheapest(const Question& question, const Hierarchy& hierarchy, const
   ASSERT_EQ(fault_of(path, question, graph, hierarchy.network()), "") << where;
 }
 
-void expect_cheapest_on_random_graphs(const Variety& variety, int seeds, int questions) {
-  HierarchySearch search;
+void expect_cheapest_on_random_graphs(GraphSearch&& search, const Variety& variety, int seeds, int questions) {
   for (int seed = 1; seed <= seeds; ++seed) {
     const LandmarkGraph graph =
         test::random_graph(static_cast<std::size_t>(3 + seed * 9), static_cast<std::uint64_t>(seed));
@@ -45,31 +46,44 @@ void expect_cheapest_on_random_graphs(const Variety& variety, int seeds, int que
   }
 }
 
-TEST(HierarchySearch, FindsTheCheapestWayFromLandmarkToLandmark) {
-  expect_cheapest_on_random_graphs({}, 30, 60);
+// All that answer queries, by the same tests.
+template <class Search>
+class GraphSearches : public ::testing::Test {};
+using AllSearches = ::testing::Types<HierarchySearch, BoostSearch>;
+struct SearchNames {
+  template <class Search>
+  static std::string GetName(int) {
+    return std::is_same_v<Search, BoostSearch> ? "Boost" : "BothEnds";
+  }
+};
+TYPED_TEST_SUITE(GraphSearches, AllSearches, SearchNames);
+
+TYPED_TEST(GraphSearches, FindsTheCheapestWayFromLandmarkToLandmark) {
+  expect_cheapest_on_random_graphs(TypeParam(), {}, 30, 60);
 }
 
-TEST(HierarchySearch, FindsTheBestOfSeveralEndsWithTheirCosts) {
-  expect_cheapest_on_random_graphs({.max_ends = 5}, 30, 30);
-  expect_cheapest_on_random_graphs({.max_ends = 5, .end_costs = true}, 30, 30);
+TYPED_TEST(GraphSearches, FindsTheBestOfSeveralEndsWithTheirCosts) {
+  expect_cheapest_on_random_graphs(TypeParam(), {.max_ends = 5}, 30, 30);
+  expect_cheapest_on_random_graphs(TypeParam(), {.max_ends = 5, .end_costs = true}, 30, 30);
 }
 
-TEST(HierarchySearch, KeepsOffWhatIsToBeAvoided) {
-  expect_cheapest_on_random_graphs({.max_avoided = 6}, 30, 60);
-  expect_cheapest_on_random_graphs({.max_ends = 4, .end_costs = true, .max_avoided = 6}, 30, 60);
+TYPED_TEST(GraphSearches, KeepsOffWhatIsToBeAvoided) {
+  expect_cheapest_on_random_graphs(TypeParam(), {.max_avoided = 6}, 30, 60);
+  expect_cheapest_on_random_graphs(TypeParam(), {.max_ends = 4, .end_costs = true, .max_avoided = 6}, 30, 60);
 }
 
-TEST(HierarchySearch, HeedsRoutesThatCostSomethingElseThisTime) {
-  expect_cheapest_on_random_graphs({.max_costs = 6}, 30, 60);
-  expect_cheapest_on_random_graphs({.max_costs = 60}, 30, 30);
+TYPED_TEST(GraphSearches, HeedsRoutesThatCostSomethingElseThisTime) {
+  expect_cheapest_on_random_graphs(TypeParam(), {.max_costs = 6}, 30, 60);
+  expect_cheapest_on_random_graphs(TypeParam(), {.max_costs = 60}, 30, 30);
 }
 
-TEST(HierarchySearch, HeedsAllThatAtOnce) {
-  expect_cheapest_on_random_graphs({.max_ends = 4, .end_costs = true, .max_avoided = 5, .max_costs = 9}, 30, 60);
+TYPED_TEST(GraphSearches, HeedsAllThatAtOnce) {
+  expect_cheapest_on_random_graphs(TypeParam(), {.max_ends = 4, .end_costs = true, .max_avoided = 5, .max_costs = 9},
+                                   30, 60);
 }
 
-TEST(HierarchySearch, StaysExactWhileTheGraphChanges) {
-  HierarchySearch search;
+TYPED_TEST(GraphSearches, StaysExactWhileTheGraphChanges) {
+  TypeParam search;
   const Variety variety{.max_ends = 3, .end_costs = true, .max_avoided = 2, .max_costs = 2};
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     LandmarkGraph graph;
@@ -94,8 +108,8 @@ TEST(HierarchySearch, StaysExactWhileTheGraphChanges) {
   }
 }
 
-TEST(HierarchySearch, StaysExactFromNothingToThousandsAndBack) {
-  HierarchySearch search;
+TYPED_TEST(GraphSearches, StaysExactFromNothingToThousandsAndBack) {
+  TypeParam search;
   LandmarkGraph graph;
   GraphChanger changer(graph, 77);
   Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
@@ -120,8 +134,8 @@ TEST(HierarchySearch, StaysExactFromNothingToThousandsAndBack) {
   }
 }
 
-TEST(HierarchySearch, WithTheUsualSizesOfClustersToo) {
-  HierarchySearch search;
+TYPED_TEST(GraphSearches, WithTheUsualSizesOfClustersToo) {
+  TypeParam search;
   LandmarkGraph graph;
   GraphChanger changer(graph, 3);
   changer.grow_to(3000);
@@ -134,20 +148,20 @@ TEST(HierarchySearch, WithTheUsualSizesOfClustersToo) {
   }
 }
 
-TEST(HierarchySearch, FromALandmarkToItselfStaysThere) {
+TYPED_TEST(GraphSearches, FromALandmarkToItselfStaysThere) {
   const LandmarkGraph graph = drawn_graph("1<>2 2<>3 3<>1");
   const Hierarchy hierarchy(graph);
   const Question question{{{2, 3.0}}, {{2, 4.0}}, {2}, {}};
-  const GraphPath path = HierarchySearch().find(hierarchy, query_of(question, hierarchy.network()), {});
+  const GraphPath path = TypeParam().find(hierarchy, query_of(question, hierarchy.network()), {});
   EXPECT_EQ(path.cost, 7.0);
   EXPECT_EQ(path.vertices.size(), 1U);
 }
 
-TEST(HierarchySearch, AnAvoidedEndIsAnEndAndNotPassed) {
+TYPED_TEST(GraphSearches, AnAvoidedEndIsAnEndAndNotPassed) {
   const LandmarkGraph graph = drawn_graph("1>2 2>3 3>4");
   const Hierarchy hierarchy(graph);
   const auto cost = [&](const Question& question) {
-    return HierarchySearch().find(hierarchy, query_of(question, hierarchy.network()), {}).cost;
+    return TypeParam().find(hierarchy, query_of(question, hierarchy.network()), {}).cost;
   };
   EXPECT_EQ(cost({{{1, 0.0}, {2, 50.0}}, {{4, 0.0}}, {2}, {}}), 52.0) << "from 1 one would have to pass 2";
   EXPECT_EQ(cost({{{1, 0.0}}, {{3, 50.0}, {4, 0.0}}, {3}, {}}), 52.0) << "to 4 one would have to pass 3";
@@ -155,36 +169,36 @@ TEST(HierarchySearch, AnAvoidedEndIsAnEndAndNotPassed) {
   EXPECT_EQ(cost({{{1, 0.0}}, {{4, 0.0}}, {2}, {}}), kNoRoute);
 }
 
-TEST(HierarchySearch, WaysInAPlaceWhereNothingCostsAnythingPassNoLandmarkTwice) {
+TYPED_TEST(GraphSearches, WaysInAPlaceWhereNothingCostsAnythingPassNoLandmarkTwice) {
   LandmarkGraph graph = test::random_graph(120, 12);
   for (const auto& [id, route] : graph.routes()) graph.set_cost(id, id % 5 == 0 ? 1.0 : 0.0);
-  HierarchySearch search;
+  TypeParam search;
   std::mt19937_64 random(12);
   const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
   for (int i = 0; i < 300; ++i)
     expect_cheapest(random_question(graph, {.max_ends = 2}, random), hierarchy, graph, search, std::to_string(i));
 }
 
-TEST(HierarchySearch, EqualQueriesGiveEqualWays) {
+TYPED_TEST(GraphSearches, EqualQueriesGiveEqualWays) {
   const LandmarkGraph graph = test::random_graph(400, 21);
   const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
-  HierarchySearch used;
+  TypeParam used;
   std::mt19937_64 random(21);
   for (int i = 0; i < 100; ++i) {
     const RouteQuery query =
         query_of(random_question(graph, {.max_ends = 3, .max_avoided = 2}, random), hierarchy.network());
     const GraphPath first = used.find(hierarchy, query, {});
-    const GraphPath second = HierarchySearch().find(hierarchy, query, {});
+    const GraphPath second = TypeParam().find(hierarchy, query, {});
     EXPECT_EQ(first.vertices, second.vertices);
     EXPECT_EQ(first.routes, second.routes);
     EXPECT_EQ(first.settled, second.settled);
   }
 }
 
-TEST(HierarchySearch, CountsWhatItSettlesByLevel) {
+TYPED_TEST(GraphSearches, CountsWhatItSettlesByLevel) {
   const LandmarkGraph graph = test::random_graph(2000, 22);
   const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
-  HierarchySearch search;
+  TypeParam search;
   std::mt19937_64 random(22);
   std::int64_t one_by_one = 0;
   std::int64_t all = 0;
@@ -201,11 +215,11 @@ TEST(HierarchySearch, CountsWhatItSettlesByLevel) {
   EXPECT_LT(2 * one_by_one, all) << "most of a large graph is passed cluster by cluster";
 }
 
-TEST(HierarchySearch, StopsWhenItsBudgetIsUsedUp) {
+TYPED_TEST(GraphSearches, StopsWhenItsBudgetIsUsedUp) {
   const LandmarkGraph graph = test::random_graph(500, 23);
   const Hierarchy hierarchy(graph, {}, cost_by_length, kSmall);
   std::mt19937_64 random(23);
-  HierarchySearch search;
+  TypeParam search;
   int cut = 0;
   for (int i = 0; i < 50; ++i) {
     const RouteQuery query = query_of(random_question(graph, {}, random), hierarchy.network());
