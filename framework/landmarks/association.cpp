@@ -15,6 +15,7 @@ constexpr std::size_t kMaxHypotheses = 3;  // for each
 constexpr double kGate = 12.0;             // further off than this, in log-likelihood, is another
 constexpr double kFreshRatio = 0.5;        // one first seen after so much of the shift says nothing of it
 constexpr double kSure = 1.4;              // the next best landmark is four times less likely
+constexpr double kSplit = 4.0;             // standard deviations of a place
 constexpr double kSizeRatio = 0.9;         // landmarks are up to 10 % smaller than their templates
 
 }  // namespace
@@ -182,7 +183,7 @@ void LandmarkAssociation::forget(LandmarkRef landmark) {
 }
 
 double LandmarkAssociation::split_m() const {
-  return 2.0 * std::sqrt(2.0) * config_.place_m;
+  return kSplit * config_.place_m;
 }
 
 }  // namespace cairn

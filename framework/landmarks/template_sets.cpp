@@ -13,8 +13,8 @@ namespace {
 // Shapes are compared with themselves, turned by this, on cells of this size.
 constexpr double kTurn_deg = 15.0;
 constexpr double kCell_m = 0.05;
-// What a landmark without any matching counts for, beside its matchings.
-constexpr double kPriorMatchings = 1.0;
+// Of this many matchings a landmark's set is chance or not: of the first one it is one time in six.
+constexpr double kPriorMatchings = 0.2;
 
 double period_of(const Contour& contour) {
   const auto orientations = static_cast<double>(distinct_orientations(contour, radians(kTurn_deg), kCell_m).size());

@@ -16,6 +16,8 @@ namespace cairn::bench {
 namespace {
 
 constexpr double kNear_m = 0.45;  // of what is said of the landmark
+constexpr int kAllOfFirst = 3;    // sights of a landmark, then every so many
+constexpr int kThen = 3;
 
 class SightRecorder : public Listener {
  public:
@@ -31,6 +33,7 @@ class SightRecorder : public Listener {
       if (object.category.empty() || off_m > kNear_m) continue;
       const Pose2 T_object_map = inverse(object.T_map_object);
       RecordedSight sight{object.category, seen_[i]++, detection, {}};
+      if (sight.nth >= kAllOfFirst && sight.nth % kThen != 0) continue;
       sight.detection.T_map_landmark = T_object_map * detection.T_map_landmark;
       for (TemplateDegree& t : sight.detection.templates)
         t.orientation_rad = wrap_angle(t.orientation_rad + T_object_map.theta_rad);

@@ -183,6 +183,7 @@ class Streamer {
 
 void write_sights(const std::filesystem::path& file, const std::vector<RecordedSight>& sights) {
   std::ofstream out(file);
+  out.precision(4);
   out << "# category nth | detection: category x_m y_m angle_deg degree | degrees: category degree angle_deg x_m y_m, "
          "... | templates: category angle_deg degree, ...\n";
   for (const auto& [category, nth, detection, degrees] : sights) {
