@@ -63,6 +63,11 @@ bool add_evidence(Landmark& landmark, const Matching& matching, double within_m)
   return true;
 }
 
+void count_evidence(Landmark& landmark, const Matching& matching, double within_m) {
+  const std::vector<CategoryDegree> degrees = degrees_at(landmark.T_map_landmark.position(), matching, within_m);
+  if (!degrees.empty()) count(landmark, degrees);
+}
+
 void add_evidence(Landmark& landmark, const Landmark& other) {
   landmark.sightings += other.sightings;
   for (const CategoryEvidence& more : other.evidence) {

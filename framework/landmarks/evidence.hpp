@@ -15,6 +15,9 @@ namespace cairn {
 // degree changed.
 bool add_evidence(Landmark& landmark, const Matching& matching, double within_m);
 
+// The same, but category, pose and degree stay: for one that may be of another landmark.
+void count_evidence(Landmark& landmark, const Matching& matching, double within_m);
+
 // Puts the evidence of one landmark to that of another.
 void add_evidence(Landmark& landmark, const Landmark& other);
 

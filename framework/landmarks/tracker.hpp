@@ -1,10 +1,12 @@
 // From detections to the landmark graph: which landmark is it, and is it new or known?
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/landmarks/association.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/connector.hpp"
 #include "maps/geometry/contour.hpp"
@@ -24,11 +26,11 @@ class LandmarkTracker {
     LandmarkId landmark = 0;
     ChangeKind kind = ChangeKind::found;
   };
-  // What one matching does to the graph. Its degrees are evidence for every landmark at whose place they were
-  // found (see add_evidence()), with a detection or without: that is how an early category is corrected and a pose
-  // refined. Only detections make new landmarks, and chance likenesses in a growing map come and go: what is
-  // not confirmed yet is a candidate, which gathers evidence too but is not a landmark. Landmarks that prove to
-  // be one are merged.
+  // What one matching does to the graph. Its degrees are evidence for the landmark that they are of (by distance: for
+  // every one at whose place they were found; see add_evidence()), with a detection or without: that is how an early
+  // category is corrected and a pose refined. Only detections make new landmarks, and chance likenesses in a growing
+  // map come and go: what is not confirmed yet is a candidate, which gathers evidence too but is not a landmark.
+  // Landmarks that prove to be one are merged.
   [[nodiscard]] std::vector<Change> update(const Matching& matching);
   // Retires the landmarks, and drops the candidates, whose place has been seen free.
   [[nodiscard]] std::vector<Change> retire_freed(const OccupancyGrid& grid);
@@ -36,8 +38,8 @@ class LandmarkTracker {
   // Goes on from what an earlier run has known.
   void restore(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path);
 
-  // Remembers where the robot has been.
-  void record_pose(const Pose2& T_map_robot) { driven_.record(T_map_robot); }
+  // Remembers where the robot has been, and how well it knew that. At every tick.
+  void record_pose(const PoseEstimate& pose);
   // Brings approach poses and routes up to date (LandmarkConnector).
   void connect(const WorldView& world, const LandmarkConnector::Plan& plan, std::uint64_t seed) {
     connector_.connect(graph_, driven_, world, plan, seed);
@@ -48,11 +50,19 @@ class LandmarkTracker {
   [[nodiscard]] const std::vector<Pose2>& driven_path() const { return driven_.poses(); }
 
  private:
+  // Give the landmarks that have changed.
+  [[nodiscard]] std::vector<LandmarkId> add_by_distance(const Matching& matching);
+  [[nodiscard]] std::vector<LandmarkId> add_by_template_sets(const Matching& matching);
+  std::optional<LandmarkId> add_part(const Matching& part, const LandmarkAssociation::Answer& answer);
   void see(const Detection& detection);
+  void confirm(LandmarkId candidate, std::vector<Change>& changes);
+  [[nodiscard]] std::optional<LandmarkId> known_as(const Landmark& candidate) const;
+  [[nodiscard]] bool are_one(const Landmark& a, const Landmark& b) const;
   void merge_beside(LandmarkId id, std::vector<Change>& changes);
 
   LandmarksConfig config_;
   std::vector<LandmarkShape> shapes_;
+  LandmarkAssociation association_;
   LandmarkGraph graph_;
   LandmarkGraph candidates_;  // seen, but not confirm_sightings times yet
   DrivenPath driven_;

@@ -49,7 +49,7 @@ PoseEstimate Perception::localize(const Observation& observation) {
 
 const CellChanges& Perception::map(const Observation& observation, const PoseEstimate& pose,
                                    std::span<const int> deaf) {
-  tracker_.record_pose(pose.T_map_robot);
+  tracker_.record_pose(pose);
   const auto is_unheard = [&](const RangeReading& reading) {
     return is_no_echo(reading) && std::ranges::binary_search(deaf, reading.sensor);
   };

@@ -197,5 +197,112 @@ TEST_F(LandmarkTrackerTest, AWayThatTheRobotDroveIsPreferredToAPlannedOne) {
   EXPECT_EQ(route.trajectory.back(), in_whole_steps({to}).front());
 }
 
+// With the templates of one orientation and half a step beside.
+Matching set_at(double x_m, double y_m, const std::string& category, double angle_deg, double degree = 0.8) {
+  Matching matching = matching_at(x_m, y_m, {{category, degree}});
+  matching.detection->T_map_landmark.theta_rad = radians(angle_deg);
+  matching.detection->templates = {{category, radians(angle_deg), degree},
+                                   {category, radians(angle_deg + 15.0), degree - 0.05}};
+  matching.degrees[0].orientation_rad = radians(angle_deg);
+  return matching;
+}
+
+// Small enough to stand 0.3 m beside each other, and as large as the project's templates.
+class AssociationTest : public testing::Test {
+ protected:
+  static std::vector<LandmarkShape> shapes(double side_m) {
+    return {{"circle", Contour::circle(side_m)},
+            {"square", Contour::polygon({{0, 0}, {side_m, 0}, {side_m, side_m}, {0, side_m}})}};
+  }
+  LandmarkTracker tracker_{{}, RobotModel{}, shapes(0.25)};
+
+  void be_at(double deviation_m) {
+    PoseEstimate pose;
+    pose.covariance(0, 0) = pose.covariance(1, 1) = deviation_m * deviation_m;
+    tracker_.record_pose(pose);
+  }
+  // The pose error has been corrected and has come back: nothing is known of it any more.
+  void go_away_and_come_back(double deviation_m) {
+    for (int i = 0; i < 4; ++i) {
+      be_at(0.0);
+      be_at(deviation_m);
+    }
+  }
+  void see(const Matching& matching, int times = 1) {
+    for (int i = 0; i < times; ++i) (void)tracker_.update(matching);
+  }
+  std::vector<std::string> categories() const {
+    std::vector<std::string> all;
+    for (const auto& [id, landmark] : tracker_.graph().landmarks()) all.push_back(landmark.category);
+    return all;
+  }
+};
+
+TEST_F(AssociationTest, ASquareAndACircleBesideItStayTwoLandmarks) {
+  be_at(0.1);
+  see(set_at(0.0, 0.0, "square", 15.0), 5);
+  see(set_at(0.3, 0.0, "circle", 0.0), 5);
+  see(set_at(0.02, 0.0, "square", 15.0), 3);
+  see(set_at(0.29, 0.0, "circle", 0.0), 3);
+  EXPECT_EQ(categories(), (std::vector<std::string>{"square", "circle"}));
+  EXPECT_EQ(tracker_.graph().find(1)->sightings, 8);
+  EXPECT_EQ(tracker_.graph().find(2)->sightings, 8);
+}
+
+TEST_F(AssociationTest, ByDistanceAloneTheyAreOne) {
+  tracker_ = LandmarkTracker({.association = AssociationRule::distance}, RobotModel{}, shapes(0.25));
+  see(set_at(0.0, 0.0, "square", 15.0), 5);
+  see(set_at(0.3, 0.0, "circle", 0.0), 5);
+  EXPECT_EQ(categories().size(), 1U);
+}
+
+TEST_F(AssociationTest, WhereTwoWouldCutIntoEachOtherAnotherCategoryCorrectsTheFirst) {
+  tracker_ = LandmarkTracker({}, RobotModel{}, shapes(0.5));
+  see(set_at(0.0, 0.0, "square", 15.0, 0.65), 4);
+  see(set_at(0.15, 0.0, "circle", 0.0), 1);
+  EXPECT_EQ(categories(), std::vector<std::string>{"circle"});
+}
+
+TEST_F(AssociationTest, TwinsAreNeitherFusedNorDoubledWhenThePoseShifts) {
+  tracker_ = LandmarkTracker({}, RobotModel{}, shapes(0.5));
+  be_at(0.3);
+  for (int i = 0; i < 5; ++i) {
+    see(set_at(0.0, 0.0, "square", 15.0));
+    see(set_at(0.7, 0.0, "square", 15.0));
+  }
+  ASSERT_EQ(tracker_.graph().landmarks().size(), 2U);
+  go_away_and_come_back(0.3);
+  for (int i = 0; i < 5; ++i) {
+    see(set_at(0.3, 0.0, "square", 15.0));
+    see(set_at(1.0, 0.0, "square", 15.0));
+  }
+  EXPECT_EQ(tracker_.graph().landmarks().size(), 2U);
+  EXPECT_TRUE(tracker_.candidates().landmarks().empty());
+  EXPECT_EQ(tracker_.graph().find(1)->sightings, 10);
+  EXPECT_EQ(tracker_.graph().find(2)->sightings, 10);
+}
+
+TEST_F(AssociationTest, AnIsolatedLandmarkIsFoundAgainAfterAShiftThatThePoseErrorAllows) {
+  tracker_ = LandmarkTracker({}, RobotModel{}, shapes(0.5));
+  be_at(0.4);
+  see(set_at(0.0, 0.0, "square", 15.0), 5);
+  go_away_and_come_back(0.4);
+  see(set_at(0.6, 0.0, "square", 15.0), 5);
+  EXPECT_EQ(tracker_.graph().landmarks().size(), 1U);
+  EXPECT_EQ(tracker_.graph().find(1)->sightings, 10);
+}
+
+TEST_F(AssociationTest, ATurnedTwinInPlaceOfALandmarkIsAnother) {
+  be_at(0.1);
+  see(set_at(0.0, 0.0, "square", 0.0), 5);
+  see(set_at(0.26, 0.0, "square", 45.0), 5);
+  EXPECT_EQ(tracker_.graph().landmarks().size(), 2U);
+  tracker_ = LandmarkTracker({}, RobotModel{}, shapes(0.25));
+  be_at(0.1);
+  see(set_at(0.0, 0.0, "square", 0.0), 5);
+  see(set_at(0.26, 0.0, "square", 0.0), 5);
+  EXPECT_EQ(tracker_.graph().landmarks().size(), 1U) << "the same distance, the same templates";
+}
+
 }  // namespace
 }  // namespace cairn
