@@ -70,8 +70,7 @@ void HierarchySearch::begin(const Hierarchy& hierarchy, const RouteQuery& query)
 }
 
 void HierarchySearch::look_into_clusters_of(VertexIndex v) {
-  const Clustering& clustering = hierarchy_->clustering();
-  for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
+  for (ClusterIndex c = hierarchy_->passed_leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
        c = hierarchy_->overlay().parent_of(c))
     opened_[c] = query_number_;
 }
@@ -81,8 +80,9 @@ void HierarchySearch::look_into_clusters_with(RouteId route) {
   const Clustering& clustering = hierarchy_->clustering();
   const auto [from, to] = hierarchy_->network().ends_of(route);
   if (from == kNoVertex) return;
-  ClusterIndex a = clustering.leaf_of(from);
-  for (ClusterIndex b = clustering.leaf_of(to); a != b; b = clustering.node(b).parent) a = clustering.node(a).parent;
+  ClusterIndex a = hierarchy_->passed_leaf_of(from);
+  for (ClusterIndex b = hierarchy_->passed_leaf_of(to); a != b; b = clustering.node(b).parent)
+    a = clustering.node(a).parent;
   for (; a != kNoCluster; a = clustering.node(a).parent) opened_[a] = query_number_;
 }
 
@@ -112,7 +112,7 @@ HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v) {
   if (const NodeIndex known = slot_of(v); known != kNone) return known;
   const Clustering& clustering = hierarchy_->clustering();
   ClusterIndex whole = kNoCluster;
-  for (ClusterIndex c = clustering.leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
+  for (ClusterIndex c = hierarchy_->passed_leaf_of(v); c != kNoCluster && opened_[c] != query_number_;
        c = hierarchy_->overlay().parent_of(c))
     whole = c;
   if (whole != kNoCluster) {
