@@ -16,8 +16,9 @@ void AutosaveConfig::describe(Fields<AutosaveConfig>& fields) {
               "once the mission has saved its map");
 }
 
-Autosaver::Autosaver(std::filesystem::path file, double every_s, std::shared_ptr<const WallClock> wall_clock)
-    : every_(every_s), wall_clock_(std::move(wall_clock)), updater_(std::move(file)) {}
+Autosaver::Autosaver(std::filesystem::path file, double every_s, std::shared_ptr<const WallClock> wall_clock,
+                     const ClusterSizes& sizes)
+    : every_(every_s), wall_clock_(std::move(wall_clock)), sizes_(sizes), updater_(std::move(file)) {}
 
 Autosaver::~Autosaver() {
   finish();
@@ -85,7 +86,8 @@ void Autosaver::write(SavedMap& copy) {
   Outcome outcome;
   outcome.time_s = copy.progress ? copy.progress->time_s : 0.0;
   try {
-    copy.clusters = Hierarchy(copy.graph, copy.clusters).tree();
+    copy.clusters =
+        cluster_landmarks(copy.graph, copy.clusters, {sizes_, passages_in(copy.grid, sizes_.narrow_below_m)});
     updater_.save(copy);
     outcome.saved = true;
   } catch (const std::exception& error) {

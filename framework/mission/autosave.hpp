@@ -16,6 +16,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/modules/wall_clock.hpp"
+#include "maps/clustering/clustering.hpp"
 #include "maps/store/map_updater.hpp"
 
 namespace cairn {
@@ -38,8 +39,9 @@ struct AutosaveFigures {
 
 class Autosaver {
  public:
-  // every_s 0: never due. Starts no thread before the first copy comes.
-  Autosaver(std::filesystem::path file, double every_s, std::shared_ptr<const WallClock> wall_clock);
+  // every_s 0: never due. Starts no thread before the first copy comes. sizes: of the copies' clusters.
+  Autosaver(std::filesystem::path file, double every_s, std::shared_ptr<const WallClock> wall_clock,
+            const ClusterSizes& sizes = {});
   Autosaver(const Autosaver&) = delete;
   Autosaver& operator=(const Autosaver&) = delete;
   ~Autosaver();  // waits as finish() does
@@ -77,6 +79,7 @@ class Autosaver {
   std::optional<WallClock::Time> asked_;  // when it was last asked whether one is due
   std::chrono::duration<double> longest_tick_{0.0};
 
+  const ClusterSizes sizes_;
   MapUpdater updater_;  // of the thread that writes only
 
   mutable std::mutex mutex_;

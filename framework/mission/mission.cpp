@@ -138,6 +138,7 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.plugin("planner", &C::planner, "planner", "plans paths from place to place");
   fields.plugin("controller", &C::controller, "controller", "follows paths past obstacles");
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
+  fields.group("clusters", &C::clusters, "how landmarks are put together to clusters, such as the rooms of a building");
   fields.group("collision_monitor", &C::collision_monitor, "what keeps the robot from driving into what it sees");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
   fields.number(

@@ -15,6 +15,7 @@
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/autosave.hpp"
 #include "framework/mission/history.hpp"
+#include "framework/planning/clusters_config.hpp"
 #include "framework/safety/config.hpp"
 #include "maps/landmarks/landmark_template.hpp"
 
@@ -42,6 +43,7 @@ struct MissionConfig {
   PluginChoice planner;
   PluginChoice controller = default_controller();
   LandmarksConfig landmarks;
+  ClustersConfig clusters;
   CollisionMonitorConfig collision_monitor;
   double at_most_s = 36000.0;
   double watchdog_s = 30.0;

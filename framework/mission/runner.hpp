@@ -16,6 +16,7 @@
 #include "framework/modules/stage_clock.hpp"
 #include "framework/modules/wall_clock.hpp"
 #include "framework/safety/config.hpp"
+#include "maps/clustering/cluster_levels.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
@@ -58,7 +59,8 @@ struct MissionResult {
   CollisionMonitorFigures collision_monitor{};
   std::string hearing{};  // for people: which transducers were deaf, and when; empty: none
   AutosaveFigures autosave{};
-  std::string map_file;  // name in the output folder; empty: could not be saved
+  std::vector<ClusterLevel> cluster_levels{};  // of the landmarks, as they were last clustered
+  std::string map_file;                        // name in the output folder; empty: could not be saved
 };
 
 class MissionLoop;

@@ -9,6 +9,7 @@ std::map<std::string, std::string> properties_of(const Mission& mission) {
                                                 {"seed", std::to_string(mission.config.seed)},
                                                 {"robot", mission.robot.name},
                                                 {"robot_radius_m", std::to_string(mission.robot.radius_m)}};
+  properties[kClustersProperty] = text_of(mission.config.clusters);
   if (!mission.world_fingerprint.empty()) properties["world"] = mission.world_fingerprint;
   return properties;
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kNearest = "nearest ";
 constexpr std::string_view kWhatAPlaceIs =
-    "a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`";
+    "a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, or `nearest CATEGORY`";
 
 [[noreturn]] void refuse(const std::string& place, const std::string& why) {
   throw MalformedPlace("place \"" + place + "\" " + why + "; " + std::string(kWhatAPlaceIs));
@@ -73,7 +73,7 @@ bool reads_as_place(const std::string& text) {
   return trimmed(text).starts_with(kNearest) || (values && values->size() > 1);
 }
 
-Place parse_place(const std::string& text, const LandmarkGraph& graph) {
+Place parse_place(const std::string& text, const LandmarkGraph& graph, const ClusterTree& clusters) {
   const std::string place_text(trimmed(text));
   if (place_text.starts_with(kNearest))
     return nearest_place(std::string(trimmed(std::string_view(place_text).substr(kNearest.size()))), graph);
@@ -84,6 +84,8 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
     return place;
   }
   if (place_text.empty()) refuse(place_text, "is empty");
+  if (const Cluster* const cluster = find_cluster(clusters, graph, place_text))
+    return {std::nullopt, false, members_of(clusters, cluster->id)};
   // A bare category is its nearest landmark, unless a landmark is called so.
   if (Place place{std::nullopt, false, graph.of_category(place_text)}; !place.landmarks.empty()) return place;
   if (place_text + " " == kNearest) refuse(place_text, "names no category");
@@ -97,6 +99,7 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph) {
     names.push_back(label_of(landmark));
     if (!landmark.category.empty()) names.push_back(landmark.category);
   }
+  for (const auto& [id, cluster] : clusters.clusters) names.push_back(label_of(cluster, graph));
   throw PlaceError("unknown place \"" + place_text + "\"" + did_you_mean(place_text, names) + "; " +
                    std::string(kWhatAPlaceIs));
 }

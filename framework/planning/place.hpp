@@ -1,10 +1,12 @@
-// Places as people write them: `x,y`, `x,y,angle_deg`, `L12`, a landmark's name, `nearest CATEGORY`.
+// Places as people write them: `x,y`, `x,y,angle_deg`, `L12`, a landmark's name, `C1:L12`, a cluster's name,
+// `nearest CATEGORY`.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
 #include "framework/contracts/planner.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
@@ -25,7 +27,8 @@ class MalformedPlace : public PlaceError {
 [[nodiscard]] bool reads_as_place(const std::string& text);
 
 // Throws MalformedPlace, and PlaceError when the map does not hold what is named.
-[[nodiscard]] Place parse_place(const std::string& text, const LandmarkGraph& graph);
+// A cluster is any of its landmarks: a planner goes to the one that is the cheapest to reach.
+[[nodiscard]] Place parse_place(const std::string& text, const LandmarkGraph& graph, const ClusterTree& clusters = {});
 // A route by its number, "12" or "R12". Throws the same.
 [[nodiscard]] RouteId parse_route(const std::string& text, const LandmarkGraph& graph);
 

@@ -15,13 +15,7 @@ constexpr std::array kCosts{CostKind::length, CostKind::time, CostKind::clearanc
 std::vector<LandmarkId> landmarks_called(const std::string& name, const LandmarkGraph& graph,
                                          const ClusterTree& clusters) {
   if (graph.find_by_name(name) == nullptr)
-    if (const Cluster* const cluster = find_cluster(clusters, graph, name)) {
-      std::vector<LandmarkId> members;
-      for (const auto& [landmark, leaf] : clusters.cluster_of)
-        for (ClusterId id = leaf; id != 0; id = clusters.clusters.at(id).parent)
-          if (id == cluster->id) members.push_back(landmark);
-      return members;
-    }
+    if (const Cluster* const cluster = find_cluster(clusters, graph, name)) return members_of(clusters, cluster->id);
   if (reads_as_place(name)) throw MalformedPlace("\"" + name + "\": only landmarks and clusters can be avoided");
   if (const Landmark* const landmark = graph.find_by_name(name)) return {landmark->id};
   std::vector<std::string> known;
@@ -30,8 +24,9 @@ std::vector<LandmarkId> landmarks_called(const std::string& name, const Landmark
   throw PlaceError("there is no landmark and no cluster \"" + name + "\" to avoid" + did_you_mean(name, known));
 }
 
-Place place_of(const std::string& name, const LandmarkGraph& graph, const std::optional<Pose2>& here) {
-  if (!here || name != "here") return parse_place(name, graph);
+Place place_of(const std::string& name, const LandmarkGraph& graph, const ClusterTree& clusters,
+               const std::optional<Pose2>& here) {
+  if (!here || name != "here") return parse_place(name, graph, clusters);
   Place place;
   place.pose = here;
   return place;
@@ -55,9 +50,9 @@ void check(const PlanQuestion& question) {
 PlanTask task_of(const PlanQuestion& question, const LandmarkGraph& graph, const ClusterTree& clusters,
                  const std::optional<Pose2>& here) {
   PlanTask task;
-  task.request.from = place_of(question.from, graph, here);
-  task.request.to = place_of(question.to, graph, here);
-  for (const std::string& stop : question.via) task.via.push_back(place_of(stop, graph, here));
+  task.request.from = place_of(question.from, graph, clusters, here);
+  task.request.to = place_of(question.to, graph, clusters, here);
+  for (const std::string& stop : question.via) task.via.push_back(place_of(stop, graph, clusters, here));
   for (const std::string& name : question.avoid) {
     const auto landmarks = landmarks_called(name, graph, clusters);
     task.request.avoid.insert(task.request.avoid.end(), landmarks.begin(), landmarks.end());

@@ -137,6 +137,12 @@ ordered_json json_of(const std::vector<TimedContact>& contacts) {
   return list;
 }
 
+ordered_json json_of(const std::vector<ClusterLevel>& levels) {
+  ordered_json list = ordered_json::array();
+  for (const auto& [clusters, boundary] : levels) list.push_back({{"clusters", clusters}, {"boundary", boundary}});
+  return list;
+}
+
 ordered_json main_figures(const Mission& mission, const MissionResult& result, const LandmarkGraph& graph,
                           const std::vector<TimedContact>& contacts) {
   return {{"mission", mission.config.mission},
@@ -145,6 +151,7 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
           {"reason", result.reason},
           {"landmarks", json_of(graph)},
           {"routes", graph.routes().size()},
+          {"levels", json_of(result.cluster_levels)},
           {"matchings", result.matchings},
           {"readings", result.readings},
           {"collisions", result.collisions},

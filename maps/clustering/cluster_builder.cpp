@@ -105,9 +105,13 @@ void ClusterBuilder::divide(std::span<const VertexIndex> vertices, int level, Cl
   }
 }
 
+void ClusterBuilder::measure_costs() {
+  clustering_.usual_cost_ = usual_cost(network_);
+}
+
 void ClusterBuilder::build() {
   clustering_.clear();
-  clustering_.usual_cost_ = usual_cost(network_);
+  measure_costs();
   clustering_.leaf_.assign(network_.end(), kNoCluster);
   clustering_.levels_ = std::min(clustering_.sizes_.levels_for(network_.landmarks()), clustering_.max_levels_);
   if (clustering_.levels_ == 0) return;

@@ -1,11 +1,15 @@
 // Makes the clusters of a network, from the highest level down. Private to the hierarchy.
 #pragma once
 
+#include <limits>
 #include <map>
 
 #include "maps/clustering/clustering.hpp"
 
 namespace cairn {
+
+// Of a saved cluster; more are to follow.
+inline constexpr ClusterId kMaxSavedId = std::numeric_limits<ClusterId>::max() / 2;
 
 class ClusterBuilder {
  public:
@@ -13,6 +17,8 @@ class ClusterBuilder {
       : clustering_(clustering), network_(network), propose_(propose) {}
 
   void build();
+  // What a route usually costs, for the weights of ties.
+  void measure_costs();
   // One more level over the present highest one.
   void add_top_level();
   // Members of a cluster, or of a would-be one, with the ties between them.

@@ -38,6 +38,14 @@ const Cluster* find_cluster(const ClusterTree& tree, const LandmarkGraph& graph,
   return by_label != nullptr ? by_label : find([&](const auto& entry) { return id_label(entry.second) == label; });
 }
 
+std::vector<LandmarkId> members_of(const ClusterTree& tree, ClusterId cluster) {
+  std::vector<LandmarkId> members;
+  for (const auto& [landmark, leaf] : tree.cluster_of)
+    for (ClusterId id = leaf; id != 0; id = tree.clusters.at(id).parent)
+      if (id == cluster) members.push_back(landmark);
+  return members;
+}
+
 bool looks_like_id(std::string_view name) {
   if (name.size() < 2 || (name[0] != 'L' && name[0] != 'C') || !is_digit(name[1])) return false;
   const auto behind = std::find_if_not(name.begin() + 1, name.end(), is_digit);

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "maps/landmarks/landmark_graph.hpp"
 
@@ -26,7 +27,7 @@ struct Cluster {
 
 struct ClusterTree {
   std::map<ClusterId, Cluster> clusters;
-  std::map<LandmarkId, ClusterId> cluster_of;  // of level 1; all landmarks, or none at all in a small graph
+  std::map<LandmarkId, ClusterId> cluster_of;  // of level 1; all landmarks, or none at all where they are few
   ClusterId next_id = 1;
   bool operator==(const ClusterTree&) const = default;
 };
@@ -37,6 +38,8 @@ struct ClusterTree {
 // is none.
 [[nodiscard]] const Cluster* find_cluster(const ClusterTree& tree, const LandmarkGraph& graph,
                                           const std::string& label);
+// The landmarks of a cluster of any level, rising. O(landmarks).
+[[nodiscard]] std::vector<LandmarkId> members_of(const ClusterTree& tree, ClusterId cluster);
 // Whether it is, or begins like, what Cairn calls things by itself: "L17", "C2:...". No user's name should.
 [[nodiscard]] bool looks_like_id(std::string_view name);
 

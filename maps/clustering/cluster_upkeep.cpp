@@ -8,7 +8,6 @@ namespace cairn {
 namespace {
 
 constexpr int kMaxLevels = 32;
-constexpr ClusterId kHighestId = std::numeric_limits<ClusterId>::max() / 2;  // of a saved cluster; more are to follow
 
 // The chain of saved clusters from level 1 up; empty when it is broken.
 std::vector<const Cluster*> chain_of(const ClusterTree& saved, ClusterId leaf) {
@@ -17,7 +16,7 @@ std::vector<const Cluster*> chain_of(const ClusterTree& saved, ClusterId leaf) {
     const auto found = saved.clusters.find(id);
     const int level = static_cast<int>(chain.size()) + 1;
     if (found == saved.clusters.end() || found->second.level != level || level > kMaxLevels) return {};
-    if (found->second.id != id || id < 0 || id > kHighestId) return {};
+    if (found->second.id != id || id < 0 || id > kMaxSavedId) return {};
     chain.push_back(&found->second);
   }
   return chain;
@@ -234,7 +233,7 @@ void ClusterUpkeep::restore(const ClusterTree& saved) {
       levels = std::max(levels, chain.size());
       chains.emplace(v, std::move(chain));
     }
-  ClusterId next_id = std::clamp<ClusterId>(saved.next_id, 1, kHighestId);
+  ClusterId next_id = std::clamp<ClusterId>(saved.next_id, 1, kMaxSavedId);
   clustering_.next_id_ = next_id;
   if (levels == 0) return builder_.build();
   clustering_.levels_ = static_cast<int>(levels);

@@ -1,13 +1,24 @@
 #include "maps/clustering/clustering.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
 #include "maps/clustering/cluster_builder.hpp"
+#include "maps/clustering/cluster_former.hpp"
 #include "maps/clustering/cluster_upkeep.hpp"
 
 namespace cairn {
+namespace {
+
+ClusterSizes without_levels(ClusterSizes sizes) {
+  sizes.from = SIZE_MAX;
+  sizes.large_from = SIZE_MAX;
+  return sizes;
+}
+
+}  // namespace
 
 std::int32_t ClusterSizes::most(int level) const {
   std::int64_t most = leaf;
@@ -15,17 +26,28 @@ std::int32_t ClusterSizes::most(int level) const {
   return static_cast<std::int32_t>(std::min<std::int64_t>(most, std::numeric_limits<std::int32_t>::max()));
 }
 
+std::int32_t ClusterSizes::most_by_length(std::size_t landmarks) const {
+  return std::min(leaf, static_cast<std::int32_t>(std::lround(2.0 * std::sqrt(static_cast<double>(landmarks)))));
+}
+
 int ClusterSizes::levels_for(std::size_t landmarks) const {
   int levels = 0;
-  if (landmarks < flat_below) return levels;
+  if (landmarks < from) return levels;
+  if (landmarks < large_from) return 1;
   while (2 * static_cast<std::size_t>(most(levels + 1)) <= landmarks) ++levels;
   return std::max(levels, 1);
 }
 
-Clustering::Clustering(const Network& network, const ClusterSizes& sizes, const Proposal& propose) : sizes_(sizes) {
+Clustering::Clustering(const Network& network, const ClusterSizes& sizes, const Proposal& propose,
+                       const PassageWidths& widths)
+    : sizes_(sizes) {
   if (sizes.leaf < 2 || sizes.growth < 2)
     throw std::invalid_argument("ClusterSizes: leaf and growth must be at least 2");
-  ClusterBuilder(*this, network, propose).build();
+  is_small_ = network.landmarks() < sizes.large_from;
+  if (is_small_)
+    ClusterFormer(*this, network, propose, widths).form();
+  else
+    ClusterBuilder(*this, network, propose).build();
 }
 
 ClusterIndex Clustering::cluster_of(VertexIndex v, int level) const {
@@ -129,8 +151,19 @@ void Clustering::drop_level() {
   max_levels_ = --levels_;
 }
 
-Clustering::Upkeep Clustering::follow(const Network& network, std::span<const VertexIndex> vertices) {
-  return ClusterUpkeep(*this, network).follow(vertices);
+// Not to and fro between small and large with every landmark that comes and goes.
+Clustering::Upkeep Clustering::follow(const Network& network, std::span<const VertexIndex> vertices,
+                                      const PassageWidths& widths) {
+  const std::size_t fewer = sizes_.large_from - sizes_.large_from / 5;
+  const bool was_small = is_small_;
+  is_small_ = network.landmarks() < (is_small_ ? sizes_.large_from : fewer);
+  if (is_small_) {
+    ClusterFormer(*this, network, propose_by_metis, widths).form();
+    return {{}, true};
+  }
+  Upkeep upkeep = ClusterUpkeep(*this, network).follow(vertices);
+  upkeep.levels_changed = upkeep.levels_changed || was_small;
+  return upkeep;
 }
 
 ClusterTree Clustering::tree(const Network& network) const {
@@ -149,11 +182,16 @@ ClusterTree Clustering::tree(const Network& network) const {
 
 // Takes over what is sound: a chain of clusters of rising level for each landmark; whatever else there is in the
 // tree has no landmarks and is left out. The upkeep then looks at every cluster.
-Clustering::Clustering(const Network& network, const ClusterSizes& sizes, const ClusterTree& saved)
-    : Clustering(network, saved.cluster_of.empty() ? sizes : ClusterSizes{sizes.leaf, sizes.growth, SIZE_MAX}) {
+Clustering::Clustering(const Network& network, const ClusterSizes& sizes, const ClusterTree& saved,
+                       const PassageWidths& widths)
+    : Clustering(network, saved.cluster_of.empty() ? sizes : without_levels(sizes), propose_by_metis, widths) {
   if (saved.cluster_of.empty()) return;
   sizes_ = sizes;
-  ClusterUpkeep(*this, network).restore(saved);
+  is_small_ = network.landmarks() < sizes.large_from;
+  if (is_small_)
+    ClusterFormer(*this, network, propose_by_metis, widths).restore(saved);
+  else
+    ClusterUpkeep(*this, network).restore(saved);
 }
 
 }  // namespace cairn

@@ -4,6 +4,8 @@
 #include <optional>
 #include <set>
 
+#include "maps/clustering/passage_width.hpp"
+
 namespace cairn {
 namespace {
 
@@ -30,28 +32,49 @@ std::set<RouteId> routes_of(const GraphChanges& changes, const LandmarkGraph& gr
 
 // Levels whose clusters have so many ways through that keeping them gains nothing.
 void drop_needless_levels(Clustering& clustering) {
+  if (clustering.is_small()) return;  // not searches need its clusters, people do
   for (int level = 1; level <= clustering.levels(); ++level)
     if (!Overlay::is_bounded(clustering, level))
       while (clustering.levels() >= level) clustering.drop_level();
 }
 
+PassageWidths widths_of(const LandmarkGraph& graph, const PassageWidth& width) {
+  if (!width) return {};
+  return [&](RouteId id) { return width(*graph.find_route(id)); };
+}
+
 }  // namespace
 
-ClusterTree cluster_landmarks(const LandmarkGraph& graph) {
+PassageWidth passages_in(const OccupancyGrid& grid, double max_m) {
+  return [&grid, max_m](const Route& route) -> std::optional<double> {
+    if (route.trajectory.size() < 2 || grid.bounds().empty()) return std::nullopt;
+    return passage_width_m(route.trajectory, grid, max_m);
+  };
+}
+
+ClusterTree cluster_landmarks(const LandmarkGraph& graph, const ClusterTree& clusters, const ClusterRules& rules) {
   const Network network(graph, cost_by_length);
-  Clustering clustering(network, {});
+  Clustering clustering(network, rules.sizes, clusters, widths_of(graph, rules.width));
   drop_needless_levels(clustering);
   return clustering.tree(network);
 }
 
-Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters, RouteCost cost, const ClusterSizes& sizes)
-    : cost_(std::move(cost)), network_(graph, cost_), bound_(graph, network_), clustering_(network_, sizes, clusters) {
+Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters, RouteCost cost, ClusterRules rules)
+    : cost_(std::move(cost)),
+      rules_(std::move(rules)),
+      network_(graph, cost_),
+      bound_(graph, network_),
+      clustering_(network_, rules_.sizes, clusters, widths_of(graph, rules_.width)) {
   drop_needless_levels(clustering_);
   overlay_.build(network_, clustering_);
 }
 
 Hierarchy::Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, const Proposal& propose)
-    : cost_(cost_by_length), network_(graph, cost_), bound_(graph, network_), clustering_(network_, sizes, propose) {
+    : cost_(cost_by_length),
+      rules_{sizes, {}},
+      network_(graph, cost_),
+      bound_(graph, network_),
+      clustering_(network_, sizes, propose) {
   drop_needless_levels(clustering_);
   overlay_.build(network_, clustering_);
 }
@@ -108,7 +131,7 @@ bool Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) 
   for (const CostChange& change : costs) moved.insert(moved.end(), {change.from, change.to});
   std::sort(moved.begin(), moved.end());
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
-  Clustering::Upkeep upkeep = clustering_.follow(network_, moved);
+  Clustering::Upkeep upkeep = clustering_.follow(network_, moved, widths_of(graph, rules_.width));
   const int levels = clustering_.levels();
   drop_needless_levels(clustering_);
   upkeep.levels_changed = upkeep.levels_changed || clustering_.levels() != levels;

@@ -4,10 +4,13 @@
 // Belongs to one landmark graph, which reports its changes by update(). Reading is thread-safe, updating is not.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "maps/grid/occupancy_grid.hpp"
 #include "maps/hierarchy/overlay.hpp"
 #include "maps/hierarchy/straight_bound.hpp"
 
@@ -19,12 +22,27 @@ struct GraphChanges {
   std::vector<RouteId> routes;
 };
 
+// The width of the narrowest place of a route, m; none: it is not known.
+using PassageWidth = std::function<std::optional<double>(const Route&)>;
+// In this grid, which must outlive it; a route without a trajectory has none, and so has any where the grid is empty.
+// Wider passages than max_m count as that wide.
+[[nodiscard]] PassageWidth passages_in(const OccupancyGrid& grid, double max_m);
+
+// How a graph is clustered.
+struct ClusterRules {
+  ClusterRules(const ClusterSizes& of_sizes = {}, PassageWidth of_width = {})  // NOLINT: sizes are rules
+      : sizes(of_sizes), width(std::move(of_width)) {}
+
+  ClusterSizes sizes;
+  PassageWidth width;  // none: by the costs of routes alone. Asked when clusters of a small graph are formed
+};
+
 class Hierarchy {
  public:
   // O(n log n) for what people build; clusters as saved, or anew when the tree is empty. Throws
   // std::invalid_argument when the cost of a route is negative or not finite.
   explicit Hierarchy(const LandmarkGraph& graph, const ClusterTree& clusters = {}, RouteCost cost = cost_by_length,
-                     const ClusterSizes& sizes = {});
+                     ClusterRules rules = {});
   // Clustered anew, by other means than METIS.
   Hierarchy(const LandmarkGraph& graph, const ClusterSizes& sizes, const Proposal& propose);
 
@@ -39,7 +57,7 @@ class Hierarchy {
   [[nodiscard]] const Clustering& clustering() const { return clustering_; }
   [[nodiscard]] const Overlay& overlay() const { return overlay_; }
   [[nodiscard]] const StraightBound& bound() const { return bound_; }
-  [[nodiscard]] int levels() const { return clustering_.levels(); }  // 0: the graph is searched as it is
+  [[nodiscard]] int levels() const { return clustering_.levels(); }
   [[nodiscard]] ClusterTree tree() const { return clustering_.tree(network_); }
 
  private:
@@ -51,6 +69,7 @@ class Hierarchy {
   void sync_route(const LandmarkGraph& graph, RouteId id, NetworkChanges& synced);
 
   RouteCost cost_;
+  ClusterRules rules_;
   Network network_;
   StraightBound bound_;
   Clustering clustering_;
@@ -58,6 +77,7 @@ class Hierarchy {
 };
 
 // The clusters that a hierarchy of the graph would have, without the ways through them.
-[[nodiscard]] ClusterTree cluster_landmarks(const LandmarkGraph& graph);
+[[nodiscard]] ClusterTree cluster_landmarks(const LandmarkGraph& graph, const ClusterTree& clusters = {},
+                                            const ClusterRules& rules = {});
 
 }  // namespace cairn

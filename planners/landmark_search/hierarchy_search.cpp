@@ -63,7 +63,7 @@ HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v, ClusterIndex 
 
 HierarchySearch::NodeIndex HierarchySearch::node_at(VertexIndex v) {
   if (const NodeIndex known = slot_of(v); known != kNone) return known;
-  const ClusterIndex whole = open_.whole_around(v);
+  const ClusterIndex whole = hierarchy_->clustering().is_small() ? kNoCluster : open_.whole_around(v);
   if (whole != kNoCluster) {
     // It will be settled soon, and on large graphs most of the time goes by waiting for memory.
     const char* const passage = reinterpret_cast<const char*>(&hierarchy_->overlay().passage(whole));

@@ -23,9 +23,7 @@ class Searched {
     if (world.hierarchies != nullptr) {
       hierarchy_ = &world.hierarchies->by(request.cost);
     } else {
-      ClusterSizes flat;
-      flat.flat_below = SIZE_MAX;
-      hierarchy_ = &own_.emplace(world.graph, ClusterTree{}, cost_, flat);
+      hierarchy_ = &own_.emplace(world.graph, ClusterTree{}, cost_, ClusterRules{no_clusters(), {}});
     }
   }
   [[nodiscard]] const Hierarchy& hierarchy() const { return *hierarchy_; }

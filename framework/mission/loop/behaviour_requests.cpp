@@ -60,8 +60,7 @@ PlanResult BehaviourRequests::plan(const PlanRequest& request) {
 Status BehaviourRequests::answer(const PlanQuestion& question, const std::string& file_name) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
   host_.monitor.stand();
-  const bool names_clusters = !question.avoid.empty() || question.explain;
-  const ClusterTree clusters = names_clusters ? host_.planning.clusters() : ClusterTree{};
+  const ClusterTree clusters = host_.planning.clusters(*host_.world.grid);
   PlanTask task;
   try {
     task = task_of(question, host_.world.graph, clusters, host_.world.pose.T_map_robot);

@@ -133,6 +133,7 @@ MissionResult MissionLoop::result() const {
   result.hearing = hearing_.summary();
   result.autosave = saving_.figures();
   result.map_file = saving_.map_file();
+  result.cluster_levels = levels_of(planning_.last_clusters(), world_.graph);
   return result;
 }
 

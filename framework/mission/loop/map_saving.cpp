@@ -27,7 +27,8 @@ MapSaving::MapSaving(const Mission& mission, Options options, Planning& planning
       publisher_(publisher),
       content_(std::move(content)),
       autosaver_(options_.folder / autosave_file_of(mission.config),
-                 options_.autosaves ? mission.config.autosave.every_s : 0.0, options_.wall_clock) {}
+                 options_.autosaves ? mission.config.autosave.every_s : 0.0, options_.wall_clock,
+                 mission.config.clusters.sizes()) {}
 
 void MapSaving::autosave() {
   report_autosave();
@@ -91,7 +92,7 @@ Status MapSaving::write(const std::string& file_name) {
   if (world_.grid == nullptr) return {StepState::failure, "there is no map to save"};
   explored_ratio_ = world_.explored_ratio();
   try {
-    save_map(options_.folder / file_name, content_(planning_.clusters()), Links::replace);
+    save_map(options_.folder / file_name, content_(planning_.clusters(*world_.grid)), Links::replace);
   } catch (const std::exception& error) {
     return {StepState::failure, std::string("the map could not be saved: ") + error.what()};
   }

@@ -17,20 +17,23 @@ class Planning {
   [[nodiscard]] bool has_planner() const { return static_cast<bool>(modules_.planner); }
   // There must be a planner. Throws ModuleFault.
   [[nodiscard]] PlanResult plan(const PlanRequest& request, WorldView world);
-  // Joins the landmarks by routes; nothing without a planner. Throws ModuleFault.
-  void connect(LandmarkTracker& tracker, const WorldView& world);
+  // Joins the landmarks by routes and brings the clusters in line; nothing without a planner. Throws ModuleFault.
+  void connect(LandmarkTracker& tracker, WorldView world);
 
   // Brings the hierarchies in line with the graph; the clusters that come of it.
-  [[nodiscard]] ClusterTree clusters();
+  [[nodiscard]] ClusterTree clusters(const OccupancyGrid& grid);
   // As they were last brought in line. When that is decides which ids the clusters get, so that what must change
   // nothing asks for these.
   [[nodiscard]] ClusterTree last_clusters() const { return hierarchies_.last_tree(); }
+  // For names of clusters; the graph may have changed since they were brought in line.
+  [[nodiscard]] const Hierarchies& hierarchies() const { return hierarchies_; }
 
  private:
   const Mission& mission_;
   const StagedModules& modules_;
   CollisionMonitor& monitor_;
   const Budget budget_;
+  const OccupancyGrid* grid_ = nullptr;  // that passages are seen in
   Hierarchies hierarchies_;
 };
 

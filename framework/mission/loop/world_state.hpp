@@ -25,6 +25,7 @@ struct WorldState {
   PoseEstimate pose{};
   double time_s = 0.0;
   DriveCommand driven{};
+  const Hierarchies* hierarchies = nullptr;  // for the names of clusters
 
   void observe(Observation seen, const std::optional<GroundTruth>& truth_then) {
     observation = std::move(seen);

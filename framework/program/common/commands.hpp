@@ -115,6 +115,7 @@ struct ExchangeCommand {
   std::string mode;                   // of a map_server file: trinary, scale, raw; empty: trinary
   std::string picture;                // of a map_server file: pgm, png, bmp; empty: what suits the mode
   std::optional<double> px_per_cell;  // of a plain picture
+  std::vector<std::string> clusters;  // key=value, as under `clusters` of a mission
   bool allow_outside = false;         // a picture may be outside the folder of the file that names it
 };
 int map_import(const ExchangeCommand& command, const CommonOptions& common);

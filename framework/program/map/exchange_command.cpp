@@ -8,6 +8,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/files/map_server_file.hpp"
 #include "framework/files/rmf_file.hpp"
+#include "framework/planning/clusters_config.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/map/exchange_report.hpp"
@@ -32,11 +33,21 @@ bool is_one_of(std::string_view extension, std::span<const std::string_view> kno
   return std::ranges::find(known, extension) != known.end();
 }
 
+ClustersConfig clusters_of(const ExchangeCommand& command) {
+  ConfigValue settings;
+  settings.kind = ConfigValue::Kind::map;
+  settings.place.file = "--clusters";
+  for (const std::string& assignment : command.clusters) apply_override(settings, assignment);
+  return load_config<ClustersConfig>(settings, "--clusters");
+}
+
 int import_graph(const ExchangeCommand& command, ImportedGraph imported, const CommonOptions& common) {
   SavedMap map;
   map.graph = std::move(imported.graph);
-  map.clusters = cluster_landmarks(map.graph);
   map.properties = imported.properties;
+  const ClustersConfig clusters = clusters_of(command);
+  map.clusters = cluster_landmarks(map.graph, {}, {clusters.sizes(), {}});
+  if (!command.clusters.empty()) map.properties[kClustersProperty] = text_of(clusters);
   map.properties["imported_from"] = command.from.filename().string();
   save_map(command.to, map, Links::replace);
   const std::vector<std::string> warnings = about(command.from, std::move(imported.warnings));

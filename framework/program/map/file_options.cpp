@@ -12,6 +12,9 @@ void add_exchange(CLI::App& map, CommandLine& line) {
       ->required();
   in->add_option("-o,--out", c->to, "saved map to write (*.cairn)")->required();
   add_number(in, "--cell-m", c->cell_m, "cell size of a picture, or of a Moving AI grid (without it 1)", 0.001, 1000.0);
+  in->add_option(
+      "--clusters", c->clusters,
+      "key=value: how a graph is clustered, as under `clusters` of a mission: max_landmarks=16; kept in the map");
   in->add_flag("--allow-outside", c->allow_outside, "read a picture that is outside the folder of the file");
   const auto [out, e] = add_command(map, line, map_export, "export",
                                     "Write a map's landmark graph or grid for other tools, or its picture");

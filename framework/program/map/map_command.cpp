@@ -14,6 +14,7 @@
 #include "maps/base/spelling.hpp"
 #include "maps/base/text.hpp"
 #include "maps/clustering/cluster_levels.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 #include "maps/landmarks/joined_landmarks.hpp"
 #include "maps/landmarks/route_count.hpp"
 #include "maps/store/repair.hpp"
@@ -109,6 +110,11 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
     return fmt::format("  L{:<5} {:<12} at ({:.2f}, {:.2f}), {} deg, degree {:.2f}{}\n", landmark.id,
                        printable(landmark.category), landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
                        std::lround(degrees(landmark.T_map_landmark.theta_rad)), landmark.degree, name);
+  });
+  list_first(map.clusters.clusters, "clusters", [&](const Cluster& cluster) {
+    const std::size_t landmarks = members_of(map.clusters, cluster.id).size();
+    return fmt::format("  C{}:L{}{}, {}\n", cluster.level, cluster.anchor,
+                       cluster.name.empty() ? "" : " " + printable(cluster.name), counted(landmarks, "landmark"));
   });
   list_first(map.graph.routes(), "routes", [](const Route& route) {
     return fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", route.id, route.from, route.to, route.cost_m,

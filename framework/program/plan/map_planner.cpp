@@ -1,10 +1,12 @@
 #include "framework/program/plan/map_planner.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "framework/files/robot_file.hpp"
 #include "framework/modules/fence.hpp"
+#include "framework/planning/clusters_config.hpp"
 #include "framework/planning/place.hpp"
 #include "framework/planning/tour.hpp"
 #include "framework/program/common/modules.hpp"
@@ -43,6 +45,14 @@ PluginChoice choice_of(const PlanCommand& command) {
   return choice;
 }
 
+// Clusters that the map does not hold are made only for a question that may be about them.
+bool names_other_than_landmarks(const PlanQuestion& question, const LandmarkGraph& graph) {
+  const auto is_other = [&](const std::string& name) {
+    return !reads_as_place(name) && graph.find_by_name(name) == nullptr;
+  };
+  return is_other(question.from) || is_other(question.to) || std::ranges::any_of(question.via, is_other);
+}
+
 PlanResult unknown_place(const PlaceError& error) {
   PlanResult unknown;
   unknown.outcome = PlanOutcome::unknown_place;
@@ -72,7 +82,7 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
       file_(opened_in_part(command)),
       map_(file_ ? file_->without_cells() : load_map(command.map)),
       robot_(robot_of(command, map_)),
-      hierarchies_(map_.graph, map_.clusters, rules_of(robot_, map_)) {
+      hierarchies_(map_.graph, map_.clusters, rules_of(robot_, map_), cluster_rules()) {
   const PluginChoice choice = choice_of(command);
   ModuleContext context{robot_};
   context.seed = static_cast<std::uint64_t>(command.seed);
@@ -138,7 +148,10 @@ std::optional<PlanResult> MapPlanner::plan_on_part(const PlanRequest& request, B
 PlanResult MapPlanner::answer(const PlanQuery& query) const {
   PlanTask task;
   try {
-    task = task_of(query.question, map_.graph, query.question.avoid.empty() ? ClusterTree{} : clusters());
+    const bool makes_clusters =
+        !query.question.avoid.empty() ||
+        (map_.clusters.cluster_of.empty() && names_other_than_landmarks(query.question, map_.graph));
+    task = task_of(query.question, map_.graph, makes_clusters ? clusters() : map_.clusters);
   } catch (const MalformedPlace& error) {
     if (!many_) throw;
     return unknown_place(error);
@@ -155,6 +168,13 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
   const Budget budget = budget_after(spent);
   return plan_tour([&](const PlanRequest& request) { return plan_on(grid, kLoadedGrid, request, budget); },
                    task.request, task.via);
+}
+
+// Asked only for a map without clusters.
+ClusterRules MapPlanner::cluster_rules() const {
+  const ClusterSizes sizes = cluster_sizes_of(map_.properties);
+  return {sizes,
+          [this, max_m = sizes.narrow_below_m](const Route& route) { return passages_in(whole_grid(), max_m)(route); }};
 }
 
 const OccupancyGrid& MapPlanner::whole_grid() const {

@@ -38,6 +38,7 @@ class MapPlanner {
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
 
  private:
+  [[nodiscard]] ClusterRules cluster_rules() const;
   void prepare(const OccupancyGrid& grid, std::uint64_t version) const;
   [[nodiscard]] PlanResult plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
                                    const Budget& budget) const;

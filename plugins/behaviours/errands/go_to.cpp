@@ -55,7 +55,7 @@ FoundPlace GoTo::find_goal(const WorldView& world, NamedPlaces& context) const {
     found.place.heading_matters = config_.angle_rad.has_value();
     return found;
   }
-  if (config_.input.empty()) return find_landmarks(landmark_name_, world.graph);
+  if (config_.input.empty()) return find_landmarks(landmark_name_, world);
   const std::optional<Place> given = context.input(config_.input);
   if (!given) return {{}, "no step has given the place \"" + config_.input + "\" yet"};
   found.place = *given;

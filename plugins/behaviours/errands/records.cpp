@@ -71,7 +71,7 @@ CaptureTemplate::CaptureTemplate(const CaptureTemplateConfig& config)
 }
 
 Status CaptureTemplate::tick(const WorldView& world, BehaviourContext& context) {
-  const FoundPlace found = find_place(at_, world.graph);
+  const FoundPlace found = find_place(at_, world);
   if (!found.unknown.empty()) return {StepState::failure, found.unknown};
   Point at;
   if (found.place.pose)

@@ -36,7 +36,7 @@ Status ReturnHome::tick(const WorldView& world, BehaviourContext& context) {
       goal.pose = world.T_map_start;
       goal.heading_matters = true;
     } else {
-      FoundPlace found = find_landmarks(to_, world.graph);
+      FoundPlace found = find_landmarks(to_, world);
       if (!found.unknown.empty()) return {StepState::failure, found.unknown};
       goal = std::move(found.place);
     }

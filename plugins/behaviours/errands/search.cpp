@@ -42,6 +42,10 @@ void SearchRoundSettings::describe(Fields<SearchRoundSettings>& fields) {
 void SearchConfig::describe(Fields<SearchConfig>& fields) {
   using C = SearchConfig;
   fields.raw("category", &C::category, "text", "of the landmarks to find, as a template file names it").required = true;
+  fields.raw(
+      "at", &C::at, "place",
+      "where the search begins, `[x, y]`, a landmark's or cluster's id or name, or `nearest CATEGORY`; without it, "
+      "where the robot is");
   fields.integer("until", &C::until, {1.0, 1e6}, "so many landmarks of the category must be known");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to search; when it is up the step has failed");
   fields.integer("rounds", &C::rounds, {1.0, 1e6},
@@ -58,6 +62,7 @@ Search::Search(const SearchConfig& config, std::uint64_t seed, const std::vector
       category_(config_detail::to_text(config.category, "category")),
       explore_(exploring(config)),
       driver_(driving(config), seed) {
+  if (config.at.kind != ConfigValue::Kind::null) begin_at_ = to_place_name(config.at, "at");
   check_category_is_known(category_, config.category.place, "search", categories);
 }
 
@@ -68,11 +73,33 @@ void Search::halt() {
   room_.reset();
   been_at_.clear();
   driver_.restart();
+  begin_.reset();
+  has_begun_there_ = false;
   round_ = 1;
 }
 
 std::string Search::in_round() const {
   return " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds);
+}
+
+// Nothing once the robot is where the search begins.
+std::optional<Status> Search::go_to_begin(const WorldView& world, BehaviourContext& context) {
+  if (!begin_at_ || has_begun_there_) return std::nullopt;
+  if (begin_ && names_retired(*begin_, world.graph)) begin_.reset();
+  if (!begin_) {
+    FoundPlace found = find_place(*begin_at_, world);
+    if (!found.unknown.empty()) return Status{StepState::failure, found.unknown};
+    begin_ = std::move(found.place);
+    driver_.restart();
+  }
+  const Status status = driver_.tick(*begin_, world, context);
+  if (status.state == StepState::running)
+    return Status{StepState::running, status.reason + ", to " + begin_at_->text + ", where the search begins"};
+  if (status.state == StepState::failure)
+    return Status{StepState::failure, status.reason + "; on the way to " + begin_at_->text};
+  driver_.restart();
+  has_begun_there_ = true;
+  return std::nullopt;
 }
 
 // What it does while it does not explore.
@@ -131,7 +158,9 @@ Status Search::tick(const WorldView& world, BehaviourContext& context) {
                            [&](const Point& p) { return (p - here).norm() < config_.between_rounds.been_apart_m; }))
     been_at_.push_back(here);
   Status status;
-  if (const std::optional<Status> now = between(world, context)) {
+  if (const std::optional<Status> first = go_to_begin(world, context)) {
+    status = *first;
+  } else if (const std::optional<Status> now = between(world, context)) {
     status = *now;
   } else {
     status = explore_.tick(world, context);

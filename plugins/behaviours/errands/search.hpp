@@ -12,6 +12,7 @@
 #include "framework/contracts/behaviour.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
 #include "plugins/behaviours/exploring/explore.hpp"
+#include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
 
@@ -25,6 +26,7 @@ struct SearchRoundSettings {
 
 struct SearchConfig : ExploreConfig {
   ConfigValue category;  // text
+  ConfigValue at;        // place
   int until = 1;
   int rounds = 3;
   std::string output;  // the name of the place that it gives
@@ -43,12 +45,16 @@ class Search : public Behaviour {
 
  private:
   [[nodiscard]] std::string in_round() const;
+  [[nodiscard]] std::optional<Status> go_to_begin(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] std::optional<Status> between(const WorldView& world, BehaviourContext& context);
   Status nothing_left(const std::string& found, const std::string& why, const WorldView& world,
                       BehaviourContext& context);
 
   SearchConfig config_;
   std::string category_;
+  std::optional<PlaceName> begin_at_;
+  std::optional<Place> begin_;  // what that is
+  bool has_begun_there_ = false;
   Explore explore_;
   std::optional<double> begun_s_;
   int round_ = 1;

@@ -36,13 +36,13 @@ Status Visits::tick(const WorldView& world, BehaviourContext& context) {
   return drive(world, context);
 }
 
-Place Visits::place_of(const Stop& stop, const LandmarkGraph& graph) const {
-  if (stop.chosen && graph.find(*stop.chosen) != nullptr) {
+Place Visits::place_of(const Stop& stop, const WorldView& world) const {
+  if (stop.chosen && world.graph.find(*stop.chosen) != nullptr) {
     Place place;
     place.landmarks = {*stop.chosen};
     return place;
   }
-  return find_place(stop.name, graph).place;
+  return find_place(stop.name, world).place;
 }
 
 Status Visits::find_order(const WorldView& world, BehaviourContext& context) {
@@ -70,9 +70,9 @@ void Visits::ask_next_length(const WorldView& world, BehaviourContext& context) 
   if (from_ == 0)
     request.from.pose = world.pose.T_map_robot;
   else
-    request.from = place_of(stops_[from_ - 1], world.graph);
+    request.from = place_of(stops_[from_ - 1], world);
   Stop& stop = stops_[to_ - 1];
-  request.to = place_of(stop, world.graph);
+  request.to = place_of(stop, world);
   const auto is_known = [](const Place& place) { return place.pose || !place.landmarks.empty(); };
   PlanResult route;
   if (is_known(request.from) && is_known(request.to)) route = context.plan(request);
@@ -87,9 +87,9 @@ void Visits::ask_next_length(const WorldView& world, BehaviourContext& context) 
 
 bool Visits::resolve(const WorldView& world) {
   const Stop& stop = stops_[next_];
-  goal_ = place_of(stop, world.graph);
+  goal_ = place_of(stop, world);
   if (goal_->pose || !goal_->landmarks.empty()) return true;
-  unknown_ = find_place(stop.name, world.graph).unknown;
+  unknown_ = find_place(stop.name, world).unknown;
   goal_.reset();
   return false;
 }

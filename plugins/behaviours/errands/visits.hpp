@@ -69,7 +69,7 @@ class Visits {
   Status wait(const WorldView& world);
   Status leave_out(const std::string& why, bool may_be_left_out);
   [[nodiscard]] bool resolve(const WorldView& world);
-  [[nodiscard]] Place place_of(const Stop& stop, const LandmarkGraph& graph) const;
+  [[nodiscard]] Place place_of(const Stop& stop, const WorldView& world) const;
 
   VisitSettings settings_;
   std::uint64_t seed_;

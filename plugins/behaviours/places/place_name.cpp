@@ -6,12 +6,17 @@
 #include "framework/config/fields.hpp"
 #include "framework/config/named_category.hpp"
 #include "maps/base/text.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
 
 namespace cairn::behaviours {
 namespace {
 
 constexpr std::size_t kMaxListed = 12;
 const std::string kNearest = "nearest ";
+
+ClusterTree clusters_of(const WorldView& world) {
+  return world.hierarchies == nullptr ? ClusterTree{} : world.hierarchies->last_tree();
+}
 
 std::string known_landmarks(const LandmarkGraph& graph) {
   if (graph.landmarks().empty()) return "the map holds no landmark";
@@ -62,7 +67,7 @@ PlaceName place_name_of(const Point& at_m) {
   return {described(at_m), at_m};
 }
 
-FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph) {
+FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph, const ClusterTree& clusters) {
   FoundPlace found;
   std::vector<std::string> names;
   if (name.starts_with(kNearest)) {
@@ -73,22 +78,36 @@ FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph) {
     found.unknown = "no landmark of category \"" + category + "\"" + did_you_mean(category, names);
   } else {
     if (const Landmark* landmark = graph.find_by_name(name)) return {{std::nullopt, false, {landmark->id}}, ""};
-    // A bare category is its nearest landmark, unless a landmark is called so.
+    if (const Cluster* cluster = find_cluster(clusters, graph, name)) {
+      found.place.landmarks = members_of(clusters, cluster->id);
+      std::erase_if(found.place.landmarks, [&](LandmarkId id) { return graph.find(id) == nullptr; });
+      if (!found.place.landmarks.empty()) return found;
+    }
+    // A bare category is its nearest landmark, unless a landmark or a cluster is called so.
     found.place.landmarks = graph.of_category(name);
     if (!found.place.landmarks.empty()) return found;
     for (const auto& [id, landmark] : graph.landmarks()) {
       names.push_back(label_of(landmark));
       if (!landmark.category.empty()) names.push_back(landmark.category);
     }
+    for (const auto& [id, cluster] : clusters.clusters) names.push_back(label_of(cluster, graph));
     found.unknown = "no landmark \"" + name + "\"" + did_you_mean(name, names);
   }
   found.unknown += "; " + known_landmarks(graph);
   return found;
 }
 
-FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph) {
+FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph, const ClusterTree& clusters) {
   if (name.at_m) return {{Pose2{name.at_m->x(), name.at_m->y(), 0.0}, false, {}}, ""};
-  return find_landmarks(name.text, graph);
+  return find_landmarks(name.text, graph, clusters);
+}
+
+FoundPlace find_landmarks(const std::string& name, const WorldView& world) {
+  return find_landmarks(name, world.graph, clusters_of(world));
+}
+
+FoundPlace find_place(const PlaceName& name, const WorldView& world) {
+  return find_place(name, world.graph, clusters_of(world));
 }
 
 bool names_retired(const Place& goal, const LandmarkGraph& graph) {
@@ -122,7 +141,7 @@ LandmarkId cheapest_of(const std::vector<LandmarkId>& ids, const WorldView& worl
 }
 
 ChosenLandmark choose_landmark(const std::string& name, const WorldView& world, BehaviourContext& context) {
-  const FoundPlace found = find_landmarks(name, world.graph);
+  const FoundPlace found = find_landmarks(name, world);
   if (!found.unknown.empty()) return {0, found.unknown};
   return {cheapest_of(found.place.landmarks, world, context), ""};
 }

@@ -1,4 +1,4 @@
-// Places as missions write them: `[x, y]`, a landmark's id or name, `nearest CATEGORY`.
+// Places as missions write them: `[x, y]`, a landmark's or cluster's id or name, `nearest CATEGORY`.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 
 #include "framework/config/config_value.hpp"
 #include "framework/contracts/behaviour.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 
 namespace cairn::behaviours {
 
@@ -25,9 +26,14 @@ struct FoundPlace {
   Place place;
   std::string unknown;
 };
-// Of a landmark's id or name, or `nearest CATEGORY`.
-[[nodiscard]] FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph);
-[[nodiscard]] FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph);
+// Of a landmark's id or name, `nearest CATEGORY`, or a cluster's id or name: any of its landmarks.
+[[nodiscard]] FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph,
+                                        const ClusterTree& clusters = {});
+[[nodiscard]] FoundPlace find_place(const PlaceName& name, const LandmarkGraph& graph,
+                                    const ClusterTree& clusters = {});
+// As the mission last formed its clusters; none where the world has none.
+[[nodiscard]] FoundPlace find_landmarks(const std::string& name, const WorldView& world);
+[[nodiscard]] FoundPlace find_place(const PlaceName& name, const WorldView& world);
 
 // Whether a landmark of a goal is known no more: planners refuse all of it then, so its name must be looked up again.
 [[nodiscard]] bool names_retired(const Place& goal, const LandmarkGraph& graph);

@@ -17,7 +17,8 @@ LandmarkGraph two_landmarks() {
   return graph;
 }
 
-const std::string kWhatAPlaceIs = "; a place is x,y or x,y,angle_deg, a landmark's id or name, or `nearest CATEGORY`";
+const std::string kWhatAPlaceIs =
+    "; a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, or `nearest CATEGORY`";
 
 std::string error_of(const std::string& text) {
   try {
@@ -71,16 +72,27 @@ TEST(Place, ABareCategoryIsItsNearestLandmarkUnlessALandmarkIsCalledSo) {
   EXPECT_EQ(parse_place("circle", graph).landmarks, std::vector<LandmarkId>{1});
 }
 
+TEST(Place, AClusterIsAnyOfItsLandmarks) {
+  const LandmarkGraph graph = two_landmarks();
+  const ClusterTree clusters{
+      {{1, {1, 1, 3, 1, ""}}, {2, {2, 1, 3, 2, "circle"}}, {3, {3, 2, 0, 1, "desk"}}}, {{1, 1}, {2, 2}}, 4};
+  EXPECT_EQ(parse_place("C1:desk", graph, clusters).landmarks, std::vector<LandmarkId>{1});
+  EXPECT_EQ(parse_place("C2:L1", graph, clusters).landmarks, (std::vector<LandmarkId>{1, 2}));
+  EXPECT_EQ(parse_place("circle", graph, clusters).landmarks, std::vector<LandmarkId>{2}) << "wins over a category";
+  EXPECT_EQ(parse_place("desk", graph, clusters).landmarks, std::vector<LandmarkId>{1}) << "a landmark wins";
+  EXPECT_THROW(static_cast<void>(parse_place("C1:desk", graph)), PlaceError);
+}
+
 TEST(Place, AnUnknownCategoryNamesTheNearestKnownOne) {
   EXPECT_EQ(error_of("nearest sqare"),
             "no landmark of category \"sqare\" (did you mean \"square\"?); the map holds: circle, square");
 }
 
 TEST(Place, AnUnknownPlaceSaysWhatAPlaceIs) {
-  EXPECT_EQ(
-      error_of("desc"),
-      "unknown place \"desc\" (did you mean \"desk\"?); a place is x,y or x,y,angle_deg, a landmark's id or name, "
-      "or `nearest CATEGORY`");
+  EXPECT_EQ(error_of("desc"),
+            "unknown place \"desc\" (did you mean \"desk\"?); a place is x,y or x,y,angle_deg, a landmark's or "
+            "cluster's id or name, "
+            "or `nearest CATEGORY`");
 }
 
 TEST(Place, WhatIsAPlaceOnNoMapIsMalformed) {

@@ -185,7 +185,7 @@ TEST(Hierarchy, RefusesACostThatNoSearchCanUse) {
   const LandmarkGraph graph = test::random_graph(10, 1);
   EXPECT_THROW(Hierarchy(graph, {}, [](const Route&) { return -1.0; }), std::invalid_argument);
   EXPECT_THROW(Hierarchy(graph, {}, [](const Route&) { return kNoRoute; }), std::invalid_argument);
-  EXPECT_THROW(Hierarchy(graph, {}, cost_by_length, {1, 2, 8}), std::invalid_argument);
+  EXPECT_THROW(Hierarchy(graph, {}, cost_by_length, ClusterSizes{1, 2, 8}), std::invalid_argument);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST(Overlay, AWayThroughTheNeighbourDoesNotCount) {
   LandmarkGraph graph = drawn_graph("1<>2 3<>4 1<>3 2<>4");
   for (const auto& [id, route] : graph.routes()) graph.set_cost(id, id <= 2 ? 10.0 : 1.0);
   const ClusterTree halves{{{1, {1, 1, 0, 1, {}}}, {2, {2, 1, 0, 3, {}}}}, {{1, 1}, {2, 1}, {3, 2}, {4, 2}}, 3};
-  const Hierarchy hierarchy(graph, halves, cost_by_length, {2, 2, 2});
+  const Hierarchy hierarchy(graph, halves, cost_by_length, ClusterSizes{2, 2, 2, 2});
   const VertexIndex one = hierarchy.network().vertex_of(1);
   const ClusterIndex half = hierarchy.clustering().leaf_of(one);
   ASSERT_EQ(half, hierarchy.clustering().leaf_of(hierarchy.network().vertex_of(2)));
@@ -34,7 +34,7 @@ TEST(Overlay, AClosedRouteIsNoWayButStaysOnTheBoundary) {
   graph.set_closed(5, true);  // 2 > 3
   graph.set_closed(6, true);  // 3 > 2
   const ClusterTree halves{{{1, {1, 1, 0, 1, {}}}, {2, {2, 1, 0, 3, {}}}}, {{1, 1}, {2, 1}, {3, 2}, {4, 2}}, 3};
-  Hierarchy hierarchy(graph, halves, cost_by_length, {2, 2, 2});
+  Hierarchy hierarchy(graph, halves, cost_by_length, ClusterSizes{2, 2, 2, 2});
   const ClusterIndex half = hierarchy.clustering().leaf_of(hierarchy.network().vertex_of(2));
   const Passage& passage = hierarchy.overlay().passage(half);
   ASSERT_EQ(passage.boundary(), 1U);

@@ -20,7 +20,7 @@ class RandomMap {
       map.graph.add_route(route(map.graph));
     for (std::int64_t i = below(6); i > 0; --i)
       if (const Landmark* gone = map.graph.find(1 + below(40)); gone != nullptr) map.graph.retire(gone->id, text());
-    map.clusters = Hierarchy(map.graph, {}, cost_by_length, {4, 2, 8}).tree();
+    map.clusters = Hierarchy(map.graph, {}, cost_by_length, ClusterSizes{4, 2, 8}).tree();
     for (auto& [id, cluster] : map.clusters.clusters) cluster.name = text();
     for (std::int64_t i = below(5); i > 0; --i) map.shapes.push_back(shape());
     for (std::int64_t i = below(50); i > 0; --i) map.driven_path.push_back(pose());

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "maps/hierarchy/hierarchies.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
@@ -19,6 +21,31 @@ TEST(PlaceNames, AnEmptyMapHoldsNothing) {
   EXPECT_EQ(find_landmarks("L3", LandmarkGraph()).unknown, "no landmark \"L3\"; the map holds no landmark");
   EXPECT_EQ(find_landmarks("nearest square", LandmarkGraph()).unknown,
             "no landmark of category \"square\"; the map holds no landmark");
+}
+
+TEST(PlaceNames, AClusterIsThoseOfItsLandmarksThatAreLeft) {
+  LandmarkGraph graph;
+  for (int i = 0; i < 4; ++i) graph.add({});
+  const ClusterTree clusters{
+      {{1, {1, 1, 0, 1, "kitchen"}}, {2, {2, 1, 0, 3, ""}}}, {{1, 1}, {2, 1}, {3, 2}, {4, 2}}, 3};
+  EXPECT_THAT(find_landmarks("kitchen", graph, clusters).place.landmarks, ElementsAre(1, 2));
+  EXPECT_THAT(find_landmarks("C1:L3", graph, clusters).place.landmarks, ElementsAre(3, 4));
+  EXPECT_THAT(find_landmarks("kitchn", graph, clusters).unknown, HasSubstr("did you mean \"kitchen\"?"));
+  graph.remove(2);
+  EXPECT_THAT(find_landmarks("kitchen", graph, clusters).place.landmarks, ElementsAre(1));
+}
+
+TEST(PlaceNames, TheWorldsHierarchiesNameItsClusters) {
+  LandmarkGraph graph;
+  for (int i = 0; i < 2; ++i) graph.add({});
+  const ClusterTree clusters{{{1, {1, 1, 0, 1, "kitchen"}}, {2, {2, 1, 0, 2, ""}}}, {{1, 1}, {2, 2}}, 3};
+  const Hierarchies hierarchies(graph, clusters, {});
+  const OccupancyGrid grid(0.1);
+  const RobotModel robot;
+  WorldView world{grid, graph, robot, {}};
+  EXPECT_THAT(find_landmarks("kitchen", world).unknown, HasSubstr("no landmark \"kitchen\""));
+  world.hierarchies = &hierarchies;
+  EXPECT_THAT(find_place({"kitchen", std::nullopt}, world).place.landmarks, ElementsAre(1));
 }
 
 TEST(PlaceNames, ALongListOfLandmarksIsCut) {
