@@ -87,13 +87,14 @@ std::variant<std::vector<GoalPlace>, Refusal> LocalEnds::goals(const Place& plac
   return goals;
 }
 
-std::optional<NearGoal> LocalEnds::nearest(const StartPlace& start, const std::vector<GoalPlace>& goals) const {
+std::optional<NearGoal> LocalEnds::nearest(const StartPlace& start, const std::vector<GoalPlace>& goals,
+                                           double within_m) const {
   const Point from = start.leave_from;
   std::optional<NearGoal> nearest;
   for (std::size_t i = 0; i < goals.size() && !budget_.exhausted(); ++i) {
     const Point to = goals[i].pose.position();
     const double straight_m = (to - from).norm();
-    if (straight_m > windows_.near_m || (nearest && straight_m >= nearest->min_m)) continue;
+    if (straight_m > within_m || (nearest && straight_m >= nearest->min_m)) continue;
     const CellBox box = ground_.box_round(from, to, windows_.reach_blocks);
     const double inside_m = ground_.window_of(box)->routes->length_lower_bound_m(from, to, budget_);
     const double min_m = std::min(inside_m, ground_.min_outside_m(from, to, box));

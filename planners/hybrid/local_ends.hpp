@@ -26,8 +26,9 @@ class LocalEnds {
   [[nodiscard]] std::variant<StartPlace, Refusal> start(const Place& place) const;
   [[nodiscard]] std::variant<std::vector<GoalPlace>, Refusal> goals(const Place& place, const StartPlace& start) const;
 
-  // The goal with the shortest path, of those near the start.
-  [[nodiscard]] std::optional<NearGoal> nearest(const StartPlace& start, const std::vector<GoalPlace>& goals) const;
+  // The goal with the shortest path, of those so near the start.
+  [[nodiscard]] std::optional<NearGoal> nearest(const StartPlace& start, const std::vector<GoalPlace>& goals,
+                                                double within_m) const;
 
   [[nodiscard]] SymbolicEnd joined(const StartPlace& start) const;
   [[nodiscard]] SymbolicEnd joined(const std::vector<GoalPlace>& goals) const;

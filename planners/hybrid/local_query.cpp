@@ -30,6 +30,7 @@ class LocalQuery {
         request_(request),
         world_(world),
         budget_(budget),
+        windows_(windows),
         ground_(world, ends.ground, legs.disc_m, tools.path_planner, tools.windows, windows, tools.config.shortcut),
         ends_(ground_, ends, windows, budget) {}
 
@@ -62,7 +63,7 @@ class LocalQuery {
   }
 
   std::optional<PlanResult> found() {
-    const std::optional<NearGoal> near = ends_.nearest(start_, goals_);
+    const std::optional<NearGoal> near = ends_.nearest(start_, goals_, windows_.near_m);
     SymbolicEnd from = ends_.joined(start_);
     SymbolicEnd to = ends_.joined(goals_);
     if (from.empty() || to.empty())
@@ -78,7 +79,10 @@ class LocalQuery {
       to.remove(*unreached);
       why_none_ = "the landmarks near an end cannot be reached from it";
     }
-    return near ? directly(*near, std::numeric_limits<double>::infinity()) : std::nullopt;
+    // Also where both ends are joined to the same landmark.
+    const double joined_m = 2.0 * (windows_.reach_blocks + 1) * windows_.block_m;
+    const auto goal = near ? near : ends_.nearest(start_, goals_, std::max(joined_m, windows_.near_m));
+    return goal ? directly(*goal, std::numeric_limits<double>::infinity()) : std::nullopt;
   }
 
   // Along landmarks, or directly where that is much shorter. None when neither is found; `unreached` is a landmark that
@@ -164,6 +168,7 @@ class LocalQuery {
   const PlanRequest& request_;
   const WorldView& world_;
   const Budget& budget_;
+  const WindowRules& windows_;
   WindowedGround ground_;
   LocalEnds ends_;
   StartPlace start_;

@@ -26,7 +26,7 @@ PathResult path_of(const DiscRoute& found, const Pose2& from, const Place& to) {
   PathResult result;
   if (found.route.empty()) return result;
   result.outcome = PlanOutcome::solved;
-  result.reason = "the shortest path round here";
+  result.reason = "the shortest path in the surroundings of both ends";
   result.length_m = length_of(found.route);
   result.cost_m = result.length_m;
   result.length_lower_bound_m = found.length_lower_bound_m;
@@ -87,10 +87,7 @@ WindowedGround::WindowedGround(const WorldView& world, const GroundRules& rules,
       cache_(cache),
       windows_(windows),
       shortest_(shortest),
-      block_cells_(std::max(1, static_cast<int>(std::ceil(windows.block_m / world.grid.cell_m())))) {
-  if (block_cells_ > OccupancyGrid::kTileSide)  // whole tiles
-    block_cells_ = OccupancyGrid::kTileSide * (1 + (block_cells_ - 1) / OccupancyGrid::kTileSide);
-}
+      block_cells_(std::max(1, static_cast<int>(std::lround(windows.block_m / world.grid.cell_m())))) {}
 
 void WindowedGround::require_near(const Point& from, const Point& to, double reach_m) const {
   if (world_.cells == nullptr) return;
@@ -116,7 +113,7 @@ std::optional<Pose2> WindowedGround::approach(const Landmark& landmark) const {
 PathResult WindowedGround::path(const PathRequest& request, const Budget& budget) const {
   const Point from = request.from.pose->position();
   const Point to = request.to.pose->position();
-  const CellBox box = box_round(from, to, windows_.reach_blocks);
+  const CellBox box = window_with(from, to);
   const std::shared_ptr<const Window> window = window_of(box);
   PathResult result;
   if (shortest_ && request.cost == CostKind::length)
@@ -178,8 +175,20 @@ CellBox WindowedGround::box_round(const Point& a, const Point& b, int reach_bloc
 }
 
 std::shared_ptr<const Window> WindowedGround::window_of(const CellBox& box) const {
+  for (const auto& [used, window] : used_)
+    if (used == box) return window;
   if (world_.cells != nullptr) world_.cells->require(box);
-  return cache_.window_of(world_, box, rules_, disc_m_);
+  used_.emplace_back(box, cache_.window_of(world_, box, rules_, disc_m_));
+  return used_.back().second;
+}
+
+// What is beside the ends counts too: a block on each side, where the grid goes on.
+CellBox WindowedGround::window_with(const Point& from, const Point& to) const {
+  const CellBox all = box_round(from, to, windows_.reach_blocks);
+  const CellBox ends = box_round(from, to, 0);
+  for (const auto& [used, window] : used_)
+    if (used == all || united(used, ends) == used) return used;
+  return all;
 }
 
 double WindowedGround::min_outside_m(const Point& from, const Point& to, const CellBox& box) const {

@@ -11,8 +11,8 @@
 namespace cairn {
 
 struct WindowRules {
-  double block_m = 8.0;  // windows are whole blocks of at least that side
-  int reach_blocks = 1;  // on each side of a place's own block, at first
+  double block_m = 10.0;  // windows are whole blocks of that side
+  int reach_blocks = 1;   // on each side of a place's own block, at first
   int max_reach_blocks = 4;
   double near_m = 20.0;  // a goal so near is also tried without landmarks
 };
@@ -45,8 +45,7 @@ class WindowCache {
   mutable std::list<Entry> entries_;  // the last used first
 };
 
-// A large grid, of which paths are planned in windows; lines are checked cell by cell where they lie. Thread-safe where
-// all of the grid is in memory.
+// A large grid, of which paths are planned in windows; lines are checked cell by cell where they lie. For one request.
 class WindowedGround : public PlanningGround {
  public:
   // All must outlive it. robot_m: of the requests' disc, to which the path planner adds its margin; disc_m: of that
@@ -57,7 +56,8 @@ class WindowedGround : public PlanningGround {
   [[nodiscard]] const WorldView& world() const override { return world_; }
   [[nodiscard]] bool fits_along(const Point& from, const Point& to) const override;
   [[nodiscard]] std::optional<Pose2> approach(const Landmark& landmark) const override;
-  // In the window round both ends. Its lower bound, if any, holds for the whole grid.
+  // In a window that was used before and holds both ends, else in the one round both. Its lower bound, if any, holds
+  // for the whole grid.
   [[nodiscard]] PathResult path(const PathRequest& request, const Budget& budget) const override;
   [[nodiscard]] double clearance_m(const std::vector<Point>& route, double radius_m) const override;
   [[nodiscard]] ShortcutRules shortcuts() const override;
@@ -73,6 +73,7 @@ class WindowedGround : public PlanningGround {
   void require_near(const Point& from, const Point& to, double reach_m) const;
   [[nodiscard]] bool is_blocked(Cell cell) const { return rules_.blocks(world_.grid.state(cell, rules_.thresholds)); }
   [[nodiscard]] double distance_m(const Point& from, const Point& to, double max_m) const;
+  [[nodiscard]] CellBox window_with(const Point& from, const Point& to) const;
 
   const WorldView& world_;
   GroundRules rules_;
@@ -82,6 +83,7 @@ class WindowedGround : public PlanningGround {
   WindowRules windows_;
   bool shortest_;
   int block_cells_;
+  mutable std::vector<std::pair<CellBox, std::shared_ptr<const Window>>> used_;
 };
 
 }  // namespace cairn

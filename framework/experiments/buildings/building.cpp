@@ -92,8 +92,8 @@ class Plan {
     const double far_m = 0.5 * kRowPitch_m - 0.5 * kWall_m;
     const auto at_y = [&](double off_m) { return y_of(row) + side * off_m; };
     const auto box = [&](double x_low, double x_high, double off_a_m, double off_b_m, LogOdds value) {
-      const auto [low, high] = std::minmax(at_y(off_a_m), at_y(off_b_m));
-      fill({x_low, low}, {x_high, high}, value);
+      const Span across = side > 0.0 ? Span{at_y(off_a_m), at_y(off_b_m)} : Span{at_y(off_b_m), at_y(off_a_m)};
+      fill({x_low, across.low}, {x_high, across.high}, value);
     };
     for (double x = span.low; span.high - x >= 4.0;) {
       double width_m = random.between(4.0, 9.0);

@@ -25,6 +25,7 @@ namespace {
 
 struct Run {
   double wall_s = 0.0;
+  double cpu_s = 0.0;
   double peak_mb = 0.0;
 };
 
@@ -50,8 +51,11 @@ Run asked(std::vector<std::string> arguments, const std::filesystem::path& outpu
   // One that answers and finds no route ends with kExitNotSolved.
   if (!WIFEXITED(status) || WEXITSTATUS(status) > kExitNotSolved)
     throw std::runtime_error("experiment: cairn plan " + arguments[2] + " failed");
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-          static_cast<double>(used.ru_maxrss) / 1024.0};
+          seconds(used.ru_utime) + seconds(used.ru_stime), static_cast<double>(used.ru_maxrss) / 1024.0};
 }
 
 struct Answer {
@@ -80,12 +84,6 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(std::max(at, 0.0))];
 }
 
-std::vector<double> times_of(const std::vector<Answer>& answers) {
-  std::vector<double> times;
-  for (const Answer& answer : answers) times.push_back(answer.total_ms);
-  return times;
-}
-
 std::string text_of_place(const Point& at) {
   return fmt::format("{:.3f},{:.3f}", at.x(), at.y());
 }
@@ -98,6 +96,18 @@ void write_questions(const std::filesystem::path& file, const std::vector<std::p
                         text_of_place(pairs[i].second));
   write_file(file, text);
 }
+
+// Of one planner, on one map.
+struct Asked {
+  std::vector<Answer> answers;
+  Run first;  // with opening the map and whatever is prepared
+  Run all;
+
+  // Of the processor for one more answer.
+  [[nodiscard]] double further_ms() const {
+    return answers.size() < 2 ? 0.0 : 1e3 * (all.cpu_s - first.cpu_s) / static_cast<double>(answers.size() - 1);
+  }
+};
 
 class BuildingRow {
  public:
@@ -116,68 +126,74 @@ class BuildingRow {
   }
 
   void ask() {
-    write_questions(out_ / "all.jsonl", pairs_, pairs_.size());
-    over_ = asked({map_file_, "--queries", out_ / "all.jsonl", "--jobs", "1"}, out_ / "answers.jsonl");
-    answers_ = answers_in(out_ / "answers.jsonl");
-    for (int i = 0; i < std::min<int>(config_.first_answers, static_cast<int>(pairs_.size())); ++i) {
-      const auto& [from, to] = pairs_[static_cast<std::size_t>(i)];
+    hybrid_ = asked_of("hybrid", pairs_.size(), {});
+    for (std::size_t i = 0; i < std::min(pairs_.size(), static_cast<std::size_t>(config_.first_answers)); ++i)
       firsts_.push_back(
-          asked({map_file_, "--from", text_of_place(from), "--to", text_of_place(to)}, out_ / "one.json"));
-    }
-    if (config_.whole_pairs == 0) return;
-    write_questions(out_ / "some.jsonl", pairs_, static_cast<std::size_t>(config_.whole_pairs));
-    all_ = asked({map_file_, "--queries", out_ / "some.jsonl", "--jobs", "1", "--planner", "ompl", "--set",
-                  "improve_iterations=0"},
-                 out_ / "shortest.jsonl");
-    shortest_ = answers_in(out_ / "shortest.jsonl");
+          asked({map_file_, "--from", text_of_place(pairs_[i].first), "--to", text_of_place(pairs_[i].second)},
+                out_ / "one.json"));
+    if (config_.whole_pairs > 0)
+      shortest_ = asked_of("ompl", static_cast<std::size_t>(config_.whole_pairs), {"--set", "improve_iterations=0"});
   }
 
-  [[nodiscard]] std::string text() const {
+  [[nodiscard]] std::string over_landmarks_text() const {
+    std::vector<double> times_ms;
+    for (const Answer& answer : hybrid_.answers) times_ms.push_back(answer.total_ms);
     std::vector<double> firsts_s;
     double first_mb = 0.0;
     for (const Run& run : firsts_) {
       firsts_s.push_back(run.wall_s);
       first_mb = std::max(first_mb, run.peak_mb);
     }
-    const auto times = times_of(answers_);
-    const auto solved = std::count_if(answers_.begin(), answers_.end(), [](const Answer& a) { return a.is_solved; });
-    const auto whole = std::count_if(answers_.begin(), answers_.end(), [](const Answer& a) { return a.on_whole_grid; });
-    std::string text =
-        fmt::format("| {:g} x {:g} | {} | {} | {}/{} | {} | {:.1f} | {:.1f} | {:.0f} | {:.2f} | {:.2f} | {:.0f} |",
-                    side_m_, side_m_, landmarks_, routes_, solved, answers_.size(), whole, quantile(times, 0.5),
-                    quantile(times, 0.95), over_.peak_mb, quantile(firsts_s, 0.5), quantile(firsts_s, 1.0), first_mb);
-    return text + whole_text(quantile(firsts_s, 0.5)) + "\n";
+    const auto count = [&](auto is_so) { return std::count_if(hybrid_.answers.begin(), hybrid_.answers.end(), is_so); };
+    return fmt::format(
+        "| {0:g} x {0:g} | {1} | {2} | {3}/{4} | {5} | {6:.1f} | {7:.1f} | {8:.1f} | {9:.2f} | {10:.2f} | "
+        "{11:.0f} | {12:.0f} |\n",
+        side_m_, landmarks_, routes_, count([](const Answer& a) { return a.is_solved; }), hybrid_.answers.size(),
+        count([](const Answer& a) { return a.on_whole_grid; }), quantile(times_ms, 0.5), quantile(times_ms, 0.95),
+        hybrid_.further_ms(), quantile(firsts_s, 0.5), quantile(firsts_s, 1.0), first_mb, hybrid_.all.peak_mb);
+  }
+
+  [[nodiscard]] std::string against_shortest_text() const {
+    double sum = 0.0;
+    double worst = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < shortest_.answers.size(); ++i) {
+      const Answer& best = shortest_.answers[i];
+      const Answer& over = hybrid_.answers[i];
+      if (!best.is_solved || !over.is_solved) continue;
+      sum += over.length_m / best.length_m;
+      worst = std::max(worst, over.length_m / best.length_m);
+      count += 1.0;
+    }
+    return fmt::format(
+        "| {0:g} x {0:g} | {1:.3f} | {2:.3f} | {3:.2f} | {4:.2f} | {5:.0f} | {6:.1f} | {7:.1f} | {8:.0f} |\n", side_m_,
+        sum / std::max(count, 1.0), worst, hybrid_.first.cpu_s, shortest_.first.cpu_s,
+        shortest_.first.cpu_s / std::max(hybrid_.first.cpu_s, 1e-9), hybrid_.further_ms(), shortest_.further_ms(),
+        shortest_.all.peak_mb);
   }
 
   // Whether each question is solved by both or by neither.
   [[nodiscard]] bool is_as_it_must_be() const {
-    for (std::size_t i = 0; i < shortest_.size(); ++i)
-      if (shortest_[i].is_solved != answers_[i].is_solved) return false;
-    return answers_.size() == pairs_.size();
+    for (std::size_t i = 0; i < shortest_.answers.size(); ++i)
+      if (shortest_.answers[i].is_solved != hybrid_.answers[i].is_solved) return false;
+    return hybrid_.answers.size() == pairs_.size();
   }
 
  private:
-  [[nodiscard]] std::string whole_text(double first_s) const {
-    if (shortest_.empty()) return " | | | | | | |";
-    double sum = 0.0;
-    double worst = 0.0;
-    double count = 0.0;
-    double whole_ms = 0.0;
-    std::vector<double> over_ms;
-    for (std::size_t i = 0; i < shortest_.size(); ++i) {
-      whole_ms += shortest_[i].total_ms;
-      over_ms.push_back(answers_[i].total_ms);
-      if (!shortest_[i].is_solved || !answers_[i].is_solved) continue;
-      const double ratio = answers_[i].length_m / shortest_[i].length_m;
-      sum += ratio;
-      worst = std::max(worst, ratio);
-      count += 1.0;
-    }
-    const double shortest_ms = quantile(times_of(shortest_), 0.5);
-    const double prepared_s = all_.wall_s - whole_ms / 1e3;
-    return fmt::format(" {:.1f} | {:.1f} | {:.0f} | {:.1f} | {:.0f} | {:.3f} | {:.3f} |", prepared_s, shortest_ms,
-                       all_.peak_mb, shortest_ms / std::max(quantile(over_ms, 0.5), 1e-9),
-                       (prepared_s + shortest_ms / 1e3) / std::max(first_s, 1e-9), sum / std::max(count, 1.0), worst);
+  [[nodiscard]] Asked asked_of(const std::string& planner, std::size_t count,
+                               const std::vector<std::string>& more) const {
+    const auto run = [&](std::size_t questions) {
+      const std::filesystem::path file = out_ / "questions.jsonl";
+      write_questions(file, pairs_, questions);
+      std::vector<std::string> arguments{map_file_, "--queries", file, "--jobs", "1", "--planner", planner};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return asked(arguments, out_ / (planner + ".jsonl"));
+    };
+    Asked asked_here;
+    asked_here.first = run(1);
+    asked_here.all = run(count);
+    asked_here.answers = answers_in(out_ / (planner + ".jsonl"));
+    return asked_here;
   }
 
   const BuildingsConfig& config_;
@@ -187,33 +203,35 @@ class BuildingRow {
   std::size_t landmarks_ = 0;
   std::size_t routes_ = 0;
   std::vector<std::pair<Point, Point>> pairs_;
-  Run over_;
-  std::vector<Answer> answers_;
+  Asked hybrid_;
   std::vector<Run> firsts_;
-  Run all_;
-  std::vector<Answer> shortest_;
+  Asked shortest_;
 };
 
-constexpr const char* kHead =
-    "| m | landmarks | routes | solved | whole grid | hybrid, ms | p95 | MB | first answer, s | worst | MB | prepared, "
-    "s "
-    "| shortest, ms | MB | times faster | first, times faster | length ratio | worst |\n"
-    "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+constexpr const char* kOverLandmarksHead =
+    "| m | landmarks | routes | solved | by the whole grid | median, ms | p95, ms | processor, ms | first answer, s | "
+    "worst, s | MB | MB, all questions |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+constexpr const char* kAgainstShortestHead =
+    "| m | length ratio, mean | worst | first answer, processor s | by the whole grid, s | times faster | further "
+    "answers, ms | by the whole grid, prepared, ms | MB of the whole grid |\n"
+    "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
 
 }  // namespace
 
 int buildings_experiment(const ExperimentConfig& config, const std::filesystem::path& out) {
-  std::string table = kHead;
-  std::cout << kHead;
+  std::string over_landmarks = kOverLandmarksHead;
+  std::string against_shortest = kAgainstShortestHead;
   bool as_it_must_be = true;
   for (const double side_m : config.buildings.sides_m) {
     BuildingRow row(config.buildings, side_m, static_cast<std::uint64_t>(config.seeds.from), out);
     row.ask();
     as_it_must_be = row.is_as_it_must_be() && as_it_must_be;
-    table += row.text();
-    std::cout << row.text() << std::flush;
+    over_landmarks += row.over_landmarks_text();
+    if (config.buildings.whole_pairs > 0) against_shortest += row.against_shortest_text();
   }
+  const std::string table = over_landmarks + "\n" + against_shortest;
   write_file(out / "table.md", table);
+  std::cout << table << "Table: " << (out / "table.md").string() << ", the maps beside it\n";
   return as_it_must_be ? kExitDone : kExitNotSolved;
 }
 
