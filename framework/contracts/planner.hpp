@@ -81,6 +81,8 @@ class Planner {
   // What can be done before anyone waits, when a world will be asked about with discs of that radius. Changes no
   // answer. Thread-safe like plan().
   virtual void prepare(const WorldView& /*world*/, double /*radius_m*/) const {}
+  // Whether plan() asks WorldView::cells for what it needs of a grid that is not whole in memory.
+  [[nodiscard]] virtual bool requires_cells() const { return false; }
 };
 
 template <>

@@ -11,6 +11,7 @@
 
 namespace cairn {
 
+class CellSource;
 class Hierarchies;
 
 struct WorldView {
@@ -26,7 +27,8 @@ struct WorldView {
   // Where this is the same number and not 0, so is what the grid holds. Never the same for two grids that one planner
   // sees.
   std::uint64_t grid_version = 0;
-  Pose2 T_map_start{};  // where the mission began; a mission that was resumed, where it began at first
+  const CellSource* cells = nullptr;  // of a grid that is not whole in memory; null: it is
+  Pose2 T_map_start{};                // where the mission began; a mission that was resumed, where it began at first
 };
 
 }  // namespace cairn

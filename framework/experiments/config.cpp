@@ -8,13 +8,11 @@ namespace cairn {
 namespace {
 
 const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
-  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
-                                                                          {"maps", ExperimentKind::maps},
-                                                                          {"places", ExperimentKind::places},
-                                                                          {"orbit", ExperimentKind::orbit},
-                                                                          {"recognition", ExperimentKind::recognition},
-                                                                          {"curves", ExperimentKind::curves},
-                                                                          {"trials", ExperimentKind::trials}};
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{
+      {"missions", ExperimentKind::missions},       {"maps", ExperimentKind::maps},
+      {"places", ExperimentKind::places},           {"orbit", ExperimentKind::orbit},
+      {"recognition", ExperimentKind::recognition}, {"curves", ExperimentKind::curves},
+      {"trials", ExperimentKind::trials},           {"buildings", ExperimentKind::buildings}};
   return kKinds;
 }
 
@@ -71,7 +69,14 @@ void check_trials(const ExperimentConfig& config, const ConfigValue& value) {
 void check_missions(const ExperimentConfig& config, const ConfigValue& root) {
   const ConfigValue* missions = root.find("missions");
   const ConfigValue* trials = root.find("trials");
-  if (config.experiment == ExperimentKind::trials) {
+  const bool of_buildings = config.experiment == ExperimentKind::buildings;
+  if (const ConfigValue* buildings = root.find("buildings"); buildings != nullptr && !of_buildings)
+    throw ConfigError(buildings->place, "buildings goes with experiment: buildings");
+  if (of_buildings) {
+    if (missions != nullptr) throw ConfigError(missions->place, "an experiment of buildings runs no missions");
+    if (config.buildings.sides_m.empty())
+      throw ConfigError(root.find("buildings")->place, "sides_m must list at least one side");
+  } else if (config.experiment == ExperimentKind::trials) {
     if (missions != nullptr)
       throw ConfigError(missions->place, "an experiment of trials draws its missions and lists none");
     if (trials == nullptr) throw ConfigError(root.place, "an experiment of trials must say under trials what it draws");
@@ -175,9 +180,11 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
           "fits along an orbit round a landmark; `recognition`, which landmarks are found in random worlds; `curves`, "
           "precision "
           "and recall of several detectors on the grids of the same runs, at every threshold; `trials`, what comes of "
-          "random missions in random worlds with random faults")
+          "random missions in random worlds with random faults; `buildings`, what questions to the maps of small and "
+          "large buildings cost")
       .required = true;
-  fields.files("missions", &C::missions, "mission files; needed but for `trials`, which draws its own");
+  fields.files("missions", &C::missions,
+               "mission files; needed but for `trials`, which draws its own, and `buildings`");
   fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
   fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
   fields.group("seeds", &C::seeds, "which seeds");
@@ -200,6 +207,7 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
       "worlds", &C::worlds,
       "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
   fields.group("trials", &C::trials, "of `trials`: the missions that are drawn, how they are judged, and limits");
+  fields.group("buildings", &C::buildings, "of `buildings`: the buildings and the questions");
   fields.raw("detectors", &C::detectors_as_given, "list of detectors",
              "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
              "setting left out is as the mission's own detector has it; but tau_match is 0");

@@ -19,7 +19,7 @@ std::vector<Point> points_on(const std::vector<Pose2>& path) {
 
 }  // namespace
 
-PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget, const StartPlace& start,
+PlanResult joined(const AnswerRules& rules, const PlanningGround& ground, const Budget& budget, const StartPlace& start,
                   const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PathSegment> parts) {
   if (start.escape) {
     parts.push_back({PathSegment::Origin::escape, 0, 0.0});
@@ -28,28 +28,28 @@ PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Bud
   }
   if (rules.shortcut) {
     const std::size_t keep = start.escape ? 2 : 1;
-    const double disc_m = rules.radius_m + kMinRadius_m;
-    route = tightened(*start.space, straightened(*start.space, route, disc_m, keep, budget), disc_m, keep, budget);
+    const ShortcutRules shortcuts = ground.shortcuts();
+    route = tightened(shortcuts, straightened(shortcuts, route, keep, budget), keep, budget);
   }
   const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
   route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
   const std::vector<Point> points = points_of(route);
-  if (!route_is_free(grid, rules.ground, points, rules.radius_m, start.escape))
+  if (!route_is_free(ground.world().grid, rules.ground, points, rules.radius_m, start.escape))
     throw std::logic_error(fmt::format("hybrid: the re-check refused a path of {} points from {} to {}, radius {:f}",
                                        points.size(), text_of(points.front()), text_of(points.back()), rules.radius_m));
   PlanResult result;
   result.outcome = PlanOutcome::solved;
   result.length_m = length_of(points);
   result.cost_m = result.length_m;
-  result.clearance_m = clearance_along(*start.space, points, rules.robot_m);
+  result.clearance_m = ground.clearance_m(points, rules.robot_m);
   result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
   result.segments = segments_of(route, parts);
   return result;
 }
 
-PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,
+PlanResult over_landmarks(const AnswerRules& rules, const PlanningGround& ground, const Budget& budget,
                           const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path, const Walk& walk) {
-  PlanResult result = joined(rules, grid, budget, start, goal, walk.route, walk.parts);
+  PlanResult result = joined(rules, ground, budget, start, goal, walk.route, walk.parts);
   result.cost_m = walk.cost_m;
   result.landmarks = path.landmarks;
   result.routes = path.routes;
@@ -58,9 +58,9 @@ PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, c
   return result;
 }
 
-PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
+PlanResult as_planned(const AnswerRules& rules, const PlanningGround& ground, const StartPlace& start,
                       const GoalPlace& goal, const PlanResult& planned) {
-  if (!route_is_free(grid, rules.ground, points_on(planned.path), rules.radius_m)) {
+  if (!route_is_free(ground.world().grid, rules.ground, points_on(planned.path), rules.radius_m)) {
     return refused<PlanResult>(
         {PlanOutcome::out_of_budget, "the route planner's path touches something and was refused"});
   }
@@ -77,13 +77,25 @@ PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const
     result.cost_m += escape_m;
     result.length_lower_bound_m.reset();
   }
-  result.clearance_m = clearance_along(*start.space, points_on(result.path), rules.robot_m);
+  result.clearance_m = ground.clearance_m(points_on(result.path), rules.robot_m);
   result.landmarks.clear();
   const bool is_there = planned.outcome == PlanOutcome::solved;
   for (const LandmarkId id : {start.landmark, is_there ? goal.landmark : 0})
     if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
   result.reason = planned.reason + (is_there ? goal.note : "") + escape_text(start);
   return result;
+}
+
+std::string text_of_route(RouteId id, const LandmarkGraph& graph) {
+  const Route& route = *graph.find_route(id);
+  return fmt::format("route R{} ({} to {})", id, label_of(*graph.find(route.from)), label_of(*graph.find(route.to)));
+}
+
+void report_blocked(const std::set<RouteId>& blocked, const LandmarkGraph& graph, PlanResult& result) {
+  for (const RouteId id : blocked) {
+    result.blocked_routes.push_back(id);
+    result.reason += "; " + text_of_route(id, graph) + " is blocked";
+  }
 }
 
 }  // namespace cairn

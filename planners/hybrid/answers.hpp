@@ -1,6 +1,7 @@
 // Answers made of what was walked or planned: joined, shortened and re-checked.
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "planners/common/disc_space/ends.hpp"
@@ -15,20 +16,24 @@ struct AnswerRules {
   bool shortcut = true;
 };
 
-// Joins, shortens and re-checks on `grid`; `route` begins where the start is left. std::logic_error when the re-check
-// refuses it. Corners that the budget leaves no time for stay.
-[[nodiscard]] PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,
+// Joins, shortens and re-checks on the ground's grid; `route` begins where the start is left. std::logic_error when the
+// re-check refuses it. Corners that the budget leaves no time for stay.
+[[nodiscard]] PlanResult joined(const AnswerRules& rules, const PlanningGround& ground, const Budget& budget,
                                 const StartPlace& start, const GoalPlace& goal, std::vector<PartedPoint> route,
                                 std::vector<PathSegment> parts);
 
 // Of a walk that is complete, along its symbolic path.
-[[nodiscard]] PlanResult over_landmarks(const AnswerRules& rules, const OccupancyGrid& grid, const Budget& budget,
+[[nodiscard]] PlanResult over_landmarks(const AnswerRules& rules, const PlanningGround& ground, const Budget& budget,
                                         const StartPlace& start, const GoalPlace& goal, const SymbolicPath& path,
                                         const Walk& walk);
 
 // The path planner's path as it is, from where the start is left: there is nothing to join it to. Without a path when
 // it touches something.
-[[nodiscard]] PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const StartPlace& start,
+[[nodiscard]] PlanResult as_planned(const AnswerRules& rules, const PlanningGround& ground, const StartPlace& start,
                                     const GoalPlace& goal, const PlanResult& planned);
+
+// Names the routes, which are not passable today, in the result and in its reason.
+void report_blocked(const std::set<RouteId>& blocked, const LandmarkGraph& graph, PlanResult& result);
+[[nodiscard]] std::string text_of_route(RouteId id, const LandmarkGraph& graph);
 
 }  // namespace cairn

@@ -11,15 +11,6 @@
 
 namespace cairn {
 
-namespace {
-
-// Landmark legs are joined and smoothed for a disc that turns on the spot.
-bool is_for_discs(const PlannerTraits& traits) {
-  return traits.kinematics == PlannerTraits::Kinematics::holonomic && traits.shape == PlannerTraits::Shape::disc;
-}
-
-}  // namespace
-
 HybridPlanner::HybridPlanner(HybridConfig config, std::shared_ptr<const PathPlanner> path_planner,
                              std::shared_ptr<const RoutePlanner> route_planner)
     : config_(std::move(config)), path_planner_(std::move(path_planner)), route_planner_(std::move(route_planner)) {
@@ -31,8 +22,9 @@ HybridPlanner::HybridPlanner(HybridConfig config, std::shared_ptr<const PathPlan
 void HybridPlanner::prepare(const WorldView& world, double radius_m) const {
   const double disc_m = radius_m + traits_.margin_m;
   if (world.grid.bounds().empty() || is_larger_than(world.grid, disc_m)) return;
+  if (is_for_discs() && is_answered_in_windows(world.grid)) return;
   path_planner_->prepare(world, radius_m);
-  if (!is_for_discs(traits_)) return;
+  if (!is_for_discs()) return;
   const auto space = usual_.spaces.space_of(world.grid, {traits_.unknown, {}}, world.grid_version);
   (void)usual_.routes.routes_of(space, disc_m + kMinRadius_m);
 }
@@ -57,10 +49,10 @@ PlanResult HybridPlanner::plan_without_landmarks(const PlanRequest& request, con
 
 PlanResult HybridPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
   check_radius("hybrid", request.radius_m);
-  if (!is_for_discs(traits_) && !world.grid.bounds().empty()) return plan_without_landmarks(request, world, budget);
+  if (!is_for_discs() && !world.grid.bounds().empty()) return plan_without_landmarks(request, world, budget);
   const auto begin = Budget::Clock::now();
-  PlanResult result = answer_over_landmarks({config_, traits_, usual_, avoiding_, *path_planner_, route_planner_},
-                                            request, world, budget);
+  PlanResult result = answer_over_landmarks(
+      {config_, traits_, usual_, avoiding_, windows_, *path_planner_, route_planner_}, request, world, budget);
   result.time_ms.total_ms = std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
   return result;
 }

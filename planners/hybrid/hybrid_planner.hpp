@@ -8,6 +8,7 @@
 #include "framework/contracts/planner.hpp"
 #include "planners/common/any_angle/disc_routes.hpp"
 #include "planners/common/disc_space/space_cache.hpp"
+#include "planners/hybrid/windows.hpp"
 
 namespace cairn {
 
@@ -51,9 +52,11 @@ struct HybridGround {
 // between when the direct path is hardly longer; when landmarks are avoided or routes closed, only where no
 // path over landmarks is left. At an avoided landmark, the place of a robot is an obstacle to the whole
 // path (avoided.hpp), whatever its shape; a closed route matters on the graph only. Alternatives are routes that are
-// open today. cost_m is that of the graph search (stored costs, lengths where there are none); the path, with its
-// corners cut, may be shorter; its segments say what came from where. On a map without a grid the route planner's
-// answer is the answer. Every solved path has been re-checked cell by cell. Thread-safe if both planners are.
+// open today. On a large grid all this is done in windows of it (local_query.hpp), and the whole of it is searched only
+// where that finds no path, or where landmarks are avoided. cost_m is that of the graph search (stored costs, lengths
+// where there are none); the path, with its corners cut, may be shorter; its segments say what came from where. On a
+// map without a grid the route planner's answer is the answer. Every solved path has been re-checked cell by cell.
+// Thread-safe if both planners are.
 class HybridPlanner : public Planner {
  public:
   // Throws std::invalid_argument when one of the two is missing.
@@ -62,9 +65,15 @@ class HybridPlanner : public Planner {
 
   [[nodiscard]] PlanResult plan(const PlanRequest& request, const WorldView& world,
                                 const Budget& budget) const override;
+  // Nothing of a large grid, of which most questions do not need the whole.
   void prepare(const WorldView& world, double radius_m) const override;
+  [[nodiscard]] bool requires_cells() const override { return is_for_discs(); }
 
  private:
+  // Landmark legs are joined and smoothed for a disc that turns on the spot.
+  [[nodiscard]] bool is_for_discs() const {
+    return traits_.kinematics == PlannerTraits::Kinematics::holonomic && traits_.shape == PlannerTraits::Shape::disc;
+  }
   [[nodiscard]] PlanResult plan_without_landmarks(const PlanRequest& request, const WorldView& world,
                                                   const Budget& budget) const;
 
@@ -74,6 +83,7 @@ class HybridPlanner : public Planner {
   PlannerTraits traits_;  // of the path planner
   HybridGround usual_;
   HybridGround avoiding_;  // of grids with obstacles at avoided landmarks
+  WindowCache windows_;    // of large grids
 };
 
 }  // namespace cairn

@@ -1,19 +1,18 @@
 #include "planners/hybrid/hybrid_query.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <set>
 
 #include "framework/contracts/adapters/lone_planners.hpp"
+#include "framework/contracts/cell_source.hpp"
 #include "planners/common/any_angle/nearest_goals.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/legs.hpp"
+#include "planners/hybrid/local_query.hpp"
 #include "planners/hybrid/open_routes.hpp"
 #include "planners/hybrid/segments.hpp"
-#include "planners/hybrid/stored_route.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
 
 namespace cairn {
@@ -23,11 +22,6 @@ using Time = Budget::Clock::time_point;
 
 double ms_since(Time begin) {
   return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
-}
-
-bool is_large(const OccupancyGrid& grid) {
-  constexpr std::int64_t kLarge_cells = 1'000'000;
-  return std::int64_t{grid.bounds().width()} * grid.bounds().height() >= kLarge_cells;
 }
 
 // Answers one request.
@@ -46,9 +40,27 @@ class Query {
     if (budget_.exhausted() || budget_.iterations <= 0) return refused<PlanResult>(stopped(stop_outcome(budget_)));
     if (world_.grid.bounds().empty()) return answer_of_graph();
     if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused<PlanResult>(*refusal);
-    // Before the ground is known as a whole, which on a large map takes longer than the answer.
-    if (is_large(world_.grid) && tools_.usual.spaces.empty())
-      if (auto answer = stored_route(tools_, legs_, answers_, request_, world_, budget_)) return *std::move(answer);
+    if (is_answered_in_windows(world_.grid)) {
+      if (auto result = answer_in_windows()) return *std::move(result);
+    }
+    PlanResult result = answer_on_whole_grid();
+    result.reason += why_whole_;
+    return result;
+  }
+
+ private:
+  // None: the whole grid has to be searched.
+  std::optional<PlanResult> answer_in_windows() {
+    LocalAnswer local;
+    if (request_.avoid.empty()) {
+      local = answer_locally(tools_, ends_, legs_, answers_, WindowRules{}, request_, world_, budget_);
+      why_whole_ = "; the whole grid was searched, since " + local.why_none;
+    }
+    if (!local.result && world_.cells != nullptr) world_.cells->require(world_.grid.bounds());
+    return local.result;
+  }
+
+  PlanResult answer_on_whole_grid() {
     const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
     if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused<PlanResult>(*refusal);
     const auto& start = std::get<StartPlace>(usual);
@@ -57,13 +69,12 @@ class Query {
     result.settled = settled_;
     result.alternatives = alternatives_;
     result.explanation = explanation_;
-    report_blocked(start, result);
+    report_blocked_of(start, result);
     result.time_ms.graph_ms = graph_ms_;
     result.time_ms.route_ms = route_ms_;
     return result;
   }
 
- private:
   PlanResult answer_of_graph() const {
     PlanResult result = LoneRoutePlanner(tools_.route_planner).plan(request_, world_, budget_);
     if (result.outcome == PlanOutcome::solved) result.segments = segments_of_graph(result, world_.graph);
@@ -81,13 +92,15 @@ class Query {
   }
 
   // A route that only what is avoided blocks is not blocked today.
-  void report_blocked(const StartPlace& start, PlanResult& result) {
+  void report_blocked_of(const StartPlace& start, PlanResult& result) {
+    if (!avoided_grid_) return report_blocked(blocked_, world_.graph, result);
+    const WorldView planned = planned_world(start, world_);
+    const WholeGround ground = ground_of(start, planned);
     for (const RouteId id : blocked_) {
-      const bool is_blocked =
-          !avoided_grid_ ||
-          walker(start, planned_world(start, world_)).walk_alone(*world_.graph.find_route(id)).blocked;
-      if (is_blocked) result.blocked_routes.push_back(id);
-      result.reason += "; " + text_of_route(id) + (is_blocked ? " is blocked" : " passes an avoided landmark");
+      if (Walker(ground, legs_, budget_).walk_alone(*world_.graph.find_route(id)).blocked)
+        report_blocked({id}, world_.graph, result);
+      else
+        result.reason += "; " + text_of_route(id, world_.graph) + " passes an avoided landmark";
     }
   }
 
@@ -102,8 +115,8 @@ class Query {
     planned.hierarchies = nullptr;
     return planned;
   }
-  Walker walker(const StartPlace& start, const WorldView& planned_world) const {
-    return {planned_world, *start.space, legs_, tools_.path_planner, budget_};
+  WholeGround ground_of(const StartPlace& start, const WorldView& planned) const {
+    return {planned, *start.space, disc_m(), tools_.path_planner};
   }
 
   PlanResult answer_from(const StartPlace& start, const WorldView& world) {
@@ -117,26 +130,27 @@ class Query {
          nearest_first(std::get<std::vector<GoalPlace>>(goals_or_refusal), start.leave_from, *routes, budget_))
       goals.push_back(std::move(goal.place));
     const GoalPlace& nearest = goals.front();
-    if (start.landmark == nearest.landmark && start.landmark != 0) return stay(start, nearest);
-
     const WorldView planned = planned_world(start, world);
+    const WholeGround whole = ground_of(start, planned);
+    if (start.landmark == nearest.landmark && start.landmark != 0) return stay(whole, start, nearest);
+
     const SymbolicQuery query{request_, world_, start, goals, disc_m(), tools_.config.detour_ratio};
     const SymbolicSearch search(query, *tools_.route_planner, budget_);
     // What only a graph with routes needs.
     const double direct_m = world_.graph.routes().empty()
                                 ? 0.0
                                 : routes->length_lower_bound_m(start.leave_from, nearest.pose.position(), budget_);
-    std::optional<PlanResult> over = over_graph(search, planned, start, goals, direct_m);
-    PlanResult result = over ? std::move(*over) : direct(planned, start, goals);
+    std::optional<PlanResult> over = over_graph(search, whole, start, goals, direct_m);
+    PlanResult result = over ? std::move(*over) : direct(whole, start, goals);
     if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
       alternatives_ = open_alternatives(search, candidates_, result.routes, request_.alternatives,
-                                        OpenRoutes(world_.graph, walker(start, planned), blocked_), budget_);
+                                        OpenRoutes(world_.graph, Walker(whole, legs_, budget_), blocked_), budget_);
     return result;
   }
 
   // The path over landmarks; none when there is none or the direct one is preferred.
-  std::optional<PlanResult> over_graph(const SymbolicSearch& search, const WorldView& planned, const StartPlace& start,
-                                       const std::vector<GoalPlace>& goals, double direct_m) {
+  std::optional<PlanResult> over_graph(const SymbolicSearch& search, const PlanningGround& whole,
+                                       const StartPlace& start, const std::vector<GoalPlace>& goals, double direct_m) {
     // A request for other than short paths accepts longer ones.
     const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
     for (;;) {
@@ -149,11 +163,10 @@ class Query {
         return std::nullopt;
       }
       const GoalPlace& goal = goals[symbolic.path->goal];
-      const Walk walk = walk_along(planned, start, *symbolic.path, goal);
+      const Walk walk = walk_along(whole, start, *symbolic.path, goal);
       if (walk.stopped) return refused<PlanResult>(stopped(*walk.stopped));
       if (walk.access_leg_failed) return std::nullopt;
-      if (!walk.blocked)
-        return over_landmarks(answers_, planned_grid(start), budget_, start, goal, *symbolic.path, walk);
+      if (!walk.blocked) return over_landmarks(answers_, whole, budget_, start, goal, *symbolic.path, walk);
       blocked_.insert(*walk.blocked);
     }
   }
@@ -168,32 +181,33 @@ class Query {
     return answer;
   }
 
-  Walk walk_along(const WorldView& planned, const StartPlace& start, const SymbolicPath& path, const GoalPlace& goal) {
+  Walk walk_along(const PlanningGround& whole, const StartPlace& start, const SymbolicPath& path,
+                  const GoalPlace& goal) {
     const Time begin = Budget::Clock::now();
-    Walk walk = walker(start, planned).walk(start.leave_from, path, goal.pose);
+    Walk walk = Walker(whole, legs_, budget_).walk(start.leave_from, path, goal.pose);
     route_ms_ += ms_since(begin);
     return walk;
   }
 
-  PlanResult stay(const StartPlace& start, const GoalPlace& goal) const {
-    PlanResult result = joined(answers_, planned_grid(start), budget_, start, goal, {{start.leave_from, 0}}, {});
+  PlanResult stay(const PlanningGround& whole, const StartPlace& start, const GoalPlace& goal) const {
+    PlanResult result = joined(answers_, whole, budget_, start, goal, {{start.leave_from, 0}}, {});
     result.landmarks = {goal.landmark};
     result.reason = "start and goal are the same landmark";
     return result;
   }
 
   // Without landmarks in between: the goals in their order, until one is reached.
-  PlanResult direct(const WorldView& planned_world, const StartPlace& start, const std::vector<GoalPlace>& goals) {
+  PlanResult direct(const PlanningGround& whole, const StartPlace& start, const std::vector<GoalPlace>& goals) {
     PlanResult first;
     for (const GoalPlace& goal : goals) {
-      PlanResult result = direct_to(planned_world, start, goal);
+      PlanResult result = direct_to(whole, start, goal);
       if (result.outcome == PlanOutcome::solved || budget_.exhausted()) return result;
       if (first.reason.empty()) first = std::move(result);
     }
     return first;
   }
 
-  PlanResult direct_to(const WorldView& planned_world, const StartPlace& start, const GoalPlace& goal) {
+  PlanResult direct_to(const PlanningGround& whole, const StartPlace& start, const GoalPlace& goal) {
     PathRequest request;
     request.from.pose = Pose2{start.leave_from.x(), start.leave_from.y(), start.pose.theta_rad};
     request.to.pose = goal.pose;
@@ -202,22 +216,12 @@ class Query {
     request.seed = request_.seed;
     request.cost = request_.cost;
     const Time begin = Budget::Clock::now();
-    PlanResult planned = plan_of(tools_.path_planner.plan(request, planned_world, budget_));
+    PlanResult planned = plan_of(whole.path(request, budget_));
     route_ms_ += ms_since(begin);
     if (planned.path.empty()) return planned;
-    PlanResult result = as_planned(answers_, planned_world.grid, start, goal, planned);
+    PlanResult result = as_planned(answers_, whole, start, goal, planned);
     if (!result.path.empty()) result.reason = (why_direct_.empty() ? "directly" : why_direct_) + "; " + result.reason;
     return result;
-  }
-
-  std::string text_of_route(RouteId id) const {
-    const Route& route = *world_.graph.find_route(id);
-    return fmt::format("route R{} ({} to {})", id, label_of(*world_.graph.find(route.from)),
-                       label_of(*world_.graph.find(route.to)));
-  }
-
-  const OccupancyGrid& planned_grid(const StartPlace& start) const {
-    return start.patched_grid ? *start.patched_grid : avoided_grid_ ? *avoided_grid_ : world_.grid;
   }
 
   const HybridTools& tools_;
@@ -231,6 +235,7 @@ class Query {
   std::set<RouteId> blocked_;
   std::vector<RouteAlternative> candidates_;  // of the last search
   std::string why_direct_;
+  std::string why_whole_;
   std::int64_t settled_ = 0;
   std::vector<RouteAlternative> alternatives_;
   std::optional<RouteExplanation> explanation_;
@@ -239,6 +244,11 @@ class Query {
 };
 
 }  // namespace
+
+bool is_answered_in_windows(const OccupancyGrid& grid) {
+  constexpr std::int64_t kLarge_cells = 1'000'000;
+  return std::int64_t{grid.bounds().width()} * grid.bounds().height() >= kLarge_cells;
+}
 
 PlanResult answer_over_landmarks(const HybridTools& tools, const PlanRequest& request, const WorldView& world,
                                  const Budget& budget) {

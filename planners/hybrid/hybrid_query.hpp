@@ -11,9 +11,13 @@ struct HybridTools {
   const PlannerTraits& traits;  // of the path planner
   const HybridGround& usual;
   const HybridGround& avoiding;
+  const WindowCache& windows;
   const PathPlanner& path_planner;
   const std::shared_ptr<const RoutePlanner>& route_planner;
 };
+
+// Whether it is so large that the whole of it is only searched where all else fails.
+[[nodiscard]] bool is_answered_in_windows(const OccupancyGrid& grid);
 
 // For a disc that turns on the spot.
 [[nodiscard]] PlanResult answer_over_landmarks(const HybridTools& tools, const PlanRequest& request,

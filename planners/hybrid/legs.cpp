@@ -6,9 +6,9 @@
 namespace cairn {
 
 bool Walker::is_passable(const std::vector<Pose2>& trajectory) const {
-  if (trajectory.empty() || !space_.fits(trajectory.front().position(), rules_.disc_m)) return false;
-  for (std::size_t i = 1; i < trajectory.size(); ++i)
-    if (!space_.fits_along(trajectory[i - 1].position(), trajectory[i].position(), rules_.disc_m)) return false;
+  if (trajectory.empty()) return false;
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    if (!ground_.fits_along(trajectory[i == 0 ? 0 : i - 1].position(), trajectory[i].position())) return false;
   return true;
 }
 
@@ -20,7 +20,7 @@ std::optional<PlanOutcome> Walker::stopped() const {
 Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const {
   const Point from = walk.route.back().at;
   if (from == to) return Step::done;
-  if (space_.fits_along(from, to, rules_.disc_m)) {
+  if (ground_.fits_along(from, to)) {
     walk.add_part(PathSegment::Origin::straight, leg);
     walk.go_on_to(to);
     walk.cost_m += (to - from).norm();
@@ -31,7 +31,7 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
   request.to.pose = Pose2{to.x(), to.y(), 0.0};
   request.radius_m = rules_.radius_m;
   request.seed = rules_.seed;
-  const PathResult planned = path_planner_.plan(request, world_, budget_);
+  const PathResult planned = ground_.path(request, budget_);
   if (planned.outcome == PlanOutcome::cancelled || budget_.exhausted()) {
     walk.stopped = stopped().value_or(planned.outcome);
     return Step::stopped;
@@ -59,11 +59,11 @@ void Walker::take_leg(const Route& leg, Walk& walk) const {
     ++walk.stored_legs;
     return;
   }
-  const auto approach = approach_pose(space_, *world_.graph.find(leg.to), rules_.disc_m);
+  const auto at_landmark = approach(leg.to);
   const Point from = walk.route.back().at;
-  const double straight_m = approach ? (approach->position() - from).norm() : 0.0;
+  const double straight_m = at_landmark ? (at_landmark->position() - from).norm() : 0.0;
   const double at_most_m = rules_.detour_ratio * std::max(leg.cost_m, straight_m);
-  if (!approach || go_to(approach->position(), leg.id, walk, at_most_m) == Step::failed) walk.blocked = leg.id;
+  if (!at_landmark || go_to(at_landmark->position(), leg.id, walk, at_most_m) == Step::failed) walk.blocked = leg.id;
   ++walk.planned_legs;
 }
 
@@ -71,15 +71,15 @@ Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal
   Walk walk;
   walk.route = {{from, 0}};
   // A leg without a passable trajectory begins at its landmark's approach pose.
-  const Route& first = *world_.graph.find_route(path.routes.front());
+  const Route& first = *ground_.world().graph.find_route(path.routes.front());
   if (!is_passable(first.trajectory)) {
-    const auto approach = approach_pose(space_, *world_.graph.find(first.from), rules_.disc_m);
-    if (approach) take_access_leg(approach->position(), walk);
+    const auto at_landmark = approach(first.from);
+    if (at_landmark) take_access_leg(at_landmark->position(), walk);
   }
   for (const RouteId id : path.routes) {
     if (walk.complete()) walk.stopped = stopped();
     if (!walk.complete()) return walk;
-    take_leg(*world_.graph.find_route(id), walk);
+    take_leg(*ground_.world().graph.find_route(id), walk);
   }
   if (walk.complete()) take_access_leg(goal.position(), walk);
   return walk;
@@ -87,11 +87,11 @@ Walk Walker::walk(const Point& from, const SymbolicPath& path, const Pose2& goal
 
 Walk Walker::walk_alone(const Route& leg) const {
   Walk walk;
-  const auto approach = approach_pose(space_, *world_.graph.find(leg.from), rules_.disc_m);
+  const auto at_landmark = approach(leg.from);
   walk.stopped = stopped();
-  if (!approach) walk.blocked = leg.id;
+  if (!at_landmark) walk.blocked = leg.id;
   if (!walk.complete()) return walk;
-  walk.route = {{is_passable(leg.trajectory) ? leg.trajectory.front().position() : approach->position(), 0}};
+  walk.route = {{is_passable(leg.trajectory) ? leg.trajectory.front().position() : at_landmark->position(), 0}};
   take_leg(leg, walk);
   return walk;
 }

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/path_planner.hpp"
 #include "framework/contracts/planner.hpp"
-#include "planners/common/disc_space/routes.hpp"
+#include "planners/hybrid/ground.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
 
 namespace cairn {
@@ -34,13 +33,12 @@ struct Walk {
   void go_on_to(const Point& to) { route.push_back({to, static_cast<int>(parts.size()) - 1}); }
 };
 
-// Walks a symbolic path: stored trajectories where the disc still fits along them, otherwise legs by the
-// path planner. `world` is the robot's world with the start's grid.
+// Walks a symbolic path: stored trajectories where the disc still fits along them, otherwise legs planned on the
+// ground.
 class Walker {
  public:
-  Walker(const WorldView& world, const DiscSpace& space, const LegRules& rules, const PathPlanner& path_planner,
-         const Budget& budget)
-      : world_(world), space_(space), rules_(rules), path_planner_(path_planner), budget_(budget) {}
+  Walker(const PlanningGround& ground, const LegRules& rules, const Budget& budget)
+      : ground_(ground), rules_(rules), budget_(budget) {}
 
   [[nodiscard]] Walk walk(const Point& from, const SymbolicPath& path, const Pose2& goal) const;
   // One leg by itself, from the approach pose of its first landmark.
@@ -53,12 +51,13 @@ class Walker {
   [[nodiscard]] bool is_passable(const std::vector<Pose2>& trajectory) const;
   void take_leg(const Route& leg, Walk& walk) const;
   void take_access_leg(const Point& to, Walk& walk) const;
+  [[nodiscard]] std::optional<Pose2> approach(LandmarkId id) const {
+    return ground_.approach(*ground_.world().graph.find(id));
+  }
   [[nodiscard]] std::optional<PlanOutcome> stopped() const;
 
-  const WorldView& world_;
-  const DiscSpace& space_;
+  const PlanningGround& ground_;
   const LegRules& rules_;
-  const PathPlanner& path_planner_;
   const Budget& budget_;
 };
 

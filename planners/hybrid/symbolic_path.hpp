@@ -47,6 +47,7 @@ class SymbolicEnd {
   [[nodiscard]] double travel_m(LandmarkId id) const { return reached_.at(id).travel_m; }
   [[nodiscard]] std::size_t goal(LandmarkId id) const { return reached_.at(id).goal; }
   [[nodiscard]] bool empty() const { return reached_.empty(); }
+  void remove(LandmarkId id) { reached_.erase(id); }
 
  private:
   struct Reached {
@@ -61,6 +62,14 @@ class SymbolicEnd {
 class SymbolicSearch {
  public:
   SymbolicSearch(const SymbolicQuery& query, const RoutePlanner& route_planner, const Budget& budget);
+  // Between ends that somebody else has joined.
+  SymbolicSearch(const SymbolicQuery& query, const RoutePlanner& route_planner, const Budget& budget, SymbolicEnd start,
+                 SymbolicEnd goals)
+      : query_(query),
+        route_planner_(route_planner),
+        budget_(budget),
+        start_(std::move(start)),
+        goals_(std::move(goals)) {}
 
   // Routes in `blocked` are left out.
   [[nodiscard]] SymbolicAnswer find(const std::set<RouteId>& blocked) const;

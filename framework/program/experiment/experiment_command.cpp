@@ -12,6 +12,7 @@
 #include "framework/program/common/interrupt.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
+#include "framework/program/experiment/buildings_experiment.hpp"
 #include "framework/program/experiment/experiment_charts.hpp"
 
 namespace cairn {
@@ -64,8 +65,9 @@ int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentR
 
 int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   const ExperimentConfig config = load_experiment(command.file, command.overrides);
-  const ModuleLibrary library = module_library(common);
   make_folder(command.out);
+  if (config.experiment == ExperimentKind::buildings) return buildings_experiment(config, command.out);
+  const ModuleLibrary library = module_library(common);
   const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel_on_interrupt());
   const std::string table = table_of(config, rows);
   const std::string json = json_of(config, rows);

@@ -26,9 +26,10 @@ bool is_large(const CellBox& cells) {
   return std::int64_t{cells.width()} * cells.height() >= kLarge_cells;
 }
 
-// For one question, which a part of the grid may answer.
+// For one question at a time, which a part of the grid may answer.
 std::optional<MapFile> opened_in_part(const PlanCommand& command) {
-  if (!command.queries.empty() || !command.picture.empty()) return std::nullopt;
+  const bool at_once = !command.queries.empty() && command.jobs != 1;
+  if (at_once || !command.picture.empty()) return std::nullopt;
   std::optional<MapFile> file(command.map);
   return is_large(file->lattice().bounds()) ? std::move(file) : std::nullopt;
 }
@@ -89,6 +90,10 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
   context.modules = &library_;
   if (many_) static_cast<void>(hierarchies_.by(CostKind::length));  // not in the time of the first answer
   planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
+  if (file_ && planner_->requires_cells())
+    cells_.emplace(*file_, map_.grid);
+  else if (many_)
+    (void)whole_grid();
   if (many_) prepare(map_.grid, kLoadedGrid);  // neither is what the planner makes of the grid
 }
 
@@ -104,8 +109,9 @@ PlanResult MapPlanner::plan_on(const OccupancyGrid& grid, std::uint64_t version,
                                const Budget& budget) const {
   // One answer is not worth making the hierarchy for.
   const bool on_hierarchy = many_ || request.explain;
-  const WorldView world{grid,   map_.graph, robot_, {}, 0.0, nullptr, 0.0, on_hierarchy ? &hierarchies_ : nullptr,
-                        version};
+  const CellSource* const cells = cells_ ? &*cells_ : nullptr;
+  const WorldView world{grid,    map_.graph, robot_, {}, 0.0, nullptr, 0.0, on_hierarchy ? &hierarchies_ : nullptr,
+                        version, cells};
   return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
 }
 
@@ -161,6 +167,7 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
   task.request.radius_m = robot_.radius_m;
   task.request.seed = static_cast<std::uint64_t>(command_.seed);
   Budget::Clock::duration spent{0};
+  if (cells_) return answer_asking_for_cells(task);
   if (!many_ && task.via.empty())
     if (auto result = plan_on_part(task.request, spent)) return *std::move(result);
   const OccupancyGrid& grid = whole_grid();
@@ -175,6 +182,14 @@ ClusterRules MapPlanner::cluster_rules() const {
   const ClusterSizes sizes = cluster_sizes_of(map_.properties);
   return {sizes,
           [this, max_m = sizes.narrow_below_m](const Route& route) { return passages_in(whole_grid(), max_m)(route); }};
+}
+
+PlanResult MapPlanner::answer_asking_for_cells(const PlanTask& task) const {
+  // Other costs of routes are made of what stands beside them, wherever they lie.
+  if (task.request.cost != CostKind::length || task.request.explain) cells_->require(map_.grid.bounds());
+  const Budget budget = budget_after({});
+  return plan_tour([&](const PlanRequest& request) { return plan_on(map_.grid, kLoadedGrid, request, budget); },
+                   task.request, task.via);
 }
 
 const OccupancyGrid& MapPlanner::whole_grid() const {

@@ -1,7 +1,8 @@
 // A saved map with everything that one planner needs to answer questions about it.
 //
-// One question alone is answered on the part of the grid that it needs, where that gives an answer that is as good as
-// one on the whole map (map_part.hpp).
+// Questions asked one after another are answered without reading a large grid whole: by a planner that asks for the
+// cells it needs (Planner::requires_cells), or, one question alone, on the part of the grid that it needs, where that
+// gives an answer that is as good as one on the whole map (map_part.hpp).
 #pragma once
 
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "framework/contracts/planner.hpp"
 #include "framework/modules/module_library.hpp"
+#include "framework/program/plan/map_cells.hpp"
 #include "framework/program/plan/plan_query.hpp"
 #include "maps/hierarchy/hierarchies.hpp"
 #include "maps/store/map_store.hpp"
@@ -31,7 +33,7 @@ class MapPlanner {
   [[nodiscard]] PlanResult answer(const PlanQuery& query) const;
   // As the hierarchy has them.
   [[nodiscard]] const ClusterTree& clusters() const;
-  // Its grid may not be read yet where one question has not needed it.
+  // Its grid may not be read yet where no question has needed it.
   [[nodiscard]] const SavedMap& map() const { return map_; }
   [[nodiscard]] const OccupancyGrid& whole_grid() const;
   [[nodiscard]] double radius_m() const { return robot_.radius_m; }
@@ -45,14 +47,16 @@ class MapPlanner {
   // None: no answer that is surely as good as one on the whole map.
   [[nodiscard]] std::optional<PlanResult> plan_on_part(const PlanRequest& request,
                                                        Budget::Clock::duration& spent) const;
+  [[nodiscard]] PlanResult answer_asking_for_cells(const PlanTask& task) const;
   [[nodiscard]] Budget budget_after(Budget::Clock::duration spent) const;
 
   const PlanCommand& command_;
   bool many_ = false;
   ModuleLibrary library_;
-  std::optional<MapFile> file_;  // of a large map for one question: its grid is read as far as it is needed
+  std::optional<MapFile> file_;  // of a large map for one thread: its grid is read as far as it is needed
   mutable std::once_flag grid_read_;
   mutable SavedMap map_;
+  std::optional<MapCells> cells_;  // of the file, for a planner that asks for them
   RobotModel robot_;
   Hierarchies hierarchies_;
   mutable std::once_flag clusters_made_;

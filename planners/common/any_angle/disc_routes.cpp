@@ -228,7 +228,7 @@ std::vector<Point> DiscRoutes::shortest_of(const DiscSpace& space, const std::ve
   return tightened(space, straightened(space, route, radius_m_, 1, budget), radius_m_, 1, budget);
 }
 
-DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& budget) const {
+DiscRoute DiscRoutes::coarse_route(const Point& from, const Point& to, const Budget& budget) const {
   DiscRoute answer;
   if (!may_reach(from, to)) {
     answer.impossible = true;
@@ -239,7 +239,11 @@ DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& bu
     answer.length_lower_bound_m = (to - from).norm();
     return answer;
   }
-  answer = route_on(coarse_, from, to, budget);
+  return route_on(coarse_, from, to, budget);
+}
+
+DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& budget) const {
+  const DiscRoute answer = coarse_route(from, to, budget);
   if (answer.interrupted || answer.impossible || !is_doubtful(answer)) return answer;
   const Meshes* const fine = finer(budget);
   if (fine == nullptr) return answer;

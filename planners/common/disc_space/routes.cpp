@@ -8,7 +8,6 @@ namespace {
 constexpr int kMaxRounds = 6;            // each about halves the turns that are left
 constexpr double kMinGain_ratio = 1e-3;  // of a round, else it is the last one
 constexpr double kFinest_cells = 1.0 / 16.0;
-constexpr double kMaxWork_cells = 1e5;  // of checked segments, end to end
 
 int across_parts(int a, int b) {
   return a == b ? a : kSeveralParts;
@@ -31,10 +30,10 @@ double length_of(const std::vector<PartedPoint>& route) {
 // C round the obstacle meet, then is cut off there.
 class CornerCutter {
  public:
-  CornerCutter(const DiscSpace& space, double radius_m, const Budget& budget)
-      : space_(space), radius_m_(radius_m), budget_(budget), finest_m_(kFinest_cells * space.cell_m()) {}
+  CornerCutter(const ShortcutRules& rules, const Budget& budget)
+      : rules_(rules), budget_(budget), finest_m_(kFinest_cells * rules.cell_m) {}
 
-  [[nodiscard]] bool may_go_on() const { return work_cells_ < kMaxWork_cells && !budget_.exhausted(); }
+  [[nodiscard]] bool may_go_on() const { return work_cells_ < rules_.max_work_cells && !budget_.exhausted(); }
   [[nodiscard]] std::vector<PartedPoint> cut_all(std::vector<PartedPoint> route, std::size_t keep) {
     std::vector<PartedPoint> cut(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
     for (std::size_t i = keep; i + 1 < route.size(); ++i) {
@@ -99,12 +98,11 @@ class CornerCutter {
   }
 
   [[nodiscard]] bool fits(const Point& from, const Point& to) {
-    work_cells_ += 1.0 + (to - from).norm() / space_.cell_m();
-    return space_.fits_along(from, to, radius_m_);
+    work_cells_ += 1.0 + (to - from).norm() / rules_.cell_m;
+    return rules_.fits_along(from, to);
   }
 
-  const DiscSpace& space_;
-  double radius_m_;
+  const ShortcutRules& rules_;
   const Budget& budget_;
   double finest_m_;
   double work_cells_ = 0.0;
@@ -119,11 +117,20 @@ std::vector<Point> points_of(const std::vector<PartedPoint>& route) {
   return points;
 }
 
-std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
+ShortcutRules shortcuts_on(const DiscSpace& space, double radius_m) {
+  ShortcutRules rules;
+  rules.fits_along = [&space, radius_m](const Point& from, const Point& to) {
+    return space.fits_along(from, to, radius_m);
+  };
+  rules.cell_m = space.cell_m();
+  return rules;
+}
+
+std::vector<PartedPoint> straightened(const ShortcutRules& rules, const std::vector<PartedPoint>& route,
                                       std::size_t keep, const Budget& budget) {
   if (route.size() <= keep + 1) return route;
   const auto fits = [&](const Point& from, const Point& to) {
-    return !budget.exhausted() && space.fits_along(from, to, radius_m);
+    return (to - from).norm() <= rules.max_shortcut_m && !budget.exhausted() && rules.fits_along(from, to);
   };
   // One sweep that extends each straight segment as far as possible, for routes of many points ...
   std::vector<PartedPoint> swept(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(keep));
@@ -150,10 +157,10 @@ std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<
   return corners;
 }
 
-std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
-                                   std::size_t keep, const Budget& budget) {
+std::vector<PartedPoint> tightened(const ShortcutRules& rules, const std::vector<PartedPoint>& route, std::size_t keep,
+                                   const Budget& budget) {
   if (route.size() <= keep + 1) return route;
-  CornerCutter cutter(space, radius_m, budget);
+  CornerCutter cutter(rules, budget);
   std::vector<PartedPoint> best = route;
   for (int i = 0; i < kMaxRounds && cutter.may_go_on(); ++i) {
     std::vector<PartedPoint> cut = cutter.cut_all(best, keep);
@@ -165,14 +172,24 @@ std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<Par
   return best;
 }
 
+std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
+                                      std::size_t keep, const Budget& budget) {
+  return straightened(shortcuts_on(space, radius_m), route, keep, budget);
+}
+
+std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<PartedPoint>& route, double radius_m,
+                                   std::size_t keep, const Budget& budget) {
+  return tightened(shortcuts_on(space, radius_m), route, keep, budget);
+}
+
 std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
                                 std::size_t keep, const Budget& budget) {
-  return points_of(straightened(space, parted(route), radius_m, keep, budget));
+  return points_of(straightened(shortcuts_on(space, radius_m), parted(route), keep, budget));
 }
 
 std::vector<Point> tightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m, std::size_t keep,
                              const Budget& budget) {
-  return points_of(tightened(space, parted(route), radius_m, keep, budget));
+  return points_of(tightened(shortcuts_on(space, radius_m), parted(route), keep, budget));
 }
 
 bool route_is_free(const OccupancyGrid& grid, const GroundRules& rules, const std::vector<Point>& route,

@@ -1,6 +1,8 @@
 // Routes as corner points: shortened, measured, re-checked, and turned into poses.
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,6 +18,15 @@ struct PartedPoint {
 };
 inline constexpr int kSeveralParts = -1;  // the segment cuts across
 
+// How a route is shortened.
+struct ShortcutRules {
+  std::function<bool(const Point& from, const Point& to)> fits_along;
+  double cell_m = 0.05;
+  double max_shortcut_m = std::numeric_limits<double>::infinity();  // longer ones are not tried
+  double max_work_cells = 1e5;                                      // of segments checked by tightened(), end to end
+};
+[[nodiscard]] ShortcutRules shortcuts_on(const DiscSpace& space, double radius_m);
+
 // Drops the corners that a straight free segment can skip; the first `keep` points and the last stay. Looks from each
 // corner to all others; those that the budget leaves no time for stay.
 [[nodiscard]] std::vector<Point> straightened(const DiscSpace& space, const std::vector<Point>& route, double radius_m,
@@ -30,6 +41,10 @@ inline constexpr int kSeveralParts = -1;  // the segment cuts across
                                            std::size_t keep = 1, const Budget& budget = {});
 
 // The same for routes of several parts: what lies across two of them gets kSeveralParts.
+[[nodiscard]] std::vector<PartedPoint> straightened(const ShortcutRules& rules, const std::vector<PartedPoint>& route,
+                                                    std::size_t keep = 1, const Budget& budget = {});
+[[nodiscard]] std::vector<PartedPoint> tightened(const ShortcutRules& rules, const std::vector<PartedPoint>& route,
+                                                 std::size_t keep = 1, const Budget& budget = {});
 [[nodiscard]] std::vector<PartedPoint> straightened(const DiscSpace& space, const std::vector<PartedPoint>& route,
                                                     double radius_m, std::size_t keep = 1, const Budget& budget = {});
 [[nodiscard]] std::vector<PartedPoint> tightened(const DiscSpace& space, const std::vector<PartedPoint>& route,

@@ -52,5 +52,15 @@ TEST_F(ExperimentFile, AVariantNamesNoWorldWhereEachRunHasItsOwn) {
   EXPECT_EQ(load(kTrials).variants.size(), 1U);
 }
 
+TEST_F(ExperimentFile, AnExperimentOfBuildingsRunsNoMissions) {
+  EXPECT_EQ(load("experiment: buildings\nbuildings: {landmarks: 50}\n").buildings.landmarks, 50);
+  EXPECT_EQ(error_of("experiment: buildings\nmissions: [m.yaml]\n"),
+            "e.yaml:2:11: an experiment of buildings runs no missions");
+  EXPECT_EQ(error_of("experiment: missions\nmissions: [m.yaml]\nbuildings: {landmarks: 50}\n"),
+            "e.yaml:3:12: buildings goes with experiment: buildings");
+  EXPECT_EQ(error_of("experiment: buildings\nbuildings: {sides_m: []}\n"),
+            "e.yaml:2:12: sides_m must list at least one side");
+}
+
 }  // namespace
 }  // namespace cairn

@@ -1,0 +1,198 @@
+#include "planners/hybrid/local_query.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "planners/common/disc_space/ends.hpp"
+#include "planners/hybrid/avoided.hpp"
+#include "planners/hybrid/local_ends.hpp"
+#include "planners/hybrid/open_routes.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr int kMaxAccessFailures = 8;
+
+double milliseconds(Budget::Clock::duration time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+class LocalQuery {
+ public:
+  LocalQuery(const HybridTools& tools, const EndRules& ends, const LegRules& legs, const AnswerRules& answers,
+             const WindowRules& windows, const PlanRequest& request, const WorldView& world, const Budget& budget)
+      : tools_(tools),
+        legs_(legs),
+        answers_(answers),
+        request_(request),
+        world_(world),
+        budget_(budget),
+        windows_(windows),
+        ground_(world, ends.ground, legs.disc_m, tools.path_planner, tools.windows, windows, tools.config.shortcut),
+        ends_(ground_, ends, windows, budget) {}
+
+  LocalAnswer answer() {
+    auto start = ends_.start(request_.from);
+    if (const auto* refusal = std::get_if<Refusal>(&start)) return {refused<PlanResult>(*refusal), ""};
+    start_ = std::get<StartPlace>(std::move(start));
+    auto goals = ends_.goals(request_.to, start_);
+    if (const auto* refusal = std::get_if<Refusal>(&goals)) return {refused<PlanResult>(*refusal), ""};
+    goals_ = std::get<std::vector<GoalPlace>>(std::move(goals));
+    for (const GoalPlace& goal : goals_)
+      if (goal.landmark != 0 && goal.landmark == start_.landmark) return {stay(goal), ""};
+    std::optional<PlanResult> result = found();
+    if (!result) return {std::nullopt, why_none_};
+    result->settled = settled_;
+    result->explanation = explanation_;
+    result->alternatives = alternatives_;
+    report_blocked(blocked_, world_.graph, *result);
+    result->time_ms.graph_ms = graph_ms_;
+    result->time_ms.route_ms = route_ms_;
+    return {std::move(result), ""};
+  }
+
+ private:
+  PlanResult stay(const GoalPlace& goal) const {
+    PlanResult result = joined(answers_, ground_, budget_, start_, goal, {{start_.leave_from, 0}}, {});
+    result.landmarks = {goal.landmark};
+    result.reason = "start and goal are the same landmark";
+    return result;
+  }
+
+  std::optional<PlanResult> found() {
+    const std::optional<NearGoal> near = ends_.nearest(start_, goals_, windows_.near_m);
+    SymbolicEnd from = ends_.joined(start_);
+    SymbolicEnd to = ends_.joined(goals_);
+    if (from.empty() || to.empty())
+      why_none_ = std::string("no landmark with routes is reached near the ") + (from.empty() ? "start" : "goal");
+    const SymbolicQuery query{request_, world_, start_, goals_, legs_.disc_m, 1.0};
+    for (int failures = 0; failures <= kMaxAccessFailures && !from.empty() && !to.empty(); ++failures) {
+      const SymbolicSearch search(query, *tools_.route_planner, budget_, from, to);
+      std::optional<LandmarkId> unreached;
+      auto result = over_graph(search, near, unreached);
+      if (result) return result;
+      if (!unreached) break;
+      from.remove(*unreached);
+      to.remove(*unreached);
+      why_none_ = "the landmarks near an end cannot be reached from it";
+    }
+    // Also where both ends are joined to the same landmark.
+    const double joined_m = 2.0 * (windows_.reach_blocks + 1) * windows_.block_m;
+    const auto goal = near ? near : ends_.nearest(start_, goals_, std::max(joined_m, windows_.near_m));
+    return goal ? directly(*goal, std::numeric_limits<double>::infinity()) : std::nullopt;
+  }
+
+  // Along landmarks, or directly where that is much shorter. None when neither is found; `unreached` is a landmark that
+  // an end cannot be joined to after all.
+  std::optional<PlanResult> over_graph(const SymbolicSearch& search, const std::optional<NearGoal>& near,
+                                       std::optional<LandmarkId>& unreached) {
+    const bool any_length = request_.cost != CostKind::length || !request_.closed.empty();
+    for (;;) {
+      const SymbolicAnswer symbolic = search_graph(search);
+      if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
+      if (!symbolic.path) {
+        why_none_ = "no open path over landmarks joins the ends";
+        return std::nullopt;
+      }
+      const double cost_m = symbolic.path->cost_m;
+      if (near && !any_length && cost_m > legs_.detour_ratio * near->min_m)
+        if (auto result = directly(*near, cost_m)) return result;
+      const GoalPlace& goal = goals_[symbolic.path->goal];
+      const Budget::Clock::time_point begin = Budget::Clock::now();
+      const Walk walk = Walker(ground_, legs_, budget_).walk(start_.leave_from, *symbolic.path, goal.pose);
+      if (walk.stopped) return refused<PlanResult>(stopped(*walk.stopped));
+      if (walk.access_leg_failed) {
+        unreached = unreached_end(walk, *symbolic.path);
+        return std::nullopt;
+      }
+      if (walk.blocked) {
+        blocked_.insert(*walk.blocked);
+        continue;
+      }
+      PlanResult result = over_landmarks(answers_, ground_, budget_, start_, goal, *symbolic.path, walk);
+      route_ms_ += milliseconds(Budget::Clock::now() - begin);
+      if (request_.alternatives > 0)
+        alternatives_ = open_alternatives(search, symbolic.candidates, result.routes, request_.alternatives,
+                                          OpenRoutes(world_.graph, Walker(ground_, legs_, budget_), blocked_), budget_);
+      return result;
+    }
+  }
+
+  SymbolicAnswer search_graph(const SymbolicSearch& search) {
+    const Budget::Clock::time_point begin = Budget::Clock::now();
+    SymbolicAnswer answer = search.find(blocked_);
+    graph_ms_ += milliseconds(Budget::Clock::now() - begin);
+    settled_ += answer.settled;
+    explanation_ = answer.explanation;
+    return answer;
+  }
+
+  // None: it is between landmarks that a leg failed.
+  static std::optional<LandmarkId> unreached_end(const Walk& walk, const SymbolicPath& path) {
+    const auto legs = static_cast<std::size_t>(walk.stored_legs + walk.planned_legs);
+    if (legs == 0) return path.landmarks.front();
+    return legs == path.routes.size() ? std::optional(path.landmarks.back()) : std::nullopt;
+  }
+
+  // Where it is not longer than that.
+  std::optional<PlanResult> directly(const NearGoal& near, double at_most_m) {
+    const GoalPlace& goal = goals_[near.index];
+    PathRequest request;
+    request.from.pose = Pose2{start_.leave_from.x(), start_.leave_from.y(), start_.pose.theta_rad};
+    request.to.pose = goal.pose;
+    request.to.heading_matters = goal.heading_rad.has_value();
+    request.radius_m = request_.radius_m;
+    request.seed = request_.seed;
+    request.cost = request_.cost;
+    const Budget::Clock::time_point begin = Budget::Clock::now();
+    const PlanResult planned = plan_of(ground_.path(request, budget_));
+    route_ms_ += milliseconds(Budget::Clock::now() - begin);
+    if (budget_.exhausted()) return refused<PlanResult>(stopped(stop_outcome(budget_)));
+    if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return std::nullopt;
+    PlanResult result = as_planned(answers_, ground_, start_, goal, planned);
+    if (result.outcome != PlanOutcome::solved) return std::nullopt;
+    const std::string why =
+        at_most_m < std::numeric_limits<double>::infinity()
+            ? ": over landmarks it is " + metres_text(at_most_m) + ", the direct path " + metres_text(planned.length_m)
+            : std::string();
+    result.reason = "directly" + why + "; " + result.reason;
+    return result;
+  }
+
+  const HybridTools& tools_;
+  const LegRules& legs_;
+  const AnswerRules& answers_;
+  const PlanRequest& request_;
+  const WorldView& world_;
+  const Budget& budget_;
+  const WindowRules& windows_;
+  WindowedGround ground_;
+  LocalEnds ends_;
+  StartPlace start_;
+  std::vector<GoalPlace> goals_;
+  std::set<RouteId> blocked_;
+  std::string why_none_;
+  std::int64_t settled_ = 0;
+  std::vector<RouteAlternative> alternatives_;
+  std::optional<RouteExplanation> explanation_;
+  double graph_ms_ = 0.0;
+  double route_ms_ = 0.0;
+};
+
+}  // namespace
+
+LocalAnswer answer_locally(const HybridTools& tools, const EndRules& ends, const LegRules& legs,
+                           const AnswerRules& answers, const WindowRules& windows, const PlanRequest& request,
+                           const WorldView& world, const Budget& budget) {
+  std::optional<OccupancyGrid> patched;
+  if (request.from.pose && robot_stands_at(world, request.from.pose->position()))
+    patched = with_ground_under(world.grid, ends.ground, request.from.pose->position(), legs.disc_m);
+  if (!patched) return LocalQuery(tools, ends, legs, answers, windows, request, world, budget).answer();
+  const WorldView known = with_grid(*patched, world);
+  return LocalQuery(tools, ends, legs, answers, windows, request, known, budget).answer();
+}
+
+}  // namespace cairn
