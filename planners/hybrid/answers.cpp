@@ -28,7 +28,7 @@ PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Bud
   }
   if (rules.shortcut) {
     const std::size_t keep = start.escape ? 2 : 1;
-    const double disc_m = rules.radius_m + kMinRadius_m;
+    const double disc_m = rules.radius_m + rules.shortcut_clearance_m + kMinRadius_m;
     route = tightened(*start.space, straightened(*start.space, route, disc_m, keep, budget), disc_m, keep, budget);
   }
   const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
@@ -42,6 +42,7 @@ PlanResult joined(const AnswerRules& rules, const OccupancyGrid& grid, const Bud
   result.length_m = length_of(points);
   result.cost_m = result.length_m;
   result.clearance_m = clearance_along(*start.space, points, rules.robot_m);
+  if (rules.driving) result.driving_time_s = driving_time_s(start.space->field(), points, *rules.driving);
   result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
   result.segments = segments_of(route, parts);
   return result;
@@ -77,7 +78,9 @@ PlanResult as_planned(const AnswerRules& rules, const OccupancyGrid& grid, const
     result.cost_m += escape_m;
     result.length_lower_bound_m.reset();
   }
-  result.clearance_m = clearance_along(*start.space, points_on(result.path), rules.robot_m);
+  const std::vector<Point> points = points_on(result.path);
+  result.clearance_m = clearance_along(*start.space, points, rules.robot_m);
+  if (rules.driving) result.driving_time_s = driving_time_s(start.space->field(), points, *rules.driving);
   result.landmarks.clear();
   const bool is_there = planned.outcome == PlanOutcome::solved;
   for (const LandmarkId id : {start.landmark, is_there ? goal.landmark : 0})

@@ -20,7 +20,7 @@ std::optional<PlanOutcome> Walker::stopped() const {
 Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const {
   const Point from = walk.route.back().at;
   if (from == to) return Step::done;
-  if (space_.fits_along(from, to, rules_.disc_m)) {
+  if (space_.fits_along(from, to, rules_.disc_m + rules_.straight_clearance_m)) {
     walk.add_part(PathSegment::Origin::straight, leg);
     walk.go_on_to(to);
     walk.cost_m += (to - from).norm();
@@ -31,6 +31,7 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
   request.to.pose = Pose2{to.x(), to.y(), 0.0};
   request.radius_m = rules_.radius_m;
   request.seed = rules_.seed;
+  request.speed_mps = rules_.speed_mps;
   const PathResult planned = path_planner_.plan(request, world_, budget_);
   if (planned.outcome == PlanOutcome::cancelled || budget_.exhausted()) {
     walk.stopped = stopped().value_or(planned.outcome);

@@ -12,13 +12,17 @@ namespace cairn {
 namespace {
 
 void describe_cost(Fields<OmplConfig>& fields) {
-  fields.choice("objective", &OmplConfig::objective,
-                {{"as_asked", Objective::as_asked},
-                 {"length", Objective::length},
-                 {"time", Objective::time},
-                 {"clearance", Objective::clearance},
-                 {"weighted", Objective::weighted}},
-                "what routes are counted by; as_asked: the request's cost");
+  fields.choice(
+      "objective", &OmplConfig::objective,
+      {{"as_driven", Objective::as_driven},
+       {"as_asked", Objective::as_asked},
+       {"length", Objective::length},
+       {"time", Objective::time},
+       {"clearance", Objective::clearance},
+       {"weighted", Objective::weighted}},
+      "what routes are counted by; time: seconds at the speed that is allowed beside obstacles; as_asked: the "
+      "request's cost; as_driven: the same, but time instead of length where the robot is known: in missions, "
+      "on maps that one saved, and with a robot file");
   fields.number("length_weight", &OmplConfig::length_weight, {0.0, 1e6}, "1/m", "of `weighted`, a metre");
   fields.number("time_weight", &OmplConfig::time_weight, {0.0, 1e6}, "1/s", "of `weighted`, a second");
   fields.number("clearance_weight", &OmplConfig::clearance_weight, {0.0, 1e6}, "1/m",
@@ -126,6 +130,7 @@ PlannerTraits OmplPlanner::traits() const {
   traits.kinematics = config_.kinematics;
   traits.margin_m = config_.margin_m;
   traits.unknown = config_.unknown == UnknownGround::avoid ? UnknownPolicy::avoid : UnknownPolicy::allow;
+  traits.for_driving_time = config_.objective == Objective::as_driven || config_.objective == Objective::time;
   return traits;
 }
 

@@ -19,7 +19,7 @@ struct OmplConfig {
   std::int64_t iterations = 3000;
   std::int64_t improve_iterations = 300;
   double good_enough_ratio = 1.01;
-  Objective objective = Objective::as_asked;
+  Objective objective = Objective::as_driven;
   double length_weight = 1.0;
   double time_weight = 1.0;
   double clearance_weight = 1.0;

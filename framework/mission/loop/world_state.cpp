@@ -6,6 +6,7 @@ WorldView WorldState::view() const {
   WorldView world{
       *grid, graph, robot, pose, time_s, has_observation ? &observation : nullptr, driven.speed_reduction_ratio};
   world.T_map_start = T_map_start;
+  world.speed_law = speed_law;
   return world;
 }
 

@@ -25,6 +25,7 @@ struct WorldState {
   PoseEstimate pose{};
   double time_s = 0.0;
   DriveCommand driven{};
+  SpeedLaw speed_law{};  // of the mission's collision monitor
 
   void observe(Observation seen, const std::optional<GroundTruth>& truth_then) {
     observation = std::move(seen);

@@ -38,6 +38,7 @@ class MapPlanner {
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
 
  private:
+  [[nodiscard]] WorldView world_on(const OccupancyGrid& grid, std::uint64_t version) const;
   void prepare(const OccupancyGrid& grid, std::uint64_t version) const;
   [[nodiscard]] PlanResult plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
                                    const Budget& budget) const;
@@ -53,6 +54,7 @@ class MapPlanner {
   mutable std::once_flag grid_read_;
   mutable SavedMap map_;
   RobotModel robot_;
+  std::optional<SpeedLaw> speed_law_;  // none: nobody knows which robot it is
   Hierarchies hierarchies_;
   mutable std::once_flag clusters_made_;
   mutable ClusterTree clusters_;
