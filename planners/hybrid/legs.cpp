@@ -37,7 +37,10 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
     walk.stopped = stopped().value_or(planned.outcome);
     return Step::stopped;
   }
-  if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return Step::failed;
+  // A longer one may have been chosen because it is faster.
+  const bool is_for_time = rules_.straight_clearance_m > 0.0;
+  const double least_m = is_for_time ? planned.length_lower_bound_m.value_or(planned.length_m) : planned.length_m;
+  if (planned.outcome != PlanOutcome::solved || least_m > at_most_m) return Step::failed;
   // The path planner may leave its start with less clearance: check.
   if (!is_passable(planned.path) || planned.path.back().position() != to) return Step::failed;
   walk.add_part(PathSegment::Origin::planned, leg);

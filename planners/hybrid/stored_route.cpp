@@ -23,7 +23,9 @@ class StoredRoute {
  public:
   StoredRoute(const HybridTools& tools, const LegRules& legs, const AnswerRules& answers, const PlanRequest& request,
               const WorldView& world, const Budget& budget)
-      : tools_(tools), legs_(legs), answers_(answers), request_(request), world_(world), budget_(budget) {}
+      : tools_(tools), legs_(legs), answers_(answers), request_(request), world_(world), budget_(budget) {
+    legs_.straight_clearance_m = 0.0;  // as they were driven: what joins them is short
+  }
 
   std::optional<PlanResult> find() {
     if (!take_ends()) return std::nullopt;
@@ -104,7 +106,7 @@ class StoredRoute {
   }
 
   const HybridTools& tools_;
-  const LegRules& legs_;
+  LegRules legs_;
   const AnswerRules& answers_;
   const PlanRequest& request_;
   const WorldView& world_;
