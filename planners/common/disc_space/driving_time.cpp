@@ -22,9 +22,14 @@ std::optional<DrivingRules> driving_rules_of(const WorldView& world, double radi
   return DrivingRules{DrivingPace(*world.speed_law, world.robot.max_v_mps, speed_mps), robot_m};
 }
 
+int driving_steps(const DistanceField& field, double length_m) {
+  constexpr double kStep_m = 0.1;
+  return std::max(1, static_cast<int>(std::ceil(length_m / std::max(kStep_m, field.cell_m()))));
+}
+
 double driving_time_s(const DistanceField& field, const Point& from, const Point& to, const DrivingRules& rules) {
   const double length_m = (to - from).norm();
-  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / field.cell_m())));
+  const int steps = driving_steps(field, length_m);
   double sum = 0.0;
   for (int i = 0; i < steps; ++i)
     sum += rules.pace.s_per_m(edge_clearance_m(field, from + (i + 0.5) / steps * (to - from), rules.radius_m));

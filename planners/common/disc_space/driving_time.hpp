@@ -21,7 +21,9 @@ struct DrivingRules {
 // None where the robot is not known (WorldView::speed_law) or a point. speed_mps: as in PathRequest.
 [[nodiscard]] std::optional<DrivingRules> driving_rules_of(const WorldView& world, double radius_m, double speed_mps);
 
-// Seconds, by the mean pace of every cell's length or less. At least the length times pace.min_s_per_m(). Turning on
+// Into how many steps a straight segment is divided to be counted: of 0.1 m, the spread of the law, or a cell.
+[[nodiscard]] int driving_steps(const DistanceField& field, double length_m);
+// Seconds, by the pace in the middle of every step. At least the length times pace.min_s_per_m(). Turning on
 // the spot, speeding up and braking are not counted.
 [[nodiscard]] double driving_time_s(const DistanceField& field, const Point& from, const Point& to,
                                     const DrivingRules& rules);

@@ -163,7 +163,7 @@ class TravelObjective : public ob::OptimizationObjective {
 
   [[nodiscard]] ob::Cost stateCost(const ob::State*) const override { return identityCost(); }
   [[nodiscard]] ob::Cost motionCost(const ob::State* from, const ob::State* to) const override {
-    return ob::Cost(problem_.cost.between(point_of(from), point_of(to)));
+    return ob::Cost(problem_.cost.between_or_blocked(point_of(from), point_of(to)));
   }
   [[nodiscard]] ob::Cost motionCostHeuristic(const ob::State* from, const ob::State* to) const override {
     return ob::Cost(problem_.cost.min_per_m() * (point_of(to) - point_of(from)).norm());

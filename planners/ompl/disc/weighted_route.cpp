@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kOctile = 1.083;  // a route over eight neighbours may be so much longer than one at any angle
-constexpr std::int64_t kMaxCells = 4'000'000;
-constexpr int kMaxSettled = 400'000;
+constexpr std::int64_t kMaxNodes = 1'000'000;
+constexpr double kStep_m = 0.1;  // between nodes, where cells are smaller
 
 // The cells that a point can be in that is at most sum_m from two others together.
 CellBox cells_of_ellipse(const DistanceField& field, const Point& a, const Point& b, double sum_m) {
@@ -32,7 +32,7 @@ CellBox cells_of_ellipse(const DistanceField& field, const Point& a, const Point
 class GridSearch {
  public:
   GridSearch(const DiscRoutes& routes, const TravelCost& cost, const Point& from, const Point& to, double known_cost,
-             const Budget& budget)
+             const Budget& budget, int stride)
       : space_(routes.space()),
         field_(space_.field()),
         radius_m_(routes.radius_m()),
@@ -41,12 +41,15 @@ class GridSearch {
         to_(to),
         max_cost_(known_cost * kOctile),
         budget_(budget),
-        window_(cells_of_ellipse(field_, from, to, max_cost_ / cost.min_per_m())) {}
+        window_(cells_of_ellipse(field_, from, to, max_cost_ / cost.min_per_m())),
+        stride_(stride),
+        columns_((window_.width() + stride - 1) / stride),
+        rows_((window_.height() + stride - 1) / stride) {}
 
   std::vector<Point> route() {
-    const std::int64_t cells = std::int64_t{window_.width()} * window_.height();
-    if (window_.empty() || cells > kMaxCells) return {};
-    nodes_.resize(static_cast<std::size_t>(cells));
+    const std::int64_t nodes = std::int64_t{columns_} * rows_;
+    if (window_.empty() || nodes > kMaxNodes) return {};
+    nodes_.resize(static_cast<std::size_t>(nodes));
     begin();
     int settled = 0;
     while (!queue_.empty()) {
@@ -56,7 +59,7 @@ class GridSearch {
       Node& node = nodes_[open.at];
       if (node.is_settled) continue;
       node.is_settled = true;
-      if (++settled > kMaxSettled || (settled % 256 == 0 && budget_.exhausted())) return {};
+      if (++settled % 256 == 0 && budget_.exhausted()) return {};
       expand(open.at);
     }
     return {};
@@ -76,13 +79,24 @@ class GridSearch {
   };
 
   [[nodiscard]] std::size_t goal() const { return nodes_.size(); }
-  [[nodiscard]] std::size_t index_of(Cell cell) const {
-    return static_cast<std::size_t>(cell.y - window_.min.y) * static_cast<std::size_t>(window_.width()) +
-           static_cast<std::size_t>(cell.x - window_.min.x);
+  // Nodes by column and row, every so many cells.
+  [[nodiscard]] bool is_node(Cell node) const {
+    return node.x >= 0 && node.y >= 0 && node.x < columns_ && node.y < rows_;
+  }
+  [[nodiscard]] std::size_t index_of(Cell node) const {
+    return static_cast<std::size_t>(node.y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(node.x);
+  }
+  [[nodiscard]] Cell node_of(std::size_t at) const {
+    const auto columns = static_cast<std::size_t>(columns_);
+    return {static_cast<int>(at % columns), static_cast<int>(at / columns)};
   }
   [[nodiscard]] Cell cell_of(std::size_t at) const {
-    const auto width = static_cast<std::size_t>(window_.width());
-    return window_.min + Cell{static_cast<int>(at % width), static_cast<int>(at / width)};
+    const Cell node = node_of(at);
+    return window_.min + Cell{node.x * stride_, node.y * stride_};
+  }
+  [[nodiscard]] Cell node_near(const Point& p_map) const {
+    const Cell cell = field_.cell_at(p_map);
+    return {(cell.x - window_.min.x) / stride_, (cell.y - window_.min.y) / stride_};
   }
   [[nodiscard]] Point centre_of(std::size_t at) const { return field_.centre_of(cell_of(at)); }
   [[nodiscard]] double per_m(std::size_t at) {
@@ -102,35 +116,42 @@ class GridSearch {
   }
 
   template <class Visit>
-  void around(Cell cell, const Visit& visit) const {
+  void around(Cell node, const Visit& visit) const {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
-        if (window_.contains(cell + Cell{dx, dy})) visit(cell + Cell{dx, dy});
+        if (is_node(node + Cell{dx, dy})) visit(node + Cell{dx, dy});
+  }
+
+  // Most steps are far from everything.
+  [[nodiscard]] bool fits_between(std::size_t a, std::size_t b, double step_m) const {
+    const double nearest_m = std::min(field_.distance_m(cell_of(a)), field_.distance_m(cell_of(b)));
+    if (nearest_m - 0.5 * step_m - 0.71 * field_.cell_m() >= radius_m_) return true;
+    return space_.fits_along(centre_of(a), centre_of(b), radius_m_);
   }
 
   void begin() {
-    around(field_.cell_at(from_), [&](Cell cell) {
-      const Point centre = field_.centre_of(cell);
-      if (space_.fits_along(from_, centre, radius_m_)) reach(index_of(cell), cost_.between(from_, centre), -1);
+    around(node_near(from_), [&](Cell node) {
+      const Point centre = centre_of(index_of(node));
+      if (space_.fits_along(from_, centre, radius_m_)) reach(index_of(node), cost_.between(from_, centre), -1);
     });
   }
 
   void expand(std::size_t at) {
-    const Cell cell = cell_of(at);
-    const Point centre = field_.centre_of(cell);
+    const Cell node = node_of(at);
     const double cost = nodes_[at].cost;
-    const Cell last = field_.cell_at(to_);
-    if (std::abs(cell.x - last.x) <= 1 && std::abs(cell.y - last.y) <= 1 && space_.fits_along(centre, to_, radius_m_))
-      reach(goal(), cost + cost_.between(centre, to_), static_cast<std::int32_t>(at));
+    const Cell last = node_near(to_);
+    if (std::abs(node.x - last.x) <= 1 && std::abs(node.y - last.y) <= 1 &&
+        space_.fits_along(centre_of(at), to_, radius_m_))
+      reach(goal(), cost + cost_.between(centre_of(at), to_), static_cast<std::int32_t>(at));
     const double own_per_m = per_m(at);
-    around(cell, [&](Cell next) {
+    around(node, [&](Cell next) {
       const std::size_t to = index_of(next);
-      if (to == at || nodes_[to].is_settled || field_.is_blocked(next)) return;
-      const double step_m = (next.x != cell.x && next.y != cell.y ? std::numbers::sqrt2 : 1.0) * field_.cell_m();
+      if (to == at || nodes_[to].is_settled || field_.is_blocked(cell_of(to))) return;
+      const double step_m =
+          (next.x != node.x && next.y != node.y ? std::numbers::sqrt2 : 1.0) * stride_ * field_.cell_m();
       if (cost + step_m * cost_.min_per_m() >= nodes_[to].cost) return;
       const double reached = cost + 0.5 * step_m * (own_per_m + per_m(to));
-      if (reached < nodes_[to].cost && space_.fits_along(centre, field_.centre_of(next), radius_m_))
-        reach(to, reached, static_cast<std::int32_t>(at));
+      if (reached < nodes_[to].cost && fits_between(at, to, step_m)) reach(to, reached, static_cast<std::int32_t>(at));
     });
   }
 
@@ -152,6 +173,9 @@ class GridSearch {
   double max_cost_;
   const Budget& budget_;
   CellBox window_;
+  int stride_;
+  int columns_;
+  int rows_;
   std::vector<Node> nodes_;
   std::priority_queue<Open> queue_;
   double goal_cost_ = kInf;
@@ -162,7 +186,11 @@ class GridSearch {
 
 std::vector<Point> weighted_route(const DiscRoutes& routes, const TravelCost& cost, const Point& from, const Point& to,
                                   double known_cost, const Budget& budget) {
-  const std::vector<Point> route = GridSearch(routes, cost, from, to, known_cost, budget).route();
+  const int stride = std::max(1, static_cast<int>(kStep_m / routes.space().cell_m() + 1e-9));
+  std::vector<Point> route = GridSearch(routes, cost, from, to, known_cost, budget, stride).route();
+  // Gaps that no node happens to lie in are left to the route that is known.
+  if (route.empty() && stride > 1 && !std::isfinite(known_cost))
+    route = GridSearch(routes, cost, from, to, known_cost, budget, 1).route();
   if (route.empty()) return {};
   return shortened_by_cost(routes.space(), cost, route, routes.radius_m(), budget);
 }

@@ -1,8 +1,15 @@
 #include "planners/ompl/search/travel_cost.hpp"
 
+#include <limits>
+
 #include "maps/hierarchy/route_costs.hpp"
 
 namespace cairn {
+namespace {
+
+constexpr double kDoubt_cells = 1.5;  // by which an interpolated clearance is off at most
+
+}  // namespace
 
 TravelCost::TravelCost(const OccupancyGrid& grid, const DiscSpace& space, const TravelCostRules& rules)
     : grid_(grid), space_(space), rules_(rules) {
@@ -48,9 +55,26 @@ double TravelCost::per_m_at(const Point& p_map) const {
 double TravelCost::between(const Point& from, const Point& to) const {
   const double length_m = (to - from).norm();
   if (clearance_ <= 0.0 && time_ <= 0.0 && rules_.unknown_weight <= 1.0) return base_ * length_m;
+  if (is_only_time()) return driving_time_s(space_.field(), from, to, *rules_.driving);
   const int steps = std::max(1, static_cast<int>(std::ceil(length_m / space_.cell_m())));
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) sum += per_m_at(from + (i + 0.5) / steps * (to - from));
+  return sum * length_m / steps;
+}
+
+double TravelCost::between_or_blocked(const Point& from, const Point& to) const {
+  if (!is_only_time()) return between(from, to);
+  const DistanceField& field = space_.field();
+  const double length_m = (to - from).norm();
+  const int steps = driving_steps(field, length_m);
+  const double blocked_m = -kDoubt_cells * field.cell_m();
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double clearance_m =
+        edge_clearance_m(field, from + (i + 0.5) / steps * (to - from), rules_.driving->radius_m);
+    if (clearance_m < blocked_m) return std::numeric_limits<double>::infinity();
+    sum += rules_.driving->pace.s_per_m(clearance_m);
+  }
   return sum * length_m / steps;
 }
 

@@ -46,12 +46,17 @@ class TravelCost {
   [[nodiscard]] const std::optional<DrivingRules>& driving() const { return rules_.driving; }
   // Straight, the same in both directions; by room and unknown ground to a cell's accuracy.
   [[nodiscard]] double between(const Point& from, const Point& to) const;
+  // The same, or +inf where the robot would certainly stand in something: known sooner.
+  [[nodiscard]] double between_or_blocked(const Point& from, const Point& to) const;
   // What a metre counts there, at least min_per_m().
   [[nodiscard]] double per_m_at(const Point& p_map) const;
   // No metre counts less.
   [[nodiscard]] double min_per_m() const { return base_; }
 
  private:
+  // Neither room nor unknown ground.
+  [[nodiscard]] bool is_only_time() const { return is_driving_time() && rules_.unknown_weight <= 1.0; }
+
   const OccupancyGrid& grid_;
   const DiscSpace& space_;
   TravelCostRules rules_;
