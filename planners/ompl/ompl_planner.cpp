@@ -57,9 +57,10 @@ void describe_motion(Fields<OmplConfig>& fields) {
 }  // namespace
 
 void OmplConfig::describe(Fields<OmplConfig>& fields) {
-  fields.choice("algorithm", &OmplConfig::algorithm, algorithm_names(),
-                "AnyAngleRRTstar: the shortest route over the grid, at any angle, improved by OMPL's InformedRRTstar; "
-                "or a planner of OMPL alone, by OMPL's name");
+  fields.choice(
+      "algorithm", &OmplConfig::algorithm, algorithm_names(),
+      "AnyAngleRRTstar: the shortest route over the grid, at any angle, or the fastest over its cells, improved by "
+      "OMPL's InformedRRTstar; or a planner of OMPL alone, by OMPL's name");
   fields.integer("iterations", &OmplConfig::iterations, {1, 1e9},
                  "how often a search from nothing may ask whether to go on; a count, so that answers do not depend on "
                  "the machine's speed");
@@ -67,7 +68,7 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
                  "AnyAngleRRTstar: iterations to improve a route that is longer than good_enough_ratio times what any "
                  "must be; 0: until the budget's deadline, none without one");
   fields.number("good_enough_ratio", &OmplConfig::good_enough_ratio, {1.0, 100.0}, "",
-                "AnyAngleRRTstar: a route at most so much longer than any route must be is not improved");
+                "AnyAngleRRTstar: a route at most so much longer, or slower, than any must be is not improved");
   describe_cost(fields);
   describe_motion(fields);
   fields.number("margin_m", &OmplConfig::margin_m, {0.0, 2.0}, "m", "added to the robot's radius");
