@@ -4,6 +4,11 @@
 #include <limits>
 
 namespace cairn {
+namespace {
+
+constexpr double kShort_m = 0.1;  // over which no other path is looked for, whatever room there is
+
+}  // namespace
 
 bool Walker::is_passable(const std::vector<Pose2>& trajectory) const {
   if (trajectory.empty() || !space_.fits(trajectory.front().position(), rules_.disc_m)) return false;
@@ -20,7 +25,8 @@ std::optional<PlanOutcome> Walker::stopped() const {
 Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const {
   const Point from = walk.route.back().at;
   if (from == to) return Step::done;
-  if (space_.fits_along(from, to, rules_.disc_m + rules_.straight_clearance_m)) {
+  const double clearance_m = (to - from).norm() <= kShort_m ? 0.0 : rules_.straight_clearance_m;
+  if (space_.fits_along(from, to, rules_.disc_m + clearance_m)) {
     walk.add_part(PathSegment::Origin::straight, leg);
     walk.go_on_to(to);
     walk.cost_m += (to - from).norm();

@@ -170,7 +170,7 @@ struct Way {
 };
 std::vector<Way> ways() {
   std::vector<Way> all{{"shortest", "{objective: length}"}, {"start", "{improve_iterations: 0}"}};
-  for (const char* iterations : {"50", "100", "200", "300", "1000"})
+  for (const char* iterations : {"50", "100", "300", "1000", "2000"})
     all.push_back({std::string("AnyAngleRRTstar, ") + iterations,
                    std::string("{good_enough_ratio: 1.001, improve_iterations: ") + iterations + "}"});
   for (const char* name : {"BITstar", "InformedRRTstar"})
