@@ -136,7 +136,7 @@ struct Row {
 void print(const std::string& group, const std::string& how, const Row& row) {
   std::printf(
       "| %s | %s | %zu | %zu | %zu | %.0f | %zu | %.2f | %.2f | %.2f | %.2f | %.2f |\n", group.c_str(), how.c_str(),
-      row.legs, row.unsolved,
+      row.legs, row.unsolved, row.touching,
       100.0 * static_cast<double>(row.improved.size()) / static_cast<double>(std::max<std::size_t>(row.legs, 1)),
       row.worse, row.improved.empty() ? 0.0 : 100.0 * quantile(row.improved, 0.5),
       row.gains.empty() ? 0.0 : 100.0 * quantile(row.gains, 1.0), 100.0 * (1.0 - row.driving_s / row.start_s),
