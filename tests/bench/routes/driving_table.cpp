@@ -35,6 +35,7 @@ struct Settings {
 struct Leg {
   Point from{0.0, 0.0};
   Point to{0.0, 0.0};
+  double ends_clearance_m = 0.0;  // of the nearer one
 };
 
 struct Site {
@@ -56,7 +57,8 @@ struct Site {
     const auto place = [&] { return grid.centre_of(places[random() % places.size()] + box.min); };
     while (places.size() > 1 && legs.size() < settings.pairs) {
       const Point from = place();
-      legs.push_back({from, place()});
+      const Point to = place();
+      legs.push_back({from, to, std::min(space.distance_m(from, from), space.distance_m(to, to)) - kRadius_m});
     }
   }
 
@@ -82,9 +84,8 @@ struct Site {
 
 struct Answer {
   double driving_s = 0.0;
-  double clearance_m = 0.0;
-  double length_m = 0.0;
   double took_ms = 0.0;
+  bool touches = false;  // something, between ends that do not
   bool solved = false;
 };
 
@@ -97,7 +98,8 @@ std::vector<Answer> answers_of(const Site& site, const std::string& settings) {
   for (const Leg& leg : site.legs) {
     const TimedPlan plan = timed_plan(router, leg.from, leg.to);
     const std::vector<Point> route = points_of(plan.result);
-    answers.push_back({site.seconds_of(route), plan.result.clearance_m, plan.result.length_m, plan.took_ms,
+    answers.push_back({site.seconds_of(route), plan.took_ms,
+                       plan.result.clearance_m < kTouching_m && leg.ends_clearance_m >= kTouching_m,
                        plan.result.outcome == PlanOutcome::solved});
   }
   return answers;
@@ -123,7 +125,7 @@ struct Row {
       ++unsolved;
       return;
     }
-    if (answer.clearance_m < kTouching_m) ++touching;
+    if (answer.touches) ++touching;
     start_s += start.driving_s;
     driving_s += answer.driving_s;
     const double gain = start.driving_s > 0.0 ? 1.0 - answer.driving_s / start.driving_s : 0.0;
@@ -181,7 +183,8 @@ std::vector<Way> ways() {
 void print_table(const Settings& settings) {
   const std::vector<Site> sites = sites_of(settings);
   std::printf(
-      "| maps | how | legs | unsolved | within 1 cm of something | improved %% | worse than the start | median of the "
+      "| maps | how | legs | unsolved | nearer than 1 cm, the ends not | improved %% | worse than the start | median "
+      "of the "
       "improved %% | most %% | all legs together %% | median ms | p95 ms "
       "|\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const std::string group : {"saved by missions", "rooms", "occ_maps"}) {
