@@ -25,8 +25,7 @@ demo: configure
 	@cmake --build --preset release --target cairn simulated_robot odometry_compass muriel template_matcher \
 	  hybrid landmark_search ompl pursuit_dwa behaviours
 	$(CAIRN) run config/missions/office.yaml --out out/demo
-	$(CAIRN) plan out/demo/office.cairn --from 0.6,0.6 --to "nearest square" --set route.margin_m=0.1 \
-	  --picture out/demo/route.png
+	$(CAIRN) plan out/demo/office.cairn --from 0.6,0.6 --to "nearest square" --picture out/demo/route.png
 	@echo "Look at out/demo/map.png and out/demo/route.png"
 
 test: build

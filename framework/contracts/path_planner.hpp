@@ -32,6 +32,7 @@ struct PlannerTraits {
   Kinematics kinematics = Kinematics::holonomic;
   double margin_m = 0.0;                         // kept free around the shape
   UnknownPolicy unknown = UnknownPolicy::avoid;  // whether paths may cross unknown cells
+  bool for_driving_time = false;  // where the robot is known (WorldView::speed_law), rather than for the shortest path
 };
 
 struct PathRequest {
@@ -40,6 +41,7 @@ struct PathRequest {
   double radius_m = 0.22;  // of the disc that must fit
   std::uint64_t seed = 1;
   CostKind cost = CostKind::length;  // what paths are compared by
+  double speed_mps = 0.0;            // as fast as the path is to be driven; 0: as the robot can
 };
 
 struct PathResult {
@@ -52,6 +54,7 @@ struct PathResult {
   LandmarkId to_landmark = 0;    // at which it ends; 0: at none, or short of the goal
   std::vector<Pose2> path;
   std::optional<double> length_lower_bound_m;  // no path on this grid can be shorter
+  std::optional<double> driving_time_s;        // by the speed law along the path; none where that is not known
 };
 
 class PathPlanner {

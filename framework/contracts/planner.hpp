@@ -25,6 +25,7 @@ struct PlanRequest {
   double radius_m = 0.22;  // of the disc that must fit
   std::uint64_t seed = 1;
   CostKind cost = CostKind::length;
+  double speed_mps = 0.0;  // as fast as the path is to be driven; 0: as the robot can
   // Over the landmark graph:
   std::vector<LandmarkId> avoid;  // not passed; a start or goal may be among them
   std::vector<RouteId> closed;    // not taken, as if the map said so
@@ -65,6 +66,7 @@ struct PlanResult {
   std::vector<Pose2> path;
   std::vector<PathSegment> segments;
   std::optional<double> length_lower_bound_m;  // no path on this grid can be shorter
+  std::optional<double> driving_time_s;        // by the speed law along the path; none where that is not known
   std::int64_t settled = 0;                    // graph vertices settled
   std::vector<RouteAlternative> alternatives;
   std::optional<RouteExplanation> explanation;

@@ -6,6 +6,7 @@
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/contracts/speed_law.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
@@ -29,6 +30,8 @@ struct WorldView {
   std::uint64_t grid_version = 0;
   const CellSource* cells = nullptr;  // of a grid that is not whole in memory; null: it is
   Pose2 T_map_start{};                // where the mission began; a mission that was resumed, where it began at first
+  // How fast the robot may go beside obstacles; none where the robot that will drive is not known.
+  std::optional<SpeedLaw> speed_law{};
 };
 
 }  // namespace cairn

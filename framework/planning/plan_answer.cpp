@@ -82,7 +82,8 @@ std::string json_text_of(const PlanAnswer& answer) {
                     {"landmarks", labels(result.landmarks, "L")},
                     {"routes", result.routes},
                     {"path", std::move(path)},
-                    {"clearance_m", result.clearance_m}};
+                    {"clearance_m", result.clearance_m},
+                    {"driving_time_s", json_of(result.driving_time_s)}};
   if (answer.with_times) json["time_ms"] = json_of(result.time_ms);
   json["settled"] = result.settled;
   if (answer.question.alternatives > 0) json["alternatives"] = json_of(result.alternatives);

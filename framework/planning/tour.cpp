@@ -59,6 +59,7 @@ void append_leg(PlanResult& tour, const PlanResult& leg) {
   tour.time_ms.route_ms += leg.time_ms.route_ms;
   tour.time_ms.total_ms += leg.time_ms.total_ms;
   append_explanation(tour.explanation, leg.explanation);
+  tour.driving_time_s = sum_of(tour.driving_time_s, leg.driving_time_s);
 }
 
 // Where the next leg begins.
@@ -80,6 +81,7 @@ PlanResult plan_tour(const PlanCall& plan, PlanRequest request, std::span<const 
   const bool adds_up = std::ranges::all_of(via, [](const Place& stop) { return stop.landmarks.size() <= 1; });
   PlanResult tour;
   if (adds_up) tour.length_lower_bound_m = 0.0;
+  tour.driving_time_s = 0.0;
   for (std::size_t i = 0; i < stops.size(); ++i) {
     request.to = stops[i];
     const PlanResult leg = plan(request);
@@ -91,6 +93,7 @@ PlanResult plan_tour(const PlanCall& plan, PlanRequest request, std::span<const 
     if (leg.outcome != PlanOutcome::solved) {
       tour.reason = "leg " + number + ": " + leg.reason;
       tour.length_lower_bound_m.reset();
+      tour.driving_time_s.reset();
       return tour;
     }
     request.from = arrived_at(stops[i], leg);

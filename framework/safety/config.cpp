@@ -22,6 +22,13 @@ void DeafConfig::describe(Fields<DeafConfig>& fields) {
   fields.number("silent_mps", &C::silent_mps, {0.02, 0.1}, "m/s", "until something is heard again");
 }
 
+SpeedLaw CollisionMonitorConfig::speed_law() const {
+  SpeedLaw law;
+  law.margin_m = margin_m;
+  law.slow_m = slow_m;
+  return law;
+}
+
 void CollisionMonitorConfig::describe(Fields<CollisionMonitorConfig>& fields) {
   fields.number("margin_m", &CollisionMonitorConfig::margin_m, {0.01, 1.0}, "m",
                 "stop zone: kept between the footprint and anything seen");

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "framework/config/fields.hpp"
+#include "framework/contracts/speed_law.hpp"
 #include "maps/geometry/pose.hpp"
 
 namespace cairn {
@@ -23,14 +24,17 @@ struct DeafConfig {
 };
 
 struct CollisionMonitorConfig {
-  double margin_m = 0.05;         // kept between the footprint and anything seen
-  double slow_m = 0.1;            // beyond the margin: only slowly
-  double stale_s = 1.0;           // how long an echo counts, and how long a transducer may be silent
+  double margin_m = SpeedLaw{}.margin_m;  // kept between the footprint and anything seen
+  double slow_m = SpeedLaw{}.slow_m;      // beyond the margin: only slowly
+  double stale_s = 1.0;                   // how long an echo counts, and how long a transducer may be silent
   std::optional<double> blind_s;  // without any reading for so long, no driving; none: one and a half periods of them
   double command_valid_s = 0.25;  // the wheels stop by themselves so long after the last command
   double stop_after_s = 0.25;     // and are stopped when no tick has ended for so long, by the wall clock
   DeafConfig deaf;
   static void describe(Fields<CollisionMonitorConfig>& fields);
+
+  // With the default controller's zone.
+  [[nodiscard]] SpeedLaw speed_law() const;
 };
 
 // How long it has interfered.

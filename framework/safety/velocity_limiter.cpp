@@ -10,12 +10,18 @@
 namespace cairn {
 namespace {
 
-constexpr double kCreep_mps = 0.04;      // where nobody looks: a touch at this speed does no harm
-constexpr double kSlowRatio = 0.4;       // of the top speed, in the slow zone
-constexpr double kBlindPeriods = 1.5;    // of firing: the second reading in a row that is missing
-constexpr double kLongestBlind_s = 1.0;  // as blind_s, where the period is measured
+constexpr double kCreep_mps = SpeedLaw{}.creep_mps;  // where nobody looks, too
+constexpr double kBlindPeriods = 1.5;                // of firing: the second reading in a row that is missing
+constexpr double kLongestBlind_s = 1.0;              // as blind_s, where the period is measured
 constexpr std::size_t kGaps = 5;
 constexpr double kBumpSide_rad = radians(40.0);
+
+// Its own zones alone: the controller sees to its.
+SpeedLaw law_of(const CollisionMonitorConfig& config) {
+  SpeedLaw law = config.speed_law();
+  law.tight_m = 0.0;
+  return law;
+}
 
 // The largest share k of a speed with which the robot stands before distance_m is used up, when what it might meet
 // comes towards it at closing_mps as long as it moves:  k V t + (k V)^2 / 2a + u (t + k V / a) <= distance.
@@ -32,6 +38,7 @@ double share_for(double distance_m, double speed_mps, double deceleration_mps2, 
 
 VelocityLimiter::VelocityLimiter(const CollisionMonitorConfig& config, const RobotModel& robot)
     : config_(config),
+      law_(law_of(config)),
       robot_(robot),
       memory_(robot, config.stale_s),
       hearing_(config.deaf, memory_.kept_s()),
@@ -130,8 +137,8 @@ Twist VelocityLimiter::cut(const Twist& clamped) const {
   const double speed_mps = sweep_speed_mps(robot_, clamped);
   if (speed_mps <= 0.0) return clamped;  // a disc that turns in place
   const double v_mps = std::abs(clamped.v_mps);
-  const double slow_mps =
-      std::max(kSlowRatio * robot_.max_v_mps, speed_mps * allowed_share(clamped, config_.margin_m + config_.slow_m));
+  const double slow_mps = std::max(allowed_speed_mps(config_.margin_m, robot_.max_v_mps, law_),  // in the slow zone
+                                   speed_mps * allowed_share(clamped, config_.margin_m + config_.slow_m));
   double max_mps = std::min(speed_mps, slow_mps);
   if (bumped_) max_mps = std::min(max_mps, kCreep_mps);
   // It is not on the wanted arc yet. Down to a creep only, so that it can always turn away from where it stands.

@@ -47,6 +47,7 @@ class VelocityLimiter {
   [[nodiscard]] double allowed_share(const Twist& twist, double margin_m) const;
 
   CollisionMonitorConfig config_;
+  SpeedLaw law_;
   RobotModel robot_;
   RangeBuffer memory_;
   DeafTransducers hearing_;

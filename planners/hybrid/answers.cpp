@@ -28,7 +28,7 @@ PlanResult joined(const AnswerRules& rules, const PlanningGround& ground, const 
   }
   if (rules.shortcut) {
     const std::size_t keep = start.escape ? 2 : 1;
-    const ShortcutRules shortcuts = ground.shortcuts();
+    const ShortcutRules shortcuts = ground.shortcuts(rules.shortcut_clearance_m);
     route = tightened(shortcuts, straightened(shortcuts, route, keep, budget), keep, budget);
   }
   const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
@@ -42,6 +42,7 @@ PlanResult joined(const AnswerRules& rules, const PlanningGround& ground, const 
   result.length_m = length_of(points);
   result.cost_m = result.length_m;
   result.clearance_m = ground.clearance_m(points, rules.robot_m);
+  if (rules.driving) result.driving_time_s = ground.driving_time_s(points, *rules.driving);
   result.path = poses_along(points, start.pose.theta_rad, goal.heading_rad);
   result.segments = segments_of(route, parts);
   return result;
@@ -77,7 +78,9 @@ PlanResult as_planned(const AnswerRules& rules, const PlanningGround& ground, co
     result.cost_m += escape_m;
     result.length_lower_bound_m.reset();
   }
-  result.clearance_m = ground.clearance_m(points_on(result.path), rules.robot_m);
+  const std::vector<Point> points = points_on(result.path);
+  result.clearance_m = ground.clearance_m(points, rules.robot_m);
+  if (rules.driving) result.driving_time_s = ground.driving_time_s(points, *rules.driving);
   result.landmarks.clear();
   const bool is_there = planned.outcome == PlanOutcome::solved;
   for (const LandmarkId id : {start.landmark, is_there ? goal.landmark : 0})

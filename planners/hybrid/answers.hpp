@@ -4,6 +4,7 @@
 #include <set>
 #include <vector>
 
+#include "planners/common/disc_space/driving_time.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/legs.hpp"
 
@@ -14,6 +15,8 @@ struct AnswerRules {
   double robot_m = 0.22;   // radius of the robot, from which clearances are counted
   double radius_m = 0.22;  // of the disc that must fit, with the margin
   bool shortcut = true;
+  std::optional<DrivingRules> driving{};  // the robot, where it is known
+  double shortcut_clearance_m = 0.0;      // that cut corners keep on top of radius_m
 };
 
 // Joins, shortens and re-checks on the ground's grid; `route` begins where the start is left. std::logic_error when the

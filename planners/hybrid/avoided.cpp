@@ -61,7 +61,9 @@ WorldView with_grid(const OccupancyGrid& grid, const WorldView& world) {
           world.speed_reduction_ratio,
           world.hierarchies,
           &grid == &world.grid ? world.grid_version : 0,
-          &grid == &world.grid ? world.cells : nullptr};
+          &grid == &world.grid ? world.cells : nullptr,
+          world.T_map_start,
+          world.speed_law};
 }
 
 }  // namespace cairn

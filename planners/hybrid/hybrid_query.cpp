@@ -32,8 +32,13 @@ class Query {
     ends_.ground.unknown = tools.traits.unknown;
     ends_.radius_m = request.radius_m + tools.traits.margin_m;
     ends_.start_tolerance_m = tools.config.start_tolerance_m;
-    legs_ = {request.radius_m, disc_m(), tools.config.detour_ratio, request.seed};
-    answers_ = {ends_.ground, request.radius_m, ends_.radius_m, tools.config.shortcut};
+    legs_ = {request.radius_m, disc_m(), tools.config.detour_ratio, request.seed, request.speed_mps};
+    answers_ = {ends_.ground, request.radius_m, ends_.radius_m, tools.config.shortcut,
+                driving_rules_of(world, request.radius_m, request.speed_mps)};
+    if (answers_.driving && tools.traits.for_driving_time && request.cost != CostKind::clearance) {
+      legs_.straight_clearance_m = std::max(0.0, answers_.driving->pace.open_from_m() - added_m());
+      answers_.shortcut_clearance_m = legs_.straight_clearance_m;
+    }
   }
 
   PlanResult answer() {
@@ -103,6 +108,9 @@ class Query {
         result.reason += "; " + text_of_route(id, world_.graph) + " passes an avoided landmark";
     }
   }
+
+  // That the planned disc keeps of the robot's clearance.
+  double added_m() const { return ends_.radius_m - answers_.driving->radius_m; }
 
   // With a hair more than is re-checked, so that rounding makes no difference.
   double disc_m() const { return ends_.radius_m + kMinRadius_m; }
@@ -215,6 +223,7 @@ class Query {
     request.radius_m = request_.radius_m;
     request.seed = request_.seed;
     request.cost = request_.cost;
+    request.speed_mps = request_.speed_mps;
     const Time begin = Budget::Clock::now();
     PlanResult planned = plan_of(whole.path(request, budget_));
     route_ms_ += ms_since(begin);

@@ -4,6 +4,11 @@
 #include <limits>
 
 namespace cairn {
+namespace {
+
+constexpr double kShort_m = 0.1;  // over which no other path is looked for, whatever room there is
+
+}  // namespace
 
 bool Walker::is_passable(const std::vector<Pose2>& trajectory) const {
   if (trajectory.empty()) return false;
@@ -20,7 +25,8 @@ std::optional<PlanOutcome> Walker::stopped() const {
 Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_most_m) const {
   const Point from = walk.route.back().at;
   if (from == to) return Step::done;
-  if (ground_.fits_along(from, to)) {
+  const double clearance_m = (to - from).norm() <= kShort_m ? 0.0 : rules_.straight_clearance_m;
+  if (ground_.fits_with(from, to, clearance_m)) {
     walk.add_part(PathSegment::Origin::straight, leg);
     walk.go_on_to(to);
     walk.cost_m += (to - from).norm();
@@ -31,12 +37,16 @@ Walker::Step Walker::go_to(const Point& to, RouteId leg, Walk& walk, double at_m
   request.to.pose = Pose2{to.x(), to.y(), 0.0};
   request.radius_m = rules_.radius_m;
   request.seed = rules_.seed;
+  request.speed_mps = rules_.speed_mps;
   const PathResult planned = ground_.path(request, budget_);
   if (planned.outcome == PlanOutcome::cancelled || budget_.exhausted()) {
     walk.stopped = stopped().value_or(planned.outcome);
     return Step::stopped;
   }
-  if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return Step::failed;
+  // A longer one may have been chosen because it is faster.
+  const bool is_for_time = rules_.straight_clearance_m > 0.0;
+  const double least_m = is_for_time ? planned.length_lower_bound_m.value_or(planned.length_m) : planned.length_m;
+  if (planned.outcome != PlanOutcome::solved || least_m > at_most_m) return Step::failed;
   // The path planner may leave its start with less clearance: check.
   if (!is_passable(planned.path) || planned.path.back().position() != to) return Step::failed;
   walk.add_part(PathSegment::Origin::planned, leg);

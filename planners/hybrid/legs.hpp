@@ -16,6 +16,8 @@ struct LegRules {
   double disc_m = 0.22;       // radius of the disc that has to fit: with the margin, and a hair more
   double detour_ratio = 1.3;  // a leg planned anew may be this much longer than its stored cost
   std::uint64_t seed = 1;
+  double speed_mps = 0.0;             // of the request
+  double straight_clearance_m = 0.0;  // on top of disc_m, without which a straight leg is left to the path planner
 };
 
 struct Walk {

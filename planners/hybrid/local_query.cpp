@@ -31,7 +31,8 @@ class LocalQuery {
         world_(world),
         budget_(budget),
         windows_(windows),
-        ground_(world, ends.ground, legs.disc_m, tools.path_planner, tools.windows, windows, tools.config.shortcut),
+        ground_(world, ends.ground, legs.disc_m, tools.path_planner, tools.windows, windows,
+                tools.config.shortcut && legs.straight_clearance_m == 0.0),
         ends_(ground_, ends, windows, budget) {}
 
   LocalAnswer answer() {
@@ -147,6 +148,7 @@ class LocalQuery {
     request.radius_m = request_.radius_m;
     request.seed = request_.seed;
     request.cost = request_.cost;
+    request.speed_mps = request_.speed_mps;
     const Budget::Clock::time_point begin = Budget::Clock::now();
     const PlanResult planned = plan_of(ground_.path(request, budget_));
     route_ms_ += milliseconds(Budget::Clock::now() - begin);

@@ -12,7 +12,8 @@ namespace {
 constexpr std::int64_t kMaxKept_cells = 8'000'000;  // of all windows
 constexpr double kMaxShortcut_m = 25.0;
 constexpr double kWork_cells = 1e6;  // of shortening a path
-constexpr double kNearest_m = 0.5;   // clearances are looked for so far out at first
+constexpr double kDrivingStep_m = 0.1;
+constexpr double kNearest_m = 0.5;  // clearances are looked for so far out at first
 
 std::int64_t cells_of(const CellBox& box) {
   return std::int64_t{box.width()} * box.height();
@@ -96,12 +97,12 @@ void WindowedGround::require_near(const Point& from, const Point& to, double rea
       {world_.grid.cell_at(from.cwiseMin(to) - reach), world_.grid.cell_at(from.cwiseMax(to) + reach) + Cell{1, 1}});
 }
 
-bool WindowedGround::fits_along(const Point& from, const Point& to) const {
+bool WindowedGround::fits_with(const Point& from, const Point& to, double added_m) const {
   if (!from.allFinite() || !to.allFinite()) return false;
   const CellBox inside = world_.grid.bounds().grown(1);  // no centre of a disc leaves them, as in a DiscSpace
   if (!inside.contains(world_.grid.cell_at(from)) || !inside.contains(world_.grid.cell_at(to))) return false;
-  require_near(from, to, disc_m_);
-  return sweep_is_free(world_.grid, rules_, from, to, disc_m_);
+  require_near(from, to, disc_m_ + added_m);
+  return sweep_is_free(world_.grid, rules_, from, to, disc_m_ + added_m);
 }
 
 std::optional<Pose2> WindowedGround::approach(const Landmark& landmark) const {
@@ -120,6 +121,7 @@ PathResult WindowedGround::path(const PathRequest& request, const Budget& budget
     result = path_of(window->routes->coarse_route(from, to, budget), *request.from.pose, request.to);
   if (result.outcome != PlanOutcome::solved) {
     WorldView part{window->grid, world_.graph, world_.robot, world_.pose, world_.time_s};
+    part.speed_law = world_.speed_law;
     result = path_planner_.plan(request, part, budget);
   }
   const double outside_m = min_outside_m(from, to, box);
@@ -151,9 +153,24 @@ double WindowedGround::clearance_m(const std::vector<Point>& route, double radiu
   }
 }
 
-ShortcutRules WindowedGround::shortcuts() const {
+// As driving_time_s() of a distance field counts it, with exact distances.
+double WindowedGround::driving_time_s(const std::vector<Point>& route, const DrivingRules& rules) const {
+  const double open_m = rules.radius_m + rules.pace.open_from_m();
+  double time_s = 0.0;
+  for (std::size_t i = 1; i < route.size(); ++i) {
+    const Point step = route[i] - route[i - 1];
+    const int steps = std::max(1, static_cast<int>(std::ceil(step.norm() / kDrivingStep_m)));
+    for (int k = 0; k < steps; ++k) {
+      const Point middle = route[i - 1] + (k + 0.5) / steps * step;
+      time_s += step.norm() / steps * rules.pace.s_per_m(distance_m(middle, middle, open_m) - rules.radius_m);
+    }
+  }
+  return time_s;
+}
+
+ShortcutRules WindowedGround::shortcuts(double added_m) const {
   ShortcutRules rules;
-  rules.fits_along = [this](const Point& from, const Point& to) { return fits_along(from, to); };
+  rules.fits_along = [this, added_m](const Point& from, const Point& to) { return fits_with(from, to, added_m); };
   rules.cell_m = world_.grid.cell_m();
   rules.max_shortcut_m = kMaxShortcut_m;
   rules.max_work_cells = kWork_cells;

@@ -54,13 +54,14 @@ class WindowedGround : public PlanningGround {
                  const WindowCache& cache, const WindowRules& windows, bool shortest);
 
   [[nodiscard]] const WorldView& world() const override { return world_; }
-  [[nodiscard]] bool fits_along(const Point& from, const Point& to) const override;
+  [[nodiscard]] bool fits_with(const Point& from, const Point& to, double added_m) const override;
   [[nodiscard]] std::optional<Pose2> approach(const Landmark& landmark) const override;
   // In a window that was used before and holds both ends, else in the one round both. Its lower bound, if any, holds
   // for the whole grid.
   [[nodiscard]] PathResult path(const PathRequest& request, const Budget& budget) const override;
   [[nodiscard]] double clearance_m(const std::vector<Point>& route, double radius_m) const override;
-  [[nodiscard]] ShortcutRules shortcuts() const override;
+  [[nodiscard]] double driving_time_s(const std::vector<Point>& route, const DrivingRules& rules) const override;
+  [[nodiscard]] ShortcutRules shortcuts(double added_m) const override;
 
   // The blocks of the places, of the nearest cells where they lie outside the grid, and so many more on each side.
   [[nodiscard]] CellBox box_round(const Point& a, const Point& b, int reach_blocks) const;

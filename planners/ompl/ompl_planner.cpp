@@ -12,13 +12,17 @@ namespace cairn {
 namespace {
 
 void describe_cost(Fields<OmplConfig>& fields) {
-  fields.choice("objective", &OmplConfig::objective,
-                {{"as_asked", Objective::as_asked},
-                 {"length", Objective::length},
-                 {"time", Objective::time},
-                 {"clearance", Objective::clearance},
-                 {"weighted", Objective::weighted}},
-                "what routes are counted by; as_asked: the request's cost");
+  fields.choice(
+      "objective", &OmplConfig::objective,
+      {{"as_driven", Objective::as_driven},
+       {"as_asked", Objective::as_asked},
+       {"length", Objective::length},
+       {"time", Objective::time},
+       {"clearance", Objective::clearance},
+       {"weighted", Objective::weighted}},
+      "what routes are counted by; time: seconds at the speed that is allowed beside obstacles; as_asked: the "
+      "request's cost; as_driven: the same, but time instead of length where the robot is known: in missions, "
+      "on maps that one saved, and with a robot file");
   fields.number("length_weight", &OmplConfig::length_weight, {0.0, 1e6}, "1/m", "of `weighted`, a metre");
   fields.number("time_weight", &OmplConfig::time_weight, {0.0, 1e6}, "1/s", "of `weighted`, a second");
   fields.number("clearance_weight", &OmplConfig::clearance_weight, {0.0, 1e6}, "1/m",
@@ -53,9 +57,10 @@ void describe_motion(Fields<OmplConfig>& fields) {
 }  // namespace
 
 void OmplConfig::describe(Fields<OmplConfig>& fields) {
-  fields.choice("algorithm", &OmplConfig::algorithm, algorithm_names(),
-                "AnyAngleRRTstar: the shortest route over the grid, at any angle, improved by OMPL's InformedRRTstar; "
-                "or a planner of OMPL alone, by OMPL's name");
+  fields.choice(
+      "algorithm", &OmplConfig::algorithm, algorithm_names(),
+      "AnyAngleRRTstar: the shortest route over the grid, at any angle, or the fastest over its cells, improved by "
+      "OMPL's InformedRRTstar; or a planner of OMPL alone, by OMPL's name");
   fields.integer("iterations", &OmplConfig::iterations, {1, 1e9},
                  "how often a search from nothing may ask whether to go on; a count, so that answers do not depend on "
                  "the machine's speed");
@@ -63,7 +68,7 @@ void OmplConfig::describe(Fields<OmplConfig>& fields) {
                  "AnyAngleRRTstar: iterations to improve a route that is longer than good_enough_ratio times what any "
                  "must be; 0: until the budget's deadline, none without one");
   fields.number("good_enough_ratio", &OmplConfig::good_enough_ratio, {1.0, 100.0}, "",
-                "AnyAngleRRTstar: a route at most so much longer than any route must be is not improved");
+                "AnyAngleRRTstar: a route at most so much longer, or slower, than any must be is not improved");
   describe_cost(fields);
   describe_motion(fields);
   fields.number("margin_m", &OmplConfig::margin_m, {0.0, 2.0}, "m", "added to the robot's radius");
@@ -126,6 +131,7 @@ PlannerTraits OmplPlanner::traits() const {
   traits.kinematics = config_.kinematics;
   traits.margin_m = config_.margin_m;
   traits.unknown = config_.unknown == UnknownGround::avoid ? UnknownPolicy::avoid : UnknownPolicy::allow;
+  traits.for_driving_time = config_.objective == Objective::as_driven || config_.objective == Objective::time;
   return traits;
 }
 

@@ -17,9 +17,9 @@ enum class UnknownGround : std::uint8_t { avoid, allow, cost };
 struct OmplConfig {
   Algorithm algorithm = Algorithm::any_angle_rrt_star;
   std::int64_t iterations = 3000;
-  std::int64_t improve_iterations = 300;
+  std::int64_t improve_iterations = 100;
   double good_enough_ratio = 1.01;
-  Objective objective = Objective::as_asked;
+  Objective objective = Objective::as_driven;
   double length_weight = 1.0;
   double time_weight = 1.0;
   double clearance_weight = 1.0;

@@ -30,6 +30,15 @@ bool can_steer(const Twist& twist, const motion::Accelerations& limits) {
          std::abs(twist.w_radps) * limits.min_turning_radius_m <= twist.v_mps + 1e-9;
 }
 
+// Its own zone alone: the collision monitor sees to the others.
+SpeedLaw law_of(const WindowSettings& settings) {
+  SpeedLaw law;
+  law.margin_m = law.slow_m = 0.0;
+  law.tight_m = settings.clearance_m;
+  law.tight_mps = settings.tight_speed_mps;
+  return law;
+}
+
 // One search of the window, at one clearance and top speed.
 struct Search {
   double clearance_m;
@@ -174,7 +183,8 @@ WindowStep best_in_window(const Twist& now, const Wish& wish, std::span<const Po
   const WindowStep step = Search{settings.clearance_m, limits.max_v_mps, now, wish, obstacles, limits, settings}.best();
   if (!step.blocked) return step;
   const double tight_m = std::min(settings.tight_clearance_m, settings.clearance_m);
-  return Search{tight_m, settings.tight_speed_mps, now, wish, obstacles, limits, settings}.best();
+  const double tight_mps = allowed_speed_mps(0.0, limits.max_v_mps, law_of(settings));
+  return Search{tight_m, tight_mps, now, wish, obstacles, limits, settings}.best();
 }
 
 }  // namespace cairn::pursuit_dwa

@@ -10,14 +10,15 @@
 #include <span>
 
 #include "framework/config/fields.hpp"
+#include "framework/contracts/speed_law.hpp"
 #include "plugins/common/motion/velocity.hpp"
 
 namespace cairn::pursuit_dwa {
 
 struct WindowSettings {
-  double clearance_m = 0.07;
+  double clearance_m = SpeedLaw{}.tight_m;
   double tight_clearance_m = 0.03;
-  double tight_speed_mps = 0.12;
+  double tight_speed_mps = SpeedLaw{}.tight_mps;
   double window_s = 0.4;
   int speeds = 5;
   int turn_rates = 15;

@@ -44,7 +44,7 @@ PlanResult not_a_landmark(const std::string& end) {
 }  // namespace
 
 PathRequest path_request_of(const PlanRequest& request) {
-  return {request.from, request.to, request.radius_m, request.seed, request.cost};
+  return {request.from, request.to, request.radius_m, request.seed, request.cost, request.speed_mps};
 }
 
 RouteRequest route_request_of(const PlanRequest& request) {
@@ -63,6 +63,7 @@ PlanResult plan_of(PathResult&& found) {
     if (id != 0 && (result.landmarks.empty() || result.landmarks.back() != id)) result.landmarks.push_back(id);
   result.path = std::move(found.path);
   result.length_lower_bound_m = found.length_lower_bound_m;
+  result.driving_time_s = found.driving_time_s;
   return result;
 }
 

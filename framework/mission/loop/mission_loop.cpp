@@ -34,6 +34,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       fatal_ends_(monitor_, modules_.clock) {
   world_.pose.T_map_robot = modules_.T_map_start;
   world_.hierarchies = &planning_.hierarchies();
+  world_.speed_law = mission_.config.collision_monitor.speed_law();
   if (options.resume != nullptr) restore(*options.resume);
 }
 

@@ -7,6 +7,7 @@ WorldView WorldState::view() const {
       *grid, graph, robot, pose, time_s, has_observation ? &observation : nullptr, driven.speed_reduction_ratio};
   world.T_map_start = T_map_start;
   world.hierarchies = hierarchies;
+  world.speed_law = speed_law;
   return world;
 }
 

@@ -54,6 +54,11 @@ bool names_other_than_landmarks(const PlanQuestion& question, const LandmarkGrap
   return is_other(question.from) || is_other(question.to) || std::ranges::any_of(question.via, is_other);
 }
 
+// As the robot of the mission that saved the map, or of a file.
+bool is_robot_known(const PlanCommand& command, const SavedMap& map) {
+  return !command.robot.empty() || map.properties.contains(kRobotRadiusProperty);
+}
+
 PlanResult unknown_place(const PlaceError& error) {
   PlanResult unknown;
   unknown.outcome = PlanOutcome::unknown_place;
@@ -83,6 +88,7 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
       file_(opened_in_part(command)),
       map_(file_ ? file_->without_cells() : load_map(command.map)),
       robot_(robot_of(command, map_)),
+      speed_law_(is_robot_known(command, map_) ? std::optional(SpeedLaw{}) : std::nullopt),
       hierarchies_(map_.graph, map_.clusters, rules_of(robot_, map_), cluster_rules()) {
   const PluginChoice choice = choice_of(command);
   ModuleContext context{robot_};
@@ -97,8 +103,15 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
   if (many_) prepare(map_.grid, kLoadedGrid);  // neither is what the planner makes of the grid
 }
 
+WorldView MapPlanner::world_on(const OccupancyGrid& grid, std::uint64_t version) const {
+  WorldView world{grid, map_.graph, robot_};
+  world.grid_version = version;
+  world.speed_law = speed_law_;
+  return world;
+}
+
 void MapPlanner::prepare(const OccupancyGrid& grid, std::uint64_t version) const {
-  const WorldView world{grid, map_.graph, robot_, {}, 0.0, nullptr, 0.0, nullptr, version};
+  const WorldView world = world_on(grid, version);
   fenced("planner", command_.planner, [&] {
     planner_->prepare(world, robot_.radius_m);
     return 0;
@@ -109,9 +122,9 @@ PlanResult MapPlanner::plan_on(const OccupancyGrid& grid, std::uint64_t version,
                                const Budget& budget) const {
   // One answer is not worth making the hierarchy for.
   const bool on_hierarchy = many_ || request.explain;
-  const CellSource* const cells = cells_ ? &*cells_ : nullptr;
-  const WorldView world{grid,    map_.graph, robot_, {}, 0.0, nullptr, 0.0, on_hierarchy ? &hierarchies_ : nullptr,
-                        version, cells};
+  WorldView world = world_on(grid, version);
+  if (on_hierarchy) world.hierarchies = &hierarchies_;
+  if (cells_) world.cells = &*cells_;
   return fenced("planner", command_.planner, [&] { return planner_->plan(request, world, budget); });
 }
 

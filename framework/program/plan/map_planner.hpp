@@ -41,6 +41,7 @@ class MapPlanner {
 
  private:
   [[nodiscard]] ClusterRules cluster_rules() const;
+  [[nodiscard]] WorldView world_on(const OccupancyGrid& grid, std::uint64_t version) const;
   void prepare(const OccupancyGrid& grid, std::uint64_t version) const;
   [[nodiscard]] PlanResult plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
                                    const Budget& budget) const;
@@ -58,6 +59,7 @@ class MapPlanner {
   mutable SavedMap map_;
   std::optional<MapCells> cells_;  // of the file, for a planner that asks for them
   RobotModel robot_;
+  std::optional<SpeedLaw> speed_law_;  // none: nobody knows which robot it is
   Hierarchies hierarchies_;
   mutable std::once_flag clusters_made_;
   mutable ClusterTree clusters_;

@@ -60,10 +60,14 @@ std::string text_of(const PlanQuery& query, const PlanResult& result, const Save
                     const ClusterTree& clusters) {
   std::string out = fmt::format("{} -> {}: {}", query.question.from, query.question.to, name_of(result.outcome));
   const bool on_grid = !map.grid.bounds().empty();
-  if (result.outcome == PlanOutcome::solved)
-    out += on_grid ? fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest, {:.1f} ms",
-                                 result.length_m, result.clearance_m, result.time_ms.total_ms)
-                   : fmt::format(", cost {:.2f} m, {:.3f} ms", result.cost_m, result.time_ms.total_ms);
+  if (result.outcome == PlanOutcome::solved && on_grid) {
+    out +=
+        fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest", result.length_m, result.clearance_m);
+    if (result.driving_time_s) out += fmt::format(", {:.1f} s of driving", *result.driving_time_s);
+    out += fmt::format(", {:.1f} ms", result.time_ms.total_ms);
+  } else if (result.outcome == PlanOutcome::solved) {
+    out += fmt::format(", cost {:.2f} m, {:.3f} ms", result.cost_m, result.time_ms.total_ms);
+  }
   const auto list = [&](const std::vector<LandmarkId>& landmarks) {
     for (const LandmarkId id : landmarks) out += fmt::format(" L{}", id);
   };

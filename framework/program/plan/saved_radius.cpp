@@ -7,7 +7,7 @@
 namespace cairn {
 
 double saved_radius_m(const SavedMap& map, const std::filesystem::path& file) {
-  const auto found = map.properties.find("robot_radius_m");
+  const auto found = map.properties.find(kRobotRadiusProperty);
   if (found == map.properties.end()) return RobotModel{}.radius_m;
   const std::string& text = found->second;
   const auto radius_m = number_from<double>(text);

@@ -14,10 +14,21 @@
 namespace cairn {
 namespace {
 
-double cost_of(const TravelCost& cost, const std::vector<Point>& route) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < route.size(); ++i) sum += cost.between(route[i - 1], route[i]);
-  return sum;
+// Most of what there is to gain of a route that is cheap already lies beside it; the other samples are even.
+constexpr double kBesideShare = 0.7;
+constexpr double kBesideWidth_m = 0.3;
+
+Objective objective_of(const OmplConfig& config, const PathRequest& request, bool is_robot_known) {
+  if (config.objective != Objective::as_driven && config.objective != Objective::as_asked) return config.objective;
+  switch (request.cost) {
+    case CostKind::time:
+      return Objective::time;
+    case CostKind::clearance:
+      return Objective::clearance;
+    case CostKind::length:
+      break;
+  }
+  return config.objective == Objective::as_driven && is_robot_known ? Objective::time : Objective::length;
 }
 
 }  // namespace
@@ -30,18 +41,18 @@ EndRules end_rules_of(const OmplConfig& config, double radius_m) {
   return rules;
 }
 
-TravelCostRules cost_rules_of(const OmplConfig& config, const PathRequest& request, const RobotModel& robot,
+TravelCostRules cost_rules_of(const OmplConfig& config, const PathRequest& request, const WorldView& world,
                               double radius_m) {
-  const Objective asked = request.cost == CostKind::length ? Objective::length
-                          : request.cost == CostKind::time ? Objective::time
-                                                           : Objective::clearance;
-  return {config.objective == Objective::as_asked ? asked : config.objective,
+  const std::optional<DrivingRules> driving =
+      driving_rules_of(world, std::min(radius_m, request.radius_m), request.speed_mps);
+  return {objective_of(config, request, driving.has_value()),
           config.length_weight,
           config.time_weight,
           config.clearance_weight,
           config.unknown == UnknownGround::cost ? config.unknown_weight : 1.0,
-          robot.max_v_mps,
-          radius_m};
+          world.robot.max_v_mps,
+          radius_m,
+          driving};
 }
 
 DiscQuery::DiscQuery(const OmplTools& tools, const PathRequest& request, const WorldView& world, const Budget& budget)
@@ -89,8 +100,11 @@ FoundRoute DiscQuery::find(const StartPlace& start, const GoalPlace& goal, const
   const Point to = goal.pose.position();
   if (from == to) return {{from}, true, false, false, 0.0, "start and goal are the same place"};
   const TravelCost cost(start.grid_of(world_), *start.space,
-                        cost_rules_of(tools_.config, request_, world_.robot, rules_.radius_m));
-  if (cost.is_length() && start.space->fits_along(from, to, radius_m()))
+                        cost_rules_of(tools_.config, request_, world_, rules_.radius_m));
+  const double straight_m =
+      cost.is_driving_time() ? cost.driving()->radius_m + cost.driving()->pace.open_from_m() : 0.0;
+  if ((cost.is_length() || cost.is_driving_time()) &&
+      start.space->fits_along(from, to, std::max(radius_m(), straight_m)))
     return {{from, to}, true, false, false, (to - from).norm(), "straight on"};
   if (tools_.config.algorithm == Algorithm::any_angle_rrt_star) {
     FoundRoute found = find_on_grid(routes, cost, from, to);
@@ -117,10 +131,11 @@ FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& c
   if (found.impossible || found.interrupted) return found;
   found.how = "the shortest path over the grid";
   if (!cost.is_length()) {
-    std::vector<Point> cheap = weighted_route(routes, cost, from, to, budget_);
-    if (!cheap.empty() && (found.route.empty() || cost_of(cost, cheap) < cost_of(cost, found.route))) {
+    const double known = found.route.empty() ? std::numeric_limits<double>::infinity() : cost_of(cost, found.route);
+    std::vector<Point> cheap = weighted_route(routes, cost, from, to, known, budget_);
+    if (!cheap.empty() && cost_of(cost, cheap) < known) {
       found.route = std::move(cheap);
-      found.how = "the cheapest path over the grid";
+      found.how = cost.is_driving_time() ? "the fastest path over the grid" : "the cheapest path over the grid";
     }
   }
   found.exact = !found.route.empty();
@@ -158,7 +173,9 @@ std::vector<Point> DiscQuery::shortened(const DiscRoutes& routes, const TravelCo
 
 void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const TravelCost& cost) const {
   const OmplConfig& config = tools_.config;
-  if (cost.is_length() && length_of(found.route) <= config.good_enough_ratio * *found.length_lower_bound_m) return;
+  const double known = cost_of(cost, found.route);
+  const bool is_bounded = cost.is_length() || cost.is_driving_time();
+  if (is_bounded && known <= config.good_enough_ratio * cost.min_per_m() * *found.length_lower_bound_m) return;
   const bool timed = config.improve_iterations == 0;
   if (timed && budget_.deadline == Budget::Clock::time_point::max()) return;
   const std::int64_t iterations =
@@ -166,10 +183,10 @@ void DiscQuery::improve(FoundRoute& found, const DiscRoutes& routes, const Trave
 
   const Point from = found.route.front();
   const Point to = found.route.back();
-  const double known = cost_of(cost, found.route);
   const SampledCells samples{routes.lattice(), routes.cells_between(from, to, known / cost.min_per_m(), budget_)};
   if (samples.cells.empty()) return;
-  const DiscProblem problem{routes.space(), radius_m(), from, to, samples, cost, request_.seed};
+  DiscProblem problem{routes.space(), radius_m(), from, to, samples, cost, request_.seed};
+  if (cost.is_driving_time()) problem.guide = {found.route, kBesideShare, kBesideWidth_m};
   const auto info = space_information(problem);
   const auto definition = definition_of(problem, info);
   KnownStates states(info);
@@ -211,7 +228,7 @@ PathResult DiscQuery::checked(const StartPlace& start, const GoalPlace& goal, co
     throw std::logic_error(fmt::format("ompl: the re-check refused a route of {} points from {} to {}, radius {:f}",
                                        route.size(), text_of(route.front()), text_of(route.back()), rules_.radius_m));
   const TravelCost cost(start.grid_of(world_), *start.space,
-                        cost_rules_of(tools_.config, request_, world_.robot, rules_.radius_m));
+                        cost_rules_of(tools_.config, request_, world_, rules_.radius_m));
   return result_of(start, goal, found, route, cost);
 }
 
@@ -223,6 +240,8 @@ PathResult DiscQuery::result_of(const StartPlace& start, const GoalPlace& goal, 
   result.cost_m = cost.is_in_metres() ? cost_of(cost, route) : result.length_m;
   if (found.exact && !start.escape) result.length_lower_bound_m = found.length_lower_bound_m;
   result.clearance_m = clearance_along(*start.space, route, request_.radius_m);
+  if (const auto driving = driving_rules_of(world_, request_.radius_m, request_.speed_mps))
+    result.driving_time_s = driving_time_s(start.space->field(), route, *driving);
   result.path = poses_along(route, start.pose.theta_rad, found.exact ? goal.heading_rad : std::nullopt);
   result.from_landmark = start.landmark;
   if (found.exact) result.to_landmark = goal.landmark;

@@ -15,7 +15,7 @@ struct OmplTools {
 
 [[nodiscard]] EndRules end_rules_of(const OmplConfig& config, double radius_m);
 [[nodiscard]] TravelCostRules cost_rules_of(const OmplConfig& config, const PathRequest& request,
-                                            const RobotModel& robot, double radius_m);
+                                            const WorldView& world, double radius_m);
 
 // A route and how it was found.
 struct FoundRoute {

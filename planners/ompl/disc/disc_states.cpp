@@ -86,6 +86,27 @@ class CellSampler : public ob::StateSampler {
   CellDraw draw_;
 };
 
+// Even along a route, and up to its width beside it.
+class GuideDraw {
+ public:
+  explicit GuideDraw(const Guide& guide) : guide_(guide), length_m_(length_of(guide.route)) {}
+
+  [[nodiscard]] Point point(CellDraw& draw) const {
+    double left_m = draw.unit() * length_m_;
+    std::size_t i = 1;
+    while (i + 1 < guide_.route.size() && left_m > (guide_.route[i] - guide_.route[i - 1]).norm())
+      left_m -= (guide_.route[i] - guide_.route[i - 1]).norm(), ++i;
+    const Point along = guide_.route[i] - guide_.route[i - 1];
+    const double share = std::min(1.0, left_m / std::max(along.norm(), 1e-9));
+    const Point off{2.0 * draw.unit() - 1.0, 2.0 * draw.unit() - 1.0};
+    return guide_.route[i - 1] + share * along + guide_.width_m * off;
+  }
+
+ private:
+  const Guide& guide_;
+  double length_m_;
+};
+
 // Points that a cheaper route may pass: the route to them and on, at the least cost a metre, is below the bound.
 class InformedCellSampler : public ob::InformedSampler {
  public:
@@ -93,14 +114,15 @@ class InformedCellSampler : public ob::InformedSampler {
   static constexpr std::size_t kMaxCounted = 100'000;  // cells, for a measure: of more, every so many
 
   InformedCellSampler(const ob::ProblemDefinitionPtr& definition, const DiscProblem& problem, std::uint64_t seed)
-      : InformedSampler(definition, kTries), problem_(problem), draw_(problem.samples, seed) {}
+      : InformedSampler(definition, kTries), problem_(problem), draw_(problem.samples, seed), guide_(problem.guide) {}
 
   bool sampleUniform(ob::State* state, const ob::Cost& below) override {
     return sampleUniform(state, ob::Cost(0.0), below);
   }
   bool sampleUniform(ob::State* state, const ob::Cost& from, const ob::Cost& below) override {
     for (unsigned i = 0; i < kTries; ++i) {
-      const Point p = draw_.point();
+      const bool is_guided = problem_.guide.share > 0.0 && draw_.unit() < problem_.guide.share;
+      const Point p = is_guided ? guide_.point(draw_) : draw_.point();
       const double least = min_through(p);
       if (least < from.value() || least >= below.value()) continue;
       set_point(state, p);
@@ -126,6 +148,7 @@ class InformedCellSampler : public ob::InformedSampler {
 
   const DiscProblem& problem_;
   CellDraw draw_;
+  GuideDraw guide_;
 };
 
 class TravelObjective : public ob::OptimizationObjective {
@@ -140,7 +163,7 @@ class TravelObjective : public ob::OptimizationObjective {
 
   [[nodiscard]] ob::Cost stateCost(const ob::State*) const override { return identityCost(); }
   [[nodiscard]] ob::Cost motionCost(const ob::State* from, const ob::State* to) const override {
-    return ob::Cost(problem_.cost.between(point_of(from), point_of(to)));
+    return ob::Cost(problem_.cost.between_or_blocked(point_of(from), point_of(to)));
   }
   [[nodiscard]] ob::Cost motionCostHeuristic(const ob::State* from, const ob::State* to) const override {
     return ob::Cost(problem_.cost.min_per_m() * (point_of(to) - point_of(from)).norm());

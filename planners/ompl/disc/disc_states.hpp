@@ -27,6 +27,13 @@ struct SampledCells {
   std::vector<Cell> cells;
 };
 
+// A route that samples are drawn about: so many of all, up to so far beside it.
+struct Guide {
+  std::vector<Point> route;
+  double share = 0.0;
+  double width_m = 0.0;
+};
+
 struct DiscProblem {
   const DiscSpace& space;
   double radius_m = 0.0;
@@ -35,6 +42,7 @@ struct DiscProblem {
   const SampledCells& samples;
   const TravelCost& cost;
   std::uint64_t seed = 1;
+  Guide guide{};  // of informed samples
 };
 
 // Motions are checked whole, not at steps. What is made borrows the problem.

@@ -8,14 +8,16 @@
 
 namespace cairn {
 
-// The cheapest over the grid's cells, 8 neighbours, then shortened; empty where cells are too coarse to see the
-// way, or when the budget ends the search. O(cells log cells): everything that is as cheap to reach as the goal is
-// visited.
+// The cheapest over a lattice of cells 0.1 m apart, 8 neighbours, then shortened: A*, among routes that cost hardly
+// more than known_cost (of a route that there is; +inf where none is known). Empty where there is none, where the
+// lattice is too coarse to see the way, when the budget ends the search, or when it would be over a million nodes. O(n
+// log n) of the nodes through which such routes lead.
 [[nodiscard]] std::vector<Point> weighted_route(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
-                                                const Point& to, const Budget& budget);
+                                                const Point& to, double known_cost, const Budget& budget);
 // Drops corners where the straight segment is free and no dearer; those that the budget leaves no time for stay.
 [[nodiscard]] std::vector<Point> shortened_by_cost(const DiscSpace& space, const TravelCost& cost,
                                                    const std::vector<Point>& route, double radius_m,
                                                    const Budget& budget);
+[[nodiscard]] double cost_of(const TravelCost& cost, const std::vector<Point>& route);
 
 }  // namespace cairn

@@ -86,7 +86,7 @@ PathResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, 
   draw.guide_width_m = std::max(setup_.footprint.circumscribed_m(), 2.0 * start.space->cell_m());
   const PoseSpace lattice_poses(*routes.lattice(), setup_.footprint, poses.margin_m());
   const TravelCost cost(start.grid_of(world_), *start.space,
-                        cost_rules_of(tools_.config, request_, world_.robot, setup_.ends.radius_m));
+                        cost_rules_of(tools_.config, request_, world_, setup_.ends.radius_m));
   const PoseProblem problem{setup_.kinematics,        lattice_poses, start.pose, goals, draw, cost,
                             world_.robot.max_w_radps, request_.seed};
   const FoundPath found = find(problem, start);

@@ -64,6 +64,11 @@ PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const W
     result.cost_m = 0.0;
     for (const Motion& motion : motions) result.cost_m += cost_of(problem, motion);
   }
+  if (problem.cost.driving()) {
+    std::vector<Point> points;
+    for (const Pose2& pose : result.path) points.push_back(pose.position());
+    result.driving_time_s = driving_time_s(start.space->field(), points, *problem.cost.driving());
+  }
   result.clearance_m = clearance_of(*start.space, setup.footprint, result.path);
   result.from_landmark = start.landmark;
   result.to_landmark = goal.landmark;

@@ -24,6 +24,7 @@ PlanResult PlannerRequests::ask(const Place& goal, const WorldView& world, Motio
   request.from.pose = world.pose.T_map_robot;
   request.to = goal;
   request.seed = seed_ + static_cast<std::uint64_t>(plans_);
+  request.speed_mps = speed_mps_;
   ++plans_;
   planned_s_ = world.time_s;
   for (const auto& [route, until_s] : closed_until_s_) request.closed.push_back(route);

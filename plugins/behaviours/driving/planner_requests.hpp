@@ -22,7 +22,9 @@ struct PlanningSettings {
 
 class PlannerRequests {
  public:
-  PlannerRequests(const PlanningSettings& settings, std::uint64_t seed) : settings_(settings), seed_(seed) {}
+  // speed_mps: of the drive; 0: as the robot can.
+  PlannerRequests(const PlanningSettings& settings, std::uint64_t seed, double speed_mps = 0.0)
+      : settings_(settings), seed_(seed), speed_mps_(speed_mps) {}
 
   // Every tick: opens routes that were closed for long enough.
   void tick(double time_s);
@@ -41,6 +43,7 @@ class PlannerRequests {
  private:
   PlanningSettings settings_;
   std::uint64_t seed_;
+  double speed_mps_;
   double planned_s_ = -1e9;
   int plans_ = 0;
   std::map<RouteId, double> closed_until_s_;

@@ -12,7 +12,7 @@ RouteDriver::RouteDriver(const RouteSettings& settings, std::uint64_t seed)
       map_(settings.driving.local_map),
       follower_({settings.speed_mps, settings.tolerance_m}, settings.driving.follow, settings.driving.obstacles,
                 ProgressChecker(settings.patience_s, settings.driving.progress)),
-      requests_(settings.driving.planning, seed),
+      requests_(settings.driving.planning, seed, settings.speed_mps),
       local_planning_(settings.driving.optimism),
       look_(settings.driving.look),
       ladder_(settings.driving.recovery, settings.rounds),

@@ -37,6 +37,7 @@ GridRouter::GridRouter(OccupancyGrid grid, double radius_m, const std::string& s
 WorldView GridRouter::world() const {
   WorldView view{grid_, graph_, robot_, {}, 0.0, nullptr, 0.0};
   view.grid_version = 1;
+  view.speed_law = speed_law_;
   return view;
 }
 

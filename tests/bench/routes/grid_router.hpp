@@ -18,6 +18,8 @@ class GridRouter {
   [[nodiscard]] PlanResult plan(const Point& from, const Point& to, double budget_ms = 0.0,
                                 std::uint64_t seed = 1) const;  // budget 0: none
   [[nodiscard]] PlanResult plan(const PlanRequest& request, double budget_ms = 0.0) const;
+  // From now on, paths are asked for a robot that is known.
+  void set_speed_law(const SpeedLaw& law) { speed_law_ = law; }
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
 
  private:
@@ -26,6 +28,7 @@ class GridRouter {
   OccupancyGrid grid_;
   LandmarkGraph graph_;
   RobotModel robot_;
+  std::optional<SpeedLaw> speed_law_;
   std::shared_ptr<Planner> planner_;
 };
 

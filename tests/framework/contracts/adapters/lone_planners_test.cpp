@@ -87,7 +87,7 @@ TEST_F(LonePlanners, AskAPathPlannerForTheSameEndsRadiusSeedAndCost) {
 }
 
 TEST_F(LonePlanners, PassAPathOnAsAPlan) {
-  paths->answer = {PlanOutcome::solved, "found", 3.0, 2.0, 0.1, 1, 3, {{0, 0, 0}, {2, 0, 0}}, 1.9};
+  paths->answer = {PlanOutcome::solved, "found", 3.0, 2.0, 0.1, 1, 3, {{0, 0, 0}, {2, 0, 0}}, 1.9, 7.5};
   PlanResult result = plan_paths();
   EXPECT_EQ(result.outcome, PlanOutcome::solved);
   EXPECT_EQ(result.reason, "found");
@@ -97,6 +97,7 @@ TEST_F(LonePlanners, PassAPathOnAsAPlan) {
   EXPECT_THAT(result.landmarks, ElementsAre(1, 3));
   EXPECT_EQ(result.path, paths->answer.path);
   EXPECT_EQ(result.length_lower_bound_m, 1.9);
+  EXPECT_EQ(result.driving_time_s, 7.5);
   EXPECT_GE(result.time_ms.route_ms, 0.0);
   EXPECT_EQ(result.time_ms.total_ms, result.time_ms.route_ms);
   paths->answer.to_landmark = 1;
