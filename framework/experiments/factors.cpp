@@ -1,6 +1,7 @@
 #include "framework/experiments/factors.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
 namespace cairn {
@@ -28,6 +29,13 @@ void check_factor(const FactorConfig& factor, const ConfigValue& value) {
     if (text.find('/') != std::string::npos)
       throw ConfigError(value.find("values")->place,
                         "a factor's value names a folder too, and \"" + text + "\" cannot be one");
+}
+
+// Others could be taken for the punctuation of a list or a map.
+bool is_plain(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '.' || c == '_' || c == '-' || c == '+';
+  });
 }
 
 std::string quoted_yaml(const std::string& text) {
@@ -95,7 +103,7 @@ std::string yaml_of(const ConfigValue& value) {
     case ConfigValue::Kind::null:
       return "null";
     case ConfigValue::Kind::scalar:
-      return value.quoted ? quoted_yaml(value.scalar) : value.scalar;
+      return value.quoted || !is_plain(value.scalar) ? quoted_yaml(value.scalar) : value.scalar;
     case ConfigValue::Kind::list:
       for (const ConfigValue& item : value.items) text += (text.empty() ? "" : ", ") + yaml_of(item);
       return "[" + text + "]";

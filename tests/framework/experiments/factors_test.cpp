@@ -72,7 +72,7 @@ TEST(Factors, AreRefusedWithTheReason) {
   EXPECT_EQ(error_of("experiment: missions\nmissions: [m.yaml]\nvary:\n  - {name: a, set: [\"b={}\"], values: [1]}\n"),
             "e.yaml:4:3: vary goes with experiment: recognition");
   EXPECT_EQ(error_of(kHead + "vary:\n  - {name: a, set: [\"robot={}\"], values: [a/b]}\n"),
-            "e.yaml:4:38: a factor's value names a folder too, and \"a/b\" cannot be one");
+            "e.yaml:4:42: a factor's value names a folder too, and \"a/b\" cannot be one");
 }
 
 TEST(YamlOf, ReadsAsTheValueThatItWasMadeOf) {
