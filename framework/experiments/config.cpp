@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "framework/experiments/factors.hpp"
+
 namespace cairn {
 namespace {
 
@@ -146,11 +148,20 @@ void SeedRange::describe(Fields<SeedRange>& fields) {
 
 void ExperimentVariant::describe(Fields<ExperimentVariant>& fields) {
   fields.file_name("name", &ExperimentVariant::name, "what it is called in tables").required = true;
-  fields.texts("set", &ExperimentVariant::overrides, "settings of the missions to override, each `key=value`");
+  fields.texts("set", &ExperimentVariant::overrides,
+               "settings to override, each `key=value`: of the missions; `robot.key=value` of the robot file; of "
+               "`recognition` and `curves` also `worlds.key=value` and `specular_ratio=value`");
   fields.file("robot", &ExperimentVariant::robot, "robot file in place of the missions' own");
   fields.file("world", &ExperimentVariant::world, "world file in place of the missions' own");
   fields.number("specular_ratio", &ExperimentVariant::specular_ratio, {0.0, 1.0}, "",
                 "of `recognition` and `curves`: share of walls and things with a smooth surface");
+}
+
+void FactorConfig::describe(Fields<FactorConfig>& fields) {
+  fields.file_name("name", &FactorConfig::name, "what it is called in tables, charts and folders").required = true;
+  fields.text("label", &FactorConfig::label, "its axis in the chart, with the unit; left out, the name");
+  fields.texts("set", &FactorConfig::set, "as a variant's set, with {} where the value goes").required = true;
+  fields.texts("values", &FactorConfig::values, "its values, a variant each").required = true;
 }
 
 void PlaceConfig::describe(Fields<PlaceConfig>& fields) {
@@ -186,6 +197,7 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.files("missions", &C::missions,
                "mission files; needed but for `trials`, which draws its own, and `buildings`");
   fields.list("variants", &C::variants, "each mission is run in each of them; without any, as it stands");
+  fields.list("vary", &C::vary, "of `recognition`: factors of a study, one varied at a time; a table and a chart each");
   fields.text("baseline", &C::baseline, "name of the variant that the others are compared with, seed by seed");
   fields.group("seeds", &C::seeds, "which seeds");
   fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6}, "as the missions' setting of this name");
@@ -211,6 +223,8 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.raw("detectors", &C::detectors_as_given, "list of detectors",
              "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
              "setting left out is as the mission's own detector has it; but tau_match is 0");
+  fields.flag("ring_profile", &C::ring_profile,
+              "of `recognition`: also where the landmarks' outlines lie in the finished maps, as a table and a chart");
   fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
                 "a matching looks at a landmark when the middle of its region is this near to the landmark's");
   fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
@@ -222,10 +236,15 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   for (const std::string& assignment : overrides) apply_override(root, assignment);
   auto config = load_config<ExperimentConfig>(root, "experiment");
   check_missions(config, root);
+  if (!config.vary.empty() && config.experiment != ExperimentKind::recognition)
+    throw ConfigError(root.find("vary")->place, "vary goes with experiment: recognition");
+  add_factor_variants(config, root);
   if (config.variants.empty()) config.variants.emplace_back().name = "as_is";
   const std::vector<std::string> names = checked_names(config, root);
   for (std::size_t i = 0; i < config.variants.size(); ++i) {
     ExperimentVariant& variant = config.variants[i];
+    sort_overrides(variant, root);
+    if (variant.worlds) check_worlds(*variant.worlds, *root.find("worlds"));
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
     if (!variant.world.empty() && (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials))
       throw ConfigError(root.find("variants")->items[i].find("world")->place,

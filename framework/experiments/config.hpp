@@ -34,7 +34,21 @@ struct ExperimentVariant {
   std::filesystem::path robot{};  // after loading one of the overrides, as the world
   std::filesystem::path world{};
   double specular_ratio = 0.0;
+  // After loading:
+  std::vector<std::string> robot_overrides{};  // settings of the robot file, without the "robot." before them
+  std::optional<RandomWorldConfig> worlds{};   // in place of the experiment's, where settings of it are overridden
+  std::string factor{};                        // of a factor's value: the factor's name and the value
+  std::string value{};
   static void describe(Fields<ExperimentVariant>& fields);
+};
+
+// One factor of a study: a variant for each value, all else as it is.
+struct FactorConfig {
+  std::string name;
+  std::string label;             // of the chart's axis, with the unit; after loading never empty
+  std::vector<std::string> set;  // each `key=value` with {} where the factor's value goes
+  std::vector<std::string> values;
+  static void describe(Fields<FactorConfig>& fields);
 };
 
 // A place of the drive, at the end of one of the mission's steps: the first place at that of the first
@@ -64,6 +78,7 @@ struct ExperimentConfig {
   ExperimentKind experiment = ExperimentKind::missions;
   std::vector<std::filesystem::path> missions;
   std::vector<ExperimentVariant> variants;  // after loading at least one
+  std::vector<FactorConfig> vary;           // after loading the variants hold their values too
   std::string baseline;                     // a variant's name
   SeedRange seeds;
   int hold_out_every = 0;
@@ -79,6 +94,7 @@ struct ExperimentConfig {
   BuildingsConfig buildings;
   ConfigValue detectors_as_given;
   std::vector<ComparedDetector> detectors;  // after loading
+  bool ring_profile = false;
   double looks_within_m = 0.35;
   int expected_matchings = 0;  // 0: none published
   static void describe(Fields<ExperimentConfig>& fields);

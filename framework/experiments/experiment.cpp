@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "framework/experiments/factors.hpp"
 #include "framework/mission/held_out.hpp"
 #include "framework/mission/mission.hpp"
 #include "maps/base/in_parallel.hpp"
@@ -47,8 +48,18 @@ std::string write_world(const ExperimentConfig& config, const Job& job, const st
                       "an experiment in random worlds needs a mission whose detector has templates");
   std::filesystem::create_directories(job.out);
   const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
-  write_file(
-      file, random_world_yaml(config.worlds, shapes, job.variant.specular_ratio, static_cast<std::uint64_t>(job.seed)));
+  write_file(file, random_world_yaml(job.variant.worlds.value_or(config.worlds), shapes, job.variant.specular_ratio,
+                                     static_cast<std::uint64_t>(job.seed)));
+  return file.string();
+}
+
+// The robot file of a variant that overrides some of it stays in the run's folder too.
+std::string write_robot(const Job& job, const std::vector<std::string>& overrides) {
+  ConfigValue robot = read_config_file(load_mission(job.mission, overrides).config.robot);
+  for (const std::string& assignment : job.variant.robot_overrides) apply_override(robot, assignment);
+  std::filesystem::create_directories(job.out);
+  const std::filesystem::path file = std::filesystem::absolute(job.out / "robot.yaml");
+  write_file(file, yaml_of(robot) + "\n");
   return file.string();
 }
 
@@ -56,6 +67,7 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
   std::vector<std::string> overrides = config.overrides;
   overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
   if (config.hold_out_every > 0) overrides.push_back("hold_out_every=" + std::to_string(config.hold_out_every));
+  if (!job.variant.robot_overrides.empty()) overrides.push_back("robot=" + write_robot(job, overrides));
   if (config.experiment == ExperimentKind::trials)
     return load_mission(write_trial(config.trials, config.worlds, job.seed, job.out), overrides, job.seed);
   if (in_random_worlds(config.experiment))
@@ -111,6 +123,8 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
     row.places = degrees_at_places(config, *mission.world, listeners.report.degrees(), row.result.steps);
   if (in_random_worlds(config.experiment))
     row.verdicts = judge_recognition(mission, runner.graph(), listeners.known, config.tolerance_m);
+  if (config.ring_profile && mission.world && runner.grid() != nullptr)
+    row.ring = ring_profile(*runner.grid(), *mission.world);
   const bool was_cancelled = row.result.outcome == MissionOutcome::cancelled;  // by the user: no mission's end
   if (config.experiment == ExperimentKind::trials && !was_cancelled)
     row.trial =

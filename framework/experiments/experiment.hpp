@@ -13,6 +13,7 @@
 #include "framework/experiments/recognition/orbit.hpp"
 #include "framework/experiments/recognition/places.hpp"
 #include "framework/experiments/recognition/recognition.hpp"
+#include "framework/experiments/recognition/ring_profile.hpp"
 #include "framework/experiments/trials/trials.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/modules/module_library.hpp"
@@ -34,6 +35,7 @@ struct ExperimentRow {
   std::vector<PlaceDegrees> places;      // one a place of the experiment
   std::vector<OrbitSample> orbit;        // of the experiment's lap
   std::vector<Verdict> verdicts;         // of an experiment of recognition or of curves
+  RingProfile ring;                      // of an experiment of recognition that asks for it
   std::vector<DetectorSweep> sweeps;     // of an experiment of curves, one a detector
   std::vector<TimedContact> contacts;    // by the truth, where it is known
   std::optional<TrialVerdict> trial;     // of an experiment of trials

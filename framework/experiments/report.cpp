@@ -7,9 +7,11 @@
 
 #include "framework/experiments/contacts.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
+#include "framework/experiments/recognition/factor_table.hpp"
 #include "framework/experiments/recognition/orbit_table.hpp"
 #include "framework/experiments/recognition/places_table.hpp"
 #include "framework/experiments/recognition/recognition_table.hpp"
+#include "framework/experiments/recognition/ring_table.hpp"
 #include "framework/experiments/trials/table.hpp"
 
 namespace cairn {
@@ -269,7 +271,8 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
     case ExperimentKind::orbit:
       return orbit_table(config, rows);
     case ExperimentKind::recognition:
-      return recognition_table(config, rows);
+      return (config.variants.front().factor.empty() ? recognition_table(config, rows) : "") +
+             factor_tables(config, rows) + ring_table(config, rows);
     case ExperimentKind::curves:
       return curves_table(config, rows);
     case ExperimentKind::trials:

@@ -18,6 +18,7 @@ struct TemplateSettings {
   Rendering rendering = Rendering::sensed;
   double step_rad = radians(15.0);
   std::vector<double> sizes{1.0};
+  double ring_offset_m = 0.04;  // where sonar maps show the outline (docs/results/paper.md)
   static void describe(Fields<TemplateSettings>& fields);
 };
 
@@ -35,6 +36,9 @@ void describe_templates(Fields<Config>& fields) {
   fields.numbers("sizes", sizes, {0.5, 2.0}, "",
                  "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
                  "size varies");
+  fields.number("ring_offset_m", &Config::ring_offset_m, {-0.2, 0.2}, "m",
+                "of drawn templates (`rendering: ideal`): how far outside the outline the ring is drawn, as maps of "
+                "sonars show it; 0: on the outline, as in the paper");
 }
 
 inline void TemplateSettings::describe(Fields<TemplateSettings>& fields) {

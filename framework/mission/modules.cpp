@@ -7,6 +7,7 @@
 #include "framework/templates/sensed_templates.hpp"
 #include "maps/base/portable_random.hpp"
 #include "maps/base/text.hpp"
+#include "maps/landmarks/ring_template.hpp"
 
 namespace cairn {
 namespace {
@@ -142,7 +143,7 @@ std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_
 TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {
   const TemplateSettings& config = mission.template_settings;
   if (mission.shapes.empty() || config.rendering == Rendering::ideal || mission.robot.sonars.empty())
-    return render_ideal_set(mission.shapes, config.step_rad, cell_m, config.sizes);
+    return render_ring_set(mission.shapes, config.step_rad, cell_m, config.sizes, config.ring_offset_m);
   PluginChoice simulator{"simulated_robot", {}};
   simulator.config.kind = ConfigValue::Kind::map;
   simulator.config.place = mission.config.sensor.config.place;

@@ -103,10 +103,10 @@ std::vector<RenderTask> render_tasks_for(const LandmarkShape& shape, double step
   return tasks;
 }
 
-// The robot that draws templates is in order, whatever the mission's is to suffer.
+// The robot that draws templates is in order and as its file says, whatever the mission's is to suffer.
 PluginChoice without_faults(PluginChoice sensor) {
   std::erase_if(sensor.config.entries, [](const ConfigValue::Entry& entry) {
-    return entry.key == "faults" || entry.key == "random_faults" || entry.key == "battery";
+    return entry.key == "faults" || entry.key == "random_faults" || entry.key == "battery" || entry.key == "truth";
   });
   return sensor;
 }

@@ -24,8 +24,8 @@ struct SensedOptions {
 };
 
 // Lets the simulated robot drive round each contour, at each distinct orientation, in free space; the
-// templates are the Sobel gradients of the maps that arise. It drives each way: sonars that look ahead smear an
-// outline in the direction of travel, so that the maps of two orbits differ by 12 degrees or so, and a template
+// templates are the Sobel gradients of the maps that arise. It drives each way: sonars beside the middle turn
+// an outline in the direction of travel, so that the maps of two orbits differ by 12 degrees or so, and a template
 // of one of them misses the orientation of a landmark seen both ways by half of that. It drives near and
 // farther off: the farther orbit rounds what the near one sharpens, as a drive through a room does both, and a
 // round landmark is distinguished from an angular one by little else. The landmark stands with its centre on the centre

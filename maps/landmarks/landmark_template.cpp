@@ -1,5 +1,3 @@
-#include "maps/landmarks/landmark_template.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include "maps/landmarks/ring_template.hpp"
 
 namespace cairn {
 namespace {
@@ -29,16 +29,20 @@ void require_positive(double value, const char* what) {
 }
 
 // Signed distances in cells over the square patch of cells |x|, |y| <= reach about the centre.
+// Distances count from the outline moved outward by the offset.
 class Patch {
  public:
-  Patch(const Contour& contour, double orientation_rad, double cell_m)
-      : reach_(static_cast<int>(std::ceil(0.5 * contour.outer_diameter_m() / cell_m + kEdgeOutside)) + 1),
+  Patch(const Contour& contour, double orientation_rad, double cell_m, double ring_offset_m)
+      : reach_(static_cast<int>(std::ceil((0.5 * contour.outer_diameter_m() + std::max(0.0, ring_offset_m)) / cell_m +
+                                          kEdgeOutside)) +
+               1),
         side_(2 * reach_ + 1) {
     const Pose2 T_shape_patch{0.0, 0.0, -orientation_rad};
     distances_.reserve(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
     for (int y = -reach_; y <= reach_; ++y) {
       for (int x = -reach_; x <= reach_; ++x) {
-        distances_.push_back(contour.signed_distance(T_shape_patch * Point{x * cell_m, y * cell_m}) / cell_m);
+        const double distance_m = contour.signed_distance(T_shape_patch * Point{x * cell_m, y * cell_m});
+        distances_.push_back((distance_m - ring_offset_m) / cell_m);
       }
     }
   }
@@ -72,8 +76,9 @@ TemplateCell sobel(const Patch& patch, int x, int y) {
   return {{x, y}, static_cast<std::int16_t>(gradient_x), static_cast<std::int16_t>(gradient_y)};
 }
 
-std::vector<TemplateCell> ideal_cells(const Contour& contour, double orientation_rad, double cell_m) {
-  const Patch patch(contour, orientation_rad, cell_m);
+std::vector<TemplateCell> ideal_cells(const Contour& contour, double orientation_rad, double cell_m,
+                                      double ring_offset_m = 0.0) {
+  const Patch patch(contour, orientation_rad, cell_m, ring_offset_m);
   std::vector<TemplateCell> cells;
   for (int y = -patch.reach() + 1; y < patch.reach(); ++y) {
     for (int x = -patch.reach() + 1; x < patch.reach(); ++x) {
@@ -150,17 +155,31 @@ std::vector<double> distinct_orientations(const Contour& contour, double step_ra
 }
 
 LandmarkTemplate render_ideal(const LandmarkShape& shape, double orientation_rad, double cell_m) {
+  return render_ring(shape, orientation_rad, cell_m, 0.0);
+}
+
+LandmarkTemplate render_ring(const LandmarkShape& shape, double orientation_rad, double cell_m, double ring_offset_m) {
   require_positive(cell_m, "the cell size");
-  return {shape.category, orientation_rad, ideal_cells(shape.contour, orientation_rad, cell_m)};
+  std::vector<TemplateCell> cells = ideal_cells(shape.contour, orientation_rad, cell_m, ring_offset_m);
+  if (cells.empty())
+    throw std::invalid_argument(
+        fmt::format("a ring drawn {:g} m outside the outline of the {} has no cell", ring_offset_m, shape.category));
+  return {shape.category, orientation_rad, std::move(cells)};
 }
 
 TemplateSet render_ideal_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
                              const std::vector<double>& sizes) {
+  return render_ring_set(shapes, step_rad, cell_m, sizes, 0.0);
+}
+
+TemplateSet render_ring_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
+                            const std::vector<double>& sizes, double ring_offset_m) {
   TemplateSet set{cell_m, step_rad, shapes, {}};
   for (const LandmarkShape& shape : shapes) {
     for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m)) {
       for (const double size : sizes)
-        set.templates.push_back(render_ideal({shape.category, shape.contour.scaled(size)}, orientation_rad, cell_m));
+        set.templates.push_back(
+            render_ring({shape.category, shape.contour.scaled(size)}, orientation_rad, cell_m, ring_offset_m));
     }
   }
   return set;

@@ -6,6 +6,7 @@
 
 #include "framework/config/fields.hpp"
 #include "plugins/simulated_robot/fault_config.hpp"
+#include "plugins/simulated_robot/truth_config.hpp"
 
 namespace cairn {
 
@@ -62,6 +63,7 @@ struct SimulatedRobotConfig {
   double emergency_braking_ratio = 4.0;
   double turn_as_distance_m_per_rad = 0.1;
   EchoConfig echo;
+  TruthConfig truth;
   std::vector<FaultConfig> faults;
   std::optional<RandomFaultsConfig> random_faults;
   std::optional<BatteryConfig> battery;
@@ -76,6 +78,8 @@ struct SimulatedRobotConfig {
     fields.number("turn_as_distance_m_per_rad", &SimulatedRobotConfig::turn_as_distance_m_per_rad, {0, 10}, "m/rad",
                   "driven distance that a turn in place counts as for the heading error of the odometry");
     fields.group("echo", &SimulatedRobotConfig::echo, "the sonar model");
+    fields.group("truth", &SimulatedRobotConfig::truth,
+                 "in what the robot that drives differs from its file, which all other modules keep to");
     FieldSpec& faults = fields.list("faults", &SimulatedRobotConfig::faults, "what goes wrong, and when");
     faults.load = [load = faults.load](void* config, const ConfigValue& value) {
       load(config, value);

@@ -35,12 +35,12 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
       body_(robot, scene_),
       motors_(robot, config.emergency_braking_ratio),
       battery_(config.battery),
-      odometer_(robot.odometry_error, config.turn_as_distance_m_per_rad, seed),
+      odometer_(in_truth(robot, config.truth).odometry_error, config.turn_as_distance_m_per_rad, seed),
       sonars_(config, robot, scene_, seed),
       faults_(config.faults, config.random_faults, robot, *world, seed),
       witness_(robot),
       T_map_robot_(T_map_start) {
-  if (config.compass) compass_.emplace(robot.compass_error, seed);
+  if (config.compass) compass_.emplace(in_truth(robot, config.truth).compass_error, seed);
   catch_up(begin_s);
   start_fault_ = start_fault(T_map_start, robot, *world, traffic_);
   traffic_.show(traffic_.places(), scene_);

@@ -34,9 +34,10 @@ SonarRing::SonarRing(const SimulatedRobotConfig& config, const RobotModel& robot
     : sonars_(robot.sonars),
       firing_order_(checked_order(robot)),
       fires_all_(config.fire_all || robot.firing_period_s <= 0.0),
-      error_(robot.range_error),
+      error_(in_truth(robot, config.truth).range_error),
       noise_(seed, kRangePurpose) {
-  for (const SonarModel& sonar : sonars_) echoes_.emplace_back(config.echo, scene, sonar.half_beam_rad);
+  for (const SonarModel& sonar : in_truth(robot, config.truth).sonars)
+    echoes_.emplace_back(config.echo, scene, sonar.half_beam_rad);
 }
 
 std::vector<RangeReading> SonarRing::fire(const Pose2& T_map_robot, std::int64_t tick) {

@@ -23,8 +23,8 @@ class SonarRing {
  private:
   [[nodiscard]] RangeReading read(const Pose2& T_map_robot, int sonar);
 
-  std::vector<SonarModel> sonars_;
-  std::vector<SonarEcho> echoes_;  // one a transducer
+  std::vector<SonarModel> sonars_;  // as the robot's file has them
+  std::vector<SonarEcho> echoes_;   // one a transducer, as it is in truth
   std::vector<int> firing_order_;
   bool fires_all_;
   RangeError error_;

@@ -31,6 +31,9 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("min_above_unseen", &Config::min_above_unseen, {0.0, 1.0}, "",
                 "the best template's degree d must reach this on the scale (d - u) / (1 - u), where u is its degree "
                 "over unseen floor; 0 as in the paper");
+  fields.flag("between_cells", &Config::between_cells,
+              "compare categories, and place landmarks, between the cells and between the orientation steps; false: on "
+              "them, as in the paper");
   fields.choice(
       "degrees", &Config::degrees,
       {{"all", Degrees::all}, {"above_threshold", Degrees::above_threshold}, {"each_template", Degrees::each_template}},

@@ -79,7 +79,7 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   // One cell more than the templates reach, for the places around the best one.
   field_.look_at(grid, box.grown(template_reach_ + 1));
   std::vector<TemplateMatch> on_cells = search(spans);
-  const std::vector<TemplateMatch> matches = refined(on_cells);
+  const std::vector<TemplateMatch> matches = config_.between_cells ? refined(on_cells) : on_cells;
   Matching matching;
   matching.trigger = trigger;
   matching.fits_above = rule_.tau_match;
@@ -142,10 +142,13 @@ std::optional<Detection> TemplateMatcher::detection_of(const std::vector<Templat
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
   const LandmarkTemplate& t = templates[best];
-  const PlaceInCell place = place_in_cell(field_, t, matches[best].at);
-  const Point at_m = grid.centre_of(matches[best].at) + grid.cell_m() * place.offset;
   const double degree = degree_of(matches[best].mismatch, t.cells.size(), rule_.mu);
   std::vector<TemplateDegree> above = templates_above(matches, templates, rule_);
+  const Point cell_m = grid.centre_of(matches[best].at);
+  if (!config_.between_cells)
+    return Detection{t.category, {cell_m.x(), cell_m.y(), wrap_angle(t.orientation_rad)}, degree, std::move(above)};
+  const PlaceInCell place = place_in_cell(field_, t, matches[best].at);
+  const Point at_m = cell_m + grid.cell_m() * place.offset;
   // All three of the parabola where the cells are: the neighbours are not refined.
   complete_neighbours(best, on_cells);
   const double orientation_rad = t.orientation_rad + neighbours_.offset_rad(best, on_cells, templates);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -80,6 +81,15 @@ std::string template_name(const ExperimentConfig& config, int orientation_deg) {
   return fmt::format("{} {} deg", config.orbit->around, orientation_deg);
 }
 
+std::map<int, int> best_at_the_end(const Rows& rows) {
+  std::map<int, int> runs;
+  for (const ExperimentRow* row : rows) {
+    if (row->orbit.empty() || row->orbit.back().templates.empty()) continue;
+    ++runs[std::ranges::max_element(row->orbit.back().templates, {}, [](const auto& t) { return t.second; })->first];
+  }
+  return runs;
+}
+
 std::string orbit_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   std::string text;
   for (const std::string& mission : missions_of(rows))
@@ -90,7 +100,11 @@ std::string orbit_table(const ExperimentConfig& config, const std::vector<Experi
                       mission, variant.name, config.orbit->around, of_variant.size());
       text += table_of(config, orbit_categories(config, of_variant));
       const std::vector<OrbitSeries> templates = orbit_templates(config, of_variant);
-      if (!templates.empty()) text += table_of(config, templates);
+      if (templates.empty()) continue;
+      text += table_of(config, templates) + "Fits best at the end:";
+      for (const auto& [orientation_deg, runs] : best_at_the_end(of_variant))
+        text += fmt::format(" {} in {} of {} runs.", template_name(config, orientation_deg), runs, of_variant.size());
+      text += "\n\n";
     }
   return text;
 }

@@ -1,6 +1,7 @@
 // The degrees along an orbit, in bins, over all seeds: as a table, and as what a chart draws.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ struct OrbitSeries {
                                                         const std::vector<const ExperimentRow*>& rows);
 [[nodiscard]] std::vector<OrbitSeries> orbit_templates(const ExperimentConfig& config,
                                                        const std::vector<const ExperimentRow*>& rows);
+
+// Of the templates of the landmark's category, which one fits best in a run's last matching: orientation, in whole
+// degrees, and number of runs.
+[[nodiscard]] std::map<int, int> best_at_the_end(const std::vector<const ExperimentRow*>& rows);
 
 // "square 15 deg"
 [[nodiscard]] std::string template_name(const ExperimentConfig& config, int orientation_deg);

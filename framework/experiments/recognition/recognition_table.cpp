@@ -150,7 +150,7 @@ std::string recognition_table(const ExperimentConfig& config, const std::vector<
     std::string matrices;
     for (const ExperimentVariant& variant : config.variants) {
       const Rows of_variant = rows_of(rows, mission, variant.name);
-      if (of_variant.empty()) continue;
+      if (of_variant.empty() || !variant.factor.empty()) continue;
       const RecognitionFigures f = recognition_figures(of_variant, of_variant.front()->step_rad);
       text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", variant.name, text_of(f.precision),
                           text_of(f.recall), text_of(f.f1), text_of(f.right_category), text_of(f.median_error_m),

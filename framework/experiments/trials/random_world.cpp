@@ -18,15 +18,17 @@ struct Thing {
   double radius_m = 0.0;
   Point at_m{0.0, 0.0};
   double angle_deg = 0.0;
+  bool is_landmark = false;
 };
 
 Thing landmark(const RandomWorldConfig& config, const std::vector<LandmarkShape>& shapes, PortableRandom& chance) {
   const LandmarkShape& shape = shapes[static_cast<std::size_t>(chance.whole(0, static_cast<int>(shapes.size()) - 1))];
-  const double scale = 1.0 + config.size_tolerance_ratio * chance.between(-1.0, 1.0);
+  const double scale = config.landmark_scale * (1.0 + config.size_tolerance_ratio * chance.between(-1.0, 1.0));
   return {fmt::format("template: {}, scale: {:.3f}", shape.category, scale),
           0.5 * scale * shape.contour.outer_diameter_m(),
           {},
-          chance.between(0.0, 360.0)};
+          chance.between(0.0, 360.0),
+          true};
 }
 
 // What stands about in rooms: a pole, a shelf, an angle of two shelves.
@@ -49,6 +51,14 @@ Thing distractor(PortableRandom& chance) {
   return {outline, radius_m, {}, chance.between(0.0, 360.0)};
 }
 
+// So far from one of the four walls.
+void put_at_wall(Thing& thing, const Point& room_m, double gap_m, PortableRandom& chance) {
+  const int wall = chance.whole(0, 3);
+  const int axis = wall / 2;
+  const double from_wall_m = thing.radius_m + gap_m;
+  thing.at_m[axis] = wall % 2 == 0 ? from_wall_m : room_m[axis] - from_wall_m;
+}
+
 // Whether all things found a place.
 bool place_all(const RandomWorldConfig& config, const Point& room_m, std::vector<Thing>& things,
                PortableRandom& chance) {
@@ -61,6 +71,7 @@ bool place_all(const RandomWorldConfig& config, const Point& room_m, std::vector
     for (int t = 0; t < kTries && !is_placed; ++t) {
       const double x_m = chance.between(margin_m, room_m.x() - margin_m);
       thing.at_m = {x_m, chance.between(margin_m, room_m.y() - margin_m)};
+      if (thing.is_landmark && config.wall_gap_m) put_at_wall(thing, room_m, *config.wall_gap_m, chance);
       is_placed = (thing.at_m - config.start_m).norm() > thing.radius_m + config.start_gap_m;
       for (std::size_t k = 0; k < i && is_placed; ++k)
         is_placed = (thing.at_m - things[k].at_m).norm() > margin_m + things[k].radius_m;
@@ -166,7 +177,12 @@ void RandomWorldConfig::describe(Fields<RandomWorldConfig>& fields) {
                  "at most so many poles, shelves and angles that no template describes");
   fields.number("size_tolerance_ratio", &C::size_tolerance_ratio, {0.0, 0.5}, "",
                 "landmarks are larger or smaller than their template by up to this share");
+  fields.number("landmark_scale", &C::landmark_scale, {0.2, 5.0}, "",
+                "landmarks are so many times as large as their template, before the tolerance");
   fields.number("gap_m", &C::gap_m, {0.3, 10.0}, "m", "free space between things, and between them and the walls");
+  fields.number(
+      "wall_gap_m", &C::wall_gap_m, {0.0, 10.0}, "m",
+      "free space between a landmark's outer circle and one wall, exactly; left out, landmarks stand anywhere");
   fields.point("start_m", &C::start_m, "m", "where the mission's robot begins; kept free", {0.0, kRoom_m.max});
   fields.number("start_gap_m", &C::start_gap_m, {0.1, 10.0}, "m", "free space round it");
   fields.integer("max_movers", &C::max_movers, {0.0, 20.0}, "at most so many people that go there and back");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ struct RandomWorldConfig {
   int max_landmarks = 6;
   int max_distractors = 2;
   double size_tolerance_ratio = 0.1;
+  double landmark_scale = 1.0;
   double gap_m = 1.2;
+  std::optional<double> wall_gap_m;
   Point start_m{0.6, 0.6};
   double start_gap_m = 0.5;
   int max_movers = 0;

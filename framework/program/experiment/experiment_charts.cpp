@@ -1,11 +1,17 @@
 #include "framework/program/experiment/experiment_charts.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <iterator>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "framework/experiments/recognition/curves_table.hpp"
+#include "framework/experiments/recognition/factor_table.hpp"
 #include "framework/experiments/recognition/orbit_table.hpp"
 #include "framework/experiments/recognition/recognition_table.hpp"
+#include "framework/experiments/recognition/ring_table.hpp"
 #include "framework/experiments/report.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/pictures/drawing/chart.hpp"
@@ -130,6 +136,74 @@ std::vector<NamedChart> curve_charts(const ExperimentConfig& config, const std::
   return charts;
 }
 
+std::optional<double> number_of(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+// Precision, recall and F1 at each value of a factor; values that are no numbers stand side by side.
+Chart factor_chart(const FactorConfig& factor, const std::vector<FactorPoint>& points) {
+  Chart chart;
+  chart.title = "Recognition against " + factor.name + ", with 95 % intervals";
+  chart.x_label = factor.label;
+  chart.y_label = "share";
+  chart.both_from_zero = true;
+  const bool numbers = std::ranges::all_of(points, [](const FactorPoint& p) { return number_of(p.value).has_value(); });
+  const std::pair<const char*, Interval RecognitionFigures::*> kShown[] = {
+      {"F1", &RecognitionFigures::f1},
+      {"precision", &RecognitionFigures::precision},
+      {"recall", &RecognitionFigures::recall}};
+  for (const auto& [name, figure] : kShown) {
+    Series series{name, {}, SeriesStyle::lines_and_points, {}};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Interval& interval = points[i].figures.*figure;
+      const double x = numbers ? *number_of(points[i].value) : static_cast<double>(i);
+      series.points.emplace_back(x, interval.value);
+      series.ends.emplace_back(std::clamp(interval.low, 0.0, 1.0), std::clamp(interval.high, 0.0, 1.0));
+    }
+    chart.series.push_back(std::move(series));
+  }
+  if (!numbers)
+    for (const FactorPoint& point : points) chart.x_names.push_back(point.value);
+  return chart;
+}
+
+std::vector<NamedChart> factor_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::vector<NamedChart> charts;
+  const std::vector<std::string> missions = missions_of(rows);
+  for (const std::string& mission : missions)
+    for (const FactorConfig& factor : config.vary) {
+      const std::string prefix = missions.size() == 1 ? "" : mission + " ";
+      charts.push_back(
+          {file_name_of(prefix + factor.name), factor_chart(factor, factor_points(config, factor, rows, mission))});
+    }
+  return charts;
+}
+
+// A line a variant: mean OL across the landmarks' outlines.
+std::vector<NamedChart> ring_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  std::vector<NamedChart> charts;
+  for (const std::string& mission : missions_of(rows)) {
+    Chart chart;
+    chart.title = "Finished maps across the landmarks' outlines, with 95 % intervals";
+    chart.x_label = "distance from the true outline, m (positive outside)";
+    chart.y_label = "mean OL";
+    chart.from_zero = true;
+    for (const ExperimentVariant& variant : config.variants) {
+      if (!variant.factor.empty()) continue;
+      Series series{variant.name, {}, SeriesStyle::lines, {}};
+      for (const RingBin& bin : ring_bins(rows_of(rows, mission, variant.name))) {
+        series.points.emplace_back(bin.distance_m, bin.ol.value);
+        series.ends.emplace_back(bin.ol.low, bin.ol.high);
+      }
+      chart.series.push_back(std::move(series));
+    }
+    charts.push_back({file_name_of(missions_of(rows).size() == 1 ? "ring" : mission + " ring"), std::move(chart)});
+  }
+  return charts;
+}
+
 // The map of the first seed.
 void write_map(const ExperimentRow& row, const std::filesystem::path& file) {
   if (row.result.map_file.empty()) throw std::runtime_error(file.string() + ": the run saved no map");
@@ -160,6 +234,8 @@ std::vector<std::string> write_charts(const ExperimentConfig& config, const std:
   std::vector<NamedChart> charts;
   if (config.experiment == ExperimentKind::maps) charts = map_charts(config, rows);
   if (config.experiment == ExperimentKind::orbit) charts = orbit_charts(config, rows);
+  if (!config.vary.empty()) charts = factor_charts(config, rows);
+  if (config.ring_profile) std::ranges::move(ring_charts(config, rows), std::back_inserter(charts));
   if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
   std::vector<std::string> missing;
   if (config.experiment == ExperimentKind::places) missing = write_place_maps(config, rows, out);

@@ -69,6 +69,7 @@ const char* style_of(SeriesStyle style) {
 // A data block a series; the script has no other file to read.
 std::string data_of(const Series& series, std::size_t number) {
   const bool bars = !series.half_widths.empty();
+  const bool ends = !series.ends.empty();
   std::string data = fmt::format("$data{} << END_OF_DATA\n", number);
   bool any = false;
   for (std::size_t i = 0; i < series.points.size(); ++i) {
@@ -76,9 +77,10 @@ std::string data_of(const Series& series, std::size_t number) {
     any = any || p.allFinite();
     if (p.allFinite()) data += fmt::format("{} {}", number_text(p.x()), number_text(p.y()));
     if (p.allFinite() && bars) data += " " + number_text(series.half_widths[i]);
+    if (p.allFinite() && ends) data += " " + number_text(series.ends[i].x()) + " " + number_text(series.ends[i].y());
     data += "\n";
   }
-  if (!any) data += bars ? "NaN NaN NaN\n" : "NaN NaN\n";
+  if (!any) data += ends ? "NaN NaN NaN NaN\n" : bars ? "NaN NaN NaN\n" : "NaN NaN\n";
   return data + "END_OF_DATA\n";
 }
 
@@ -86,9 +88,11 @@ std::string plot_of(const Chart& chart) {
   std::string plot = "plot ";
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const bool bars = !chart.series[i].half_widths.empty();
-    const std::string with = bars ? fmt::format("1:2:3 with yerrorbars pointsize 0.9 linewidth 1.5 pointtype {}",
-                                                kMarks[i / kChartColours.size() % kMarks.size()])
-                                  : fmt::format("1:2 with {}", style_of(chart.series[i].style));
+    const std::string with = !chart.series[i].ends.empty()
+                                 ? "1:2:3:4 with yerrorlines pointtype 7 pointsize 0.8 linewidth 1.5"
+                             : bars ? fmt::format("1:2:3 with yerrorbars pointsize 0.9 linewidth 1.5 pointtype {}",
+                                                  kMarks[i / kChartColours.size() % kMarks.size()])
+                                    : fmt::format("1:2 with {}", style_of(chart.series[i].style));
     plot += fmt::format("$data{} using {} linecolor '{}' title {}, ", i, with, kChartColours[i % kChartColours.size()],
                         gnuplot_quoted(chart.series[i].name));
   }
@@ -162,6 +166,9 @@ std::string gnuplot_script(const Chart& chart) {
     script += ")\n";
   }
   if (chart.of_shares) script += "set xrange [0:1.01]\nset yrange [0:1.01]\n";
+  if (chart.both_from_zero)
+    script += std::string(chart.x_names.empty() ? "set xrange [0:*]\n" : "") +
+              "set yrange [0:1.01]\nset offsets 0, graph 0.02, 0, 0\n";
   if (chart.from_zero) script += "set yrange [0:*]\nset offsets 0, 0, graph 0.05, 0\n";
   if (chart.log_x) script += "set logscale x\n";
   if (chart.log_y) script += "set logscale y\n";

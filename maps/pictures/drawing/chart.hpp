@@ -17,6 +17,7 @@ struct Series {
   std::vector<Point> points;  // (x, y); a point that is not finite leaves a gap
   SeriesStyle style = SeriesStyle::lines;
   std::vector<double> half_widths;  // of error bars, one a point; empty: none
+  std::vector<Point> ends{};  // of bars that are not even, (lower, upper), one a point, joined by a line; empty: none
 };
 
 struct HorizontalLine {
@@ -33,6 +34,7 @@ struct Chart {
   std::vector<std::string> x_names;              // in place of numbers, at x = 0, 1, ...
   bool of_shares = false;                        // both axes from 0 to 1
   bool from_zero = false;                        // the y axis begins at 0: nothing is less
+  bool both_from_zero = false;                   // the x axis too; y is a share
   bool log_x = false;
   bool log_y = false;
 };

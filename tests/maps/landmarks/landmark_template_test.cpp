@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "maps/landmarks/ring_template.hpp"
+
 namespace cairn {
 namespace {
 
@@ -122,6 +124,28 @@ TEST(IdealRendering, OfASquareRepeatsToTheBitAfterAQuarterTurn) {
     EXPECT_EQ(render_ideal(shape, 0.0, kCellM).cells, render_ideal(shape, radians(90.0), kCellM).cells) << side_m;
     EXPECT_EQ(render_ideal(shape, radians(15.0), kCellM).cells, render_ideal(shape, radians(105.0), kCellM).cells)
         << side_m;
+  }
+}
+
+TEST(RingRendering, OfACircleIsTheRingOfALargerCircle) {
+  for (const double offset_m : {-0.05, 0.0, 0.03, 0.1}) {
+    const LandmarkTemplate moved = render_ring({"circle", Contour::circle(0.5)}, 0.0, kCellM, offset_m);
+    const LandmarkTemplate larger = render_ideal({"circle", Contour::circle(0.5 + 2.0 * offset_m)}, 0.0, kCellM);
+    EXPECT_EQ(moved.cells, larger.cells) << offset_m;
+  }
+}
+
+TEST(RingRendering, OnTheOutlineIsTheIdealOne) {
+  const LandmarkShape shape{"square", square(0.5)};
+  EXPECT_EQ(render_ring(shape, radians(15.0), kCellM, 0.0).cells, render_ideal(shape, radians(15.0), kCellM).cells);
+}
+
+TEST(RingRendering, RefusesARingThatHasNoCell) {
+  try {
+    (void)render_ring({"disc", Contour::circle(0.1)}, 0.0, 0.02, -0.2);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "a ring drawn -0.2 m outside the outline of the disc has no cell");
   }
 }
 

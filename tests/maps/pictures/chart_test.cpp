@@ -51,6 +51,21 @@ TEST_F(Charts, RunNothingThatANameSays) {
   }
 }
 
+TEST_F(Charts, DrawUnevenIntervalsByTheirEnds) {
+  Chart chart;
+  Series shares{"F1", {{0, 0.9}, {0.1, 0.5}}, SeriesStyle::lines_and_points, {}};
+  shares.ends = {{0.7, 0.95}, {0.3, 0.6}};
+  Series none{"nothing", {{0, kNan}}, SeriesStyle::lines, {}};
+  none.ends = {{0, 0}};
+  chart.series = {shares, none};
+  chart.both_from_zero = true;
+  const std::string script = gnuplot_script(chart);
+  EXPECT_THAT(script, HasSubstr("$data0 << END_OF_DATA\n0 0.9 0.7 0.95\n0.1 0.5 0.3 0.6\nEND_OF_DATA\n"));
+  EXPECT_THAT(script, HasSubstr("using 1:2:3:4 with yerrorlines"));
+  EXPECT_THAT(script, HasSubstr("set xrange [0:*]\nset yrange [0:1.01]\n"));
+  EXPECT_TRUE(write_chart(file("shares.png"), chart).drawn);
+}
+
 TEST_F(Charts, BeginAtZeroWhereNothingIsLess) {
   Chart chart;
   chart.series = {{"error", {{0, 0.0}, {1, 0.02}}, SeriesStyle::lines, {}}};

@@ -48,6 +48,51 @@ TEST(SonarRing, ReadsInfinityWhereNothingEchoes) {
   EXPECT_TRUE(std::isinf(readings[0].range_m));
 }
 
+TEST(SonarRing, HearsWithItsTrueBeamAndStatesThatOfTheFile) {
+  RobotModel robot = robot_with_sonars(1);
+  robot.range_error = {0.0, 0.0, 0.0, 0.0};
+  World world;
+  const Pose2 beside{2.0 * std::cos(radians(60.0)), 2.0 * std::sin(radians(60.0)), 0.0};
+  world.objects = {{"", Contour::circle(0.4), beside, Surface::rough}};
+  const Scene scene{world};
+  SimulatedRobotConfig config;
+  EXPECT_TRUE(std::isinf(SonarRing(config, robot, scene, 1).fire({}, 1).at(0).range_m));
+  config.truth.half_beam_rad = radians(60.0);
+  const RangeReading reading = SonarRing(config, robot, scene, 1).fire({}, 1).at(0);
+  EXPECT_NEAR(reading.range_m, 1.8, 1e-6);
+  EXPECT_DOUBLE_EQ(reading.half_beam_rad, radians(15.0));
+}
+
+TEST(SonarRing, LosesEchoesAsOftenAsInTruth) {
+  RobotModel robot = robot_with_sonars(1);
+  robot.range_error = {0.0, 0.0, 0.0, 0.0};
+  World world;
+  world.objects = {{"", Contour::circle(0.4), {1.0, 0.0, 0.0}, Surface::rough}};
+  const Scene scene{world};
+  SimulatedRobotConfig config;
+  config.truth.ranges.dropped_ratio = 1.0;
+  EXPECT_NEAR(SonarRing({}, robot, scene, 1).fire({}, 1).at(0).range_m, 0.8, 1e-9);
+  EXPECT_TRUE(std::isinf(SonarRing(config, robot, scene, 1).fire({}, 1).at(0).range_m));
+}
+
+TEST(TrueRobot, IsTheFilesWhereNothingElseIsSaid) {
+  RobotModel robot = robot_with_sonars(2);
+  robot.odometry_error = {0.01, 0.02, 0.03};
+  robot.compass_error = {0.04, 0.05, 1.5};
+  TruthConfig truth;
+  truth.odometry.distance_ratio = 0.1;
+  truth.compass.local_bias_rad = 0.2;
+  const RobotModel real = in_truth(robot, truth);
+  EXPECT_EQ(real.odometry_error.distance_ratio, 0.1);
+  EXPECT_EQ(real.odometry_error.distance_bias_ratio, 0.02);
+  EXPECT_EQ(real.odometry_error.heading_rad_per_m, 0.03);
+  EXPECT_EQ(real.compass_error.noise_rad, 0.04);
+  EXPECT_EQ(real.compass_error.local_bias_rad, 0.2);
+  EXPECT_EQ(real.compass_error.local_bias_scale_m, 1.5);
+  EXPECT_EQ(real.sonars[1].half_beam_rad, radians(15.0));
+  EXPECT_EQ(real.range_error.noise_m, robot.range_error.noise_m);
+}
+
 TEST(SonarRing, RefusesAFiringOrderThatNamesNoSonarOfTheRobot) {
   RobotModel robot = robot_with_sonars(2);
   robot.firing_order = {0, 2};

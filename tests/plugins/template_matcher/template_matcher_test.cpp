@@ -59,6 +59,20 @@ TEST(TemplateMatcher, FindsEachPaintedLandmarkWithItsPlaceAndOrientation) {
   }
 }
 
+TEST(TemplateMatcher, StaysOnTheCellsAndStepsWithoutBetweenCells) {
+  Config config = plain();
+  config.between_cells = false;
+  OccupancyGrid grid(0.05);
+  const Point beside = grid.centre_of({17, -9}) + Point(0.02, 0.01);
+  paint(grid, square_shape().contour, {beside.x(), beside.y(), radians(34.0)}, {{-20, -45}, {55, 30}});
+  TemplateMatcher matcher(config, paper_templates());
+  const DetectionReport report = matcher.detect(grid, everything_in(grid.bounds()), {});
+  const Detection* found = best_detection(report);
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->T_map_landmark.position(), grid.centre_of({17, -9}));
+  EXPECT_NEAR(degrees(found->T_map_landmark.theta_rad), 30.0, 1e-9);
+}
+
 TEST(TemplateMatcher, ReportsEveryCategoryInEveryMatching) {
   TemplateMatcher matcher(plain(), paper_templates());
   OccupancyGrid grid(0.05);

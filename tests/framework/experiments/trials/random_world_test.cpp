@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
+#include <set>
 
 #include "framework/files/world_file.hpp"
 #include "tests/framework/config/config_test_support.hpp"
@@ -47,6 +49,36 @@ TEST(RandomWorld, LoadsAndKeepsItsGapsOnEverySeed) {
     EXPECT_LE(landmarks, config.max_landmarks);
   }
   EXPECT_THAT(categories, testing::ElementsAre("", "circle", "square"));
+}
+
+TEST(RandomWorld, PutsLandmarksExactlySoFarFromAWall) {
+  RandomWorldConfig config;
+  config.wall_gap_m = 0.4;
+  std::set<int> walls;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const World world = loaded(random_world_yaml(config, shapes(), 0.0, seed));
+    for (const WorldObject& object : world.objects) {
+      if (object.category.empty()) continue;
+      const Point at_m = object.T_map_object.position();
+      const double gaps_m[] = {at_m.x() - world.min_m.x(), world.max_m.x() - at_m.x(), at_m.y() - world.min_m.y(),
+                               world.max_m.y() - at_m.y()};
+      const auto nearest = std::ranges::min_element(gaps_m);
+      walls.insert(static_cast<int>(nearest - std::begin(gaps_m)));
+      EXPECT_NEAR(*nearest, 0.5 * object.contour.outer_diameter_m() + 0.4, 2e-3) << "seed " << seed;
+    }
+  }
+  EXPECT_EQ(walls.size(), 4U);
+}
+
+TEST(RandomWorld, ScalesLandmarksOnly) {
+  RandomWorldConfig config;
+  config.landmark_scale = 0.5;
+  config.size_tolerance_ratio = 0.0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed)
+    for (const WorldObject& object : loaded(random_world_yaml(config, shapes(), 0.0, seed)).objects) {
+      if (object.category != "circle") continue;
+      EXPECT_NEAR(object.contour.outer_diameter_m(), 0.25, 1e-6);
+    }
 }
 
 TEST(RandomWorld, TheSpecularRatioChangesSurfacesOnly) {
