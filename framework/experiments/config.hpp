@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/config/fields.hpp"
+#include "framework/experiments/homes/home.hpp"
 #include "framework/experiments/trials/config.hpp"
 #include "framework/experiments/trials/random_world.hpp"
 
@@ -16,8 +17,9 @@ namespace cairn {
 
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
 // fit at given places of the drive, and along an orbit round a landmark; what is recognised in random worlds,
-// and what other detectors recognise on the same grids; what comes of random missions in random worlds.
-enum class ExperimentKind { missions, maps, places, orbit, recognition, curves, trials };
+// and what other detectors recognise on the same grids; what comes of random missions in random worlds; how much of
+// random homes is explored.
+enum class ExperimentKind { missions, maps, places, orbit, recognition, curves, trials, homes };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
 
 struct SeedRange {
@@ -74,6 +76,7 @@ struct ExperimentConfig {
   std::optional<OrbitConfig> orbit;
   RandomWorldConfig worlds;
   TrialsConfig trials;
+  HomesConfig homes;
   ConfigValue detectors_as_given;
   std::vector<ComparedDetector> detectors;  // after loading
   double looks_within_m = 0.35;
@@ -81,7 +84,7 @@ struct ExperimentConfig {
   static void describe(Fields<ExperimentConfig>& fields);
 };
 
-// Whether the experiment puts a random world in place of each mission's own.
+// Whether the experiment puts a random world with landmarks in place of each mission's own.
 [[nodiscard]] bool in_random_worlds(ExperimentKind kind);
 
 // overrides: "key=value" texts of --set. Throws ConfigError.
