@@ -7,6 +7,7 @@
 
 #include "plugins/behaviours/exploring/blockage_count.hpp"
 #include "plugins/behaviours/exploring/explore.hpp"
+#include "plugins/behaviours/exploring/passage_drive.hpp"
 #include "plugins/behaviours/exploring/task_chooser.hpp"
 #include "plugins/behaviours/exploring/task_follower.hpp"
 #include "plugins/behaviours/exploring/travelled.hpp"
@@ -24,12 +25,13 @@ class Exploration {
   }
 
  private:
-  enum class Mode { look_around, travel, face, back_off };
+  enum class Mode { look_around, travel, face, back_off, route };
 
   Status look_around(const WorldView& world, BehaviourContext& context);
   Status travel(const WorldView& world, BehaviourContext& context);
   Status face(const WorldView& world, BehaviourContext& context);
   Status back_off(const WorldView& world, BehaviourContext& context);
+  Status route(const WorldView& world, BehaviourContext& context);
 
   void begin_here(const WorldView& world);
   void set_mode(Mode mode, double time_s);
@@ -40,12 +42,14 @@ class Exploration {
   void arrive(const WorldView& world);
   Status get_unstuck(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] Status finished(const WorldView& world) const;
+  [[nodiscard]] Status explored(const WorldView& world) const;
   [[nodiscard]] Status cannot_get_away() const;
   [[nodiscard]] std::string summary(const WorldView& world) const;
 
   ExploreConfig config_;
   TaskChooser chooser_;
   TaskFollower follower_;
+  PassageDrive drive_;
   BlockageCount blockages_;
   BackUp back_up_;
   Travelled travelled_;

@@ -180,6 +180,7 @@ void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings
     memory.seen_openings.push_back(task.about);
     return;
   }
+  if (task.kind == TaskKind::passage) return;  // PassageTasks keeps count of these
   const bool is_frontier_task = task.kind == TaskKind::frontier;
   const double reach_m = settings.weights.give_up_ratio *
                          (is_frontier_task ? settings.weights.frontier_view_m : settings.orbit.look_closer_m);
@@ -216,6 +217,8 @@ std::string sentence_of(const ExploreTask& task) {
         return "going to the frontier";
       case TaskKind::edge:
         return "looking closer at the edge";
+      case TaskKind::passage:
+        return "going through the opening";
       case TaskKind::opening:
         break;
     }

@@ -106,6 +106,7 @@ void ExploringSettings::describe(Fields<ExploringSettings>& fields) {
   fields.group("choice", &C::choice, "when and where the next task is chosen");
   fields.group("weights", &C::weights, "what tasks are worth, in metres of path");
   fields.group("openings", &C::openings, "openings that look too narrow, and rooms out of reach");
+  fields.group("passages", &C::passages, "doors and gaps into what it has not been in");
   fields.group("motion", &C::motion, "how it moves");
   fields.group("face", &C::face, "turning the sonars to what is unknown");
   fields.group("blocked", &C::blocked, "what it does when it is blocked");

@@ -4,6 +4,7 @@
 #include "framework/config/fields.hpp"
 #include "plugins/behaviours/following/back_up.hpp"
 #include "plugins/behaviours/lookouts/openings.hpp"
+#include "plugins/behaviours/lookouts/passages.hpp"
 
 namespace cairn::behaviours {
 
@@ -91,6 +92,7 @@ struct ExploringSettings {
   ChoiceSettings choice;
   TaskWeights weights;
   OpeningSettings openings;
+  PassageSettings passages;
   ExploreMotionSettings motion;
   ExploreFaceSettings face;
   ExploreBlockedSettings blocked;

@@ -28,7 +28,8 @@ TaskSettings task_settings(const ExploreConfig& config, const RobotModel& robot)
 TaskChooser::TaskChooser(const ExploreConfig& config, const WorldView& world)
     : config_(config),
       settings_(task_settings(config, world.robot)),
-      near_echoes_(world.grid, config.driving.local_map.echoes.near) {}
+      near_echoes_(world.grid, config.driving.local_map.echoes.near),
+      passages_(config.exploring.passages) {}
 
 void TaskChooser::begin_here(const WorldView& world) {
   forget_echoes(world);
@@ -91,6 +92,26 @@ std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
   return opening_task(space_within(search_, world), space_within({kEverywhere_m, narrow_m}, world), settings_, memory_);
 }
 
+std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
+  if (known_ratio(world.grid) >= config_.until_known_ratio) return std::nullopt;
+  search_ = {kEverywhere_m, config_.clearance_m};
+  return passages_.next(space_within(search_, world), {world.grid, memory_.trace, memory_.seen_openings},
+                        world.pose.T_map_robot.position());
+}
+
+std::optional<ExploreTask> TaskChooser::choose_by_route(const WorldView& world,
+                                                        const std::optional<ExploreTask>& before) {
+  const Search slim{kEverywhere_m, config_.exploring.passages.min_radius_m - world.robot.radius_m};
+  std::optional<ExploreTask> task = choose_within(slim, world, before);
+  if (task) task->by_route = true;
+  return task;
+}
+
+std::vector<NotEntered> TaskChooser::not_entered(const WorldView& world) const {
+  const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
+  return passages_.not_entered(space, {world.grid, memory_.trace, memory_.seen_openings}, world.robot.radius_m);
+}
+
 bool TaskChooser::is_shut_in(const WorldView& world) const {
   const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
   const auto can_go_back = [&](const Pose2& pose) {
@@ -120,13 +141,17 @@ std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std
   if (auto task = choose_within({kEverywhere_m, config_.clearance_m}, world, before)) return task;
   if (is_shut_in(world))
     if (auto task = choose_within(tight, world, before)) return task;
-  if (auto task = choose_again(world, before)) return task;
   if (auto task = choose_opening(world)) return task;
-  return leads_on(world, tight) ? choose_within(tight, world, before) : std::nullopt;
+  if (leads_on(world, tight))
+    if (auto task = choose_within(tight, world, before)) return task;
+  if (auto task = choose_passage(world)) return task;
+  if (auto task = choose_by_route(world, before)) return task;
+  return choose_again(world, before);
 }
 
 void TaskChooser::give_up(const ExploreTask& task, const WorldView& world) {
   behaviours::give_up(task, space(world), settings_, memory_);
+  passages_.record_look(task);
 }
 
 bool TaskChooser::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const {

@@ -6,6 +6,7 @@
 
 #include "plugins/behaviours/exploring/explore.hpp"
 #include "plugins/behaviours/exploring/explore_tasks.hpp"
+#include "plugins/behaviours/exploring/passage_tasks.hpp"
 #include "plugins/behaviours/local_map/near_echoes.hpp"
 
 namespace cairn::behaviours {
@@ -28,6 +29,15 @@ class TaskChooser {
   // Paths avoid the place until then, where they can.
   void avoid(const Point& at, double until_s) { memory_.troubles.push_back({at, until_s}); }
 
+  // What has come of a drive through a passage.
+  void record_passage(const ExploreTask& task, bool has_passed, const std::string& why) {
+    passages_.record(task, has_passed, why);
+  }
+  // Passages that were given up are tried once more, from where the robot is now. False when there are none.
+  [[nodiscard]] bool retry_passages() { return passages_.retry(); }
+  // Those that still lead to what is unknown, or to where the robot has not been.
+  [[nodiscard]] std::vector<NotEntered> not_entered(const WorldView& world) const;
+
   // Whether something has turned up on a path that keeps as much room as the last task's.
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const;
   // Noise can wall the robot in where it just came through: it cannot go back to where it has been.
@@ -49,6 +59,10 @@ class TaskChooser {
   [[nodiscard]] std::optional<ExploreTask> choose_again(const WorldView& world,
                                                         const std::optional<ExploreTask>& before);
   [[nodiscard]] std::optional<ExploreTask> choose_opening(const WorldView& world);
+  [[nodiscard]] std::optional<ExploreTask> choose_passage(const WorldView& world);
+  // What is left where the robot can only get as `goto` does: through what it has come through before.
+  [[nodiscard]] std::optional<ExploreTask> choose_by_route(const WorldView& world,
+                                                           const std::optional<ExploreTask>& before);
   // Whether keeping less room gets the robot to more of the map.
   [[nodiscard]] bool leads_on(const WorldView& world, const Search& tight) const;
 
@@ -57,6 +71,7 @@ class TaskChooser {
   Search search_;  // of the last choice
   NearEchoes near_echoes_;
   ExploreMemory memory_;
+  PassageTasks passages_;
 };
 
 }  // namespace cairn::behaviours
