@@ -153,6 +153,7 @@ void Exploration::arrive(const WorldView& world) {
   if (is_faced(task_->kind) && can_turn(world.robot)) {
     set_mode(Mode::face, world.time_s);
     faced_s_ = world.time_s;
+    is_faced_ = false;
     return;
   }
   // What it arrives at again without having gone anywhere has nothing more to show, whatever is still missing of it.
@@ -164,19 +165,26 @@ void Exploration::arrive(const WorldView& world) {
 
 // Turns the sonars to what is still unknown; what they cannot settle from here is given up.
 Status Exploration::face(const WorldView& world, BehaviourContext& context) {
+  const bool is_opening = task_->kind == TaskKind::opening;
+  const motion::TurnSettings& turn = config_.driving.turn;
   const double error_rad = motion::heading_error(world.pose.T_map_robot, task_->about);
   const bool has_time = world.time_s - mode_since_s_ < config_.exploring.face.at_most_s;
-  const double dwell_s =
-      task_->kind == TaskKind::opening ? config_.exploring.face.opening_dwell_s : config_.exploring.face.dwell_s;
-  if (std::abs(error_rad) > config_.exploring.face.faced_rad && has_time) {
+  const double dwell_s = is_opening ? config_.exploring.face.opening_dwell_s : config_.exploring.face.dwell_s;
+  const bool is_sweeping = is_opening && is_faced_;
+  if (is_opening) chooser_.see_through(world, task_->about);
+  if (std::abs(error_rad) > config_.exploring.face.faced_rad && has_time && !is_sweeping) {
     faced_s_ = world.time_s;
-    const motion::TurnSettings& turn = config_.driving.turn;
     follower_.drive(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   } else if (world.time_s - faced_s_ >= dwell_s || !has_time ||
              !still_worthwhile(*task_, world.grid, config_.exploring.weights)) {
     chooser_.give_up(*task_, world);
     task_.reset();
     set_mode(Mode::travel, world.time_s);
+  } else if (is_opening) {
+    is_faced_ = true;
+    const double phase_rad = 2.0 * std::numbers::pi * (world.time_s - faced_s_) / std::max(dwell_s, 0.1);
+    const double off_rad = error_rad + config_.exploring.face.sweep_rad * std::sin(phase_rad);
+    follower_.drive(motion::turn_by(off_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   }
   return {StepState::running, "facing what is still unknown"};
 }

@@ -60,6 +60,7 @@ class Exploration {
   double last_tick_s_ = -1e9;
   double chosen_s_ = 0.0;
   double faced_s_ = 0.0;
+  bool is_faced_ = false;            // once, since it arrived: it sweeps
   double looked_around_at_m_ = 0.0;  // of the distance driven
   double arrived_at_m_ = -1.0;       // the same
   Point announced_{1e9, 1e9};        // the object of the last event

@@ -41,12 +41,17 @@ std::vector<Point> PassageTasks::given_up() const {
 
 std::optional<ExploreTask> PassageTasks::next(const FreeSpace& space, const Explored& explored, const Point& robot) {
   const CellLayer<char> reach = reach_of(space, explored.trace);
-  const PassageSearch open{false, given_up()};
-  if (const auto passage = nearest_passage(space, explored.grid, reach, robot, open, settings_)) {
+  PassageSearch open{false, given_up()};
+  while (const auto passage = nearest_passage(space, explored.grid, reach, robot, open, settings_)) {
     const bool is_looked_at = std::ranges::any_of(
         explored.looked_at, [&](const Point& p) { return (p - passage->at_m).norm() < settings_.same_m; });
     ExploreTask task = look_at(*passage, space);
     if (!is_looked_at) return task;
+    if (passage->width_m < 2.0 * settings_.drive_radius_m) {
+      record(task, false, "it still looks too narrow from straight before it");
+      open.without.push_back(passage->at_m);
+      continue;
+    }
     task.kind = TaskKind::passage;
     task.lookout = passage->beyond_m;
     task.path.clear();
@@ -55,6 +60,7 @@ std::optional<ExploreTask> PassageTasks::next(const FreeSpace& space, const Expl
   }
   if (suspects_ >= settings_.max_suspects) return std::nullopt;
   PassageSearch hidden{true, given_up()};
+  hidden.without.insert(hidden.without.end(), open.without.begin(), open.without.end());
   hidden.without.insert(hidden.without.end(), explored.looked_at.begin(), explored.looked_at.end());
   const auto suspect = nearest_passage(space, explored.grid, reach, robot, hidden, settings_);
   if (!suspect) return std::nullopt;
@@ -66,20 +72,21 @@ std::optional<ExploreTask> PassageTasks::next(const FreeSpace& space, const Expl
 void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::string& why) {
   auto found =
       std::ranges::find_if(tried_, [&](const Tried& t) { return (t.at_m - task.about).norm() < settings_.same_m; });
-  if (found == tried_.end()) found = tried_.insert(tried_.end(), Tried{task.about});
+  if (found == tried_.end()) found = tried_.insert(tried_.end(), Tried{task.about, 0, false, {}});
   ++found->tries;
   found->why = why;
   // One that was passed and is still not known to be open is not driven through for ever.
   found->is_given_up = !has_passed || found->tries >= settings_.max_tries;
 }
 
-bool PassageTasks::retry() {
+bool PassageTasks::retry(std::vector<Point>& looked_at) {
   if (has_retried_) return false;
   has_retried_ = true;
   bool is_any = false;
   for (Tried& tried : tried_) {
     if (!tried.is_given_up || tried.why.empty() || tried.tries >= settings_.max_tries) continue;
     tried.is_given_up = false;
+    std::erase_if(looked_at, [&](const Point& p) { return (p - tried.at_m).norm() < settings_.same_m; });
     is_any = true;
   }
   return is_any;

@@ -35,7 +35,8 @@ class PassageTasks {
   [[nodiscard]] std::optional<ExploreTask> next(const FreeSpace& space, const Explored& explored, const Point& robot);
   void record_look(const ExploreTask& task) { suspects_ += task.is_suspect ? 1 : 0; }
   void record(const ExploreTask& task, bool has_passed, const std::string& why);
-  [[nodiscard]] bool retry();
+  // looked_at: what is tried once more is looked at again, too.
+  [[nodiscard]] bool retry(std::vector<Point>& looked_at);
   // Given up or never tried.
   [[nodiscard]] std::vector<NotEntered> not_entered(const FreeSpace& space, const Explored& explored,
                                                     double radius_m) const;

@@ -40,6 +40,11 @@ void TaskChooser::forget_echoes(const WorldView& world) {
   near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
 }
 
+void TaskChooser::see_through(const WorldView& world, const Point& opening) {
+  const double to_m = (opening - world.pose.T_map_robot.position()).norm() + config_.exploring.passages.max_wall_m;
+  if (world.observation != nullptr) near_echoes_.see_through(*world.observation, world.pose.T_map_robot, to_m);
+}
+
 void TaskChooser::see(const WorldView& world) {
   const Pose2& pose = world.pose.T_map_robot;
   if (world.observation != nullptr) near_echoes_.see(*world.observation, pose);
@@ -101,7 +106,7 @@ std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
 
 std::optional<ExploreTask> TaskChooser::choose_by_route(const WorldView& world,
                                                         const std::optional<ExploreTask>& before) {
-  const Search slim{kEverywhere_m, config_.exploring.passages.min_radius_m - world.robot.radius_m};
+  const Search slim{kEverywhere_m, config_.exploring.passages.drive_radius_m - world.robot.radius_m};
   std::optional<ExploreTask> task = choose_within(slim, world, before);
   if (task) task->by_route = true;
   return task;

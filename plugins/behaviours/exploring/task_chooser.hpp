@@ -20,6 +20,8 @@ class TaskChooser {
   // Every tick.
   void see(const WorldView& world);
   void forget_echoes(const WorldView& world);
+  // While the robot faces an opening.
+  void see_through(const WorldView& world, const Point& opening);
   [[nodiscard]] const NearEchoes& near_echoes() const { return near_echoes_; }
 
   // The cheapest task; none when nothing in reach is left. before: what the robot is at, preferred when nearly as good.
@@ -34,7 +36,7 @@ class TaskChooser {
     passages_.record(task, has_passed, why);
   }
   // Passages that were given up are tried once more, from where the robot is now. False when there are none.
-  [[nodiscard]] bool retry_passages() { return passages_.retry(); }
+  [[nodiscard]] bool retry_passages() { return passages_.retry(memory_.seen_openings); }
   // Those that still lead to what is unknown, or to where the robot has not been.
   [[nodiscard]] std::vector<NotEntered> not_entered(const WorldView& world) const;
 

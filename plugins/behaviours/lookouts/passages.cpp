@@ -9,7 +9,8 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kThroughWall = 8.0;  // what a metre of wall costs, against one that is open
+constexpr LogOdds kSeenThrough = -60;  // P = 0.44
+constexpr double kThroughWall = 8.0;   // what a metre of wall costs, against one that is open
 
 // The cheapest steps from what is in reach to every cell beyond it.
 struct Beyond {
@@ -116,7 +117,7 @@ class PassageFinder {
   }
 
   [[nodiscard]] bool is_seen_behind_wall(Cell cell) const {
-    return grid_.log_odds(cell) < 0 && beyond_.cost_m.at(cell) > kThroughWall * space_.cell_m();
+    return grid_.log_odds(cell) <= kSeenThrough && beyond_.cost_m.at(cell) > kThroughWall * space_.cell_m();
   }
 
   // From what is in reach to the nearest cell of the place.
@@ -197,7 +198,9 @@ class PassageFinder {
 void PassageSettings::describe(Fields<PassageSettings>& fields) {
   using C = PassageSettings;
   fields.number("min_radius_m", &C::min_radius_m, {0.01, 5.0}, "m",
-                "a passage twice this wide on the map is tried: sonars draw openings narrower than they are");
+                "a passage twice this wide on the map is looked at: sonars draw openings narrower than they are");
+  fields.number("drive_radius_m", &C::drive_radius_m, {0.01, 5.0}, "m",
+                "one that is twice this wide after that is driven through");
   fields.number("room_behind_m2", &C::room_behind_m2, {0.0, 1e4}, "m2",
                 "when there may be so much room for the robot's centre behind it");
   fields.number("seen_through_m2", &C::seen_through_m2, {0.0, 1e4}, "m2",
