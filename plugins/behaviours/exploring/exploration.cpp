@@ -249,7 +249,7 @@ Status Exploration::explored(const WorldView& world) const {
   const std::vector<NotEntered> left = chooser_.not_entered(world);
   std::string text;
   for (const NotEntered& opening : left) text += (text.empty() ? "; not entered: " : ", ") + sentence_of(opening);
-  const bool is_half_known = known_ratio(world.grid) < config_.until_known_ratio;
+  const bool is_half_known = chooser_.known_ratio() < config_.until_known_ratio;
   const bool has_missed = std::ranges::any_of(left, [](const NotEntered& opening) { return !opening.is_too_narrow; });
   if (is_half_known && has_missed) return {StepState::failure, "openings not entered: " + summary(world) + text};
   return {StepState::success, "nothing left to explore: " + summary(world) + text};
@@ -264,7 +264,7 @@ Status Exploration::cannot_get_away() const {
 
 std::string Exploration::summary(const WorldView& world) const {
   char text[96];
-  std::snprintf(text, sizeof text, "%.1f %% known after %.1f m and %.0f s", 100.0 * known_ratio(world.grid),
+  std::snprintf(text, sizeof text, "%.1f %% known after %.1f m and %.0f s", 100.0 * chooser_.known_ratio(),
                 travelled_.driven_m, world.time_s - begun_s_);
   return text;
 }

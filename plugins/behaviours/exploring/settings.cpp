@@ -108,6 +108,7 @@ void ExploringSettings::describe(Fields<ExploringSettings>& fields) {
   fields.group("weights", &C::weights, "what tasks are worth, in metres of path");
   fields.group("openings", &C::openings, "openings that look too narrow, and rooms out of reach");
   fields.group("passages", &C::passages, "doors and gaps into what it has not been in");
+  fields.group("known", &C::known, "which share of what can be reached is known");
   fields.group("motion", &C::motion, "how it moves");
   fields.group("face", &C::face, "turning the sonars to what is unknown");
   fields.group("blocked", &C::blocked, "what it does when it is blocked");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "framework/config/fields.hpp"
+#include "plugins/behaviours/exploring/known_share.hpp"
 #include "plugins/behaviours/following/back_up.hpp"
 #include "plugins/behaviours/lookouts/openings.hpp"
 #include "plugins/behaviours/lookouts/passages.hpp"
@@ -94,6 +95,7 @@ struct ExploringSettings {
   TaskWeights weights;
   OpeningSettings openings;
   PassageSettings passages;
+  KnownShareSettings known;
   ExploreMotionSettings motion;
   ExploreFaceSettings face;
   ExploreBlockedSettings blocked;

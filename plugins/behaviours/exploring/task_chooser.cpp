@@ -1,7 +1,9 @@
 #include "plugins/behaviours/exploring/task_chooser.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "plugins/behaviours/lookouts/frontiers.hpp"
 #include "plugins/behaviours/lookouts/openings.hpp"
 #include "plugins/common/motion/path.hpp"
 
@@ -9,6 +11,15 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kEverywhere_m = 1e6;
+
+// Whether what is in reach comes about as near to an edge as it can.
+bool is_beside(const CellLayer<char>& reach, Cell edge, double min_cells) {
+  const int cells = static_cast<int>(std::ceil(min_cells)) + 2;
+  for (int dy = -cells; dy <= cells; ++dy)
+    for (int dx = -cells; dx <= cells; ++dx)
+      if (reach.at(edge + Cell{dx, dy})) return true;
+  return false;
+}
 
 TaskSettings task_settings(const ExploreConfig& config, const RobotModel& robot) {
   double farthest_m = 0.0;
@@ -29,7 +40,8 @@ TaskChooser::TaskChooser(const ExploreConfig& config, const WorldView& world)
     : config_(config),
       settings_(task_settings(config, world.robot)),
       near_echoes_(world.grid, config.driving.local_map.echoes.near),
-      passages_(config.exploring.passages) {}
+      passages_(config.exploring.passages),
+      known_(config.exploring.known) {}
 
 void TaskChooser::begin_here(const WorldView& world) {
   forget_echoes(world);
@@ -72,7 +84,7 @@ std::optional<ExploreTask> TaskChooser::choose_within(const Search& search, cons
                                                       const std::optional<ExploreTask>& before) {
   search_ = search;
   const FreeSpace space = space_within(search, world);
-  const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
+  const bool frontiers_wanted = known_ratio() < config_.until_known_ratio;
   // Each turn of the loop either ends it or gives a part of a task up.
   for (;;) {
     std::optional<ExploreTask> task =
@@ -97,8 +109,20 @@ std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
   return opening_task(space_within(search_, world), space_within({kEverywhere_m, narrow_m}, world), settings_, memory_);
 }
 
+void TaskChooser::count_known(const WorldView& world) {
+  if (!known_.is_due(world.time_s)) return;
+  const FreeSpace space = space_within({kEverywhere_m, config_.exploring.choice.tight_clearance_m}, world);
+  const double near_m = config_.look_closer_m > 0.0 ? config_.look_closer_m : config_.exploring.estimate.passed_m;
+  CellSet passed = memory_.seen_edges;
+  const CellLayer<char> reach = reach_of(space, memory_.trace);
+  std::vector<Cell> edges = edge_cells(space);
+  std::erase_if(edges, [&](Cell c) { return !is_beside(reach, c, space.min_distance_m() / space.cell_m()); });
+  const std::size_t left = unseen(space, edges, memory_.trace, {near_m}, passed).size();
+  known_.count(space, reach, left, config_.exploring.passages.drive_radius_m, world.time_s);
+}
+
 std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
-  if (known_ratio(world.grid) >= config_.until_known_ratio) return std::nullopt;
+  if (known_ratio() >= config_.until_known_ratio) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
   return passages_.next(space_within(search_, world), {world.grid, memory_.trace, memory_.seen_openings},
                         world.pose.T_map_robot.position());
@@ -140,6 +164,7 @@ bool TaskChooser::leads_on(const WorldView& world, const Search& tight) const {
 // also from right ahead.
 std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std::optional<ExploreTask>& before) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
+  count_known(world);
   const ChoiceSettings& choice = config_.exploring.choice;
   const Search tight{kEverywhere_m, std::min(config_.clearance_m, choice.tight_clearance_m)};
   if (auto task = choose_within({choice.around_m, config_.clearance_m}, world, before)) return task;

@@ -40,6 +40,9 @@ class TaskChooser {
   // Those that still lead to what is unknown, or to where the robot has not been.
   [[nodiscard]] std::vector<NotEntered> not_entered(const WorldView& world) const;
 
+  // Of what can be reached; counted anew when the next task is chosen, every few seconds.
+  [[nodiscard]] double known_ratio() const { return known_.ratio(); }
+
   // Whether something has turned up on a path that keeps as much room as the last task's.
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const;
   // Noise can wall the robot in where it just came through: it cannot go back to where it has been.
@@ -61,6 +64,7 @@ class TaskChooser {
   [[nodiscard]] std::optional<ExploreTask> choose_again(const WorldView& world,
                                                         const std::optional<ExploreTask>& before);
   [[nodiscard]] std::optional<ExploreTask> choose_opening(const WorldView& world);
+  void count_known(const WorldView& world);
   [[nodiscard]] std::optional<ExploreTask> choose_passage(const WorldView& world);
   // What is left where the robot can only get as `goto` does: through what it has come through before.
   [[nodiscard]] std::optional<ExploreTask> choose_by_route(const WorldView& world,
@@ -74,6 +78,7 @@ class TaskChooser {
   NearEchoes near_echoes_;
   ExploreMemory memory_;
   PassageTasks passages_;
+  KnownShare known_;
 };
 
 }  // namespace cairn::behaviours
