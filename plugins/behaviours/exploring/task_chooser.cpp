@@ -182,6 +182,7 @@ std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std
 void TaskChooser::give_up(const ExploreTask& task, const WorldView& world) {
   behaviours::give_up(task, space(world), settings_, memory_);
   passages_.record_look(task);
+  if (task.kind == TaskKind::passage) passages_.record(task, false, "it was given up");
 }
 
 bool TaskChooser::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const {
