@@ -30,6 +30,7 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
 Status Exploration::tick(const WorldView& world, BehaviourContext& context) {
   if (world.time_s - last_tick_s_ > config_.exploring.motion.away_s) begin_here(world);
   last_tick_s_ = world.time_s;
+  has_nothing_left_ = false;
   travelled_.add(world.pose.T_map_robot);
   chooser_.see(world);
   follower_.see(world, chooser_.near_echoes());
@@ -229,7 +230,7 @@ Status Exploration::nothing_left(const WorldView& world, BehaviourContext& conte
   return look_around(world, context);
 }
 
-Status Exploration::finished(const WorldView& world) const {
+Status Exploration::finished(const WorldView& world) {
   if (travelled_.driven_m >= config_.exploring.motion.moved_m) return explored(world);
   if (blockages_.is_any()) return cannot_get_away();
   const FreeSpace space = chooser_.space(world);
@@ -245,7 +246,8 @@ Status Exploration::finished(const WorldView& world) const {
 }
 
 // A failure when the robot has not got into places that it should fit into, and much is unknown.
-Status Exploration::explored(const WorldView& world) const {
+Status Exploration::explored(const WorldView& world) {
+  has_nothing_left_ = true;
   const std::vector<NotEntered> left = chooser_.not_entered(world);
   std::string text;
   for (const NotEntered& opening : left) text += (text.empty() ? "; not entered: " : ", ") + sentence_of(opening);

@@ -19,6 +19,8 @@ class Exploration {
   Exploration(const ExploreConfig& config, const WorldView& world);
 
   Status tick(const WorldView& world, BehaviourContext& context);
+  // Whether the last tick ended it because nothing was left, openings that it did not get through aside.
+  [[nodiscard]] bool has_nothing_left() const { return has_nothing_left_; }
   // As openings.hpp, on the map as it sees it.
   [[nodiscard]] std::optional<Point> room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const {
     return chooser_.room_out_of_reach(world, done);
@@ -41,8 +43,8 @@ class Exploration {
   Status nothing_left(const WorldView& world, BehaviourContext& context);
   void arrive(const WorldView& world);
   Status get_unstuck(const WorldView& world, BehaviourContext& context);
-  [[nodiscard]] Status finished(const WorldView& world) const;
-  [[nodiscard]] Status explored(const WorldView& world) const;
+  [[nodiscard]] Status finished(const WorldView& world);
+  [[nodiscard]] Status explored(const WorldView& world);
   [[nodiscard]] Status cannot_get_away() const;
   [[nodiscard]] std::string summary(const WorldView& world) const;
 
@@ -55,6 +57,7 @@ class Exploration {
   Travelled travelled_;
   std::optional<ExploreTask> task_;
   Mode mode_ = Mode::travel;
+  bool has_nothing_left_ = false;
   double begun_s_;
   double mode_since_s_ = 0.0;
   double last_tick_s_ = -1e9;

@@ -36,6 +36,10 @@ void Explore::halt() {
   run_.reset();
 }
 
+bool Explore::has_nothing_left() const {
+  return run_ && run_->has_nothing_left();
+}
+
 std::optional<Point> Explore::room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const {
   return run_ ? run_->room_out_of_reach(world, done) : std::nullopt;
 }

@@ -113,11 +113,10 @@ void TaskChooser::count_known(const WorldView& world) {
   if (!known_.is_due(world.time_s)) return;
   const FreeSpace space = space_within({kEverywhere_m, config_.exploring.choice.tight_clearance_m}, world);
   const double near_m = config_.look_closer_m > 0.0 ? config_.look_closer_m : config_.exploring.estimate.passed_m;
-  CellSet passed = memory_.seen_edges;
   const CellLayer<char> reach = reach_of(space, memory_.trace);
   std::vector<Cell> edges = edge_cells(space);
   std::erase_if(edges, [&](Cell c) { return !is_beside(reach, c, space.min_distance_m() / space.cell_m()); });
-  const std::size_t left = unseen(space, edges, memory_.trace, {near_m}, passed).size();
+  const std::size_t left = unseen(space, edges, memory_.trace, {near_m}, memory_.seen_edges).size();
   known_.count(space, reach, left, config_.exploring.passages.drive_radius_m, world.time_s);
 }
 
@@ -131,9 +130,16 @@ std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
 std::optional<ExploreTask> TaskChooser::choose_by_route(const WorldView& world,
                                                         const std::optional<ExploreTask>& before) {
   const Search slim{kEverywhere_m, config_.exploring.passages.drive_radius_m - world.robot.radius_m};
-  std::optional<ExploreTask> task = choose_within(slim, world, before);
-  if (task) task->by_route = true;
-  return task;
+  const double min_m = world.robot.radius_m + config_.exploring.choice.tight_clearance_m;
+  while (std::optional<ExploreTask> task = choose_within(slim, world, before)) {
+    const FreeSpace there = space(world);
+    if (there.distance_m(there.cell_at(task->lookout)) >= min_m) {
+      task->by_route = true;
+      return task;
+    }
+    behaviours::give_up(*task, there, settings_, memory_);  // the robot does not fit in there
+  }
+  return std::nullopt;
 }
 
 std::vector<NotEntered> TaskChooser::not_entered(const WorldView& world) const {
