@@ -19,6 +19,7 @@ struct TaskSettings {
   double gain_range_m = 3.0;  // of the sensors, for the new area
   TaskWeights weights{};
   OpeningSettings openings{};
+  CellBox window{};  // of the map that the space holds; empty: all of it
 };
 
 // An object that is circled again: only the trace from here on counts as having looked at it.

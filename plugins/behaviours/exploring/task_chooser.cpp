@@ -68,14 +68,17 @@ void TaskChooser::see(const WorldView& world) {
     memory_.trace.push_back(pose);
 }
 
-FreeSpace TaskChooser::space_within(const Search& search, const WorldView& world) const {
-  const Point position = world.pose.T_map_robot.position();
-  const Cell here = world.grid.cell_at(position);
+CellBox TaskChooser::window_of(const Search& search, const WorldView& world) {
+  const Cell here = world.grid.cell_at(world.pose.T_map_robot.position());
   const CellBox all = world.grid.bounds();
   const double max_cells = 1.0 + std::max(all.width(), all.height());
   const int reach = static_cast<int>(std::min(search.within_m / world.grid.cell_m(), max_cells));
-  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
-  return FreeSpace(near_echoes_.applied_to(world.grid, part),
+  return CellBox{here, here + Cell{1, 1}}.grown(reach);
+}
+
+FreeSpace TaskChooser::space_within(const Search& search, const WorldView& world) const {
+  const Point position = world.pose.T_map_robot.position();
+  return FreeSpace(near_echoes_.applied_to(world.grid, window_of(search, world)),
                    {position, world.robot.radius_m, search.clearance_m, config_.driving.local_map.paths}, memory_.trace,
                    memory_.troubles);
 }
@@ -84,6 +87,7 @@ std::optional<ExploreTask> TaskChooser::choose_within(const Search& search, cons
                                                       const std::optional<ExploreTask>& before) {
   search_ = search;
   const FreeSpace space = space_within(search, world);
+  settings_.window = window_of(search, world);
   const bool frontiers_wanted = known_ratio() < config_.until_known_ratio;
   // Each turn of the loop either ends it or gives a part of a task up.
   for (;;) {

@@ -58,6 +58,8 @@ class TaskChooser {
     double within_m = 8.0;
     double clearance_m = 0.1;
   };
+  // The part of the map that is searched; may reach beyond the map.
+  [[nodiscard]] static CellBox window_of(const Search& search, const WorldView& world);
   [[nodiscard]] FreeSpace space_within(const Search& search, const WorldView& world) const;
   [[nodiscard]] std::optional<ExploreTask> choose_within(const Search& search, const WorldView& world,
                                                          const std::optional<ExploreTask>& before);
