@@ -14,7 +14,8 @@ const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
       {"missions", ExperimentKind::missions},       {"maps", ExperimentKind::maps},
       {"places", ExperimentKind::places},           {"orbit", ExperimentKind::orbit},
       {"recognition", ExperimentKind::recognition}, {"curves", ExperimentKind::curves},
-      {"trials", ExperimentKind::trials},           {"buildings", ExperimentKind::buildings}};
+      {"trials", ExperimentKind::trials},           {"buildings", ExperimentKind::buildings},
+      {"homes", ExperimentKind::homes}};
   return kKinds;
 }
 
@@ -65,6 +66,18 @@ void check_trials(const ExperimentConfig& config, const ConfigValue& value) {
     throw ConfigError(given->place, fmt::format("min_goals must be at most max_goals, found {} and {}",
                                                 config.trials.min_goals, config.trials.max_goals));
   }
+}
+
+// Ranges that fit together. value: the map `homes`.
+void check_homes(const HomesConfig& homes, const ConfigValue& value) {
+  const auto ordered = [&](const char* low, const char* high, double a, double b) {
+    if (a <= b) return;
+    const ConfigValue* given = value.find(low) != nullptr ? value.find(low) : value.find(high);
+    throw ConfigError(given->place, fmt::format("{} must be at most {}, found {:g} and {:g}", low, high, a, b));
+  };
+  ordered("min_rooms", "max_rooms", homes.min_rooms, homes.max_rooms);
+  ordered("min_area_m2", "max_area_m2", homes.min_area_m2, homes.max_area_m2);
+  ordered("min_door_m", "max_door_m", homes.min_door_m, homes.max_door_m);
 }
 
 // What an experiment is about: the missions listed, or drawn ones.
@@ -192,7 +205,8 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
           "precision "
           "and recall of several detectors on the grids of the same runs, at every threshold; `trials`, what comes of "
           "random missions in random worlds with random faults; `buildings`, what questions to the maps of small and "
-          "large buildings cost")
+          "large buildings cost; `homes`, which rooms of random homes are entered and how much of them is known, "
+          "whatever the mission does there")
       .required = true;
   fields.files("missions", &C::missions,
                "mission files; needed but for `trials`, which draws its own, and `buildings`");
@@ -205,9 +219,11 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   fields.number(
       "max_contact_mps", &C::max_contact_mps, {0.0, 10.0}, "m/s",
       "limit of `missions` and `trials`: no contact, seen or not, is faster by the truth; adds a table of contacts");
-  fields.number("at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
-                "share of good runs (of `trials`: of reached goals among the reachable ones that no fault took away) "
-                "that makes the experiment a success");
+  fields.number(
+      "at_least_ratio", &C::at_least_ratio, {0.0, 1.0}, "",
+      "share of good runs (of `trials`: of reached goals among the reachable ones that no fault took away; of "
+      "`homes`: of the rooms entered and of the area known, each) "
+      "that makes the experiment a success");
   fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
   fields.texts("categories", &C::categories,
                "of `places` and `orbit`: the categories, in the order of the table's columns");
@@ -220,6 +236,8 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
       "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
   fields.group("trials", &C::trials, "of `trials`: the missions that are drawn, how they are judged, and limits");
   fields.group("buildings", &C::buildings, "of `buildings`: the buildings and the questions");
+  fields.group("homes", &C::homes,
+               "of `homes`: the home of each seed, which takes the place of the missions' own world and start");
   fields.raw("detectors", &C::detectors_as_given, "list of detectors",
              "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
              "setting left out is as the mission's own detector has it; but tau_match is 0");
@@ -246,7 +264,8 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
     sort_overrides(variant, root);
     if (variant.worlds) check_worlds(*variant.worlds, *root.find("worlds"));
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
-    if (!variant.world.empty() && (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials))
+    if (!variant.world.empty() && (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials ||
+                                   config.experiment == ExperimentKind::homes))
       throw ConfigError(root.find("variants")->items[i].find("world")->place,
                         "variant \"" + variant.name + "\" names a world, but each run of " +
                             std::string(name_of(config.experiment)) + " has its own");
@@ -263,6 +282,7 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   if (of_orbit && !config.orbit)
     throw ConfigError(root.place, "an experiment of an orbit must say under orbit what it goes round");
   if (const ConfigValue* worlds = root.find("worlds")) check_worlds(config.worlds, *worlds);
+  if (const ConfigValue* homes = root.find("homes")) check_homes(config.homes, *homes);
   if (config.detectors_as_given.kind != ConfigValue::Kind::null)
     config.detectors = detectors_of(config.detectors_as_given);
   if (config.experiment == ExperimentKind::curves && config.detectors.empty())

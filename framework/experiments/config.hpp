@@ -10,6 +10,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/experiments/buildings/config.hpp"
+#include "framework/experiments/homes/home.hpp"
 #include "framework/experiments/trials/config.hpp"
 #include "framework/experiments/trials/random_world.hpp"
 
@@ -18,8 +19,8 @@ namespace cairn {
 // What is asked of the runs: were the landmarks found; how good are the maps; how well does each category
 // fit at given places of the drive, and along an orbit round a landmark; what is recognised in random worlds,
 // and what other detectors recognise on the same grids; what comes of random missions in random worlds; what questions
-// to the maps of large buildings cost, for which nothing is run.
-enum class ExperimentKind { missions, maps, places, orbit, recognition, curves, trials, buildings };
+// to the maps of large buildings cost, for which nothing is run; how much of random homes is explored.
+enum class ExperimentKind { missions, maps, places, orbit, recognition, curves, trials, buildings, homes };
 [[nodiscard]] std::string_view name_of(ExperimentKind kind);
 
 struct SeedRange {
@@ -92,6 +93,7 @@ struct ExperimentConfig {
   RandomWorldConfig worlds;
   TrialsConfig trials;
   BuildingsConfig buildings;
+  HomesConfig homes;
   ConfigValue detectors_as_given;
   std::vector<ComparedDetector> detectors;  // after loading
   bool ring_profile = false;
@@ -100,7 +102,7 @@ struct ExperimentConfig {
   static void describe(Fields<ExperimentConfig>& fields);
 };
 
-// Whether the experiment puts a random world in place of each mission's own.
+// Whether the experiment puts a random world with landmarks in place of each mission's own.
 [[nodiscard]] bool in_random_worlds(ExperimentKind kind);
 
 // overrides: "key=value" texts of --set. Throws ConfigError.

@@ -1,5 +1,7 @@
 #include "framework/experiments/experiment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -41,6 +43,16 @@ std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::
   return jobs;
 }
 
+// As random worlds: world.yaml in the run's folder. The start is the home's own.
+std::vector<std::string> write_home(const ExperimentConfig& config, const Job& job) {
+  const Home home = random_home(config.homes, static_cast<std::uint64_t>(job.seed));
+  std::filesystem::create_directories(job.out);
+  const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
+  write_file(file, home.world_yaml);
+  return {"world=" + file.string(), fmt::format("start={{at_m: [{:.3f}, {:.3f}], angle_deg: {:g}}}", home.start_m.x(),
+                                                home.start_m.y(), home.start_deg)};
+}
+
 // The world of a seed stays in the run's folder, so that `cairn run --set world=FILE` gives the run again.
 std::string write_world(const ExperimentConfig& config, const Job& job, const std::vector<LandmarkShape>& shapes) {
   if (shapes.empty())
@@ -72,6 +84,10 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
     return load_mission(write_trial(config.trials, config.worlds, job.seed, job.out), overrides, job.seed);
   if (in_random_worlds(config.experiment))
     overrides.push_back("world=" + write_world(config, job, load_mission(job.mission, overrides).shapes));
+  if (config.experiment == ExperimentKind::homes) {
+    const std::vector<std::string> home = write_home(config, job);
+    overrides.insert(overrides.end(), home.begin(), home.end());
+  }
   return load_mission(job.mission, overrides, job.seed);
 }
 
@@ -91,14 +107,19 @@ void check(const ExperimentConfig& config, const ModuleLibrary& library, const s
 
 // What a run is measured by while it lasts.
 struct Listeners {
-  explicit Listeners(const Mission& mission)
-      : report(mission.config.history), held_out(mission.config.hold_out_every, mission.config.seed) {}
+  Listeners(const ExperimentConfig& config, const Mission& mission)
+      : report(mission.config.history), held_out(mission.config.hold_out_every, mission.config.seed) {
+    if (config.experiment == ExperimentKind::homes)
+      home.emplace(config.homes, random_home(config.homes, static_cast<std::uint64_t>(mission.config.seed)),
+                   *mission.world, mission.robot.radius_m);
+  }
   void subscribe_to(MissionRunner& runner) {
     runner.subscribe(report);
     runner.subscribe(known);
     runner.subscribe(path);
     runner.subscribe(held_out);
     runner.subscribe(trial);
+    if (home) runner.subscribe(*home);
   }
 
   RunReport report;
@@ -106,6 +127,7 @@ struct Listeners {
   TruePath path;
   HeldOutReadings held_out;
   TrialRecord trial;
+  std::optional<HomeRecord> home;
 };
 
 // What the experiment's kind asks of a run that has ended.
@@ -130,6 +152,7 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
     row.trial =
         judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
   row.contacts = listeners.report.contacts();
+  if (listeners.home && !was_cancelled) row.home = listeners.home->verdict(row.result, row.contacts);
   row.step_rad = mission.template_settings.step_rad;
   if (config.experiment == ExperimentKind::orbit)
     row.orbit =
@@ -142,7 +165,7 @@ ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& libra
   const Mission mission = mission_of(config, job);
   std::filesystem::create_directories(job.out);
   MissionRunner runner(mission, library, {job.out, false, &cancel});
-  Listeners listeners(mission);
+  Listeners listeners(config, mission);
   listeners.subscribe_to(runner);
   ExperimentRow row;
   row.mission = job.mission.stem();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/experiments/config.hpp"
+#include "framework/experiments/homes/record.hpp"
 #include "framework/experiments/map_quality.hpp"
 #include "framework/experiments/recognition/curves.hpp"
 #include "framework/experiments/recognition/orbit.hpp"
@@ -39,6 +40,7 @@ struct ExperimentRow {
   std::vector<DetectorSweep> sweeps;     // of an experiment of curves, one a detector
   std::vector<TimedContact> contacts;    // by the truth, where it is known
   std::optional<TrialVerdict> trial;     // of an experiment of trials
+  std::optional<HomeVerdict> home;       // of an experiment of homes
   StageTime tick;                        // wall clock of the host's ticks, all but the sensor's part
   double step_rad = 0.0;                 // between the orientations of the templates
   double wall_s = 0.0;

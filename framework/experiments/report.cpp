@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/experiments/contacts.hpp"
+#include "framework/experiments/homes/table.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
 #include "framework/experiments/recognition/factor_table.hpp"
 #include "framework/experiments/recognition/orbit_table.hpp"
@@ -131,6 +132,15 @@ ordered_json json_of_trial(const TrialVerdict& trial) {
           {"goals", std::move(goals)}};
 }
 
+ordered_json json_of_home(const HomeVerdict& home) {
+  ordered_json json = {{"rooms", home.rooms},          {"entered", home.entered},
+                       {"area_m2", home.area_m2},      {"known_ratio", home.known_ratio},
+                       {"contacts", home.contacts},    {"fast_contacts", home.fast_contacts},
+                       {"success", home.said_success}, {"end", home.end}};
+  if (home.known_90_s) json["known_90_s"] = *home.known_90_s;
+  return json;
+}
+
 std::string cell_text(const Estimate& estimate) {
   return " " + text_of(estimate, 4) + " |";
 }
@@ -201,6 +211,7 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
   if (config.experiment == ExperimentKind::orbit) json["orbit"] = json_of_orbit(config, row);
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (row.trial) json["trial"] = json_of_trial(*row.trial);
+  if (row.home) json["home"] = json_of_home(*row.home);
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
     if (measure.is_known(row)) json[measure.name] = measure.of(row);
@@ -277,6 +288,8 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
       return curves_table(config, rows);
     case ExperimentKind::trials:
       return trials_table(config, rows) + contacts_table(config, rows);
+    case ExperimentKind::homes:
+      return homes_table(config, rows) + contacts_table(config, rows);
   }
   return {};
 }

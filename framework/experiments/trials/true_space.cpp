@@ -40,6 +40,22 @@ Point TrueSpace::centre_of(std::size_t cell) const {
   return world_.min_m + kCell_m * Point(static_cast<double>(row.rem) + 0.5, static_cast<double>(row.quot) + 0.5);
 }
 
+double TrueSpace::cell_m() {
+  return kCell_m;
+}
+
+std::vector<Point> TrueSpace::reached_from(const Point& p_m) const {
+  std::vector<int> part(free_.size(), 0);
+  constexpr int kNotYet = -1;
+  for (std::size_t cell = 0; cell < part.size(); ++cell) part[cell] = free_[cell] ? kNotYet : 0;
+  for (const std::size_t from : cells_near(p_m, kCell_m))
+    if (part[from] == kNotYet) fill(part, from, 1);
+  std::vector<Point> places;
+  for (std::size_t cell = 0; cell < part.size(); ++cell)
+    if (part[cell] == 1) places.push_back(centre_of(cell));
+  return places;
+}
+
 TrueSpace::Cells TrueSpace::cells_near(const Point& p_m, double within_m) const {
   Cells cells;
   for (std::size_t cell = 0; cell < free_.size(); ++cell)

@@ -18,6 +18,10 @@ class TrueSpace {
   // Between walls and objects, inside the bounds; doors count as open. Exact.
   [[nodiscard]] bool has_room(const Point& p_m) const;
 
+  // Where a disc gets to from there, all doors open: a place a cell; none when there is no room at the place itself.
+  [[nodiscard]] std::vector<Point> reached_from(const Point& p_m) const;
+  [[nodiscard]] static double cell_m();
+
   // Cells of a lattice of 0.05 m whose centres have room.
   using Cells = std::vector<std::size_t>;
   [[nodiscard]] Cells cells_near(const Point& p_m, double within_m) const;

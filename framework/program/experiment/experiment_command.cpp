@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "framework/experiments/contacts.hpp"
+#include "framework/experiments/homes/table.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
 #include "framework/experiments/report.hpp"
 #include "framework/experiments/trials/table.hpp"
@@ -55,6 +56,8 @@ int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentR
   if (config.experiment == ExperimentKind::trials)
     return !cancelled && broken_limits(config, rows).empty() && too_long(config, rows).empty() ? kExitDone
                                                                                                : kExitNotSolved;
+  if (config.experiment == ExperimentKind::homes)
+    return !cancelled && keeps_homes_limits(config, rows) ? kExitDone : kExitNotSolved;
   const bool enough = config.experiment != ExperimentKind::missions
                           ? static_cast<double>(done) == runs
                           : static_cast<double>(good) >= config.at_least_ratio * runs;

@@ -164,7 +164,7 @@ Status Search::tick(const WorldView& world, BehaviourContext& context) {
     status = *now;
   } else {
     status = explore_.tick(world, context);
-    if (status.state == StepState::success)
+    if (status.state == StepState::success || explore_.has_nothing_left())
       status = nothing_left(count, status.reason, world, context);
     else if (status.state == StepState::failure)
       status.reason = count + "; " + status.reason;

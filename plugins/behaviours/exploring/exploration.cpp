@@ -22,6 +22,7 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
     : config_(config),
       chooser_(config, world),
       follower_(config),
+      drive_(config),
       blockages_(config.exploring.blocked),
       back_up_(config.exploring.blocked.back_up),
       begun_s_(world.time_s) {}
@@ -29,6 +30,7 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
 Status Exploration::tick(const WorldView& world, BehaviourContext& context) {
   if (world.time_s - last_tick_s_ > config_.exploring.motion.away_s) begin_here(world);
   last_tick_s_ = world.time_s;
+  has_nothing_left_ = false;
   travelled_.add(world.pose.T_map_robot);
   chooser_.see(world);
   follower_.see(world, chooser_.near_echoes());
@@ -40,6 +42,8 @@ Status Exploration::tick(const WorldView& world, BehaviourContext& context) {
       return face(world, context);
     case Mode::back_off:
       return back_off(world, context);
+    case Mode::route:
+      return route(world, context);
     case Mode::travel:
       break;
   }
@@ -89,6 +93,12 @@ bool Exploration::choose(const WorldView& world, BehaviourContext& context) {
   chosen_s_ = world.time_s;
   task_ = chooser_.choose(world, task_);
   if (!task_) return false;
+  if (task_->by_route) {
+    drive_.begin(*task_, world.time_s);
+    set_mode(Mode::route, world.time_s);
+    context.report(sentence_of(*task_));
+    return true;
+  }
   follower_.take(task_->path);
   if (task_->kind == TaskKind::orbit && (task_->about - announced_).norm() > config_.orbit_distance_m) {
     announced_ = task_->about;
@@ -108,6 +118,7 @@ Status Exploration::travel(const WorldView& world, BehaviourContext& context) {
   const bool blocked = task_ && chooser_.is_blocked(world, task_->path, follower_.along_m());
   if (needs_choice(world) || (blocked && world.time_s - chosen_s_ >= config_.exploring.choice.apart_s)) {
     if (!choose(world, context)) return nothing_left(world, context);
+    if (mode_ == Mode::route) return route(world, context);
   } else if (blocked) {
     follower_.drive({}, world, context);
     return {StepState::running, "something has turned up on the path"};
@@ -119,10 +130,31 @@ Status Exploration::travel(const WorldView& world, BehaviourContext& context) {
   return {StepState::running, task_ ? sentence_of(*task_) : "choosing what to do next"};
 }
 
+// As `goto` drives, to where no path with the usual room leads.
+Status Exploration::route(const WorldView& world, BehaviourContext& context) {
+  const Status status = drive_.tick(*task_, world, context);
+  if (status.state == StepState::running) return {StepState::running, sentence_of(*task_) + ": " + status.reason};
+  const bool has_arrived = status.state == StepState::success;
+  set_mode(Mode::travel, world.time_s);
+  if (!has_arrived) context.report("does not get there: " + status.reason);
+  if (task_->kind == TaskKind::passage) {
+    chooser_.record_passage(*task_, has_arrived, status.reason);
+    if (has_arrived) chooser_.begin_here(world);
+    task_.reset();
+  } else if (has_arrived) {
+    arrive(world);
+  } else {
+    chooser_.give_up(*task_, world);
+    task_.reset();
+  }
+  return {StepState::running, "choosing what to do next"};
+}
+
 void Exploration::arrive(const WorldView& world) {
   if (is_faced(task_->kind) && can_turn(world.robot)) {
     set_mode(Mode::face, world.time_s);
     faced_s_ = world.time_s;
+    is_faced_ = false;
     return;
   }
   // What it arrives at again without having gone anywhere has nothing more to show, whatever is still missing of it.
@@ -134,19 +166,26 @@ void Exploration::arrive(const WorldView& world) {
 
 // Turns the sonars to what is still unknown; what they cannot settle from here is given up.
 Status Exploration::face(const WorldView& world, BehaviourContext& context) {
+  const bool is_opening = task_->kind == TaskKind::opening;
+  const motion::TurnSettings& turn = config_.driving.turn;
   const double error_rad = motion::heading_error(world.pose.T_map_robot, task_->about);
   const bool has_time = world.time_s - mode_since_s_ < config_.exploring.face.at_most_s;
-  const double dwell_s =
-      task_->kind == TaskKind::opening ? config_.exploring.face.opening_dwell_s : config_.exploring.face.dwell_s;
-  if (std::abs(error_rad) > config_.exploring.face.faced_rad && has_time) {
+  const double dwell_s = is_opening ? config_.exploring.face.opening_dwell_s : config_.exploring.face.dwell_s;
+  const bool is_sweeping = is_opening && is_faced_;
+  if (is_opening) chooser_.see_through(world, task_->about);
+  if (std::abs(error_rad) > config_.exploring.face.faced_rad && has_time && !is_sweeping) {
     faced_s_ = world.time_s;
-    const motion::TurnSettings& turn = config_.driving.turn;
     follower_.drive(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   } else if (world.time_s - faced_s_ >= dwell_s || !has_time ||
              !still_worthwhile(*task_, world.grid, config_.exploring.weights)) {
     chooser_.give_up(*task_, world);
     task_.reset();
     set_mode(Mode::travel, world.time_s);
+  } else if (is_opening) {
+    is_faced_ = true;
+    const double phase_rad = 2.0 * std::numbers::pi * (world.time_s - faced_s_) / std::max(dwell_s, 0.1);
+    const double off_rad = error_rad + config_.exploring.face.sweep_rad * std::sin(phase_rad);
+    follower_.drive(motion::turn_by(off_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   }
   return {StepState::running, "facing what is still unknown"};
 }
@@ -181,6 +220,7 @@ Status Exploration::back_off(const WorldView& world, BehaviourContext& context) 
 
 // Once more round before the end: what seems to shut the robot in may be noise.
 Status Exploration::nothing_left(const WorldView& world, BehaviourContext& context) {
+  if (chooser_.retry_passages()) return {StepState::running, "trying once more what it did not get through"};
   if (!can_turn(world.robot) || travelled_.driven_m - looked_around_at_m_ < config_.exploring.motion.moved_m)
     return finished(world);
   // And what it remembers of near echoes may be of somebody who has left.
@@ -190,20 +230,31 @@ Status Exploration::nothing_left(const WorldView& world, BehaviourContext& conte
   return look_around(world, context);
 }
 
-Status Exploration::finished(const WorldView& world) const {
-  if (travelled_.driven_m >= config_.exploring.motion.moved_m)
-    return {StepState::success, "nothing left to explore: " + summary(world)};
+Status Exploration::finished(const WorldView& world) {
+  if (travelled_.driven_m >= config_.exploring.motion.moved_m) return explored(world);
   if (blockages_.is_any()) return cannot_get_away();
   const FreeSpace space = chooser_.space(world);
   const Cell here = space.cell_at(world.pose.T_map_robot.position());
   const bool can_move = std::any_of(std::begin(kNeighbours), std::end(kNeighbours), [&](Cell step) {
     return space.reaches(here + step) || space.reaches(here + step + step);
   });
-  if (can_move) return {StepState::success, "nothing left to explore: " + summary(world)};
+  if (can_move) return explored(world);
   char text[128];
   std::snprintf(text, sizeof text, "cannot move: no known free place with %.2f m of room is in reach of (%.2f, %.2f)",
                 space.min_distance_m(), travelled_.T_map_last.x_m, travelled_.T_map_last.y_m);
   return {StepState::failure, text};
+}
+
+// A failure when the robot has not got into places that it should fit into, and much is unknown.
+Status Exploration::explored(const WorldView& world) {
+  has_nothing_left_ = true;
+  const std::vector<NotEntered> left = chooser_.not_entered(world);
+  std::string text;
+  for (const NotEntered& opening : left) text += (text.empty() ? "; not entered: " : ", ") + sentence_of(opening);
+  const bool is_half_known = chooser_.known_ratio() < config_.until_known_ratio;
+  const bool has_missed = std::ranges::any_of(left, [](const NotEntered& opening) { return !opening.is_too_narrow; });
+  if (is_half_known && has_missed) return {StepState::failure, "openings not entered: " + summary(world) + text};
+  return {StepState::success, "nothing left to explore: " + summary(world) + text};
 }
 
 Status Exploration::cannot_get_away() const {
@@ -215,7 +266,7 @@ Status Exploration::cannot_get_away() const {
 
 std::string Exploration::summary(const WorldView& world) const {
   char text[96];
-  std::snprintf(text, sizeof text, "%.1f %% known after %.1f m and %.0f s", 100.0 * known_ratio(world.grid),
+  std::snprintf(text, sizeof text, "%.1f %% known after %.1f m and %.0f s", 100.0 * chooser_.known_ratio(),
                 travelled_.driven_m, world.time_s - begun_s_);
   return text;
 }

@@ -7,9 +7,9 @@
 namespace cairn::behaviours {
 void ExploreConfig::describe(Fields<ExploreConfig>& fields) {
   using C = ExploreConfig;
-  fields.number("until_known_ratio", &C::until_known_ratio, {0.0, 1.0}, "",
-                "share of known cells in the smallest box around everything occupied; when it is reached, frontiers "
-                "are left alone");
+  fields.number(
+      "until_known_ratio", &C::until_known_ratio, {0.0, 1.0}, "",
+      "share of what can be reached that is known; when it is reached, frontiers and openings are left alone");
   fields.number("at_most_s", &C::at_most_s, {0.0, 1e6}, "s", "time to explore; when it is up the step has succeeded");
   describe_exploring(fields);
 }
@@ -34,6 +34,10 @@ Status Explore::tick(const WorldView& world, BehaviourContext& context) {
 
 void Explore::halt() {
   run_.reset();
+}
+
+bool Explore::has_nothing_left() const {
+  return run_ && run_->has_nothing_left();
 }
 
 std::optional<Point> Explore::room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const {

@@ -1,7 +1,8 @@
 // Explores the reachable space and looks closer at what it finds.
 //
 // Ends with success when the wanted share is known and nothing is left to look closer at, when nothing
-// in reach is left, or when its time is up; with failure only when the robot cannot move.
+// in reach is left, or when its time is up; with failure when the robot cannot move, or when it has not entered
+// openings that it should fit through and less than the wanted share is known.
 // The map is searched at most twice a second; every other
 // tick costs microseconds. Deterministic.
 #pragma once
@@ -76,6 +77,8 @@ class Explore : public Behaviour {
 
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
+  // Whether it has just ended because nothing was left to explore, though it may not have got through every opening.
+  [[nodiscard]] bool has_nothing_left() const;
   // Where it did not get to, as openings.hpp; none before the first tick. done: rooms to leave out. Ticked after its
   // end it explores on from where the robot is then.
   [[nodiscard]] std::optional<Point> room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const;

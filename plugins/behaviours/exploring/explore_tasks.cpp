@@ -34,6 +34,13 @@ bool is_crack(const FreeSpace& space, const CellGroup& frontier) {
                       [&](Cell c) { return space.distance_m(c) >= space.radius_m(); });
 }
 
+// Where a part of the map ends, what is beyond is not unknown: it is left out.
+bool is_at_rim(const CellBox& window, Cell cell) {
+  constexpr int kRim = 2;
+  return !window.empty() && (cell.x < window.min.x + kRim || cell.y < window.min.y + kRim ||
+                             cell.x >= window.max.x - kRim || cell.y >= window.max.y - kRim);
+}
+
 bool is_about_the_same(const ExploreTask& a, const ExploreTask& b, double same_m) {
   return a.kind == b.kind && ((a.lookout - b.lookout).norm() < same_m || (a.about - b.about).norm() < same_m);
 }
@@ -129,7 +136,9 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
   }
   if (frontiers_wanted) {
     const Sight sight{weights.frontier_view_m, weights.frontier_view_rad};
-    const std::vector<Cell> left = unseen(space, frontier_cells(space), memory.trace, sight, memory.seen_frontiers);
+    std::vector<Cell> frontiers = frontier_cells(space);
+    std::erase_if(frontiers, [&](Cell c) { return is_at_rim(settings.window, c); });
+    const std::vector<Cell> left = unseen(space, frontiers, memory.trace, sight, memory.seen_frontiers);
     std::vector<CellGroup> groups = groups_of(left, settings.smallest_frontier_m / space.cell_m());
     std::erase_if(groups, [&](const CellGroup& group) { return is_crack(space, group); });
     Worth worth{TaskKind::frontier, weights.view_ratio * sight.within_m, weights.frontier_bonus_m_per_m};
@@ -180,6 +189,7 @@ void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings
     memory.seen_openings.push_back(task.about);
     return;
   }
+  if (task.kind == TaskKind::passage) return;  // PassageTasks keeps count of these
   const bool is_frontier_task = task.kind == TaskKind::frontier;
   const double reach_m = settings.weights.give_up_ratio *
                          (is_frontier_task ? settings.weights.frontier_view_m : settings.orbit.look_closer_m);
@@ -216,6 +226,8 @@ std::string sentence_of(const ExploreTask& task) {
         return "going to the frontier";
       case TaskKind::edge:
         return "looking closer at the edge";
+      case TaskKind::passage:
+        return "going through the opening";
       case TaskKind::opening:
         break;
     }

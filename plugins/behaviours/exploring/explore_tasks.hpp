@@ -19,6 +19,7 @@ struct TaskSettings {
   double gain_range_m = 3.0;  // of the sensors, for the new area
   TaskWeights weights{};
   OpeningSettings openings{};
+  CellBox window{};  // of the map that the space holds; empty: all of it
 };
 
 // An object that is circled again: only the trace from here on counts as having looked at it.
@@ -38,7 +39,7 @@ struct ExploreMemory {
   std::vector<TroubleSpot> troubles;
 };
 
-enum class TaskKind { orbit, frontier, edge, opening };
+enum class TaskKind { orbit, frontier, edge, opening, passage };
 
 struct ExploreTask {
   TaskKind kind = TaskKind::frontier;
@@ -48,6 +49,9 @@ struct ExploreTask {
   std::vector<Point> path;
   double path_m = 0.0;  // of the path, to the lookout; an orbit continues behind it
   double cost_m = 0.0;
+  bool by_route = false;    // driven as `goto` drives: no path with the usual room leads to the lookout
+  bool is_suspect = false;  // an opening that is drawn shut
+  double width_m = 0.0;     // of a passage
 };
 
 // None when nothing in reach is left. previous: what the robot is at, preferred when nearly as good.

@@ -77,7 +77,8 @@ void ExploreFaceSettings::describe(Fields<ExploreFaceSettings>& fields) {
   using C = ExploreFaceSettings;
   fields.angle("faced_deg", &C::faced_rad, {0.1, 180.0}, "a heading error within this is faced");
   fields.number("dwell_s", &C::dwell_s, {0.0, 600.0}, "s", "unknown ground is faced for so long");
-  fields.number("opening_dwell_s", &C::opening_dwell_s, {0.0, 600.0}, "s", "and a narrow opening for so long");
+  fields.number("opening_dwell_s", &C::opening_dwell_s, {0.0, 600.0}, "s", "and an opening for so long");
+  fields.angle("sweep_deg", &C::sweep_rad, {0.0, 90.0}, "sweeping the sonars by this to either side meanwhile");
   fields.number("at_most_s", &C::at_most_s, {0.0, 600.0}, "s", "with the turn to it, at most");
 }
 
@@ -106,6 +107,8 @@ void ExploringSettings::describe(Fields<ExploringSettings>& fields) {
   fields.group("choice", &C::choice, "when and where the next task is chosen");
   fields.group("weights", &C::weights, "what tasks are worth, in metres of path");
   fields.group("openings", &C::openings, "openings that look too narrow, and rooms out of reach");
+  fields.group("passages", &C::passages, "doors and gaps into what it has not been in");
+  fields.group("known", &C::known, "which share of what can be reached is known");
   fields.group("motion", &C::motion, "how it moves");
   fields.group("face", &C::face, "turning the sonars to what is unknown");
   fields.group("blocked", &C::blocked, "what it does when it is blocked");

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "framework/config/fields.hpp"
+#include "plugins/behaviours/exploring/known_share.hpp"
 #include "plugins/behaviours/following/back_up.hpp"
 #include "plugins/behaviours/lookouts/openings.hpp"
+#include "plugins/behaviours/lookouts/passages.hpp"
 
 namespace cairn::behaviours {
 
@@ -62,7 +64,8 @@ struct ExploreMotionSettings {
 struct ExploreFaceSettings {
   double faced_rad = radians(8.0);
   double dwell_s = 0.6;  // one round of the sonars, about
-  double opening_dwell_s = 2.0;
+  double opening_dwell_s = 4.0;
+  double sweep_rad = radians(20.0);
   double at_most_s = 8.0;
   static void describe(Fields<ExploreFaceSettings>& fields);
 };
@@ -91,6 +94,8 @@ struct ExploringSettings {
   ChoiceSettings choice;
   TaskWeights weights;
   OpeningSettings openings;
+  PassageSettings passages;
+  KnownShareSettings known;
   ExploreMotionSettings motion;
   ExploreFaceSettings face;
   ExploreBlockedSettings blocked;

@@ -1,7 +1,9 @@
 #include "plugins/behaviours/exploring/task_chooser.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "plugins/behaviours/lookouts/frontiers.hpp"
 #include "plugins/behaviours/lookouts/openings.hpp"
 #include "plugins/common/motion/path.hpp"
 
@@ -9,6 +11,15 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kEverywhere_m = 1e6;
+
+// Whether what is in reach comes about as near to an edge as it can.
+bool is_beside(const CellLayer<char>& reach, Cell edge, double min_cells) {
+  const int cells = static_cast<int>(std::ceil(min_cells)) + 2;
+  for (int dy = -cells; dy <= cells; ++dy)
+    for (int dx = -cells; dx <= cells; ++dx)
+      if (reach.at(edge + Cell{dx, dy})) return true;
+  return false;
+}
 
 TaskSettings task_settings(const ExploreConfig& config, const RobotModel& robot) {
   double farthest_m = 0.0;
@@ -28,7 +39,9 @@ TaskSettings task_settings(const ExploreConfig& config, const RobotModel& robot)
 TaskChooser::TaskChooser(const ExploreConfig& config, const WorldView& world)
     : config_(config),
       settings_(task_settings(config, world.robot)),
-      near_echoes_(world.grid, config.driving.local_map.echoes.near) {}
+      near_echoes_(world.grid, config.driving.local_map.echoes.near),
+      passages_(config.exploring.passages),
+      known_(config.exploring.known) {}
 
 void TaskChooser::begin_here(const WorldView& world) {
   forget_echoes(world);
@@ -37,6 +50,11 @@ void TaskChooser::begin_here(const WorldView& world) {
 
 void TaskChooser::forget_echoes(const WorldView& world) {
   near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
+}
+
+void TaskChooser::see_through(const WorldView& world, const Point& opening) {
+  const double to_m = (opening - world.pose.T_map_robot.position()).norm() + config_.exploring.passages.max_wall_m;
+  if (world.observation != nullptr) near_echoes_.see_through(*world.observation, world.pose.T_map_robot, to_m);
 }
 
 void TaskChooser::see(const WorldView& world) {
@@ -50,14 +68,17 @@ void TaskChooser::see(const WorldView& world) {
     memory_.trace.push_back(pose);
 }
 
-FreeSpace TaskChooser::space_within(const Search& search, const WorldView& world) const {
-  const Point position = world.pose.T_map_robot.position();
-  const Cell here = world.grid.cell_at(position);
+CellBox TaskChooser::window_of(const Search& search, const WorldView& world) {
+  const Cell here = world.grid.cell_at(world.pose.T_map_robot.position());
   const CellBox all = world.grid.bounds();
   const double max_cells = 1.0 + std::max(all.width(), all.height());
   const int reach = static_cast<int>(std::min(search.within_m / world.grid.cell_m(), max_cells));
-  const CellBox part = CellBox{here, here + Cell{1, 1}}.grown(reach);
-  return FreeSpace(near_echoes_.applied_to(world.grid, part),
+  return CellBox{here, here + Cell{1, 1}}.grown(reach);
+}
+
+FreeSpace TaskChooser::space_within(const Search& search, const WorldView& world) const {
+  const Point position = world.pose.T_map_robot.position();
+  return FreeSpace(near_echoes_.applied_to(world.grid, window_of(search, world)),
                    {position, world.robot.radius_m, search.clearance_m, config_.driving.local_map.paths}, memory_.trace,
                    memory_.troubles);
 }
@@ -66,7 +87,8 @@ std::optional<ExploreTask> TaskChooser::choose_within(const Search& search, cons
                                                       const std::optional<ExploreTask>& before) {
   search_ = search;
   const FreeSpace space = space_within(search, world);
-  const bool frontiers_wanted = known_ratio(world.grid) < config_.until_known_ratio;
+  settings_.window = window_of(search, world);
+  const bool frontiers_wanted = known_ratio() < config_.until_known_ratio;
   // Each turn of the loop either ends it or gives a part of a task up.
   for (;;) {
     std::optional<ExploreTask> task =
@@ -89,6 +111,44 @@ std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
   search_ = {kEverywhere_m, config_.clearance_m};
   const double narrow_m = config_.exploring.choice.narrow_radius_m - world.robot.radius_m;
   return opening_task(space_within(search_, world), space_within({kEverywhere_m, narrow_m}, world), settings_, memory_);
+}
+
+void TaskChooser::count_known(const WorldView& world) {
+  if (!known_.is_due(world.time_s)) return;
+  const FreeSpace space = space_within({kEverywhere_m, config_.exploring.choice.tight_clearance_m}, world);
+  const double near_m = config_.look_closer_m > 0.0 ? config_.look_closer_m : config_.exploring.estimate.passed_m;
+  const CellLayer<char> reach = reach_of(space, memory_.trace);
+  std::vector<Cell> edges = edge_cells(space);
+  std::erase_if(edges, [&](Cell c) { return !is_beside(reach, c, space.min_distance_m() / space.cell_m()); });
+  const std::size_t left = unseen(space, edges, memory_.trace, {near_m}, memory_.seen_edges).size();
+  known_.count(space, reach, left, config_.exploring.passages.drive_radius_m, world.time_s);
+}
+
+std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
+  if (known_ratio() >= config_.until_known_ratio) return std::nullopt;
+  search_ = {kEverywhere_m, config_.clearance_m};
+  return passages_.next(space_within(search_, world), {world.grid, memory_.trace, memory_.seen_openings},
+                        world.pose.T_map_robot.position());
+}
+
+std::optional<ExploreTask> TaskChooser::choose_by_route(const WorldView& world,
+                                                        const std::optional<ExploreTask>& before) {
+  const Search slim{kEverywhere_m, config_.exploring.passages.drive_radius_m - world.robot.radius_m};
+  const double min_m = world.robot.radius_m + config_.exploring.choice.tight_clearance_m;
+  while (std::optional<ExploreTask> task = choose_within(slim, world, before)) {
+    const FreeSpace there = space(world);
+    if (there.distance_m(there.cell_at(task->lookout)) >= min_m) {
+      task->by_route = true;
+      return task;
+    }
+    behaviours::give_up(*task, there, settings_, memory_);  // the robot does not fit in there
+  }
+  return std::nullopt;
+}
+
+std::vector<NotEntered> TaskChooser::not_entered(const WorldView& world) const {
+  const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
+  return passages_.not_entered(space, {world.grid, memory_.trace, memory_.seen_openings}, world.robot.radius_m);
 }
 
 bool TaskChooser::is_shut_in(const WorldView& world) const {
@@ -114,19 +174,25 @@ bool TaskChooser::leads_on(const WorldView& world, const Search& tight) const {
 // also from right ahead.
 std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std::optional<ExploreTask>& before) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
+  count_known(world);
   const ChoiceSettings& choice = config_.exploring.choice;
   const Search tight{kEverywhere_m, std::min(config_.clearance_m, choice.tight_clearance_m)};
   if (auto task = choose_within({choice.around_m, config_.clearance_m}, world, before)) return task;
   if (auto task = choose_within({kEverywhere_m, config_.clearance_m}, world, before)) return task;
   if (is_shut_in(world))
     if (auto task = choose_within(tight, world, before)) return task;
-  if (auto task = choose_again(world, before)) return task;
   if (auto task = choose_opening(world)) return task;
-  return leads_on(world, tight) ? choose_within(tight, world, before) : std::nullopt;
+  if (leads_on(world, tight))
+    if (auto task = choose_within(tight, world, before)) return task;
+  if (auto task = choose_passage(world)) return task;
+  if (auto task = choose_by_route(world, before)) return task;
+  return choose_again(world, before);
 }
 
 void TaskChooser::give_up(const ExploreTask& task, const WorldView& world) {
   behaviours::give_up(task, space(world), settings_, memory_);
+  passages_.record_look(task);
+  if (task.kind == TaskKind::passage) passages_.record(task, false, "it was given up");
 }
 
 bool TaskChooser::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const {

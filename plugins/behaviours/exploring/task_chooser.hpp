@@ -6,6 +6,7 @@
 
 #include "plugins/behaviours/exploring/explore.hpp"
 #include "plugins/behaviours/exploring/explore_tasks.hpp"
+#include "plugins/behaviours/exploring/passage_tasks.hpp"
 #include "plugins/behaviours/local_map/near_echoes.hpp"
 
 namespace cairn::behaviours {
@@ -19,6 +20,8 @@ class TaskChooser {
   // Every tick.
   void see(const WorldView& world);
   void forget_echoes(const WorldView& world);
+  // While the robot faces an opening.
+  void see_through(const WorldView& world, const Point& opening);
   [[nodiscard]] const NearEchoes& near_echoes() const { return near_echoes_; }
 
   // The cheapest task; none when nothing in reach is left. before: what the robot is at, preferred when nearly as good.
@@ -27,6 +30,18 @@ class TaskChooser {
   void give_up(const ExploreTask& task, const WorldView& world);
   // Paths avoid the place until then, where they can.
   void avoid(const Point& at, double until_s) { memory_.troubles.push_back({at, until_s}); }
+
+  // What has come of a drive through a passage.
+  void record_passage(const ExploreTask& task, bool has_passed, const std::string& why) {
+    passages_.record(task, has_passed, why);
+  }
+  // Passages that were given up are tried once more, from where the robot is now. False when there are none.
+  [[nodiscard]] bool retry_passages() { return passages_.retry(memory_.seen_openings); }
+  // Those that still lead to what is unknown, or to where the robot has not been.
+  [[nodiscard]] std::vector<NotEntered> not_entered(const WorldView& world) const;
+
+  // Of what can be reached; counted anew when the next task is chosen, every few seconds.
+  [[nodiscard]] double known_ratio() const { return known_.ratio(); }
 
   // Whether something has turned up on a path that keeps as much room as the last task's.
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const;
@@ -43,12 +58,19 @@ class TaskChooser {
     double within_m = 8.0;
     double clearance_m = 0.1;
   };
+  // The part of the map that is searched; may reach beyond the map.
+  [[nodiscard]] static CellBox window_of(const Search& search, const WorldView& world);
   [[nodiscard]] FreeSpace space_within(const Search& search, const WorldView& world) const;
   [[nodiscard]] std::optional<ExploreTask> choose_within(const Search& search, const WorldView& world,
                                                          const std::optional<ExploreTask>& before);
   [[nodiscard]] std::optional<ExploreTask> choose_again(const WorldView& world,
                                                         const std::optional<ExploreTask>& before);
   [[nodiscard]] std::optional<ExploreTask> choose_opening(const WorldView& world);
+  void count_known(const WorldView& world);
+  [[nodiscard]] std::optional<ExploreTask> choose_passage(const WorldView& world);
+  // What is left where the robot can only get as `goto` does: through what it has come through before.
+  [[nodiscard]] std::optional<ExploreTask> choose_by_route(const WorldView& world,
+                                                           const std::optional<ExploreTask>& before);
   // Whether keeping less room gets the robot to more of the map.
   [[nodiscard]] bool leads_on(const WorldView& world, const Search& tight) const;
 
@@ -57,6 +79,8 @@ class TaskChooser {
   Search search_;  // of the last choice
   NearEchoes near_echoes_;
   ExploreMemory memory_;
+  PassageTasks passages_;
+  KnownShare known_;
 };
 
 }  // namespace cairn::behaviours

@@ -36,36 +36,63 @@ bool NearEchoes::is_usable(const RangeReading& reading) const {
          reading.sensor < kMaxSensors;
 }
 
+bool NearEchoes::counts_anew(const RangeReading& reading, const Pose2& T_map_sensor) {
+  const auto sensor = static_cast<std::size_t>(reading.sensor);
+  const Pose2 nowhere{std::numeric_limits<double>::max(), 0.0, 0.0};
+  if (sensor >= last_voted_.size()) last_voted_.resize(sensor + 1, nowhere);
+  if (!has_moved(T_map_sensor, last_voted_[sensor])) return false;
+  last_voted_[sensor] = T_map_sensor;
+  return true;
+}
+
 void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
   for (const RangeReading& reading : observation.ranges) {
     const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
     if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), settings_.within_m)) continue;
-    const auto sensor = static_cast<std::size_t>(reading.sensor);
-    const Pose2 nowhere{std::numeric_limits<double>::max(), 0.0, 0.0};
-    if (sensor >= last_voted_.size()) last_voted_.resize(sensor + 1, nowhere);
-    if (!has_moved(T_map_sensor, last_voted_[sensor])) continue;
-    last_voted_[sensor] = T_map_sensor;
-    vote(reading, T_map_sensor);
+    if (counts_anew(reading, T_map_sensor)) vote(reading, T_map_sensor);
   }
+}
+
+void NearEchoes::see_through(const Observation& observation, const Pose2& T_map_robot, double to_m) {
+  for (const RangeReading& reading : observation.ranges) {
+    const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
+    const bool is_far_echo = reading.range_m > std::max(settings_.within_m, to_m) && reading.range_m < reading.max_m &&
+                             reading.sensor >= 0 && reading.sensor < kMaxSensors && reading.half_beam_rad >= 0.0 &&
+                             reading.half_beam_rad <= std::numbers::pi;
+    if (!is_far_echo || !votes_.can_include(T_map_sensor.position(), to_m)) continue;
+    if (!counts_anew(reading, T_map_sensor)) continue;
+    for (const Cell c : passed_by(reading, T_map_sensor, to_m)) votes_.add_log_odds(c, settings_.passed);
+  }
+}
+
+std::vector<Cell> NearEchoes::passed_by(const RangeReading& reading, const Pose2& T_map_sensor, double to_m) const {
+  const double cell_m = votes_.cell_m();
+  std::vector<Cell> passed;
+  for (int i = 0; i < settings_.rays; ++i) {
+    const double bearing_rad = 0.5 * reading.half_beam_rad * (2.0 * i / (settings_.rays - 1) - 1.0);
+    const Point direction{std::cos(bearing_rad), std::sin(bearing_rad)};
+    for (double r_m = 0.0; r_m < to_m; r_m += 0.5 * cell_m)
+      passed.push_back(votes_.cell_at(T_map_sensor * (direction * r_m)));
+  }
+  std::sort(passed.begin(), passed.end());
+  passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
+  return passed;
 }
 
 void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
   const double cell_m = votes_.cell_m();
   std::vector<Cell> hit;
-  std::vector<Cell> passed;
+  const std::vector<Cell> passed = passed_by(reading, T_map_sensor, reading.range_m - 2.0 * cell_m);
   for (int i = 0; i < settings_.rays; ++i) {
     const double bearing_rad = 0.5 * reading.half_beam_rad * (2.0 * i / (settings_.rays - 1) - 1.0);
     const Point direction{std::cos(bearing_rad), std::sin(bearing_rad)};
     hit.push_back(votes_.cell_at(T_map_sensor * (direction * reading.range_m)));
-    for (double r_m = 0.0; r_m < reading.range_m - 2.0 * cell_m; r_m += 0.5 * cell_m)
-      passed.push_back(votes_.cell_at(T_map_sensor * (direction * r_m)));
   }
   const auto once_each = [](std::vector<Cell>& cells) {
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   };
   once_each(hit);
-  once_each(passed);
   for (const Cell c : hit) votes_.add_log_odds(c, settings_.hit);
   for (const Cell c : passed)
     if (!std::binary_search(hit.begin(), hit.end(), c)) votes_.add_log_odds(c, settings_.passed);

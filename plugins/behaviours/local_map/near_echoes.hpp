@@ -38,6 +38,8 @@ class NearEchoes {
 
   // A reading counts when its transducer has moved since the last one that did.
   void see(const Observation& observation, const Pose2& T_map_robot);
+  // For while the robot faces an opening: echoes from farther away count too, for what they have passed up to so far.
+  void see_through(const Observation& observation, const Pose2& T_map_robot, double to_m);
   // Where the robot stands is free.
   void stand_at(const Point& p_map, double radius_m);
 
@@ -53,7 +55,9 @@ class NearEchoes {
  private:
   void vote(const RangeReading& reading, const Pose2& T_map_sensor);
 
+  [[nodiscard]] bool counts_anew(const RangeReading& reading, const Pose2& T_map_sensor);
   [[nodiscard]] bool is_usable(const RangeReading& reading) const;
+  [[nodiscard]] std::vector<Cell> passed_by(const RangeReading& reading, const Pose2& T_map_sensor, double to_m) const;
   [[nodiscard]] bool has_moved(const Pose2& a, const Pose2& b) const;
 
   NearEchoSettings settings_;

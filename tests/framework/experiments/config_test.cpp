@@ -37,6 +37,17 @@ class ExperimentFile : public testing::Test {
 const std::string kTrials = "experiment: trials\ntrials: {robots: [r.yaml], templates: t}\n";
 const std::string kVariants = "variants:\n  - {name: plain}\n  - {name: office, world: office.yaml}\n";
 
+TEST_F(ExperimentFile, HomesHaveRangesThatFitTogether) {
+  const std::string homes = "experiment: homes\nmissions: [m.yaml]\n";
+  EXPECT_EQ(error_of(homes + "homes: {min_rooms: 4, max_rooms: 5}\n"), "no error");
+  EXPECT_EQ(error_of(homes + "homes: {min_rooms: 7}\n"),
+            "e.yaml:3:20: min_rooms must be at most max_rooms, found 7 and 6");
+  EXPECT_EQ(error_of(homes + "homes: {max_door_m: 0.5}\n"),
+            "e.yaml:3:21: min_door_m must be at most max_door_m, found 0.75 and 0.5");
+  EXPECT_EQ(error_of(homes + "variants: [{name: office, world: office.yaml}]\n"),
+            "e.yaml:3:34: variant \"office\" names a world, but each run of homes has its own");
+}
+
 TEST_F(ExperimentFile, AVariantNamesAWorldWhereTheMissionsHaveOne) {
   const ExperimentConfig config = load("experiment: missions\nmissions: [m.yaml]\n" + kVariants);
   ASSERT_EQ(config.variants.size(), 2U);

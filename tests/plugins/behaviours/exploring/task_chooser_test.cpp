@@ -50,6 +50,17 @@ TEST_F(Choosing, AFrontierWhereTheMapEnds) {
   EXPECT_NEAR(task->about.x(), 2.45, 0.11);
 }
 
+TEST_F(Choosing, NoFrontierWhereOnlyThePartOfTheMapEndsThatIsSearchedFirst) {
+  std::string closed = "\n##################################\n";
+  for (int y = 0; y < 7; ++y)
+    closed += y == 3 ? "#...............................R#\n" : "#................................#\n";
+  map = AsciiGrid(closed + "##################################\n");
+  T_map_robot = {map.at('R').x() - 0.3, map.at('R').y(), 0.0};
+  config.until_known_ratio = 1.0;
+  config.exploring.choice.around_m = 2.0;
+  EXPECT_FALSE(chooser().choose(world(), std::nullopt));
+}
+
 TEST_F(Choosing, NothingOnceTheFrontierIsGivenUp) {
   TaskChooser chooser = this->chooser();
   for (int i = 0; i < 20; ++i) {

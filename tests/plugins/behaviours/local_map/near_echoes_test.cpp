@@ -44,6 +44,30 @@ TEST(NearEchoes, LongReadingsAndSilenceDoNotWipeItOut) {
   EXPECT_TRUE(echoes.is_solid(map.cell_at({1.01, 0.5})));
 }
 
+// Facing an opening at 0.7 m, sweeping.
+void face_opening(NearEchoes& echoes, double range_m) {
+  for (int i = 0; i < 12; ++i) echoes.see_through(echo_at(range_m), {0.0, 0.0, radians(i % 2 == 0 ? 2.0 : -2.0)}, 1.1);
+}
+
+TEST(NearEchoes, AnOpeningThatIsFacedIsFreeWhenEchoesComeFromFarBehindIt) {
+  OccupancyGrid map(0.05);
+  map.set_log_odds(map.cell_at({0.7, 0.0}), 400);
+  NearEchoes echoes(map);
+  face_opening(echoes, 3.0);
+  EXPECT_FALSE(echoes.is_occupied(map, map.cell_at({0.7, 0.0})));
+  EXPECT_FALSE(echoes.is_conservatively_free(map.cell_at({1.4, 0.0}))) << "beyond what was asked about";
+}
+
+TEST(NearEchoes, SilenceAndNearEchoesDoNotOpenAnything) {
+  OccupancyGrid map(0.05);
+  map.set_log_odds(map.cell_at({0.7, 0.0}), 400);
+  for (const double range_m : {5.0, kInfinity, std::numeric_limits<double>::quiet_NaN(), 0.9, 0.0}) {
+    NearEchoes echoes(map);
+    face_opening(echoes, range_m);
+    EXPECT_TRUE(echoes.is_occupied(map, map.cell_at({0.7, 0.0}))) << range_m;
+  }
+}
+
 TEST(NearEchoes, EchoesFromBehindDo) {
   const OccupancyGrid map(0.05);
   NearEchoes echoes(map);

@@ -1,0 +1,18 @@
+// What has come of exploring random homes, in words and figures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/experiments/experiment.hpp"
+
+namespace cairn {
+
+// Markdown: a row a variant, then a row a run.
+[[nodiscard]] std::string homes_table(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
+
+// Whether each variant that need not be the baseline has entered at_least_ratio of the rooms, knows as much of the area
+// and had no fast contact that could be seen.
+[[nodiscard]] bool keeps_homes_limits(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows);
+
+}  // namespace cairn

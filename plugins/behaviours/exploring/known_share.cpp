@@ -1,0 +1,58 @@
+#include "plugins/behaviours/exploring/known_share.hpp"
+
+#include <algorithm>
+
+namespace cairn::behaviours {
+namespace {
+
+// Of everything occupied; of the reach where nothing is.
+CellBox outline_box(const FreeSpace& space, const CellLayer<char>& reach) {
+  CellBox box;
+  for (int y = space.box().min.y; y < space.box().max.y; ++y)
+    for (int x = space.box().min.x; x < space.box().max.x; ++x)
+      if (reach.at({x, y}) || space.state({x, y}) == CellState::occupied) box = united(box, {{x, y}, {x + 1, y + 1}});
+  return box;
+}
+
+}  // namespace
+
+void KnownShareSettings::describe(Fields<KnownShareSettings>& fields) {
+  using C = KnownShareSettings;
+  fields.number("every_s", &C::every_s, {0.1, 3600.0}, "s", "the map is counted this often");
+  fields.number("rim_m", &C::rim_m, {0.0, 100.0}, "m",
+                "unknown ground counts that may be reached within this of the box around everything occupied");
+  fields.number("behind_edges_m", &C::behind_edges_m, {0.0, 100.0}, "m",
+                "what may lie behind an edge that the robot has not been near to");
+}
+
+void KnownShare::count(const FreeSpace& space, const CellLayer<char>& reach, std::size_t unseen_edges,
+                       double gap_radius_m, double time_s) {
+  counted_s_ = time_s;
+  const CellBox box = outline_box(space, reach).grown(static_cast<int>(settings_.rim_m / space.cell_m()));
+  CellLayer<char> visited(box, 0, 1);
+  CellGroup queue;
+  std::size_t known = 0;
+  std::size_t unknown = 0;
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      if (reach.at({x, y})) {
+        visited[{x, y}] = 1;
+        queue.push_back({x, y});
+        ++known;
+      }
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    for (const Cell step : kNeighbours) {
+      const Cell next = queue[i] + step;
+      if (visited.at(next) || space.state(next) == CellState::occupied) continue;
+      const double room_m = space.box().contains(next) ? space.distance_m(next) : space.min_distance_m();
+      if (room_m < gap_radius_m) continue;
+      visited[next] = 1;
+      queue.push_back(next);
+      unknown += room_m >= space.min_distance_m() ? 1 : 0;
+    }
+  const double behind = static_cast<double>(unseen_edges) * settings_.behind_edges_m / space.cell_m();
+  const double all = static_cast<double>(known + unknown) + behind;
+  if (all > 0.0) ratio_ = std::max(ratio_, static_cast<double>(known) / all);
+}
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,41 @@
+// How much of what the robot can reach is known.
+//
+// Counted in places for the robot's centre: those that it gets to on the map as it is, against these and what may lie
+// behind: unknown places that it may get to from there, and a strip behind every edge that it has not been near to,
+// since walls that were seen from afar hide doors. What is outside of a closed outline counts for nothing, so the share
+// is right in rooms of any outline. It never falls.
+#pragma once
+
+#include <cstddef>
+
+#include "plugins/behaviours/local_map/cell_layer.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
+
+namespace cairn::behaviours {
+
+struct KnownShareSettings {
+  double every_s = 4.0;
+  double rim_m = 1.0;
+  double behind_edges_m = 0.5;
+  static void describe(Fields<KnownShareSettings>& fields);
+};
+
+class KnownShare {
+ public:
+  explicit KnownShare(const KnownShareSettings& settings = {}) : settings_(settings) {}
+
+  [[nodiscard]] bool is_due(double time_s) const { return time_s >= counted_s_ + settings_.every_s; }
+  // reach: as reach_of() of the space. unseen_edges: cells. gap_radius_m: unknown places behind a gap twice this wide
+  // count. O(cells).
+  void count(const FreeSpace& space, const CellLayer<char>& reach, std::size_t unseen_edges, double gap_radius_m,
+             double time_s);
+  // 0 before the first count.
+  [[nodiscard]] double ratio() const { return ratio_; }
+
+ private:
+  KnownShareSettings settings_;
+  double counted_s_ = -1e9;
+  double ratio_ = 0.0;
+};
+
+}  // namespace cairn::behaviours

@@ -1,0 +1,239 @@
+#include "plugins/behaviours/lookouts/passages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace cairn::behaviours {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr LogOdds kSeenThrough = -60;  // P = 0.44
+constexpr double kThroughWall = 8.0;   // what a metre of wall costs, against one that is open
+
+// The cheapest steps from what is in reach to every cell beyond it.
+struct Beyond {
+  CellLayer<float> cost_m;
+  CellLayer<std::int8_t> came_from;
+};
+
+bool is_at_any(const Point& p, const std::vector<Point>& places, double within_m) {
+  return std::ranges::any_of(places, [&](const Point& place) { return (place - p).norm() < within_m; });
+}
+
+class PassageFinder {
+ public:
+  PassageFinder(const FreeSpace& space, const OccupancyGrid& grid, const CellLayer<char>& reach, const Point& robot,
+                const PassageSearch& search, const PassageSettings& settings)
+      : space_(space), grid_(grid), reach_(reach), robot_(robot), search_(search), settings_(settings) {}
+
+  [[nodiscard]] std::optional<Passage> nearest() {
+    spread();
+    std::optional<Passage> best;
+    double best_m = kInfinite;
+    for (const CellGroup& place : places_beyond()) {
+      const std::optional<Passage> passage = passage_to(place);
+      if (!passage || is_at_any(passage->at_m, search_.without, settings_.same_m)) continue;
+      const double path_m = space_.cost_m(passage->lookout);
+      const double far_m = (space_.centre_of(passage->lookout) - robot_).norm();
+      const double cost_m = path_m < kInfinite ? path_m : kFar_m + far_m;
+      if (cost_m >= best_m) continue;
+      best = passage;
+      best_m = cost_m;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double kFar_m = 1e3;
+
+  // Beyond the map's rim everything is unknown.
+  [[nodiscard]] double room_m(Cell cell) const {
+    const CellBox box = space_.box();
+    const Cell inside{std::clamp(cell.x, box.min.x, box.max.x - 1), std::clamp(cell.y, box.min.y, box.max.y - 1)};
+    return space_.distance_m(inside) + space_.cell_m() * std::hypot(cell.x - inside.x, cell.y - inside.y);
+  }
+
+  // What a metre costs; infinite: cannot be crossed.
+  [[nodiscard]] double price(Cell cell) const {
+    if (is_at_any(space_.centre_of(cell), search_.without, settings_.same_m)) return kInfinite;
+    const bool is_occupied = space_.state(cell) == CellState::occupied;
+    if (search_.through_walls) return is_occupied ? kThroughWall : 1.0;
+    return is_occupied || room_m(cell) < settings_.min_radius_m ? kInfinite : 1.0;
+  }
+
+  [[nodiscard]] CellBox search_box() const {
+    constexpr double kRim_m = 1.5;
+    return space_.box().grown(static_cast<int>(kRim_m / space_.cell_m()));
+  }
+
+  void spread() {
+    const CellBox box = search_box();
+    beyond_ = {CellLayer<float>(box, std::numeric_limits<float>::infinity(), 0.0F),
+               CellLayer<std::int8_t>(box, -1, -1)};
+    using Entry = std::pair<float, std::pair<int, int>>;  // cost, (y, x)
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    for (int y = box.min.y; y < box.max.y; ++y)
+      for (int x = box.min.x; x < box.max.x; ++x)
+        if (reach_.at({x, y})) {
+          beyond_.cost_m[{x, y}] = 0.0F;
+          open.push({0.0F, {y, x}});
+        }
+    const double max_m = search_.through_walls ? kThroughWall * settings_.max_wall_m : kInfinite;
+    while (!open.empty()) {
+      const auto [cost, at] = open.top();
+      open.pop();
+      const Cell cell{at.second, at.first};
+      if (cost > beyond_.cost_m.at(cell) || cost > max_m) continue;
+      for (int k = 0; k < 8; ++k) {
+        const Cell next = cell + kNeighbours[k];
+        if (!box.contains(next) || reach_.at(next)) continue;
+        const double step_m = space_.cell_m() * (k == 0 || k == 2 || k == 5 || k == 7 ? std::sqrt(2.0) : 1.0);
+        const auto next_cost = static_cast<float>(cost + step_m * price(next));
+        if (next_cost >= beyond_.cost_m.at(next)) continue;
+        beyond_.cost_m[next] = next_cost;
+        beyond_.came_from[next] = static_cast<std::int8_t>(k);
+        open.push({next_cost, {next.y, next.x}});
+      }
+    }
+  }
+
+  // Room for the robot that it does not get to; of suspected ones, what echoes have come through.
+  [[nodiscard]] std::vector<CellGroup> places_beyond() const {
+    std::vector<Cell> cells;
+    const CellBox box = search_box();
+    for (int y = box.min.y; y < box.max.y; ++y)
+      for (int x = box.min.x; x < box.max.x; ++x) {
+        const Cell c{x, y};
+        if (reach_.at(c) || space_.state(c) == CellState::occupied || !(beyond_.cost_m.at(c) < kInfinite)) continue;
+        if (search_.through_walls ? is_seen_behind_wall(c) : room_m(c) >= space_.min_distance_m()) cells.push_back(c);
+      }
+    std::vector<CellGroup> groups = grouped(cells, 1);
+    const double cell_m2 = space_.cell_m() * space_.cell_m();
+    const double min_m2 = search_.through_walls ? settings_.seen_through_m2 : settings_.room_behind_m2;
+    std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < min_m2; });
+    return groups;
+  }
+
+  [[nodiscard]] bool is_seen_behind_wall(Cell cell) const {
+    return grid_.log_odds(cell) <= kSeenThrough && beyond_.cost_m.at(cell) > kThroughWall * space_.cell_m();
+  }
+
+  // From what is in reach to the nearest cell of the place.
+  [[nodiscard]] std::vector<Cell> path_to(const CellGroup& place) const {
+    Cell at = *std::ranges::min_element(place, {}, [&](Cell c) { return beyond_.cost_m.at(c); });
+    std::vector<Cell> path{at};
+    while (beyond_.came_from.at(at) >= 0) {
+      at = at + kNeighbours[7 - beyond_.came_from.at(at)];
+      path.push_back(at);
+    }
+    std::ranges::reverse(path);
+    return path;
+  }
+
+  // A roomy cell of the place, a little further in than where it begins.
+  [[nodiscard]] Point inside(const CellGroup& place) const {
+    float first_m = std::numeric_limits<float>::infinity();
+    for (const Cell c : place) first_m = std::min(first_m, beyond_.cost_m.at(c));
+    Cell best = place.front();
+    double best_m = -kInfinite;
+    for (const Cell c : place) {
+      const double in_m = beyond_.cost_m.at(c) - first_m;
+      if (in_m > settings_.beyond_m) continue;
+      const double roomy_m = std::min(room_m(c), space_.min_distance_m() + 0.3) + 0.5 * in_m;
+      if (roomy_m <= best_m) continue;
+      best = c;
+      best_m = roomy_m;
+    }
+    return space_.centre_of(best);
+  }
+
+  [[nodiscard]] std::optional<Passage> passage_to(const CellGroup& place) const {
+    const std::vector<Cell> path = path_to(place);
+    const auto narrowest = std::ranges::min_element(path, {}, [&](Cell c) { return room_m(c); });
+    Passage passage;
+    passage.at_m = space_.centre_of(*narrowest);
+    passage.width_m = search_.through_walls ? 0.0 : 2.0 * room_m(*narrowest);
+    passage.beyond_m = inside(place);
+    const Point from_m = space_.centre_of(path.front());
+    Point ahead = passage.at_m - from_m;
+    if (ahead.norm() < 2.0 * space_.cell_m()) ahead = passage.beyond_m - from_m;
+    const std::optional<Cell> lookout = lookout_before(passage.at_m, ahead.normalized());
+    if (!lookout) return std::nullopt;
+    passage.lookout = *lookout;
+    return passage;
+  }
+
+  // In reach, in sight of the place, and straight before it.
+  [[nodiscard]] std::optional<Cell> lookout_before(const Point& at_m, const Point& ahead) const {
+    const Point ideal_m = at_m - settings_.look_from_m * ahead;
+    const int reach = static_cast<int>(std::ceil(2.0 * settings_.look_from_m / space_.cell_m()));
+    const Cell centre = space_.cell_at(at_m);
+    std::optional<Cell> best;
+    double best_m = kInfinite;
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx) {
+        const Cell c = centre + Cell{dx, dy};
+        if (!reach_.at(c)) continue;
+        const double off_m = (space_.centre_of(c) - ideal_m).norm();
+        if (off_m >= best_m || !space_.sees(space_.centre_of(c), centre)) continue;
+        best = c;
+        best_m = off_m;
+      }
+    return best;
+  }
+
+  const FreeSpace& space_;
+  const OccupancyGrid& grid_;
+  const CellLayer<char>& reach_;
+  Point robot_;
+  const PassageSearch& search_;
+  const PassageSettings& settings_;
+  Beyond beyond_;
+};
+
+}  // namespace
+
+void PassageSettings::describe(Fields<PassageSettings>& fields) {
+  using C = PassageSettings;
+  fields.number("min_radius_m", &C::min_radius_m, {0.01, 5.0}, "m",
+                "a passage twice this wide on the map is looked at: sonars draw openings narrower than they are");
+  fields.number("drive_radius_m", &C::drive_radius_m, {0.01, 5.0}, "m",
+                "one that is twice this wide after that is driven through");
+  fields.number("room_behind_m2", &C::room_behind_m2, {0.0, 1e4}, "m2",
+                "when there may be so much room for the robot's centre behind it");
+  fields.number("seen_through_m2", &C::seen_through_m2, {0.0, 1e4}, "m2",
+                "a wall is looked at again when echoes have come through it from so much behind it");
+  fields.number("max_wall_m", &C::max_wall_m, {0.0, 5.0}, "m", "within this of what is in reach");
+  fields.number("look_from_m", &C::look_from_m, {0.1, 5.0}, "m",
+                "a passage is looked at from here, straight before it");
+  fields.number("beyond_m", &C::beyond_m, {0.0, 5.0}, "m", "so far into the room behind it the robot drives at first");
+  fields.number("same_m", &C::same_m, {0.0, 50.0}, "m", "passages this near to each other are the same");
+  fields.integer("max_suspects", &C::max_suspects, {0.0, 1e4}, "at most so many walls are looked at again");
+  fields.integer("max_tries", &C::max_tries, {0.0, 100.0}, "how often a passage is tried before it is given up");
+  fields.number("at_most_s", &C::at_most_s, {1.0, 3600.0}, "s", "time for each try");
+}
+
+CellLayer<char> reach_of(const FreeSpace& space, const std::vector<Pose2>& trace) {
+  CellLayer<char> reach(space.box(), 0, 0);
+  CellGroup queue;
+  const auto add = [&](Cell c) {
+    if (!reach.box().contains(c) || reach.at(c) || space.state(c) != CellState::free) return;
+    reach[c] = 1;
+    queue.push_back(c);
+  };
+  for (const Pose2& pose : trace) add(space.cell_at(pose.position()));
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    for (const Cell step : kNeighbours)
+      if (const Cell next = queue[i] + step; space.distance_m(next) >= space.min_distance_m()) add(next);
+  return reach;
+}
+
+std::optional<Passage> nearest_passage(const FreeSpace& space, const OccupancyGrid& grid, const CellLayer<char>& reach,
+                                       const Point& robot, const PassageSearch& search,
+                                       const PassageSettings& settings) {
+  return PassageFinder(space, grid, reach, robot, search, settings).nearest();
+}
+
+}  // namespace cairn::behaviours

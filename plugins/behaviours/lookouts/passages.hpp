@@ -1,0 +1,52 @@
+// Passages: where what the robot can get to goes on, through a door or a gap, into what it has not been in.
+//
+// Unlike frontiers and openings, a passage need not be known free: unknown cells in it count as free. One that is drawn
+// shut is suspected where echoes have come through: the width of a beam closes a doorway that is passed along its wall.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plugins/behaviours/local_map/cell_layer.hpp"
+#include "plugins/behaviours/local_map/free_space.hpp"
+
+namespace cairn::behaviours {
+
+struct PassageSettings {
+  double min_radius_m = 0.06;
+  double drive_radius_m = 0.16;
+  double room_behind_m2 = 0.4;
+  double seen_through_m2 = 0.15;
+  double max_wall_m = 0.5;
+  double look_from_m = 0.7;
+  double beyond_m = 0.5;
+  double same_m = 0.45;
+  int max_suspects = 20;
+  int max_tries = 2;
+  double at_most_s = 90.0;
+  static void describe(Fields<PassageSettings>& fields);
+};
+
+struct Passage {
+  Point at_m{0.0, 0.0};  // where it is narrowest
+  double width_m = 0.0;  // there, between what is drawn occupied
+  Cell lookout;          // straight before it, where the robot can get to
+  Point beyond_m{0.0, 0.0};
+};
+
+// What the robot can get to from where it is or has ever been: known free cells with the space's clearance, joined to a
+// place of the trace.
+[[nodiscard]] CellLayer<char> reach_of(const FreeSpace& space, const std::vector<Pose2>& trace);
+
+struct PassageSearch {
+  bool through_walls = false;  // suspected ones: drawn shut, but seen through
+  std::vector<Point> without;  // none within same_m of these
+};
+
+// The one whose lookout is nearest to the robot by path, as the crow flies where there is none. None within same_m of
+// what it is to do without. O(cells log cells).
+[[nodiscard]] std::optional<Passage> nearest_passage(const FreeSpace& space, const OccupancyGrid& grid,
+                                                     const CellLayer<char>& reach, const Point& robot,
+                                                     const PassageSearch& search, const PassageSettings& settings = {});
+
+}  // namespace cairn::behaviours
