@@ -35,7 +35,6 @@ class DiscLattice {
     return static_cast<std::size_t>(cell.y - box_.min.y) * static_cast<std::size_t>(box_.width()) +
            static_cast<std::size_t>(cell.x - box_.min.x);
   }
-  void find_steps(const DistanceField& space, Cell from);
   void number_parts();
 
   CellBox box_;
