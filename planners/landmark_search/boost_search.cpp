@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "planners/landmark_search/answers.hpp"
-#include "planners/landmark_search/query_graph.hpp"
+#include "planners/landmark_search/graphs/query_graph.hpp"
 #include "planners/landmark_search/refinement.hpp"
 
 namespace cairn {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "planners/landmark_search/answers.hpp"
-#include "planners/landmark_search/boost_landmark_graph.hpp"
+#include "planners/landmark_search/graphs/boost_landmark_graph.hpp"
 
 namespace cairn {
 namespace {

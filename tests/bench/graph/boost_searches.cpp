@@ -5,7 +5,7 @@
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <limits>
 
-#include "planners/landmark_search/boost_landmark_graph.hpp"
+#include "planners/landmark_search/graphs/boost_landmark_graph.hpp"
 
 namespace cairn {
 namespace {

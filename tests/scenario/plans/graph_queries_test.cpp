@@ -137,7 +137,7 @@ TEST_F(GraphQueries, ClosedRoutesAreNotTakenAndTheExplanationSaysWhichStoodInThe
   EXPECT_EQ(answer["explanation"]["closed_on_cheaper_path"], json({3}));
   std::vector<std::string> arguments{"--from", "L1", "--to", "L3"};
   arguments.insert(arguments.end(), both.begin(), both.end());
-  EXPECT_THAT(run(arguments).out, HasSubstr("  by length: 29.50 m; settled 3 landmarks\n"
+  EXPECT_THAT(run(arguments).out, HasSubstr("  by length: 29.50 m; settled 4 landmarks\n"
                                             "  with every closed route open it would be 20.00 m, over R3\n"));
   const json cut = from_to("L1", "balcony", {"--close", "8", "--explain"});
   EXPECT_EQ(cut["outcome"], "no_route");

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "planners/landmark_search/level_graph.hpp"
+#include "planners/landmark_search/graphs/level_graph.hpp"
 #include "planners/landmark_search/open_clusters.hpp"
 
 namespace cairn {

@@ -1,4 +1,4 @@
-#include "planners/landmark_search/query_graph.hpp"
+#include "planners/landmark_search/graphs/query_graph.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planners/landmark_search/boost_landmark_graph.hpp"
+#include "planners/landmark_search/graphs/boost_landmark_graph.hpp"
 
 #include <algorithm>
 #include <set>

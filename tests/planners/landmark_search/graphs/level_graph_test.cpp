@@ -1,4 +1,4 @@
-#include "planners/landmark_search/level_graph.hpp"
+#include "planners/landmark_search/graphs/level_graph.hpp"
 
 #include <gtest/gtest.h>
 
