@@ -54,7 +54,8 @@ class Merger {
     take_routes();
     take_retired();
     take_rest();
-    merged_.map.clusters = cluster_landmarks(graph());
+    const ClusterSizes sizes;
+    merged_.map.clusters = cluster_landmarks(graph(), {}, {sizes, passages_in(merged_.map.grid, sizes.narrow_below_m)});
     warn();
     return std::move(merged_);
   }

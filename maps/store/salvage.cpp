@@ -230,7 +230,9 @@ SalvagedMap salvaged_from(Database& damaged, int version) {
   if (std::ranges::any_of(wrong, concerns_clusters) ||
       (missed_clusters && salvaged.map.clusters.cluster_of.empty() && !salvaged.map.graph.landmarks().empty())) {
     const ClusterId next_id = salvaged.map.clusters.next_id;
-    salvaged.map.clusters = cluster_landmarks(salvaged.map.graph);
+    const ClusterSizes sizes;
+    salvaged.map.clusters =
+        cluster_landmarks(salvaged.map.graph, {}, {sizes, passages_in(salvaged.map.grid, sizes.narrow_below_m)});
     salvaged.map.clusters.next_id = std::max(next_id, salvaged.map.clusters.next_id);
     if (!salvaged.map.clusters.clusters.empty())
       salvaged.losses.push_back({"clusters", "were made anew: their names and ids are lost"});
