@@ -22,7 +22,7 @@ HybridPlanner::HybridPlanner(HybridConfig config, std::shared_ptr<const PathPlan
 void HybridPlanner::prepare(const WorldView& world, double radius_m) const {
   const double disc_m = radius_m + traits_.margin_m;
   if (world.grid.bounds().empty() || is_larger_than(world.grid, disc_m)) return;
-  if (is_for_discs() && is_answered_in_windows(world.grid)) return;
+  if (is_for_discs() && is_answered_in_windows(world)) return;
   path_planner_->prepare(world, radius_m);
   if (!is_for_discs()) return;
   const auto space = usual_.spaces.space_of(world.grid, {traits_.unknown, {}}, world.grid_version);

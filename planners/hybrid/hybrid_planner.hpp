@@ -52,11 +52,11 @@ struct HybridGround {
 // between when the direct path is hardly longer; when landmarks are avoided or routes closed, only where no
 // path over landmarks is left. At an avoided landmark, the place of a robot is an obstacle to the whole
 // path (avoided.hpp), whatever its shape; a closed route matters on the graph only. Alternatives are routes that are
-// open today. On a large grid all this is done in windows of it (local_query.hpp), and the whole of it is searched only
-// where that finds no path, or where landmarks are avoided. cost_m is that of the graph search (stored costs, lengths
-// where there are none); the path, with its corners cut, may be shorter; its segments say what came from where. On a
-// map without a grid the route planner's answer is the answer. Every solved path has been re-checked cell by cell.
-// Thread-safe if both planners are.
+// open today. On a large grid with routes all this is done in windows of it (local_query.hpp), and the whole of it is
+// searched only where that finds no path, or where landmarks are avoided. cost_m is that of the graph search (stored
+// costs, lengths where there are none); the path, with its corners cut, may be shorter; its segments say what came from
+// where. On a map without a grid the route planner's answer is the answer. Every solved path has been re-checked cell
+// by cell. Thread-safe if both planners are.
 class HybridPlanner : public Planner {
  public:
   // Throws std::invalid_argument when one of the two is missing.

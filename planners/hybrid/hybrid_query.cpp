@@ -45,9 +45,10 @@ class Query {
     if (budget_.exhausted() || budget_.iterations <= 0) return refused<PlanResult>(stopped(stop_outcome(budget_)));
     if (world_.grid.bounds().empty()) return answer_of_graph();
     if (const auto refusal = refusal_of_place(request_.to, world_.graph, "goal")) return refused<PlanResult>(*refusal);
-    if (is_answered_in_windows(world_.grid)) {
+    if (is_answered_in_windows(world_)) {
       if (auto result = answer_in_windows()) return *std::move(result);
     }
+    if (world_.cells != nullptr) world_.cells->require(world_.grid.bounds());
     PlanResult result = answer_on_whole_grid();
     result.reason += why_whole_;
     return result;
@@ -61,7 +62,6 @@ class Query {
       local = answer_locally(tools_, ends_, legs_, answers_, WindowRules{}, request_, world_, budget_);
       why_whole_ = "; the whole grid was searched, since " + local.why_none;
     }
-    if (!local.result && world_.cells != nullptr) world_.cells->require(world_.grid.bounds());
     return local.result;
   }
 
@@ -254,9 +254,10 @@ class Query {
 
 }  // namespace
 
-bool is_answered_in_windows(const OccupancyGrid& grid) {
+bool is_answered_in_windows(const WorldView& world) {
   constexpr std::int64_t kLarge_cells = 1'000'000;
-  return std::int64_t{grid.bounds().width()} * grid.bounds().height() >= kLarge_cells;
+  const CellBox box = world.grid.bounds();
+  return std::int64_t{box.width()} * box.height() >= kLarge_cells && !world.graph.routes().empty();
 }
 
 PlanResult answer_over_landmarks(const HybridTools& tools, const PlanRequest& request, const WorldView& world,

@@ -16,8 +16,8 @@ struct HybridTools {
   const std::shared_ptr<const RoutePlanner>& route_planner;
 };
 
-// Whether it is so large that the whole of it is only searched where all else fails.
-[[nodiscard]] bool is_answered_in_windows(const OccupancyGrid& grid);
+// Whether its grid is so large that the whole of it is only searched where its routes do not do.
+[[nodiscard]] bool is_answered_in_windows(const WorldView& world);
 
 // For a disc that turns on the spot.
 [[nodiscard]] PlanResult answer_over_landmarks(const HybridTools& tools, const PlanRequest& request,

@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::int64_t kMaxKept_cells = 8'000'000;  // of all windows
+constexpr std::int64_t kMaxKept_cells = 4'000'000;  // of all windows
 constexpr double kMaxShortcut_m = 25.0;
 constexpr double kWork_cells = 1e6;  // of shortening a path
 constexpr double kDrivingStep_m = 0.1;

@@ -96,7 +96,7 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
   context.modules = &library_;
   if (many_) static_cast<void>(hierarchies_.by(CostKind::length));  // not in the time of the first answer
   planner_ = fenced_making(choice.name, [&] { return library_.make<Planner>(choice, context); });
-  if (file_ && planner_->requires_cells())
+  if (file_ && planner_->requires_cells() && !map_.graph.routes().empty())
     cells_.emplace(*file_, map_.grid);
   else if (many_)
     (void)whole_grid();

