@@ -67,7 +67,7 @@ struct Site {
     RobotModel robot;
     robot.radius_m = kRadius_m;
     const LandmarkGraph none;
-    WorldView world{grid, none, robot};
+    WorldView world{grid, none, robot, {}};
     world.speed_law = SpeedLaw{};
     const DrivingRules rules = *driving_rules_of(world, kRadius_m, 0.0);
     double sum_s = 0.0;
