@@ -104,7 +104,7 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
 }
 
 WorldView MapPlanner::world_on(const OccupancyGrid& grid, std::uint64_t version) const {
-  WorldView world{grid, map_.graph, robot_};
+  WorldView world{grid, map_.graph, robot_, {}};
   world.grid_version = version;
   world.speed_law = speed_law_;
   return world;

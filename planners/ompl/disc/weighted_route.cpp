@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kOctile = 1.083;  // a route over eight neighbours may be so much longer than one at any angle
-constexpr std::int64_t kMaxNodes = 1'000'000;
-constexpr double kStep_m = 0.1;  // between nodes, where cells are smaller
+constexpr std::int64_t kMaxNodes = 500'000;
+constexpr double kMaxStep_m = 0.5;  // doors would be missed
+constexpr double kStep_m = 0.1;     // between nodes, where cells are smaller
 
 // The cells that a point can be in that is at most sum_m from two others together.
 CellBox cells_of_ellipse(const DistanceField& field, const Point& a, const Point& b, double sum_m) {
@@ -42,14 +43,17 @@ class GridSearch {
         max_cost_(known_cost * kOctile),
         budget_(budget),
         window_(cells_of_ellipse(field_, from, to, max_cost_ / cost.min_per_m())),
-        stride_(stride),
-        columns_((window_.width() + stride - 1) / stride),
-        rows_((window_.height() + stride - 1) / stride) {}
+        stride_(stride) {
+    for (;; ++stride_) {  // a large window has its nodes further apart
+      columns_ = (window_.width() + stride_ - 1) / stride_;
+      rows_ = (window_.height() + stride_ - 1) / stride_;
+      if (std::int64_t{columns_} * rows_ <= kMaxNodes) break;
+    }
+  }
 
   std::vector<Point> route() {
-    const std::int64_t nodes = std::int64_t{columns_} * rows_;
-    if (window_.empty() || nodes > kMaxNodes) return {};
-    nodes_.resize(static_cast<std::size_t>(nodes));
+    if (window_.empty() || stride_ * field_.cell_m() > std::max(kMaxStep_m, field_.cell_m())) return {};
+    nodes_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     begin();
     int settled = 0;
     while (!queue_.empty()) {
@@ -174,8 +178,8 @@ class GridSearch {
   const Budget& budget_;
   CellBox window_;
   int stride_;
-  int columns_;
-  int rows_;
+  int columns_ = 0;
+  int rows_ = 0;
   std::vector<Node> nodes_;
   std::priority_queue<Open> queue_;
   double goal_cost_ = kInf;

@@ -1,9 +1,9 @@
 // What OMPL improves of legs that are counted by driving time, and what that takes, as a table in Markdown:
 //   driving_table [--pairs N] [--seed S] [--maps depot,grid] [--saved FILE.cairn]...
-// On the maps that missions have saved, on random rooms with doors of 0.7 to 0.9 m, and on the occupancy grids of
-// CAIRN_DATA. A leg's start is the best route that is known without OMPL (improve_iterations 0); each row improves it
-// or searches alone. Driving times are counted anew, in steps of a quarter of a cell. Pairs are at random from all
-// places that are joined.
+// On the maps that missions have saved, on random rooms with doors of 0.7 to 0.9 m, on a building of a hundred metres
+// with doors of 1 m, and on the occupancy grids of CAIRN_DATA. A leg's start is the best route that is known without
+// OMPL (improve_iterations 0); each row improves it or searches alone. Driving times are counted anew, in steps of a
+// quarter of a cell. Pairs are at random from all places that are joined.
 
 #include <algorithm>
 #include <cstdio>
@@ -67,7 +67,7 @@ struct Site {
     RobotModel robot;
     robot.radius_m = kRadius_m;
     const LandmarkGraph none;
-    WorldView world{grid, none, robot};
+    WorldView world{grid, none, robot, {}};
     world.speed_law = SpeedLaw{};
     const DrivingRules rules = *driving_rules_of(world, kRadius_m, 0.0);
     double sum_s = 0.0;
@@ -161,6 +161,13 @@ std::vector<Site> sites_of(const Settings& settings) {
     rooms.cell_m = 0.05;
     if (is_wanted("rooms")) sites.emplace_back("rooms", "rooms", grid_of(random_rooms(rooms, settings.seed)), settings);
   }
+  RoomsShape building;  // of a hundred metres
+  building.side_cells = 2048;
+  building.room_cells = 79;
+  building.door_cells = 20;
+  building.cell_m = 0.05;
+  if (is_wanted("building"))
+    sites.emplace_back("building", "building", grid_of(random_rooms(building, settings.seed)), settings);
   for (OccupancyMap& map : occupancy_maps())
     if (is_wanted(map.name)) sites.emplace_back(map.name, "occ_maps", std::move(map.grid), settings);
   return sites;
@@ -187,7 +194,7 @@ void print_table(const Settings& settings) {
       "of the "
       "improved %% | most %% | all legs together %% | median ms | p95 ms "
       "|\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
-  for (const std::string group : {"saved by missions", "rooms", "occ_maps"}) {
+  for (const std::string group : {"saved by missions", "rooms", "building", "occ_maps"}) {
     std::vector<std::pair<const Site*, std::vector<Answer>>> starts;
     for (const Site& site : sites)
       if (site.group == group) starts.emplace_back(&site, answers_of(site, "{improve_iterations: 0}"));
