@@ -37,7 +37,7 @@ TEST(PassageWidth, OfADoorIsTheDoorsHoweverTheRouteLeadsThroughIt) {
 }
 
 TEST(PassageWidth, BesideAWallIsThatOfTheRoom) {
-  EXPECT_EQ(width_m(two_rooms(1.0), {{0.5, 0.35, 0.0}, {3.2, 0.35, 0.0}}), 2.0);
+  EXPECT_EQ(width_m(two_rooms(1.0), {{1.6, 0.35, 0.0}, {2.6, 0.35, 0.0}}), 2.0);
   EXPECT_EQ(width_m(two_rooms(1.0), {{1.0, 2.0, 0.0}, {3.0, 2.2, 0.0}}), 2.0);
 }
 
