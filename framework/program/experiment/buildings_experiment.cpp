@@ -5,11 +5,13 @@
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -58,6 +60,24 @@ Run asked(std::vector<std::string> arguments, const std::filesystem::path& outpu
           seconds(used.ru_utime) + seconds(used.ru_stime), static_cast<double>(used.ru_maxrss) / 1024.0};
 }
 
+// In a process of its own: the most memory that a process ever had also counts for those that it starts.
+void made_apart(const std::function<void()>& make) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    int status = kExitDone;
+    try {
+      make();
+    } catch (const std::exception& error) {
+      std::cerr << "cairn: " << error.what() << "\n";
+      status = kExitNotSolved;
+    }
+    ::_exit(status);
+  }
+  int status = 0;
+  if (child < 0 || ::waitpid(child, &status, 0) != child || status != 0)
+    throw std::runtime_error("experiment: the map of a building cannot be made");
+}
+
 struct Answer {
   bool is_solved = false;
   bool on_whole_grid = false;
@@ -88,13 +108,19 @@ std::string text_of_place(const Point& at) {
   return fmt::format("{:.3f},{:.3f}", at.x(), at.y());
 }
 
-void write_questions(const std::filesystem::path& file, const std::vector<std::pair<Point, Point>>& pairs,
-                     std::size_t count) {
+void write_questions(const std::filesystem::path& file, const std::vector<std::pair<Point, Point>>& pairs) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(count, pairs.size()); ++i)
+  for (std::size_t i = 0; i < pairs.size(); ++i)
     text += fmt::format("{{\"id\": {}, \"from\": \"{}\", \"to\": \"{}\"}}\n", i, text_of_place(pairs[i].first),
                         text_of_place(pairs[i].second));
   write_file(file, text);
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  std::vector<std::string> lines;
+  std::ifstream input(file);
+  for (std::string line; std::getline(input, line);) lines.push_back(line);
+  return lines;
 }
 
 // Of one planner, on one map.
@@ -118,19 +144,24 @@ class BuildingRow {
     const BuildingRules rules{side_m, static_cast<int>(std::lround(share * config.landmarks)), config.cell_m,
                               config.radius_m, seed};
     map_file_ = out / fmt::format("building_{:g}_m.cairn", side_m);
-    const SavedMap map = building(rules);
-    save_map(map_file_, map);
+    made_apart([&] {
+      const SavedMap map = building(rules);
+      save_map(map_file_, map);
+      write_questions(out_ / "all.jsonl", random_pairs(map.grid, config.radius_m, config.pairs, seed));
+    });
+    const SavedMap map = MapFile(map_file_).without_cells();
     landmarks_ = map.graph.landmarks().size();
     routes_ = map.graph.routes().size();
-    pairs_ = random_pairs(map.grid, config.radius_m, config.pairs, seed);
+    questions_ = lines_of(out_ / "all.jsonl");
   }
 
   void ask() {
-    hybrid_ = asked_of("hybrid", pairs_.size(), {});
-    for (std::size_t i = 0; i < std::min(pairs_.size(), static_cast<std::size_t>(config_.first_answers)); ++i)
+    hybrid_ = asked_of("hybrid", questions_.size(), {});
+    for (std::size_t i = 0; i < std::min(questions_.size(), static_cast<std::size_t>(config_.first_answers)); ++i) {
+      const auto question = nlohmann::json::parse(questions_[i]);
       firsts_.push_back(
-          asked({map_file_, "--from", text_of_place(pairs_[i].first), "--to", text_of_place(pairs_[i].second)},
-                out_ / "one.json"));
+          asked({map_file_, "--from", question.at("from"), "--to", question.at("to")}, out_ / "one.json"));
+    }
     if (config_.whole_pairs > 0)
       shortest_ = asked_of("ompl", static_cast<std::size_t>(config_.whole_pairs), {"--set", "improve_iterations=0"});
   }
@@ -176,7 +207,7 @@ class BuildingRow {
   [[nodiscard]] bool is_as_it_must_be() const {
     for (std::size_t i = 0; i < shortest_.answers.size(); ++i)
       if (shortest_.answers[i].is_solved != hybrid_.answers[i].is_solved) return false;
-    return hybrid_.answers.size() == pairs_.size();
+    return hybrid_.answers.size() == questions_.size();
   }
 
  private:
@@ -184,7 +215,9 @@ class BuildingRow {
                                const std::vector<std::string>& more) const {
     const auto run = [&](std::size_t questions) {
       const std::filesystem::path file = out_ / "questions.jsonl";
-      write_questions(file, pairs_, questions);
+      std::string text;
+      for (std::size_t i = 0; i < std::min(questions, questions_.size()); ++i) text += questions_[i] + "\n";
+      write_file(file, text);
       std::vector<std::string> arguments{map_file_, "--queries", file, "--jobs", "1", "--planner", planner};
       arguments.insert(arguments.end(), more.begin(), more.end());
       return asked(arguments, out_ / (planner + ".jsonl"));
@@ -202,7 +235,7 @@ class BuildingRow {
   std::filesystem::path map_file_;
   std::size_t landmarks_ = 0;
   std::size_t routes_ = 0;
-  std::vector<std::pair<Point, Point>> pairs_;
+  std::vector<std::string> questions_;
   Asked hybrid_;
   std::vector<Run> firsts_;
   Asked shortest_;
