@@ -52,14 +52,14 @@ TEST(SonarRing, HearsWithItsTrueBeamAndStatesThatOfTheFile) {
   RobotModel robot = robot_with_sonars(1);
   robot.range_error = {0.0, 0.0, 0.0, 0.0};
   World world;
-  const Pose2 beside{2.0 * std::cos(radians(60.0)), 2.0 * std::sin(radians(60.0)), 0.0};
+  const Pose2 beside{1.5 * std::cos(radians(30.0)), 1.5 * std::sin(radians(30.0)), 0.0};
   world.objects = {{"", Contour::circle(0.4), beside, Surface::rough}};
   const Scene scene{world};
   SimulatedRobotConfig config;
   EXPECT_TRUE(std::isinf(SonarRing(config, robot, scene, 1).fire({}, 1).at(0).range_m));
-  config.truth.half_beam_rad = radians(60.0);
+  config.truth.half_beam_rad = radians(45.0);
   const RangeReading reading = SonarRing(config, robot, scene, 1).fire({}, 1).at(0);
-  EXPECT_NEAR(reading.range_m, 1.8, 1e-6);
+  EXPECT_NEAR(reading.range_m, 1.3, 1e-6);
   EXPECT_DOUBLE_EQ(reading.half_beam_rad, radians(15.0));
 }
 

@@ -27,6 +27,7 @@ TEST(ComparedDetectors, HaveTheMissionsTemplates) {
     EXPECT_EQ(settings.templates, own.templates) << detector.name;
     EXPECT_EQ(settings.step_rad, own.step_rad) << detector.name;
     EXPECT_EQ(settings.rendering, own.rendering) << detector.name;
+    EXPECT_EQ(settings.ring_offset_m, own.ring_offset_m) << detector.name;
     // The module takes them, too.
     EXPECT_NE(build_detector(compared, library, 0.05), nullptr) << detector.name;
   }
