@@ -97,8 +97,12 @@ const SecondLook* second_look_at(const ExploreMemory& memory, const Point& centr
 }
 
 void offer_orbits(Choice& best, const FreeSpace& space, const Pose2& T_map_robot, const ExploreTask* previous,
-                  const OrbitSettings& settings, const TaskWeights& weights, const ExploreMemory& memory) {
+                  const TaskSettings& task_settings, const ExploreMemory& memory) {
+  const OrbitSettings& settings = task_settings.orbit;
+  const TaskWeights& weights = task_settings.weights;
   for (const CellGroup& object : compact_objects(space, settings.largest_object_m, settings.object)) {
+    // A piece of a wall that goes on beyond what is searched.
+    if (std::ranges::any_of(object, [&](Cell c) { return is_at_rim(task_settings.window, c); })) continue;
     // No orbit begins nearer than this.
     const double min_m =
         (middle_of(space, object) - T_map_robot.position()).norm() - settings.largest_object_m - settings.look_closer_m;
@@ -146,7 +150,7 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
     worth.gain_range_m = settings.gain_range_m;
     offer_groups(best, std::move(groups), worth, space, previous, weights);
   }
-  if (look_closer_m > 0.0) offer_orbits(best, space, T_map_robot, previous, settings.orbit, weights, memory);
+  if (look_closer_m > 0.0) offer_orbits(best, space, T_map_robot, previous, settings, memory);
   if (best.score_m == std::numeric_limits<double>::infinity()) return std::nullopt;
   if (best.task.path.empty()) best.task.path = space.path_to(space.cell_at(best.task.lookout));
   return std::move(best.task);

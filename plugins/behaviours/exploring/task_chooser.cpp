@@ -186,6 +186,7 @@ std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std
     if (auto task = choose_within(tight, world, before)) return task;
   if (auto task = choose_passage(world)) return task;
   if (auto task = choose_by_route(world, before)) return task;
+  search_ = {kEverywhere_m, config_.clearance_m};
   return choose_again(world, before);
 }
 

@@ -57,7 +57,7 @@ class PassageFinder {
 
   // What a metre costs; infinite: cannot be crossed.
   [[nodiscard]] double price(Cell cell) const {
-    if (is_at_any(space_.centre_of(cell), search_.without, settings_.same_m)) return kInfinite;
+    if (closed_.at(cell)) return kInfinite;
     const bool is_occupied = space_.state(cell) == CellState::occupied;
     if (search_.through_walls) return is_occupied ? kThroughWall : 1.0;
     return is_occupied || room_m(cell) < settings_.min_radius_m ? kInfinite : 1.0;
@@ -68,7 +68,20 @@ class PassageFinder {
     return space_.box().grown(static_cast<int>(kRim_m / space_.cell_m()));
   }
 
+  // About what it is to do without.
+  void close() {
+    closed_ = CellLayer<char>(search_box(), 0, 0);
+    const int reach = static_cast<int>(settings_.same_m / space_.cell_m()) + 1;
+    for (const Point& place : search_.without)
+      for (int dy = -reach; dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx) {
+          const Cell c = space_.cell_at(place) + Cell{dx, dy};
+          if (closed_.box().contains(c) && (space_.centre_of(c) - place).norm() < settings_.same_m) closed_[c] = 1;
+        }
+  }
+
   void spread() {
+    close();
     const CellBox box = search_box();
     beyond_ = {CellLayer<float>(box, std::numeric_limits<float>::infinity(), 0.0F),
                CellLayer<std::int8_t>(box, -1, -1)};
@@ -191,6 +204,7 @@ class PassageFinder {
   const PassageSearch& search_;
   const PassageSettings& settings_;
   Beyond beyond_;
+  CellLayer<char> closed_;
 };
 
 }  // namespace
