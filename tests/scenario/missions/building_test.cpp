@@ -1,0 +1,85 @@
+// The building of seven rooms: explored through its doors, its landmarks clustered by rooms, paths answered over the
+// clusters.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/files/template_file.hpp"
+#include "framework/files/world_file.hpp"
+#include "maps/store/map_store.hpp"
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double kTolerance_m = 0.25;
+
+class Building : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder() = fresh_folder("building");
+    run() =
+        run_cairn({"run", source_folder() + "/config/missions/building.yaml", "--out", folder().string(), "--json"});
+  }
+  static std::filesystem::path& folder() {
+    static std::filesystem::path path;
+    return path;
+  }
+  static Finished& run() {
+    static Finished finished;
+    return finished;
+  }
+  static std::string map_file() { return (folder() / "building.cairn").string(); }
+  static json plan(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"plan", map_file(), "--json", "--explain"});
+    return json::parse(run_cairn(arguments).out, nullptr, false);
+  }
+};
+
+TEST_F(Building, AtLeastTwentyOfItsLandmarksAreFoundAndAllStepsAreDone) {
+  ASSERT_EQ(run().exit_status, 0) << run().err;
+  EXPECT_EQ(json::parse(run().out)["outcome"], "done");
+  const SavedMap map = load_map(map_file());
+  const World world = load_world(source_folder() + "/config/worlds/building.yaml",
+                                 load_landmark_shapes(source_folder() + "/config/templates"));
+  std::size_t found = 0;
+  for (const auto& [id, landmark] : map.graph.landmarks())
+    found += std::ranges::any_of(world.objects, [&](const auto& object) {
+      return object.category == landmark.category &&
+             (object.T_map_object.position() - landmark.T_map_landmark.position()).norm() < kTolerance_m;
+    });
+  EXPECT_GE(found, 20U);
+}
+
+TEST_F(Building, ItsLandmarksHaveClustersOfRoomsAndAreOneGraph) {
+  const json info = json::parse(run_cairn({"map", "info", map_file(), "--json"}).out);
+  ASSERT_GE(info["levels"].size(), 1U);
+  EXPECT_GE(info["levels"][0]["clusters"], 5);
+  EXPECT_EQ(info["components"], 1);
+}
+
+TEST_F(Building, APathAcrossRoomsIsAnsweredOverClusters) {
+  const json answer = plan({"--from", "1.2,8.6", "--to", "16,2.4"});
+  ASSERT_EQ(answer["outcome"], "solved") << answer;
+  EXPECT_THAT(answer["explanation"]["search"].get<std::string>(), HasSubstr("Boost.Graph"));
+  EXPECT_GE(answer["explanation"]["search_level"], 1);
+  ASSERT_GE(answer["explanation"]["clusters"].size(), 1U);
+  EXPECT_GE(answer["explanation"]["clusters"][0].size(), 2U) << answer;
+}
+
+TEST_F(Building, ANameOfAClusterIsAPlace) {
+  const SavedMap map = load_map(map_file());
+  ASSERT_FALSE(map.clusters.clusters.empty());
+  const Cluster& first = map.clusters.clusters.begin()->second;
+  const std::string id = "C" + std::to_string(first.level) + ":L" + std::to_string(first.anchor);
+  ASSERT_EQ(run_cairn({"map", "name", map_file(), id, "kitchen"}).exit_status, 0);
+  EXPECT_EQ(plan({"--from", "0.8,6", "--to", "kitchen"})["outcome"], "solved");
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
