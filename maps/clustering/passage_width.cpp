@@ -9,7 +9,8 @@
 namespace cairn {
 namespace {
 
-constexpr double kStep_m = 0.1;  // between places that are looked at
+constexpr double kStep_m = 0.1;   // between places that are looked at
+constexpr std::size_t kEnds = 8;  // places at either end that do not count: what stands there is the landmark
 constexpr double kRay_rad = std::numbers::pi / 36;
 constexpr int kOblique_rays = 9;  // a passage lies across the direction of travel, 45 deg more or less
 constexpr int kBend_rays = 3;     // both its sides are seen in opposite directions, 15 deg more or less
@@ -68,8 +69,8 @@ std::vector<Point> places_along(std::span<const Pose2> trajectory) {
 double passage_width_m(std::span<const Pose2> trajectory, const OccupancyGrid& grid, double max_m) {
   const std::vector<Point> places = places_along(trajectory);
   double width_m = max_m;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Point along = places[std::min(i + 1, places.size() - 1)] - places[i == 0 ? 0 : i - 1];
+  for (std::size_t i = kEnds; i + kEnds < places.size(); ++i) {
+    const Point along = places[i + 1] - places[i - 1];
     if (along.norm() > 0.0) width_m = std::min(width_m, width_at(grid, places[i], along, width_m));
   }
   return width_m;
