@@ -86,8 +86,8 @@ void Autosaver::write(SavedMap& copy) {
   Outcome outcome;
   outcome.time_s = copy.progress ? copy.progress->time_s : 0.0;
   try {
-    copy.clusters =
-        cluster_landmarks(copy.graph, copy.clusters, {sizes_, passages_in(copy.grid, sizes_.narrow_below_m)});
+    copy.clusters = cluster_landmarks(copy.graph, copy.clusters,
+                                      {sizes_, passages_in(copy.grid, copy.graph, sizes_.narrow_below_m)});
     updater_.save(copy);
     outcome.saved = true;
   } catch (const std::exception& error) {

@@ -91,7 +91,8 @@ CroppedMap crop_map(const SavedMap& map, const Point& corner_m, const Point& opp
     cropped.warnings.emplace_back("no mission can resume from a part of its map: its progress is dropped");
   cropped.map.progress.reset();
   const ClusterSizes sizes;
-  cropped.map.clusters = cluster_landmarks(graph, {}, {sizes, passages_in(cropped.map.grid, sizes.narrow_below_m)});
+  cropped.map.clusters =
+      cluster_landmarks(graph, {}, {sizes, passages_in(cropped.map.grid, graph, sizes.narrow_below_m)});
   cropped.landmarks_dropped = map.graph.landmarks().size() - graph.landmarks().size();
   cropped.routes_dropped = map.graph.routes().size() - graph.routes().size();
   const auto named = static_cast<std::size_t>(

@@ -55,7 +55,8 @@ class Merger {
     take_retired();
     take_rest();
     const ClusterSizes sizes;
-    merged_.map.clusters = cluster_landmarks(graph(), {}, {sizes, passages_in(merged_.map.grid, sizes.narrow_below_m)});
+    merged_.map.clusters =
+        cluster_landmarks(graph(), {}, {sizes, passages_in(merged_.map.grid, graph(), sizes.narrow_below_m)});
     warn();
     return std::move(merged_);
   }

@@ -45,10 +45,12 @@ PassageWidths widths_of(const LandmarkGraph& graph, const PassageWidth& width) {
 
 }  // namespace
 
-PassageWidth passages_in(const OccupancyGrid& grid, double max_m) {
-  return [&grid, max_m](const Route& route) -> std::optional<double> {
+PassageWidth passages_in(const OccupancyGrid& grid, const LandmarkGraph& graph, double max_m) {
+  return [&grid, &graph, max_m](const Route& route) -> std::optional<double> {
     if (route.trajectory.size() < 2 || grid.bounds().empty()) return std::nullopt;
-    return passage_width_m(route.trajectory, grid, max_m);
+    std::vector<Point> landmarks_m;
+    for (const auto& [id, landmark] : graph.landmarks()) landmarks_m.push_back(landmark.T_map_landmark.position());
+    return passage_width_m(route.trajectory, grid, landmarks_m, max_m);
   };
 }
 

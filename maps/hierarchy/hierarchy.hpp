@@ -24,9 +24,9 @@ struct GraphChanges {
 
 // The width of the narrowest place of a route, m; none: it is not known.
 using PassageWidth = std::function<std::optional<double>(const Route&)>;
-// In this grid, which must outlive it; a route without a trajectory has none, and so has any where the grid is empty.
-// Wider passages than max_m count as that wide.
-[[nodiscard]] PassageWidth passages_in(const OccupancyGrid& grid, double max_m);
+// In this grid and between these landmarks, which are no walls; both must outlive it; a route without a trajectory has
+// none, and so has any where the grid is empty. Wider passages than max_m count as that wide.
+[[nodiscard]] PassageWidth passages_in(const OccupancyGrid& grid, const LandmarkGraph& graph, double max_m);
 
 // How a graph is clustered.
 struct ClusterRules {

@@ -231,8 +231,8 @@ SalvagedMap salvaged_from(Database& damaged, int version) {
       (missed_clusters && salvaged.map.clusters.cluster_of.empty() && !salvaged.map.graph.landmarks().empty())) {
     const ClusterId next_id = salvaged.map.clusters.next_id;
     const ClusterSizes sizes;
-    salvaged.map.clusters =
-        cluster_landmarks(salvaged.map.graph, {}, {sizes, passages_in(salvaged.map.grid, sizes.narrow_below_m)});
+    salvaged.map.clusters = cluster_landmarks(
+        salvaged.map.graph, {}, {sizes, passages_in(salvaged.map.grid, salvaged.map.graph, sizes.narrow_below_m)});
     salvaged.map.clusters.next_id = std::max(next_id, salvaged.map.clusters.next_id);
     if (!salvaged.map.clusters.clusters.empty())
       salvaged.losses.push_back({"clusters", "were made anew: their names and ids are lost"});

@@ -15,9 +15,9 @@ Planning::Planning(const Mission& mission, const StagedModules& modules, const L
       budget_(budget),
       hierarchies_(graph, std::move(clusters),
                    {mission.robot.max_v_mps, mission.robot.max_w_radps, mission.robot.radius_m},
-                   {mission.config.clusters.sizes(), [this](const Route& route) -> std::optional<double> {
+                   {mission.config.clusters.sizes(), [this, &graph](const Route& route) -> std::optional<double> {
                       if (grid_ == nullptr) return std::nullopt;
-                      return passages_in(*grid_, mission_.config.clusters.narrow_below_m)(route);
+                      return passages_in(*grid_, graph, mission_.config.clusters.narrow_below_m)(route);
                     }}) {}
 
 PlanResult Planning::plan(const PlanRequest& request, WorldView world) {

@@ -193,8 +193,9 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
 // Asked only for a map without clusters.
 ClusterRules MapPlanner::cluster_rules() const {
   const ClusterSizes sizes = cluster_sizes_of(map_.properties);
-  return {sizes,
-          [this, max_m = sizes.narrow_below_m](const Route& route) { return passages_in(whole_grid(), max_m)(route); }};
+  return {sizes, [this, max_m = sizes.narrow_below_m](const Route& route) {
+            return passages_in(whole_grid(), map_.graph, max_m)(route);
+          }};
 }
 
 PlanResult MapPlanner::answer_asking_for_cells(const PlanTask& task) const {

@@ -46,7 +46,9 @@ Method by_passages(double narrow_below_m) {
   return [narrow_below_m](const Case& one) {
     ClusterSizes sizes;
     sizes.narrow_below_m = narrow_below_m;
-    return labels_of(cluster_landmarks(one.site.graph, {}, {sizes, passages_in(one.plan.grid, narrow_below_m)}), one);
+    return labels_of(
+        cluster_landmarks(one.site.graph, {}, {sizes, passages_in(one.plan.grid, one.site.graph, narrow_below_m)}),
+        one);
   };
 }
 

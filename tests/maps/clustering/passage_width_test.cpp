@@ -20,8 +20,9 @@ OccupancyGrid two_rooms(double door_m) {
   return grid;
 }
 
-double width_m(const OccupancyGrid& grid, const std::vector<Pose2>& trajectory) {
-  return passage_width_m(trajectory, grid, 2.0);
+double width_m(const OccupancyGrid& grid, const std::vector<Pose2>& trajectory,
+               const std::vector<Point>& landmarks_m = {}) {
+  return passage_width_m(trajectory, grid, landmarks_m, 2.0);
 }
 
 TEST(PassageWidth, OfADoorIsTheDoorsHoweverTheRouteLeadsThroughIt) {
@@ -39,6 +40,15 @@ TEST(PassageWidth, OfADoorIsTheDoorsHoweverTheRouteLeadsThroughIt) {
 TEST(PassageWidth, BesideAWallIsThatOfTheRoom) {
   EXPECT_EQ(width_m(two_rooms(1.0), {{1.6, 0.35, 0.0}, {2.6, 0.35, 0.0}}), 2.0);
   EXPECT_EQ(width_m(two_rooms(1.0), {{1.0, 2.0, 0.0}, {3.0, 2.2, 0.0}}), 2.0);
+}
+
+TEST(PassageWidth, ALandmarkBesideAWallDividesNothing) {
+  OccupancyGrid grid = two_rooms(1.0);
+  for (int y = 12; y < 22; ++y)
+    for (int x = 30; x < 40; ++x) grid.set_log_odds({x, y}, log_odds_of(0.95));
+  const std::vector<Pose2> between{{1.0, 0.3, 0.0}, {2.6, 0.3, 0.0}};
+  EXPECT_LT(width_m(grid, between), 0.8);
+  EXPECT_EQ(width_m(grid, between, {{1.75, 0.85}}), 2.0);
 }
 
 TEST(PassageWidth, OfACorridorIsTheCorridors) {
