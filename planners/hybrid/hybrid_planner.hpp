@@ -16,6 +16,7 @@ struct HybridConfig {
   PluginChoice route = {"ompl", default_of("route")};
   PluginChoice graph = {"landmark_search", default_of("graph")};
   double detour_ratio = 1.3;
+  double shortened_ratio = 1.1;
   double start_tolerance_m = 0.3;
   bool shortcut = true;
 
@@ -27,6 +28,9 @@ struct HybridConfig {
     fields.number("detour_ratio", &HybridConfig::detour_ratio, {1.0, 100.0}, "",
                   "a path over landmarks is taken when it is at most this much longer than the direct one, and a "
                   "leg planned anew likewise against its stored cost");
+    fields.number("shortened_ratio", &HybridConfig::shortened_ratio, {1.0, 100.0}, "",
+                  "one that costs more is taken when it is at most this much longer than the direct one once its "
+                  "corners are cut");
     fields.number("start_tolerance_m", &HybridConfig::start_tolerance_m, {0.0, 1.0}, "m",
                   "how far a start that is too near to something may be left with what clearance it has");
     fields.flag("shortcut", &HybridConfig::shortcut, "cut corners of the joined path where the ground is free");

@@ -20,6 +20,8 @@ namespace {
 
 using Time = Budget::Clock::time_point;
 
+constexpr double kMaxDetour = 3.0;  // of what a path over landmarks costs before its corners are cut
+
 double ms_since(Time begin) {
   return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
 }
@@ -165,18 +167,26 @@ class Query {
       const SymbolicAnswer symbolic = search_graph(search);
       if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
       if (!symbolic.path) return std::nullopt;
-      if (!any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m) {
-        why_direct_ = "directly: over landmarks it is " + metres_text(symbolic.path->cost_m) + ", the direct path " +
-                      metres_text(direct_m);
-        return std::nullopt;
-      }
+      const bool is_detour = !any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m;
+      if (is_detour && symbolic.path->cost_m > kMaxDetour * direct_m) return prefer_direct(*symbolic.path, direct_m);
       const GoalPlace& goal = goals[symbolic.path->goal];
       const Walk walk = walk_along(whole, start, *symbolic.path, goal);
       if (walk.stopped) return refused<PlanResult>(stopped(*walk.stopped));
       if (walk.access_leg_failed) return std::nullopt;
-      if (!walk.blocked) return over_landmarks(answers_, whole, budget_, start, goal, *symbolic.path, walk);
+      if (!walk.blocked) {
+        PlanResult result = over_landmarks(answers_, whole, budget_, start, goal, *symbolic.path, walk);
+        if (is_detour && result.length_m > tools_.config.shortened_ratio * direct_m)
+          return prefer_direct(*symbolic.path, direct_m);
+        return result;
+      }
       blocked_.insert(*walk.blocked);
     }
+  }
+
+  std::nullopt_t prefer_direct(const SymbolicPath& path, double direct_m) {
+    why_direct_ =
+        "directly: over landmarks it is " + metres_text(path.cost_m) + ", the direct path " + metres_text(direct_m);
+    return std::nullopt;
   }
 
   SymbolicAnswer search_graph(const SymbolicSearch& search) {

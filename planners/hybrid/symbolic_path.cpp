@@ -1,6 +1,9 @@
 #include "planners/hybrid/symbolic_path.hpp"
 
+#include <algorithm>
+
 #include "framework/contracts/adapters/lone_planners.hpp"
+#include "maps/hierarchy/hierarchies.hpp"
 
 namespace cairn {
 namespace {
@@ -30,17 +33,29 @@ class Joiner {
   }
 
  private:
-  // Every landmark that has routes and that travel reaches.
+  // Landmarks that have routes and that travel reaches: those of the cluster that the nearest of them is in, or all.
   void join(const TravelField& travel, std::size_t goal, SymbolicEnd& end) const {
     const DiscSpace& space = *query_.start.space;
     const LandmarkGraph& graph = query_.world.graph;
+    std::vector<std::pair<double, LandmarkId>> joined;
     const auto reached = [&](const Point& p) { return travel.reaches(space.field().cell_at(p)); };
     for (const auto& [id, landmark] : graph.landmarks()) {
       if (budget_.exhausted()) return;  // which the search then says
       if (graph.routes_from(id).empty() && graph.routes_to(id).empty()) continue;
       const auto approach = approach_pose(space, landmark, query_.radius_m, reached);
-      if (approach) end.add(id, travel.cost_m(space.field().cell_at(approach->position())), goal);
+      if (approach) joined.emplace_back(travel.cost_m(space.field().cell_at(approach->position())), id);
     }
+    const ClusterIndex cluster = joined.empty() ? kNoCluster : cluster_of(std::ranges::min(joined).second);
+    for (const auto& [travel_m, id] : joined)
+      if (cluster == kNoCluster || cluster_of(id) == cluster) end.add(id, travel_m, goal);
+  }
+
+  // Of level 1, in a small graph; kNoCluster where there is none.
+  [[nodiscard]] ClusterIndex cluster_of(LandmarkId id) const {
+    if (query_.world.hierarchies == nullptr) return kNoCluster;
+    const Hierarchy& hierarchy = query_.world.hierarchies->by(CostKind::length);
+    if (!hierarchy.clustering().is_small()) return kNoCluster;
+    return hierarchy.clustering().leaf_of(hierarchy.network().vertex_of(id));
   }
 
   const SymbolicQuery& query_;

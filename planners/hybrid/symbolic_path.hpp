@@ -57,8 +57,9 @@ class SymbolicEnd {
   std::map<LandmarkId, Reached> reached_;
 };
 
-// Ends that are poses are joined to the graph by travel over the grid to every landmark with routes;
-// ends that are landmarks are themselves. Joined once; each find() is one search of the graph planner.
+// Ends that are poses are joined to the graph by travel over the grid: to the landmarks with routes of the cluster that
+// they lie in, or to all where there are no clusters, or very many landmarks. Ends that are landmarks are themselves.
+// Joined once; each find() is one search of the graph planner.
 class SymbolicSearch {
  public:
   SymbolicSearch(const SymbolicQuery& query, const RoutePlanner& route_planner, const Budget& budget);

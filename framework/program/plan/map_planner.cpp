@@ -120,8 +120,9 @@ void MapPlanner::prepare(const OccupancyGrid& grid, std::uint64_t version) const
 
 PlanResult MapPlanner::plan_on(const OccupancyGrid& grid, std::uint64_t version, const PlanRequest& request,
                                const Budget& budget) const {
-  // One answer is not worth making the hierarchy for.
-  const bool on_hierarchy = many_ || request.explain;
+  // Of a large graph or grid one answer is not worth making the hierarchy for.
+  const bool is_small = !cells_ && map_.graph.landmarks().size() < cluster_sizes_of(map_.properties).large_from;
+  const bool on_hierarchy = many_ || request.explain || is_small;
   WorldView world = world_on(grid, version);
   if (on_hierarchy) world.hierarchies = &hierarchies_;
   if (cells_) world.cells = &*cells_;
