@@ -14,7 +14,7 @@ namespace cairn::behaviours {
 
 struct PassageSettings {
   double min_radius_m = 0.06;
-  double drive_radius_m = 0.16;
+  double drive_radius_m = 0.1;
   double room_behind_m2 = 0.4;
   double seen_through_m2 = 0.15;
   double max_wall_m = 0.5;

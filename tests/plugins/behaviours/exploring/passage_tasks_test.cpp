@@ -79,6 +79,9 @@ TEST(PassageTasks, OneThatWasNeverTriedIsReportedAsThat) {
 
 TEST(PassageTasks, ANarrowGapIsLookedAtAndReportedAsTooNarrow) {
   Passing passing(2);
+  PassageSettings settings;
+  settings.drive_radius_m = 0.16;
+  passing.tasks = PassageTasks(settings);
   std::optional<ExploreTask> task = passing.next();
   ASSERT_TRUE(task);
   passing.looked_at.push_back(task->about);
