@@ -28,9 +28,10 @@ struct HybridConfig {
     fields.number("detour_ratio", &HybridConfig::detour_ratio, {1.0, 100.0}, "",
                   "a path over landmarks is taken when it is at most this much longer than the direct one, and a "
                   "leg planned anew likewise against its stored cost");
-    fields.number("shortened_ratio", &HybridConfig::shortened_ratio, {1.0, 100.0}, "",
-                  "one that costs more is taken when it is at most this much longer than the direct one once its "
-                  "corners are cut");
+    fields.number(
+        "shortened_ratio", &HybridConfig::shortened_ratio, {1.0, 100.0}, "",
+        "one that costs more is taken when it leads from cluster to cluster and is at most this much longer than the "
+        "direct one once its corners are cut");
     fields.number("start_tolerance_m", &HybridConfig::start_tolerance_m, {0.0, 1.0}, "m",
                   "how far a start that is too near to something may be left with what clearance it has");
     fields.flag("shortcut", &HybridConfig::shortcut, "cut corners of the joined path where the ground is free");

@@ -168,7 +168,8 @@ class Query {
       if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
       if (!symbolic.path) return std::nullopt;
       const bool is_detour = !any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m;
-      if (is_detour && symbolic.path->cost_m > kMaxDetour * direct_m) return prefer_direct(*symbolic.path, direct_m);
+      if (is_detour && !(symbolic.path->leaves_its_cluster && symbolic.path->cost_m <= kMaxDetour * direct_m))
+        return prefer_direct(*symbolic.path, direct_m);
       const GoalPlace& goal = goals[symbolic.path->goal];
       const Walk walk = walk_along(whole, start, *symbolic.path, goal);
       if (walk.stopped) return refused<PlanResult>(stopped(*walk.stopped));

@@ -8,6 +8,14 @@
 namespace cairn {
 namespace {
 
+// Of level 1, in a small graph; kNoCluster where there is none.
+ClusterIndex cluster_of(LandmarkId id, const WorldView& world) {
+  if (world.hierarchies == nullptr) return kNoCluster;
+  const Hierarchy& hierarchy = world.hierarchies->by(CostKind::length);
+  if (!hierarchy.clustering().is_small()) return kNoCluster;
+  return hierarchy.clustering().leaf_of(hierarchy.network().vertex_of(id));
+}
+
 class Joiner {
  public:
   Joiner(const SymbolicQuery& query, const Budget& budget) : query_(query), budget_(budget) {}
@@ -45,17 +53,10 @@ class Joiner {
       const auto approach = approach_pose(space, landmark, query_.radius_m, reached);
       if (approach) joined.emplace_back(travel.cost_m(space.field().cell_at(approach->position())), id);
     }
-    const ClusterIndex cluster = joined.empty() ? kNoCluster : cluster_of(std::ranges::min(joined).second);
+    const ClusterIndex cluster =
+        joined.empty() ? kNoCluster : cluster_of(std::ranges::min(joined).second, query_.world);
     for (const auto& [travel_m, id] : joined)
-      if (cluster == kNoCluster || cluster_of(id) == cluster) end.add(id, travel_m, goal);
-  }
-
-  // Of level 1, in a small graph; kNoCluster where there is none.
-  [[nodiscard]] ClusterIndex cluster_of(LandmarkId id) const {
-    if (query_.world.hierarchies == nullptr) return kNoCluster;
-    const Hierarchy& hierarchy = query_.world.hierarchies->by(CostKind::length);
-    if (!hierarchy.clustering().is_small()) return kNoCluster;
-    return hierarchy.clustering().leaf_of(hierarchy.network().vertex_of(id));
+      if (cluster == kNoCluster || cluster_of(id, query_.world) == cluster) end.add(id, travel_m, goal);
   }
 
   const SymbolicQuery& query_;
@@ -103,6 +104,8 @@ SymbolicAnswer SymbolicSearch::find(const std::set<RouteId>& blocked) const {
     SymbolicPath path{found.landmarks, found.routes, 0.0, goals_.goal(found.landmarks.back())};
     path.cost_m = start_.travel_m(found.landmarks.front()) + goals_.travel_m(found.landmarks.back());
     for (const RouteId id : found.routes) path.cost_m += query_.world.graph.find_route(id)->cost_m;
+    path.leaves_its_cluster =
+        cluster_of(path.landmarks.front(), query_.world) != cluster_of(path.landmarks.back(), query_.world);
     answer.path = std::move(path);
     answer.candidates.push_back({found.cost_m, found.landmarks, found.routes});
   }

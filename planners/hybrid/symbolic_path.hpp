@@ -16,6 +16,7 @@ struct SymbolicPath {
   std::vector<RouteId> routes;        // from landmark to landmark
   double cost_m = 0.0;                // routes by their cost, the access legs by travel
   std::size_t goal = 0;               // index of the goal it leads to
+  bool leaves_its_cluster = false;    // its ends are in different clusters of level 1, of a small graph
 };
 
 struct SymbolicAnswer {

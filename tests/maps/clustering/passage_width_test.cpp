@@ -48,7 +48,7 @@ TEST(PassageWidth, ALandmarkBesideAWallDividesNothing) {
     for (int x = 30; x < 40; ++x) grid.set_log_odds({x, y}, log_odds_of(0.95));
   const std::vector<Pose2> between{{1.0, 0.3, 0.0}, {2.6, 0.3, 0.0}};
   EXPECT_LT(width_m(grid, between), 0.8);
-  EXPECT_EQ(width_m(grid, between, {{1.75, 0.85}}), 2.0);
+  EXPECT_GT(width_m(grid, between, {{1.75, 0.85}}), 1.8);
 }
 
 TEST(PassageWidth, OfACorridorIsTheCorridors) {

@@ -45,7 +45,7 @@ std::int64_t settled(const Hierarchy& hierarchy, const Question& question) {
   return BoostSearch().find(hierarchy, query_of(question, hierarchy.network()), {}).settled;
 }
 
-constexpr ClusterSizes kFlat{32, 4, SIZE_MAX};
+const ClusterSizes kFlat = no_clusters();
 
 TEST(BoostSearch, GoesStraightToTheGoalWhateverAMetreCosts) {
   for (const double cost_per_m : {0.2, 1.0, 7.0}) {

@@ -47,8 +47,8 @@ TEST_F(Exploring, TheShareIsThatOfWhereTheRobotCanBe) {
   be_at(home.start_m, 0.0);
   EXPECT_EQ(record.verdict({}, {}).known_ratio, 0.0);
   EXPECT_FALSE(record.verdict({}, {}).known_90_s);
-  for (double x_m = 0.0; x_m < world.max_m.x(); x_m += 0.05)
-    for (double y_m = 0.0; y_m < world.max_m.y(); y_m += 0.05) grid.set_log_odds(grid.cell_at({x_m, y_m}), -300);
+  for (double x_m = 0.0; x_m < world.max_m.x(); x_m += 0.02)
+    for (double y_m = 0.0; y_m < world.max_m.y(); y_m += 0.02) grid.set_log_odds(grid.cell_at({x_m, y_m}), -300);
   be_at(home.start_m, 7.0);
   EXPECT_GT(record.verdict({}, {}).known_ratio, 0.99);
   EXPECT_EQ(record.verdict({}, {}).known_90_s, 7.0);
