@@ -1,4 +1,4 @@
-// From a place to a place over both levels (docs/method.md 10.5): landmarks first, then the path between them.
+// From a place to a place over both levels (docs/method.md 10.4): landmarks first, then the path between them.
 #pragma once
 
 #include <memory>

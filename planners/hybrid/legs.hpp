@@ -1,4 +1,4 @@
-// The sub-symbolic half of a plan: a path over the grid along the landmarks (docs/method.md 10.5).
+// The sub-symbolic half of a plan: a path over the grid along the landmarks (docs/method.md 10.4).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The symbolic half of a plan: which landmarks to pass, and by which stored routes (docs/method.md 10.5).
+// The symbolic half of a plan: which landmarks to pass, and by which stored routes (docs/method.md 10.4).
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Routes on OG1 (docs/method.md 10.2, 10.4) for a disc or an outline: the shortest over the grid, improved by OMPL, or
+// Routes on OG1 (docs/method.md 10.2, 10.3) for a disc or an outline: the shortest over the grid, improved by OMPL, or
 // any of OMPL's planners.
 #pragma once
 
