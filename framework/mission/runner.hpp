@@ -59,8 +59,9 @@ struct MissionResult {
   CollisionMonitorFigures collision_monitor{};
   std::string hearing{};  // for people: which transducers were deaf, and when; empty: none
   AutosaveFigures autosave{};
-  std::vector<ClusterLevel> cluster_levels{};  // of the landmarks, as they were last clustered
-  std::string map_file;                        // name in the output folder; empty: could not be saved
+  ClusterTree clusters{};  // of the landmarks, as they were last clustered
+  std::vector<ClusterLevel> cluster_levels{};
+  std::string map_file;  // name in the output folder; empty: could not be saved
 };
 
 class MissionLoop;

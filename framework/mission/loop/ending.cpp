@@ -133,7 +133,8 @@ MissionResult MissionLoop::result() const {
   result.hearing = hearing_.summary();
   result.autosave = saving_.figures();
   result.map_file = saving_.map_file();
-  result.cluster_levels = levels_of(planning_.last_clusters(), world_.graph);
+  result.clusters = planning_.last_clusters();
+  result.cluster_levels = levels_of(result.clusters, world_.graph);
   return result;
 }
 

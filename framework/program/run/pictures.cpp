@@ -19,10 +19,12 @@ void add_traffic(const World& world, MapPicture& picture) {
   }
 }
 
-void draw_map(const std::filesystem::path& file, const Mission& mission, const MissionRunner& runner) {
+void draw_map(const std::filesystem::path& file, const Mission& mission, const MissionRunner& runner,
+              const MissionResult& result) {
   MapPicture picture;
   picture.grid = runner.grid();
   picture.graph = &runner.graph();
+  picture.clusters = &result.clusters;
   picture.shapes = mission.shapes;
   for (const Pose2& pose : runner.driven_path()) picture.driven.push_back(pose.position());
   if (!runner.driven_path().empty()) {
@@ -99,7 +101,7 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
   if (runner.grid() == nullptr) {
     pictures.missing.emplace_back("map.png: the module that held the map was given up");
   } else {
-    attempt("map.png", [&](const std::filesystem::path& file) { draw_map(file, mission, runner); });
+    attempt("map.png", [&](const std::filesystem::path& file) { draw_map(file, mission, runner, result); });
   }
   if (runner.coarse_grid() != nullptr)
     attempt("coarse.png", [&](const std::filesystem::path& file) {
