@@ -17,8 +17,9 @@ QueryGraph::QueryGraph(const Hierarchy& hierarchy, const RouteQuery& query, cons
 }
 
 std::pair<const SearchEnd*, const SearchEnd*> QueryGraph::goals_at(VertexIndex v) const {
-  const auto found = std::ranges::equal_range(goals_, v, {}, &SearchEnd::vertex);
-  return {goals_.data() + (found.begin() - goals_.begin()), goals_.data() + (found.end() - goals_.begin())};
+  const auto first = std::ranges::lower_bound(goals_, v, {}, &SearchEnd::vertex);
+  const auto last = std::ranges::upper_bound(goals_, v, {}, &SearchEnd::vertex);
+  return {goals_.data() + (first - goals_.begin()), goals_.data() + (last - goals_.begin())};
 }
 
 GraphEdge QueryGraph::as_asked(GraphEdge edge) const {
