@@ -10,12 +10,15 @@ namespace cairn {
 namespace {
 
 const std::vector<std::pair<std::string, ExperimentKind>>& kinds() {
-  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{
-      {"missions", ExperimentKind::missions},       {"maps", ExperimentKind::maps},
-      {"places", ExperimentKind::places},           {"orbit", ExperimentKind::orbit},
-      {"recognition", ExperimentKind::recognition}, {"curves", ExperimentKind::curves},
-      {"trials", ExperimentKind::trials},           {"buildings", ExperimentKind::buildings},
-      {"homes", ExperimentKind::homes}};
+  static const std::vector<std::pair<std::string, ExperimentKind>> kKinds{{"missions", ExperimentKind::missions},
+                                                                          {"maps", ExperimentKind::maps},
+                                                                          {"places", ExperimentKind::places},
+                                                                          {"orbit", ExperimentKind::orbit},
+                                                                          {"recognition", ExperimentKind::recognition},
+                                                                          {"curves", ExperimentKind::curves},
+                                                                          {"trials", ExperimentKind::trials},
+                                                                          {"buildings", ExperimentKind::buildings},
+                                                                          {"homes", ExperimentKind::homes}};
   return kKinds;
 }
 
@@ -262,7 +265,8 @@ ExperimentConfig load_experiment(const std::filesystem::path& file, const std::v
   for (std::size_t i = 0; i < config.variants.size(); ++i) {
     ExperimentVariant& variant = config.variants[i];
     sort_overrides(variant, root);
-    if (variant.worlds) check_worlds(*variant.worlds, *root.find("worlds"));
+    const ConfigValue* const worlds = root.find("worlds");
+    if (variant.worlds) check_worlds(*variant.worlds, worlds == nullptr ? root : *worlds);
     if (!variant.robot.empty()) variant.overrides.push_back("robot=" + variant.robot.string());
     if (!variant.world.empty() && (in_random_worlds(config.experiment) || config.experiment == ExperimentKind::trials ||
                                    config.experiment == ExperimentKind::homes))

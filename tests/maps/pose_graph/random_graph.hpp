@@ -19,10 +19,10 @@ inline RandomPoseGraph random_pose_graph(std::uint64_t seed, std::size_t nodes, 
     return std::uniform_real_distribution<double>(low, high)(random);
   };
   const auto measured = [&](const Pose2& exact) {
-    std::normal_distribution<double> error(0.0, noise);
-    const double dx_m = error(random);
-    const double dy_m = error(random);
-    return exact * Pose2{dx_m, dy_m, error(random)};
+    std::normal_distribution<double> error(0.0, 1.0);
+    const double dx_m = noise * error(random);
+    const double dy_m = noise * error(random);
+    return exact * Pose2{dx_m, dy_m, noise * error(random)};
   };
   RandomPoseGraph made;
   const Eigen::Matrix3d information = Eigen::Matrix3d::Identity() / std::max(noise * noise, 1e-6);
