@@ -26,7 +26,7 @@ struct WorldState {
   double time_s = 0.0;
   DriveCommand driven{};
   const Hierarchies* hierarchies = nullptr;  // for the names of clusters
-  SpeedLaw speed_law{};  // of the mission's collision monitor
+  SpeedLaw speed_law{};                      // of the mission's collision monitor
 
   void observe(Observation seen, const std::optional<GroundTruth>& truth_then) {
     observation = std::move(seen);
