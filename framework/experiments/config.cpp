@@ -196,6 +196,37 @@ void OrbitConfig::describe(Fields<OrbitConfig>& fields) {
                "one point of the charts in each such part of the orbit");
 }
 
+namespace {
+
+// What only some kinds of experiment have.
+void describe_kinds(Fields<ExperimentConfig>& fields) {
+  using C = ExperimentConfig;
+  fields.texts("categories", &C::categories,
+               "of `places` and `orbit`: the categories, in the order of the table's columns");
+  fields.list("places", &C::places,
+              "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
+              "before that looked at its landmark");
+  fields.group("orbit", &C::orbit, "of `orbit`: the orbit");
+  fields.group(
+      "worlds", &C::worlds,
+      "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
+  fields.group("trials", &C::trials, "of `trials`: the missions that are drawn, how they are judged, and limits");
+  fields.group("buildings", &C::buildings, "of `buildings`: the buildings and the questions");
+  fields.group("homes", &C::homes,
+               "of `homes`: the home of each seed, which takes the place of the missions' own world and start");
+  fields.raw("detectors", &C::detectors_as_given, "list of detectors",
+             "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
+             "setting left out is as the mission's own detector has it; but tau_match is 0");
+  fields.flag("ring_profile", &C::ring_profile,
+              "of `recognition`: also where the landmarks' outlines lie in the finished maps, as a table and a chart");
+  fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
+                "a matching looks at a landmark when the middle of its region is this near to the landmark's");
+  fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
+                 "of `places`: number of matchings published elsewhere");
+}
+
+}  // namespace
+
 void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
   using C = ExperimentConfig;
   fields
@@ -228,28 +259,7 @@ void ExperimentConfig::describe(Fields<ExperimentConfig>& fields) {
       "`homes`: of the rooms entered and of the area known, each) "
       "that makes the experiment a success");
   fields.texts("set", &C::overrides, "settings of the missions to override, each `key=value`");
-  fields.texts("categories", &C::categories,
-               "of `places` and `orbit`: the categories, in the order of the table's columns");
-  fields.list("places", &C::places,
-              "of `places`: one at the end of each of the mission's steps; its degrees are those of the last matching "
-              "before that looked at its landmark");
-  fields.group("orbit", &C::orbit, "of `orbit`: the orbit");
-  fields.group(
-      "worlds", &C::worlds,
-      "of `recognition`, `curves` and `trials`: the world of each seed, which takes the place of the missions' own");
-  fields.group("trials", &C::trials, "of `trials`: the missions that are drawn, how they are judged, and limits");
-  fields.group("buildings", &C::buildings, "of `buildings`: the buildings and the questions");
-  fields.group("homes", &C::homes,
-               "of `homes`: the home of each seed, which takes the place of the missions' own world and start");
-  fields.raw("detectors", &C::detectors_as_given, "list of detectors",
-             "of `curves`: each `{name: in tables, plugin: MODULE, its settings}`, run afresh on the finished grid. A "
-             "setting left out is as the mission's own detector has it; but tau_match is 0");
-  fields.flag("ring_profile", &C::ring_profile,
-              "of `recognition`: also where the landmarks' outlines lie in the finished maps, as a table and a chart");
-  fields.number("looks_within_m", &C::looks_within_m, {0.01, 10.0}, "m",
-                "a matching looks at a landmark when the middle of its region is this near to the landmark's");
-  fields.integer("expected_matchings", &C::expected_matchings, {0.0, 1e9},
-                 "of `places`: number of matchings published elsewhere");
+  describe_kinds(fields);
 }
 
 ExperimentConfig load_experiment(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -7,8 +7,9 @@ void add_exchange(CLI::App& map, CommandLine& line) {
   const auto [in, c] =
       add_command(map, line, map_import, "import", "Make a map of another tool's landmark graph or occupancy grid");
   in->add_option("FILE", c->from,
-                 "*.graph, nav2 routes (*.geojson, *.json), *.graphml, Open-RMF building or navigation graph (*.yaml), "
-                 "Moving AI grid (*.map) or map_server (*.yaml)")
+                 "*.graph, nav2 routes (*.geojson, *.json), *.graphml, road network (*_net.tntp), Open-RMF building or "
+                 "navigation graph (*.yaml), Moving AI grid (*.map), map_server (*.yaml) or a picture (*.png, *.pgm, "
+                 "*.bmp); each also as *.gz")
       ->required();
   in->add_option("-o,--out", c->to, "saved map to write (*.cairn)")->required();
   add_number(in, "--cell-m", c->cell_m, "cell size of a picture, or of a Moving AI grid (without it 1)", 0.001, 1000.0);
