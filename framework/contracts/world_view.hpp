@@ -6,7 +6,7 @@
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
-#include "framework/contracts/speed_law.hpp"
+#include "framework/contracts/view/speed_law.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 

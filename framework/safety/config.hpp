@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "framework/config/fields.hpp"
-#include "framework/contracts/speed_law.hpp"
+#include "framework/contracts/view/speed_law.hpp"
 #include "maps/geometry/pose.hpp"
 
 namespace cairn {

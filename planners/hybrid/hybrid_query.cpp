@@ -4,7 +4,7 @@
 #include <set>
 
 #include "framework/contracts/adapters/lone_planners.hpp"
-#include "framework/contracts/cell_source.hpp"
+#include "framework/contracts/view/cell_source.hpp"
 #include "planners/common/any_angle/nearest_goals.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "framework/contracts/cell_source.hpp"
+#include "framework/contracts/view/cell_source.hpp"
 
 namespace cairn {
 namespace {

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "framework/config/fields.hpp"
-#include "framework/contracts/speed_law.hpp"
+#include "framework/contracts/view/speed_law.hpp"
 #include "plugins/common/motion/velocity.hpp"
 
 namespace cairn::pursuit_dwa {

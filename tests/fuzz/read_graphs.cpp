@@ -6,13 +6,13 @@
 #include "framework/files/rmf_file.hpp"
 #include "maps/base/json_text.hpp"
 #include "maps/base/source_text.hpp"
+#include "maps/exchange/graph_lists/graph_list.hpp"
+#include "maps/exchange/graph_lists/patrolling_graph.hpp"
+#include "maps/exchange/graph_lists/tntp.hpp"
 #include "maps/exchange/graphs/exchanged_graph.hpp"
-#include "maps/exchange/graphs/graph_list.hpp"
 #include "maps/exchange/graphs/graphml.hpp"
 #include "maps/exchange/graphs/nav2_routes.hpp"
-#include "maps/exchange/graphs/patrolling_graph.hpp"
 #include "maps/exchange/graphs/rmf_nav_graph.hpp"
-#include "maps/exchange/graphs/tntp.hpp"
 #include "tests/fuzz/reader.hpp"
 
 namespace cairn::fuzz {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "framework/contracts/cell_source.hpp"
+#include "framework/contracts/view/cell_source.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {

@@ -8,8 +8,8 @@
 #include "maps/base/output_file.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/text.hpp"
-#include "maps/exchange/graphs/g2o.hpp"
-#include "maps/exchange/graphs/stamped_poses.hpp"
+#include "maps/exchange/pose_graphs/g2o.hpp"
+#include "maps/exchange/pose_graphs/stamped_poses.hpp"
 #include "maps/pose_graph/solver.hpp"
 
 namespace cairn {

@@ -4,11 +4,11 @@
 #include <array>
 
 #include "maps/base/source_text.hpp"
-#include "maps/exchange/graphs/graph_list.hpp"
+#include "maps/exchange/graph_lists/graph_list.hpp"
+#include "maps/exchange/graph_lists/patrolling_graph.hpp"
+#include "maps/exchange/graph_lists/tntp.hpp"
 #include "maps/exchange/graphs/graphml.hpp"
 #include "maps/exchange/graphs/nav2_routes.hpp"
-#include "maps/exchange/graphs/patrolling_graph.hpp"
-#include "maps/exchange/graphs/tntp.hpp"
 
 namespace cairn {
 namespace {

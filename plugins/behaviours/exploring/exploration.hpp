@@ -7,7 +7,7 @@
 
 #include "plugins/behaviours/exploring/blockage_count.hpp"
 #include "plugins/behaviours/exploring/explore.hpp"
-#include "plugins/behaviours/exploring/passage_drive.hpp"
+#include "plugins/behaviours/exploring/passages/passage_drive.hpp"
 #include "plugins/behaviours/exploring/task_chooser.hpp"
 #include "plugins/behaviours/exploring/task_follower.hpp"
 #include "plugins/behaviours/exploring/travelled.hpp"

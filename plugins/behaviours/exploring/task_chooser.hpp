@@ -6,7 +6,7 @@
 
 #include "plugins/behaviours/exploring/explore.hpp"
 #include "plugins/behaviours/exploring/explore_tasks.hpp"
-#include "plugins/behaviours/exploring/passage_tasks.hpp"
+#include "plugins/behaviours/exploring/passages/passage_tasks.hpp"
 #include "plugins/behaviours/local_map/near_echoes.hpp"
 
 namespace cairn::behaviours {

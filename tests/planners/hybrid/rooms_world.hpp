@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "framework/contracts/cell_source.hpp"
+#include "framework/contracts/view/cell_source.hpp"
 #include "planners/common/disc_space/routes.hpp"
 #include "planners/hybrid/local_query.hpp"
 #include "planners/landmark_search/landmark_search.hpp"

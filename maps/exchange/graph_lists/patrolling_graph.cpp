@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/patrolling_graph.hpp"
+#include "maps/exchange/graph_lists/patrolling_graph.hpp"
 
 #include <fmt/format.h>
 

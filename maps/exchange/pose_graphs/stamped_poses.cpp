@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/stamped_poses.hpp"
+#include "maps/exchange/pose_graphs/stamped_poses.hpp"
 
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"

@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/g2o.hpp"
+#include "maps/exchange/pose_graphs/g2o.hpp"
 
 #include <fmt/format.h>
 

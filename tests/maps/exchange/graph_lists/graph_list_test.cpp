@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/graph_list.hpp"
+#include "maps/exchange/graph_lists/graph_list.hpp"
 
 #include "tests/maps/exchange/exchange_fixture.hpp"
 

@@ -1,4 +1,4 @@
-#include "framework/contracts/speed_law.hpp"
+#include "framework/contracts/view/speed_law.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/g2o.hpp"
+#include "maps/exchange/pose_graphs/g2o.hpp"
 
 #include "maps/pose_graph/solver.hpp"
 #include "tests/maps/exchange/exchange_fixture.hpp"

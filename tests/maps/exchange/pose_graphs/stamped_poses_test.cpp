@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/stamped_poses.hpp"
+#include "maps/exchange/pose_graphs/stamped_poses.hpp"
 
 #include "tests/maps/exchange/exchange_fixture.hpp"
 

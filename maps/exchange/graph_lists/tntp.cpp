@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/tntp.hpp"
+#include "maps/exchange/graph_lists/tntp.hpp"
 
 #include <fmt/format.h>
 

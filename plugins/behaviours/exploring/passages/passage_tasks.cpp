@@ -1,4 +1,4 @@
-#include "plugins/behaviours/exploring/passage_tasks.hpp"
+#include "plugins/behaviours/exploring/passages/passage_tasks.hpp"
 
 #include <algorithm>
 #include <cstdio>

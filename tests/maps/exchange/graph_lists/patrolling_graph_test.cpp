@@ -1,4 +1,4 @@
-#include "maps/exchange/graphs/patrolling_graph.hpp"
+#include "maps/exchange/graph_lists/patrolling_graph.hpp"
 
 #include "tests/maps/exchange/exchange_fixture.hpp"
 

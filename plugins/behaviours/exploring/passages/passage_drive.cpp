@@ -1,4 +1,4 @@
-#include "plugins/behaviours/exploring/passage_drive.hpp"
+#include "plugins/behaviours/exploring/passages/passage_drive.hpp"
 
 namespace cairn::behaviours {
 namespace {
