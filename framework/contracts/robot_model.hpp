@@ -51,6 +51,7 @@ struct RobotModel {
   std::vector<int> firing_order;  // indices into sonars; empty: as listed
   double firing_period_s = 0.04;  // one transducer each period
   OdometryError odometry_error;
+  bool has_compass = true;
   CompassError compass_error;
   RangeError range_error;
 };

@@ -114,7 +114,7 @@ struct RobotConfig {
     fields.list("sonars", &RobotConfig::sonars, "its range sensors");
     fields.group("firing", &RobotConfig::firing, "when the sonars fire");
     fields.group("odometry", &RobotConfig::odometry, "standard deviations of its dead reckoning");
-    fields.group("compass", &RobotConfig::compass, "standard deviations of its compass");
+    fields.group("compass", &RobotConfig::compass, "standard deviations of its compass; left out, the robot has none");
     fields.group("ranges", &RobotConfig::ranges, "standard deviations of its ranges");
     fields.one_of({"radius_m", "polygon_m"});
   }
@@ -192,6 +192,7 @@ RobotModel load_robot(const std::filesystem::path& file) {
   set_sonars(robot, config, root);
   set_firing(robot, config.firing);
   robot.odometry_error = config.odometry;
+  robot.has_compass = root.find("compass") != nullptr;
   robot.compass_error = config.compass;
   robot.range_error = config.ranges;
   return robot;
