@@ -31,13 +31,6 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("min_above_unseen", &Config::min_above_unseen, {0.0, 1.0}, "",
                 "the best template's degree d must reach this on the scale (d - u) / (1 - u), where u is its degree "
                 "over unseen floor; 0 as in the paper");
-  fields.number(
-      "unseen_degree", &Config::unseen_degree, {0.0, 1.0}, "",
-      "cells of a template of whose surroundings the map knows nothing count as if they fitted to this degree, "
-      "so that a landmark before a wall is recognised by what can be seen of it; 0: as floor without a "
-      "gradient, as in the paper");
-  fields.number("min_seen_ratio", &Config::min_seen_ratio, {0.0, 1.0}, "",
-                "share of the best template's cells that must have been seen; with unseen_degree above 0");
   fields.flag("between_cells", &Config::between_cells,
               "compare categories, and place landmarks, between the cells and between the orientation steps; false: on "
               "them, as in the paper");

@@ -22,8 +22,6 @@ struct Config : TemplateSettings {
   MismatchScale mu = MismatchScale::sobel;
   double min_margin = 0.02;
   double min_above_unseen = 0.34;
-  double unseen_degree = 0.5;
-  double min_seen_ratio = 0.5;
   bool between_cells = true;
   Degrees degrees = Degrees::all;
   Search search = Search::pruned;

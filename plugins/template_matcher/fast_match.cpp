@@ -262,7 +262,7 @@ void FastMatcher::compute_from(Search& search, std::size_t place) {
   *first = kOutside;
   const std::int32_t mismatch =
       sum_distance(search.field.both_from(at), static_cast<std::ptrdiff_t>(search.field.stride()), search.shape.columns,
-                   search.field.unseen_cost(), static_cast<std::int32_t>(search.most));
+                   static_cast<std::int32_t>(search.most));
   settle(search, {at, mismatch});
 }
 
@@ -286,8 +286,7 @@ void FastMatcher::compute_piece(Search& search, std::size_t place) {
   const std::int16_t* y = search.field.y_from(at);
   const auto stride = static_cast<std::ptrdiff_t>(search.field.stride());
   std::int32_t mismatches[kPlacesPerExactPiece];
-  sum_distances(x, y, stride, search.shape.cells, search.field.unseen_cost(), static_cast<std::int32_t>(search.most),
-                mismatches);
+  sum_distances(x, y, stride, search.shape.cells, static_cast<std::int32_t>(search.most), mismatches);
   for (int i = 0; i < count; ++i) {
     const std::size_t here = place + static_cast<std::size_t>(i);
     if (place_start_[here] != kOutside) settle(search, {at + Cell{i, 0}, mismatches[i]});

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <vector>
 
 #include "maps/grid/occupancy_grid.hpp"
@@ -16,23 +14,13 @@ class GradientField {
   // So many cells may be read beyond the end of any row.
   static constexpr int kPadding = 64;
 
-  // The x of cells that nobody has looked at: none of the nine cells that make the gradient is held to be free or
-  // occupied. Only where such cells have a cost of their own.
-  static constexpr std::int16_t kUnseen = std::numeric_limits<std::int16_t>::min();
-  static constexpr int kUnseenBand = 32;  // OL further than this from 127 is held to be something
-
   GradientField() = default;  // of no cells
-  GradientField(const OccupancyGrid& grid, const CellBox& box, std::optional<std::int32_t> unseen_cost = {}) {
-    look_at(grid, box, unseen_cost);
-  }
+  GradientField(const OccupancyGrid& grid, const CellBox& box) { look_at(grid, box); }
 
-  // Takes the gradients of another box; its memory serves again. unseen_cost: the mismatch of a template's cell on a
-  // cell that nobody has looked at; without it, that of any cell without a gradient.
-  void look_at(const OccupancyGrid& grid, const CellBox& box, std::optional<std::int32_t> unseen_cost = {});
+  // Takes the gradients of another box; its memory serves again.
+  void look_at(const OccupancyGrid& grid, const CellBox& box);
 
   [[nodiscard]] CellBox box() const { return box_; }
-  [[nodiscard]] std::int32_t unseen_cost() const { return unseen_cost_; }
-  [[nodiscard]] bool is_unseen(Cell cell) const { return *x_from(cell) == kUnseen; }
   // Gradients of the cells (cell.x, cell.x + 1, ...) of a row; the row above begins `stride` further.
   [[nodiscard]] const std::int16_t* x_from(Cell cell) const { return x_.data() + index_of(cell); }
   [[nodiscard]] const std::int16_t* y_from(Cell cell) const { return y_.data() + index_of(cell); }
@@ -41,18 +29,15 @@ class GradientField {
   [[nodiscard]] std::size_t stride() const { return static_cast<std::size_t>(box_.width()); }
 
  private:
-  void mark_unseen();
   [[nodiscard]] std::size_t index_of(Cell cell) const {
     return static_cast<std::size_t>(cell.y - box_.min.y) * stride() + static_cast<std::size_t>(cell.x - box_.min.x);
   }
 
   CellBox box_;
-  std::int32_t unseen_cost_ = 0;
   std::vector<std::int16_t> x_;
   std::vector<std::int16_t> y_;
   std::vector<std::int32_t> both_;
   std::vector<std::uint8_t> ol_;  // kept for its memory only
-  std::vector<std::uint8_t> known_;
 };
 
 }  // namespace cairn::template_matcher

@@ -1,24 +1,15 @@
 #include "plugins/template_matcher/match.hpp"
 
-#include <algorithm>
-
 namespace cairn::template_matcher {
 
 std::int32_t mismatch_at(const GradientField& field, const LandmarkTemplate& shape, Cell at) {
   std::int32_t sum = 0;
   for (const TemplateCell& cell : shape.cells) {
     const Cell there = at + cell.offset;
-    sum += field.is_unseen(there) ? field.unseen_cost()
-                                  : gradient_distance(static_cast<float>(*field.x_from(there) - cell.gradient_x),
-                                                      static_cast<float>(*field.y_from(there) - cell.gradient_y));
+    sum += gradient_distance(static_cast<float>(*field.x_from(there) - cell.gradient_x),
+                             static_cast<float>(*field.y_from(there) - cell.gradient_y));
   }
   return sum;
-}
-
-double seen_ratio_at(const GradientField& field, const LandmarkTemplate& shape, Cell at) {
-  const auto seen =
-      std::ranges::count_if(shape.cells, [&](const TemplateCell& cell) { return !field.is_unseen(at + cell.offset); });
-  return static_cast<double>(seen) / static_cast<double>(shape.cells.size());
 }
 
 std::int32_t unseen_mismatch(const LandmarkTemplate& shape) {

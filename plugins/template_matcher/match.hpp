@@ -36,10 +36,7 @@ struct TemplateMatch {
 // The mismatch of one template centred on one cell. The field covers the template there.
 [[nodiscard]] std::int32_t mismatch_at(const GradientField& field, const LandmarkTemplate& shape, Cell at);
 
-// The share of a template's cells there that somebody has looked at.
-[[nodiscard]] double seen_ratio_at(const GradientField& field, const LandmarkTemplate& shape, Cell at);
-
-// The mismatch over floor without any gradient.
+// The same over floor that nothing is known of.
 [[nodiscard]] std::int32_t unseen_mismatch(const LandmarkTemplate& shape);
 
 // Best place of every template over all cells of the spans, which are not empty and sorted by

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "plugins/template_matcher/gradient_field.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "plugins/template_matcher/match_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -33,24 +31,18 @@ void ProjectOnAxis(const ProjectionRows& rows, int k, std::uint16_t* along, std:
   const auto uy = hn::Set(d, u.y);
   const auto offset = hn::Set(d, static_cast<std::int16_t>(rows.offset + 1));
   const auto two = hn::Set(d, std::int16_t{2});
-  // More than any template wants: a cell that nobody has looked at adds nothing to a bound.
-  const auto unseen = hn::Set(d, GradientField::kUnseen);
-  const auto enough = hn::Set(d, static_cast<std::int16_t>(2 * rows.offset));
   for (std::size_t row = 0; row < rows.height; ++row) {
     const std::int16_t* x = rows.x + row * rows.gradient_stride;
     const std::int16_t* y = rows.y + row * rows.gradient_stride;
     for (std::size_t i = 0; i < rows.width; i += hn::Lanes(d)) {
       // Four times the projection; each product is rounded down, so up to 2 is missing.
-      const auto here = hn::LoadU(d, x + i);
-      const auto is_unseen = hn::Eq(here, unseen);
-      const auto low =
-          hn::Add(hn::MulHigh(hn::ShiftLeft<4>(here), ux), hn::MulHigh(hn::ShiftLeft<4>(hn::LoadU(d, y + i)), uy));
+      const auto low = hn::Add(hn::MulHigh(hn::ShiftLeft<4>(hn::LoadU(d, x + i)), ux),
+                               hn::MulHigh(hn::ShiftLeft<4>(hn::LoadU(d, y + i)), uy));
       const auto high = hn::Add(low, two);
       const int shift = rows.shift + 2;
-      const auto ahead = hn::IfThenElse(is_unseen, enough, hn::Add(hn::ShiftRightSame(high, shift), offset));
-      const auto behind = hn::IfThenElse(is_unseen, enough, hn::Add(hn::ShiftRightSame(hn::Neg(low), shift), offset));
-      hn::StoreU(hn::BitCast(du, ahead), du, along + row * stride + i);
-      hn::StoreU(hn::BitCast(du, behind), du, against + row * stride + i);
+      hn::StoreU(hn::BitCast(du, hn::Add(hn::ShiftRightSame(high, shift), offset)), du, along + row * stride + i);
+      hn::StoreU(hn::BitCast(du, hn::Add(hn::ShiftRightSame(hn::Neg(low), shift), offset)), du,
+                 against + row * stride + i);
     }
   }
 }
@@ -187,16 +179,13 @@ void SumPieceShortfalls(const std::uint16_t* maps, std::span<const BoundCell> ce
 }
 
 void SumDistances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t stride,
-                  std::span<const GradientCell> cells, std::int32_t unseen_cost, std::int32_t limit,
-                  std::int32_t* sums) {
+                  std::span<const GradientCell> cells, std::int32_t limit, std::int32_t* sums) {
   const hn::CappedTag<float, kPlacesPerExactPiece> d;
   const hn::RebindToSigned<decltype(d)> di;
   const hn::Rebind<std::int16_t, decltype(d)> dh;
   const auto load = [&](const std::int16_t* from)
                         HWY_ATTR { return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(dh, from))); };
   const auto most = hn::Set(di, limit);
-  const auto unseen = hn::Set(d, static_cast<float>(GradientField::kUnseen));
-  const auto cost = hn::Set(di, unseen_cost);
   for (std::size_t done = 0; done < kPlacesPerExactPiece; done += hn::Lanes(d)) {
     auto sum = hn::Zero(di);
     for (std::size_t i = 0; i < cells.size();) {
@@ -204,14 +193,12 @@ void SumDistances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t s
       for (; i < stop; ++i) {
         const GradientCell& cell = cells[i];
         const std::ptrdiff_t at = cell.y * stride + cell.x + static_cast<std::ptrdiff_t>(done);
-        const auto here = load(x + at);
-        const auto dx = hn::Sub(here, hn::Set(d, static_cast<float>(cell.gradient_x)));
+        const auto dx = hn::Sub(load(x + at), hn::Set(d, static_cast<float>(cell.gradient_x)));
         const auto dy = hn::Sub(load(y + at), hn::Set(d, static_cast<float>(cell.gradient_y)));
         // As gradient_distance(): all but the root is exact, and the root is rounded correctly.
         const auto root = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
         const auto scaled = hn::Add(hn::Mul(root, hn::Set(d, 16.0F)), hn::Set(d, 0.5F));
-        const auto is_unseen = hn::RebindMask(di, hn::Eq(here, unseen));
-        sum = hn::Add(sum, hn::IfThenElse(is_unseen, cost, hn::ConvertTo(di, scaled)));
+        sum = hn::Add(sum, hn::ConvertTo(di, scaled));
       }
       if (hn::AllTrue(di, hn::Gt(sum, most))) break;
     }
@@ -220,12 +207,10 @@ void SumDistances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t s
 }
 
 std::int32_t SumDistance(const std::int32_t* both, std::ptrdiff_t stride, const GradientColumns& cells,
-                         std::int32_t unseen_cost, std::int32_t limit) {
+                         std::int32_t limit) {
   const hn::CappedTag<float, kPlacesPerExactPiece> d;
   const hn::RebindToSigned<decltype(d)> di;
   const auto row = hn::Set(di, static_cast<std::int32_t>(stride));
-  const auto unseen = hn::Set(d, static_cast<float>(GradientField::kUnseen));
-  const auto cost = hn::Set(di, unseen_cost);
   auto sums = hn::Zero(di);
   for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
     const auto at = hn::Add(hn::Mul(hn::LoadU(di, cells.y.data() + i), row), hn::LoadU(di, cells.x.data() + i));
@@ -236,8 +221,7 @@ std::int32_t SumDistance(const std::int32_t* both, std::ptrdiff_t stride, const 
     const auto dy = hn::Sub(y, hn::LoadU(d, cells.gradient_y.data() + i));
     const auto root = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
     const auto scaled = hn::Add(hn::Mul(root, hn::Set(d, 16.0F)), hn::Set(d, 0.5F));
-    const auto is_unseen = hn::RebindMask(di, hn::Eq(x, unseen));
-    const auto distance = hn::IfThenElse(is_unseen, cost, hn::ConvertTo(di, scaled));
+    const auto distance = hn::ConvertTo(di, scaled);
     sums = hn::Add(sums, hn::IfThenElseZero(hn::FirstN(di, cells.count - i), distance));
     const bool is_time = (i + hn::Lanes(d)) % (2 * kPlacesPerExactPiece) == 0;
     if (is_time && hn::GetLane(hn::SumOfLanes(di, sums)) > limit) break;
@@ -306,14 +290,13 @@ std::size_t collect_below(const std::uint16_t* sums, std::size_t count, std::uin
 }
 
 void sum_distances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t stride,
-                   std::span<const GradientCell> cells, std::int32_t unseen_cost, std::int32_t limit,
-                   std::int32_t* sums) {
-  HWY_DYNAMIC_DISPATCH(SumDistances)(x, y, stride, cells, unseen_cost, limit, sums);
+                   std::span<const GradientCell> cells, std::int32_t limit, std::int32_t* sums) {
+  HWY_DYNAMIC_DISPATCH(SumDistances)(x, y, stride, cells, limit, sums);
 }
 
 std::int32_t sum_distance(const std::int32_t* both, std::ptrdiff_t stride, const GradientColumns& cells,
-                          std::int32_t unseen_cost, std::int32_t limit) {
-  return HWY_DYNAMIC_DISPATCH(SumDistance)(both, stride, cells, unseen_cost, limit);
+                          std::int32_t limit) {
+  return HWY_DYNAMIC_DISPATCH(SumDistance)(both, stride, cells, limit);
 }
 
 void GradientColumns::push_back(const GradientCell& cell) {

@@ -58,7 +58,7 @@ struct ProjectionRows {
 };
 
 // kDirections maps. Writes up to kPlacesPerPiece values beyond a row's width: stride >= width, and the
-// last map has room behind it. Cells that are GradientField::kUnseen have the largest projection on every direction.
+// last map has room behind it.
 void project(const ProjectionRows& rows, std::uint16_t* maps, std::size_t map_size, std::size_t stride);
 
 // Of each map four maps of half the size, one for each parity of (row, column): the largest value of
@@ -86,10 +86,9 @@ struct GradientCell {
 };
 
 // The mismatches of kPlacesPerExactPiece neighbouring places. Given up when all are above `limit`: then none of the
-// sums is at most `limit`. unseen_cost: of a cell that is GradientField::kUnseen.
+// sums is at most `limit`.
 void sum_distances(const std::int16_t* x, const std::int16_t* y, std::ptrdiff_t stride,
-                   std::span<const GradientCell> cells, std::int32_t unseen_cost, std::int32_t limit,
-                   std::int32_t* sums);
+                   std::span<const GradientCell> cells, std::int32_t limit, std::int32_t* sums);
 
 // A template's cells by columns, as sum_distance() reads them.
 struct GradientColumns {
@@ -105,6 +104,6 @@ struct GradientColumns {
 // The mismatch of one place, where sum_distances() would compute its neighbours too; `both` as
 // GradientField::both_from() gives it. Given up once it is above `limit`: then what is returned is above it too.
 [[nodiscard]] std::int32_t sum_distance(const std::int32_t* both, std::ptrdiff_t stride, const GradientColumns& cells,
-                                        std::int32_t unseen_cost, std::int32_t limit);
+                                        std::int32_t limit);
 
 }  // namespace cairn::template_matcher

@@ -36,12 +36,6 @@ std::vector<std::int32_t> ceilings_of(const ScoreRule& rule, std::span<const Lan
   return ceilings;
 }
 
-// What nobody has looked at speaks neither for a landmark nor against it.
-std::optional<std::int32_t> unseen_cost_of(const Config& config, const ScoreRule& rule) {
-  if (config.unseen_degree <= 0.0) return std::nullopt;
-  return static_cast<std::int32_t>(std::lround((1.0 - config.unseen_degree) * kMismatchPerUnit * rule.mu));
-}
-
 // Above this mismatch a template fits worse than the other one does.
 std::int32_t ceiling_beside(const TemplateMatch& other, const LandmarkTemplate& other_shape,
                             const LandmarkTemplate& shape) {
@@ -62,7 +56,6 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       template_reach_(reach_of(templates_->templates)),
       coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),
       trigger_(config),
-      unseen_cost_(unseen_cost_of(config, rule_)),
       matcher_(templates_->templates),
       ceilings_(ceilings_of(rule_, templates_->templates)),
       neighbours_(*templates_) {}
@@ -84,7 +77,7 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   const std::vector<CellSpan> spans = fine_spans(coarse_, region);
   const CellBox box = CellChanges{spans}.box();
   // One cell more than the templates reach, for the places around the best one.
-  field_.look_at(grid, box.grown(template_reach_ + 1), unseen_cost_);
+  field_.look_at(grid, box.grown(template_reach_ + 1));
   std::vector<TemplateMatch> on_cells = search(spans);
   const std::vector<TemplateMatch> matches = config_.between_cells ? refined(on_cells) : on_cells;
   Matching matching;
@@ -148,8 +141,6 @@ std::optional<Detection> TemplateMatcher::detection_of(const std::vector<Templat
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
-  if (unseen_cost_ && seen_ratio_at(field_, templates[best], matches[best].at) < config_.min_seen_ratio)
-    return std::nullopt;
   const LandmarkTemplate& t = templates[best];
   const double degree = degree_of(matches[best].mismatch, t.cells.size(), rule_.mu);
   std::vector<TemplateDegree> above = templates_above(matches, templates, rule_);

@@ -42,7 +42,6 @@ class TemplateMatcher : public Detector {
   int template_reach_;
   CoarseGrid coarse_;
   Trigger trigger_;
-  std::optional<std::int32_t> unseen_cost_;
   GradientField field_;  // of the current region
   FastMatcher matcher_;
   std::vector<std::int32_t> ceilings_;  // one a template: from there on below every threshold

@@ -99,9 +99,8 @@ std::vector<TemplateMatch> below(std::vector<TemplateMatch> matches, std::span<c
 }
 
 GradientField field_for(const OccupancyGrid& grid, const std::vector<CellSpan>& region,
-                        std::span<const LandmarkTemplate> templates, int spare = 0,
-                        std::optional<std::int32_t> unseen_cost = {}) {
-  return {grid, CellChanges{region}.box().grown(reach_of(templates) + spare), unseen_cost};
+                        std::span<const LandmarkTemplate> templates, int spare = 0) {
+  return {grid, CellChanges{region}.box().grown(reach_of(templates) + spare)};
 }
 
 // Runs the check with every instruction set that this machine has, the plain code among them.
@@ -131,10 +130,7 @@ TEST(FastMatcher, AnswersAsTheExhaustiveMatcherToTheBit) {
     // The same matcher over regions of different sizes, one after the other.
     for (int round = 0; round < 2; ++round) {
       const std::vector<CellSpan> region = random_region(random);
-      // Every third grid has a cost for what nobody has seen.
-      const std::optional<std::int32_t> unseen_cost =
-          seed % 3 == 0 ? std::optional(between(random, 0, 1000) * kMismatchPerUnit) : std::nullopt;
-      const GradientField field = field_for(grid, region, templates, between(random, 0, 2), unseen_cost);
+      const GradientField field = field_for(grid, region, templates, between(random, 0, 2));
       const std::vector<TemplateMatch> best = match_exhaustively(field, region, templates);
       std::vector<std::int32_t> ceilings;
       for (const TemplateMatch& match : best) ceilings.push_back(random_ceiling(random, match.mismatch));
