@@ -156,7 +156,7 @@ void OdometryCompass::follow_compass(double compass_rad, double stamp_s) {
 }
 
 // The compass and the heading have parted, and one of them is wrong: the compass most likely, as something of steel is
-// met more often than a wheel slips. Both are widened, so that the next walls and landmarks tell.
+// met more often than a wheel slips. Both are widened, so that the next walls and landmarks decide.
 void OdometryCompass::suspect_bias(double off_rad) {
   filter_.doubt_heading(off_rad);
   filter_.doubt_bias(kBiasBeforeSlip * off_rad);

@@ -27,7 +27,7 @@ TEST(NearMisses, LeaveOutWhatHardlyFits) {
   EXPECT_TRUE(misses.away_from({}).empty());
 }
 
-TEST(NearMisses, KeepTheNewestOfAPlaceAndTellTheBestFirst) {
+TEST(NearMisses, KeepTheNewestOfAPlaceAndListTheBestFirst) {
   NearMisses misses;
   misses.update(matching({1.0, 2.0}, 0.59, 0.5));
   misses.update(matching({1.1, 2.1}, 0.5, 0.47));
