@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "framework/planning/clusters_config.hpp"
 #include "maps/base/portable_random.hpp"
 #include "maps/geometry/segments.hpp"
 #include "maps/grid/swept_disc.hpp"
+#include "maps/hierarchy/hierarchy.hpp"
 
 namespace cairn {
 namespace {
@@ -54,6 +56,7 @@ class Plan {
     build_rooms();
     close_corridors();
     place_landmarks();
+    form_clusters();
     return std::move(map_);
   }
 
@@ -234,6 +237,13 @@ class Plan {
       }
       before = {door, id};
     }
+  }
+
+  // As a mission saves them.
+  void form_clusters() {
+    const ClusterSizes sizes = ClustersConfig{}.sizes();
+    map_.clusters =
+        cluster_landmarks(map_.graph, {}, {sizes, passages_in(map_.grid, map_.graph, sizes.narrow_below_m)});
   }
 
   const BuildingRules& rules_;
