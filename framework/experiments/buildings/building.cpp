@@ -269,7 +269,7 @@ std::vector<std::pair<Point, Point>> random_pairs(const OccupancyGrid& grid, dou
       const double y = random.between(box.min.y, box.max.y);
       const Point at = grid.origin_m() + grid.cell_m() * Point(x, y);
       // To the millimetre, as a question says it.
-      const Point rounded = (at * 1e3).array().round().matrix() / 1e3;
+      Point rounded = (at * 1e3).array().round().matrix() / 1e3;
       if (sweep_is_free(grid, {}, rounded, rounded, radius_m + 0.01)) return rounded;
     }
   };
