@@ -36,6 +36,7 @@ Run asked(std::vector<std::string> arguments, const std::filesystem::path& outpu
   arguments.insert(arguments.begin(), {"cairn", "plan"});
   arguments.emplace_back("--json");
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t files{};
