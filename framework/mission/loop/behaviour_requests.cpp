@@ -123,10 +123,11 @@ void BehaviourRequests::output(const std::string& name, const Place& place) {
 
 Status BehaviourRequests::name_landmark(LandmarkId id, const std::string& name) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
-  const Landmark* const landmark = host_.world.graph.find(id);
+  const LandmarkGraph& graph = host_.tracker.graph();
+  const Landmark* const landmark = graph.find(id);
   if (landmark == nullptr) return {StepState::failure, fmt::format("there is no landmark L{}", id)};
   const ClusterTree clusters = host_.planning.hierarchies().last_tree();
-  if (const std::string refusal = refusal_of_name(name, host_.world.graph, clusters, &landmark->name); !refusal.empty())
+  if (const std::string refusal = refusal_of_name(name, graph, clusters, &landmark->name); !refusal.empty())
     return {StepState::failure, "the name " + in_quotes(name) + " cannot be given: " + refusal};
   const std::string before = label_of(*landmark);
   host_.tracker.name(id, name);

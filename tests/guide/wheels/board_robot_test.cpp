@@ -19,7 +19,10 @@ class BoardRobotTest : public testing::Test {
     robot_.sonars[1].T_robot_sonar = {0.1, 0.0, 0.5};
     sensor_.emplace(ends_[0], Config{"the line", 0.05}, robot_);
   }
-  ~BoardRobotTest() override { ::close(ends_[1]); }
+  ~BoardRobotTest() override {
+    sensor_.reset();  // it stops the wheels: the line must be there
+    ::close(ends_[1]);
+  }
 
   void send(const Report& report, std::size_t from = 0, std::size_t to = sizeof(Report)) const {
     const auto* bytes = reinterpret_cast<const char*>(&report);
