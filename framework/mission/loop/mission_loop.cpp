@@ -25,7 +25,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       pace_(options.wall_clock),
       pauses_(options.control, options.wall_clock),
       monitor_(mission_.config.collision_monitor, mission_.robot, options.wall_clock),
-      planning_(mission_, modules_, world_.graph, options.resume != nullptr ? options.resume->clusters : ClusterTree{},
+      planning_(mission_, modules_, world_.graph, clusters_to_begin_with(mission_.config.clusters, options.resume),
                 monitor_, budget_),
       saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
               world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),

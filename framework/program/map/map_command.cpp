@@ -27,6 +27,27 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMaxListed = 50;
 
+// At most twelve of them.
+std::string text_of_first(const std::vector<LandmarkId>& landmarks) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(landmarks.size(), kMost); ++i) text += fmt::format(" L{}", landmarks[i]);
+  return landmarks.size() > kMost ? text + " ..." : text;
+}
+
+ordered_json clusters_json(const SavedMap& map) {
+  ordered_json clusters = ordered_json::array();
+  for (const auto& [id, cluster] : map.clusters.clusters) {
+    ordered_json members = ordered_json::array();
+    for (const LandmarkId landmark : members_of(map.clusters, id)) members.push_back(fmt::format("L{}", landmark));
+    clusters.push_back({{"id", fmt::format("C{}:L{}", cluster.level, cluster.anchor)},
+                        {"name", cluster.name},
+                        {"level", cluster.level},
+                        {"landmarks", std::move(members)}});
+  }
+  return clusters;
+}
+
 ordered_json levels_json(const SavedMap& map) {
   ordered_json levels = ordered_json::array();
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
@@ -84,6 +105,7 @@ ordered_json json_of(const SavedMap& map, int schema) {
           {"components", components_of(map.graph)},
           {"close_categories", close_json(map.graph)},
           {"levels", levels_json(map)},
+          {"clusters", clusters_json(map)},
           {"explored_ratio", known_ratio(map.grid)},
           {"progress", json_of(map.progress)}};
 }
@@ -127,9 +149,10 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
                        std::lround(degrees(landmark.T_map_landmark.theta_rad)), printable(degree_text(landmark)), name);
   });
   list_first(map.clusters.clusters, "clusters", [&](const Cluster& cluster) {
-    const std::size_t landmarks = members_of(map.clusters, cluster.id).size();
-    return fmt::format("  C{}:L{}{}, {}\n", cluster.level, cluster.anchor,
-                       cluster.name.empty() ? "" : " " + printable(cluster.name), counted(landmarks, "landmark"));
+    const std::vector<LandmarkId> members = members_of(map.clusters, cluster.id);
+    return fmt::format("  C{}:L{}{}, {}:{}\n", cluster.level, cluster.anchor,
+                       cluster.name.empty() ? "" : ", " + in_quotes(cluster.name), counted(members.size(), "landmark"),
+                       text_of_first(members));
   });
   list_first(map.graph.routes(), "routes", [](const Route& route) {
     return fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", route.id, route.from, route.to, route.cost_m,
