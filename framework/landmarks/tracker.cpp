@@ -48,6 +48,11 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
   driven_ = DrivenPath(std::move(driven_path), driven_.max_poses());
 }
 
+void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
+  driven_ = DrivenPath(driven_.max_poses());
+  for (const Pose2& pose : T_map_robot) driven_.record(pose);
+}
+
 void LandmarkTracker::record_pose(const PoseEstimate& pose) {
   driven_.record(pose.T_map_robot);
   association_.record_pose(pose);

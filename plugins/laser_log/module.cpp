@@ -1,0 +1,21 @@
+#include "framework/contracts/module.hpp"
+
+#include "plugins/laser_log/laser_log.hpp"
+
+namespace {
+
+void register_module(cairn::Registrar& registrar) {
+  namespace laser_log = cairn::laser_log;
+  registrar.add<cairn::Sensor, laser_log::Config>(
+      "laser_log", "plays back laser scans with odometry from a log of any kind that its content shows",
+      [](const laser_log::Config& config, const cairn::SensorContext& context) {
+        if (context.modules == nullptr) throw std::invalid_argument("laser_log: no maker of modules in its context");
+        return std::make_unique<laser_log::LaserLog>(
+            context.modules->make<cairn::Sensor>(laser_log::reader_of(config.file, context.budget), context),
+            config.longest_m);
+      });
+}
+
+}  // namespace
+
+CAIRN_MODULE(register_module)
