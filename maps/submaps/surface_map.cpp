@@ -13,6 +13,10 @@ constexpr double kFewestOnALine = 4.0;
 constexpr double kMaxThickness = 0.15;  // variance across a line, of the variance along it
 constexpr double kSlack = 1e-9;
 
+bool is_place(const Point& point_m) {
+  return std::abs(point_m.x()) <= kFarthest_m && std::abs(point_m.y()) <= kFarthest_m;
+}
+
 struct NormalSum {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -57,7 +61,7 @@ const SurfaceMap::Surface* SurfaceMap::find(int x, int y) const {
 void SurfaceMap::add(std::span<const Point> points_m) {
   std::set<std::pair<int, int>> changed;
   for (const Point& point_m : points_m) {
-    if (!(point_m.cwiseAbs().maxCoeff() <= kFarthest_m)) continue;
+    if (!is_place(point_m)) continue;
     const int x = cell_of(point_m.x());
     const int y = cell_of(point_m.y());
     Surface& cell = cells_[key_of(x, y)];
@@ -100,7 +104,7 @@ void SurfaceMap::fit(int x, int y) {
 }
 
 const SurfaceLine* SurfaceMap::nearest(const Point& point_m) const {
-  if (!(point_m.cwiseAbs().maxCoeff() <= kFarthest_m)) return nullptr;
+  if (!is_place(point_m)) return nullptr;
   const int x = cell_of(point_m.x());
   const int y = cell_of(point_m.y());
   const SurfaceLine* line = nullptr;

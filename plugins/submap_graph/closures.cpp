@@ -8,9 +8,7 @@
 namespace cairn::submap_graph {
 namespace {
 
-constexpr double kFieldCell_m = 0.1;
-constexpr double kFieldSigma_m = 0.12;
-constexpr int kLevels = 6;
+constexpr int kClosureLevels = 6;
 constexpr std::size_t kPyramidsKept = 24;
 constexpr double kReach_m = 6.0;  // of a submap around its nodes, for candidates
 constexpr std::size_t kCandidates = 4;
@@ -36,7 +34,7 @@ const FieldPyramid& Closer::pyramid_of(const Submap& submap) {
   } else {
     if (pyramids_.size() >= kPyramidsKept) pyramids_.pop_back();
     pyramids_.emplace(pyramids_.begin(), &submap,
-                      std::make_unique<FieldPyramid>(submap.pyramid(kFieldCell_m, kFieldSigma_m, kLevels)));
+                      std::make_unique<FieldPyramid>(submap.pyramid(kFieldCell_m, kFieldSigma_m, kClosureLevels)));
   }
   return *pyramids_.front().second;
 }
@@ -123,8 +121,7 @@ std::vector<Closure> Closer::witnessed(const std::vector<Closure>& found) {
 
 std::vector<Closure> Closer::close(std::size_t node, const TiedGraph& graph,
                                    std::span<const std::shared_ptr<const Submap>> finished) {
-  const double untied_m = driven_m_[node] - trusted_at_m_;
-  const double window_m = std::min(config_.min_window_m + config_.drift_ratio * untied_m, config_.max_window_m);
+  const double window_m = std::min(config_.min_window_m + config_.drift_ratio * untied_m(node), config_.max_window_m);
   std::erase_if(waiting_, [&](const Waiting& waiting) {
     return driven_m_[node] - driven_m_[waiting.closure.node] > config_.witness_m;
   });

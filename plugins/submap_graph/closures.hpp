@@ -26,6 +26,9 @@ class Closer {
   [[nodiscard]] std::vector<Closure> close_again(std::size_t node, const TiedGraph& graph,
                                                  std::span<const std::shared_ptr<const Submap>> finished);
 
+  // The way since the node was last tied to a place that was passed before.
+  [[nodiscard]] double untied_m(std::size_t node) const { return driven_m_[node] - trusted_at_m_; }
+
  private:
   struct Waiting {
     Closure closure;

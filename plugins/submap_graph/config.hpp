@@ -5,6 +5,10 @@
 
 namespace cairn::submap_graph {
 
+// Of the fields that scans are searched in.
+inline constexpr double kFieldCell_m = 0.1;
+inline constexpr double kFieldSigma_m = 0.12;
+
 struct Config {
   // Scans.
   double longest_m = 30.0;

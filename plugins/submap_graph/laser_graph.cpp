@@ -40,10 +40,15 @@ Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot
   return graph_.T_map(node);
 }
 
+// The match's, and the drift since the last closure: a third of the window's growth, which is of three deviations.
 Eigen::Matrix3d LaserGraph::covariance_in_map(const LocalPose& local) const {
   const std::size_t last = graph_.size() - 1;
   const double turn_rad = graph_.T_map(last).theta_rad - local_map_.T_older_node().theta_rad;
-  return information_in_turned(with_floor(local.information, kTieFloor_m, kTieFloor_rad).inverse(), -turn_rad);
+  const Eigen::Matrix3d information = with_floor(local.information, kTieFloor_m, kTieFloor_rad);
+  Eigen::Matrix3d covariance = information_in_turned(information.inverse(), -turn_rad);
+  const double drift_m = config_.drift_ratio / 3.0 * closer_.untied_m(last);
+  covariance.diagonal().head<2>().array() += drift_m * drift_m;
+  return 0.5 * (covariance + covariance.transpose());
 }
 
 void LaserGraph::take_node(std::size_t node, std::span<const Point> points_m, const LocalPose& local) {

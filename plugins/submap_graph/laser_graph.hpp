@@ -32,7 +32,7 @@ class LaserGraph {
   [[nodiscard]] std::vector<Pose2> poses() const;
   // Rises whenever earlier poses have been corrected.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
-  // Of the latest scan in the map, without what the map itself may be off.
+  // Of the latest scan in the map.
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return covariance_; }
   [[nodiscard]] double matched_ratio() const { return matched_ratio_; }
   [[nodiscard]] const TiedGraph& graph() const { return graph_; }

@@ -7,9 +7,7 @@
 namespace cairn::submap_graph {
 namespace {
 
-constexpr double kFieldCell_m = 0.1;
-constexpr double kFieldSigma_m = 0.12;
-constexpr int kLevels = 4;
+constexpr int kLocalLevels = 4;
 constexpr double kMinScore = 0.3;
 constexpr double kClearlyBetter = 0.03;
 
@@ -61,7 +59,7 @@ Alignment LocalMap::aligned_with_older(std::span<const Point> points_m, const Po
   const SurfaceMap& map = open_.front()->surfaces();
   const AlignmentSettings settings = alignment_of(config_);
   const Alignment near = align(map, points_m, odometry.T_map_scan, odometry, settings);
-  if (!field_) field_ = open_.front()->pyramid(kFieldCell_m, kFieldSigma_m, kLevels);
+  if (!field_) field_ = open_.front()->pyramid(kFieldCell_m, kFieldSigma_m, kLocalLevels);
   const auto found = search(*field_, points_m, {odometry.T_map_scan, config_.search_m, config_.search_rad}, kMinScore);
   if (!found) return near;
   const Alignment other = align(map, points_m, found->T_field_scan, odometry, settings);

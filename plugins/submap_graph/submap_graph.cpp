@@ -1,6 +1,7 @@
 #include "plugins/submap_graph/submap_graph.hpp"
 
 #include <cmath>
+#include <set>
 
 namespace cairn::submap_graph {
 namespace {
@@ -26,7 +27,7 @@ void gather_points(const Observation& observation, const Config& config, std::ve
   for (const RangeReading& reading : observation.ranges) {
     if (!is_usable(reading, config)) continue;
     const Point point_m = reading.T_robot_sensor * Point(reading.range_m, 0.0);
-    if (point_m.cwiseAbs().maxCoeff() > 2.0 * config.longest_m) continue;
+    if (!(point_m.norm() <= 2.0 * config.longest_m)) continue;
     const auto square = [&](double x) { return static_cast<int>(std::floor(x / config.point_spacing_m)); };
     if (config.point_spacing_m > 0.0 && !taken.emplace(square(point_m.x()), square(point_m.y())).second) continue;
     points_m.push_back(point_m);

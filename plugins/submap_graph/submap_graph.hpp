@@ -10,12 +10,11 @@
 //   bad readings, far ones
 //   nothing to match                     odometry alone
 //
-// The compass, the known map and landmarks are not used. The covariance is that of the latest match: what the map
-// itself is off is not in it. The graph and its submaps grow with the way, so update() allocates.
+// The compass, the known map and landmarks are not used. The covariance is that of the latest match and of the drift
+// since the last closure. The graph and its submaps grow with the way, so update() allocates.
 #pragma once
 
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "framework/contracts/localizer.hpp"

@@ -26,9 +26,9 @@ class TiedGraph {
   // Measured in the anchor's frame, with the information there.
   void tie(std::size_t anchor, std::size_t node, const Pose2& T_anchor_node, const Eigen::Matrix3d& information);
   void add(const Closure& closure);
-  // Finds the poses that fit the ties and the closures best. Closures that do not fit are left out of it, as long as
-  // they do not; when ties do not fit any more, the closures since the last solution are given up, and nothing has
-  // moved. Whether poses have moved.
+  // Finds the poses that fit the ties and the closures best. Closures that do not fit are left out of it, the worst
+  // first, until they do. When ties do not fit any more, or newer closures push out earlier ones, the closures since
+  // the last solution are given up, and nothing has moved. Whether poses have moved.
   bool solve();
 
   [[nodiscard]] std::size_t size() const { return graph_.T_map_node.size(); }
@@ -37,7 +37,9 @@ class TiedGraph {
   [[nodiscard]] std::size_t believed() const;
 
  private:
-  [[nodiscard]] bool breaks_ties(const std::vector<Pose2>& T_map_node) const;
+  // Whether ties do not fit, or more closures that were believed before do not than newer ones do.
+  [[nodiscard]] bool is_broken(const std::vector<bool>& believed, const std::vector<Pose2>& T_map_node) const;
+  [[nodiscard]] std::vector<Pose2> solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const;
 
   PoseGraph graph_;  // nodes and ties
   std::vector<Closure> closures_;

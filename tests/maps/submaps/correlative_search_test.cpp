@@ -51,9 +51,9 @@ TEST(CorrelativeSearch, FindsWhereAScanWasTaken) {
 }
 
 TEST(CorrelativeSearch, FindsNothingBelowTheLeastScoreOrWithoutPoints) {
-  const std::vector<Point> map_m = {{0.0, 0.0}};
+  const std::vector<Point> map_m = {{0.05, 0.05}};
   const FieldPyramid pyramid(LikelihoodField(map_m, 0.1, 0.1), 3);
-  const std::vector<Point> scan_m = {{0.0, 0.0}, {3.0, 0.0}};
+  const std::vector<Point> scan_m = {{0.05, 0.05}, {3.0, 0.0}};
   EXPECT_FALSE(search(pyramid, scan_m, {{}, 0.5, 0.1}, 0.7)) << "half of the points fit at most";
   EXPECT_TRUE(search(pyramid, scan_m, {{}, 0.5, 0.1}, 0.4));
   EXPECT_FALSE(search(pyramid, {}, {{}, 0.5, 0.1}, 0.0));

@@ -15,7 +15,8 @@ SurfaceMap map_of(const std::vector<DrawnWall>& walls, const std::vector<Pose2>&
   std::uint64_t seed = 100;
   for (const Pose2& T_map_robot : seen_at) {
     std::vector<Point> points_m;
-    for (const Point& point_m : seen_from(walls, T_map_robot, 360, 0.01, ++seed)) points_m.push_back(T_map_robot * point_m);
+    for (const Point& point_m : seen_from(walls, T_map_robot, 360, 0.01, ++seed))
+      points_m.push_back(T_map_robot * point_m);
     map.add(points_m);
   }
   return map;
@@ -68,8 +69,7 @@ TEST(Align, KnowsNothingAlongACorridorAndHoldsOnToThePredictionThere) {
   const SurfaceMap map = map_of(corridor, {{0.0, 1.0, 0.0}, {1.0, 1.0, 0.0}});
   const Pose2 truth{0.5, 1.1, 0.02};
   const PosePrediction prediction{{0.7, 1.05, 0.0}, 100.0 * Eigen::Matrix3d::Identity()};
-  const Alignment aligned =
-      align(map, seen_from(corridor, truth, 180, 0.01, 7), prediction.T_map_scan, prediction, {});
+  const Alignment aligned = align(map, seen_from(corridor, truth, 180, 0.01, 7), prediction.T_map_scan, prediction, {});
   EXPECT_NEAR(aligned.T_map_scan.x_m, 0.7, 0.03) << "the prediction's";
   EXPECT_NEAR(aligned.T_map_scan.y_m, 1.1, 0.01) << "the walls'";
   EXPECT_LT(aligned.information(0, 0), 0.02 * aligned.information(1, 1));
