@@ -45,7 +45,7 @@ class Localizer {
   virtual ~Localizer() = default;
   // Numbers that are not finite, or beyond all maps, do not spoil the estimate: it stays finite and its
   // covariance symmetric and positive semi-definite; nor do landmarks whose places are. Hot: no allocation
-  // while the known landmarks stay the same.
+  // while the known landmarks stay the same, but for what a history keeps.
   virtual PoseEstimate update(const Observation& observation, const KnownMap& known) = 0;
   // Null: what has been estimated once is never corrected.
   virtual PoseHistory* history() { return nullptr; }

@@ -1,5 +1,7 @@
 #include "plugins/laser_log/laser_log.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "maps/base/text.hpp"
@@ -57,6 +59,27 @@ PluginChoice reader_of(const std::filesystem::path& file, const Budget& budget) 
   set(choice.config, "on_bad_line", "skip");
   if (name == kCarmen) set(choice.config, "poses", "odometry");
   return choice;
+}
+
+double longest_echo_m(Sensor& log, double longest_m, const Budget& budget) {
+  constexpr std::size_t kOneIn = 1000;
+  constexpr std::size_t kFewest = 10;
+  constexpr double kJustBelow = 0.995;  // neighbouring numbers are codes of other faults
+  double greatest_m = 0.0;
+  std::size_t greatest = 0;
+  std::size_t all = 0;
+  while (true) {
+    const SensorStep step = log.next(budget);
+    if (step.state != SensorState::observation) break;
+    for (const RangeReading& reading : step.observation.ranges) {
+      ++all;
+      if (!std::isfinite(reading.range_m) || reading.range_m < greatest_m) continue;
+      greatest = reading.range_m > greatest_m ? 1 : greatest + 1;
+      greatest_m = reading.range_m;
+    }
+  }
+  const bool is_no_echo = greatest >= kFewest && kOneIn * greatest >= all;
+  return is_no_echo ? std::min(longest_m, kJustBelow * greatest_m) : longest_m;
 }
 
 SensorStep LaserLog::next(const Budget& budget) {

@@ -7,8 +7,8 @@
 //   anything else                        carmen_log: CARMEN, and pose graphs with ROBOTLASER1 scans (TORO, g2o)
 //
 // Odometry is what the log has of it: the raw one beside corrected poses, or the edges of its pose graph. Compressed by
-// gzip or not. Echoes from farther away than longest_m say nothing, nor does a beam without one: lasers write many
-// numbers for "no echo". Bad lines are skipped and counted.
+// gzip or not. Lasers write many numbers for "no echo": when the greatest range of the whole log comes often, it is
+// one. It says nothing here, nor do echoes from farther away than longest_m. Bad lines are skipped and counted.
 #pragma once
 
 #include <filesystem>
@@ -29,6 +29,10 @@ struct Config {
 
 // The plugin that reads such a file, with its settings. Throws ConfigError when it cannot be read.
 [[nodiscard]] PluginChoice reader_of(const std::filesystem::path& file, const Budget& budget);
+
+// Plays a log to its end. From this range on nothing is an echo: the least of longest_m and just below the greatest
+// range, when that is one reading in a thousand or more.
+[[nodiscard]] double longest_echo_m(Sensor& log, double longest_m, const Budget& budget);
 
 class LaserLog final : public Sensor {
  public:

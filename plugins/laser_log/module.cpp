@@ -10,9 +10,10 @@ void register_module(cairn::Registrar& registrar) {
       "laser_log", "plays back laser scans with odometry from a log of any kind that its content shows",
       [](const laser_log::Config& config, const cairn::SensorContext& context) {
         if (context.modules == nullptr) throw std::invalid_argument("laser_log: no maker of modules in its context");
-        return std::make_unique<laser_log::LaserLog>(
-            context.modules->make<cairn::Sensor>(laser_log::reader_of(config.file, context.budget), context),
-            config.longest_m);
+        const cairn::PluginChoice reader = laser_log::reader_of(config.file, context.budget);
+        const double longest_m = laser_log::longest_echo_m(*context.modules->make<cairn::Sensor>(reader, context),
+                                                           config.longest_m, context.budget);
+        return std::make_unique<laser_log::LaserLog>(context.modules->make<cairn::Sensor>(reader, context), longest_m);
       });
 }
 

@@ -45,6 +45,21 @@ TEST(LaserLog, RangesThatNoWallOfABuildingHasSayNothing) {
   EXPECT_EQ(log.next({}).state, SensorState::end_of_data);
 }
 
+TEST(LaserLog, AGreatestRangeThatComesOftenIsNoEcho) {
+  const log_files::LogFolder folder;
+  const auto longest_m = [&](const std::string& text) {
+    carmen_log::Config config;
+    config.file = folder.write("a.log", text);
+    log_common::ScanPlayer log(carmen_log::read_carmen_log(config));
+    return longest_echo_m(log, 30.0, {});
+  };
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += "FLASER 3 1 2 8.191 0 0 0 0 0 0 " + std::to_string(i) + " host 0\n";
+  EXPECT_NEAR(longest_m(text), 0.995 * 8.191, 1e-9);
+  EXPECT_EQ(longest_m(text + "FLASER 3 1 2 12.5 0 0 0 0 0 0 30 host 0\n"), 30.0) << "a wall that was seen once";
+  EXPECT_EQ(longest_m(kFlaser), 30.0);
+}
+
 TEST(LaserLog, AFileThatIsNotThereIsRefused) {
   EXPECT_THROW((void)reader_of("/nowhere/a.log", {}), ConfigError);
 }
