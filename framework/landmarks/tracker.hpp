@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/contracts/detector.hpp"
@@ -37,6 +38,9 @@ class LandmarkTracker {
 
   // Goes on from what an earlier run has known.
   void restore(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path);
+
+  // Names a landmark. False when there is none with that id.
+  bool name(LandmarkId id, const std::string& name);
 
   // Remembers where the robot has been, and how well it knew that. At every tick.
   void record_pose(const PoseEstimate& pose);

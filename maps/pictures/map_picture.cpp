@@ -133,12 +133,12 @@ void draw_marks(Canvas& canvas, const MapPicture& picture, const MapFrame& frame
 
 LabelPlacer placer_for(const MapPicture& picture, const MapFrame& frame) {
   LabelPlacer placer(frame.box, [&](const PixelBox& box) { return 1.5 * darkness_of(picture.grid, frame, box); });
-  placer.avoid_line(frame.pixels_of(picture.planned), 1.0);
+  placer.keep_line_clear(frame.pixels_of(picture.planned));
   placer.avoid_line(frame.pixels_of(picture.driven), 0.15);
   for (const auto& place : {picture.start, picture.goal})
     if (place) {
       const Pixel at = frame.pixel_of(*place);
-      placer.avoid({at - Pixel(9.0, 9.0), at + Pixel(9.0, 9.0)}, 5.0);
+      placer.keep_clear({at - Pixel(9.0, 9.0), at + Pixel(9.0, 9.0)});
     }
   if (picture.robot) {
     const Pixel at = frame.pixel_of(picture.robot->position());
@@ -205,11 +205,11 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   canvas.line(frame.pixels_of(picture.driven), kDrivenStroke);
   graph.draw_routes(canvas, frame);
   graph.draw_landmarks(canvas, frame);
+  LabelPlacer placer = placer_for(picture, frame);
+  graph.draw_labels(canvas, frame, placer, picture.planned_landmarks);
   draw_robot_along(canvas, frame, shape_of(picture), picture.robot_path);
   canvas.line(frame.pixels_of(picture.planned), kPlannedStroke);
   draw_marks(canvas, picture, frame);
-  LabelPlacer placer = placer_for(picture, frame);
-  graph.draw_labels(canvas, frame, placer);
   draw_border(canvas, frame);
   draw_title(canvas, picture.title, subtitle_of(picture));
   legend.draw(canvas, {frame.box.min.x(), legend_top_px});

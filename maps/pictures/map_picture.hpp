@@ -19,10 +19,11 @@ namespace cairn {
 struct MapPicture {
   const OccupancyGrid* grid = nullptr;  // none or empty: a blank page
   const LandmarkGraph* graph = nullptr;
-  const ClusterTree* clusters = nullptr;  // with any, dots are coloured by cluster
-  std::vector<LandmarkShape> shapes;      // outlines of the graph's categories; a dot where there is none
-  std::vector<Point> driven;              // in the map frame, as all below
-  std::vector<Point> planned;
+  const ClusterTree* clusters = nullptr;      // with any, dots are coloured by cluster
+  std::vector<LandmarkShape> shapes;          // outlines of the graph's categories; a dot where there is none
+  std::vector<Point> driven;                  // in the map frame, as all below
+  std::vector<Point> planned;                 // on top of the graph and its labels
+  std::vector<LandmarkId> planned_landmarks;  // that the planned path passes: their labels come first
   // Of a world that changes: the leaves of its doors, and where its people and carts go.
   std::vector<std::vector<Point>> doors;
   std::vector<std::vector<Point>> mover_paths;

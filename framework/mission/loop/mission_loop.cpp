@@ -31,7 +31,8 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
                 monitor_, budget_),
       saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
               world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
-      steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller},
+      steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller,
+              perception_.tracker()},
              modules_.behaviours, TextFiles(options.out, options.resume != nullptr)),
       fatal_ends_(monitor_, modules_.clock) {
   world_.pose.T_map_robot = modules_.T_map_start;

@@ -148,7 +148,7 @@ Chart factor_chart(const FactorConfig& factor, const std::vector<FactorPoint>& p
   chart.title = "Recognition against " + factor.name + ", with 95 % intervals";
   chart.x_label = factor.label;
   chart.y_label = "share";
-  chart.both_from_zero = true;
+  chart.of_shares_over_x = true;
   const bool numbers = std::ranges::all_of(points, [](const FactorPoint& p) { return number_of(p.value).has_value(); });
   const std::pair<const char*, Interval RecognitionFigures::*> kShown[] = {
       {"F1", &RecognitionFigures::f1},
@@ -189,7 +189,6 @@ std::vector<NamedChart> ring_charts(const ExperimentConfig& config, const std::v
     chart.title = "Finished maps across the landmarks' outlines, with 95 % intervals";
     chart.x_label = "distance from the true outline, m (positive outside)";
     chart.y_label = "mean OL";
-    chart.from_zero = true;
     for (const ExperimentVariant& variant : config.variants) {
       if (!variant.factor.empty()) continue;
       Series series{variant.name, {}, SeriesStyle::lines, {}};

@@ -15,6 +15,7 @@
 #include "maps/base/text.hpp"
 #include "maps/clustering/cluster_levels.hpp"
 #include "maps/clustering/cluster_tree.hpp"
+#include "maps/landmarks/close_categories.hpp"
 #include "maps/landmarks/joined_landmarks.hpp"
 #include "maps/landmarks/route_count.hpp"
 #include "maps/store/repair.hpp"
@@ -31,6 +32,19 @@ ordered_json levels_json(const SavedMap& map) {
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
     levels.push_back({{"clusters", clusters}, {"boundary", boundary}});
   return levels;
+}
+
+// Landmarks whose category has won by a hair.
+ordered_json close_json(const LandmarkGraph& graph) {
+  ordered_json list = ordered_json::array();
+  for (const auto& [id, landmark] : graph.landmarks())
+    if (const auto close = close_categories(landmark))
+      list.push_back({{"id", fmt::format("L{}", id)},
+                      {"category", close->category},
+                      {"degree", close->degree},
+                      {"other", close->other},
+                      {"other_degree", close->other_degree}});
+  return list;
 }
 
 // Sets of landmarks that open routes join, whichever their direction.
@@ -68,6 +82,7 @@ ordered_json json_of(const SavedMap& map, int schema) {
           {"landmarks", map.graph.landmarks().size()},
           {"routes", map.graph.routes().size()},
           {"components", components_of(map.graph)},
+          {"close_categories", close_json(map.graph)},
           {"levels", levels_json(map)},
           {"explored_ratio", known_ratio(map.grid)},
           {"progress", json_of(map.progress)}};
@@ -107,9 +122,9 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
                              counted(boundary, "landmark"));
   list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
     const std::string name = landmark.name.empty() ? "" : ", " + in_quotes(landmark.name);
-    return fmt::format("  L{:<5} {:<12} at ({:.2f}, {:.2f}), {} deg, degree {:.2f}{}\n", landmark.id,
+    return fmt::format("  L{:<5} {:<12} at ({:.2f}, {:.2f}), {} deg, degree {}{}\n", landmark.id,
                        printable(landmark.category), landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
-                       std::lround(degrees(landmark.T_map_landmark.theta_rad)), landmark.degree, name);
+                       std::lround(degrees(landmark.T_map_landmark.theta_rad)), printable(degree_text(landmark)), name);
   });
   list_first(map.clusters.clusters, "clusters", [&](const Cluster& cluster) {
     const std::size_t landmarks = members_of(map.clusters, cluster.id).size();

@@ -63,7 +63,6 @@ Chart chart_of(const std::vector<PoseErrorSample>& samples) {
   chart.title = "Error of the position";
   chart.x_label = "time, s";
   chart.y_label = "m";
-  chart.from_zero = true;
   chart.series.push_back(std::move(error));
   return chart;
 }

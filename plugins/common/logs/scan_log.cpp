@@ -97,11 +97,17 @@ void ScanLog::unknown_line(std::string_view kind) {
     unknown_.emplace(kind, 1);
 }
 
-void ScanLog::require_scans() const {
+void ScanLog::require_scans() {
   if (scans_.empty())
     throw ConfigError({file_, 0, 0},
                       "the log holds no observation" + (bad_lines_ > 0 ? "; first bad line: " + first_bad_ : "") +
                           (unknown_lines_ > 0 ? "; " + counted(unknown_lines_, "line") + " of unknown kinds" : ""));
+  const bool stands =
+      std::ranges::all_of(scans_, [&](const Kept& scan) { return scan.T_odom_robot == scans_.front().T_odom_robot; });
+  if (stands && scans_.size() >= kFewestToJudge)
+    note(
+        "all observations have the same pose: the log holds no poses, or the robot stood still; where it drove, "
+        "`localizer: {plugin: scan_to_map}` estimates them from a laser's scans");
 }
 
 void ScanLog::finish() {

@@ -119,8 +119,8 @@ class ScanLog {
   void unknown_line(std::string_view kind);
   void note(const std::string& sentence) { notes_.push_back(sentence); }
 
-  // When all is read. Throws ConfigError for a log without a scan.
-  void require_scans() const;
+  // When all is read. Throws ConfigError for a log without a scan. Notes that all of several scans have the same pose.
+  void require_scans();
   // The same, and decides on the stamps. Throws ConfigError also for a clock jump when those are refused.
   void finish();
 
