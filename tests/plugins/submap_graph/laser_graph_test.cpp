@@ -7,7 +7,7 @@
 namespace cairn::submap_graph {
 namespace {
 
-constexpr int kBeams = 120;
+constexpr int kBeams = 90;
 
 LaserGraph driven(const std::vector<DrivenScan>& drive, const Config& config = {}) {
   LaserGraph graph(config, drive.front().T_map_robot);
@@ -39,7 +39,8 @@ TEST(LaserGraph, ADriveRoundAndRoundComesBackToWhereItBeganAlthoughOdometryDoesN
 }
 
 TEST(LaserGraph, TheSameScansGiveTheSamePosesToTheLastBit) {
-  const std::vector<DrivenScan> drive = ring_drive(1, radians(2.0), 0.0);
+  std::vector<DrivenScan> drive = ring_drive(1, radians(2.0), 0.0);
+  drive.resize(60);
   EXPECT_EQ(driven(drive).poses(), driven(drive).poses());
 }
 
