@@ -49,6 +49,11 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
   driven_ = DrivenPath(std::move(driven_path), driven_.max_poses());
 }
 
+void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
+  driven_ = DrivenPath(driven_.max_poses());
+  for (const Pose2& pose : T_map_robot) driven_.record(pose);
+}
+
 bool LandmarkTracker::name(LandmarkId id, const std::string& name) {
   Landmark* const landmark = graph_.find(id);
   if (landmark != nullptr) landmark->name = name;

@@ -160,6 +160,11 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
   return build_sensor(mission, library, built);
 }
 
+std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
+                                  const OccupancyGrid* grid_so_far) {
+  return build_mapper(mission, library, grid_so_far);
+}
+
 std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library, double cell_m) {
   MissionModules built;
   built.T_map_start = start_of(mission.config);

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "maps/base/text.hpp"
+#include "plugins/carmen_log/graph_steps.hpp"
 #include "plugins/carmen_log/lasers.hpp"
 #include "plugins/carmen_log/recording.hpp"
 
@@ -46,6 +48,7 @@ class Reader {
   ScanLog scans_;
   Recording recording_;
   Params params_;
+  GraphSteps steps_;
   std::optional<Pose2> T_log_robot_;  // of the last line that has one
   std::optional<Pose2> truth_;
   std::array<std::optional<Pose2>, 2> T_robot_said_;  // front and rear laser
@@ -74,7 +77,12 @@ Reader::Reader(const Config& config, const Budget& budget)
 
 ScanLog Reader::read() {
   recording_.check_complete(scans_.read_lines(config_.file, [this](const LogLine& line) { read_line(line); }));
-  note_same_poses();
+  if (config_.poses == Poses::odometry && steps_.has_steps()) {
+    scans_.replace_odometry(steps_.chained());
+    if (steps_.missing() > 0) scans_.note(counted(steps_.missing(), "step") + " between scans missing, taken as none");
+  } else {
+    note_same_poses();
+  }
   scans_.finish();
   return std::move(scans_);
 }
@@ -99,6 +107,8 @@ void Reader::read_line(const LogLine& line) {
     read_laser(line, read_robotlaser(line), kind == "ROBOTLASER2");
   } else if (kind == "SONAR") {
     read_sonar(line);
+  } else if (steps_.read(line)) {
+    return;
   } else if (kind != "message" || line.line() != 1) {  // the logger's header, without its comment mark
     scans_.unknown_line(kind);
   }
@@ -193,6 +203,7 @@ void Reader::add_scan(const LogLine& line, double stamp_s, const Pose2& T_log_ro
   scan.true_T_map_robot = truth_;
   scans_.set_pose(T_log_robot, scan);
   scans_.add_recorded(scan, source, std::move(ranges));
+  steps_.add_scan();
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ Budget budget_of(const RunOptions& options) {
 MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
     : mission_(mission),
       options_(options),
+      library_(library),
+      grid_so_far_(options.resume != nullptr ? std::optional(options.resume->grid) : std::nullopt),
       budget_(budget_of(options)),
       modules_(build_modules(mission_, library, options.resume, options.cancel), mission_, options.wall_clock),
       perception_(mission_, modules_, budget_),
@@ -44,7 +46,7 @@ void MissionLoop::run() {
   try {
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
-    world_.grid = &perception_.begin();
+    world_.grid = &perception_.begin(drive == nullptr);
     world_.coarse = perception_.show_earlier_map();
     ending_ = loop();
   } catch (const GivenUp&) {
@@ -98,6 +100,7 @@ void MissionLoop::tick(Sensed sensed) {
   if (counts_.count(observation)) publisher_.publish(Bumped{});
 
   world_.pose = perception_.localize(observation);
+  if (perception_.is_map_moved()) redraw_map();
   const std::vector<ExpectedEcho> expected = expected_of(observation);
   const CellChanges& cells = perception_.map(observation, world_.pose, monitor_.hearing().deaf());
   const Recognition recognised = perception_.recognise(cells, world_.time_s);
@@ -119,6 +122,12 @@ void MissionLoop::tick(Sensed sensed) {
   publisher_.publish(TickDone{});
   if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   saving_.autosave();
+}
+
+// All that look on see the old map or the new one, never a part.
+void MissionLoop::redraw_map() {
+  world_.grid = &perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
+  world_.coarse = nullptr;
 }
 
 // By the map as it was before this observation.

@@ -28,6 +28,7 @@
 #include "framework/reporting/report.hpp"
 #include "framework/safety/fatal_ends.hpp"
 #include "maps/base/text.hpp"
+#include "maps/exchange/pose_graphs/stamped_poses.hpp"
 #include "maps/landmarks/close_categories.hpp"
 #include "maps/landmarks/route_count.hpp"
 
@@ -168,6 +169,7 @@ class RunResults {
     // First of all, since drawing may take long, or end the program; then once more with the names of the pictures.
     const bool is_written = write_report();
     try_to_write(command_.out / "timing.json", timing_json(runner.times()) + "\n");
+    if (!result.poses.empty()) try_to_write(command_.out / "poses.tum", tum_of(result.poses));
     pictures_ = draw_run(command_.out, mission_, runner, result, report);
     return pictures_.files.empty() ? is_written : write_report();
   }

@@ -30,6 +30,7 @@ void ScanLog::add(const Scan& scan, std::size_t source, std::span<const double> 
   static_cast<Scan&>(kept) = scan;
   kept.source = source;
   kept.first_range = ranges_m_.size();
+  kept.recorded_s = scan.stamp_s;
   ranges_m_.insert(ranges_m_.end(), ranges_m.begin(), ranges_m.end());
   scans_.push_back(kept);
 }
@@ -67,6 +68,11 @@ void ScanLog::set_pose(const Pose2& T_log_robot, Scan& scan) {
   scan.T_odom_robot = Pose2{0.0, 0.0, -start_->theta_rad} *
                       Pose2{T_log_robot.x_m - start_->x_m, T_log_robot.y_m - start_->y_m, T_log_robot.theta_rad};
   if (rules_.compass_from_pose) scan.compass_rad = T_log_robot.theta_rad;
+}
+
+void ScanLog::replace_odometry(std::span<const Pose2> T_odom_robot) {
+  start_.reset();
+  for (std::size_t i = 0; i < scans_.size(); ++i) set_pose(T_odom_robot[i], scans_[i]);
 }
 
 std::string ScanLog::name_of_file() const {
@@ -146,6 +152,7 @@ Observation ScanLog::observation(std::size_t i) const {
   const Kept& scan = scans_[i];
   Observation seen;
   seen.stamp_s = scan.stamp_s;
+  seen.recorded_s = scan.recorded_s;
   seen.T_odom_robot = scan.T_odom_robot;
   seen.compass_rad = scan.compass_rad;
   seen.bumped = scan.bumped;
