@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "framework/safety/range_buffer.hpp"
 
@@ -13,10 +14,17 @@ constexpr double kCell_m = 0.05;
 constexpr double kPassedBehind_m = 0.1;  // farther away than that is behind
 constexpr double kBesideRay_rad = radians(1.0);
 constexpr double kSamePlace_rad = radians(1.5);  // in which something of the scan before stood still
-constexpr double kPreviousScan_periods = 2.5;
+constexpr double kComparedAfter_s = 0.19;        // less, and noise hides who walks
 
 bool is_ray(const RangeReading& reading) {
   return reading.half_beam_rad <= 0.0;
+}
+
+// Of two angles in [-pi, pi].
+double sum_of(double a_rad, double b_rad) {
+  const double sum_rad = a_rad + b_rad;
+  if (std::abs(sum_rad) <= std::numbers::pi) return sum_rad;
+  return sum_rad > 0.0 ? sum_rad - 2.0 * std::numbers::pi : sum_rad + 2.0 * std::numbers::pi;
 }
 
 double bearing_of(const Point& p) {
@@ -48,6 +56,7 @@ void RayBuffer::forget() {
   for (Scanner& scanner : scanners_) {
     scanner.stamp_s = -1e9;
     scanner.last.clear();
+    scanner.compared = scanner.to_compare = {};
     scanner.before.clear();
   }
 }
@@ -83,20 +92,17 @@ void RayBuffer::take(std::span<const RangeReading> rays, const Observation& obse
   Scanner& scanner = scanner_of(rays.front().sensor);
   const Pose2& T_odom_robot = observation.T_odom_robot;
   const Point from_odom = T_odom_robot * rays.front().T_robot_sensor.position();
-  // What stood still would be at least so far away.
-  std::vector<BearingMaxima::Entry> nearer;
-  const double passed_s = stamp_s_ - scanner.stamp_s;
-  if (passed_s > 0.0 && passed_s <= kPreviousScan_periods * std::max(scanner.period_s, 0.04))
-    for (const Kept& kept : scanner.last)
-      nearer.push_back({bearing_of(kept.at_odom - from_odom), -(kept.at_odom - from_odom).norm()});
-  const BearingMaxima expected(std::move(nearer));
-
+  if (stamp_s_ - scanner.to_compare.stamp_s >= kComparedAfter_s) std::swap(scanner.compared, scanner.to_compare);
+  const double passed_s = stamp_s_ - scanner.compared.stamp_s;
+  const bool is_recent = passed_s > 0.0 && passed_s <= 2.5 * std::max(scanner.period_s, kComparedAfter_s);
+  const BearingMaxima expected = is_recent ? expected_from(scanner.compared, from_odom) : BearingMaxima();
+  const double heading_rad = wrap_angle(T_odom_robot.theta_rad);
   std::vector<BearingMaxima::Entry> ranges;
   std::vector<Kept> seen;
   for (const RangeReading& ray : rays) {
     if (!says_something(ray)) continue;
     const double range_m = std::max(ray.range_m, ray.min_m);
-    const double bearing_rad = wrap_angle(T_odom_robot.theta_rad + ray.T_robot_sensor.theta_rad);
+    const double bearing_rad = sum_of(heading_rad, ray.T_robot_sensor.theta_rad);
     const bool is_echo = std::isfinite(range_m);
     directions_.look(ray.T_robot_sensor.theta_rad, stamp_s_);
     if (is_echo) ranges.push_back({bearing_rad, range_m});
@@ -111,9 +117,20 @@ void RayBuffer::take(std::span<const RangeReading> rays, const Observation& obse
     scanner.last.insert(scanner.last.end(), seen.begin(), seen.end());
     return;
   }
+  if (stamp_s_ - scanner.to_compare.stamp_s >= kComparedAfter_s) {
+    scanner.to_compare = {stamp_s_, {}};
+    for (const Kept& kept : seen) scanner.to_compare.points_odom.push_back(kept.at_odom);
+  }
   keep_last(scanner);
   scanner.last = std::move(seen);
   scanner.stamp_s = stamp_s_;
+}
+
+BearingMaxima RayBuffer::expected_from(const Compared& compared, const Point& from_odom) {
+  std::vector<BearingMaxima::Entry> nearer;
+  nearer.reserve(compared.points_odom.size());
+  for (const Point& p : compared.points_odom) nearer.push_back({bearing_of(p - from_odom), -(p - from_odom).norm()});
+  return BearingMaxima(std::move(nearer));
 }
 
 void RayBuffer::clear_before(Scanner& scanner, const Point& from_odom, const BearingMaxima& ranges_m) const {

@@ -39,16 +39,25 @@ class RayBuffer {
     double closing_mps = 0.0;
     double stamp_s = 0.0;
   };
+  struct Compared {
+    double stamp_s = -1e9;
+    std::vector<Point> points_odom;
+  };
   struct Scanner {
     int first_sensor = 0;
     double period_s = 0.0;
     double stamp_s = -1e9;
-    std::vector<Kept> last;                          // scan
+    std::vector<Kept> last;  // scan
+    // Scans that the next ones are compared with: what comes nearer must have done so by more than noise.
+    Compared compared;
+    Compared to_compare;
     std::unordered_map<std::uint64_t, Kept> before;  // by cell
   };
 
   [[nodiscard]] Scanner& scanner_of(int sensor);
   void take(std::span<const RangeReading> rays, const Observation& observation);
+  // What stood still since then would be at least so far away: by bearing from there, negative.
+  [[nodiscard]] static BearingMaxima expected_from(const Compared& compared, const Point& from_odom);
   void clear_before(Scanner& scanner, const Point& from_odom, const BearingMaxima& ranges_m) const;
   void keep_last(Scanner& scanner) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -26,7 +27,7 @@ BearingMaxima::BearingMaxima(std::vector<Entry> entries) : entries_(std::move(en
 double BearingMaxima::max_within(double bearing_rad, double half_rad) const {
   constexpr double kPi = std::numbers::pi;
   if (half_rad >= kPi) return max_between(-kPi, kPi);
-  const double middle_rad = wrap_angle(bearing_rad);
+  const double middle_rad = std::abs(bearing_rad) <= kPi ? bearing_rad : wrap_angle(bearing_rad);
   const double low_rad = middle_rad - half_rad;
   const double high_rad = middle_rad + half_rad;
   double largest = max_between(low_rad, high_rad);

@@ -91,7 +91,8 @@ void spans_of_ray(const Beam& beam, const Point& apex, double reach, std::vector
   const int y_last = floor_of(std::max(apex.y(), tip.y()));
   const Interval whole{std::min(apex.x(), tip.x()), std::max(apex.x(), tip.x())};
   const bool is_level = offset.y() == 0.0;
-  const auto x_at = [&](int y) { return is_level ? 0.0 : apex.x() + (y - apex.y()) / offset.y() * offset.x(); };
+  const double dx_per_dy = is_level ? 0.0 : offset.x() / offset.y();
+  const auto x_at = [&](int y) { return apex.x() + (y - apex.y()) * dx_per_dy; };
   const int y_first = floor_of(std::min(apex.y(), tip.y()));
   double x_below = x_at(y_first);
   for (int y = y_first; y <= y_last; ++y) {

@@ -32,15 +32,25 @@ float looked_up(const std::vector<float>& table, float at) {
 }  // namespace
 
 struct LightRays::Ray {
-  float echo_m;      // or the farthest without one
-  float sharp_m;     // up to here the echo is far behind
-  float false_echo;  // 0 without an echo, else 1 / F
-  int clamp;
-  std::size_t plane;  // of the log, where its counts begin
-  int shift;
+  float echo_m = 0.0F;      // or the farthest without one
+  float sharp_m = 0.0F;     // up to here the echo is far behind
+  float false_echo = 0.0F;  // 0 without an echo, else 1 / F
+  double ahead_x = 1.0;
+  double from_x_m = 0.0;  // along the ray from the sensor to x = 0, y = 0
+  double ahead_y = 0.0;
+  double reach_m = 0.0;
+  std::size_t plane = 0;  // of the log, where its counts begin
+  int shift = 0;
 };
 
-LightRays::LightRays(const Config& config) : config_(config), weights_(weights_of(config)) {
+LightRays::LightRays(const Config& config)
+    : config_(config),
+      alpha_max_(static_cast<float>(config.alpha_max)),
+      per_alpha_range_(static_cast<float>(1.0 / config.alpha_range_m)),
+      delta_m_(static_cast<float>(config.delta_m)),
+      delta_per_m_(static_cast<float>(config.delta_per_m)) {
+  std::ranges::transform(weights_of(config), weights_.begin(),
+                         [](double weight) { return static_cast<float>(weight); });
   for (int i = 0; i <= kRanges; ++i) {
     const double alpha = config.alpha(config.alpha_range_m * i / kRanges, 0.0, 0.0);
     before_echo_.push_back(static_cast<float>(kLogOddsPerNat * std::log1p(-alpha)));
@@ -54,11 +64,9 @@ LightRays::LightRays(const Config& config) : config_(config), weights_(weights_o
 }
 
 float LightRays::increment_of(const Ray& ray, float range_m) const {
-  if (range_m <= ray.sharp_m)
-    return looked_up(before_echo_, range_m * (static_cast<float>(kRanges) / static_cast<float>(config_.alpha_range_m)));
-  const float share = std::max(0.0F, 1.0F - range_m / static_cast<float>(config_.alpha_range_m));
-  const float alpha = static_cast<float>(config_.alpha_max) * share;
-  const float delta_m = static_cast<float>(config_.delta_m) + static_cast<float>(config_.delta_per_m) * range_m;
+  if (range_m <= ray.sharp_m) return looked_up(before_echo_, range_m * per_alpha_range_ * static_cast<float>(kRanges));
+  const float alpha = alpha_max_ * std::max(0.0F, 1.0F - range_m * per_alpha_range_);
+  const float delta_m = delta_m_ + delta_per_m_ * range_m;
   const float z = std::clamp((ray.echo_m - range_m) / delta_m, -kSharpSigmas, kSharpSigmas);
   const float at = (z + kSharpSigmas) * static_cast<float>(kPerSigma);
   const float hit = ray.false_echo > 0.0F ? looked_up(density_, at) * ray.false_echo / delta_m : 0.0F;
@@ -68,53 +76,69 @@ float LightRays::increment_of(const Ray& ray, float range_m) const {
 void LightRays::integrate(const PlacedReading& reading, OccupancyGrid& grid, IndependenceLog& log, RowHull& changed) {
   const Beam& beam = reading.beam;
   const int bucket = bucket_of(beam.T_map_sensor.theta_rad, config_.log_bearings);
-  Ray ray{};
+  const Point ahead = beam.T_map_sensor.direction();
+  Ray ray;
   ray.echo_m = static_cast<float>(std::min(reading.range_m, 1e6));
-  ray.sharp_m = (ray.echo_m - kSharpSigmas * static_cast<float>(config_.delta_m)) /
-                (1.0F + kSharpSigmas * static_cast<float>(config_.delta_per_m));
+  ray.sharp_m = (ray.echo_m - kSharpSigmas * delta_m_) / (1.0F + kSharpSigmas * delta_per_m_);
   ray.false_echo = reading.is_echo ? static_cast<float>(1.0 / config_.false_echo_per_m) : 0.0F;
-  ray.clamp = grid.clamp_quanta();
+  ray.ahead_x = ahead.x();
+  ray.ahead_y = ahead.y();
+  ray.from_x_m = -ahead.dot(beam.T_map_sensor.position());
+  ray.reach_m = beam.reach_m;
   ray.plane = static_cast<std::size_t>(bucket / kBucketsInPlane) * sonar_model::kCellsInTile;
   ray.shift = 2 * (bucket % kBucketsInPlane);
 
-  place_ = {};  // the log's plane is another
+  has_tile_ = false;  // the log's plane is another
   spans_over(beam, config_.cell_m, spans_);
-  const Point ahead = beam.T_map_sensor.direction();
-  const double cell_m = config_.cell_m;
-  for (const CellSpan& span : spans_) {
-    const double row_m = ahead.y() * ((span.y + 0.5) * cell_m - beam.T_map_sensor.y_m);
-    for (int x = span.x_begin; x < span.x_end; ++x) {
-      const double along_m = ahead.x() * ((x + 0.5) * cell_m - beam.T_map_sensor.x_m) + row_m;
-      if (along_m > beam.reach_m) continue;
-      ++cells_;
-      const float increment = increment_of(ray, static_cast<float>(std::max(0.0, along_m)));
-      // What rounds to nothing leaves grid and log alone.
-      if (std::abs(increment) >= 0.5F) add(ray, {x, span.y}, increment, grid, log, changed);
+  for (const CellSpan& span : spans_)
+    for (int x = span.x_begin; x < span.x_end;) {
+      const int end = std::min(span.x_end, (x | (OccupancyGrid::kTileSide - 1)) + 1);
+      take_row(ray, {span.y, x, end}, grid, log, changed);
+      x = end;
     }
-  }
 }
 
-void LightRays::add(const Ray& ray, Cell cell, float increment, OccupancyGrid& grid, IndependenceLog& log,
-                    RowHull& changed) {
-  const Cell tile = sonar_model::tile_holding(cell);
-  if (!place_.is_known || tile != place_.tile) {
-    place_ = {tile, grid.cells_of_tile_for_writing(tile), nullptr, true};
-    if (config_.log != LogPolicy::off) place_.counts = log.tile(tile).data() + ray.plane;
+void LightRays::take_row(const Ray& ray, const CellSpan& span, OccupancyGrid& grid, IndependenceLog& log,
+                         RowHull& changed) {
+  const Cell first{span.x_begin, span.y};
+  const Cell tile = sonar_model::tile_holding(first);
+  const auto open_tile = [&](bool anew) {
+    const bool is_there = anew || grid.cells_of_tile(tile) != nullptr;
+    tile_ = {};
+    if (is_there) tile_.cells = grid.cells_of_tile_for_writing(tile);
+    if (is_there && config_.log != LogPolicy::off) tile_.counts = log.tile(tile).data() + ray.plane;
+    tile_at_ = tile;
+    has_tile_ = true;
+  };
+  if (!has_tile_ || tile != tile_at_) open_tile(false);
+  const std::size_t row = sonar_model::place_in_tile(first);
+  const double row_m = ray.ahead_y * (span.y + 0.5) * config_.cell_m + ray.from_x_m;
+  const double step_m = ray.ahead_x * config_.cell_m;
+  const int clamp = grid.clamp_quanta();
+  int changed_from = span.x_end;
+  int changed_to = span.x_begin;
+  cells_ += span.x_end - span.x_begin;
+  for (int x = span.x_begin; x < span.x_end; ++x) {
+    const double along_m = (x + 0.5) * step_m + row_m;
+    if (along_m > ray.reach_m) continue;
+    const std::size_t at = row + static_cast<std::size_t>(x - span.x_begin);
+    float weight = 1.0F;
+    if (tile_.counts != nullptr) weight = weights_[(tile_.counts[at] >> ray.shift) & kMaxReadings];
+    if (weight <= 0.0F) continue;
+    const float increment = increment_of(ray, static_cast<float>(std::max(0.0, along_m)));
+    if (std::abs(increment) < 0.5F) continue;  // what rounds to nothing leaves grid and log alone
+    if (tile_.cells == nullptr) open_tile(true);
+    if (tile_.counts != nullptr) tile_.counts[at] = static_cast<std::uint16_t>(tile_.counts[at] + (1U << ray.shift));
+    LogOdds& value = tile_.cells[at];
+    const float change = weight * increment;
+    const int sum = value + static_cast<int>(change + std::copysign(0.5F, change));
+    const auto after = static_cast<LogOdds>(std::clamp(sum, -clamp, clamp));
+    if (after == value) continue;
+    value = after;
+    changed_from = std::min(changed_from, x);
+    changed_to = x + 1;
   }
-  const std::size_t at = sonar_model::place_in_tile(cell);
-  double weight = 1.0;
-  if (place_.counts != nullptr) {
-    std::uint16_t& counts = place_.counts[at];
-    weight = weights_[static_cast<std::size_t>((counts >> ray.shift) & kMaxReadings)];
-    if (weight <= 0.0) return;
-    counts = static_cast<std::uint16_t>(counts + (1U << ray.shift));
-  }
-  const auto change = static_cast<int>(std::lround(static_cast<float>(weight) * increment));
-  LogOdds& value = place_.cells[at];
-  const auto after = static_cast<LogOdds>(std::clamp(value + change, -ray.clamp, ray.clamp));
-  if (after == value) return;
-  value = after;
-  changed.add(cell.y, cell.x, cell.x + 1);
+  if (changed_from < changed_to) changed.add(span.y, changed_from, changed_to);
 }
 
 }  // namespace cairn::muriel

@@ -4,6 +4,7 @@
 // tables. Same cells and, to one quantum, same values as plain_muriel.hpp. O(cells on the ray).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,25 +24,31 @@ class LightRays {
   [[nodiscard]] std::int64_t cells() const { return cells_; }
 
  private:
-  // One tile, as long as cells come from it. Null: not there yet.
-  struct Place {
-    Cell tile{};
+  // Part of one row in one tile. Null: the tile is not there yet.
+  struct Row {
     LogOdds* cells = nullptr;
     std::uint16_t* counts = nullptr;
-    bool is_known = false;
   };
   struct Ray;
 
   [[nodiscard]] float increment_of(const Ray& ray, float range_m) const;
-  void add(const Ray& ray, Cell cell, float increment, OccupancyGrid& grid, IndependenceLog& log, RowHull& changed);
+  // Cells x_begin to x_end - 1 of row y, all in one tile.
+  void take_row(const Ray& ray, const CellSpan& span, OccupancyGrid& grid, IndependenceLog& log, RowHull& changed);
 
   Config config_;
-  Weights weights_;
+  std::array<float, kMaxReadings + 1> weights_{};
+  // The settings, as the loop needs them.
+  float alpha_max_;
+  float per_alpha_range_;
+  float delta_m_;
+  float delta_per_m_;
   std::vector<float> before_echo_;  // quanta by range, where the echo is far behind
   std::vector<float> integral_;     // of the normal distribution, by standard deviations
   std::vector<float> density_;
   std::vector<CellSpan> spans_;  // of one ray
-  Place place_;
+  Row tile_;                     // the first cell of the tile that rows come from
+  Cell tile_at_{};
+  bool has_tile_ = false;
   std::int64_t cells_ = 0;
 };
 
