@@ -113,7 +113,8 @@ ordered_json json_of(const std::vector<StageTime>& times) {
                     {"median_us", rounded(t.median_us)},
                     {"p99_us", rounded(t.p99_us)},
                     {"worst_us", rounded(t.worst_us)},
-                    {"total_s", rounded(t.total_s)}});
+                    {"total_s", rounded(t.total_s)},
+                    {"own_s", rounded(t.own_s)}});
   return list;
 }
 

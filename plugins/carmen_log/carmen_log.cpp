@@ -104,6 +104,7 @@ void Reader::read_line(const LogLine& line) {
   } else if (kind == "FLASER" || kind == "RLASER") {
     read_laser(line, read_flaser(line), kind == "RLASER");
   } else if (kind == "ROBOTLASER1" || kind == "ROBOTLASER2") {
+    if (recording_.take_scan(line)) return;
     read_laser(line, read_robotlaser(line), kind == "ROBOTLASER2");
   } else if (kind == "SONAR") {
     read_sonar(line);

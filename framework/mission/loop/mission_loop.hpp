@@ -58,6 +58,15 @@ class MissionLoop {
   Ending loop();
   Sensed sense();
   void tick(Sensed sensed);
+  void take(Sensed sensed);
+  StepsTick tick_steps();
+  void publish_driven();
+  // The host's own work, in its stage.
+  template <class DoIt>
+  auto in(StageClock::Id stage, DoIt&& do_it) -> decltype(do_it()) {
+    const StageClock::Work work(modules_.clock, stage);
+    return do_it();
+  }
   [[nodiscard]] std::vector<ExpectedEcho> expected_of(const Observation& observation) const;
   void keep_pace();
   [[nodiscard]] std::optional<Ending> ending_after_tick() const;

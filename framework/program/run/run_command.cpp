@@ -59,9 +59,9 @@ void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGr
 }
 
 void print_times(std::ostream& out, const std::vector<StageTime>& times) {
-  out << "\n  stage       module                  calls  median us     p99 us   worst us\n";
+  out << "\n  stage             module                  calls  median us     p99 us   worst us\n";
   for (const StageTime& t : times)
-    out << fmt::format("  {:<11} {:<20} {:>8} {:>10.2f} {:>10.2f} {:>10.2f}\n", t.stage, t.module, t.count, t.median_us,
+    out << fmt::format("  {:<17} {:<20} {:>8} {:>10.2f} {:>10.2f} {:>10.2f}\n", t.stage, t.module, t.count, t.median_us,
                        t.p99_us, t.worst_us);
 }
 

@@ -22,15 +22,13 @@ bool is_beside(const CellLayer<char>& reach, Cell edge, double min_cells) {
 }
 
 TaskSettings task_settings(const ExploreConfig& config, const RobotModel& robot) {
-  double farthest_m = 0.0;
-  for (const SonarModel& sonar : robot.sonars) farthest_m = std::max(farthest_m, sonar.max_m);
   TaskSettings settings;
   settings.orbit = {config.orbit_distance_m, config.look_closer_m, config.largest_object_m, config.object};
   settings.weights = config.exploring.weights;
   settings.openings = config.exploring.openings;
   settings.smallest_frontier_m = config.smallest_frontier_m;
   settings.gain_m = config.gain_m;
-  settings.gain_range_m = std::min(farthest_m, config.exploring.choice.trusted_range_m);
+  settings.gain_range_m = std::min(farthest_range_m(robot), config.exploring.choice.trusted_range_m);
   return settings;
 }
 

@@ -332,6 +332,67 @@ TEST_F(LoopOfSpies, AModuleThatDoesNotReturnIsGivenUpByTheMissionsClockAndTouche
   EXPECT_EQ(listener.events, events);
 }
 
+// Takes its time, by a clock that only it and its like move on.
+class Slow : public Behaviour {
+ public:
+  explicit Slow(std::shared_ptr<TestClock> clock) : clock_(std::move(clock)) {}
+  Status tick(const WorldView&, BehaviourContext&) override {
+    clock_->advance(std::chrono::milliseconds(7));
+    return {StepState::running, {}};
+  }
+  void halt() override {}
+
+ private:
+  std::shared_ptr<TestClock> clock_;
+};
+
+class SlowListener : public Listener {
+ public:
+  explicit SlowListener(std::shared_ptr<TestClock> clock) : clock_(std::move(clock)) {}
+  void on(const Event& event, const MissionView&) override {
+    if (std::holds_alternative<TickDone>(event)) clock_->advance(std::chrono::milliseconds(2));
+  }
+
+ private:
+  std::shared_ptr<TestClock> clock_;
+};
+
+TEST_F(LoopOfSpies, EveryStageOfATickIsListedAndTheirTimesSumToIt) {
+  const auto clock = std::make_shared<TestClock>();
+  ModuleLibrary library = still::library();
+  Registrar registrar;
+  registrar.add<Behaviour, NoConfig>("slow", "takes its time", [clock](const NoConfig&, const ModuleContext&) {
+    return std::make_unique<Slow>(clock);
+  });
+  library.add("(test)", registrar);
+  Mission mission = still::mission(20);
+  mission.steps.front().choice.name = "slow";
+  RunOptions options{folder_};
+  options.wall_clock = clock;
+  SlowListener listener(clock);
+  MissionRunner runner(mission, library, options);
+  runner.subscribe(listener);
+  (void)runner.run();
+  std::vector<std::string> stages;
+  double tick_s = 0.0;
+  double sum_s = 0.0;
+  for (const StageTime& time : runner.times()) {
+    if (time.stage == "tick") {
+      tick_s = time.total_s;
+      EXPECT_EQ(time.count, 20);
+      EXPECT_EQ(time.own_s, 0.0) << "of a tick that no stage accounts for";
+    } else if (time.stage != "sensor") {
+      stages.push_back(time.stage);
+      sum_s += time.own_s;
+    }
+  }
+  EXPECT_THAT(stages, testing::IsSupersetOf({"observation", "echo prediction", "perception", "localizer", "map",
+                                             "detector", "landmark tracker", "behaviour tree", "behaviour",
+                                             "collision monitor", "drive", "listeners", "run control", "autosave"}));
+  EXPECT_NEAR(tick_s, 20 * 9e-3, 1e-9);
+  EXPECT_NEAR(sum_s, tick_s, 1e-9);
+}
+
 TEST_F(LoopOfSpies, AMissionInRealTimeTakesAsLongAsItsStampsSay) {
   const auto clock = std::make_shared<TestClock>();
   const double begin_s = clock->seconds();
