@@ -151,6 +151,7 @@ TemplateSet render_templates(const Mission& mission, double cell_m, const Module
   if (mission.config.sensor.name == simulator.name) simulator = mission.config.sensor;
   SensedOptions options;
   options.sizes = config.sizes;
+  options.smooth_too = config.smooth_too;
   return render_sensed_set(mission.shapes, config.step_rad, cell_m, options, mission.robot, simulator,
                            mission.config.map, modules, TemplateCache(template_cache_folder()));
 }

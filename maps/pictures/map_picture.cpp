@@ -21,6 +21,8 @@ constexpr double kLandmarkMarginM = 0.1;
 constexpr Stroke kDrivenStroke{kDriven, 1.5, 0.9};
 constexpr Stroke kPlannedStroke{kPlanned, 3.5, 0.95};
 constexpr Stroke kDoorStroke{kClosed, 3.0, 0.9};
+constexpr Stroke kNearMissStroke{kPlanned, 2.0, 0.9};
+constexpr double kNearMissPx = 9.0;
 constexpr Stroke kMoverStroke{kGoal, 1.5, 0.6, 6.0};
 
 // The box of cells that are worth showing: occupied or surely free. Single stray readings leave faint
@@ -123,6 +125,24 @@ double darkness_of(const OccupancyGrid* grid, const MapFrame& frame, const Pixel
   return static_cast<double>(dark) / ((kAcross + 1) * (kDown + 1));
 }
 
+void draw_near_miss(Canvas& canvas, const Pixel& at) {
+  canvas.ring(at, kNearMissPx, kNearMissStroke);
+}
+
+// Labels only of a few: many would hide the map.
+void draw_near_misses(Canvas& canvas, const MapPicture& picture, const MapFrame& frame, LabelPlacer& placer) {
+  constexpr std::size_t kMaxLabels = 12;
+  constexpr TextStyle kText{kInk, 13.0};
+  for (const MarkedPlace& place : picture.near_misses) draw_near_miss(canvas, frame.pixel_of(place.at_m));
+  if (picture.near_misses.size() > kMaxLabels) return;
+  for (const MarkedPlace& place : picture.near_misses) {
+    const Pixel size(Canvas::text_width_px(place.words, kText) + 10.0, 20.0);
+    const PixelBox box = placer.place(frame.pixel_of(place.at_m), kNearMissPx, size);
+    canvas.fill_box(box, {kWhite, 0.85}, 4.0);
+    canvas.text(box.centre(), place.words, {kText.colour, kText.size_px, Align::centre});
+  }
+}
+
 void draw_marks(Canvas& canvas, const MapPicture& picture, const MapFrame& frame) {
   if (picture.robot)
     draw_robot(canvas, frame.pixel_of(picture.robot->position()), robot_radius_px(picture, frame),
@@ -160,6 +180,7 @@ std::vector<LegendEntry> legend_of(const MapPicture& picture, const GraphLayer& 
   if (!picture.planned.empty()) entries.push_back(line_entry("planned", kPlannedStroke));
   if (!picture.doors.empty()) entries.push_back(line_entry("door", kDoorStroke));
   if (!picture.mover_paths.empty()) entries.push_back(line_entry("where others go", kMoverStroke));
+  if (!picture.near_misses.empty()) entries.push_back({"nearly a landmark", draw_near_miss});
   if (picture.start) entries.push_back({"start", draw_start});
   if (picture.goal) entries.push_back({"goal", draw_goal});
   if (!picture.robot_path.empty() && shape_of(picture).reach_m() > 0.0)
@@ -207,6 +228,7 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   graph.draw_landmarks(canvas, frame);
   LabelPlacer placer = placer_for(picture, frame);
   graph.draw_labels(canvas, frame, placer, picture.planned_landmarks);
+  draw_near_misses(canvas, picture, frame, placer);
   draw_robot_along(canvas, frame, shape_of(picture), picture.robot_path);
   canvas.line(frame.pixels_of(picture.planned), kPlannedStroke);
   draw_marks(canvas, picture, frame);

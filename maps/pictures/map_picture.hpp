@@ -16,6 +16,12 @@
 
 namespace cairn {
 
+// A place with a few words beside it.
+struct MarkedPlace {
+  Point at_m{0.0, 0.0};
+  std::string words;
+};
+
 struct MapPicture {
   const OccupancyGrid* grid = nullptr;  // none or empty: a blank page
   const LandmarkGraph* graph = nullptr;
@@ -27,7 +33,8 @@ struct MapPicture {
   // Of a world that changes: the leaves of its doors, and where its people and carts go.
   std::vector<std::vector<Point>> doors;
   std::vector<std::vector<Point>> mover_paths;
-  std::vector<Pose2> robot_path;  // the robot's outline is drawn at both ends and some way apart between
+  std::vector<Pose2> robot_path;         // the robot's outline is drawn at both ends and some way apart between
+  std::vector<MarkedPlace> near_misses;  // something like a landmark, but not like enough
   std::optional<Point> start;
   std::optional<Point> goal;
   std::optional<Pose2> robot;

@@ -20,7 +20,7 @@ void add_traffic(const World& world, MapPicture& picture) {
 }
 
 void draw_map(const std::filesystem::path& file, const Mission& mission, const MissionRunner& runner,
-              const MissionResult& result) {
+              const MissionResult& result, const RunReport& report) {
   MapPicture picture;
   picture.grid = runner.grid();
   picture.graph = &runner.graph();
@@ -32,6 +32,8 @@ void draw_map(const std::filesystem::path& file, const Mission& mission, const M
     picture.robot = runner.driven_path().back();
     picture.robot_radius_m = mission.robot.radius_m;
   }
+  for (const NearMiss& miss : report.near_misses().away_from(runner.graph()))
+    picture.near_misses.push_back({miss.at_m, words_about(miss)});
   if (mission.world) add_traffic(*mission.world, picture);
   picture.title = mission.config.mission + ", seed " + std::to_string(mission.config.seed);
   write_map_picture(file, picture);
@@ -100,7 +102,7 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
   if (runner.grid() == nullptr) {
     pictures.missing.emplace_back("map.png: the module that held the map was given up");
   } else {
-    attempt("map.png", [&](const std::filesystem::path& file) { draw_map(file, mission, runner, result); });
+    attempt("map.png", [&](const std::filesystem::path& file) { draw_map(file, mission, runner, result, report); });
   }
   if (runner.coarse_grid() != nullptr)
     attempt("coarse.png", [&](const std::filesystem::path& file) {
