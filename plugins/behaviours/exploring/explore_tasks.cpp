@@ -6,6 +6,7 @@
 
 #include "plugins/behaviours/lookouts/frontiers.hpp"
 #include "plugins/behaviours/lookouts/information_gain.hpp"
+#include "plugins/behaviours/lookouts/openings.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -173,6 +174,19 @@ bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSe
     found = true;
   }
   return found;
+}
+
+std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& narrow, const TaskSettings& settings,
+                                        const ExploreMemory& memory) {
+  const std::optional<Opening> opening = nearest_opening(space, narrow, memory.seen_openings, settings.openings);
+  if (!opening) return std::nullopt;
+  ExploreTask task;
+  task.kind = TaskKind::opening;
+  task.about = opening->at_m;
+  task.lookout = space.centre_of(opening->lookout);
+  task.path = space.path_to(opening->lookout);
+  task.cost_m = space.cost_m(opening->lookout);
+  return task;
 }
 
 void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory) {

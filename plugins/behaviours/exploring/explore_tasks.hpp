@@ -66,6 +66,10 @@ struct ExploreTask {
 bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSettings& settings,
                 ExploreMemory& memory);
 
+// For when enough is known: an opening that looks too narrow, to be looked at head on.
+[[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& narrow,
+                                                      const TaskSettings& settings, const ExploreMemory& memory);
+
 // Not to be chosen again: what the task has from its lookout.
 void give_up(const ExploreTask& task, const FreeSpace& space, const TaskSettings& settings, ExploreMemory& memory);
 

@@ -11,6 +11,8 @@ void ChoiceSettings::describe(Fields<ChoiceSettings>& fields) {
   fields.number("shut_in_ratio", &C::shut_in_ratio, {0.0, 1.0}, "",
                 "the robot is shut in when it can go back to less than this share of the places where it was");
   fields.integer("near_trace_cells", &C::near_trace_cells, {0.0, 1000.0}, "this near to such a place counts");
+  fields.number("narrow_radius_m", &C::narrow_radius_m, {0.01, 5.0}, "m",
+                "an opening twice this wide is looked into, though it is too narrow on the map");
   fields.integer("far_edge_cells", &C::far_edge_cells, {0.0, 100.0},
                  "when nothing else is left, edges are looked at, too, that have free cells only within this; 0: none");
   fields.number("tight_clearance_m", &C::tight_clearance_m, {0.0, 5.0}, "m",

@@ -18,6 +18,7 @@ struct ChoiceSettings {
   double around_m = 8.0;
   double shut_in_ratio = 0.9;
   int near_trace_cells = 4;
+  double narrow_radius_m = 0.12;
   int far_edge_cells = 4;
   double tight_clearance_m = 0.02;
   double there_m = 0.12;

@@ -137,6 +137,14 @@ std::optional<ExploreTask> TaskChooser::choose_again(const WorldView& world, con
   return choose_within(search, world, before);
 }
 
+// As long as not enough is known, passages are searched, which are more than these.
+std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
+  if (known_ratio() < config_.until_known_ratio) return std::nullopt;
+  search_ = {kEverywhere_m, config_.clearance_m};
+  const double narrow_m = config_.exploring.choice.narrow_radius_m - world.robot.radius_m;
+  return opening_task(space_within(search_, world), space_within({kEverywhere_m, narrow_m}, world), settings_, memory_);
+}
+
 std::optional<ExploreTask> TaskChooser::choose_far_edge(const WorldView& world,
                                                         const std::optional<ExploreTask>& before) {
   if (known_ratio() >= config_.until_known_ratio || config_.exploring.choice.far_edge_cells == 0) return std::nullopt;
@@ -148,7 +156,7 @@ std::optional<ExploreTask> TaskChooser::choose_far_edge(const WorldView& world,
 
 void TaskChooser::count_known(const WorldView& world) {
   if (!known_.is_due(world.time_s)) return;
-  const FreeSpace space = space_behind_walls(world, config_.exploring.choice.tight_clearance_m);
+  const FreeSpace space = space_within({kEverywhere_m, config_.exploring.choice.tight_clearance_m}, world);
   const double near_m = config_.look_closer_m > 0.0 ? config_.look_closer_m : config_.exploring.estimate.passed_m;
   const CellLayer<char> reach = reach_of(space, memory_.trace);
   std::vector<Cell> edges = edge_cells(space);
@@ -249,6 +257,7 @@ std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std
   if (auto task = choose_within({kEverywhere_m, config_.clearance_m}, world, before)) return task;
   if (is_shut_in(world))
     if (auto task = choose_within(tight, world, before)) return task;
+  if (auto task = choose_opening(world)) return task;
   if (leads_on(world, tight))
     if (auto task = choose_within(tight, world, before)) return task;
   if (auto task = choose_far_edge(world, before)) return task;

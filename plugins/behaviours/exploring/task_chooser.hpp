@@ -74,6 +74,7 @@ class TaskChooser {
                                                          const std::optional<ExploreTask>& before);
   [[nodiscard]] std::optional<ExploreTask> choose_again(const WorldView& world,
                                                         const std::optional<ExploreTask>& before);
+  [[nodiscard]] std::optional<ExploreTask> choose_opening(const WorldView& world);
   // Walls that were seen from afar only: they may hide doors.
   [[nodiscard]] std::optional<ExploreTask> choose_far_edge(const WorldView& world,
                                                            const std::optional<ExploreTask>& before);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
+
+#include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -28,10 +31,29 @@ std::vector<CellGroup> places_behind(const FreeSpace& space, const FreeSpace& na
   return places_behind(space, min_m2, [&](Cell c) { return narrow.reaches(c); });
 }
 
+// Where the slimmer robot's path to a place leaves what the robot itself can reach.
+std::optional<Opening> opening_on_path(const FreeSpace& space, const std::vector<Point>& path) {
+  std::optional<Opening> opening;
+  const double length_m = length_of(path);
+  for (double s = 0.0; s <= length_m; s += 0.5 * space.cell_m()) {
+    const Point p = motion::point_along(path, s);
+    const Cell cell = space.cell_at(p);
+    if (space.reaches(cell)) {
+      opening = Opening{p, cell};
+    } else if (opening) {
+      opening->at_m = p;
+      return opening;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void OpeningSettings::describe(Fields<OpeningSettings>& fields) {
   using C = OpeningSettings;
+  fields.number("room_behind_m2", &C::room_behind_m2, {0.0, 1e4}, "m2",
+                "an opening is looked into when so much room lies behind it");
   fields.number("room_out_of_reach_m2", &C::room_out_of_reach_m2, {0.0, 1e4}, "m2",
                 "a place out of reach is a room from this size on");
   fields.number("room_to_drive_m2", &C::room_to_drive_m2, {0.0, 1e4}, "m2",
@@ -40,6 +62,24 @@ void OpeningSettings::describe(Fields<OpeningSettings>& fields) {
                 "metres of path that a metre of room is worth");
   fields.number("roomy_m", &C::roomy_m, {0.0, 50.0}, "m", "more room than this is no better");
   fields.number("same_m", &C::same_m, {0.0, 50.0}, "m", "openings and places this near to each other are the same");
+}
+
+std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& narrow, const std::vector<Point>& seen,
+                                       const OpeningSettings& settings) {
+  std::optional<Opening> best;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const CellGroup& place : places_behind(space, narrow, settings.room_behind_m2)) {
+    const Cell nearest = *std::min_element(place.begin(), place.end(),
+                                           [&](Cell a, Cell b) { return narrow.cost_m(a) < narrow.cost_m(b); });
+    const std::optional<Opening> opening = opening_on_path(space, narrow.path_to(nearest));
+    if (!opening || space.cost_m(opening->lookout) >= best_m) continue;
+    const bool is_seen = std::any_of(seen.begin(), seen.end(),
+                                     [&](const Point& p) { return (p - opening->at_m).norm() < settings.same_m; });
+    if (is_seen) continue;
+    best = opening;
+    best_m = space.cost_m(opening->lookout);
+  }
+  return best;
 }
 
 bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter, const OpeningSettings& settings) {

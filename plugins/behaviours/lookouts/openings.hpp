@@ -12,6 +12,7 @@
 namespace cairn::behaviours {
 
 struct OpeningSettings {
+  double room_behind_m2 = 1.0;
   double room_out_of_reach_m2 = 0.5;
   double room_to_drive_m2 = 0.2;
   double clearance_weight = 4.0;
@@ -19,6 +20,16 @@ struct OpeningSettings {
   double same_m = 0.5;
   static void describe(Fields<OpeningSettings>& fields);
 };
+
+struct Opening {
+  Point at_m{0.0, 0.0};  // where the path gets too narrow
+  Cell lookout;          // in front of it, in reach
+};
+
+// The cheapest one to get to. narrow is the same space for a slimmer robot. seen: not within same_m of these.
+[[nodiscard]] std::optional<Opening> nearest_opening(const FreeSpace& space, const FreeSpace& narrow,
+                                                     const std::vector<Point>& seen,
+                                                     const OpeningSettings& settings = {});
 
 // Whether a robot that keeps less room, in the same space, gets to where there is room again.
 [[nodiscard]] bool tighter_leads_on(const FreeSpace& space, const FreeSpace& tighter,

@@ -24,6 +24,50 @@ const std::string kNarrow = R"(
 #################################
 )";
 
+std::optional<Opening> opening_of(const AsciiGrid& map, const std::vector<Point>& seen = {}) {
+  const Pose2 robot{map.at('R').x(), map.at('R').y(), 0.0};
+  const FreeSpace space(map.grid, {robot.position(), 0.2, 0.1}, {robot});
+  const FreeSpace narrow(map.grid, {robot.position(), 0.2, -0.08}, {robot});
+  return nearest_opening(space, narrow, seen);
+}
+
+TEST(NearestOpening, IsWhereTheWayToARoomGetsTooNarrow) {
+  const AsciiGrid map(kNarrow);
+  const std::optional<Opening> opening = opening_of(map);
+  ASSERT_TRUE(opening);
+  EXPECT_NEAR(opening->at_m.x(), 1.0, 0.25);
+  EXPECT_NEAR(opening->at_m.y(), 0.65, 0.2);
+  EXPECT_LT(map.grid.centre_of(opening->lookout).x(), 1.1);
+}
+
+TEST(NearestOpening, IsNoneOnceItHasBeenLookedAt) {
+  const AsciiGrid map(kNarrow);
+  EXPECT_FALSE(opening_of(map, {opening_of(map)->at_m}));
+}
+
+TEST(NearestOpening, IsNoneWithoutRoomBehind) {
+  EXPECT_FALSE(opening_of(AsciiGrid(R"(
+##################
+#..........#.....#
+#..........#.....#
+#..........#.....#
+#..........#.....#
+#................#
+#..R.............#
+#................#
+#..........#.....#
+#..........#.....#
+#..........#.....#
+##################
+)")));
+}
+
+TEST(NearestOpening, IsNoneWhereTheRobotFitsThrough) {
+  std::string drawing = kNarrow;
+  for (std::size_t at; (at = drawing.find(".#.")) != std::string::npos;) drawing[at + 1] = '.';
+  EXPECT_FALSE(opening_of(AsciiGrid(drawing)));
+}
+
 // Of an opening of 0.3 m, for a robot of 0.2 m.
 bool leads_on(const AsciiGrid& map, double clearance_m) {
   const Pose2 robot{map.at('R').x(), map.at('R').y(), 0.0};
