@@ -188,6 +188,10 @@ std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
   const PassageTasks::Explored explored{usual, map, passed_.votes(), memory_.trace, world.robot.radius_m};
   while (std::optional<ExploreTask> task = passages_.next(explored, world.pose.T_map_robot.position())) {
     if (!task->path.empty()) return task;
+    search_ = {kEverywhere_m, std::min(config_.clearance_m, config_.exploring.choice.tight_clearance_m)};
+    const FreeSpace tight = space(world);
+    task->path = tight.path_to(tight.cell_at(task->lookout));
+    if (!task->path.empty()) return task;
     if (std::optional<ExploreTask> on_the_way = back_through_passage(task->lookout, world)) return on_the_way;
     passages_.record_unreachable(*task);
   }

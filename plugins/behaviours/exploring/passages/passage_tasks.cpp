@@ -87,6 +87,7 @@ std::optional<ExploreTask> PassageTasks::next(const Explored& explored, const Po
 void PassageTasks::record_unreachable(const ExploreTask& task) {
   Tried& tried = at(task.about);
   tried.is_given_up = true;
+  tried.is_unreachable = true;
   tried.why = "no path leads to it";
 }
 
@@ -109,7 +110,16 @@ std::optional<ExploreTask> PassageTasks::record_look(const ExploreTask& task, co
   return std::nullopt;
 }
 
+void PassageTasks::forget_unreachable() {
+  for (Tried& tried : tried_) {
+    if (!tried.is_unreachable) continue;
+    tried.is_unreachable = false;
+    tried.is_given_up = false;
+  }
+}
+
 void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::string& why) {
+  if (has_passed) forget_unreachable();
   Tried& tried = at(task.about);
   ++tried.tries;
   tried.why = why;
@@ -141,11 +151,13 @@ bool PassageTasks::retry() {
   has_retried_ = true;
   bool is_any = false;
   for (Tried& tried : tried_) {
+    is_any = is_any || tried.is_unreachable;
     if (!tried.is_given_up || tried.was_passed || tried.tries == 0 || tried.tries >= settings_.max_tries) continue;
     tried.is_given_up = false;
     tried.heard.reset();
     is_any = true;
   }
+  forget_unreachable();
   return is_any;
 }
 

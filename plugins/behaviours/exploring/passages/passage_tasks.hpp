@@ -40,7 +40,8 @@ class PassageTasks {
   // The next passage to look at, or one that was looked at and not driven through yet; then walls that may hide a door.
   // None when nothing is left. Its path is empty where none leads to its lookout with the space's clearance.
   [[nodiscard]] std::optional<ExploreTask> next(const Explored& explored, const Point& robot);
-  // That the robot cannot get to where it would look, or line up.
+  // That the robot cannot get to where it would look, or line up; until it has passed another passage, or tries all
+  // once more.
   void record_unreachable(const ExploreTask& task);
   // What was looked at and is too narrow.
   [[nodiscard]] std::vector<Point> closed() const {
@@ -64,11 +65,13 @@ class PassageTasks {
     std::optional<HeardOpening> heard;  // when it was looked at last
     int tries = 0;
     bool is_too_narrow = false;
+    bool is_unreachable = false;
     bool is_given_up = false;  // for now
     bool was_passed = false;
     std::string why;
   };
   [[nodiscard]] const Tried* find(const Point& at_m) const;
+  void forget_unreachable();
   [[nodiscard]] Tried& at(const Point& at_m);
   [[nodiscard]] std::vector<Point> places_where(bool (*is_so)(const Tried&)) const;
   [[nodiscard]] ExploreTask drive_through(const HeardOpening& heard, double radius_m) const;

@@ -114,6 +114,8 @@ TEST(PassageTasks, OneThatTheRobotCannotGetToIsReportedAsThat) {
   ASSERT_EQ(passing.not_entered().size(), 1U);
   EXPECT_EQ(passing.not_entered()[0].why, "no path leads to it");
   EXPECT_FALSE(passing.not_entered()[0].is_too_narrow);
+  EXPECT_TRUE(passing.tasks.retry());
+  EXPECT_TRUE(passing.next()) << "from where the robot is at the end";
 }
 
 TEST(PassageTasks, TheWayBackLeadsThroughAPassageThatWasPassedTheOtherWayRound) {
