@@ -18,6 +18,7 @@ using namespace pictures;
 constexpr int kMarginCells = 5;
 constexpr double kSurelyFreeNat = 2.0;  // P < 0.12
 constexpr double kLandmarkMarginM = 0.1;
+constexpr Stroke kTruthStroke{kPlanned, 2.0, 0.9};
 constexpr Stroke kDrivenStroke{kDriven, 1.5, 0.9};
 constexpr Stroke kPlannedStroke{kPlanned, 3.5, 0.95};
 constexpr Stroke kDoorStroke{kClosed, 3.0, 0.9};
@@ -49,7 +50,7 @@ Extent extent_of(const MapPicture& picture, const GraphLayer& graph) {
   }
   for (const auto* path : {&picture.driven, &picture.planned})
     for (const Point& p : *path) extent.include(p, kLandmarkMarginM);
-  for (const auto* paths : {&picture.doors, &picture.mover_paths})
+  for (const auto* paths : {&picture.doors, &picture.mover_paths, &picture.truth})
     for (const std::vector<Point>& path : *paths)
       for (const Point& p : path) extent.include(p, kLandmarkMarginM);
   for (const Pose2& pose : picture.robot_path) extent.include(pose.position(), shape_of(picture).reach_m());
@@ -176,6 +177,7 @@ std::vector<LegendEntry> legend_of(const MapPicture& picture, const GraphLayer& 
     entries.push_back(swatch_entry("occupied", colour_of_ol(255)));
   }
   for (LegendEntry& entry : graph.legend()) entries.push_back(std::move(entry));
+  if (!picture.truth.empty()) entries.push_back(line_entry("truth", kTruthStroke));
   if (!picture.driven.empty()) entries.push_back(line_entry("driven", kDrivenStroke));
   if (!picture.planned.empty()) entries.push_back(line_entry("planned", kPlannedStroke));
   if (!picture.doors.empty()) entries.push_back(line_entry("door", kDoorStroke));
@@ -213,7 +215,8 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   if (picture.grid != nullptr && picture.grid->bounds().empty()) picture.grid = nullptr;
   const LandmarkGraph no_graph;
   const GraphLayer graph(picture.graph == nullptr ? no_graph : *picture.graph, picture.shapes, picture.clusters);
-  const MapFrame frame = frame_of(extent_of(picture, graph), picture.grid == nullptr ? 1.0 : picture.grid->cell_m());
+  const double cell_m = picture.grid == nullptr ? 1.0 : picture.grid->cell_m();
+  const MapFrame frame = frame_of(extent_of(picture, graph), cell_m, picture.longer_side_px);
   const int width_px = page_width_px(frame);
   const Legend legend(legend_of(picture, graph), width_px - frame.box.min.x() - kPageMarginPx - kScaleBarRoomPx);
   const double legend_top_px = below_frame_px(frame) + 10.0;
@@ -221,6 +224,7 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   Canvas canvas(width_px, static_cast<int>(std::ceil(legend_top_px + legend_px + 12.0)), kPaper);
 
   draw_grid(canvas, frame, picture.grid);
+  for (const std::vector<Point>& outline : picture.truth) canvas.line(frame.pixels_of(outline), kTruthStroke);
   for (const std::vector<Point>& path : picture.mover_paths) canvas.line(frame.pixels_of(path), kMoverStroke);
   for (const std::vector<Point>& leaf : picture.doors) canvas.line(frame.pixels_of(leaf), kDoorStroke);
   canvas.line(frame.pixels_of(picture.driven), kDrivenStroke);

@@ -13,6 +13,7 @@
 #include "framework/experiments/recognition/recognition_table.hpp"
 #include "framework/experiments/recognition/ring_table.hpp"
 #include "framework/experiments/report.hpp"
+#include "framework/files/world_file.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/pictures/drawing/chart.hpp"
 
@@ -226,6 +227,22 @@ std::vector<std::string> write_place_maps(const ExperimentConfig& config, const 
   return missing;
 }
 
+// The map of each home, over the true walls, in the run's folder.
+std::vector<std::string> write_home_maps(const std::vector<ExperimentRow>& rows) {
+  std::vector<std::string> missing;
+  for (const ExperimentRow& row : rows) {
+    if (!row.home) continue;
+    try {
+      if (row.result.map_file.empty()) throw std::runtime_error(row.folder.string() + ": the run saved no map");
+      draw_over_truth(row.folder / "map.png", load_map(row.folder / row.result.map_file),
+                      load_world(row.folder / "world.yaml", {}), row.variant + ", home " + std::to_string(row.seed));
+    } catch (const std::exception& error) {
+      missing.emplace_back(error.what());
+    }
+  }
+  return missing;
+}
+
 }  // namespace
 
 std::vector<std::string> write_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
@@ -237,6 +254,7 @@ std::vector<std::string> write_charts(const ExperimentConfig& config, const std:
   if (config.ring_profile) std::ranges::move(ring_charts(config, rows), std::back_inserter(charts));
   if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
   std::vector<std::string> missing;
+  if (config.experiment == ExperimentKind::homes) missing = write_home_maps(rows);
   if (config.experiment == ExperimentKind::places) missing = write_place_maps(config, rows, out);
   for (const NamedChart& named : charts) {
     const ChartOutcome outcome = write_chart(out / named.file_name, named.chart);

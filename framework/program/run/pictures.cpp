@@ -87,6 +87,26 @@ void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, cons
   write_map_picture(file, picture);
 }
 
+void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const World& truth,
+                     const std::string& title) {
+  constexpr double kLongerSide_px = 560.0;
+  constexpr int kCircleCorners = 36;
+  MapPicture picture;
+  picture.grid = &map.grid;
+  picture.longer_side_px = kLongerSide_px;
+  for (const WorldWall& wall : truth.walls) picture.truth.push_back(wall.points_m);
+  for (const WorldObject& object : truth.objects)
+    for (std::vector<Point> outline : object.contour.outlines_m(kCircleCorners)) {
+      for (Point& p : outline) p = object.T_map_object * p;
+      outline.push_back(outline.front());
+      picture.truth.push_back(std::move(outline));
+    }
+  for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
+  if (!picture.driven.empty()) picture.start = picture.driven.front();
+  picture.title = title;
+  write_map_picture(file, picture);
+}
+
 RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, const MissionRunner& runner,
                      const MissionResult& result, const RunReport& report) {
   RunPictures pictures;
