@@ -138,9 +138,10 @@ void draw_near_misses(Canvas& canvas, const MapPicture& picture, const MapFrame&
   if (picture.near_misses.size() > kMaxLabels) return;
   for (const MarkedPlace& place : picture.near_misses) {
     const Pixel size(Canvas::text_width_px(place.words, kText) + 10.0, 20.0);
-    const PixelBox box = placer.place(frame.pixel_of(place.at_m), kNearMissPx, size);
-    canvas.fill_box(box, {kWhite, 0.85}, 4.0);
-    canvas.text(box.centre(), place.words, {kText.colour, kText.size_px, Align::centre});
+    const auto box = placer.place(frame.pixel_of(place.at_m), kNearMissPx, size);
+    if (!box) continue;
+    canvas.fill_box(*box, {kWhite, 0.85}, 4.0);
+    canvas.text(box->centre(), place.words, {kText.colour, kText.size_px, Align::centre});
   }
 }
 
