@@ -132,10 +132,10 @@ void draw_near_miss(Canvas& canvas, const Pixel& at) {
 
 // Labels only of a few: many would hide the map.
 void draw_near_misses(Canvas& canvas, const MapPicture& picture, const MapFrame& frame, LabelPlacer& placer) {
-  constexpr std::size_t kMaxLabels = 12;
+  constexpr std::size_t kMaxMissLabels = 12;
   constexpr TextStyle kText{kInk, 13.0};
   for (const MarkedPlace& place : picture.near_misses) draw_near_miss(canvas, frame.pixel_of(place.at_m));
-  if (picture.near_misses.size() > kMaxLabels) return;
+  if (picture.near_misses.size() > kMaxMissLabels) return;
   for (const MarkedPlace& place : picture.near_misses) {
     const Pixel size(Canvas::text_width_px(place.words, kText) + 10.0, 20.0);
     const auto box = placer.place(frame.pixel_of(place.at_m), kNearMissPx, size);
