@@ -1,6 +1,8 @@
 // The robot as its file describes it (config/robots/*.yaml).
 #pragma once
 
+#include <algorithm>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,26 @@ struct SonarModel {
   double half_beam_rad = radians(15.0);
   double min_m = 0.1;
   double max_m = 5.0;
+};
+
+// A scanner of thin beams, spread evenly from the first angle to the last, anticlockwise when that is the larger one.
+struct LaserModel {
+  Pose2 T_robot_laser;
+  double first_angle_rad = -0.5 * std::numbers::pi;
+  double last_angle_rad = 0.5 * std::numbers::pi;
+  int beams = 181;
+  double min_m = 0.05;
+  double max_m = 8.0;
+  double rate_hz = 10.0;
+  double noise_m = 0.01;  // standard deviation of a range, plus noise_ratio * range
+  double noise_ratio = 0.0;
+  double dropped_ratio = 0.0;  // share of echoes lost
+
+  [[nodiscard]] double step_rad() const { return beams > 1 ? (last_angle_rad - first_angle_rad) / (beams - 1) : 0.0; }
+  [[nodiscard]] Pose2 T_robot_beam(int beam) const {
+    return {T_robot_laser.x_m, T_robot_laser.y_m,
+            wrap_angle(T_robot_laser.theta_rad + first_angle_rad + beam * step_rad())};
+  }
 };
 
 // Standard deviations unless the name says otherwise.
@@ -50,10 +72,34 @@ struct RobotModel {
   std::vector<SonarModel> sonars;
   std::vector<int> firing_order;  // indices into sonars; empty: as listed
   double firing_period_s = 0.04;  // one transducer each period
+  std::vector<LaserModel> lasers;
   OdometryError odometry_error;
   bool has_compass = true;
   CompassError compass_error;
   RangeError range_error;
 };
+
+// Transducers are numbered through: the sonars first, then each laser's beams.
+inline constexpr int kMaxTransducers = 4096;
+
+[[nodiscard]] inline int first_beam_of(const RobotModel& robot, std::size_t laser) {
+  int number = static_cast<int>(robot.sonars.size());
+  for (std::size_t i = 0; i < laser; ++i) number += robot.lasers[i].beams;
+  return number;
+}
+// How far its farthest-looking sensor sees; 0: it has none.
+[[nodiscard]] inline double farthest_range_m(const RobotModel& robot) {
+  double farthest_m = 0.0;
+  for (const SonarModel& sonar : robot.sonars) farthest_m = std::max(farthest_m, sonar.max_m);
+  for (const LaserModel& laser : robot.lasers) farthest_m = std::max(farthest_m, laser.max_m);
+  return farthest_m;
+}
+// Time between two observations with readings; 0: the file does not say.
+[[nodiscard]] inline double reading_period_s(const RobotModel& robot) {
+  if (!robot.sonars.empty() || robot.lasers.empty()) return robot.firing_period_s;
+  double rate_hz = 0.0;
+  for (const LaserModel& laser : robot.lasers) rate_hz = std::max(rate_hz, laser.rate_hz);
+  return 1.0 / rate_hz;
+}
 
 }  // namespace cairn

@@ -62,6 +62,32 @@ struct FiringConfig {
   }
 };
 
+struct LaserConfig : LaserModel {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double angle_rad = 0.0;
+  static void describe(Fields<LaserConfig>& fields) {
+    fields.number("x_m", &LaserConfig::x_m, {-10.0, 10.0}, "m", "place on the robot, ahead of its centre").required =
+        true;
+    fields.number("y_m", &LaserConfig::y_m, {-10.0, 10.0}, "m", "place on the robot, left of its centre").required =
+        true;
+    fields.angle("angle_deg", &LaserConfig::angle_rad, {-360.0, 360.0}, "which way it looks, anticlockwise from ahead");
+    fields.angle("first_angle_deg", &LaserConfig::first_angle_rad, {-360.0, 360.0},
+                 "of the first beam, from the way it looks");
+    fields.angle("last_angle_deg", &LaserConfig::last_angle_rad, {-360.0, 360.0},
+                 "of the last beam; the others are spread evenly between");
+    fields.integer("beams", static_cast<int LaserConfig::*>(&LaserModel::beams), {1, kMaxTransducers},
+                   "beams of a scan");
+    fields.number("min_m", &LaserConfig::min_m, {0.0, 100.0}, "m", "nearest distance that it can measure");
+    fields.number("max_m", &LaserConfig::max_m, {0.01, 1000.0}, "m",
+                  "farthest distance that it can measure; a reading this far or farther means nothing up to here");
+    fields.number("rate_hz", &LaserConfig::rate_hz, {0.1, 1000.0}, "1/s", "scans a second");
+    fields.number("noise_m", &LaserConfig::noise_m, {0.0, 10.0}, "m", "error of a range, standard deviation");
+    fields.number("noise_ratio", &LaserConfig::noise_ratio, {0.0, 1.0}, "", "further error, as a share of the range");
+    fields.number("dropped_ratio", &LaserConfig::dropped_ratio, {0.0, 1.0}, "", "share of echoes lost");
+  }
+};
+
 struct OdometryConfig : OdometryError {
   static void describe(Fields<OdometryConfig>& fields) {
     fields.number("distance_ratio", &OdometryConfig::distance_ratio, {0.0, 1.0}, "",
@@ -101,6 +127,7 @@ struct RobotConfig {
   LimitsConfig limits;
   std::vector<SonarConfig> sonars;
   FiringConfig firing;
+  std::vector<LaserConfig> lasers;
   OdometryConfig odometry;
   CompassConfig compass;
   RangesConfig ranges;
@@ -111,11 +138,12 @@ struct RobotConfig {
     fields.choice("kinematics", &RobotConfig::kinematics,
                   {{"differential", Kinematics::differential}, {"car", Kinematics::car}}, "how it moves");
     fields.group("limits", &RobotConfig::limits, "how fast it may move");
-    fields.list("sonars", &RobotConfig::sonars, "its range sensors");
+    fields.list("sonars", &RobotConfig::sonars, "its sonars");
     fields.group("firing", &RobotConfig::firing, "when the sonars fire");
+    fields.list("lasers", &RobotConfig::lasers, "its laser scanners; their beams are numbered after the sonars");
     fields.group("odometry", &RobotConfig::odometry, "standard deviations of its dead reckoning");
     fields.group("compass", &RobotConfig::compass, "standard deviations of its compass; left out, the robot has none");
-    fields.group("ranges", &RobotConfig::ranges, "standard deviations of its ranges");
+    fields.group("ranges", &RobotConfig::ranges, "standard deviations of its sonars' ranges");
     fields.one_of({"radius_m", "polygon_m"});
   }
 };
@@ -166,6 +194,28 @@ void set_sonars(RobotModel& robot, const RobotConfig& config, const ConfigValue&
   }
 }
 
+void set_lasers(RobotModel& robot, const RobotConfig& config, const ConfigValue& root) {
+  for (std::size_t i = 0; i < config.lasers.size(); ++i) {
+    const LaserConfig& laser = config.lasers[i];
+    const SourcePlace& place = root.find("lasers")->items[i].place;
+    using config_detail::number_text;
+    if (laser.min_m >= laser.max_m)
+      throw ConfigError(place, "min_m must be less than max_m, found " + number_text(laser.min_m) + " and " +
+                                   number_text(laser.max_m));
+    const double span_deg = degrees(std::abs(laser.last_angle_rad - laser.first_angle_rad));
+    if (laser.beams > 1 && !(span_deg > 0.0 && span_deg <= 360.0 + 1e-9))
+      throw ConfigError(place,
+                        "first_angle_deg and last_angle_deg must be more than 0 and at most 360 deg apart, found " +
+                            number_text(degrees(laser.first_angle_rad)) + " and " +
+                            number_text(degrees(laser.last_angle_rad)));
+    robot.lasers.push_back(laser);
+    robot.lasers.back().T_robot_laser = {laser.x_m, laser.y_m, wrap_angle(laser.angle_rad)};
+    if (const int all = first_beam_of(robot, robot.lasers.size()); all > kMaxTransducers)
+      throw ConfigError(place, "sonars and beams together may be " + std::to_string(kMaxTransducers) +
+                                   " at most, found " + std::to_string(all));
+  }
+}
+
 void set_firing(RobotModel& robot, const FiringConfig& firing) {
   robot.firing_period_s = firing.period_s;
   if (firing.order.kind == ConfigValue::Kind::null) return;
@@ -191,6 +241,7 @@ RobotModel load_robot(const std::filesystem::path& file) {
   set_motion(robot, config, root);
   set_sonars(robot, config, root);
   set_firing(robot, config.firing);
+  set_lasers(robot, config, root);
   robot.odometry_error = config.odometry;
   robot.has_compass = root.find("compass") != nullptr;
   robot.compass_error = config.compass;

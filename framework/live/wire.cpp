@@ -21,17 +21,31 @@ ordered_json value_of_range(double range_m) {
   return range_m;
 }
 
+// What the robot's file says of a transducer: a sonar or a laser's beam.
+std::optional<RangeReading> described(const RobotModel& robot, int number) {
+  if (number < 0) return std::nullopt;
+  if (const auto index = static_cast<std::size_t>(number); index < robot.sonars.size()) {
+    const SonarModel& sonar = robot.sonars[index];
+    return RangeReading{sonar.T_robot_sonar, sonar.half_beam_rad, sonar.min_m, sonar.max_m, 0.0, number};
+  }
+  for (std::size_t i = 0; i < robot.lasers.size(); ++i) {
+    const LaserModel& laser = robot.lasers[i];
+    const int beam = number - first_beam_of(robot, i);
+    if (beam < laser.beams) return RangeReading{laser.T_robot_beam(beam), 0.0, laser.min_m, laser.max_m, 0.0, number};
+  }
+  return std::nullopt;
+}
+
 ordered_json json_of(const RangeReading& reading, const RobotModel& robot) {
   ordered_json out{{"sensor", reading.sensor}, {"range_m", value_of_range(reading.range_m)}};
-  const auto number = static_cast<std::size_t>(reading.sensor);
-  const SonarModel* const model = number < robot.sonars.size() ? &robot.sonars[number] : nullptr;
+  const std::optional<RangeReading> model = described(robot, reading.sensor);
   const auto add = [&](const char* key, double value, double usual) {
-    if (model == nullptr || value != usual) out[key] = value;
+    if (!model || value != usual) out[key] = value;
   };
-  const SonarModel usual = model == nullptr ? SonarModel{} : *model;
-  add("x_m", reading.T_robot_sensor.x_m, usual.T_robot_sonar.x_m);
-  add("y_m", reading.T_robot_sensor.y_m, usual.T_robot_sonar.y_m);
-  add("theta_rad", reading.T_robot_sensor.theta_rad, usual.T_robot_sonar.theta_rad);
+  const RangeReading usual = model.value_or(RangeReading{});
+  add("x_m", reading.T_robot_sensor.x_m, usual.T_robot_sensor.x_m);
+  add("y_m", reading.T_robot_sensor.y_m, usual.T_robot_sensor.y_m);
+  add("theta_rad", reading.T_robot_sensor.theta_rad, usual.T_robot_sensor.theta_rad);
   add("half_beam_rad", reading.half_beam_rad, usual.half_beam_rad);
   add("min_m", reading.min_m, usual.min_m);
   add("max_m", reading.max_m, usual.max_m);
@@ -79,14 +93,13 @@ RangeReading reading_of(const json& from, const RobotModel& robot) {
     throw std::runtime_error("\"sensor\" must be a transducer's number, from 0 on");
   RangeReading reading;
   reading.sensor = static_cast<int>(number);
-  const auto index = static_cast<std::size_t>(reading.sensor);
-  const SonarModel* const model = index < robot.sonars.size() ? &robot.sonars[index] : nullptr;
+  const std::optional<RangeReading> model = described(robot, reading.sensor);
   const auto value = [&](const char* key, double usual) {
-    return number_of(from, key, model == nullptr ? std::nullopt : std::optional(usual));
+    return number_of(from, key, model ? std::optional(usual) : std::nullopt);
   };
-  const SonarModel usual = model == nullptr ? SonarModel{} : *model;
-  reading.T_robot_sensor = {value("x_m", usual.T_robot_sonar.x_m), value("y_m", usual.T_robot_sonar.y_m),
-                            wrap_angle(value("theta_rad", usual.T_robot_sonar.theta_rad))};
+  const RangeReading usual = model.value_or(RangeReading{});
+  reading.T_robot_sensor = {value("x_m", usual.T_robot_sensor.x_m), value("y_m", usual.T_robot_sensor.y_m),
+                            wrap_angle(value("theta_rad", usual.T_robot_sensor.theta_rad))};
   reading.half_beam_rad = value("half_beam_rad", usual.half_beam_rad);
   reading.min_m = value("min_m", usual.min_m);
   reading.max_m = value("max_m", usual.max_m);

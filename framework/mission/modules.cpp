@@ -142,7 +142,8 @@ std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_
 
 TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {
   const TemplateSettings& config = mission.template_settings;
-  if (mission.shapes.empty() || config.rendering == Rendering::ideal || mission.robot.sonars.empty())
+  const bool is_blind = mission.robot.sonars.empty() && mission.robot.lasers.empty();
+  if (mission.shapes.empty() || config.rendering == Rendering::ideal || is_blind)
     return render_ring_set(mission.shapes, config.step_rad, cell_m, config.sizes, config.ring_offset_m);
   PluginChoice simulator{"simulated_robot", {}};
   simulator.config.kind = ConfigValue::Kind::map;
@@ -159,6 +160,11 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
   MissionModules built;
   built.T_map_start = start_of(mission.config);
   return build_sensor(mission, library, built);
+}
+
+std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
+                                  const OccupancyGrid* grid_so_far) {
+  return build_mapper(mission, library, grid_so_far);
 }
 
 std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library, double cell_m) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -17,7 +18,7 @@ StageClock::Id stage_in(std::uint64_t visit) {
 }  // namespace
 
 StageClock::StageClock(std::shared_ptr<const WallClock> wall_clock) : wall_clock_(std::move(wall_clock)) {
-  stages_.push_back({"host", "", 0, 0, 0, {}});
+  stages_.push_back({"host", "", 0, 0, 0, 0, {}});
 }
 
 std::int64_t StageClock::now_ns() const {
@@ -28,11 +29,12 @@ StageClock::Id StageClock::add(const std::string& stage, const std::string& modu
   const auto known = std::find_if(stages_.begin(), stages_.end(),
                                   [&](const Stage& s) { return s.name == stage && s.module == module; });
   if (known != stages_.end()) return static_cast<Id>(known - stages_.begin());
-  stages_.push_back({stage, module, 0, 0, 0, {}});
+  stages_.push_back({stage, module, 0, 0, 0, 0, {}});
   return stages_.size() - 1;
 }
 
-StageClock::Visit::Visit(StageClock& clock, Id id) : clock_(clock), id_(id), begin_ns_(clock.now_ns()) {
+StageClock::Visit::Visit(StageClock& clock, Id id)
+    : clock_(clock), id_(id), begin_ns_(clock.now_ns()), outer_inner_ns_(std::exchange(clock.inner_ns_, 0)) {
   outer_ = clock_.current_.load();
   clock_.since_ns_.store(begin_ns_);
   const std::uint64_t mine = (++clock_.entered_ << kStageBits) | id;
@@ -45,7 +47,22 @@ StageClock::Visit::~Visit() {
   if (mine == kGivenUp) return;
   // The outer call is given its time again: what the inner one took is not its fault.
   clock_.since_ns_.store(end_ns);
-  if (clock_.current_.compare_exchange_strong(mine, outer_)) clock_.note(id_, end_ns - begin_ns_);
+  if (clock_.current_.compare_exchange_strong(mine, outer_)) clock_.note(id_, end_ns - begin_ns_, outer_inner_ns_);
+}
+
+// When the mission is given up, another thread goes on with it; the times are over.
+StageClock::Work::Work(StageClock& clock, Id id)
+    : clock_(clock),
+      id_(id),
+      begin_ns_(clock.now_ns()),
+      outer_inner_ns_(clock.current_.load() == kGivenUp ? 0 : std::exchange(clock.inner_ns_, 0)) {}
+
+StageClock::Work::~Work() {
+  if (clock_.current_.load() == kGivenUp) return;
+  if (counts_)
+    clock_.note(id_, clock_.now_ns() - begin_ns_, outer_inner_ns_);
+  else
+    clock_.inner_ns_ = outer_inner_ns_;
 }
 
 void StageClock::check() const {
@@ -70,10 +87,12 @@ int StageClock::bucket_of(std::int64_t ns) {
   return log * 8 + static_cast<int>((value >> (log - 3)) & 7U);
 }
 
-void StageClock::note(Id id, std::int64_t ns) {
+void StageClock::note(Id id, std::int64_t ns, std::int64_t outer_inner_ns) {
   Stage& stage = stages_[id];
   ++stage.count;
   stage.total_ns += ns;
+  stage.own_ns += ns - inner_ns_;
+  inner_ns_ = outer_inner_ns + ns;
   stage.worst_ns = std::max(stage.worst_ns, ns);
   ++stage.histogram[static_cast<std::size_t>(bucket_of(ns))];
 }
@@ -94,7 +113,8 @@ std::vector<StageTime> StageClock::times() const {
   for (const Stage& stage : stages_)
     if (stage.count > 0)
       times.push_back({stage.name, stage.module, stage.count, quantile_us(stage, 0.5), quantile_us(stage, 0.99),
-                       1e-3 * static_cast<double>(stage.worst_ns), 1e-9 * static_cast<double>(stage.total_ns)});
+                       1e-3 * static_cast<double>(stage.worst_ns), 1e-9 * static_cast<double>(stage.total_ns),
+                       1e-9 * static_cast<double>(stage.own_ns)});
   return times;
 }
 

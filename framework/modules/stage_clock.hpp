@@ -26,6 +26,7 @@ struct StageTime {
   double p99_us = 0.0;
   double worst_us = 0.0;
   double total_s = 0.0;
+  double own_s = 0.0;  // of total_s: without the stages that it entered
 };
 
 // Thrown in the mission's thread when the mission was given up. No std::exception: no module shall
@@ -57,13 +58,28 @@ class StageClock {
     StageClock& clock_;
     const Id id_;
     const std::int64_t begin_ns_;
+    const std::int64_t outer_inner_ns_;
     std::uint64_t outer_ = 0;
+  };
+  // Work of the host itself: timed like a visit, but neither watched nor ever given up.
+  class Work {
+   public:
+    Work(StageClock& clock, Id id);
+    ~Work();
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+    // It does not count, nor against what it is in.
+    void leave_out() { counts_ = false; }
+
+   private:
+    StageClock& clock_;
+    const Id id_;
+    const std::int64_t begin_ns_;
+    const std::int64_t outer_inner_ns_;
+    bool counts_ = true;
   };
   // Throws GivenUp.
   void check() const;
-  // Of something that holds stages and is none itself: it is not watched.
-  void add_time(Id id, std::chrono::nanoseconds took) { note(id, took.count()); }
-
   // From any thread, and from a signal handler: where it is; kHost when it was given up.
   [[nodiscard]] Id current() const noexcept;
   // From any thread: gives the mission up when one call has lasted longer than that. Returns the
@@ -79,16 +95,19 @@ class StageClock {
     std::string module;
     std::int64_t count = 0;
     std::int64_t total_ns = 0;
+    std::int64_t own_ns = 0;
     std::int64_t worst_ns = 0;
     std::array<std::uint32_t, kBuckets> histogram{};
   };
   [[nodiscard]] std::int64_t now_ns() const;
   [[nodiscard]] static double quantile_us(const Stage& stage, double share);
   static int bucket_of(std::int64_t ns);
-  void note(Id id, std::int64_t ns);
+  // What took ns, with the stages inside; the one around it began with outer_inner_ns.
+  void note(Id id, std::int64_t ns, std::int64_t outer_inner_ns);
 
   std::shared_ptr<const WallClock> wall_clock_;
   std::vector<Stage> stages_;
+  std::int64_t inner_ns_ = 0;  // what stages took that were entered in the one that is open
   std::uint64_t entered_ = 0;  // stages entered so far: distinguishes two visits of one stage
   // Entry number and stage of the current visit, or kGivenUp; and when it was entered.
   std::atomic<std::uint64_t> current_{0};

@@ -41,6 +41,28 @@ void append_range(std::string& text, const RangeReading& reading) {
     exchange::append_number(text, reading.range_m);
 }
 
+bool is_same_transducer(const RangeReading& a, const RangeReading& b) {
+  return a.T_robot_sensor == b.T_robot_sensor && a.half_beam_rad == b.half_beam_rad && a.min_m == b.min_m &&
+         a.max_m == b.max_m;
+}
+
+// How many rays at the beginning are a laser's scan: from one place, as far from each to the next; 0: it is none.
+std::size_t rays_of_a_scan(std::span<const RangeReading> ranges) {
+  constexpr double kEven_rad = 1e-9;
+  const auto continues = [&](std::size_t i) {
+    const RangeReading& ray = ranges[i];
+    if (ray.half_beam_rad != 0.0 || ray.max_m != ranges[0].max_m) return false;
+    if (ray.T_robot_sensor.position() != ranges[0].T_robot_sensor.position()) return false;
+    if (i < 2) return true;
+    const double step_rad = ranges[1].T_robot_sensor.theta_rad - ranges[0].T_robot_sensor.theta_rad;
+    const double here_rad = ray.T_robot_sensor.theta_rad - ranges[i - 1].T_robot_sensor.theta_rad;
+    return std::abs(wrap_angle(here_rad - step_rad)) <= kEven_rad;
+  };
+  std::size_t count = 0;
+  while (count < ranges.size() && continues(count)) ++count;
+  return count;
+}
+
 template <class Work>
 auto in_recording(const std::string& file_name, const Work& work) {
   try {
@@ -56,7 +78,7 @@ RunRecording::RunRecording(const std::filesystem::path& file, const Pose2& T_map
     : file_name_(file.string()), out_(in_recording(file_name_, [&] { return GrowingFile(file); })) {
   text_ =
       "# CARMEN log, written by cairn\n"
-      "# message formats: PARAM ODOM TRUEPOS SONAR; what the PARAM cairn_ lines say: docs/logs.md\n"
+      "# message formats: PARAM ODOM TRUEPOS SONAR ROBOTLASER1; what the PARAM cairn_ lines say: docs/logs.md\n"
       "PARAM cairn_start ";
   exchange::append_number(text_, T_map_start.x_m);
   append(text_, ",", {T_map_start.y_m, T_map_start.theta_rad});
@@ -102,34 +124,67 @@ void RunRecording::write(const Observation& observation, const std::optional<Gro
     if (i > first) text_ += "-" + std::to_string(fired_[i]);
   }
   text_ += end;
-  write_sonars(observation, end);
+  write_ranges(observation, end);
   flush_text();
 }
 
 void RunRecording::write_new_sensors(const Observation& observation, std::string_view end) {
   fired_.clear();
-  for (const RangeReading& reading : observation.ranges) {
-    std::string values = sensor_text(reading);
-    const int next = static_cast<int>(numbers_.size());
-    const auto [at, is_new] = numbers_.try_emplace(std::move(values), next);
-    if (is_new) text_.append("PARAM cairn_sensor_" + std::to_string(next) + " " + at->first).append(end);
-    fired_.push_back(at->second);
+  for (const RangeReading& reading : observation.ranges) fired_.push_back(number_of(reading, end));
+}
+
+int RunRecording::number_of(const RangeReading& reading, std::string_view end) {
+  const auto known = last_numbers_.find(reading.sensor);
+  if (known != last_numbers_.end() && is_same_transducer(known->second.first, reading)) return known->second.second;
+  const int next = static_cast<int>(numbers_.size());
+  const auto [at, is_new] = numbers_.try_emplace(sensor_text(reading), next);
+  if (is_new) text_.append("PARAM cairn_sensor_" + std::to_string(next) + " " + at->first).append(end);
+  last_numbers_.insert_or_assign(reading.sensor, std::pair(reading, at->second));
+  return at->second;
+}
+
+// One line for all that follow each other with the same cone, or in one scan.
+void RunRecording::write_ranges(const Observation& observation, std::string_view end) {
+  const std::span<const RangeReading> ranges(observation.ranges);
+  for (std::size_t first = 0, last = 0; first < ranges.size(); first = last) {
+    last = first + rays_of_a_scan(ranges.subspan(first));
+    if (last - first > 1) {
+      write_scan(ranges.subspan(first, last - first), observation.T_odom_robot, end);
+      continue;
+    }
+    last = first;
+    while (last < ranges.size() && ranges[last].half_beam_rad == ranges[first].half_beam_rad &&
+           rays_of_a_scan(ranges.subspan(last)) < 2)
+      ++last;
+    if (last == first) ++last;  // a cone that is not a number
+    write_sonars(ranges.subspan(first, last - first), end);
   }
 }
 
-// One line for all that follow each other with the same cone.
-void RunRecording::write_sonars(const Observation& observation, std::string_view end) {
-  const auto& ranges = observation.ranges;
-  for (std::size_t first = 0, last = 0; first < ranges.size(); first = last) {
-    while (last < ranges.size() && ranges[last].half_beam_rad == ranges[first].half_beam_rad) ++last;
-    if (last == first) ++last;  // a cone that is not a number
-    text_ += "SONAR";
-    append(text_, " ", {2.0 * ranges[first].half_beam_rad});
-    text_ += " " + std::to_string(last - first);
-    for (std::size_t i = first; i < last; ++i) append_range(text_, ranges[i]);
-    for (std::size_t i = first; i < last; ++i) append(text_, " ", ranges[i].T_robot_sensor);
-    text_ += end;
-  }
+void RunRecording::write_sonars(std::span<const RangeReading> ranges, std::string_view end) {
+  text_ += "SONAR";
+  append(text_, " ", {2.0 * ranges.front().half_beam_rad});
+  text_ += " " + std::to_string(ranges.size());
+  for (const RangeReading& reading : ranges) append_range(text_, reading);
+  for (const RangeReading& reading : ranges) append(text_, " ", reading.T_robot_sensor);
+  text_ += end;
+}
+
+// ROBOTLASER1 type first_angle field step max_range accuracy remission_mode n r1..rn 0 (laser) (robot) 5 numbers
+void RunRecording::write_scan(std::span<const RangeReading> rays, const Pose2& T_odom_robot, std::string_view end) {
+  const Pose2& T_robot_first = rays.front().T_robot_sensor;
+  const double step_rad = wrap_angle(rays[1].T_robot_sensor.theta_rad - T_robot_first.theta_rad);
+  const Pose2 T_robot_laser{T_robot_first.x_m, T_robot_first.y_m, 0.0};
+  text_ += "ROBOTLASER1 0";
+  append(text_, " ", {T_robot_first.theta_rad, step_rad * static_cast<double>(rays.size() - 1), step_rad});
+  append(text_, " ", {rays.front().max_m});
+  text_ += " 0 0 " + std::to_string(rays.size());
+  for (const RangeReading& ray : rays) append_range(text_, ray);
+  text_ += " 0";
+  append(text_, " ", T_odom_robot * T_robot_laser);
+  append(text_, " ", T_odom_robot);
+  text_ += " 0 0 0 0 0";
+  text_ += end;
 }
 
 void RunRecording::flush_text() {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "framework/mission/events.hpp"
 #include "maps/base/output_file.hpp"
@@ -24,14 +27,19 @@ class RunRecording : public Listener {
  private:
   void write(const Observation& observation, const std::optional<GroundTruth>& truth);
   void write_new_sensors(const Observation& observation, std::string_view end);
-  void write_sonars(const Observation& observation, std::string_view end);
+  [[nodiscard]] int number_of(const RangeReading& reading, std::string_view end);
+  void write_ranges(const Observation& observation, std::string_view end);
+  void write_sonars(std::span<const RangeReading> ranges, std::string_view end);
+  void write_scan(std::span<const RangeReading> rays, const Pose2& T_odom_robot, std::string_view end);
   void flush_text();
 
   std::string file_name_;
   GrowingFile out_;
   std::string text_;
   std::unordered_map<std::string, int> numbers_;  // of transducers, by their values as text
-  std::vector<int> fired_;                        // in this observation, by number
+  // The same of each sensor as it was last: a laser's beams come again and again.
+  std::unordered_map<int, std::pair<RangeReading, int>> last_numbers_;
+  std::vector<int> fired_;  // in this observation, by number
 };
 
 }  // namespace cairn

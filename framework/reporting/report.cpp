@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/reporting/event_sentences.hpp"
+#include "maps/landmarks/close_categories.hpp"
 
 namespace cairn {
 namespace {
@@ -32,15 +33,20 @@ ordered_json json_of(const Landmark& landmark) {
                             {"mean_degree", rounded(e.mean_degree)},
                             {"best_degree", rounded(e.best_degree)},
                             {"last_degree", rounded(e.last_degree)}};
-  return {{"id", "L" + std::to_string(landmark.id)},
-          {"category", landmark.category},
-          {"x_m", rounded(landmark.T_map_landmark.x_m)},
-          {"y_m", rounded(landmark.T_map_landmark.y_m)},
-          {"angle_deg", rounded(degrees(landmark.T_map_landmark.theta_rad))},
-          {"degree", rounded(landmark.degree)},
-          {"sightings", landmark.sightings},
-          {"templates", templates},
-          {"evidence", evidence}};
+  ordered_json described = {{"id", "L" + std::to_string(landmark.id)},
+                            {"category", landmark.category},
+                            {"x_m", rounded(landmark.T_map_landmark.x_m)},
+                            {"y_m", rounded(landmark.T_map_landmark.y_m)},
+                            {"angle_deg", rounded(degrees(landmark.T_map_landmark.theta_rad))},
+                            {"degree", rounded(landmark.degree)},
+                            {"sightings", landmark.sightings},
+                            {"templates", templates},
+                            {"evidence", evidence}};
+  if (!landmark.name.empty()) described["name"] = landmark.name;
+  if (const auto close = close_categories(landmark))
+    described["close_to"] = {
+        {"category", close->other}, {"degree", rounded(close->other_degree)}, {"own_degree", rounded(close->degree)}};
+  return described;
 }
 
 ordered_json json_of(const LandmarkGraph& graph) {
@@ -107,7 +113,8 @@ ordered_json json_of(const std::vector<StageTime>& times) {
                     {"median_us", rounded(t.median_us)},
                     {"p99_us", rounded(t.p99_us)},
                     {"worst_us", rounded(t.worst_us)},
-                    {"total_s", rounded(t.total_s)}});
+                    {"total_s", rounded(t.total_s)},
+                    {"own_s", rounded(t.own_s)}});
   return list;
 }
 

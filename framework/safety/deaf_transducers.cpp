@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "framework/safety/range_buffer.hpp"
 
@@ -37,6 +38,7 @@ void DeafTransducers::forget() {
     transducer.silent_rounds = transducer.missed_rounds = 0;
   }
   groups_ = {};
+  ray_directions_ = {};
   has_place_ = false;
   changes_.clear();
 }
@@ -50,6 +52,10 @@ void DeafTransducers::see(const Observation& observation, std::span<const Expect
   at_odom_ = at_odom;
   for (const RangeReading& reading : observation.ranges) {
     if (!says_something(reading)) continue;
+    if (reading.half_beam_rad <= 0.0) {
+      take_ray(reading);
+      continue;
+    }
     Transducer& transducer = transducer_of(reading);
     const auto echo = std::ranges::find_if(expected, [&](const ExpectedEcho& one) {
       return one.sensor == reading.sensor && one.range_m <= config_.within_m;
@@ -61,6 +67,11 @@ void DeafTransducers::see(const Observation& observation, std::span<const Expect
   }
   judge();
   spread();
+}
+
+void DeafTransducers::take_ray(const RangeReading& ray) {
+  if (!is_no_echo(ray)) silent_path_m_ = 0.0;
+  ray_directions_.look(ray.T_robot_sensor.theta_rad, stamp_s_);
 }
 
 DeafTransducers::Transducer& DeafTransducers::transducer_of(const RangeReading& reading) {
@@ -155,7 +166,9 @@ bool DeafTransducers::is_towards(double direction_rad) const {
   };
   for (double off_rad = -kSwept_rad; off_rad <= kSwept_rad + 0.5 * kStep_rad; off_rad += kStep_rad) {
     const double at_rad = direction_rad + off_rad;
-    if (someone_looks(at_rad, true, 0.0) && !someone_looks(at_rad, false, kBesideDeafBeam_rad)) return true;
+    if (someone_looks(at_rad, true, 0.0) && !someone_looks(at_rad, false, kBesideDeafBeam_rad) &&
+        !ray_directions_.have_looked(at_rad, stamp_s_ - kept_s_))
+      return true;
   }
   return false;
 }

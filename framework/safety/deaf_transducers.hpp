@@ -7,8 +7,9 @@
 //   all of these that are silent,
 // - when it is silent beside a deaf one, as long as that, and has not answered since that one went deaf,
 // - when it was silent and the robot has bumped into something at its side.
-// An echo ends it. Expectations are plain numbers: this class knows no map, and trusts whoever makes them with slowing
-// the robot down only.
+// An echo ends it. Beams of lasers are never deaf: nothing answers a sonar but a wall that is straight across, and
+// everything a laser. Where one looks, a deaf sonar is not alone. Expectations are plain numbers: this class knows no
+// map, and trusts whoever makes them with slowing the robot down only.
 #pragma once
 
 #include <array>
@@ -17,6 +18,7 @@
 
 #include "framework/contracts/observation.hpp"
 #include "framework/safety/config.hpp"
+#include "framework/safety/ray_directions.hpp"
 
 namespace cairn {
 
@@ -86,6 +88,7 @@ class DeafTransducers {
   void take_silence(Transducer& transducer, const ExpectedEcho* expected);
   void judge();
   void spread();
+  void take_ray(const RangeReading& ray);
   void set_deaf(Transducer& transducer, bool is_deaf, DeafCause cause);
 
   DeafConfig config_;
@@ -95,6 +98,7 @@ class DeafTransducers {
   std::vector<int> deaf_;
   std::vector<HearingChange> changes_;
   std::array<Group, kGroups> groups_;
+  RayDirections ray_directions_;
   double silent_path_m_ = 0.0;  // driven since
   bool has_place_ = false;
   Point at_odom_{0.0, 0.0};

@@ -8,8 +8,7 @@
 namespace cairn {
 namespace {
 
-constexpr int kArcPoints = 7;  // a 30 degree arc at 0.5 m: a point each 4.4 cm
-constexpr int kMaxSensors = 4096;
+constexpr int kArcPoints = 7;          // a 30 degree arc at 0.5 m: a point each 4.4 cm
 constexpr std::size_t kMaxEchoes = 4;  // of one transducer
 constexpr double kTouchKept_s = 5.0;
 // Of half a beam, in which another transducer would surely have heard it; the same one would have in all of it.
@@ -17,16 +16,14 @@ constexpr double kCertainBeamRatio = 0.6;
 constexpr double kBehind_m = 0.1;  // farther away than that is behind
 constexpr double kBesideBeam_rad = radians(10.0);
 constexpr double kThin_rad = radians(1.0);  // half a beam of no width
-// Differences of two ranges that noise explains, and speeds that nothing in a building has.
+// Differences of two ranges that noise explains, as a share of the range, and at least.
 constexpr double kNoise_m = 0.03;
 constexpr double kNoiseRatio = 0.015;
-constexpr double kFastest_mps = 1.2;
 
 std::vector<Point> arc_of(const RangeReading& reading, const Pose2& T_odom_sensor) {
   std::vector<Point> points;
-  const int count = reading.half_beam_rad > 0.0 ? kArcPoints : 1;
-  for (int i = 0; i < count; ++i) {
-    const double bearing = count == 1 ? 0.0 : reading.half_beam_rad * (2.0 * i / (count - 1) - 1.0);
+  for (int i = 0; i < kArcPoints; ++i) {
+    const double bearing = reading.half_beam_rad * (2.0 * i / (kArcPoints - 1) - 1.0);
     points.push_back(T_odom_sensor * Point(reading.range_m * std::cos(bearing), reading.range_m * std::sin(bearing)));
   }
   return points;
@@ -44,15 +41,25 @@ bool is_placed(const Observation& observation) {
 }
 
 bool says_something(const RangeReading& reading) {
-  return reading.sensor >= 0 && reading.sensor < kMaxSensors && !std::isnan(reading.range_m) &&
+  return reading.sensor >= 0 && reading.sensor < kMaxTransducers && !std::isnan(reading.range_m) &&
          is_finite(reading.T_robot_sensor) && std::isfinite(reading.half_beam_rad) && std::isfinite(reading.min_m);
 }
 
-RangeBuffer::RangeBuffer(const RobotModel& robot, double kept_s)
-    : kept_s_(std::max(kept_s, 1.5 * round_of(robot))), round_s_(round_of(robot)) {}
+double closing_speed_mps(double expected_m, double range_m, double passed_s) {
+  const double nearer_m = expected_m - range_m;
+  if (nearer_m < kNoise_m + kNoiseRatio * range_m) return 0.0;
+  const double speed_mps = nearer_m / passed_s;
+  return speed_mps > kFastestMover_mps ? 0.0 : speed_mps;  // faster: something else has come into the beam
+}
+
+RangeBuffer::RangeBuffer(const RobotModel& robot, double kept_s, double rays_within_m)
+    : kept_s_(std::max({kept_s, 1.5 * round_of(robot), 1.5 * reading_period_s(robot)})),
+      round_s_(round_of(robot)),
+      rays_(robot, kept_s_, rays_within_m, round_s_) {}
 
 void RangeBuffer::forget() {
   transducers_.clear();
+  rays_.forget();
   touches_.clear();
   points_.clear();
 }
@@ -61,7 +68,8 @@ void RangeBuffer::see(const Observation& observation) {
   T_odom_robot_ = observation.T_odom_robot;
   stamp_s_ = observation.stamp_s;
   for (const RangeReading& reading : observation.ranges)
-    if (says_something(reading)) take(reading);
+    if (reading.half_beam_rad > 0.0 && says_something(reading)) take(reading);
+  rays_.see(observation);
   for (Transducer& transducer : transducers_)
     std::erase_if(transducer.echoes, [&](const Echo& echo) { return stamp_s_ - echo.stamp_s > kept_s_; });
   std::erase_if(touches_, [&](const Touch& touch) { return stamp_s_ - touch.stamp_s > kTouchKept_s; });
@@ -96,10 +104,7 @@ double RangeBuffer::closing_mps(const Transducer& transducer, const RangeReading
   const Point from = (T_odom_robot_ * reading.T_robot_sensor).position();
   double expected_m = std::numeric_limits<double>::infinity();
   for (const Point& p : last.points_odom) expected_m = std::min(expected_m, (p - from).norm());
-  const double nearer_m = expected_m - reading.range_m;
-  if (nearer_m < kNoise_m + kNoiseRatio * reading.range_m) return 0.0;
-  const double speed_mps = nearer_m / passed_s;
-  return speed_mps > kFastest_mps ? 0.0 : speed_mps;  // faster: something else has come into the beam
+  return closing_speed_mps(expected_m, reading.range_m, passed_s);
 }
 
 void RangeBuffer::clear_before(const RangeReading& reading) {
@@ -132,10 +137,12 @@ void RangeBuffer::show() {
         points_.push_back({T_robot_odom * p, is_last ? echo.closing_mps : 0.0, until_s});
     }
   }
+  rays_.append_points(T_robot_odom, points_);
   for (const Touch& touch : touches_) points_.push_back({T_robot_odom * touch.at_odom, 0.0, 0.0});
 }
 
 bool RangeBuffer::covers(double direction_rad) const {
+  if (rays_.covers(direction_rad)) return true;
   return std::any_of(transducers_.begin(), transducers_.end(), [&](const Transducer& transducer) {
     return stamp_s_ - transducer.stamp_s <= kept_s_ &&
            std::abs(wrap_angle(transducer.axis_rad - direction_rad)) <= transducer.half_beam_rad + kBesideBeam_rad;

@@ -3,7 +3,7 @@
 //
 // An echo is kept as points on its arc, because it may have come from anywhere on it. A later echo from farther away
 // that passed through such a point takes it away again; silence does not, for a mirror or a dead transducer is silent
-// too.
+// too. Thin beams are kept as scans (RayBuffer).
 #pragma once
 
 #include <optional>
@@ -11,15 +11,10 @@
 
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/safety/ray_buffer.hpp"
+#include "framework/safety/seen_point.hpp"
 
 namespace cairn {
-
-// Something that has echoed, robot frame.
-struct SeenPoint {
-  Point at{0.0, 0.0};
-  double closing_mps = 0.0;    // how fast it comes nearer beyond what the robot's own motion explains
-  double until_fired_s = 0.0;  // before its transducer fires again
-};
 
 // Whether an observation's clock and odometry are numbers: otherwise nothing in it has a time and a place.
 [[nodiscard]] bool is_placed(const Observation& observation);
@@ -28,8 +23,8 @@ struct SeenPoint {
 
 class RangeBuffer {
  public:
-  // kept_s: how long an echo counts.
-  RangeBuffer(const RobotModel& robot, double kept_s);
+  // kept_s: how long an echo counts. rays_within_m: echoes of thin beams from farther away are left out.
+  RangeBuffer(const RobotModel& robot, double kept_s, double rays_within_m = 8.0);
 
   // It must be placed; readings that say nothing are left out.
   void see(const Observation& observation);
@@ -70,6 +65,7 @@ class RangeBuffer {
   Pose2 T_odom_robot_;
   double stamp_s_ = 0.0;
   std::vector<Transducer> transducers_;
+  RayBuffer rays_;
   std::vector<Touch> touches_;
   std::vector<SeenPoint> points_;
 };

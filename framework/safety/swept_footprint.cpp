@@ -1,6 +1,7 @@
 #include "framework/safety/swept_footprint.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "maps/geometry/segments.hpp"
@@ -11,6 +12,8 @@ namespace {
 // What is within the margin already may be passed along: nearer by less than this on the first metres of the arc.
 constexpr double kSoon_m = 0.05;
 constexpr double kNearer_m = 0.01;
+constexpr double kStraight_per_m = 1e-7;  // curvature
+constexpr double kRounding_m = 1e-4;
 
 }  // namespace
 
@@ -36,6 +39,12 @@ double free_sweep_m(const RobotModel& robot, const Twist& twist, const Point& p,
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double speed_mps = sweep_speed_mps(robot, twist);
   if (speed_mps <= 0.0 || p.norm() - reach_of_m(robot) - margin_m > at_most_m) return kNever;
+  // The centre's path is a circle or a line: what is farther from all of it than the footprint reaches is never met.
+  const bool is_straight = std::abs(twist.w_radps) < kStraight_per_m * std::abs(twist.v_mps);
+  const double radius_m = is_straight ? 0.0 : twist.v_mps / twist.w_radps;
+  const double off_m =
+      is_straight ? std::abs(p.y()) : std::abs(std::hypot(p.x(), p.y() - radius_m) - std::abs(radius_m));
+  if (off_m > reach_of_m(robot) + margin_m + kRounding_m) return kNever;
   const auto gap_m = [&](double way_m) {
     return distance_to_footprint_m(robot, inverse(pose_after(twist, way_m / speed_mps)) * p) - margin_m;
   };

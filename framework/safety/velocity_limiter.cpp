@@ -34,15 +34,23 @@ double share_for(double distance_m, double speed_mps, double deceleration_mps2, 
   return std::min(1.0, (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a));
 }
 
+// Nothing farther away can come into a zone before the robot stands: it may take a scan's time to see it.
+double rays_within_m(const CollisionMonitorConfig& config, const RobotModel& robot) {
+  const double reach_m = reach_of_m(robot);
+  const double speed_mps = robot.max_v_mps + reach_m * robot.max_w_radps;
+  const double stopping_s = 0.3 + std::min(1.0, reading_period_s(robot)) + speed_mps / robot.max_acceleration_mps2;
+  return reach_m + config.margin_m + config.slow_m + (speed_mps + kFastestMover_mps) * stopping_s + 0.5;
+}
+
 }  // namespace
 
 VelocityLimiter::VelocityLimiter(const CollisionMonitorConfig& config, const RobotModel& robot)
     : config_(config),
       law_(law_of(config)),
       robot_(robot),
-      memory_(robot, config.stale_s),
+      memory_(robot, config.stale_s, rays_within_m(config, robot)),
       hearing_(config.deaf, memory_.kept_s()),
-      period_s_(robot.firing_period_s) {}
+      period_s_(reading_period_s(robot)) {}
 
 void VelocityLimiter::see(const Observation& observation, std::span<const ExpectedEcho> expected) {
   const double passed_s = observation.stamp_s - stamp_s_;
@@ -68,7 +76,7 @@ void VelocityLimiter::see(const Observation& observation, std::span<const Expect
 // The second largest of the last few gaps: neither a reading that is missing nor a stamp that jitters changes it, and
 // of two sources that report their readings one soon after the other it is the long one.
 void VelocityLimiter::note_reading() {
-  if (heard_ && robot_.firing_period_s <= 0.0) {
+  if (heard_ && reading_period_s(robot_) <= 0.0) {
     if (gaps_s_.size() == kGaps) gaps_s_.erase(gaps_s_.begin());
     gaps_s_.push_back(stamp_s_ - last_reading_s_);
     std::vector<double> sorted = gaps_s_;

@@ -17,13 +17,14 @@ World world_of(const Contour& contour, const Pose2& T_map_landmark, Surface surf
   return world;
 }
 
-// A calibrated copy whose sonars end a little beyond the landmark: what lies further away costs time
+// A calibrated copy whose sonars and lasers end a little beyond the landmark: what lies further away costs time
 // and says nothing.
 RobotModel calibrated(const RobotModel& robot, double far_enough_m) {
   RobotModel exact = robot;
   exact.odometry_error = {};
   exact.compass_error = {};
   for (SonarModel& sonar : exact.sonars) sonar.max_m = std::max(sonar.min_m, std::min(sonar.max_m, far_enough_m));
+  for (LaserModel& laser : exact.lasers) laser.max_m = std::max(laser.min_m, std::min(laser.max_m, far_enough_m));
   return exact;
 }
 

@@ -137,13 +137,17 @@ class KeyText {
 
 void add_robot(KeyText& key, const RobotModel& robot) {
   // Named one by one, so that the compiler objects when a field is added and left out here.
-  const auto& [name, radius_m, polygon_m, v, w, a, wa, turning_m, kinematics, sonars, order, period_s, odometry,
+  const auto& [name, radius_m, polygon_m, v, w, a, wa, turning_m, kinematics, sonars, order, period_s, lasers, odometry,
                has_compass, compass, range] = robot;
   key.add(name.size(), name, radius_m, v, w, a, wa, turning_m, static_cast<int>(kinematics), period_s);
   key.add_points(polygon_m).add(sonars.size());
   for (const auto& [T_robot_sonar, half_beam_rad, min_m, max_m] : sonars)
     key.add_pose(T_robot_sonar).add(half_beam_rad, min_m, max_m);
   for (const int sonar : order) key.add(sonar);
+  for (const auto& [T_robot_laser, first_rad, last_rad, beams, min_m, max_m, rate_hz, laser_noise_m, laser_noise_ratio,
+                    laser_dropped] : lasers)
+    key.add_pose(T_robot_laser)
+        .add(first_rad, last_rad, beams, min_m, max_m, rate_hz, laser_noise_m, laser_noise_ratio, laser_dropped);
   const auto& [distance, distance_bias, heading] = odometry;
   const auto& [noise_rad, bias_rad, bias_scale_m] = compass;
   const auto& [noise_m, noise_ratio, dropped, crosstalk] = range;

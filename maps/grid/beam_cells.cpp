@@ -89,13 +89,17 @@ void spans_of_ray(const Beam& beam, const Point& apex, double reach, std::vector
   const Point offset = reach * beam.T_map_sensor.direction();
   const Point tip = apex + offset;
   const int y_last = floor_of(std::max(apex.y(), tip.y()));
-  for (int y = floor_of(std::min(apex.y(), tip.y())); y <= y_last; ++y) {
-    Interval x{std::min(apex.x(), tip.x()), std::max(apex.x(), tip.x())};
-    if (offset.y() != 0.0) {
-      const double x_below = apex.x() + (y - apex.y()) / offset.y() * offset.x();
-      const double x_above = apex.x() + (y + 1 - apex.y()) / offset.y() * offset.x();
-      x.cut(std::min(x_below, x_above), std::max(x_below, x_above));
-    }
+  const Interval whole{std::min(apex.x(), tip.x()), std::max(apex.x(), tip.x())};
+  const bool is_level = offset.y() == 0.0;
+  const double dx_per_dy = is_level ? 0.0 : offset.x() / offset.y();
+  const auto x_at = [&](int y) { return apex.x() + (y - apex.y()) * dx_per_dy; };
+  const int y_first = floor_of(std::min(apex.y(), tip.y()));
+  double x_below = x_at(y_first);
+  for (int y = y_first; y <= y_last; ++y) {
+    Interval x = whole;
+    const double x_above = x_at(y + 1);
+    if (!is_level) x.cut(std::min(x_below, x_above), std::max(x_below, x_above));
+    x_below = x_above;
     if (x.low <= x.high) spans.push_back({y, floor_of(x.low), floor_of(x.high) + 1});
   }
 }

@@ -110,15 +110,15 @@ std::vector<RangeReading> Recording::readings_of(std::string_view sensors, const
   return readings;
 }
 
-bool Recording::take_sonar(const LogLine& line) {
+bool Recording::take_ranges(const LogLine& line, std::size_t count_at) {
   if (!waiting_) return false;
   const std::vector<RangeReading>& readings = scans_.readings_of(source_);
-  const std::size_t count = line.count(2, "count of ranges");
+  const std::size_t count = line.count(count_at, "count of ranges");
   if (ranges_m_.size() + count > readings.size())
-    throw ConfigError(line.place(2), "more ranges than the observation has sensors");
+    throw ConfigError(line.place(count_at), "more ranges than the observation has sensors");
   for (std::size_t i = 0; i < count; ++i) {
     const RangeReading& reading = readings[ranges_m_.size()];
-    ranges_m_.push_back(log_common::range_from(line.range_m(3 + i), 1.0, {}, reading.min_m, reading.max_m));
+    ranges_m_.push_back(log_common::range_from(line.range_m(count_at + 1 + i), 1.0, {}, reading.min_m, reading.max_m));
   }
   complete();
   return true;

@@ -31,13 +31,16 @@ Muriel::Muriel(const Config& config)
     : config_(config),
       weights_(weights_of(config)),
       believed_(log_odds_of(config.believed_p)),
-      grid_(config.cell_m, config.clamp_nat) {}
+      grid_(config.cell_m, config.clamp_nat),
+      light_rays_(config) {}
 
 const CellChanges& Muriel::integrate(const Observation& observation, const PoseEstimate& pose) {
   changes_.spans.clear();
   if (!is_finite(pose.T_map_robot)) return changes_;
   for (const RangeReading& reading : observation.ranges)
     if (const auto evidence = placed(config_, reading, pose.T_map_robot)) integrate_reading(*evidence);
+  grid_.include(light_rows_.box());
+  light_rows_.drain(changes_.spans);
   cleared_footprint_.take(grid_, pose.T_map_robot, changes_.spans);
   join_rows();
   return changes_;
@@ -45,6 +48,10 @@ const CellChanges& Muriel::integrate(const Observation& observation, const PoseE
 
 void Muriel::integrate_reading(const PlacedReading& reading) {
   if (!grid_.can_include(reading.beam.T_map_sensor.position(), reading.beam.reach_m)) return;
+  if (reading.is_light) {
+    light_rays_.integrate(reading, grid_, log_, light_rows_);
+    return;
+  }
   const int first_bucket =
       bucket_of(reading.beam.T_map_sensor.theta_rad - reading.beam.half_beam_rad, config_.log_bearings);
   const std::optional<KernelLog> log = kernel_log(reading.beam);

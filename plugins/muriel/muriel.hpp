@@ -7,6 +7,8 @@
 // A reading speaks of the cells up to 4.5 range errors behind its echo, or behind max_m without one, and
 // nowhere beyond alpha_range_m.
 //
+// A beam of no width is a laser's: it is never specular (light_rays.hpp).
+//
 // What a reading means stands in sonar_model/reading.hpp; an observation under a pose that is not finite
 // is ignored. A cone that is nowhere wider than a cell is a ray, and a ray is all axis.
 //
@@ -23,6 +25,7 @@
 #include "plugins/common/sonar_model/cleared_footprint.hpp"
 #include "plugins/muriel/beam_kernels.hpp"
 #include "plugins/muriel/independence_log.hpp"
+#include "plugins/muriel/light_rays.hpp"
 #include "plugins/muriel/reading_model.hpp"
 
 namespace cairn::muriel {
@@ -41,6 +44,9 @@ class Muriel final : public Mapper {
 
   // Memory of OG1 and the log.
   [[nodiscard]] std::size_t bytes() const { return grid_.bytes() + log_.bytes(); }
+
+  // Of rays of light, so far.
+  [[nodiscard]] std::int64_t cells_on_rays() const { return light_rays_.cells(); }
 
   // For tests that begin in the middle.
   [[nodiscard]] IndependenceLog& log() { return log_; }
@@ -73,6 +79,8 @@ class Muriel final : public Mapper {
   LogOdds believed_;
   OccupancyGrid grid_;
   IndependenceLog log_;
+  LightRays light_rays_;
+  RowHull light_rows_;   // of the latest call's rays of light
   CellChanges changes_;  // of the latest call
   sonar_model::ClearedFootprint cleared_footprint_;
 

@@ -47,7 +47,7 @@ void integrate_plainly(const Config& config, const PlacedReading& reading, Occup
                        std::vector<CellSpan>& spans, std::vector<CellSpan>& changed) {
   if (!grid.can_include(reading.beam.T_map_sensor.position(), reading.beam.reach_m)) return;
   spans_over(reading.beam, config.cell_m, spans);
-  const double s = config.specular ? specular_p(config, reading, grid, spans) : 0.0;
+  const double s = config.specular && !reading.is_light ? specular_p(config, reading, grid, spans) : 0.0;
   const Weights weights = weights_of(config);
   for_each_cell(config, reading, spans, [&](Cell cell, const BeamPlace& place, double alpha) {
     const double lambda0 = reading.is_echo ? config.lambda_of_echo(alpha, place.range_m, reading.range_m)

@@ -19,6 +19,7 @@ std::optional<PlacedReading> placed(const Config& config, const RangeReading& re
   PlacedReading result;
   result.is_echo = meaning == sonar_model::Meaning::echo;
   result.range_m = result.is_echo ? reading.range_m : reading.max_m;
+  result.is_light = reading.half_beam_rad <= 0.0;
   const double reach = reach_m(config, result.range_m);
   const bool is_ray = 2.0 * reach * reading.half_beam_rad < config.cell_m;
   result.beam = {T_map_robot * reading.T_robot_sensor, is_ray ? 0.0 : reading.half_beam_rad, reach};

@@ -16,8 +16,9 @@ inline constexpr double kReach_sigmas = 4.5;
 
 // A reading that says something, placed in the map.
 struct PlacedReading {
-  Beam beam;             // its reach is that of the evidence
-  bool is_echo = false;  // else: nothing up to range_m
+  Beam beam;              // its reach is that of the evidence
+  bool is_echo = false;   // else: nothing up to range_m
+  bool is_light = false;  // of a laser: nothing mirrors it
   double range_m = 0.0;
 };
 

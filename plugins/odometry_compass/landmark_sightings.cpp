@@ -11,6 +11,7 @@ namespace cairn::odometry_compass {
 namespace {
 
 constexpr std::size_t kReadingsTogether = 15;  // readings that are looked at together
+constexpr std::size_t kMaxRays = 60;           // of a scan, evenly spread: neighbours say the same
 constexpr double kKept_s = 4.0;
 constexpr double kKept_m = 1.0;
 constexpr std::size_t kMinReadings = 8;  // of one landmark
@@ -70,7 +71,12 @@ void LandmarkSightings::take(const Observation& observation) {
   begun_ = true;
   T_odom_last_ = T_odom_robot;
   if (anchors_.empty()) return;
+  const auto is_ray = [](const RangeReading& range) { return range.half_beam_rad <= 0.0; };
+  const auto rays = static_cast<std::size_t>(std::ranges::count_if(observation.ranges, is_ray));
+  const std::size_t every = (rays + kMaxRays - 1) / kMaxRays;
+  std::size_t ray = 0;
   for (const RangeReading& range : observation.ranges) {
+    if (is_ray(range) && ray++ % every != 0) continue;
     const bool is_echo = std::isfinite(range.range_m) && range.range_m >= range.min_m && range.range_m <= range.max_m;
     if (!is_echo || range.range_m > kReach_m) continue;
     window_.push_back(

@@ -4,6 +4,7 @@
 // the others as they were.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ class Faults {
   [[nodiscard]] double compass_jump_rad() const;
   // What is reported of a reading; nothing when none is reported. To be asked of every one, in their order.
   [[nodiscard]] std::optional<RangeReading> reported(RangeReading reading);
+  // Whether nothing is reported at all, of no sensor.
+  [[nodiscard]] bool is_silent() const {
+    return std::ranges::any_of(at_work_, [](const FaultConfig& fault) { return fault.silent; });
+  }
 
  private:
   struct PortableRandom {

@@ -15,6 +15,11 @@ const World& checked(const World* world) {
   return *world;
 }
 
+double period_of(const SimulatedRobotConfig& config, const RobotModel& robot) {
+  if (robot.sonars.empty() && !robot.lasers.empty()) return laser_tick_s(robot, config.tick_s);
+  return robot.firing_period_s > 0.0 ? robot.firing_period_s : config.tick_s;
+}
+
 std::string start_fault(const Pose2& T_map_start, const RobotModel& robot, const World& world, const Traffic& traffic) {
   std::optional<std::string> why = not_free(T_map_start, robot, world);
   if (const auto mover = traffic.blocker_at(T_map_start); !why && mover) {
@@ -29,7 +34,7 @@ std::string start_fault(const Pose2& T_map_start, const RobotModel& robot, const
 
 SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotModel& robot, const World* world,
                                const Pose2& T_map_start, std::uint64_t seed, double begin_s)
-    : period_s_(robot.firing_period_s > 0.0 ? robot.firing_period_s : config.tick_s),
+    : period_s_(period_of(config, robot)),
       scene_(checked(world)),
       traffic_(*world, robot, T_map_start),
       body_(robot, scene_),
@@ -37,6 +42,7 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
       battery_(config.battery),
       odometer_(in_truth(robot, config.truth).odometry_error, config.turn_as_distance_m_per_rad, seed),
       sonars_(config, robot, scene_, seed),
+      lasers_(robot, scene_, seed),
       faults_(config.faults, config.random_faults, robot, *world, seed),
       witness_(robot),
       T_map_robot_(T_map_start) {
@@ -75,6 +81,9 @@ SensorStep SimulatedRobot::next(const Budget&) {
   // All are fired, so that a reading that is not reported does not change those that follow.
   for (const RangeReading& reading : sonars_.fire(T_map_robot_, ticks_))
     if (const std::optional<RangeReading> reported = faults_.reported(reading)) seen.ranges.push_back(*reported);
+  scanned_.clear();
+  lasers_.scan(T_map_robot_, time_s() - period_s_, time_s(), scanned_);
+  if (!faults_.is_silent()) seen.ranges.insert(seen.ranges.end(), scanned_.begin(), scanned_.end());
   return step;
 }
 

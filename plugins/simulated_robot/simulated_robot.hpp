@@ -17,6 +17,7 @@
 #include "plugins/simulated_robot/config.hpp"
 #include "plugins/simulated_robot/faults.hpp"
 #include "plugins/simulated_robot/instruments.hpp"
+#include "plugins/simulated_robot/laser_scanner.hpp"
 #include "plugins/simulated_robot/motors.hpp"
 #include "plugins/simulated_robot/sonar_ring.hpp"
 #include "plugins/simulated_robot/surroundings/body.hpp"
@@ -66,6 +67,7 @@ class SimulatedRobot final : public Sensor, public Drive, public GroundTruthSour
   Odometer odometer_;
   std::optional<Compass> compass_;
   SonarRing sonars_;
+  LaserScanners lasers_;
   Faults faults_;
   Witness witness_;
   std::string start_fault_;
@@ -75,6 +77,7 @@ class SimulatedRobot final : public Sensor, public Drive, public GroundTruthSour
   std::int64_t ticks_ = 0;
   bool bumped_ = false;
   int collisions_ = 0;
+  std::vector<RangeReading> scanned_;  // of one tick; kept for its memory
 };
 
 }  // namespace cairn

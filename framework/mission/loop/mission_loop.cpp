@@ -16,20 +16,23 @@ Budget budget_of(const RunOptions& options) {
 MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
     : mission_(mission),
       options_(options),
+      library_(library),
+      grid_so_far_(options.resume != nullptr ? std::optional(options.resume->grid) : std::nullopt),
       budget_(budget_of(options)),
       modules_(build_modules(mission_, library, options.resume, options.cancel), mission_, options.wall_clock),
       perception_(mission_, modules_, budget_),
       world_{mission_.robot, perception_.tracker().graph(), modules_.T_map_start},
-      publisher_(world_),
+      publisher_(world_, &modules_.clock, modules_.host.listeners),
       observation_check_(mission_.robot),
       pace_(options.wall_clock),
       pauses_(options.control, options.wall_clock),
       monitor_(mission_.config.collision_monitor, mission_.robot, options.wall_clock),
-      planning_(mission_, modules_, world_.graph, options.resume != nullptr ? options.resume->clusters : ClusterTree{},
+      planning_(mission_, modules_, world_.graph, clusters_to_begin_with(mission_.config.clusters, options.resume),
                 monitor_, budget_),
       saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
               world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
-      steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller},
+      steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller,
+              perception_.tracker()},
              modules_.behaviours, TextFiles(options.out, options.resume != nullptr)),
       fatal_ends_(monitor_, modules_.clock) {
   world_.pose.T_map_robot = modules_.T_map_start;
@@ -43,7 +46,7 @@ void MissionLoop::run() {
   try {
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
-    world_.grid = &perception_.begin();
+    world_.grid = &perception_.begin(drive == nullptr);
     world_.coarse = perception_.show_earlier_map();
     ending_ = loop();
   } catch (const GivenUp&) {
@@ -69,9 +72,11 @@ MissionLoop::Ending MissionLoop::loop() {
     if (sensed.step.state == SensorState::fault) return {MissionOutcome::sensor_fault, sensed.step.reason};
     if (sensed.step.state == SensorState::end_of_data) return at_end_of_data(sensed.step.reason);
     if (is_known_already(sensed.step.observation)) continue;
-    const WallClock::Time begin = options_.wall_clock->now();
-    tick(std::move(sensed));
-    if (!pace_.is_kept()) modules_.clock.add_time(modules_.tick, options_.wall_clock->now() - begin);
+    {
+      StageClock::Work whole(modules_.clock, modules_.tick);
+      tick(std::move(sensed));
+      if (pace_.is_kept()) whole.leave_out();
+    }
     if (const auto ending = ending_after_tick()) return *ending;
   }
 }
@@ -90,34 +95,58 @@ MissionLoop::Sensed MissionLoop::sense() {
 
 // One tick: each sentence takes values and hands a value on. The world shows them to those who look on.
 void MissionLoop::tick(Sensed sensed) {
-  world_.time_s = clock_.advance(sensed.step.observation.stamp_s, pauses_.is_paused());
-  world_.observe(std::move(sensed.step.observation), sensed.truth);
+  const HostStages& stages = modules_.host;
+  in(stages.observation, [&] { take(std::move(sensed)); });
   const Observation& observation = world_.observation;
-  keep_pace();
-  if (counts_.count(observation)) publisher_.publish(Bumped{});
 
-  world_.pose = perception_.localize(observation);
-  const std::vector<ExpectedEcho> expected = expected_of(observation);
-  const CellChanges& cells = perception_.map(observation, world_.pose, monitor_.hearing().deaf());
-  const Recognition recognised = perception_.recognise(cells, world_.time_s);
+  world_.pose = in(stages.perception, [&] { return perception_.localize(observation); });
+  if (perception_.is_map_moved()) in(stages.perception, [&] { redraw_map(); });
+  const std::vector<ExpectedEcho> expected = in(stages.echo_prediction, [&] { return expected_of(observation); });
+  const CellChanges& cells = in(stages.perception, [&]() -> const CellChanges& {
+    return perception_.map(observation, world_.pose, monitor_.hearing().deaf());
+  });
+  const Recognition recognised =
+      in(stages.landmark_tracker, [&] { return perception_.recognise(cells, world_.time_s); });
   world_.coarse = recognised.coarse;
   counts_.count_matchings(recognised.matchings);
   for (const Event& event : recognised.events) publisher_.publish(event);
 
+  const StepsTick steps = in(stages.behaviour_tree, [&] { return tick_steps(); });
+  if (steps.has_ended_step) in(stages.route_joining, [&] { planning_.connect(perception_.tracker(), world_.view()); });
+  world_.driven = in(stages.collision_monitor, [&] { return monitor_.drive(observation, steps.wanted, expected); });
+  publish_driven();
+  in(stages.run_control, [&] {
+    if (options_.control != nullptr) options_.control->tick([this] { return status(); });
+  });
+  in(stages.autosave, [&] { saving_.autosave(); });
+}
+
+void MissionLoop::take(Sensed sensed) {
+  world_.time_s = clock_.advance(sensed.step.observation.stamp_s, pauses_.is_paused());
+  world_.observe(std::move(sensed.step.observation), sensed.truth);
+  keep_pace();
+  if (counts_.count(world_.observation)) publisher_.publish(Bumped{});
+}
+
+StepsTick MissionLoop::tick_steps() {
   if (monitor_.has_drive()) publish_any(pauses_.apply(clock_.paused_s()));
-  const StepsTick steps = pauses_.is_paused() ? StepsTick{} : steps_.tick(world_.time_s);
-  if (steps.has_ended_step) planning_.connect(perception_.tracker(), world_.view());
-  world_.driven = monitor_.drive(observation, steps.wanted, expected);
+  return pauses_.is_paused() ? StepsTick{} : steps_.tick(world_.time_s);
+}
+
+void MissionLoop::publish_driven() {
   if (monitor_.has_drive())
     for (const Event& event : hearing_.update(monitor_.hearing(), world_.time_s)) publisher_.publish(event);
   if (const auto for_s = monitor_.stalled_s()) {
     publisher_.publish(stalled_for(*for_s));
     stalled_stage_ = StageClock::kHost;
   }
-
   publisher_.publish(TickDone{});
-  if (options_.control != nullptr) options_.control->tick([this] { return status(); });
-  saving_.autosave();
+}
+
+// All that look on see the old map or the new one, never a part.
+void MissionLoop::redraw_map() {
+  world_.grid = &perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
+  world_.coarse = nullptr;
 }
 
 // By the map as it was before this observation.

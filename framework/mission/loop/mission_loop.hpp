@@ -58,6 +58,15 @@ class MissionLoop {
   Ending loop();
   Sensed sense();
   void tick(Sensed sensed);
+  void take(Sensed sensed);
+  StepsTick tick_steps();
+  void publish_driven();
+  // The host's own work, in its stage.
+  template <class DoIt>
+  auto in(StageClock::Id stage, DoIt&& do_it) -> decltype(do_it()) {
+    const StageClock::Work work(modules_.clock, stage);
+    return do_it();
+  }
   [[nodiscard]] std::vector<ExpectedEcho> expected_of(const Observation& observation) const;
   void keep_pace();
   [[nodiscard]] std::optional<Ending> ending_after_tick() const;
@@ -68,12 +77,15 @@ class MissionLoop {
   [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
   void finish();
   void save_last();
+  void redraw_map();
   [[nodiscard]] Stalled stalled_for(double for_s) const;
   void publish_any(const std::optional<Event>& event);
   [[nodiscard]] RunStatus status_in(RunState state) const;
 
   const Mission mission_;
   const RunOptions options_;
+  const ModuleLibrary& library_;
+  const std::optional<OccupancyGrid> grid_so_far_;  // what the map of a run that goes on began with
   const Budget budget_;
   StagedModules modules_;
   Perception perception_;

@@ -4,6 +4,8 @@ namespace cairn {
 
 void Publisher::publish(const Event& event) {
   if (world_.grid == nullptr) return;
+  std::optional<StageClock::Work> work;
+  if (clock_ != nullptr) work.emplace(*clock_, stage_);
   const WorldView world = world_.view();
   const MissionView seen{world, world_.coarse, world_.driven.commanded, world_.truth};
   std::erase_if(listeners_, [&](Listener* listener) {

@@ -2,6 +2,18 @@
 
 namespace cairn {
 
+HostStages::HostStages(StageClock& clock)
+    : observation(clock.add("observation", "")),
+      echo_prediction(clock.add("echo prediction", "")),
+      perception(clock.add("perception", "")),
+      landmark_tracker(clock.add("landmark tracker", "")),
+      behaviour_tree(clock.add("behaviour tree", "")),
+      route_joining(clock.add("route joining", "")),
+      collision_monitor(clock.add("collision monitor", "")),
+      listeners(clock.add("listeners", "")),
+      run_control(clock.add("run control", "")),
+      autosave(clock.add("autosave", "")) {}
+
 StagedModules::StagedModules(const MissionModules& modules, const Mission& mission,
                              std::shared_ptr<const WallClock> wall_clock)
     : clock(std::move(wall_clock)), T_map_start(modules.T_map_start) {

@@ -9,6 +9,22 @@
 
 namespace cairn {
 
+// What the host itself does in a tick: stages like those of modules, so that a tick's time is accounted for.
+struct HostStages {
+  explicit HostStages(StageClock& clock);
+
+  StageClock::Id observation;        // takes it in, keeps the pace
+  StageClock::Id echo_prediction;    // of sonars that were silent
+  StageClock::Id perception;         // what is left out of the map, the path
+  StageClock::Id landmark_tracker;   // from detections to landmarks
+  StageClock::Id behaviour_tree;     // conditions, steps, times left
+  StageClock::Id route_joining;      // landmarks that a step has found
+  StageClock::Id collision_monitor;  // limits the velocity
+  StageClock::Id listeners;          // reports, recordings, displays
+  StageClock::Id run_control;        // the status for others
+  StageClock::Id autosave;
+};
+
 struct StagedModules {
   // The stages get their names from the mission's settings.
   StagedModules(const MissionModules& modules, const Mission& mission, std::shared_ptr<const WallClock> wall_clock);
@@ -16,7 +32,8 @@ struct StagedModules {
   StagedModules& operator=(const StagedModules&) = delete;
 
   StageClock clock;
-  StageClock::Id tick = StageClock::kHost;  // a whole one; holds stages and is none itself
+  HostStages host{clock};
+  StageClock::Id tick = StageClock::kHost;  // a whole one; its own time is what no stage accounts for
   Staged<Sensor> sensor;
   Staged<Localizer> localizer;
   Staged<Mapper> mapper;

@@ -65,7 +65,6 @@ Chart chart_of(const std::vector<PoseErrorSample>& samples) {
   chart.title = "Error of the position";
   chart.x_label = "time, s";
   chart.y_label = "m";
-  chart.from_zero = true;
   chart.series.push_back(std::move(error));
   return chart;
 }
@@ -84,6 +83,26 @@ void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, cons
   picture.clusters = &map.clusters;
   picture.shapes = map.shapes;
   for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
+  picture.title = title;
+  write_map_picture(file, picture);
+}
+
+void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const World& truth,
+                     const std::string& title) {
+  constexpr double kLongerSide_px = 560.0;
+  constexpr int kCircleCorners = 36;
+  MapPicture picture;
+  picture.grid = &map.grid;
+  picture.longer_side_px = kLongerSide_px;
+  for (const WorldWall& wall : truth.walls) picture.truth.push_back(wall.points_m);
+  for (const WorldObject& object : truth.objects)
+    for (std::vector<Point> outline : object.contour.outlines_m(kCircleCorners)) {
+      for (Point& p : outline) p = object.T_map_object * p;
+      outline.push_back(outline.front());
+      picture.truth.push_back(std::move(outline));
+    }
+  for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
+  if (!picture.driven.empty()) picture.start = picture.driven.front();
   picture.title = title;
   write_map_picture(file, picture);
 }

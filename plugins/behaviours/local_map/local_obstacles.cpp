@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace cairn::behaviours {
+namespace {
+
+constexpr double kApart_m = 0.02;  // points of a scan that lie closer together are one
+
+}  // namespace
 
 void LocalObstacleSettings::describe(Fields<LocalObstacleSettings>& fields) {
   using C = LocalObstacleSettings;
@@ -45,11 +50,32 @@ void LocalObstacles::add(const RangeReading& reading, const WorldView& world) {
   const Pose2 T_map_sensor = world.pose.T_map_robot * reading.T_robot_sensor;
   echo = {world.time_s, range_m, reading.half_beam_rad, T_map_sensor, {}};
   if (range_m > settings_.within_m) return;
-  const int count = reading.half_beam_rad > 0.0 ? settings_.arc_points : 1;
-  for (int i = 0; i < count; ++i) {
-    const double bearing_rad = count == 1 ? 0.0 : reading.half_beam_rad * (2.0 * i / (count - 1) - 1.0);
+  for (int i = 0; i < settings_.arc_points; ++i) {
+    const double bearing_rad = reading.half_beam_rad * (2.0 * i / (settings_.arc_points - 1) - 1.0);
     echo.points_map.push_back(T_map_sensor * Point(range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)));
   }
+}
+
+void LocalObstacles::add_scan(std::span<const RangeReading> rays, const WorldView& world) {
+  const Pose2& T_map_robot = world.pose.T_map_robot;
+  Scan scan{rays.front().sensor, world.time_s, T_map_robot * rays.front().T_robot_sensor.position(), {}, {}};
+  std::vector<BearingMaxima::Entry> ranges;
+  for (const RangeReading& ray : rays) {
+    const double range_m = std::max(ray.range_m, ray.min_m);
+    if (!std::isfinite(range_m)) continue;
+    const double bearing_rad = wrap_angle(T_map_robot.theta_rad + ray.T_robot_sensor.theta_rad);
+    ranges.push_back({bearing_rad, range_m});
+    if (range_m > settings_.within_m) continue;
+    const Point at_map = scan.from_map + range_m * Point(std::cos(bearing_rad), std::sin(bearing_rad));
+    const bool is_new = scan.points_map.empty() || (scan.points_map.back() - at_map).norm() >= kApart_m;
+    if (is_new) scan.points_map.push_back(at_map);
+  }
+  scan.ranges_m = BearingMaxima(std::move(ranges));
+  const auto known = std::ranges::find(scans_, scan.first_sensor, &Scan::first_sensor);
+  if (known == scans_.end())
+    scans_.push_back(std::move(scan));
+  else
+    *known = std::move(scan);
 }
 
 // An echo from behind a place says that nothing is there now; silence does not, for a mirror is silent too.
@@ -64,6 +90,12 @@ LocalObstacles::Live LocalObstacles::live_echo_at(const Point& p_map, double tim
     if (std::abs(off_rad) > beam_rad || behind_m < -settings_.behind_m) continue;
     if (behind_m >= settings_.behind_m) return Live::seen_through;
     live = Live::there;
+  }
+  for (const Scan& scan : scans_) {
+    const Point to = p_map - scan.from_map;
+    const double behind_m = scan.ranges_m.max_within(std::atan2(to.y(), to.x()), settings_.min_beam_rad) - to.norm();
+    if (behind_m >= settings_.behind_m) return Live::seen_through;
+    if (behind_m >= -settings_.behind_m) live = Live::there;
   }
   return live;
 }
@@ -81,7 +113,10 @@ bool LocalObstacles::is_explained(const Echo& echo, const std::vector<Point>& th
 void LocalObstacles::see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& ignored) {
   if (world.time_s - gathered_s_ >= settings_.map_every_s) gather_cells(world, near_echoes, ignored);
   if (world.observation != nullptr)
-    for (const RangeReading& reading : world.observation->ranges) add(reading, world);
+    for_each_scan(
+        world.observation->ranges, [&](const RangeReading& cone) { add(cone, world); },
+        [&](std::span<const RangeReading> rays) { add_scan(rays, world); });
+  std::erase_if(scans_, [&](const Scan& scan) { return world.time_s - scan.stamp_s > settings_.echo_counts_s; });
   std::vector<Point> there_map;
   for (const Point& p : cells_map_)
     if (live_echo_at(p, world.time_s) != Live::seen_through) there_map.push_back(p);
@@ -94,6 +129,8 @@ void LocalObstacles::see(const WorldView& world, const NearEchoes& near_echoes, 
       continue;
     for (const Point& p : echo.points_map) points_.push_back(T_robot_map * p);
   }
+  for (const Scan& scan : scans_)
+    for (const Point& p : scan.points_map) points_.push_back(T_robot_map * p);
 }
 
 }  // namespace cairn::behaviours

@@ -2,9 +2,11 @@
 // echo of each transducer.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "framework/contracts/world_view.hpp"
+#include "maps/geometry/bearing_maxima.hpp"
 #include "plugins/behaviours/local_map/cell_layer.hpp"
 #include "plugins/behaviours/local_map/near_echoes.hpp"
 
@@ -45,6 +47,15 @@ class LocalObstacles {
     Pose2 T_map_sensor;
     std::vector<Point> points_map;
   };
+  // The last scan of rays from one place of the robot.
+  struct Scan {
+    int first_sensor = 0;
+    double stamp_s = -1e9;
+    Point from_map{0.0, 0.0};
+    BearingMaxima ranges_m;  // of its echoes, by bearing in the map
+    std::vector<Point> points_map;
+  };
+  void add_scan(std::span<const RangeReading> rays, const WorldView& world);
   [[nodiscard]] bool is_explained(const Echo& echo, const std::vector<Point>& there_map) const;
   void gather_cells(const WorldView& world, const NearEchoes& near_echoes, const CellSet& ignored);
   void add(const RangeReading& reading, const WorldView& world);
@@ -53,6 +64,7 @@ class LocalObstacles {
   std::vector<Point> cells_map_;
   double gathered_s_ = -1e9;
   std::vector<Echo> echoes_;  // by transducer
+  std::vector<Scan> scans_;
   std::vector<Point> points_;
 };
 

@@ -6,6 +6,14 @@
 #include <numbers>
 
 namespace cairn::behaviours {
+namespace {
+
+void once_each(std::vector<Cell>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+}  // namespace
 
 void NearEchoSettings::describe(Fields<NearEchoSettings>& fields) {
   using C = NearEchoSettings;
@@ -46,23 +54,82 @@ bool NearEchoes::counts_anew(const RangeReading& reading, const Pose2& T_map_sen
 }
 
 void NearEchoes::see(const Observation& observation, const Pose2& T_map_robot) {
-  for (const RangeReading& reading : observation.ranges) {
+  const auto see_cone = [&](const RangeReading& reading) {
     const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
-    if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), settings_.within_m)) continue;
+    if (!is_usable(reading) || !votes_.can_include(T_map_sensor.position(), settings_.within_m)) return;
     if (counts_anew(reading, T_map_sensor)) vote(reading, T_map_sensor);
-  }
+  };
+  for_each_scan(observation.ranges, see_cone, [&](std::span<const RangeReading> rays) { vote(rays, T_map_robot); });
+}
+
+bool NearEchoes::is_far_echo(const RangeReading& reading, double to_m) const {
+  return reading.range_m > std::max(settings_.within_m, to_m) && reading.range_m < reading.max_m &&
+         reading.sensor >= 0 && reading.sensor < kMaxSensors && reading.half_beam_rad >= 0.0 &&
+         reading.half_beam_rad <= std::numbers::pi;
 }
 
 void NearEchoes::see_through(const Observation& observation, const Pose2& T_map_robot, double to_m) {
-  for (const RangeReading& reading : observation.ranges) {
+  const auto see_cone = [&](const RangeReading& reading) {
     const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
-    const bool is_far_echo = reading.range_m > std::max(settings_.within_m, to_m) && reading.range_m < reading.max_m &&
-                             reading.sensor >= 0 && reading.sensor < kMaxSensors && reading.half_beam_rad >= 0.0 &&
-                             reading.half_beam_rad <= std::numbers::pi;
-    if (!is_far_echo || !votes_.can_include(T_map_sensor.position(), to_m)) continue;
-    if (!counts_anew(reading, T_map_sensor)) continue;
+    if (!is_far_echo(reading, to_m) || !votes_.can_include(T_map_sensor.position(), to_m)) return;
+    if (!counts_anew(reading, T_map_sensor)) return;
     for (const Cell c : passed_by(reading, T_map_sensor, to_m)) votes_.add_log_odds(c, settings_.passed);
+  };
+  for_each_scan(observation.ranges, see_cone,
+                [&](std::span<const RangeReading> rays) { vote_through(rays, T_map_robot, to_m); });
+}
+
+void NearEchoes::vote(std::span<const RangeReading> rays, const Pose2& T_map_robot) {
+  std::vector<RangeReading> near;
+  for (const RangeReading& ray : rays)
+    if (is_usable(ray) && is_finite(ray.T_robot_sensor)) near.push_back(ray);
+  if (near.empty()) return;
+  const Pose2 T_map_sensor = T_map_robot * near.front().T_robot_sensor;
+  if (!votes_.can_include(T_map_sensor.position(), settings_.within_m)) return;
+  if (!counts_anew(near.front(), T_map_sensor)) return;
+  std::vector<Cell> hit;
+  for (const RangeReading& ray : near)
+    hit.push_back(votes_.cell_at(T_map_robot * (ray.T_robot_sensor * Point(ray.range_m, 0.0))));
+  std::vector<Cell> passed;
+  pass(near, T_map_robot, std::numeric_limits<double>::infinity(), 2.0 * votes_.cell_m(), passed);
+  once_each(hit);
+  for (const Cell c : hit) votes_.add_log_odds(c, settings_.hit);
+  for (const Cell c : passed)
+    if (!std::binary_search(hit.begin(), hit.end(), c)) votes_.add_log_odds(c, settings_.passed);
+}
+
+void NearEchoes::vote_through(std::span<const RangeReading> rays, const Pose2& T_map_robot, double to_m) {
+  std::vector<RangeReading> far;
+  for (const RangeReading& ray : rays)
+    if (is_far_echo(ray, to_m) && is_finite(ray.T_robot_sensor)) far.push_back(ray);
+  if (far.empty()) return;
+  const Pose2 T_map_sensor = T_map_robot * far.front().T_robot_sensor;
+  if (!votes_.can_include(T_map_sensor.position(), to_m) || !counts_anew(far.front(), T_map_sensor)) return;
+  std::vector<Cell> passed;
+  pass(far, T_map_robot, to_m, 0.0, passed);
+  for (const Cell c : passed) votes_.add_log_odds(c, settings_.passed);
+}
+
+void NearEchoes::pass(std::span<const RangeReading> rays, const Pose2& T_map_robot, double longest_m, double short_of_m,
+                      std::vector<Cell>& cells) const {
+  const double cell_m = votes_.cell_m();
+  const double together_rad = 0.5 * cell_m / settings_.within_m;
+  for (std::size_t first = 0; first < rays.size();) {
+    std::size_t shortest = first;
+    std::size_t end = first + 1;
+    for (; end < rays.size(); ++end) {
+      const double apart_rad = wrap_angle(rays[end].T_robot_sensor.theta_rad - rays[first].T_robot_sensor.theta_rad);
+      if (std::abs(apart_rad) > together_rad) break;
+      if (rays[end].range_m < rays[shortest].range_m) shortest = end;
+    }
+    const Pose2 T_map_sensor = T_map_robot * rays[shortest].T_robot_sensor;
+    const Point step = 0.5 * cell_m * T_map_sensor.direction();
+    const double to_m = std::min(longest_m, rays[shortest].range_m - short_of_m);
+    const int steps = static_cast<int>(std::ceil(to_m / (0.5 * cell_m)));
+    for (int i = 0; i < steps; ++i) cells.push_back(votes_.cell_at(T_map_sensor.position() + i * step));
+    first = end;
   }
+  once_each(cells);
 }
 
 std::vector<Cell> NearEchoes::passed_by(const RangeReading& reading, const Pose2& T_map_sensor, double to_m) const {
@@ -74,8 +141,7 @@ std::vector<Cell> NearEchoes::passed_by(const RangeReading& reading, const Pose2
     for (double r_m = 0.0; r_m < to_m; r_m += 0.5 * cell_m)
       passed.push_back(votes_.cell_at(T_map_sensor * (direction * r_m)));
   }
-  std::sort(passed.begin(), passed.end());
-  passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
+  once_each(passed);
   return passed;
 }
 
@@ -88,10 +154,6 @@ void NearEchoes::vote(const RangeReading& reading, const Pose2& T_map_sensor) {
     const Point direction{std::cos(bearing_rad), std::sin(bearing_rad)};
     hit.push_back(votes_.cell_at(T_map_sensor * (direction * reading.range_m)));
   }
-  const auto once_each = [](std::vector<Cell>& cells) {
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  };
   once_each(hit);
   for (const Cell c : hit) votes_.add_log_odds(c, settings_.hit);
   for (const Cell c : passed)

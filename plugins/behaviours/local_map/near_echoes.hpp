@@ -6,6 +6,8 @@
 // both outvote the map. Only echoes count here, never silence.
 #pragma once
 
+#include <cmath>
+#include <span>
 #include <vector>
 
 #include "framework/config/fields.hpp"
@@ -31,6 +33,27 @@ struct NearEchoSettings {
   static void describe(Fields<NearEchoSettings>& fields);
 };
 
+// on_cone(reading) for what has a width, on_rays(span) for rays that follow each other from one place of the robot and
+// have numbers.
+template <class OnCone, class OnRays>
+void for_each_scan(std::span<const RangeReading> all, const OnCone& on_cone, const OnRays& on_rays) {
+  const auto is_ray = [](const RangeReading& reading) {
+    return reading.half_beam_rad == 0.0 && reading.sensor >= 0 && reading.sensor < kMaxSensors &&
+           std::isfinite(reading.min_m);
+  };
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t end = first + 1;
+    if (is_ray(all[first])) {
+      const Point from = all[first].T_robot_sensor.position();
+      while (end < all.size() && is_ray(all[end]) && all[end].T_robot_sensor.position() == from) ++end;
+      on_rays(all.subspan(first, end - first));
+    } else {
+      on_cone(all[first]);
+    }
+    first = end;
+  }
+}
+
 class NearEchoes {
  public:
   // Cells as those of the map.
@@ -49,11 +72,20 @@ class NearEchoes {
   [[nodiscard]] bool is_occupied(const OccupancyGrid& map, Cell cell) const {
     return is_solid(cell) || (map.state(cell) == CellState::occupied && !is_conservatively_free(cell));
   }
+  // What the echoes say about each cell: less than 0: more have passed it than came from it.
+  [[nodiscard]] const OccupancyGrid& votes() const { return votes_; }
   // A copy of this part of the map with the votes applied.
   [[nodiscard]] OccupancyGrid applied_to(const OccupancyGrid& map, const CellBox& part) const;
 
  private:
   void vote(const RangeReading& reading, const Pose2& T_map_sensor);
+  // Rays from one place vote together: once for each cell, and an echo outvotes what others have passed.
+  void vote(std::span<const RangeReading> rays, const Pose2& T_map_robot);
+  void vote_through(std::span<const RangeReading> rays, const Pose2& T_map_robot, double to_m);
+  [[nodiscard]] bool is_far_echo(const RangeReading& reading, double to_m) const;
+  // Where such rays pass, those that lie closer together than cells taken for the shortest of them.
+  void pass(std::span<const RangeReading> rays, const Pose2& T_map_robot, double longest_m, double short_of_m,
+            std::vector<Cell>& cells) const;
 
   [[nodiscard]] bool counts_anew(const RangeReading& reading, const Pose2& T_map_sensor);
   [[nodiscard]] bool is_usable(const RangeReading& reading) const;

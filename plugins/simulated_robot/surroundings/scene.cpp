@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "maps/geometry/segments.hpp"
 
@@ -162,6 +163,70 @@ RayHit Scene::cast(const Point& from_m, const Point& direction, double reach_m) 
                                     : face_hit->normal;
   if (hit.normal.dot(direction) > 0.0) hit.normal = -hit.normal;
   return hit;
+}
+
+namespace {
+
+// visit(i) for the rays of the fan whose bearings lie within [low_rad, high_rad], and a neighbour to each side.
+template <class Visit>
+void for_rays_between(const RayFan& fan, std::size_t rays, double low_rad, double high_rad, const Visit& visit) {
+  const auto count = static_cast<std::ptrdiff_t>(rays);
+  if (fan.step_rad == 0.0) {
+    for (std::ptrdiff_t i = 0; i < count; ++i) visit(static_cast<std::size_t>(i));
+    return;
+  }
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double first_rad = std::min(fan.first_rad, fan.first_rad + fan.step_rad * static_cast<double>(count - 1));
+  // The first turn in which the interval may reach into the fan.
+  double shift_rad = kTurn * std::floor((first_rad - high_rad) / kTurn);
+  const double fan_end_rad = first_rad + std::abs(fan.step_rad) * static_cast<double>(count - 1);
+  for (; low_rad + shift_rad <= fan_end_rad + std::abs(fan.step_rad); shift_rad += kTurn) {
+    double from = (low_rad + shift_rad - fan.first_rad) / fan.step_rad;
+    double to = (high_rad + shift_rad - fan.first_rad) / fan.step_rad;
+    if (from > to) std::swap(from, to);
+    const auto begin = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(std::floor(from)) - 1);
+    const auto end = std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(std::ceil(to)) + 2);
+    for (std::ptrdiff_t i = begin; i < end; ++i) visit(static_cast<std::size_t>(i));
+  }
+}
+
+}  // namespace
+
+void Scene::cast_fan(const RayFan& fan, std::span<double> distances_m) const {
+  std::vector<Point> directions(distances_m.size());
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double bearing_rad = fan.first_rad + static_cast<double>(i) * fan.step_rad;
+    directions[i] = {std::cos(bearing_rad), std::sin(bearing_rad)};
+  }
+  std::ranges::fill(distances_m, fan.reach_m);
+  const auto look_along = [&](const Face& face, double middle_rad, double half_rad) {
+    for_rays_between(fan, directions.size(), middle_rad - half_rad, middle_rad + half_rad, [&](std::size_t i) {
+      distances_m[i] = std::min(distances_m[i], along_ray_to_face(fan.from_m, directions[i], face));
+    });
+  };
+  for (const Face& face : faces_) {
+    if (distance_to_segment_m(fan.from_m, face.a_m, face.b_m) >= fan.reach_m) continue;
+    const double a_rad = bearing(face.a_m - fan.from_m);
+    const double half_rad = 0.5 * wrap_angle(bearing(face.b_m - fan.from_m) - a_rad);
+    // Of a place on the face itself, either side may be meant.
+    if (std::abs(half_rad) > 0.5 * std::numbers::pi - 1e-6) {
+      look_along(face, 0.0, std::numbers::pi);
+      continue;
+    }
+    look_along(face, a_rad + half_rad, std::abs(half_rad));
+  }
+  for (const RoundFace& face : round_faces_) {
+    const Point to_centre = face.centre_m - fan.from_m;
+    const double centre_m = to_centre.norm();
+    if (centre_m <= face.radius_m || centre_m - face.radius_m >= fan.reach_m) continue;
+    const double half_rad = std::asin(face.radius_m / centre_m);
+    const double middle_rad = bearing(to_centre);
+    for_rays_between(fan, directions.size(), middle_rad - half_rad, middle_rad + half_rad, [&](std::size_t i) {
+      distances_m[i] = std::min(distances_m[i], along_ray_to_round(fan.from_m, directions[i], face));
+    });
+  }
+  for (double& distance_m : distances_m)
+    if (distance_m >= fan.reach_m) distance_m = kNone;
 }
 
 bool Scene::sees(const Point& from_m, const Point& target_m) const {

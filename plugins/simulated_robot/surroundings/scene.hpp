@@ -5,6 +5,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,14 @@ struct RayHit {
   double round_radius_m = 0.0;  // 0: a straight face
 };
 
+// Rays from one place, step_rad from each to the next.
+struct RayFan {
+  Point from_m;
+  double first_rad = 0.0;
+  double step_rad = 0.0;
+  double reach_m = 0.0;
+};
+
 class Scene {
  public:
   // Of the world's walls and objects; its doors and movers are for show().
@@ -67,6 +76,9 @@ class Scene {
 
   // The first face on a ray of unit direction, nearer than reach_m. Linear in the faces.
   [[nodiscard]] RayHit cast(const Point& from_m, const Point& direction, double reach_m) const;
+  // The same of a fan of rays: each one's distance, infinity where it meets nothing. A face costs only the rays that
+  // look at it.
+  void cast_fan(const RayFan& fan, std::span<double> distances_m) const;
   // Nothing between the two points; a face that passes through the target itself does not count.
   [[nodiscard]] bool sees(const Point& from_m, const Point& target_m) const;
 

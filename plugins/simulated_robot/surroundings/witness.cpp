@@ -97,6 +97,16 @@ bool Witness::could_see(const Nearest& touched, const Scene& scene, const Traffi
 }
 
 bool Witness::is_in_a_beam(const Pose2& T_map_robot, const Point& p_m, const Scene& scene) const {
+  const auto is_scanned = [&](const LaserModel& laser) {
+    const Pose2 T_map_laser = T_map_robot * laser.T_robot_laser;
+    const Point seen_m = inverse(T_map_laser) * p_m;
+    if (seen_m.norm() > laser.max_m) return false;
+    const double middle_rad = 0.5 * (laser.first_angle_rad + laser.last_angle_rad);
+    const double half_rad = 0.5 * std::abs(laser.last_angle_rad - laser.first_angle_rad) + kRay_rad;
+    const double off_rad = std::abs(wrap_angle(std::atan2(seen_m.y(), seen_m.x()) - middle_rad));
+    return off_rad <= half_rad && scene.sees(T_map_laser.position(), p_m);
+  };
+  if (std::ranges::any_of(robot_.lasers, is_scanned)) return true;
   return std::any_of(robot_.sonars.begin(), robot_.sonars.end(), [&](const SonarModel& sonar) {
     const Pose2 T_map_sonar = T_map_robot * sonar.T_robot_sonar;
     const Point seen_m = inverse(T_map_sonar) * p_m;

@@ -1,5 +1,6 @@
 #include "framework/files/robot_file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/framework/config/config_test_support.hpp"
@@ -29,8 +30,9 @@ TEST(RobotFile, EveryShippedRobotLoads) {
     SCOPED_TRACE(entry.path());
     const RobotModel robot = load_robot(entry.path());
     EXPECT_FALSE(robot.name.empty());
-    // The beams of recorded lasers come with their logs.
-    EXPECT_EQ(robot.sonars.empty(), (entry.path().stem() == "laser_robot" || entry.path().stem() == "lego_robot"));
+    // The beams of recorded lasers come with their logs; a TurtleBot has a laser alone.
+    EXPECT_EQ(robot.sonars.empty(), (entry.path().stem() == "laser_robot" || entry.path().stem() == "lego_robot" ||
+                                     entry.path().stem() == "turtlebot3"));
     EXPECT_EQ(robot.firing_period_s, 0.04);
     EXPECT_EQ(robot.firing_order.size(), robot.sonars.size());
     for (const SonarModel& sonar : robot.sonars) {
@@ -86,6 +88,55 @@ TEST(RobotFile, ThePioneer3DxSeesAllRound) {
     EXPECT_EQ(left.y_m, -right.y_m) << i;
     EXPECT_DOUBLE_EQ(left.theta_rad, -right.theta_rad) << i;
   }
+}
+
+TEST(RobotFile, ThePioneer3DxWithALaserIsThePioneer3DxBesides) {
+  const RobotModel plain = load_robot(kRobots / "pioneer3dx.yaml");
+  const RobotModel robot = load_robot(kRobots / "pioneer3dx_laser.yaml");
+  EXPECT_EQ(robot.sonars.size(), plain.sonars.size());
+  EXPECT_TRUE(plain.lasers.empty());
+  ASSERT_EQ(robot.lasers.size(), 1U);
+  EXPECT_EQ(robot.lasers[0].beams, 181);
+  EXPECT_NEAR(degrees(robot.lasers[0].step_rad()), 1.0, 1e-9);
+  EXPECT_EQ(first_beam_of(robot, 0), 16);
+  EXPECT_EQ(reading_period_s(robot), 0.04) << "of its sonars";
+  EXPECT_EQ(farthest_range_m(robot), 8.0);
+}
+
+TEST(RobotFile, TheTurtleBot3HasALaserAllRound) {
+  const RobotModel robot = load_robot(kRobots / "turtlebot3.yaml");
+  ASSERT_EQ(robot.lasers.size(), 1U);
+  EXPECT_EQ(robot.lasers[0].beams, 360);
+  EXPECT_NEAR(degrees(robot.lasers[0].T_robot_beam(359).theta_rad), 179.0, 1e-9);
+  EXPECT_EQ(reading_period_s(robot), 0.2);
+  EXPECT_EQ(farthest_range_m(robot), 3.5);
+}
+
+TEST(RobotFile, ALaserNeedsOnlyItsPlace) {
+  const RobotModel robot = load_text("name: a\nradius_m: 1\nlasers:\n  - {x_m: 0.1, y_m: -0.2, angle_deg: 180}\n");
+  ASSERT_EQ(robot.lasers.size(), 1U);
+  const LaserModel& laser = robot.lasers[0];
+  EXPECT_NEAR(laser.T_robot_laser.theta_rad, radians(180.0), 1e-12);
+  EXPECT_EQ(laser.beams, LaserModel{}.beams);
+  EXPECT_NEAR(degrees(laser.T_robot_beam(0).theta_rad), 90.0, 1e-9) << "the first one, seen from behind";
+  EXPECT_EQ(laser.noise_m, 0.01);
+  EXPECT_EQ(laser.dropped_ratio, 0.0);
+}
+
+TEST(RobotFile, SaysWhatIsWrongWithALaser) {
+  const std::string begin = "name: a\nradius_m: 1\nlasers:\n  - ";
+  EXPECT_EQ(error_in(begin + "{x_m: 0, y_m: 0, min_m: 4, max_m: 4}\n"),
+            "r.yaml:4:5: min_m must be less than max_m, found 4 and 4");
+  EXPECT_EQ(error_in(begin + "{x_m: 0, y_m: 0, first_angle_deg: -200, last_angle_deg: 180}\n"),
+            "r.yaml:4:5: first_angle_deg and last_angle_deg must be more than 0 and at most 360 deg apart, found -200 "
+            "and 180");
+  EXPECT_EQ(error_in(begin + "{x_m: 0, y_m: 0, beams: 3000}\n  - {x_m: 0, y_m: 0, beams: 1097}\n"),
+            "r.yaml:5:5: sonars and beams together may be 4096 at most, found 4097");
+  EXPECT_EQ(error_in(begin + "{x_m: 0, y_m: 0, beams: 0}\n"),
+            "r.yaml:4:29: beams must be a whole number from 1 to 4096, found \"0\"");
+  EXPECT_THAT(error_in(begin + "{x_m: 0, y_m: 0, rate: 10}\n"),
+              testing::StartsWith("r.yaml:4:22: unknown key \"rate\" in lasers[0] (did you mean \"rate_hz\"?)"));
+  EXPECT_THAT(error_in(begin + "{y_m: 0}\n"), testing::StartsWith("r.yaml:4:5: lasers[0] lacks the key \"x_m\""));
 }
 
 TEST(RobotFile, LittleIsNeeded) {

@@ -35,6 +35,22 @@ std::string fault_in(const std::string& line) {
   return {};
 }
 
+TEST(Wire, OfALasersBeamOnlyTheNumberAndTheRangeAreSaid) {
+  RobotModel robot = two_sonars();
+  robot.lasers.emplace_back();
+  robot.lasers[0].beams = 3;
+  robot.lasers[0].T_robot_laser = {0.1, 0.0, 0.0};
+  Observation seen;
+  seen.ranges = {{robot.lasers[0].T_robot_beam(2), 0.0, robot.lasers[0].min_m, robot.lasers[0].max_m, 1.5, 4}};
+  const std::string line = line_of(seen, robot);
+  EXPECT_THAT(line, testing::HasSubstr("{\"sensor\":4,\"range_m\":1.5}"));
+  const auto back = base_line(line, robot).observation;
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->ranges.at(0).T_robot_sensor, seen.ranges[0].T_robot_sensor);
+  EXPECT_EQ(back->ranges[0].half_beam_rad, 0.0);
+  EXPECT_EQ(back->ranges[0].max_m, robot.lasers[0].max_m);
+}
+
 TEST(Wire, AnObservationComesBackToTheLastBit) {
   Observation seen;
   seen.stamp_s = 0.1 + 0.2;

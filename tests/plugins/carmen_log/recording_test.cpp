@@ -133,6 +133,54 @@ TEST(Recording, ASensorWithoutANearestDistanceKeepsItsTooNear) {
   expect_same(played(file, start), {seen});
 }
 
+Recorded with_a_scan(double stamp_s, int beams) {
+  Recorded seen;
+  seen.stamp_s = stamp_s;
+  seen.T_odom_robot = {1.0 / 3.0, -0.2, 0.5};
+  seen.ranges = {{{0.1, 0.2, 0.25}, 0.25, 0.1, 5.0, 1.5, 0}};
+  LaserModel laser;
+  laser.beams = beams;
+  laser.T_robot_laser = {0.1, 0.02, 0.3};
+  for (int i = 0; i < beams; ++i)
+    seen.ranges.push_back(
+        {laser.T_robot_beam(i), 0.0, 0.05, 8.0, i == 1 ? kInfinity : 1.0 + 0.1 * stamp_s + 0.01 / (i + 1), i + 1});
+  return seen;
+}
+
+TEST(Recording, GivesScansOfLasersBackToTheLastBit) {
+  const log_files::LogFolder folder;
+  const auto file = folder.write("a.log", "");
+  const std::vector<Recorded> observations{with_a_scan(1.0, 181), with_a_scan(1.1, 181), with_a_scan(1.2, 2)};
+  record(file, {}, observations);
+  std::optional<Pose2> start;
+  expect_same(played(file, start), observations);
+}
+
+TEST(Recording, AScanIsALasersLineForReadersThatKnowNoCairnLines) {
+  const log_files::LogFolder folder;
+  const auto file = folder.write("a.log", "");
+  Recorded seen;
+  seen.stamp_s = 2.5;
+  seen.T_odom_robot = {1.0, 2.0, 0.0};
+  for (int i = 0; i < 3; ++i) seen.ranges.push_back({{0.25, 0.0, 0.5 * i - 0.5}, 0.0, 0.1, 5.0, 1.5 + i, i});
+  record(file, {}, {seen});
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    if (!line.starts_with("PARAM cairn_") && !line.starts_with("#")) lines.push_back(line);
+  EXPECT_THAT(lines, testing::ElementsAre("ODOM 1 2 0 0 0 0 2.5 cairn 2.5",
+                                          "ROBOTLASER1 0 -0.5 1 0.5 5 0 0 3 1.5 2.5 3.5 0 1.25 2 0 1 2 0 0 0 0 0 0 "
+                                          "2.5 cairn 2.5"));
+  std::ofstream(file) << lines[0] << "\n" << lines[1] << "\n";
+  std::optional<Pose2> start;
+  const auto read = played(file, start);
+  ASSERT_EQ(read.size(), 1U);
+  ASSERT_EQ(read[0].ranges.size(), 3U);
+  EXPECT_NEAR(read[0].ranges[2].T_robot_sensor.theta_rad, 0.5, 1e-9);
+  EXPECT_NEAR(read[0].ranges[2].T_robot_sensor.x_m, 0.25, 1e-9);
+  EXPECT_EQ(read[0].ranges[2].range_m, 3.5);
+}
+
 TEST(Recording, IsACarmenLogForReadersThatKnowNoCairnLines) {
   const log_files::LogFolder folder;
   Recorded seen;

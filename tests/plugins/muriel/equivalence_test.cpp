@@ -84,6 +84,60 @@ TEST(MurielEquivalence, OneReadingGivesTheSameCellsAndValuesToOneQuantum) {
   }
 }
 
+// A whole scan of a laser, whose beams cross the same cells near the sensor.
+TEST(MurielEquivalence, AScanGivesTheSameCellsAndValuesToAQuantumABeam) {
+  Dice dice(72);
+  for (int run = 0; run < 3; ++run) {
+    const Config config = dice.config();
+    Muriel fast(config);
+    PlainMuriel plain(config);
+    fill(dice, fast, plain);
+    for (int i = 0; i < 20; ++i) {
+      RangeReading beam = dice.reading();
+      beam.half_beam_rad = 0.0;
+      beam.T_robot_sensor = {0.1, 0.0, radians(9.0 * i - 90.0)};
+      const Pose2 pose{0.31, -0.17, 0.4};
+      const CellChanges changes = fast.integrate(observed({beam}), at(pose));
+      plain.integrate(observed({beam}), at(pose));
+      for_each_cell([&](Cell cell) {
+        const int wanted = plain.grid().log_odds(cell);
+        const int has = fast.grid().log_odds(cell);
+        ASSERT_LE(std::abs(has - wanted), 1) << cell.x << ", " << cell.y << " run " << run << " beam " << i;
+        plain.grid().set_log_odds(cell, static_cast<LogOdds>(has));
+      });
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(MurielEquivalence, TheWorkOfAScanGrowsWithItsBeamsAndNotWithTheirSquare) {
+  const auto cells_of = [](int beams) {
+    Muriel map{Config{}};
+    Observation scan;
+    for (int i = 0; i < beams; ++i)
+      scan.ranges.push_back({{0.0, 0.0, radians(270.0) * i / (beams - 1)}, 0.0, 0.05, 8.0, 3.0, i});
+    (void)map.integrate(scan, at({0.01, 0.02, 0.3}));
+    return static_cast<double>(map.cells_on_rays());
+  };
+  EXPECT_NEAR(cells_of(2000) / cells_of(500), 4.0, 0.1);
+  EXPECT_LT(cells_of(1080) / 1080, 140.0) << "cells a beam: those on its line";
+}
+
+TEST(MurielEquivalence, LightIsNeverSpecular) {
+  Config trusting;
+  trusting.specular_prior = 0.9;
+  Config plain;
+  plain.specular = false;
+  Muriel map(trusting);
+  Muriel same(plain);
+  for (const double range_m : {1.0, 1.0, 1.0, 3.0}) {  // the last through what the map takes for a wall
+    const RangeReading beam{{}, 0.0, 0.05, 8.0, range_m, 0};
+    (void)map.integrate(observed({beam}), at({0.01, 0.02, 0.3}));
+    (void)same.integrate(observed({beam}), at({0.01, 0.02, 0.3}));
+  }
+  EXPECT_TRUE(map.grid() == same.grid());
+}
+
 // There the cells behind the sensor lie on its axis to the last bit.
 TEST(MurielEquivalence, HoldsOnCellCentresAlongTheRowsAndColumns) {
   for (const double heading_rad : {0.0, std::numbers::pi / 2.0, std::numbers::pi, -std::numbers::pi / 2.0})

@@ -34,10 +34,10 @@ std::string text_of(const Pose2& pose) {
 
 // Does not compile when an observation holds anything else.
 std::string text_of(const Observation& observation) {
-  const auto& [stamp_s, T_odom_robot, compass_rad, ranges, bumped, battery_ratio] = observation;
+  const auto& [stamp_s, recorded_s, T_odom_robot, compass_rad, ranges, bumped, battery_ratio] = observation;
   std::ostringstream out;
-  out << std::hexfloat << stamp_s << ' ' << text_of(T_odom_robot) << compass_rad.value_or(9.0) << ' ' << bumped << ' '
-      << battery_ratio.value_or(9.0);
+  out << std::hexfloat << stamp_s << ' ' << recorded_s.value_or(9.0) << ' ' << text_of(T_odom_robot)
+      << compass_rad.value_or(9.0) << ' ' << bumped << ' ' << battery_ratio.value_or(9.0);
   for (const RangeReading& reading : ranges) out << ' ' << reading.range_m;
   return out.str();
 }
@@ -330,6 +330,67 @@ TEST_F(LoopOfSpies, AModuleThatDoesNotReturnIsGivenUpByTheMissionsClockAndTouche
   strings->release.set_value();
   strings->destroyed.get_future().wait();  // with the loop, when its thread has ended
   EXPECT_EQ(listener.events, events);
+}
+
+// Takes its time, by a clock that only it and its like move on.
+class Slow : public Behaviour {
+ public:
+  explicit Slow(std::shared_ptr<TestClock> clock) : clock_(std::move(clock)) {}
+  Status tick(const WorldView&, BehaviourContext&) override {
+    clock_->advance(std::chrono::milliseconds(7));
+    return {StepState::running, {}};
+  }
+  void halt() override {}
+
+ private:
+  std::shared_ptr<TestClock> clock_;
+};
+
+class SlowListener : public Listener {
+ public:
+  explicit SlowListener(std::shared_ptr<TestClock> clock) : clock_(std::move(clock)) {}
+  void on(const Event& event, const MissionView&) override {
+    if (std::holds_alternative<TickDone>(event)) clock_->advance(std::chrono::milliseconds(2));
+  }
+
+ private:
+  std::shared_ptr<TestClock> clock_;
+};
+
+TEST_F(LoopOfSpies, EveryStageOfATickIsListedAndTheirTimesSumToIt) {
+  const auto clock = std::make_shared<TestClock>();
+  ModuleLibrary library = still::library();
+  Registrar registrar;
+  registrar.add<Behaviour, NoConfig>("slow", "takes its time", [clock](const NoConfig&, const ModuleContext&) {
+    return std::make_unique<Slow>(clock);
+  });
+  library.add("(test)", registrar);
+  Mission mission = still::mission(20);
+  mission.steps.front().choice.name = "slow";
+  RunOptions options{folder_};
+  options.wall_clock = clock;
+  SlowListener listener(clock);
+  MissionRunner runner(mission, library, options);
+  runner.subscribe(listener);
+  (void)runner.run();
+  std::vector<std::string> stages;
+  double tick_s = 0.0;
+  double sum_s = 0.0;
+  for (const StageTime& time : runner.times()) {
+    if (time.stage == "tick") {
+      tick_s = time.total_s;
+      EXPECT_EQ(time.count, 20);
+      EXPECT_EQ(time.own_s, 0.0) << "of a tick that no stage accounts for";
+    } else if (time.stage != "sensor") {
+      stages.push_back(time.stage);
+      sum_s += time.own_s;
+    }
+  }
+  EXPECT_THAT(stages, testing::IsSupersetOf({"observation", "echo prediction", "perception", "localizer", "map",
+                                             "detector", "landmark tracker", "behaviour tree", "behaviour",
+                                             "collision monitor", "drive", "listeners", "run control", "autosave"}));
+  EXPECT_NEAR(tick_s, 20 * 9e-3, 1e-9);
+  EXPECT_NEAR(sum_s, tick_s, 1e-9);
 }
 
 TEST_F(LoopOfSpies, AMissionInRealTimeTakesAsLongAsItsStampsSay) {

@@ -31,6 +31,35 @@ TEST(NearEchoes, AWallThatWasPassedIsSolidAndTheWayToItFree) {
   }
 }
 
+TEST(NearEchoes, AScanVotesOnceForACellHoweverManyBeamsCrossIt) {
+  const OccupancyGrid map(0.05);
+  const auto solid_after = [&](int beams, int scans) {
+    NearEchoes echoes(map);
+    for (int k = 0; k < scans; ++k) {
+      Observation seen;
+      for (int i = 0; i < beams; ++i)
+        seen.ranges.push_back({{0.0, 0.0, radians(10.0) * (2.0 * i / (beams - 1) - 1.0)}, 0.0, 0.05, 8.0, 0.62, i});
+      echoes.see(seen, {0.4, 0.025 + 0.03 * k, 0.0});
+    }
+    return echoes.is_solid(map.cell_at({1.02, 0.025}));
+  };
+  EXPECT_FALSE(solid_after(1001, 1)) << "one scan is one look";
+  EXPECT_TRUE(solid_after(1001, 2));
+  EXPECT_TRUE(solid_after(21, 2));
+}
+
+TEST(NearEchoes, AnEchoOutvotesBeamsOfTheSameScanThatPassIt) {
+  const OccupancyGrid map(0.05);
+  NearEchoes echoes(map);
+  for (int k = 0; k < 4; ++k) {
+    Observation seen;  // a thin post before a wall
+    for (int i = 0; i < 181; ++i)
+      seen.ranges.push_back({{0.0, 0.0, radians(0.25 * (i - 90))}, 0.0, 0.05, 8.0, i == 90 ? 0.62 : 0.95, i});
+    echoes.see(seen, {0.4, 0.025, radians(4.0 * k)});
+  }
+  EXPECT_TRUE(echoes.is_solid(map.cell_at({1.02, 0.025}))) << "the post of the first scan";
+}
+
 TEST(NearEchoes, LongReadingsAndSilenceDoNotWipeItOut) {
   const OccupancyGrid map(0.05);
   NearEchoes echoes(map);
