@@ -28,6 +28,10 @@ std::optional<NearMiss> near_miss_of(const Matching& matching) {
 
 }  // namespace
 
+bool NearMiss::is_close() const {
+  return !needed || degree >= 0.5 * (NearMisses::kMinDegree + *needed);
+}
+
 void NearMisses::update(const Matching& matching) {
   if (matching.detection) {
     const Point at_m = matching.detection->T_map_landmark.position();

@@ -17,6 +17,8 @@ struct NearMiss {
   std::string next_category{};  // that fitted next best; empty: no other was reported
   double next_degree = 0.0;
   std::optional<double> needed{};  // degree above which a category fits, where the detector has such a threshold
+  // At least half of the way from NearMisses::kMinDegree to what is needed: walls come as far as less than that.
+  [[nodiscard]] bool is_close() const;
 };
 
 class NearMisses {

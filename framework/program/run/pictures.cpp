@@ -33,7 +33,7 @@ void draw_map(const std::filesystem::path& file, const Mission& mission, const M
     picture.robot_radius_m = mission.robot.radius_m;
   }
   for (const NearMiss& miss : report.near_misses().away_from(runner.graph()))
-    picture.near_misses.push_back({miss.at_m, words_about(miss)});
+    if (miss.is_close()) picture.near_misses.push_back({miss.at_m, words_about(miss)});
   if (mission.world) add_traffic(*mission.world, picture);
   picture.title = mission.config.mission + ", seed " + std::to_string(mission.config.seed);
   write_map_picture(file, picture);

@@ -61,5 +61,14 @@ TEST(NearMisses, KeepTheBestWhereThereAreTooMany) {
   EXPECT_EQ(misses.away_from({}).back().degree, 0.5);
 }
 
+TEST(NearMisses, AreCloseFromHalfOfTheWayToWhatIsNeeded) {
+  NearMiss miss{"square", {0.0, 0.0}, 0.52};
+  EXPECT_TRUE(miss.is_close()) << "of a detector without a threshold nobody can tell";
+  miss.needed = 0.6;
+  EXPECT_FALSE(miss.is_close());
+  miss.degree = 0.53;
+  EXPECT_TRUE(miss.is_close());
+}
+
 }  // namespace
 }  // namespace cairn
