@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What `make check` runs beside the tests: formatting, clang-tidy, and the unit tests under
+# What `make check` runs beside the tests: formatting, clang-tidy, whether the benches compile, and the unit tests under
 # AddressSanitizer and UndefinedBehaviorSanitizer, those with threads under ThreadSanitizer.
 set -eu
 cd "$(dirname "$0")/.."
@@ -13,6 +13,9 @@ cmake --preset tidy >/dev/null  # not built: it lists every file alone, where th
 git ls-files 'maps/*.cpp' 'framework/*.cpp' 'plugins/*.cpp' 'planners/*.cpp' |
   xargs -P "$jobs" -n 4 clang-tidy -p build/tidy --quiet --warnings-as-errors='*' 2>build/clang-tidy.log ||
   { tail -n 20 build/clang-tidy.log; exit 1; }
+
+echo "== benches, compiled only"
+cmake --build --preset release --target cairn_benches
 
 echo "== address and undefined behaviour sanitizers"
 cmake/sanitized_tests.sh

@@ -22,7 +22,7 @@ std::string called(const std::filesystem::path& file) {
   return file.filename().string();
 }
 
-// An item of a list of nodes: one key, the node's, with what stands behind it; and perhaps a name.
+// An item of a list of nodes: one key, the node's, with what stands behind it; and perhaps a name for people.
 struct Item {
   std::string keyword;
   SourcePlace place;
@@ -36,7 +36,9 @@ Item item_of(const ConfigValue& item) {
     nothing.place = item.place;
     return {item.scalar, item.place, nothing, item.scalar};
   }
-  const ConfigValue* name = item.find(kName);
+  // Alone and with settings, it is the behaviour of that name.
+  const bool is_behaviour = item.entries.size() == 1 && item.entries.front().value.kind == ConfigValue::Kind::map;
+  const ConfigValue* name = is_behaviour ? nullptr : item.find(kName);
   const std::size_t keys = item.entries.size() - (name != nullptr ? 1 : 0);
   if (item.kind != ConfigValue::Kind::map || keys != 1)
     throw ConfigError(

@@ -152,13 +152,13 @@ std::string ConfigValue::kind_name() const {
   return number_from<double>(scalar) ? "a number" : "text";
 }
 
-void apply_override(ConfigValue& root, const std::string& assignment) {
+void apply_override(ConfigValue& root, const std::string& assignment, const std::string& option) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw ConfigError({"--set", 0, 0}, "expected KEY=VALUE, found " + in_quotes(assignment));
+    throw ConfigError({option, 0, 0}, "expected KEY=VALUE, found " + in_quotes(assignment));
   }
   const std::string key = assignment.substr(0, equals);
-  const SourcePlace place{"--set " + key, 0, 0};
+  const SourcePlace place{option + " " + key, 0, 0};
   const std::vector<std::string> parts = split_at_dots(key);
   if (std::ranges::find(parts, "") != parts.end()) throw ConfigError(place, "a part of the key is empty");
   ConfigValue value = override_value(assignment.substr(equals + 1), place);

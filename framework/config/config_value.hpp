@@ -15,7 +15,7 @@
 namespace cairn {
 
 struct SourcePlace {
-  std::string file;  // as the user named it; "--set KEY" for command line overrides
+  std::string file;  // as the user named it; "--set KEY" for an option of the command line
   int line = 0;      // from 1; 0: no line
   int column = 0;    // from 1
 
@@ -74,8 +74,9 @@ struct ConfigValue::Entry {
 [[nodiscard]] ConfigValue parse_config_text(const std::string& text, const std::string& file_name);
 
 // Applies a command line override "a.b.c=value" (list items by number, "steps.0.explore.at_most_s"),
-// creating maps on the path. Throws ConfigError when the text has no '=' or the path meets a scalar.
-void apply_override(ConfigValue& root, const std::string& assignment);
+// creating maps on the path. Throws ConfigError when the text has no '=' or the path meets a scalar; its place names
+// the option of the command line that the text was given to.
+void apply_override(ConfigValue& root, const std::string& assignment, const std::string& option = "--set");
 
 // A path in a file: ${NAME} and ${NAME:-default} are read from the environment, then relative
 // paths are taken from the folder of the file that names them.

@@ -53,12 +53,15 @@ class OutputRequests {
   virtual void report(const std::string& sentence) = 0;  // an event for people
 };
 
-// Places that steps hand to later ones, saved with the mission's progress.
+// Places by name: those that steps hand to later ones, saved with the mission's progress, and landmarks of the map.
 class NamedPlaces {
  public:
   virtual ~NamedPlaces() = default;
   virtual std::optional<Place> input(const std::string& name) = 0;  // what output() was last given; none: nothing yet
   virtual void output(const std::string& name, const Place& place) = 0;
+  // From then on the landmark is found by this name as well. Success, or failure with the reason: no such landmark, or
+  // a name that would find something else.
+  virtual Status name_landmark(LandmarkId id, const std::string& name) = 0;
 };
 
 class BehaviourContext : public MotionRequests, public OutputRequests, public NamedPlaces {};

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "framework/contracts/module_context.hpp"
 #include "framework/contracts/observation.hpp"
@@ -26,13 +28,27 @@ struct KnownMap {
   const LandmarkGraph& landmarks;
 };
 
+// The past of a localizer that corrects it.
+class PoseHistory {
+ public:
+  virtual ~PoseHistory() = default;
+  // Where the robot was at each observation that the localizer has got, in their order, by what is known now.
+  [[nodiscard]] virtual std::vector<Pose2> poses() const = 0;
+  // Rises whenever earlier poses have been corrected.
+  [[nodiscard]] virtual std::uint64_t revision() const = 0;
+  // After the last observation: a part of the last correction, at most some seconds of it. False: nothing is left.
+  virtual bool finish_part() = 0;
+};
+
 class Localizer {
  public:
   virtual ~Localizer() = default;
   // Numbers that are not finite, or beyond all maps, do not spoil the estimate: it stays finite and its
   // covariance symmetric and positive semi-definite; nor do landmarks whose places are. Hot: no allocation
-  // while the known landmarks stay the same.
+  // while the known landmarks stay the same, but for what a history keeps.
   virtual PoseEstimate update(const Observation& observation, const KnownMap& known) = 0;
+  // Null: what has been estimated once is never corrected.
+  virtual PoseHistory* history() { return nullptr; }
 };
 
 struct LocalizerContext : ModuleContext {

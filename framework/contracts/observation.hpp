@@ -22,6 +22,7 @@ struct RangeReading {
 
 struct Observation {
   double stamp_s = 0.0;
+  std::optional<double> recorded_s;   // the stamp as a log has it; stamp_s is made of it, and never goes back
   Pose2 T_odom_robot;                 // dead reckoning since the start, with its drift
   std::optional<double> compass_rad;  // heading in the map frame
   std::vector<RangeReading> ranges;

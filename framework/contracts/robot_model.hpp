@@ -74,6 +74,7 @@ struct RobotModel {
   double firing_period_s = 0.04;  // one transducer each period
   std::vector<LaserModel> lasers;
   OdometryError odometry_error;
+  bool has_compass = true;
   CompassError compass_error;
   RangeError range_error;
 };

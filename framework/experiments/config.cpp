@@ -47,6 +47,10 @@ void check_worlds(const RandomWorldConfig& worlds, const ConfigValue& value) {
     throw ConfigError(place_of("min_landmarks", "max_landmarks"),
                       fmt::format("min_landmarks must be at most max_landmarks, found {} and {}", worlds.min_landmarks,
                                   worlds.max_landmarks));
+  if (worlds.min_movers > worlds.max_movers)
+    throw ConfigError(
+        place_of("min_movers", "max_movers"),
+        fmt::format("min_movers must be at most max_movers, found {} and {}", worlds.min_movers, worlds.max_movers));
   for (const auto& [name, axis] : {std::pair{"x", 0}, {"y", 1}}) {
     if (worlds.smallest_room_m[axis] > worlds.largest_room_m[axis])
       throw ConfigError(place_of("smallest_room_m", "largest_room_m"),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 
 #include "framework/experiments/factors.hpp"
 #include "framework/mission/held_out.hpp"
@@ -199,7 +200,8 @@ bool ExperimentRow::is_good() const {
 }
 
 std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
-                                          const std::filesystem::path& out, const std::atomic<bool>& cancel) {
+                                          const std::filesystem::path& out, const std::atomic<bool>& cancel,
+                                          const std::function<void(std::size_t, std::size_t)>& ended) {
   const std::vector<Job> jobs = jobs_of(config, out);
   check(config, library, jobs);
   std::vector<ExperimentRow> rows(jobs.size());
@@ -209,10 +211,16 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
     rows[i].seed = jobs[i].seed;
     rows[i].result.outcome = MissionOutcome::cancelled;  // until it has run
   }
+  std::mutex telling;
+  std::size_t count = 0;
   in_parallel(
       jobs.size(),
       [&](std::size_t i) {
-        if (!cancel.load()) rows[i] = run_job(config, library, cancel, jobs[i]);
+        if (cancel.load()) return;
+        rows[i] = run_job(config, library, cancel, jobs[i]);
+        const std::scoped_lock lock(telling);
+        ++count;
+        if (ended) ended(count, jobs.size());
       },
       kMaxRunsAtATime);
   return rows;

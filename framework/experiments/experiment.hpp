@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,9 +55,10 @@ struct ExperimentRow {
 // Runs everything, as many at a time as the machine has cores, but at most eight; rows come by mission, variant and
 // seed. A recorded log is the same in each run: it is run on as many seeds as withhold other readings. Each run writes
 // its map and report into a folder of its own under out. Throws ConfigError or ModuleFault; the first fault stops the
-// runs that have not begun.
-[[nodiscard]] std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
-                                                        const std::filesystem::path& out,
-                                                        const std::atomic<bool>& cancel);
+// runs that have not begun. ended: told after each run how many have ended, of how many, from any thread but one at a
+// time.
+[[nodiscard]] std::vector<ExperimentRow> run_experiment(
+    const ExperimentConfig& config, const ModuleLibrary& library, const std::filesystem::path& out,
+    const std::atomic<bool>& cancel, const std::function<void(std::size_t, std::size_t)>& ended = {});
 
 }  // namespace cairn

@@ -271,7 +271,16 @@ std::string table_head(const std::vector<std::string>& columns, std::size_t text
   return head + "\n" + rule + "\n";
 }
 
-std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+namespace {
+
+// Runs that did not come to their end count in the tables as far as they came.
+std::string cancelled_text(const std::vector<ExperimentRow>& rows) {
+  const auto cut = std::ranges::count_if(
+      rows, [](const ExperimentRow& row) { return row.result.outcome == MissionOutcome::cancelled; });
+  return cut == 0 ? "" : fmt::format("**Cancelled: {} of {} runs did not come to their end.**\n\n", cut, rows.size());
+}
+
+std::string tables_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   switch (config.experiment) {
     case ExperimentKind::missions:
       return missions_table(config, rows) + contacts_table(config, rows);
@@ -294,6 +303,12 @@ std::string table_of(const ExperimentConfig& config, const std::vector<Experimen
       break;  // runs nothing: its table is made of questions
   }
   return {};
+}
+
+}  // namespace
+
+std::string table_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
+  return cancelled_text(rows) + tables_of(config, rows);
 }
 
 std::string json_of(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {

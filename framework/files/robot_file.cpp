@@ -142,7 +142,7 @@ struct RobotConfig {
     fields.group("firing", &RobotConfig::firing, "when the sonars fire");
     fields.list("lasers", &RobotConfig::lasers, "its laser scanners; their beams are numbered after the sonars");
     fields.group("odometry", &RobotConfig::odometry, "standard deviations of its dead reckoning");
-    fields.group("compass", &RobotConfig::compass, "standard deviations of its compass");
+    fields.group("compass", &RobotConfig::compass, "standard deviations of its compass; left out, the robot has none");
     fields.group("ranges", &RobotConfig::ranges, "standard deviations of its sonars' ranges");
     fields.one_of({"radius_m", "polygon_m"});
   }
@@ -243,6 +243,7 @@ RobotModel load_robot(const std::filesystem::path& file) {
   set_firing(robot, config.firing);
   set_lasers(robot, config, root);
   robot.odometry_error = config.odometry;
+  robot.has_compass = root.find("compass") != nullptr;
   robot.compass_error = config.compass;
   robot.range_error = config.ranges;
   return robot;

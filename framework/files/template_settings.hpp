@@ -18,6 +18,7 @@ struct TemplateSettings {
   Rendering rendering = Rendering::sensed;
   double step_rad = radians(15.0);
   std::vector<double> sizes{1.0};
+  bool smooth_too = false;
   double ring_offset_m = 0.04;  // where sonar maps show the outline (docs/results/paper.md)
   static void describe(Fields<TemplateSettings>& fields);
 };
@@ -29,6 +30,7 @@ void describe_templates(Fields<Config>& fields) {
   std::filesystem::path Config::*const templates = &Config::templates;
   Rendering Config::*const rendering = &Config::rendering;
   std::vector<double> Config::*const sizes = &Config::sizes;
+  bool Config::*const smooth_too = &Config::smooth_too;
   fields.file("templates", templates, "folder of template files; the host renders them for the mission");
   fields.choice("rendering", rendering, {{"sensed", Rendering::sensed}, {"ideal", Rendering::ideal}},
                 "how templates are made: as the mission's own sensor and mapper would see them, or drawn");
@@ -36,6 +38,10 @@ void describe_templates(Fields<Config>& fields) {
   fields.numbers("sizes", sizes, {0.5, 2.0}, "",
                  "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
                  "size varies");
+  fields.flag(
+      "smooth_too", smooth_too,
+      "sensed templates are rendered a second time with a smooth surface, which echoes only where a beam meets it "
+      "at a right angle; takes twice the time to match");
   fields.number("ring_offset_m", &Config::ring_offset_m, {-0.2, 0.2}, "m",
                 "of drawn templates (`rendering: ideal`): how far outside the outline the ring is drawn, as maps of "
                 "sonars show it; 0: on the outline, as in the paper");

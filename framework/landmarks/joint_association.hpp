@@ -18,7 +18,7 @@ namespace cairn {
 struct LandmarkRef {
   LandmarkId id = 0;
   bool is_candidate = false;
-  auto operator<=>(const LandmarkRef&) const = default;
+  auto operator<=>(const LandmarkRef&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 // A normal distribution of an offset, the same in x and y.

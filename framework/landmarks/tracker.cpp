@@ -29,6 +29,7 @@ void absorb(Landmark& landmark, const Landmark& other) {
     landmark.degree = other.degree;
     landmark.templates = other.templates;
   }
+  if (landmark.name.empty()) landmark.name = other.name;
   add_evidence(landmark, other);
 }
 
@@ -46,6 +47,17 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
   graph_ = std::move(graph);
   candidates_ = std::move(candidates);
   driven_ = DrivenPath(std::move(driven_path), driven_.max_poses());
+}
+
+void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
+  driven_ = DrivenPath(driven_.max_poses());
+  for (const Pose2& pose : T_map_robot) driven_.record(pose);
+}
+
+bool LandmarkTracker::name(LandmarkId id, const std::string& name) {
+  Landmark* const landmark = graph_.find(id);
+  if (landmark != nullptr) landmark->name = name;
+  return landmark != nullptr;
 }
 
 void LandmarkTracker::record_pose(const PoseEstimate& pose) {
@@ -170,9 +182,9 @@ void LandmarkTracker::merge_beside(LandmarkId id, std::vector<Change>& changes) 
   for (std::size_t i = 1; i < same.size(); ++i) {
     Landmark& older = *graph_.find(kept);
     const Landmark younger = *graph_.find(same[i]);
+    absorb(older, younger);
     graph_.retire(younger.id, "is " + label_of(older));
     association_.forget({younger.id, false});
-    absorb(older, younger);
     std::erase_if(changes, [&](const Change& change) { return change.landmark == younger.id; });
     changes.push_back({younger.id, ChangeKind::retired});
   }

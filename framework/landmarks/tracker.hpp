@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/contracts/detector.hpp"
@@ -38,8 +39,13 @@ class LandmarkTracker {
   // Goes on from what an earlier run has known.
   void restore(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path);
 
+  // Names a landmark. False when there is none with that id.
+  bool name(LandmarkId id, const std::string& name);
+
   // Remembers where the robot has been, and how well it knew that. At every tick.
   void record_pose(const PoseEstimate& pose);
+  // Where the robot has been, by what is known now.
+  void correct_path(const std::vector<Pose2>& T_map_robot);
   // Brings approach poses and routes up to date (LandmarkConnector).
   void connect(const WorldView& world, const LandmarkConnector::Plan& plan, std::uint64_t seed) {
     connector_.connect(graph_, driven_, world, plan, seed);

@@ -151,6 +151,7 @@ TemplateSet render_templates(const Mission& mission, double cell_m, const Module
   if (mission.config.sensor.name == simulator.name) simulator = mission.config.sensor;
   SensedOptions options;
   options.sizes = config.sizes;
+  options.smooth_too = config.smooth_too;
   return render_sensed_set(mission.shapes, config.step_rad, cell_m, options, mission.robot, simulator,
                            mission.config.map, modules, TemplateCache(template_cache_folder()));
 }
@@ -159,6 +160,11 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
   MissionModules built;
   built.T_map_start = start_of(mission.config);
   return build_sensor(mission, library, built);
+}
+
+std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
+                                  const OccupancyGrid* grid_so_far) {
+  return build_mapper(mission, library, grid_so_far);
 }
 
 std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLibrary& library, double cell_m) {

@@ -29,6 +29,10 @@ struct MissionModules {
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
                                            const SavedMap* resume = nullptr, const std::atomic<bool>* cancel = nullptr);
 
+// The mission's map module alone. grid_so_far: what it begins with, or null.
+[[nodiscard]] std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
+                                                const OccupancyGrid* grid_so_far);
+
 // What is wrong with the mission's modules and their settings, each as `cairn run` would report the first: every module
 // is made once. Costs no rendering of templates.
 [[nodiscard]] std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library);

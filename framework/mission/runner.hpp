@@ -17,6 +17,7 @@
 #include "framework/modules/wall_clock.hpp"
 #include "framework/safety/config.hpp"
 #include "maps/clustering/cluster_levels.hpp"
+#include "maps/pose_graph/relation_errors.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
@@ -61,15 +62,16 @@ struct MissionResult {
   AutosaveFigures autosave{};
   ClusterTree clusters{};  // of the landmarks, as they were last clustered
   std::vector<ClusterLevel> cluster_levels{};
-  std::string map_file;  // name in the output folder; empty: could not be saved
+  std::vector<StampedPose> poses{};  // of all observations, as known at the end; none for most missions that drive
+  std::string map_file;              // name in the output folder; empty: could not be saved
 };
 
 class MissionLoop;
 
 class MissionRunner {
  public:
-  // Builds every module. Throws ConfigError (the user's files), ModuleFault (a module's fault) or StoreError (the
-  // map to go on from does not fit).
+  // Builds every module; the library must outlive the runner. Throws ConfigError (the user's files), ModuleFault (a
+  // module's fault) or StoreError (the map to go on from does not fit).
   MissionRunner(const Mission& mission, const ModuleLibrary& library, const RunOptions& options);
   ~MissionRunner();
 

@@ -59,6 +59,8 @@ class Staged {
   [[nodiscard]] ModuleFault fault(const std::string& what) const {
     return {clock_->stage_of(stage_), clock_->module_of(stage_), what};
   }
+  // Another one of the same name from now on.
+  void replace(std::shared_ptr<Module> module) { module_ = std::move(module); }
   // Outside of the stage, neither watched nor fenced: for the thread that has given the mission up.
   [[nodiscard]] Module& unwatched() const { return *module_; }
 

@@ -83,6 +83,7 @@ std::string json_text_of(const PlanAnswer& answer) {
                     {"routes", result.routes},
                     {"path", std::move(path)},
                     {"clearance_m", result.clearance_m},
+                    {"margin_m", result.margin_m},
                     {"driving_time_s", json_of(result.driving_time_s)}};
   if (answer.with_times) json["time_ms"] = json_of(result.time_ms);
   json["settled"] = result.settled;

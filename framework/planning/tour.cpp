@@ -85,6 +85,7 @@ PlanResult plan_tour(const PlanCall& plan, PlanRequest request, std::span<const 
   for (std::size_t i = 0; i < stops.size(); ++i) {
     request.to = stops[i];
     const PlanResult leg = plan(request);
+    tour.margin_m = i == 0 ? leg.margin_m : std::min(tour.margin_m, leg.margin_m);
     tour.clearance_m = i == 0 ? leg.clearance_m : std::min(tour.clearance_m, leg.clearance_m);
     append_leg(tour, leg);
     tour.length_lower_bound_m = sum_of(tour.length_lower_bound_m, leg.length_lower_bound_m);

@@ -83,6 +83,11 @@ void add_plan(CLI::App& app, CommandLine& line) {
   sub->add_option("--robot", c->robot, "robot file (config/robots/*.yaml), in place of the radius saved in the map");
   add_number(sub, "--radius-m", c->radius_m, "robot radius, in place of the one saved in the map or of the robot file",
              0.0, kMaxRadius_m);
+  add_number(
+      sub, "--margin-m", c->margin_m,
+      "room that the path keeps beside the robot. Without it 0.12, and where that leaves no path 0.06, then 0; the "
+      "answer says which. With --radius-m, or a margin of the planner by --set, only what is given here",
+      0.0, kMaxRadius_m);
   add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);
   sub->add_option("--seed", c->seed, "seed of the planner")->check(seed_range())->capture_default_str();
   sub->add_option("--picture", c->picture, "draw the route into this PNG file");
@@ -195,6 +200,18 @@ void add_experiment(CLI::App& app, CommandLine& line) {
   add_repeatable(sub, "--set", c->overrides, "override a setting of the file, as seeds.count=20 (may be repeated)");
 }
 
+void add_chart(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] = add_command(app, line, chart, "chart",
+                                    "Draw the tables of a Markdown file, such as an experiment's table.md, again");
+  sub->add_option("FILE", c->file, "Markdown file with tables; the first column of each is the x axis")->required();
+  add_repeatable(sub, "--column", c->columns, "column to draw (may be repeated); without it, all columns of numbers");
+  sub->add_option("--title", c->title, "of each chart; {} stands for the heading of the table's section");
+  sub->add_option("--y-label", c->y_label, "label of the y axis");
+  sub->add_flag("--shares", c->of_shares, "the y axis from 0 to 1");
+  sub->add_option("--out", c->out, "folder for the pictures")->capture_default_str();
+  sub->add_option("--prefix", c->prefix, "of the pictures' names, before the heading");
+}
+
 // What the parser calls unexpected is most often a misspelt command.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
   const CLI::App* at = &app;
@@ -254,7 +271,7 @@ int main_of(int argc, char** argv) {
   app.add_flag("--json", line.common.json, "JSON on standard output; text for people on standard error");
   for (const auto add :
        {add_run, add_base, add_mission, add_plan, add_map, add_map_files, add_map_name, add_map_lint, add_template,
-        add_template_capture, add_plugins, add_plugins_new, add_reference, add_experiment, add_slam})
+        add_template_capture, add_plugins, add_plugins_new, add_reference, add_experiment, add_chart, add_slam})
     add(app, line);
   try {
     app.parse(argc, argv);

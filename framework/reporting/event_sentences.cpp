@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "framework/mission/hearing/hearing_record.hpp"
+#include "maps/landmarks/close_categories.hpp"
 
 namespace cairn {
 namespace {
@@ -12,9 +13,9 @@ struct Sentence {
   std::string operator()(const MatchingDone&) const { return {}; }
   std::string operator()(const LandmarkChanged& e) const {
     const Pose2& T_map_landmark = e.landmark.T_map_landmark;
-    return fmt::format("{} {}, {} at ({:.2f}, {:.2f}), degree {:.2f}", e.is_new ? "found" : "improved",
+    return fmt::format("{} {}, {} at ({:.2f}, {:.2f}), degree {}", e.is_new ? "found" : "improved",
                        label_of(e.landmark), e.landmark.category, T_map_landmark.x_m, T_map_landmark.y_m,
-                       e.landmark.degree);
+                       degree_text(e.landmark));
   }
   std::string operator()(const LandmarkRetired& e) const {
     return "retired " + label_of(e.landmark) + ", " + e.landmark.category + ": " + e.reason;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/reporting/event_sentences.hpp"
+#include "maps/landmarks/close_categories.hpp"
 
 namespace cairn {
 namespace {
@@ -32,15 +33,20 @@ ordered_json json_of(const Landmark& landmark) {
                             {"mean_degree", rounded(e.mean_degree)},
                             {"best_degree", rounded(e.best_degree)},
                             {"last_degree", rounded(e.last_degree)}};
-  return {{"id", "L" + std::to_string(landmark.id)},
-          {"category", landmark.category},
-          {"x_m", rounded(landmark.T_map_landmark.x_m)},
-          {"y_m", rounded(landmark.T_map_landmark.y_m)},
-          {"angle_deg", rounded(degrees(landmark.T_map_landmark.theta_rad))},
-          {"degree", rounded(landmark.degree)},
-          {"sightings", landmark.sightings},
-          {"templates", templates},
-          {"evidence", evidence}};
+  ordered_json described = {{"id", "L" + std::to_string(landmark.id)},
+                            {"category", landmark.category},
+                            {"x_m", rounded(landmark.T_map_landmark.x_m)},
+                            {"y_m", rounded(landmark.T_map_landmark.y_m)},
+                            {"angle_deg", rounded(degrees(landmark.T_map_landmark.theta_rad))},
+                            {"degree", rounded(landmark.degree)},
+                            {"sightings", landmark.sightings},
+                            {"templates", templates},
+                            {"evidence", evidence}};
+  if (!landmark.name.empty()) described["name"] = landmark.name;
+  if (const auto close = close_categories(landmark))
+    described["close_to"] = {
+        {"category", close->other}, {"degree", rounded(close->other_degree)}, {"own_degree", rounded(close->degree)}};
+  return described;
 }
 
 ordered_json json_of(const LandmarkGraph& graph) {
@@ -183,6 +189,23 @@ ordered_json json_of(const std::vector<PoseErrorSample>& samples) {
   return rows;
 }
 
+ordered_json json_of(const std::vector<NearMiss>& misses) {
+  ordered_json list = ordered_json::array();
+  for (const NearMiss& miss : misses) {
+    ordered_json entry = {{"category", miss.category},
+                          {"x_m", rounded(miss.at_m.x())},
+                          {"y_m", rounded(miss.at_m.y())},
+                          {"degree", rounded(miss.degree)}};
+    if (!miss.next_category.empty()) {
+      entry["next_category"] = miss.next_category;
+      entry["next_degree"] = rounded(miss.next_degree);
+    }
+    if (miss.needed) entry["needs"] = rounded(*miss.needed);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 std::string at_time(double time_s, const std::string& sentence) {
   return fmt::format("{:.2f} s: {}", time_s, sentence);
 }
@@ -203,6 +226,7 @@ void RunReport::on(const Event& event, const MissionView& view) {
   timeline_.on(event, view);
   if (const auto* done = std::get_if<MatchingDone>(&event)) {
     const Matching& matching = done->matching;
+    near_misses_.update(matching);
     degrees_.add({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
                   true_pose(view).value_or(view.world.pose.T_map_robot).position(), matching.fits_above});
   }
@@ -226,6 +250,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
     landmark["reason"] = retired.reason;
     report["retired"].push_back(std::move(landmark));
   }
+  report["near_misses"] = json_of(near_misses_.away_from(graph));
   report["explored_ratio"] = rounded(result.explored_ratio);
   if (result.resumed_s) report["resumed_s"] = rounded(*result.resumed_s);
   report["steps"] = json_of(result.steps);

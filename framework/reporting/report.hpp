@@ -10,6 +10,7 @@
 #include "framework/mission/history.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/reporting/event_log.hpp"
+#include "framework/reporting/near_misses.hpp"
 #include "framework/reporting/pose_errors.hpp"
 #include "framework/reporting/thinned_series.hpp"
 #include "framework/reporting/timeline.hpp"
@@ -51,6 +52,7 @@ class RunReport : public Listener {
   [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_.samples(); }
   [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
   [[nodiscard]] const PoseErrors& pose_errors() const { return pose_errors_; }
+  [[nodiscard]] const NearMisses& near_misses() const { return near_misses_; }
   [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
 
  private:
@@ -59,6 +61,7 @@ class RunReport : public Listener {
   const std::size_t max_contacts_;
   ThinnedSeries<DegreeSample> degrees_;
   std::vector<TimedContact> contacts_;
+  NearMisses near_misses_;
   PoseErrors pose_errors_;
   RunTimeline timeline_;
   EventLog events_;  // sentences with their time

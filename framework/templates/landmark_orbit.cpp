@@ -9,11 +9,11 @@ namespace cairn {
 namespace {
 
 // The landmark alone in free space.
-World world_of(const Contour& contour, const Pose2& T_map_landmark, double extent_m) {
+World world_of(const Contour& contour, const Pose2& T_map_landmark, Surface surface, double extent_m) {
   World world;
   world.min_m = T_map_landmark.position() - Point{extent_m, extent_m};
   world.max_m = T_map_landmark.position() + Point{extent_m, extent_m};
-  world.objects.push_back({"", contour, T_map_landmark, Surface::rough});
+  world.objects.push_back({"", contour, T_map_landmark, surface});
   return world;
 }
 
@@ -78,7 +78,8 @@ std::shared_ptr<Mapper> map_of_orbits(const OrbitCrew& crew, const Contour& cont
   const ModuleContext context{robot, plan.seed, &crew.modules};
   auto mapper = crew.modules.make<Mapper>(crew.map, {context});
   const Point centre = mapper->grid().centre_of({0, 0}) + plan.offset_m;
-  const World world = world_of(contour, {centre.x(), centre.y(), plan.orientation_rad}, 2.0 * farthest_m + 1.0);
+  const World world =
+      world_of(contour, {centre.x(), centre.y(), plan.orientation_rad}, plan.surface, 2.0 * farthest_m + 1.0);
   const double speed_mps = std::min(plan.speed_mps, robot.max_v_mps);
   for (const double standoff_m : plan.standoffs_m) {
     for (const Side landmark_side : plan.landmark_sides) {

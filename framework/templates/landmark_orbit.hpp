@@ -9,6 +9,7 @@
 #include "framework/contracts/mapper.hpp"
 #include "framework/contracts/module.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/contracts/world.hpp"
 #include "maps/geometry/contour.hpp"
 
 namespace cairn {
@@ -30,13 +31,14 @@ struct OrbitPlan {
   std::vector<Side> landmark_sides{Side::left};
   double speed_mps = 0.2;
   std::uint64_t seed = 1;
+  Surface surface = Surface::rough;
   // Readings whose beam stays farther than this from the landmark's centre are not mapped: cells within
   // it get the same values from a mapper that changes only the cells of a beam.
   double needed_m = 1e9;
 };
 
 // The mapper after the orbits, one at each standoff and side, both sides of the first standoff first. The robot's
-// sonars end a little beyond the landmark, odometry and compass are free of error, the landmark's surface is rough. The
+// sonars end a little beyond the landmark, odometry and compass are free of error. The
 // same arguments give the same map. Throws what the modules throw, and std::runtime_error when the sensor cannot be
 // driven or ends before the orbit does.
 [[nodiscard]] std::shared_ptr<Mapper> map_of_orbits(const OrbitCrew& crew, const Contour& contour,

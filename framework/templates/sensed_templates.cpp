@@ -49,7 +49,8 @@ std::vector<TemplateCell> band_of(const Contour& contour, double orientation_rad
 }
 
 // Maps the orbits. The landmark's centre is the centre of cell (0, 0).
-LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad) {
+LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape, double orientation_rad,
+                               Surface surface) {
   const SensedOptions& options = studio.options;
   std::vector<TemplateCell> cells = band_of(shape.contour, orientation_rad, studio.cell_m, options);
   OrbitPlan plan;
@@ -59,6 +60,7 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
   plan.landmark_sides = {Side::left, Side::right};
   plan.speed_mps = options.speed_mps;
   plan.seed = options.seed;
+  plan.surface = surface;
   // The template's cells, those that Sobel looks at beside them, and the spread of a cell.
   plan.needed_m = 0.5 * shape.contour.outer_diameter_m() + (options.edge_outside_cells + 3.0) * studio.cell_m;
   const auto mapper = map_of_orbits(studio.crew, shape.contour, plan);
@@ -84,22 +86,26 @@ struct RenderTask {
   const LandmarkShape* shape;
   double orientation_rad;
   double size;
+  Surface surface;
 };
 
 std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector<RenderTask>& tasks) {
   std::vector<LandmarkTemplate> templates(tasks.size());
   in_parallel(tasks.size(), [&](std::size_t i) {
-    const auto& [shape, orientation_rad, size] = tasks[i];
-    templates[i] = render_sensed(studio, {shape->category, shape->contour.scaled(size)}, orientation_rad);
+    const auto& [shape, orientation_rad, size, surface] = tasks[i];
+    templates[i] = render_sensed(studio, {shape->category, shape->contour.scaled(size)}, orientation_rad, surface);
   });
   return templates;
 }
 
 std::vector<RenderTask> render_tasks_for(const LandmarkShape& shape, double step_rad, double cell_m,
-                                         const std::vector<double>& sizes) {
+                                         const SensedOptions& options) {
   std::vector<RenderTask> tasks;
   for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m))
-    for (const double size : sizes) tasks.push_back({&shape, orientation_rad, size});
+    for (const double size : options.sizes) {
+      tasks.push_back({&shape, orientation_rad, size, Surface::rough});
+      if (options.smooth_too) tasks.push_back({&shape, orientation_rad, size, Surface::smooth});
+    }
   return tasks;
 }
 
@@ -124,7 +130,7 @@ TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double s
   for (const LandmarkShape& shape : shapes) {
     kept.push_back(cache.find(shape_key(common_key, shape)));
     if (kept.back()) continue;
-    const std::vector<RenderTask> more = render_tasks_for(shape, step_rad, cell_m, options.sizes);
+    const std::vector<RenderTask> more = render_tasks_for(shape, step_rad, cell_m, options);
     tasks.insert(tasks.end(), more.begin(), more.end());
   }
   std::vector<LandmarkTemplate> rendered = render_all(studio, tasks);

@@ -138,7 +138,7 @@ class KeyText {
 void add_robot(KeyText& key, const RobotModel& robot) {
   // Named one by one, so that the compiler objects when a field is added and left out here.
   const auto& [name, radius_m, polygon_m, v, w, a, wa, turning_m, kinematics, sonars, order, period_s, lasers, odometry,
-               compass, range] = robot;
+               has_compass, compass, range] = robot;
   key.add(name.size(), name, radius_m, v, w, a, wa, turning_m, static_cast<int>(kinematics), period_s);
   key.add_points(polygon_m).add(sonars.size());
   for (const auto& [T_robot_sonar, half_beam_rad, min_m, max_m] : sonars)
@@ -151,8 +151,8 @@ void add_robot(KeyText& key, const RobotModel& robot) {
   const auto& [distance, distance_bias, heading] = odometry;
   const auto& [noise_rad, bias_rad, bias_scale_m] = compass;
   const auto& [noise_m, noise_ratio, dropped, crosstalk] = range;
-  key.add(distance, distance_bias, heading, noise_rad, bias_rad, bias_scale_m, noise_m, noise_ratio, dropped,
-          crosstalk);
+  key.add(distance, distance_bias, heading, has_compass, noise_rad, bias_rad, bias_scale_m, noise_m, noise_ratio,
+          dropped, crosstalk);
 }
 
 // The code of a module, and of the library that holds this function or that of a contour.
@@ -189,8 +189,8 @@ std::filesystem::path template_cache_folder() {
 std::string rendering_key(double step_rad, double cell_m, const SensedOptions& options, const RobotModel& robot,
                           const PluginChoice& sensor, const PluginChoice& map, const ModuleLibrary& library) {
   KeyText key;
-  const auto& [sizes, gaps_m, speed_mps, inside, outside, min_gradient, seed] = options;
-  key.add(step_rad, cell_m, speed_mps, inside, outside, min_gradient, seed, gaps_m.size(), sizes.size());
+  const auto& [sizes, smooth_too, gaps_m, speed_mps, inside, outside, min_gradient, seed] = options;
+  key.add(step_rad, cell_m, speed_mps, inside, outside, min_gradient, seed, smooth_too, gaps_m.size(), sizes.size());
   for (const double size : sizes) key.add(size);
   for (const double gap_m : gaps_m) key.add(gap_m);
   add_robot(key, robot);

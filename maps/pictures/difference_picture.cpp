@@ -151,9 +151,10 @@ class Drawing {
       if (!is_labelled || ++labels > kMaxLabels) return;
       const std::string label = label_of(*graph.find(id));
       const TextStyle style{colour, 12.5, Align::left, true};
-      const PixelBox box = placer.place(centre, kDotPx + 2.0, {Canvas::text_width_px(label, style) + 6.0, 16.0});
-      canvas.fill_box(box, {kWhite, 0.8}, 3.0);
-      canvas.text({box.min.x() + 3.0, box.centre().y()}, label, style);
+      const auto box = placer.place(centre, kDotPx + 2.0, {Canvas::text_width_px(label, style) + 6.0, 16.0});
+      if (!box) return;
+      canvas.fill_box(*box, {kWhite, 0.8}, 3.0);
+      canvas.text({box->min.x() + 3.0, box->centre().y()}, label, style);
     };
     for (const LandmarkPair& pair : difference_.same) draw(b_, pair.b, kFaintInk, false);
     for (const LandmarkPair& pair : difference_.moved) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "maps/landmarks/close_categories.hpp"
 #include "maps/pictures/drawing/colours.hpp"
 
 namespace cairn::pictures {
@@ -146,28 +147,55 @@ std::string GraphLayer::words_about(const Landmark& landmark) const {
   std::string words = label_of(landmark);
   if (graph_.landmarks().size() > kMaxFullLabels) return words;
   if (!landmark.category.empty()) words += " " + landmark.category;
-  if (landmark.degree > 0.0) words += " " + short_text(landmark.degree, 2);
+  const std::optional<CloseCategories> close = close_categories(landmark);
+  if (close)
+    words += " " + short_text(close->degree, 2) + ", " + close->other + " " + short_text(close->other_degree, 2);
+  else if (landmark.degree > 0.0)
+    words += " " + short_text(landmark.degree, 2);
   return words;
 }
 
-void GraphLayer::draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer& placer) const {
-  if (graph_.landmarks().size() > kMaxLabels) return;
+// In the order in which labels are placed.
+std::vector<const Landmark*> GraphLayer::labelled(std::span<const LandmarkId> first) const {
+  std::vector<const Landmark*> order;
+  const auto add_if = [&](auto is_wanted) {
+    for (const auto& [id, landmark] : graph_.landmarks())
+      if (std::ranges::find(first, id) == first.end() && is_wanted(landmark)) order.push_back(&landmark);
+  };
+  for (const LandmarkId id : first)
+    if (const Landmark* const landmark = graph_.find(id);
+        landmark != nullptr && std::ranges::find(order, landmark) == order.end())
+      order.push_back(landmark);
+  if (graph_.landmarks().size() > kMaxLabels) return order;
+  add_if([](const Landmark& landmark) { return !landmark.name.empty(); });
+  add_if([](const Landmark& landmark) { return landmark.name.empty(); });
+  return order;
+}
+
+void GraphLayer::draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer& placer,
+                             std::span<const LandmarkId> first) const {
+  const std::vector<const Landmark*> order = labelled(first);
+  if (order.empty()) return;
+  // Among many landmarks a label says nothing unless it stands right beside its own, and hides none.
+  const bool is_crowded = graph_.landmarks().size() > kMaxFullLabels;
   for (const auto& [id, landmark] : graph_.landmarks()) {
     const Pixel centre = frame.pixel_of(landmark.T_map_landmark.position());
     const double radius = radius_px(landmark, frame);
+    if (is_crowded) placer.keep_clear({centre - Pixel(radius, radius), centre + Pixel(radius, radius)});
     placer.avoid({centre - Pixel(radius, radius), centre + Pixel(radius, radius)}, 20.0);
   }
   for (const auto& [id, route] : graph_.routes()) placer.avoid_line(frame.pixels_of(course_of(route)), 0.25);
-  for (const auto& [id, landmark] : graph_.landmarks()) {
-    const std::string words = words_about(landmark);
-    const Colour colour = colour_of(landmark.category);
+  for (const Landmark* const landmark : order) {
+    const std::string words = words_about(*landmark);
     const Pixel size(Canvas::text_width_px(words, kLabelText) + 12.0, kLabelHeightPx);
-    const PixelBox box =
-        placer.place(frame.pixel_of(landmark.T_map_landmark.position()), radius_px(landmark, frame), size);
+    const std::optional<PixelBox> box =
+        placer.place(frame.pixel_of(landmark->T_map_landmark.position()), radius_px(*landmark, frame), size,
+                     is_crowded ? 1 : LabelPlacer::kRings);
+    if (!box) continue;
     const Pixel rim(1.0, 1.0);
-    canvas.fill_box({box.min - rim, box.max + rim}, {colour, 0.9}, 5.0);
-    canvas.fill_box(box, {kWhite, 0.95}, 4.0);
-    canvas.text(box.centre(), words, {kLabelText.colour, kLabelText.size_px, Align::centre});
+    canvas.fill_box({box->min - rim, box->max + rim}, {colour_of(landmark->category), 0.9}, 5.0);
+    canvas.fill_box(*box, {kWhite, 0.95}, 4.0);
+    canvas.text(box->centre(), words, {kLabelText.colour, kLabelText.size_px, Align::centre});
   }
 }
 

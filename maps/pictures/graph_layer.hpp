@@ -22,8 +22,10 @@ class GraphLayer {
 
   void draw_routes(Canvas& canvas, const MapFrame& frame) const;
   void draw_landmarks(Canvas& canvas, const MapFrame& frame) const;
-  // "L3 square 0.74" beside each landmark; of many landmarks the label only, of very many nothing.
-  void draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer& placer) const;
+  // "L3 square 0.74" beside each landmark; of many landmarks the label only, of very many nothing but those of first.
+  // Where there is no room a label is left out: those of first are placed first, then those of landmarks with a name.
+  void draw_labels(Canvas& canvas, const MapFrame& frame, LabelPlacer& placer,
+                   std::span<const LandmarkId> first = {}) const;
   [[nodiscard]] std::vector<LegendEntry> legend() const;
   [[nodiscard]] Extent extent() const;
 
@@ -36,6 +38,7 @@ class GraphLayer {
   [[nodiscard]] double radius_px(const Landmark& landmark, const MapFrame& frame) const;
   [[nodiscard]] std::vector<Point> course_of(const Route& route) const;
   [[nodiscard]] std::string words_about(const Landmark& landmark) const;
+  [[nodiscard]] std::vector<const Landmark*> labelled(std::span<const LandmarkId> first) const;
 
   const LandmarkGraph& graph_;
   std::span<const LandmarkShape> shapes_;

@@ -18,9 +18,12 @@ using namespace pictures;
 constexpr int kMarginCells = 5;
 constexpr double kSurelyFreeNat = 2.0;  // P < 0.12
 constexpr double kLandmarkMarginM = 0.1;
+constexpr Stroke kTruthStroke{kPlanned, 2.0, 0.9};
 constexpr Stroke kDrivenStroke{kDriven, 1.5, 0.9};
 constexpr Stroke kPlannedStroke{kPlanned, 3.5, 0.95};
 constexpr Stroke kDoorStroke{kClosed, 3.0, 0.9};
+constexpr Stroke kNearMissStroke{kPlanned, 2.0, 0.9};
+constexpr double kNearMissPx = 9.0;
 constexpr Stroke kMoverStroke{kGoal, 1.5, 0.6, 6.0};
 
 // The box of cells that are worth showing: occupied or surely free. Single stray readings leave faint
@@ -47,7 +50,7 @@ Extent extent_of(const MapPicture& picture, const GraphLayer& graph) {
   }
   for (const auto* path : {&picture.driven, &picture.planned})
     for (const Point& p : *path) extent.include(p, kLandmarkMarginM);
-  for (const auto* paths : {&picture.doors, &picture.mover_paths})
+  for (const auto* paths : {&picture.doors, &picture.mover_paths, &picture.truth})
     for (const std::vector<Point>& path : *paths)
       for (const Point& p : path) extent.include(p, kLandmarkMarginM);
   for (const Pose2& pose : picture.robot_path) extent.include(pose.position(), shape_of(picture).reach_m());
@@ -123,6 +126,25 @@ double darkness_of(const OccupancyGrid* grid, const MapFrame& frame, const Pixel
   return static_cast<double>(dark) / ((kAcross + 1) * (kDown + 1));
 }
 
+void draw_near_miss(Canvas& canvas, const Pixel& at) {
+  canvas.ring(at, kNearMissPx, kNearMissStroke);
+}
+
+// Labels only of a few: many would hide the map.
+void draw_near_misses(Canvas& canvas, const MapPicture& picture, const MapFrame& frame, LabelPlacer& placer) {
+  constexpr std::size_t kMaxMissLabels = 12;
+  constexpr TextStyle kText{kInk, 13.0};
+  for (const MarkedPlace& place : picture.near_misses) draw_near_miss(canvas, frame.pixel_of(place.at_m));
+  if (picture.near_misses.size() > kMaxMissLabels) return;
+  for (const MarkedPlace& place : picture.near_misses) {
+    const Pixel size(Canvas::text_width_px(place.words, kText) + 10.0, 20.0);
+    const auto box = placer.place(frame.pixel_of(place.at_m), kNearMissPx, size);
+    if (!box) continue;
+    canvas.fill_box(*box, {kWhite, 0.85}, 4.0);
+    canvas.text(box->centre(), place.words, {kText.colour, kText.size_px, Align::centre});
+  }
+}
+
 void draw_marks(Canvas& canvas, const MapPicture& picture, const MapFrame& frame) {
   if (picture.robot)
     draw_robot(canvas, frame.pixel_of(picture.robot->position()), robot_radius_px(picture, frame),
@@ -133,12 +155,12 @@ void draw_marks(Canvas& canvas, const MapPicture& picture, const MapFrame& frame
 
 LabelPlacer placer_for(const MapPicture& picture, const MapFrame& frame) {
   LabelPlacer placer(frame.box, [&](const PixelBox& box) { return 1.5 * darkness_of(picture.grid, frame, box); });
-  placer.avoid_line(frame.pixels_of(picture.planned), 1.0);
+  placer.keep_line_clear(frame.pixels_of(picture.planned));
   placer.avoid_line(frame.pixels_of(picture.driven), 0.15);
   for (const auto& place : {picture.start, picture.goal})
     if (place) {
       const Pixel at = frame.pixel_of(*place);
-      placer.avoid({at - Pixel(9.0, 9.0), at + Pixel(9.0, 9.0)}, 5.0);
+      placer.keep_clear({at - Pixel(9.0, 9.0), at + Pixel(9.0, 9.0)});
     }
   if (picture.robot) {
     const Pixel at = frame.pixel_of(picture.robot->position());
@@ -156,10 +178,12 @@ std::vector<LegendEntry> legend_of(const MapPicture& picture, const GraphLayer& 
     entries.push_back(swatch_entry("occupied", colour_of_ol(255)));
   }
   for (LegendEntry& entry : graph.legend()) entries.push_back(std::move(entry));
+  if (!picture.truth.empty()) entries.push_back(line_entry("truth", kTruthStroke));
   if (!picture.driven.empty()) entries.push_back(line_entry("driven", kDrivenStroke));
   if (!picture.planned.empty()) entries.push_back(line_entry("planned", kPlannedStroke));
   if (!picture.doors.empty()) entries.push_back(line_entry("door", kDoorStroke));
   if (!picture.mover_paths.empty()) entries.push_back(line_entry("where others go", kMoverStroke));
+  if (!picture.near_misses.empty()) entries.push_back({"nearly a landmark", draw_near_miss});
   if (picture.start) entries.push_back({"start", draw_start});
   if (picture.goal) entries.push_back({"goal", draw_goal});
   if (!picture.robot_path.empty() && shape_of(picture).reach_m() > 0.0)
@@ -192,7 +216,8 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   if (picture.grid != nullptr && picture.grid->bounds().empty()) picture.grid = nullptr;
   const LandmarkGraph no_graph;
   const GraphLayer graph(picture.graph == nullptr ? no_graph : *picture.graph, picture.shapes, picture.clusters);
-  const MapFrame frame = frame_of(extent_of(picture, graph), picture.grid == nullptr ? 1.0 : picture.grid->cell_m());
+  const double cell_m = picture.grid == nullptr ? 1.0 : picture.grid->cell_m();
+  const MapFrame frame = frame_of(extent_of(picture, graph), cell_m, picture.longer_side_px);
   const int width_px = page_width_px(frame);
   const Legend legend(legend_of(picture, graph), width_px - frame.box.min.x() - kPageMarginPx - kScaleBarRoomPx);
   const double legend_top_px = below_frame_px(frame) + 10.0;
@@ -200,16 +225,18 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   Canvas canvas(width_px, static_cast<int>(std::ceil(legend_top_px + legend_px + 12.0)), kPaper);
 
   draw_grid(canvas, frame, picture.grid);
+  for (const std::vector<Point>& outline : picture.truth) canvas.line(frame.pixels_of(outline), kTruthStroke);
   for (const std::vector<Point>& path : picture.mover_paths) canvas.line(frame.pixels_of(path), kMoverStroke);
   for (const std::vector<Point>& leaf : picture.doors) canvas.line(frame.pixels_of(leaf), kDoorStroke);
   canvas.line(frame.pixels_of(picture.driven), kDrivenStroke);
   graph.draw_routes(canvas, frame);
   graph.draw_landmarks(canvas, frame);
+  LabelPlacer placer = placer_for(picture, frame);
+  graph.draw_labels(canvas, frame, placer, picture.planned_landmarks);
+  draw_near_misses(canvas, picture, frame, placer);
   draw_robot_along(canvas, frame, shape_of(picture), picture.robot_path);
   canvas.line(frame.pixels_of(picture.planned), kPlannedStroke);
   draw_marks(canvas, picture, frame);
-  LabelPlacer placer = placer_for(picture, frame);
-  graph.draw_labels(canvas, frame, placer);
   draw_border(canvas, frame);
   draw_title(canvas, picture.title, subtitle_of(picture));
   legend.draw(canvas, {frame.box.min.x(), legend_top_px});

@@ -1,5 +1,8 @@
 #include "planners/hybrid/hybrid_query.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <set>
 
@@ -37,9 +40,11 @@ class Query {
     legs_ = {request.radius_m, disc_m(), tools.config.detour_ratio, request.seed, request.speed_mps};
     answers_ = {ends_.ground, request.radius_m, ends_.radius_m, tools.config.shortcut,
                 driving_rules_of(world, request.radius_m, request.speed_mps)};
-    if (answers_.driving && tools.traits.for_driving_time && request.cost != CostKind::clearance) {
+    if (answers_.driving && tools.traits.for_driving_time) {
       legs_.straight_clearance_m = std::max(0.0, answers_.driving->pace.open_from_m() - added_m());
       answers_.shortcut_clearance_m = legs_.straight_clearance_m;
+    } else if (request.cost == CostKind::clearance) {
+      answers_.shortcut = false;  // a corner that is cut is passed nearer
     }
   }
 
@@ -151,6 +156,7 @@ class Query {
                                 ? 0.0
                                 : routes->length_lower_bound_m(start.leave_from, nearest.pose.position(), budget_);
     std::optional<PlanResult> over = over_graph(search, whole, start, goals, direct_m);
+    if (over && is_for_time()) over = unless_direct_is_faster(std::move(*over), whole, start, nearest);
     PlanResult result = over ? std::move(*over) : direct(whole, start, goals);
     if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
       alternatives_ = open_alternatives(search, candidates_, result.routes, request_.alternatives,
@@ -182,6 +188,24 @@ class Query {
       }
       blocked_.insert(*walk.blocked);
     }
+  }
+
+  // Speed limits hold on routes alone: where the graph has them, its paths are taken.
+  [[nodiscard]] bool is_for_time() const {
+    return request_.cost == CostKind::time && request_.avoid.empty() && request_.closed.empty() &&
+           std::ranges::none_of(world_.graph.routes(),
+                                [](const auto& r) { return r.second.speed_limit_mps.has_value(); });
+  }
+
+  // None: the direct path takes less time to drive.
+  std::optional<PlanResult> unless_direct_is_faster(PlanResult over, const PlanningGround& whole,
+                                                    const StartPlace& start, const GoalPlace& nearest) {
+    if (over.outcome != PlanOutcome::solved || !over.driving_time_s) return over;
+    const PlanResult straight = direct_to(whole, start, nearest);
+    if (straight.outcome != PlanOutcome::solved || straight.driving_time_s >= over.driving_time_s) return over;
+    why_direct_ = fmt::format("directly: over landmarks it takes {:.1f} s, the direct path {:.1f} s",
+                              *over.driving_time_s, *straight.driving_time_s);
+    return std::nullopt;
   }
 
   std::nullopt_t prefer_direct(const SymbolicPath& path, double direct_m) {

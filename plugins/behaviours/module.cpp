@@ -3,6 +3,7 @@
 #include "framework/config/named_category.hpp"
 #include "plugins/behaviours/docking/dock.hpp"
 #include "plugins/behaviours/errands/go_to.hpp"
+#include "plugins/behaviours/errands/name_landmark.hpp"
 #include "plugins/behaviours/errands/records.hpp"
 #include "plugins/behaviours/errands/return_home.hpp"
 #include "plugins/behaviours/errands/search.hpp"
@@ -55,6 +56,8 @@ void register_module(Registrar& registrar) {
                                 &DockConfig::landmark);
   add_driving<DriveTo, DriveConfig>(registrar, "drive", "drives straight from point to point");
   add<Wait, WaitConfig>(registrar, "wait", "stands still for a time");
+  add<NameLandmark, NameConfig>(registrar, "name", "gives a landmark a name, by which steps and questions find it",
+                                &NameConfig::landmark);
   add<Save, SaveConfig>(registrar, "save", "saves the map so far into the output folder");
   add<CaptureTemplate, CaptureTemplateConfig>(registrar, "capture_template",
                                               "writes a template of what is mapped at a place into the output folder",

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "maps/base/text.hpp"
+#include "plugins/carmen_log/graph_steps.hpp"
 #include "plugins/carmen_log/lasers.hpp"
 #include "plugins/carmen_log/recording.hpp"
 
@@ -15,6 +18,14 @@ using log_common::LogLine;
 using log_common::ScanLog;
 
 constexpr std::array<std::string_view, 5> kRangeKinds = {"FLASER", "RLASER", "ROBOTLASER1", "ROBOTLASER2", "SONAR"};
+
+constexpr int kFewestToJudge = 10;  // lines
+constexpr double kSame = 1e-5;      // metres and radians: logs write six digits
+
+bool are_same(const Pose2& a, const Pose2& b) {
+  return std::abs(a.x_m - b.x_m) <= kSame && std::abs(a.y_m - b.y_m) <= kSame &&
+         std::abs(wrap_angle(a.theta_rad - b.theta_rad)) <= kSame;
+}
 
 class Reader {
  public:
@@ -30,15 +41,22 @@ class Reader {
                 std::size_t first_range);
   [[nodiscard]] std::vector<RangeReading> sonars_of(const LogLine& line, std::size_t count);
   [[nodiscard]] bool wants(std::string_view kind) const;
+  void compare(const Pose2& T_log_robot, const Pose2& T_odom_robot);
+  void note_same_poses();
 
   const Config& config_;
   ScanLog scans_;
   Recording recording_;
   Params params_;
+  GraphSteps steps_;
   std::optional<Pose2> T_log_robot_;  // of the last line that has one
   std::optional<Pose2> truth_;
   std::array<std::optional<Pose2>, 2> T_robot_said_;  // front and rear laser
-  int next_sensor_ = 0;                               // transducers are numbered in the order of their sources
+  std::optional<Pose2> first_;                        // pose of a laser line
+  int lines_with_both_ = 0;                           // poses: the log's and the odometry beside it
+  bool have_differed_ = false;                        // these two
+  bool has_moved_ = false;
+  int next_sensor_ = 0;  // transducers are numbered in the order of their sources
 };
 
 void check(const Config& config) {
@@ -59,6 +77,12 @@ Reader::Reader(const Config& config, const Budget& budget)
 
 ScanLog Reader::read() {
   recording_.check_complete(scans_.read_lines(config_.file, [this](const LogLine& line) { read_line(line); }));
+  if (config_.poses == Poses::odometry && steps_.has_steps()) {
+    scans_.replace_odometry(steps_.chained());
+    if (steps_.missing() > 0) scans_.note(counted(steps_.missing(), "step") + " between scans missing, taken as none");
+  } else {
+    note_same_poses();
+  }
   scans_.finish();
   return std::move(scans_);
 }
@@ -84,6 +108,8 @@ void Reader::read_line(const LogLine& line) {
     read_laser(line, read_robotlaser(line), kind == "ROBOTLASER2");
   } else if (kind == "SONAR") {
     read_sonar(line);
+  } else if (steps_.read(line)) {
+    return;
   } else if (kind != "message" || line.line() != 1) {  // the logger's header, without its comment mark
     scans_.unknown_line(kind);
   }
@@ -103,8 +129,10 @@ void Reader::read_laser(const LogLine& line, const LaserLine& laser, bool rear) 
   std::optional<Pose2>& said = T_robot_said_[rear ? 1 : 0];
   if (!said) said = said_place(laser, params_, rear);
   const log_common::Fan fan = fan_of(laser, config.placed(*said), config, params_, rear);
-  T_log_robot_ = config_.poses == Poses::log ? laser.T_log_laser * inverse(fan.T_robot_laser) : laser.T_odom_robot;
+  const Pose2 T_log_robot = laser.T_log_laser * inverse(fan.T_robot_laser);
+  T_log_robot_ = config_.poses == Poses::log ? T_log_robot : laser.T_odom_robot;
   if (!wants(line.word(0))) return;
+  compare(T_log_robot, laser.T_odom_robot);
   const std::string key = std::string(line.word(0)) + " " + log_common::key_of(fan, laser.ranges);
   const std::size_t source = scans_.source(key, [&] {
     const int first = next_sensor_;
@@ -112,6 +140,21 @@ void Reader::read_laser(const LogLine& line, const LaserLine& laser, bool rear) 
     return log_common::readings_of(fan, laser.ranges, config, first);
   });
   add_scan(line, laser.stamp_s, *T_log_robot_, source, laser.first_range);
+}
+
+void Reader::compare(const Pose2& T_log_robot, const Pose2& T_odom_robot) {
+  if (!first_) first_ = T_log_robot;
+  ++lines_with_both_;
+  have_differed_ = have_differed_ || !are_same(T_log_robot, T_odom_robot);
+  has_moved_ = has_moved_ || !are_same(T_log_robot, *first_);
+}
+
+// Corrected logs often carry the corrected pose in the place of the odometry too.
+void Reader::note_same_poses() {
+  if (lines_with_both_ < kFewestToJudge || have_differed_ || !has_moved_) return;
+  scans_.note("the odometry of all " + std::to_string(lines_with_both_) +
+              " laser lines equals their pose: the log is not corrected, or its odometry was replaced by the corrected "
+              "poses, on which no localizer can be tried");
 }
 
 // SONAR cone_angle n r1..rn (x y theta)xn time host time
@@ -161,6 +204,7 @@ void Reader::add_scan(const LogLine& line, double stamp_s, const Pose2& T_log_ro
   scan.true_T_map_robot = truth_;
   scans_.set_pose(T_log_robot, scan);
   scans_.add_recorded(scan, source, std::move(ranges));
+  steps_.add_scan();
 }
 
 }  // namespace

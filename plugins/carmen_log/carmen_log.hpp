@@ -3,6 +3,8 @@
 // Each line with ranges is one observation: FLASER, RLASER, ROBOTLASER1 and 2 (with and without
 // remissions), SONAR. ODOM, TRUEPOS and the laser lines say where the robot is; SONAR, which does not,
 // gets the pose of the last line before it that does. PARAM gives laser offsets and maximum ranges.
+// Logs that hold a pose graph (EDGE2 of TORO, EDGE_SE2 of g2o, a VERTEX2 or VERTEX_SE2 before each scan) give as
+// odometry the edges from each scan's vertex to the next one's; the vertices' poses, which are corrected, are not read.
 // Comments (#) and SYNC say nothing, all other kinds are counted. What a recording of `record:` holds
 // beyond CARMEN (docs/logs.md) is read to the last bit.
 //

@@ -16,7 +16,7 @@ void Config::describe(Fields<Config>& fields) {
       "kinds of lines whose ranges are read, of FLASER, RLASER, ROBOTLASER1, ROBOTLASER2, SONAR; left out: all");
   fields.choice("poses", &Config::poses, {{"log", Poses::log}, {"odometry", Poses::odometry}},
                 "what the localizer gets as odometry: the poses of the laser lines, corrected ones in a corrected log, "
-                "or the odometry beside them");
+                "or the odometry beside them: the edges between the scans where the log holds a pose graph");
   fields.group("laser", &Config::laser, "the front laser: FLASER, ROBOTLASER1");
   fields.group("rear_laser", &Config::rear_laser, "the rear laser: RLASER, ROBOTLASER2");
   fields.group("sonar", &Config::sonar, "the sonars: SONAR");

@@ -46,7 +46,7 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
       faults_(config.faults, config.random_faults, robot, *world, seed),
       witness_(robot),
       T_map_robot_(T_map_start) {
-  if (config.compass) compass_.emplace(in_truth(robot, config.truth).compass_error, seed);
+  if (config.compass && robot.has_compass) compass_.emplace(in_truth(robot, config.truth).compass_error, seed);
   catch_up(begin_s);
   start_fault_ = start_fault(T_map_start, robot, *world, traffic_);
   traffic_.show(traffic_.places(), scene_);

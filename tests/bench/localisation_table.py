@@ -4,10 +4,11 @@
     build/release/bin/cairn experiment config/experiments/localisation.yaml --out out/localisation
     tests/bench/localisation_table.py out/localisation [FILE.png SEED VARIANT VARIANT]
 
-With a file: the error over time of one seed in two variants, drawn by gnuplot. Needs nothing else but Python.
+With a file: the error over time of one seed in two variants, drawn by `cairn chart`.
 """
-import json, pathlib, statistics, subprocess, sys
+import json, pathlib, statistics, subprocess, sys, tempfile
 
+CAIRN = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin/cairn"
 AIM_MEDIAN_M, AIM_WORST_M = 0.10, 0.5
 
 
@@ -45,14 +46,17 @@ def print_seeds(variant, reports):
 
 
 def draw(runs, file, seed, variants):
-    plots = ", ".join(f"'-' with lines lw 1.2 title '{variant}'" for variant in variants)
-    script = (f"set terminal pngcairo noenhanced size 1000,420; set output '{file}'; set grid; set xlabel 'time, s'; "
-              f"set ylabel 'error of the position, m'; set yrange [0:*]; set key top left; plot {plots}\n")
-    for variant in variants:
-        for sample in runs[variant][seed]["pose_errors"]:
-            script += f"{sample['time_s']} {sample['error_m']}\n"
-        script += "e\n"
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    """As a table that `cairn chart` draws, in the style of all charts."""
+    errors = [{sample["time_s"]: sample["error_m"] for sample in runs[variant][seed]["pose_errors"]}
+              for variant in variants]
+    lines = [f"# {pathlib.Path(file).stem}\n", f"| time, s | {' | '.join(variants)} |", "|---:" * (len(variants) + 1) + "|"]
+    for time_s in sorted(set().union(*errors)):
+        lines.append(f"| {time_s} | {' | '.join(str(of_time.get(time_s, '')) for of_time in errors)} |")
+    with tempfile.NamedTemporaryFile("w", suffix=".md") as table:
+        table.write("\n".join(lines) + "\n")
+        table.flush()
+        subprocess.run([CAIRN, "chart", table.name, "--title", "Error of the position", "--y-label", "m", "--out",
+                        pathlib.Path(file).parent], check=True)
 
 
 def main(folder, *picture):

@@ -109,6 +109,14 @@ void BehaviourHost::report(const std::string& sentence) {
   record_ += "say " + sentence + "\n";
 }
 
+Status BehaviourHost::name_landmark(LandmarkId id, const std::string& name) {
+  record_ += "name L" + std::to_string(id) + " " + name + "\n";
+  Landmark* const landmark = graph.find(id);
+  if (landmark == nullptr) return {StepState::failure, "there is no landmark L" + std::to_string(id)};
+  landmark->name = name;
+  return {StepState::success, "L" + std::to_string(id) + " is now " + name};
+}
+
 Status BehaviourHost::tick(Behaviour& behaviour) {
   wanted_ = {};
   Observation seen = seen_in_room(T_map_robot, time_s, robot);

@@ -24,6 +24,7 @@ class BehaviourHost : public BehaviourContext {
   void report(const std::string& sentence) override;
   std::optional<Place> input(const std::string& name) override;
   void output(const std::string& name, const Place& place) override;
+  Status name_landmark(LandmarkId id, const std::string& name) override;
 
   // One tick: the behaviour, then the motion it asked for, then the clock.
   Status tick(Behaviour& behaviour);

@@ -195,11 +195,27 @@ TEST_P(LocalizerConformance, FollowsOnAfterReadingsThatAreNotFinite) {
 
 TEST_P(LocalizerConformance, AllocatesNothing) {
   const auto localizer = make();
+  if (localizer->history() != nullptr) GTEST_SKIP() << "it keeps the past, which grows";
   const std::vector<DriveStep> steps = drive();
   for (const DriveStep& step : steps) (void)localizer->update(step.observation, room_known());
   const AllocationCount allocations;
   for (const DriveStep& step : steps) (void)localizer->update(step.observation, room_known());
   EXPECT_EQ(allocations.count(), 0) << "update() is hot: keep its buffers as members";
+}
+
+TEST_P(LocalizerConformance, AHistoryHasAPoseForEachObservationAndEndsWhereTheLatestEstimateIs) {
+  const auto localizer = make();
+  PoseHistory* const history = localizer->history();
+  if (history == nullptr) GTEST_SKIP() << "it never corrects its past";
+  for (const DriveStep& step : drive()) {
+    const PoseEstimate estimate = localizer->update(step.observation, nothing_known());
+    EXPECT_NEAR((history->poses().back().position() - estimate.T_map_robot.position()).norm(), 0.0, 1e-9);
+  }
+  int parts = 0;
+  while (history->finish_part()) ASSERT_LT(++parts, 100000) << "finish_part() must come to an end";
+  const std::vector<Pose2> poses = history->poses();
+  ASSERT_EQ(poses.size(), drive().size());
+  for (const Pose2& pose : poses) EXPECT_TRUE(is_finite(pose));
 }
 
 }  // namespace cairn::conformance

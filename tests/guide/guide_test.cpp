@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,10 +57,34 @@ TEST(Guide, EveryBlockOfConfigurationStandsInAFileThatIsRun) {
 }
 
 TEST(Guide, TheDriveOfTheSensorGuideStandsInACompiledFile) {
-  const std::string code = all_files_with({".hpp"}, kSource / "tests/guide/wheels");
-  const std::vector<std::string> blocks = blocks_of("cpp", text_of_file(kSource / "docs/write-a-sensor.md"));
-  EXPECT_EQ(blocks.size(), 1U);
-  for (const std::string& block : blocks) EXPECT_THAT(code, HasSubstr("\n" + block));
+  const std::string page = text_of_file(kSource / "docs/write-a-sensor.md");
+  const std::string code = all_files_with({".hpp", ".cpp"}, kSource / "tests/guide/wheels");
+  EXPECT_EQ(blocks_of("cpp", page).size(), 6U);
+  for (const std::string& block : blocks_of("cpp", page)) EXPECT_THAT(code, HasSubstr("\n" + block));
+  const std::vector<std::string> missions = blocks_of("yaml", page);
+  EXPECT_EQ(missions, std::vector{text_of_file(kSource / "tests/guide/wheels/mission.yaml")});
+}
+
+TEST(Guide, TheMissionOfTheSensorGuideIsSoundAndSaysWhichLineCannotBeOpened) {
+  const std::string mission = (kSource / "tests/guide/wheels/mission.yaml").string();
+  const Finished finished = run_cairn({"run", mission, "--plugins", kModules, "--set", "sensor.device=/dev/no_board",
+                                       "--out", fresh_folder("guide_board").string()});
+  EXPECT_EQ(finished.exit_status, 2) << finished.out;
+  EXPECT_THAT(finished.err, HasSubstr("/dev/no_board cannot be opened: No such file or directory"));
+}
+
+// Each way to describe a setting, as fields.hpp declares them.
+TEST(Guide, TheTableOfFieldsHasEveryTypeOfSetting) {
+  const std::string header = text_of_file(kSource / "framework/config/fields.hpp");
+  std::set<std::string> types;
+  for (const std::string begin : {"  FieldSpec& ", "  void "})
+    for (std::size_t at = header.find("\n" + begin); at != std::string::npos; at = header.find("\n" + begin, at + 1)) {
+      const std::size_t name = at + 1 + begin.size();
+      types.insert(header.substr(name, header.find('(', name) - name));
+    }
+  types.erase("add");  // private
+  EXPECT_GE(types.size(), 18U);
+  for (const std::string& type : types) EXPECT_THAT(guide(), HasSubstr("\n| `" + type + "` |"));
 }
 
 TEST(Guide, TheFilesOfYourOwnMissionAreThoseThatAreRun) {

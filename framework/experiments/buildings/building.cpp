@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "framework/planning/clusters_config.hpp"
 #include "maps/base/portable_random.hpp"
 #include "maps/geometry/segments.hpp"
 #include "maps/grid/swept_disc.hpp"
+#include "maps/hierarchy/hierarchy.hpp"
 
 namespace cairn {
 namespace {
@@ -54,6 +56,7 @@ class Plan {
     build_rooms();
     close_corridors();
     place_landmarks();
+    form_clusters();
     return std::move(map_);
   }
 
@@ -236,6 +239,13 @@ class Plan {
     }
   }
 
+  // As a mission saves them.
+  void form_clusters() {
+    const ClusterSizes sizes = ClustersConfig{}.sizes();
+    map_.clusters =
+        cluster_landmarks(map_.graph, {}, {sizes, passages_in(map_.grid, map_.graph, sizes.narrow_below_m)});
+  }
+
   const BuildingRules& rules_;
   int rows_;
   int columns_;
@@ -259,7 +269,7 @@ std::vector<std::pair<Point, Point>> random_pairs(const OccupancyGrid& grid, dou
       const double y = random.between(box.min.y, box.max.y);
       const Point at = grid.origin_m() + grid.cell_m() * Point(x, y);
       // To the millimetre, as a question says it.
-      const Point rounded = (at * 1e3).array().round().matrix() / 1e3;
+      Point rounded = (at * 1e3).array().round().matrix() / 1e3;
       if (sweep_is_free(grid, {}, rounded, rounded, radius_m + 0.01)) return rounded;
     }
   };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <stdexcept>
 
 #include "maps/base/portable_random.hpp"
@@ -19,7 +20,19 @@ struct Thing {
   Point at_m{0.0, 0.0};
   double angle_deg = 0.0;
   bool is_landmark = false;
+  double shelf_deg = 0.0;  // where its shelf stands, seen from it
 };
+
+constexpr double kShelfDepth_m = 0.3;
+constexpr double kShelfLength_m = 0.8;
+constexpr double kChair_m = 0.4;           // from leg to leg
+constexpr double kChairLeg_m = 0.04;       // diameter
+constexpr double kChairClearance_m = 0.5;  // free space round a chair
+
+// Of the circle about a landmark that holds its shelf too.
+double radius_with_shelf_m(double radius_m, double shelf_gap_m) {
+  return std::hypot(radius_m + shelf_gap_m + kShelfDepth_m, 0.5 * kShelfLength_m);
+}
 
 Thing landmark(const RandomWorldConfig& config, const std::vector<LandmarkShape>& shapes, PortableRandom& chance) {
   const LandmarkShape& shape = shapes[static_cast<std::size_t>(chance.whole(0, static_cast<int>(shapes.size()) - 1))];
@@ -51,6 +64,12 @@ Thing distractor(PortableRandom& chance) {
   return {outline, radius_m, {}, chance.between(0.0, 360.0)};
 }
 
+// The radius of what must not touch other things.
+double occupied_radius_m(const RandomWorldConfig& config, const Thing& thing) {
+  return thing.is_landmark && config.shelf_gap_m ? radius_with_shelf_m(thing.radius_m, *config.shelf_gap_m)
+                                                 : thing.radius_m;
+}
+
 // So far from one of the four walls.
 void put_at_wall(Thing& thing, const Point& room_m, double gap_m, PortableRandom& chance) {
   const int wall = chance.whole(0, 3);
@@ -65,20 +84,64 @@ bool place_all(const RandomWorldConfig& config, const Point& room_m, std::vector
   constexpr int kTries = 200;
   for (std::size_t i = 0; i < things.size(); ++i) {
     Thing& thing = things[i];
-    const double margin_m = thing.radius_m + config.gap_m;
+    const double radius_m = occupied_radius_m(config, thing);
+    const double margin_m = radius_m + config.gap_m;
     if (room_m.minCoeff() <= 2.0 * margin_m) return false;
     bool is_placed = false;
     for (int t = 0; t < kTries && !is_placed; ++t) {
       const double x_m = chance.between(margin_m, room_m.x() - margin_m);
       thing.at_m = {x_m, chance.between(margin_m, room_m.y() - margin_m)};
       if (thing.is_landmark && config.wall_gap_m) put_at_wall(thing, room_m, *config.wall_gap_m, chance);
-      is_placed = (thing.at_m - config.start_m).norm() > thing.radius_m + config.start_gap_m;
+      is_placed = (thing.at_m - config.start_m).norm() > radius_m + config.start_gap_m;
       for (std::size_t k = 0; k < i && is_placed; ++k)
-        is_placed = (thing.at_m - things[k].at_m).norm() > margin_m + things[k].radius_m;
+        is_placed = (thing.at_m - things[k].at_m).norm() > margin_m + occupied_radius_m(config, things[k]);
     }
     if (!is_placed) return false;
   }
   return true;
+}
+
+// Whether all chairs found a place. A chair is a thing whose radius reaches over its legs.
+bool place_chairs(const RandomWorldConfig& config, const Point& room_m, const std::vector<Thing>& things,
+                  std::vector<Thing>& chairs, PortableRandom& chance) {
+  constexpr int kTries = 200;
+  constexpr double kRadius_m = 0.5 * (std::numbers::sqrt2 * kChair_m + kChairLeg_m);
+  constexpr double kMargin_m = kRadius_m + kChairClearance_m;
+  if (config.chairs > 0 && room_m.minCoeff() <= 2.0 * kMargin_m) return false;
+  const auto is_clear = [&](const Point& at_m, const Thing& other) {
+    return (at_m - other.at_m).norm() > kMargin_m + occupied_radius_m(config, other);
+  };
+  for (int t = 0; t < kTries * config.chairs && std::ssize(chairs) < config.chairs; ++t) {
+    const double x_m = chance.between(kMargin_m, room_m.x() - kMargin_m);
+    const Point at_m(x_m, chance.between(kMargin_m, room_m.y() - kMargin_m));
+    const auto clear_of = [&](const Thing& other) { return is_clear(at_m, other); };
+    if ((at_m - config.start_m).norm() > kRadius_m + config.start_gap_m && std::ranges::all_of(things, clear_of) &&
+        std::ranges::all_of(chairs, clear_of))
+      chairs.push_back({{}, kRadius_m, at_m, chance.between(0.0, 360.0)});
+  }
+  return std::ssize(chairs) == config.chairs;
+}
+
+std::string chair_text(const Thing& chair) {
+  std::string text;
+  for (int leg = 0; leg < 4; ++leg) {
+    const Point at_m =
+        chair.at_m + kChair_m * std::numbers::sqrt2 / 2.0 * unit_vector(radians(chair.angle_deg + 45.0 + 90.0 * leg));
+    text += fmt::format("  - {{circle_diameter_m: {}, at_m: [{:.3f}, {:.3f}], surface: rough}}\n", kChairLeg_m,
+                        at_m.x(), at_m.y());
+  }
+  return text;
+}
+
+// The file places an object by its centroid.
+std::string shelf_text(const Thing& landmark, double gap_m, const std::string& surface) {
+  const Point at_m =
+      landmark.at_m + (landmark.radius_m + gap_m + 0.5 * kShelfDepth_m) * unit_vector(radians(landmark.shelf_deg));
+  return fmt::format(
+      "  - {{polygon_m: [[0, 0], [{0}, 0], [{0}, {1}], [0, {1}]], at_m: [{2:.3f}, {3:.3f}], angle_deg: {4:.1f}, "
+      "surface: "
+      "{5}}}\n",
+      kShelfDepth_m, kShelfLength_m, at_m.x(), at_m.y(), landmark.shelf_deg, surface);
 }
 
 // A line of the world file, or none where no path is free.
@@ -102,7 +165,7 @@ std::string mover(const RandomWorldConfig& config, const Point& room_m, const st
     if ((to_m - from_m).norm() < kShortest_m) continue;
     if ((from_m - config.start_m).norm() < kRadius_m + config.start_gap_m + kShortest_m) continue;
     const bool free = std::ranges::all_of(things, [&](const Thing& thing) {
-      return distance_to_segment_m(thing.at_m, from_m, to_m) > thing.radius_m + kRadius_m + kClear_m;
+      return distance_to_segment_m(thing.at_m, from_m, to_m) > occupied_radius_m(config, thing) + kRadius_m + kClear_m;
     });
     if (free)
       return fmt::format(
@@ -149,7 +212,7 @@ std::string doors_text(const std::vector<Annex>& rooms) {
 std::string movers_text(const RandomWorldConfig& config, const Point& room_m, const std::vector<Thing>& things,
                         PortableRandom& chance) {
   std::string text;
-  const int count = chance.whole(0, config.max_movers);
+  const int count = chance.whole(config.min_movers, std::max(config.min_movers, config.max_movers));
   for (int i = 1; i <= count; ++i) text += mover(config, room_m, things, i, chance);
   return text.empty() ? text : "movers:\n" + text;
 }
@@ -183,8 +246,12 @@ void RandomWorldConfig::describe(Fields<RandomWorldConfig>& fields) {
   fields.number(
       "wall_gap_m", &C::wall_gap_m, {0.0, 10.0}, "m",
       "free space between a landmark's outer circle and one wall, exactly; left out, landmarks stand anywhere");
+  fields.number("shelf_gap_m", &C::shelf_gap_m, {0.0, 10.0}, "m",
+                "beside each landmark stands a shelf, so far from its outer circle; left out, there are none");
+  fields.integer("chairs", &C::chairs, {0.0, 50.0}, "so many chairs of four thin legs, at least 0.5 m from all else");
   fields.point("start_m", &C::start_m, "m", "where the mission's robot begins; kept free", {0.0, kRoom_m.max});
   fields.number("start_gap_m", &C::start_gap_m, {0.1, 10.0}, "m", "free space round it");
+  fields.integer("min_movers", &C::min_movers, {0.0, 20.0}, "at least so many people, where there is room for them");
   fields.integer("max_movers", &C::max_movers, {0.0, 20.0}, "at most so many people that go there and back");
   fields.integer("max_doors", &C::max_doors, {0.0, 5.0},
                  "at most so many doors that open and close, each to one more room in the east");
@@ -202,9 +269,17 @@ std::string random_world_yaml(const RandomWorldConfig& config, const std::vector
   std::generate_n(std::back_inserter(things), landmarks, [&] { return landmark(config, shapes, chance); });
   const int distractors = chance.whole(0, config.max_distractors);
   std::generate_n(std::back_inserter(things), distractors, [&] { return distractor(chance); });
-  while (!place_all(config, room_m, things, chance)) room_m += Point(0.25, 0.25);
-  PortableRandom moving(seed ^ 0x6d6f76696e670000ULL);  // streams of their own: without them the rest stays as it is
+  // Streams of their own: without them the rest stays as it is.
+  PortableRandom furnishing(seed ^ 0x6368616972730000ULL);
+  PortableRandom moving(seed ^ 0x6d6f76696e670000ULL);
   PortableRandom opening(seed ^ 0x646f6f7273000000ULL);
+  std::vector<Thing> chairs;
+  const auto furnish = [&] {
+    chairs.clear();
+    return place_all(config, room_m, things, chance) && place_chairs(config, room_m, things, chairs, furnishing);
+  };
+  while (!furnish()) room_m += Point(0.25, 0.25);
+  for (Thing& thing : things) thing.shelf_deg = furnishing.between(0.0, 360.0);
   const Point first_room_m = room_m;
   const std::vector<Annex> rooms = annexes(config, room_m, opening);
   const double x = room_m.x();
@@ -217,10 +292,15 @@ std::string random_world_yaml(const RandomWorldConfig& config, const std::vector
     text += wall({room.west_m, 0.0}, {room.west_m, room.door_m}, surface(specular_ratio, opening));
     text += wall({room.west_m, room.door_m + room.width_m}, {room.west_m, y}, surface(specular_ratio, opening));
   }
-  text += things.empty() ? "" : "objects:\n";
+  text += things.empty() && chairs.empty() ? "" : "objects:\n";
   for (const Thing& thing : things)
     text += fmt::format("  - {{{}, at_m: [{:.3f}, {:.3f}], angle_deg: {:.1f}, surface: {}}}\n", thing.outline,
                         thing.at_m.x(), thing.at_m.y(), thing.angle_deg, surface(specular_ratio, surfaces));
+  for (const Thing& thing : things)
+    if (thing.is_landmark && config.shelf_gap_m)
+      text += shelf_text(thing, *config.shelf_gap_m, surface(specular_ratio, furnishing));
+  for (const Thing& chair : chairs) text += chair_text(chair);
+  things.insert(things.end(), chairs.begin(), chairs.end());
   return text + doors_text(rooms) + movers_text(config, first_room_m, things, moving);
 }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "framework/planning/landmark_names.hpp"
+#include "framework/planning/margins.hpp"
 #include "framework/planning/plan_answer.hpp"
 #include "framework/planning/plan_task.hpp"
 #include "framework/planning/tour.hpp"
@@ -69,8 +71,10 @@ Status BehaviourRequests::answer(const PlanQuestion& question, const std::string
   }
   task.request.radius_m = host_.mission.robot.radius_m;
   task.request.seed = module_seed(host_.mission.config.seed, PluginKind::planner, kQuestionSeed);
-  const PlanResult result =
-      plan_tour([&](const PlanRequest& request) { return plan(request); }, task.request, task.via);
+  const std::vector<double> margins_m = usual_margins_m(host_.mission.robot, *host_.world.grid);
+  const auto ask = [&](const PlanRequest& request) { return plan(request); };
+  const PlanResult result = plan_tour(
+      [&](const PlanRequest& request) { return plan_with_margins(ask, request, margins_m); }, task.request, task.via);
   Status written = write({file_name,
                           json_text_of({.question = question,
                                         .result = result,
@@ -115,6 +119,19 @@ void BehaviourRequests::output(const std::string& name, const Place& place) {
   if (!values_.contains(name) && values_.size() >= kMaxNamedValues)
     throw std::runtime_error("gives more than " + std::to_string(kMaxNamedValues) + " named values");
   values_[name] = place;
+}
+
+Status BehaviourRequests::name_landmark(LandmarkId id, const std::string& name) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  const LandmarkGraph& graph = host_.tracker.graph();
+  const Landmark* const landmark = graph.find(id);
+  if (landmark == nullptr) return {StepState::failure, fmt::format("there is no landmark L{}", id)};
+  const ClusterTree clusters = host_.planning.hierarchies().last_tree();
+  if (const std::string refusal = refusal_of_name(name, graph, clusters, &landmark->name); !refusal.empty())
+    return {StepState::failure, "the name " + in_quotes(name) + " cannot be given: " + refusal};
+  const std::string before = label_of(*landmark);
+  host_.tracker.name(id, name);
+  return {StepState::success, before + " is now " + name};
 }
 
 }  // namespace cairn

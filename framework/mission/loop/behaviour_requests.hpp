@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "framework/landmarks/tracker.hpp"
 #include "framework/mission/loop/map_saving.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/loop/text_files.hpp"
@@ -21,6 +22,7 @@ struct HostParts {
   Planning& planning;
   MapSaving& saving;
   const Staged<Controller>& controller;  // may be none
+  LandmarkTracker& tracker;
 };
 
 // What one behaviour has asked for in one tick.
@@ -51,6 +53,7 @@ class BehaviourRequests final : public BehaviourContext {
   void report(const std::string& sentence) override;
   std::optional<Place> input(const std::string& name) override;
   void output(const std::string& name, const Place& place) override;
+  Status name_landmark(LandmarkId id, const std::string& name) override;
 
  private:
   const HostParts host_;

@@ -69,6 +69,10 @@ void MissionLoop::finish() {
   if (ending_.outcome != MissionOutcome::done && hearing_.is_deaf()) add_sentence(ending_.reason, hearing_.summary());
   for (const std::string& fault : steps_.halt(clock_.time_s(), ending_.reason)) add_sentence(ending_.reason, fault);
   try {
+    if (world_.grid != nullptr && perception_.finish()) {
+      redraw_map();
+      world_.pose.T_map_robot = perception_.past().poses().back().T_map_robot;
+    }
     if (ending_.outcome != MissionOutcome::cancelled && world_.grid != nullptr)
       planning_.connect(perception_.tracker(), world_.view());
   } catch (const ModuleFault& fault) {
@@ -134,6 +138,7 @@ MissionResult MissionLoop::result() const {
   result.autosave = saving_.figures();
   result.map_file = saving_.map_file();
   result.clusters = planning_.last_clusters();
+  result.poses = perception_.past().poses();
   result.cluster_levels = levels_of(result.clusters, world_.graph);
   return result;
 }

@@ -16,6 +16,8 @@ Budget budget_of(const RunOptions& options) {
 MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
     : mission_(mission),
       options_(options),
+      library_(library),
+      grid_so_far_(options.resume != nullptr ? std::optional(options.resume->grid) : std::nullopt),
       budget_(budget_of(options)),
       modules_(build_modules(mission_, library, options.resume, options.cancel), mission_, options.wall_clock),
       perception_(mission_, modules_, budget_),
@@ -25,11 +27,12 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       pace_(options.wall_clock),
       pauses_(options.control, options.wall_clock),
       monitor_(mission_.config.collision_monitor, mission_.robot, options.wall_clock),
-      planning_(mission_, modules_, world_.graph, options.resume != nullptr ? options.resume->clusters : ClusterTree{},
+      planning_(mission_, modules_, world_.graph, clusters_to_begin_with(mission_.config.clusters, options.resume),
                 monitor_, budget_),
       saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
               world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
-      steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller},
+      steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller,
+              perception_.tracker()},
              modules_.behaviours, TextFiles(options.out, options.resume != nullptr)),
       fatal_ends_(monitor_, modules_.clock) {
   world_.pose.T_map_robot = modules_.T_map_start;
@@ -43,7 +46,7 @@ void MissionLoop::run() {
   try {
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
-    world_.grid = &perception_.begin();
+    world_.grid = &perception_.begin(drive == nullptr);
     world_.coarse = perception_.show_earlier_map();
     ending_ = loop();
   } catch (const GivenUp&) {
@@ -97,6 +100,7 @@ void MissionLoop::tick(Sensed sensed) {
   const Observation& observation = world_.observation;
 
   world_.pose = in(stages.perception, [&] { return perception_.localize(observation); });
+  if (perception_.is_map_moved()) in(stages.perception, [&] { redraw_map(); });
   const std::vector<ExpectedEcho> expected = in(stages.echo_prediction, [&] { return expected_of(observation); });
   const CellChanges& cells = in(stages.perception, [&]() -> const CellChanges& {
     return perception_.map(observation, world_.pose, monitor_.hearing().deaf());
@@ -137,6 +141,12 @@ void MissionLoop::publish_driven() {
     stalled_stage_ = StageClock::kHost;
   }
   publisher_.publish(TickDone{});
+}
+
+// All that look on see the old map or the new one, never a part.
+void MissionLoop::redraw_map() {
+  world_.grid = &perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
+  world_.coarse = nullptr;
 }
 
 // By the map as it was before this observation.

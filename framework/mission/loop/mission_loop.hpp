@@ -77,12 +77,15 @@ class MissionLoop {
   [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
   void finish();
   void save_last();
+  void redraw_map();
   [[nodiscard]] Stalled stalled_for(double for_s) const;
   void publish_any(const std::optional<Event>& event);
   [[nodiscard]] RunStatus status_in(RunState state) const;
 
   const Mission mission_;
   const RunOptions options_;
+  const ModuleLibrary& library_;
+  const std::optional<OccupancyGrid> grid_so_far_;  // what the map of a run that goes on began with
   const Budget budget_;
   StagedModules modules_;
   Perception perception_;

@@ -9,10 +9,12 @@ namespace cairn {
 namespace {
 
 constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks
+constexpr double kRedrawAfter_m = 0.3;
+constexpr std::size_t kRedrawAfterPart = 10;  // of the past must be new, so that drawing costs no more than its share
 
 }  // namespace
 
-Perception::Perception(const Mission& mission, const StagedModules& modules, const Budget& budget)
+Perception::Perception(const Mission& mission, StagedModules& modules, const Budget& budget)
     : config_(mission.config),
       modules_(modules),
       budget_(budget),
@@ -25,7 +27,10 @@ void Perception::restore(const SavedMap& map) {
   is_resumed_ = true;
 }
 
-const OccupancyGrid& Perception::begin() {
+const OccupancyGrid& Perception::begin(bool records_poses) {
+  history_ = modules_.localizer.call([](Localizer& localizer) { return localizer.history(); });
+  records_poses_ = records_poses || history_ != nullptr;
+  past_ = Past(history_ != nullptr);
   grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
   return *grid_;
 }
@@ -61,7 +66,54 @@ const CellChanges& Perception::map(const Observation& observation, const PoseEst
     std::erase_if(for_map_.ranges, is_unheard);
   }
   const Observation& seen = all ? observation : for_map_;
-  return modules_.mapper.call([&](Mapper& mapper) -> const CellChanges& { return mapper.integrate(seen, pose); });
+  if (records_poses_) past_.add(seen, pose.T_map_robot);
+  const CellChanges& changes =
+      modules_.mapper.call([&](Mapper& mapper) -> const CellChanges& { return mapper.integrate(seen, pose); });
+  if (!is_redrawn_) return changes;
+  is_redrawn_ = false;
+  changes_ = everything_in(grid_->bounds());
+  return changes_;
+}
+
+// How far a pose of the past has moved from where it was drawn. newer: observations that are not in the past yet.
+double Perception::correct_past(std::size_t newer) {
+  revision_ = modules_.localizer.call([&](Localizer&) { return history_->revision(); });
+  std::vector<Pose2> poses = modules_.localizer.call([&](Localizer&) { return history_->poses(); });
+  // Before the past: an observation that the map of a run that goes on held already.
+  const std::size_t end = poses.size() - std::min(newer, poses.size());
+  if (end < past_.size() || !std::ranges::all_of(poses, [](const Pose2& pose) { return is_finite(pose); }))
+    throw modules_.localizer.fault("its history has too few poses, or one that is not finite");
+  const auto last = poses.begin() + static_cast<std::ptrdiff_t>(end);
+  corrected_.assign(last - static_cast<std::ptrdiff_t>(past_.size()), last);
+  return past_.moved_m(corrected_);
+}
+
+bool Perception::is_map_moved() {
+  if (history_ == nullptr || past_.size() < drawn_ + drawn_ / kRedrawAfterPart) return false;
+  if (modules_.localizer.call([&](Localizer&) { return history_->revision(); }) == revision_) return false;
+  return correct_past(1) > kRedrawAfter_m;
+}
+
+bool Perception::finish() {
+  if (history_ == nullptr || past_.size() == 0) return false;
+  while (!budget_.cancelled() && modules_.localizer.call([&](Localizer&) { return history_->finish_part(); })) {
+  }
+  return correct_past(0) > 0.0;
+}
+
+const OccupancyGrid& Perception::redraw(std::shared_ptr<Mapper> map) {
+  modules_.mapper.replace(std::move(map));
+  past_.correct(corrected_);
+  tracker_.correct_path(corrected_);
+  for (std::size_t i = 0; i < past_.size() && !budget_.cancelled(); ++i) {
+    const Observation seen = past_.observation(i);
+    const PoseEstimate pose{corrected_[i]};
+    modules_.mapper.call([&](Mapper& mapper) { mapper.integrate(seen, pose); });
+  }
+  drawn_ = past_.size();
+  is_redrawn_ = true;
+  grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
+  return *grid_;
 }
 
 Perception::Detected Perception::detect(const CellChanges& changes, const Budget& budget) {

@@ -9,6 +9,7 @@
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/held_out.hpp"
+#include "framework/mission/loop/past.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
 
 namespace cairn {
@@ -23,12 +24,13 @@ struct Recognition {
 class Perception {
  public:
   // Mission and modules must outlive it.
-  Perception(const Mission& mission, const StagedModules& modules, const Budget& budget);
+  Perception(const Mission& mission, StagedModules& modules, const Budget& budget);
 
   // Goes on from what an earlier run has known. Before begin().
   void restore(const SavedMap& map);
   // Once, before all below: asks the mapper for its grid. Throws ModuleFault, as all below do.
-  const OccupancyGrid& begin();
+  // records_poses: whether past() holds them also when the localizer never corrects any.
+  const OccupancyGrid& begin(bool records_poses = false);
   // Once, then: shows the detector what an earlier run has mapped; its coarse grid.
   const CoarseGrid* show_earlier_map();
 
@@ -37,6 +39,15 @@ class Perception {
   // Which cells may have changed; valid until the next call. Of deaf transducers "no echo" is no news for the map.
   const CellChanges& map(const Observation& observation, const PoseEstimate& pose, std::span<const int> deaf = {});
   [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s);
+
+  // Whether the localizer has corrected the past so far that the map should be drawn anew (after localize()).
+  [[nodiscard]] bool is_map_moved();
+  // After the last observation: the last corrections. Whether the map should be drawn anew.
+  [[nodiscard]] bool finish();
+  // Draws the past at its corrected poses into a map that holds none of it, which takes the place of the map so far.
+  // Its grid. The detector gets all of it the next time.
+  const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
+  [[nodiscard]] const Past& past() const { return past_; }
 
   [[nodiscard]] LandmarkTracker& tracker() { return tracker_; }
   [[nodiscard]] const LandmarkTracker& tracker() const { return tracker_; }
@@ -47,17 +58,26 @@ class Perception {
     const CoarseGrid* coarse = nullptr;
   };
   [[nodiscard]] Detected detect(const CellChanges& changes, const Budget& budget);
+  [[nodiscard]] double correct_past(std::size_t newer);
   void add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const;
 
   const MissionConfig& config_;
-  const StagedModules& modules_;
+  StagedModules& modules_;
   const Budget budget_;
   LandmarkTracker tracker_;
   HoldOut hold_out_;
   Observation for_map_;  // without what is held out; a member for its memory only
   const OccupancyGrid* grid_ = nullptr;
+  CellChanges changes_;  // when the map was drawn anew
   double last_freed_check_s_ = 0.0;
   bool is_resumed_ = false;
+  bool records_poses_ = false;
+  PoseHistory* history_ = nullptr;  // the localizer's
+  Past past_;
+  std::vector<Pose2> corrected_;  // of the past, by the revision below
+  std::uint64_t revision_ = 0;
+  std::size_t drawn_ = 0;  // size of the past when the map was last drawn anew
+  bool is_redrawn_ = false;
 };
 
 }  // namespace cairn

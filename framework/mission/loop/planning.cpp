@@ -5,7 +5,27 @@ namespace {
 
 constexpr std::size_t kJoiningSeed = 1;  // 0: the planner itself
 
+ClusterId of_level_with(const ClusterTree& tree, int level, LandmarkId landmark) {
+  const auto lowest = tree.cluster_of.find(landmark);
+  ClusterId id = lowest == tree.cluster_of.end() ? 0 : lowest->second;
+  while (id != 0 && tree.clusters.at(id).level < level) id = tree.clusters.at(id).parent;
+  return id;
+}
+
 }  // namespace
+
+ClusterTree clusters_to_begin_with(const ClustersConfig& config, const SavedMap* resume) {
+  if (resume == nullptr) return {};
+  const ClusterSizes sizes = config.sizes();
+  if (cluster_sizes_of(resume->properties) == sizes) return resume->clusters;
+  ClusterTree made =
+      cluster_landmarks(resume->graph, {}, {sizes, passages_in(resume->grid, resume->graph, sizes.narrow_below_m)});
+  for (const auto& [id, old] : resume->clusters.clusters) {
+    const ClusterId heir = old.name.empty() ? 0 : of_level_with(made, old.level, old.anchor);
+    if (heir != 0 && made.clusters.at(heir).name.empty()) made.clusters.at(heir).name = old.name;
+  }
+  return made;
+}
 
 Planning::Planning(const Mission& mission, const StagedModules& modules, const LandmarkGraph& graph,
                    ClusterTree clusters, CollisionMonitor& monitor, const Budget& budget)

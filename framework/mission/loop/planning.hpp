@@ -3,10 +3,17 @@
 
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
+#include "framework/planning/clusters_config.hpp"
 #include "framework/safety/collision_monitor.hpp"
 #include "maps/hierarchy/hierarchies.hpp"
+#include "maps/store/map_store.hpp"
 
 namespace cairn {
+
+// The clusters of a map that is gone on from; none for null. Where the mission divides otherwise than the one that
+// saved them they are made anew, and names go to the clusters that hold the landmarks which the named ones were called
+// after.
+[[nodiscard]] ClusterTree clusters_to_begin_with(const ClustersConfig& config, const SavedMap* resume);
 
 class Planning {
  public:

@@ -90,6 +90,7 @@ struct PlanCommand {
   std::vector<std::string> settings;  // of the planner, key=value
   std::filesystem::path robot;        // a robot file
   std::optional<double> radius_m;
+  std::optional<double> margin_m;  // none: kMargins_m for a robot, none for a radius that is given
   std::optional<double> budget_ms;
   std::int64_t seed = 1;
   std::filesystem::path picture;
@@ -195,6 +196,18 @@ struct CaptureCommand {
   std::filesystem::path out;
 };
 int template_capture(const CaptureCommand& command, const CommonOptions& common);
+
+struct ChartCommand {
+  std::filesystem::path file;        // Markdown
+  std::vector<std::string> columns;  // to draw; none: all of numbers
+  std::string title;                 // {} stands for the section's heading; empty: the heading
+  std::string y_label;
+  bool of_shares = false;  // y from 0 to 1
+  std::filesystem::path out = "out";
+  std::string prefix;  // of the pictures' names
+};
+// One picture a table.
+int chart(const ChartCommand& command, const CommonOptions& common);
 
 struct PluginsCommand {
   std::string name;

@@ -13,6 +13,7 @@
 #include "framework/experiments/recognition/recognition_table.hpp"
 #include "framework/experiments/recognition/ring_table.hpp"
 #include "framework/experiments/report.hpp"
+#include "framework/files/world_file.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "maps/pictures/drawing/chart.hpp"
 
@@ -148,7 +149,7 @@ Chart factor_chart(const FactorConfig& factor, const std::vector<FactorPoint>& p
   chart.title = "Recognition against " + factor.name + ", with 95 % intervals";
   chart.x_label = factor.label;
   chart.y_label = "share";
-  chart.both_from_zero = true;
+  chart.of_shares_over_x = true;
   const bool numbers = std::ranges::all_of(points, [](const FactorPoint& p) { return number_of(p.value).has_value(); });
   const std::pair<const char*, Interval RecognitionFigures::*> kShown[] = {
       {"F1", &RecognitionFigures::f1},
@@ -189,7 +190,6 @@ std::vector<NamedChart> ring_charts(const ExperimentConfig& config, const std::v
     chart.title = "Finished maps across the landmarks' outlines, with 95 % intervals";
     chart.x_label = "distance from the true outline, m (positive outside)";
     chart.y_label = "mean OL";
-    chart.from_zero = true;
     for (const ExperimentVariant& variant : config.variants) {
       if (!variant.factor.empty()) continue;
       Series series{variant.name, {}, SeriesStyle::lines, {}};
@@ -227,6 +227,22 @@ std::vector<std::string> write_place_maps(const ExperimentConfig& config, const 
   return missing;
 }
 
+// The map of each home, over the true walls, in the run's folder.
+std::vector<std::string> write_home_maps(const std::vector<ExperimentRow>& rows) {
+  std::vector<std::string> missing;
+  for (const ExperimentRow& row : rows) {
+    if (!row.home) continue;
+    try {
+      if (row.result.map_file.empty()) throw std::runtime_error(row.folder.string() + ": the run saved no map");
+      draw_over_truth(row.folder / "map.png", load_map(row.folder / row.result.map_file),
+                      load_world(row.folder / "world.yaml", {}), row.variant + ", home " + std::to_string(row.seed));
+    } catch (const std::exception& error) {
+      missing.emplace_back(error.what());
+    }
+  }
+  return missing;
+}
+
 }  // namespace
 
 std::vector<std::string> write_charts(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows,
@@ -238,6 +254,7 @@ std::vector<std::string> write_charts(const ExperimentConfig& config, const std:
   if (config.ring_profile) std::ranges::move(ring_charts(config, rows), std::back_inserter(charts));
   if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
   std::vector<std::string> missing;
+  if (config.experiment == ExperimentKind::homes) missing = write_home_maps(rows);
   if (config.experiment == ExperimentKind::places) missing = write_place_maps(config, rows, out);
   for (const NamedChart& named : charts) {
     const ChartOutcome outcome = write_chart(out / named.file_name, named.chart);

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -71,7 +72,11 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   make_folder(command.out);
   if (config.experiment == ExperimentKind::buildings) return buildings_experiment(config, command.out);
   const ModuleLibrary library = module_library(common);
-  const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel_on_interrupt());
+  const bool live = ::isatty(STDERR_FILENO) != 0;
+  const auto tell = [live](std::size_t ended, std::size_t runs) {
+    if (live) std::cerr << fmt::format("\r{} of {} runs{}", ended, runs, ended == runs ? "\n" : "") << std::flush;
+  };
+  const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel_on_interrupt(), tell);
   const std::string table = table_of(config, rows);
   const std::string json = json_of(config, rows);
   write_file(command.out / "table.md", table);

@@ -37,7 +37,7 @@ ClustersConfig clusters_of(const ExchangeCommand& command) {
   ConfigValue settings;
   settings.kind = ConfigValue::Kind::map;
   settings.place.file = "--clusters";
-  for (const std::string& assignment : command.clusters) apply_override(settings, assignment);
+  for (const std::string& assignment : command.clusters) apply_override(settings, assignment, "--clusters");
   return load_config<ClustersConfig>(settings, "--clusters");
 }
 

@@ -15,6 +15,7 @@
 #include "maps/base/text.hpp"
 #include "maps/clustering/cluster_levels.hpp"
 #include "maps/clustering/cluster_tree.hpp"
+#include "maps/landmarks/close_categories.hpp"
 #include "maps/landmarks/joined_landmarks.hpp"
 #include "maps/landmarks/route_count.hpp"
 #include "maps/store/repair.hpp"
@@ -26,11 +27,45 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMaxListed = 50;
 
+// At most twelve of them.
+std::string text_of_first(const std::vector<LandmarkId>& landmarks) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(landmarks.size(), kMost); ++i) text += fmt::format(" L{}", landmarks[i]);
+  return landmarks.size() > kMost ? text + " ..." : text;
+}
+
+ordered_json clusters_json(const SavedMap& map) {
+  ordered_json clusters = ordered_json::array();
+  for (const auto& [id, cluster] : map.clusters.clusters) {
+    ordered_json members = ordered_json::array();
+    for (const LandmarkId landmark : members_of(map.clusters, id)) members.push_back(fmt::format("L{}", landmark));
+    clusters.push_back({{"id", fmt::format("C{}:L{}", cluster.level, cluster.anchor)},
+                        {"name", cluster.name},
+                        {"level", cluster.level},
+                        {"landmarks", std::move(members)}});
+  }
+  return clusters;
+}
+
 ordered_json levels_json(const SavedMap& map) {
   ordered_json levels = ordered_json::array();
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
     levels.push_back({{"clusters", clusters}, {"boundary", boundary}});
   return levels;
+}
+
+// Landmarks whose category has won by a hair.
+ordered_json close_json(const LandmarkGraph& graph) {
+  ordered_json list = ordered_json::array();
+  for (const auto& [id, landmark] : graph.landmarks())
+    if (const auto close = close_categories(landmark))
+      list.push_back({{"id", fmt::format("L{}", id)},
+                      {"category", close->category},
+                      {"degree", close->degree},
+                      {"other", close->other},
+                      {"other_degree", close->other_degree}});
+  return list;
 }
 
 // Sets of landmarks that open routes join, whichever their direction.
@@ -68,7 +103,9 @@ ordered_json json_of(const SavedMap& map, int schema) {
           {"landmarks", map.graph.landmarks().size()},
           {"routes", map.graph.routes().size()},
           {"components", components_of(map.graph)},
+          {"close_categories", close_json(map.graph)},
           {"levels", levels_json(map)},
+          {"clusters", clusters_json(map)},
           {"explored_ratio", known_ratio(map.grid)},
           {"progress", json_of(map.progress)}};
 }
@@ -107,14 +144,15 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
                              counted(boundary, "landmark"));
   list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
     const std::string name = landmark.name.empty() ? "" : ", " + in_quotes(landmark.name);
-    return fmt::format("  L{:<5} {:<12} at ({:.2f}, {:.2f}), {} deg, degree {:.2f}{}\n", landmark.id,
+    return fmt::format("  L{:<5} {:<12} at ({:.2f}, {:.2f}), {} deg, degree {}{}\n", landmark.id,
                        printable(landmark.category), landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
-                       std::lround(degrees(landmark.T_map_landmark.theta_rad)), landmark.degree, name);
+                       std::lround(degrees(landmark.T_map_landmark.theta_rad)), printable(degree_text(landmark)), name);
   });
   list_first(map.clusters.clusters, "clusters", [&](const Cluster& cluster) {
-    const std::size_t landmarks = members_of(map.clusters, cluster.id).size();
-    return fmt::format("  C{}:L{}{}, {}\n", cluster.level, cluster.anchor,
-                       cluster.name.empty() ? "" : " " + printable(cluster.name), counted(landmarks, "landmark"));
+    const std::vector<LandmarkId> members = members_of(map.clusters, cluster.id);
+    return fmt::format("  C{}:L{}{}, {}:{}\n", cluster.level, cluster.anchor,
+                       cluster.name.empty() ? "" : ", " + in_quotes(cluster.name), counted(members.size(), "landmark"),
+                       text_of_first(members));
   });
   list_first(map.graph.routes(), "routes", [](const Route& route) {
     return fmt::format("  route {:<3} L{} -> L{}, {:.2f} m, {}{}\n", route.id, route.from, route.to, route.cost_m,

@@ -1,21 +1,16 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "framework/planning/place.hpp"
+#include "framework/planning/landmark_names.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
-#include "maps/base/printable.hpp"
-#include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/clustering/cluster_tree.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
 namespace {
-
-constexpr std::size_t kLongestName = 200;
 
 // Something of a map that can be named.
 struct Named {
@@ -35,22 +30,9 @@ Named find_named(SavedMap& map, const std::string& what) {
                            ": give a landmark's id or name (L17), or a cluster's (C1:L17)");
 }
 
-// A name must find what it names: wherever a place is asked for, nothing else may be meant by it.
 void check_name(const SavedMap& map, const Named& named, const std::string& name) {
-  const auto fail = [&](const std::string& why) {
-    throw std::runtime_error("the name " + in_quotes(name) + " cannot be given: " + why);
-  };
-  if (name.size() > kLongestName) fail(fmt::format("it is longer than {} bytes", kLongestName));
-  if (exchange::first_not_utf8(name) != std::string::npos) fail("it is not UTF-8 text");
-  if (first_unprintable(name) != std::string::npos) fail("it holds a control character");
-  if (name.front() == ' ' || name.back() == ' ') fail("it begins or ends with a blank");
-  if (looks_like_id(name)) fail("it looks like an id");
-  if (reads_as_place(name)) fail("it reads as a place: x,y or nearest CATEGORY");
-  for (const auto& [id, landmark] : map.graph.landmarks())
-    if (&landmark.name != named.name && landmark.name == name) fail(fmt::format("landmark L{} has it", id));
-  for (const auto& [id, cluster] : map.clusters.clusters)
-    if (&cluster.name != named.name && cluster.name == name)
-      fail(fmt::format("cluster C{}:L{} has it", cluster.level, cluster.anchor));
+  if (const std::string refusal = refusal_of_name(name, map.graph, map.clusters, named.name); !refusal.empty())
+    throw std::runtime_error("the name " + in_quotes(name) + " cannot be given: " + refusal);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "framework/files/robot_file.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/planning/clusters_config.hpp"
+#include "framework/planning/margins.hpp"
 #include "framework/planning/place.hpp"
 #include "framework/planning/tour.hpp"
 #include "framework/program/common/modules.hpp"
@@ -59,6 +60,15 @@ bool is_robot_known(const PlanCommand& command, const SavedMap& map) {
   return !command.robot.empty() || map.properties.contains(kRobotRadiusProperty);
 }
 
+// A radius or a margin that was given is meant as it is.
+std::vector<double> margins_of(const PlanCommand& command, const RobotModel& robot, const OccupancyGrid& grid) {
+  if (command.margin_m) return {*command.margin_m};
+  const bool sets_margin = std::ranges::any_of(
+      command.settings, [](const std::string& text) { return text.find("margin_m=") != std::string::npos; });
+  if (command.radius_m || sets_margin) return {0.0};
+  return usual_margins_m(robot, grid);
+}
+
 PlanResult unknown_place(const PlaceError& error) {
   PlanResult unknown;
   unknown.outcome = PlanOutcome::unknown_place;
@@ -88,6 +98,7 @@ MapPlanner::MapPlanner(const PlanCommand& command, const CommonOptions& common)
       file_(opened_in_part(command)),
       map_(file_ ? file_->without_cells() : load_map(command.map)),
       robot_(robot_of(command, map_)),
+      margins_m_(margins_of(command, robot_, map_.grid)),
       speed_law_(is_robot_known(command, map_) ? std::optional(SpeedLaw{}) : std::nullopt),
       hierarchies_(map_.graph, map_.clusters, rules_of(robot_, map_), cluster_rules()) {
   const PluginChoice choice = choice_of(command);
@@ -113,7 +124,7 @@ WorldView MapPlanner::world_on(const OccupancyGrid& grid, std::uint64_t version)
 void MapPlanner::prepare(const OccupancyGrid& grid, std::uint64_t version) const {
   const WorldView world = world_on(grid, version);
   fenced("planner", command_.planner, [&] {
-    planner_->prepare(world, robot_.radius_m);
+    planner_->prepare(world, robot_.radius_m + margins_m_.front());
     return 0;
   });
 }
@@ -182,12 +193,16 @@ PlanResult MapPlanner::answer(const PlanQuery& query) const {
   task.request.seed = static_cast<std::uint64_t>(command_.seed);
   Budget::Clock::duration spent{0};
   if (cells_) return answer_asking_for_cells(task);
-  if (!many_ && task.via.empty())
-    if (auto result = plan_on_part(task.request, spent)) return *std::move(result);
-  const OccupancyGrid& grid = whole_grid();
-  if (!many_) prepare(grid, kLoadedGrid);
-  const Budget budget = budget_after(spent);
-  return plan_tour([&](const PlanRequest& request) { return plan_on(grid, kLoadedGrid, request, budget); },
+  std::optional<Budget> budget;  // of the whole grid
+  const auto plan = [&](const PlanRequest& request) {
+    if (!many_ && task.via.empty() && !budget)
+      if (auto result = plan_on_part(request, spent)) return *std::move(result);
+    const OccupancyGrid& grid = whole_grid();
+    if (!many_) prepare(grid, kLoadedGrid);
+    if (!budget) budget = budget_after(spent);
+    return plan_on(grid, kLoadedGrid, request, *budget);
+  };
+  return plan_tour([&](const PlanRequest& request) { return plan_with_margins(plan, request, margins_m_); },
                    task.request, task.via);
 }
 
@@ -203,7 +218,8 @@ PlanResult MapPlanner::answer_asking_for_cells(const PlanTask& task) const {
   // Other costs of routes are made of what stands beside them, wherever they lie.
   if (task.request.cost != CostKind::length || task.request.explain) cells_->require(map_.grid.bounds());
   const Budget budget = budget_after({});
-  return plan_tour([&](const PlanRequest& request) { return plan_on(map_.grid, kLoadedGrid, request, budget); },
+  const auto plan = [&](const PlanRequest& request) { return plan_on(map_.grid, kLoadedGrid, request, budget); };
+  return plan_tour([&](const PlanRequest& request) { return plan_with_margins(plan, request, margins_m_); },
                    task.request, task.via);
 }
 

@@ -59,6 +59,7 @@ class MapPlanner {
   mutable SavedMap map_;
   std::optional<MapCells> cells_;  // of the file, for a planner that asks for them
   RobotModel robot_;
+  std::vector<double> margins_m_;      // that are tried, the largest first
   std::optional<SpeedLaw> speed_law_;  // none: nobody knows which robot it is
   Hierarchies hierarchies_;
   mutable std::once_flag clusters_made_;

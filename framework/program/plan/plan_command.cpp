@@ -88,6 +88,7 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const PlanQuery
   picture.clusters = &planner.map().clusters;
   picture.shapes = planner.map().shapes;
   for (const Pose2& pose : result.path) picture.planned.push_back(pose.position());
+  picture.planned_landmarks = result.landmarks;
   if (!result.path.empty()) {
     picture.start = result.path.front().position();
     picture.goal = result.path.back().position();

@@ -50,7 +50,8 @@ void report_segments(std::string& out, const PlanResult& result, bool on_grid) {
   if (!on_grid)
     out += fmt::format("; {:.2f} m in all, which the costs of the routes put at {:.2f} m", length_m, result.cost_m);
   if (result.length_lower_bound_m)
-    out += fmt::format("; no path can be shorter than {:.2f} m", *result.length_lower_bound_m);
+    out += fmt::format("; no path{} can be shorter than {:.2f} m", result.margin_m > 0.0 ? " with this margin" : "",
+                       *result.length_lower_bound_m);
   out += "\n";
 }
 
@@ -63,6 +64,7 @@ std::string text_of(const PlanQuery& query, const PlanResult& result, const Save
   if (result.outcome == PlanOutcome::solved && on_grid) {
     out +=
         fmt::format(", {:.2f} m, {:.2f} m between the robot and what is nearest", result.length_m, result.clearance_m);
+    if (result.margin_m > 0.0) out += fmt::format(" (margin {:g} m)", result.margin_m);
     if (result.driving_time_s) out += fmt::format(", {:.1f} s of driving", *result.driving_time_s);
     out += fmt::format(", {:.1f} ms", result.time_ms.total_ms);
   } else if (result.outcome == PlanOutcome::solved) {

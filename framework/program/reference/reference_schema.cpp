@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "framework/behaviour_tree/nodes.hpp"
 #include "framework/program/reference/reference.hpp"
@@ -163,12 +164,21 @@ ordered_json node_of(const ModuleLibrary& library) {
     properties[name] = {{"description", type.about}};
     properties[name].update(behind_node(type));
   }
+  std::optional<ordered_json> behaviour_called_name;
+  if (properties.contains("name")) behaviour_called_name = properties["name"];
   properties["name"] = {{"description", "what to call the node"}, {"type", "string"}, {"minLength", 1}};
   const auto keys = [](int number) { return ordered_json{{"minProperties", number}, {"maxProperties", number}}; };
   const ordered_json map = {
       {"type", "object"}, {"properties", properties}, {"additionalProperties", false}, {"if", {{"required", {"name"}}}},
       {"then", keys(2)},  {"else", keys(1)}};
-  return {{"anyOf", {map, {{"enum", bare}}}}};
+  ordered_json node = {{"anyOf", {map, {{"enum", bare}}}}};
+  // Alone and with settings, `name` is a behaviour.
+  if (behaviour_called_name)
+    node["anyOf"].push_back({{"type", "object"},
+                             {"properties", {{"name", {{"allOf", {*behaviour_called_name, {{"type", "object"}}}}}}}},
+                             {"required", {"name"}},
+                             {"additionalProperties", false}});
+  return node;
 }
 
 void add_nodes(ordered_json& definitions, const ModuleLibrary& library) {

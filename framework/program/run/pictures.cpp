@@ -20,7 +20,7 @@ void add_traffic(const World& world, MapPicture& picture) {
 }
 
 void draw_map(const std::filesystem::path& file, const Mission& mission, const MissionRunner& runner,
-              const MissionResult& result) {
+              const MissionResult& result, const RunReport& report) {
   MapPicture picture;
   picture.grid = runner.grid();
   picture.graph = &runner.graph();
@@ -32,6 +32,8 @@ void draw_map(const std::filesystem::path& file, const Mission& mission, const M
     picture.robot = runner.driven_path().back();
     picture.robot_radius_m = mission.robot.radius_m;
   }
+  for (const NearMiss& miss : report.near_misses().away_from(runner.graph()))
+    picture.near_misses.push_back({miss.at_m, words_about(miss)});
   if (mission.world) add_traffic(*mission.world, picture);
   picture.title = mission.config.mission + ", seed " + std::to_string(mission.config.seed);
   write_map_picture(file, picture);
@@ -63,7 +65,6 @@ Chart chart_of(const std::vector<PoseErrorSample>& samples) {
   chart.title = "Error of the position";
   chart.x_label = "time, s";
   chart.y_label = "m";
-  chart.from_zero = true;
   chart.series.push_back(std::move(error));
   return chart;
 }
@@ -86,6 +87,26 @@ void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, cons
   write_map_picture(file, picture);
 }
 
+void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const World& truth,
+                     const std::string& title) {
+  constexpr double kLongerSide_px = 560.0;
+  constexpr int kCircleCorners = 36;
+  MapPicture picture;
+  picture.grid = &map.grid;
+  picture.longer_side_px = kLongerSide_px;
+  for (const WorldWall& wall : truth.walls) picture.truth.push_back(wall.points_m);
+  for (const WorldObject& object : truth.objects)
+    for (std::vector<Point> outline : object.contour.outlines_m(kCircleCorners)) {
+      for (Point& p : outline) p = object.T_map_object * p;
+      outline.push_back(outline.front());
+      picture.truth.push_back(std::move(outline));
+    }
+  for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
+  if (!picture.driven.empty()) picture.start = picture.driven.front();
+  picture.title = title;
+  write_map_picture(file, picture);
+}
+
 RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, const MissionRunner& runner,
                      const MissionResult& result, const RunReport& report) {
   RunPictures pictures;
@@ -101,7 +122,7 @@ RunPictures draw_run(const std::filesystem::path& out, const Mission& mission, c
   if (runner.grid() == nullptr) {
     pictures.missing.emplace_back("map.png: the module that held the map was given up");
   } else {
-    attempt("map.png", [&](const std::filesystem::path& file) { draw_map(file, mission, runner, result); });
+    attempt("map.png", [&](const std::filesystem::path& file) { draw_map(file, mission, runner, result, report); });
   }
   if (runner.coarse_grid() != nullptr)
     attempt("coarse.png", [&](const std::filesystem::path& file) {

@@ -23,5 +23,8 @@ struct RunPictures {
 
 // A saved map with its landmarks, routes and driven path. Throws as write_map_picture() does.
 void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, const std::string& title);
+// Small, the driven path only, with the walls and objects of the true world under it.
+void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const World& truth,
+                     const std::string& title);
 
 }  // namespace cairn

@@ -7,6 +7,7 @@
 
 #include "framework/mission/hearing/hearing_record.hpp"
 #include "maps/base/printable.hpp"
+#include "maps/landmarks/close_categories.hpp"
 
 namespace cairn {
 namespace {
@@ -77,8 +78,8 @@ void ProgressLine::remember_categories(const LandmarkGraph& graph) {
 
 void ProgressLine::report_landmark(const LandmarkChanged& change, double time_s) {
   const Landmark& landmark = change.landmark;
-  const std::string place = fmt::format("at ({:.2f}, {:.2f}), degree {:.2f}", landmark.T_map_landmark.x_m,
-                                        landmark.T_map_landmark.y_m, landmark.degree);
+  const std::string place = fmt::format("at ({:.2f}, {:.2f}), degree {}", landmark.T_map_landmark.x_m,
+                                        landmark.T_map_landmark.y_m, degree_text(landmark));
   const std::string earlier = std::exchange(categories_[landmark.id], landmark.category);
   if (change.is_new)
     report(time_s, fmt::format("found {}: {} {}", label_of(landmark), landmark.category, place));

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -27,6 +28,8 @@
 #include "framework/reporting/report.hpp"
 #include "framework/safety/fatal_ends.hpp"
 #include "maps/base/text.hpp"
+#include "maps/exchange/pose_graphs/stamped_poses.hpp"
+#include "maps/landmarks/close_categories.hpp"
 #include "maps/landmarks/route_count.hpp"
 
 namespace cairn {
@@ -45,12 +48,13 @@ void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGr
   out << "\n  landmark  category        x m     y m   angle deg  degree" << (mission.world ? "   error m" : "") << "\n";
   const TruthScore truth = mission.world ? score_against(*mission.world, graph, 0.5) : TruthScore{};
   for (const auto& [id, landmark] : graph.landmarks()) {
-    out << fmt::format("  {:<9} {:<12} {:7.2f} {:7.2f} {:11.0f} {:7.2f}", label_of(landmark), landmark.category,
+    out << fmt::format("  {:<9} {:<12} {:7.2f} {:7.2f} {:11} {:7.2f}", fmt::format("L{}", id), landmark.category,
                        landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
-                       degrees(landmark.T_map_landmark.theta_rad), landmark.degree);
+                       std::lround(degrees(landmark.T_map_landmark.theta_rad)), landmark.degree);
     for (const LandmarkTruth& matched : truth.matched)
       if (matched.landmark == id) out << fmt::format(" {:9.3f}", matched.error_m);
-    out << "\n";
+    const std::string close = close_text(landmark);
+    out << (landmark.name.empty() ? "" : "  " + landmark.name) << (close.empty() ? "" : "  close: " + close) << "\n";
   }
 }
 
@@ -165,6 +169,7 @@ class RunResults {
     // First of all, since drawing may take long, or end the program; then once more with the names of the pictures.
     const bool is_written = write_report();
     try_to_write(command_.out / "timing.json", timing_json(runner.times()) + "\n");
+    if (!result.poses.empty()) try_to_write(command_.out / "poses.tum", tum_of(result.poses));
     pictures_ = draw_run(command_.out, mission_, runner, result, report);
     return pictures_.files.empty() ? is_written : write_report();
   }

@@ -1,5 +1,9 @@
 #include "maps/exchange/pose_graphs/stamped_poses.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/exchange/graphs/line_tokens.hpp"
@@ -74,6 +78,16 @@ std::vector<Item> parse_lines(std::string_view text, const std::string& file_nam
 
 std::vector<StampedPose> parse_stamped_poses(std::string_view text, const std::string& file_name) {
   return parse_lines(text, file_name, pose_in, kPoseForm);
+}
+
+std::string tum_of(std::span<const StampedPose> poses) {
+  std::string text;
+  for (const auto& [stamp_s, T_map_robot] : poses) {
+    const double half_rad = 0.5 * T_map_robot.theta_rad;
+    text += fmt::format("{} {} {} 0 0 0 {} {}\n", stamp_s, T_map_robot.x_m, T_map_robot.y_m, std::sin(half_rad),
+                        std::cos(half_rad));
+  }
+  return text;
 }
 
 std::vector<StatedRelation> parse_relations(std::string_view text, const std::string& file_name) {

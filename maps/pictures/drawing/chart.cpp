@@ -37,8 +37,7 @@ constexpr const char* kHead =
     "set border 3 linecolor '#8a949a'\n"
     "set tics nomirror textcolor '#26323a'\n"
     "set grid linecolor '#dfe3e6' linetype 1 linewidth 1\n"
-    "set key outside right top textcolor '#26323a' noenhanced samplen 2\n"
-    "set offsets graph 0, 0, graph 0.05, graph 0.02\n";
+    "set key outside right top textcolor '#26323a' noenhanced samplen 2\n";
 
 // In single quotes gnuplot takes every character as it is, but for the quote itself; and a doubled one it does not take
 // at the beginning of a text. So it becomes an apostrophe.
@@ -103,6 +102,36 @@ std::string plot_of(const Chart& chart) {
   return plot + "NaN notitle\n";
 }
 
+// Whether an axis begins at 0: it shows numbers, none of them below.
+bool begins_at_zero(const Chart& chart, Eigen::Index axis) {
+  const auto is_less = [axis](const Point& p) { return p.allFinite() && p[axis] < 0.0; };
+  const bool line_is_less =
+      axis == 1 && std::ranges::any_of(chart.horizontal_lines, [](const HorizontalLine& line) { return line.y < 0.0; });
+  return !line_is_less && std::ranges::none_of(chart.series, [&](const Series& series) {
+    // The ends of bars are both of the y axis.
+    const bool end_is_less =
+        axis == 1 && std::ranges::any_of(series.ends, [](const Point& ends) { return ends.x() < 0.0; });
+    return end_is_less || std::ranges::any_of(series.points, is_less);
+  });
+}
+
+std::string axes_of(const Chart& chart) {
+  const bool y_is_share = chart.of_shares || chart.of_shares_over_x;
+  const bool x_from_zero = chart.x_names.empty() && !chart.log_x && !chart.of_shares && begins_at_zero(chart, 0);
+  const bool y_from_zero = !chart.log_y && !y_is_share && begins_at_zero(chart, 1);
+  std::string axes;
+  if (chart.of_shares) axes += "set xrange [0:1.01]\n";
+  if (x_from_zero) axes += "set xrange [0:*]\n";
+  if (y_is_share) axes += "set yrange [0:1.01]\n";
+  if (y_from_zero) axes += "set yrange [0:*]\n";
+  // Room beyond what is drawn, but not where an axis has a fixed end.
+  axes += std::string("set offsets 0, ") + (chart.x_names.empty() && !chart.of_shares ? "graph 0.02" : "0") + ", " +
+          (y_is_share ? "0" : "graph 0.05") + ", " + (y_is_share || y_from_zero ? "0" : "graph 0.02") + "\n";
+  if (chart.log_x) axes += "set logscale x\n";
+  if (chart.log_y) axes += "set logscale y\n";
+  return axes;
+}
+
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -165,13 +194,7 @@ std::string gnuplot_script(const Chart& chart) {
       script += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_quoted(chart.x_names[i]), i);
     script += ")\n";
   }
-  if (chart.of_shares) script += "set xrange [0:1.01]\nset yrange [0:1.01]\n";
-  if (chart.both_from_zero)
-    script += std::string(chart.x_names.empty() ? "set xrange [0:*]\n" : "") +
-              "set yrange [0:1.01]\nset offsets 0, graph 0.02, 0, 0\n";
-  if (chart.from_zero) script += "set yrange [0:*]\nset offsets 0, 0, graph 0.05, 0\n";
-  if (chart.log_x) script += "set logscale x\n";
-  if (chart.log_y) script += "set logscale y\n";
+  script += axes_of(chart);
   for (std::size_t i = 0; i < chart.series.size(); ++i) script += data_of(chart.series[i], i);
   return script + plot_of(chart);
 }

@@ -1,4 +1,6 @@
 // Line charts as PNG files, drawn by gnuplot: degrees over time, time against size, and the like.
+//
+// All in one style: one font and size, the legend beside the plot, axes that begin at 0 where nothing is less.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +35,7 @@ struct Chart {
   std::vector<HorizontalLine> horizontal_lines;  // dashed
   std::vector<std::string> x_names;              // in place of numbers, at x = 0, 1, ...
   bool of_shares = false;                        // both axes from 0 to 1
-  bool from_zero = false;                        // the y axis begins at 0: nothing is less
-  bool both_from_zero = false;                   // the x axis too; y is a share
+  bool of_shares_over_x = false;                 // the y axis from 0 to 1
   bool log_x = false;
   bool log_y = false;
 };

@@ -11,7 +11,6 @@
 namespace cairn::pictures {
 namespace {
 
-constexpr double kLongerSidePx = 930.0;
 constexpr int kMinPageWidthPx = 560;
 constexpr double kFrameTopPx = 62.0;
 constexpr double kFrameLeftPx = 48.0;
@@ -75,9 +74,9 @@ std::vector<Pixel> MapFrame::pixels_of(std::span<const Point> points_map) const 
   return pixels;
 }
 
-MapFrame frame_of(const Extent& extent, double cell_m) {
+MapFrame frame_of(const Extent& extent, double cell_m, double longer_side_px) {
   const Point size_m = (extent.max_m - extent.min_m).cwiseMax(Point(cell_m, cell_m));
-  double px_per_cell = kLongerSidePx / size_m.maxCoeff() * cell_m;
+  double px_per_cell = longer_side_px / size_m.maxCoeff() * cell_m;
   if (px_per_cell >= 2.5) px_per_cell = std::floor(2.0 * px_per_cell) / 2.0;
   MapFrame frame;
   frame.min_m = extent.min_m;

@@ -40,8 +40,9 @@ struct MapFrame {
 
 inline constexpr double kPageMarginPx = 20.0;
 
-// Its longer side is about 930 pixels, and cells of cell_m a whole or half number of pixels where possible.
-[[nodiscard]] MapFrame frame_of(const Extent& extent, double cell_m);
+inline constexpr double kLongerSidePx = 930.0;
+// Its longer side is about that many pixels, and cells of cell_m a whole or half number of pixels where possible.
+[[nodiscard]] MapFrame frame_of(const Extent& extent, double cell_m, double longer_side_px = kLongerSidePx);
 // Border, ticks and metres.
 void draw_border(Canvas& canvas, const MapFrame& frame);
 void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle);

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <span>
 
 #include "maps/base/spelling.hpp"
 #include "maps/store/tables/codec.hpp"
@@ -60,28 +63,34 @@ OccupancyGrid read_grid(Reading& reading) {
   return grid;
 }
 
+// Of a tile that reaches beyond the bounds.
+void require_unknown_outside(const CellBox& bounds, Cell first, std::span<const LogOdds> values,
+                             const std::string& what) {
+  for (int i = 0; i < static_cast<int>(values.size()); ++i)
+    if (values[static_cast<std::size_t>(i)] != 0 &&
+        !bounds.contains(first + Cell{i % OccupancyGrid::kTileSide, i / OccupancyGrid::kTileSide}))
+      throw StoreError(what + " has known cells outside the grid's bounds");
+}
+
 // The cells of a tile that lie in the box. A tile far off would grow the grid: nothing is written before all is
 // checked.
 void take_tile(OccupancyGrid& grid, Cell tile, const std::string& raw, const CellBox& box, const std::string& what) {
+  constexpr int kSide = OccupancyGrid::kTileSide;
+  std::array<LogOdds, static_cast<std::size_t>(kSide) * kSide> values;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = little_endian_at<LogOdds>(raw, 2 * i);
+  const Cell first{tile.x * kSide, tile.y * kSide};
+  const CellBox cells{first, first + Cell{kSide, kSide}};
   const CellBox bounds = grid.bounds();
+  if (intersected(cells, bounds) != cells) require_unknown_outside(bounds, first, values, what);
   const auto clamp = static_cast<int>(grid.clamp_nat() * kLogOddsPerNat);
-  const auto value_at = [&raw](int i) { return little_endian_at<LogOdds>(raw, 2 * static_cast<std::size_t>(i)); };
-  const auto cell_at = [&](int i) {
-    return Cell{tile.x * OccupancyGrid::kTileSide + i % OccupancyGrid::kTileSide,
-                tile.y * OccupancyGrid::kTileSide + i / OccupancyGrid::kTileSide};
-  };
-  for (int i = 0; i < OccupancyGrid::kTileSide * OccupancyGrid::kTileSide; ++i) {
-    const LogOdds value = value_at(i);
-    if (value != 0 && !bounds.contains(cell_at(i)))
-      throw StoreError(what + " has known cells outside the grid's bounds");
-    if (value > clamp || value < -clamp) throw StoreError(what + " holds log-odds beyond the grid's clamp");
-  }
-  const CellBox inside =
-      intersected({cell_at(0), cell_at(OccupancyGrid::kTileSide * OccupancyGrid::kTileSide - 1) + Cell{1, 1}}, box);
+  const auto [least, most] = std::ranges::minmax(values);
+  if (most > clamp || least < -clamp) throw StoreError(what + " holds log-odds beyond the grid's clamp");
+  const CellBox inside = intersected(cells, box);
   if (inside.empty()) return;
-  LogOdds* const cells = grid.cells_of_tile_for_writing(tile);
-  for (int i = 0; i < OccupancyGrid::kTileSide * OccupancyGrid::kTileSide; ++i)
-    if (inside.contains(cell_at(i))) cells[i] = value_at(i);
+  LogOdds* const taken = grid.cells_of_tile_for_writing(tile);
+  for (int y = inside.min.y - first.y; y < inside.max.y - first.y; ++y)
+    for (int x = inside.min.x - first.x; x < inside.max.x - first.x; ++x)
+      taken[y * kSide + x] = values[static_cast<std::size_t>(y * kSide + x)];
 }
 
 void read_tiles(Reading& reading, const std::string& where, const CellBox& box, OccupancyGrid& grid) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMaxParts = 4;  // of a cell's side, at first
 constexpr int kFinerParts = 4;
+constexpr std::size_t kKeptRadii = 3;          // on one space: as many margins as a question is tried with
 constexpr std::int64_t kMaxCells = 8'000'000;  // of a lattice finer than the grid
 // A route so much longer than any must be may have missed a passage that only a finer lattice shows.
 constexpr double kDoubtfulRatio = 1.05;
@@ -260,14 +261,20 @@ DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& bu
 std::shared_ptr<const DiscRoutes> DiscRoutesCache::routes_of(const std::shared_ptr<const DiscSpace>& space,
                                                              double radius_m) const {
   const std::lock_guard lock(mutex_);
-  if (!last_ || &last_->space() != space.get() || last_->radius_m() != radius_m)
-    last_ = std::make_shared<const DiscRoutes>(space, radius_m);
-  return last_;
+  std::erase_if(kept_, [&](const auto& routes) { return &routes->space() != space.get(); });
+  const auto found = std::ranges::find_if(kept_, [&](const auto& routes) { return routes->radius_m() == radius_m; });
+  if (found != kept_.end()) {
+    std::rotate(kept_.begin(), found, found + 1);
+    return kept_.front();
+  }
+  if (kept_.size() == kKeptRadii) kept_.pop_back();
+  kept_.insert(kept_.begin(), std::make_shared<const DiscRoutes>(space, radius_m));
+  return kept_.front();
 }
 
 std::shared_ptr<const DiscRoutes> DiscRoutesCache::last() const {
   const std::lock_guard lock(mutex_);
-  return last_;
+  return kept_.empty() ? nullptr : kept_.front();
 }
 
 }  // namespace cairn

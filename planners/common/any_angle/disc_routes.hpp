@@ -80,18 +80,18 @@ class DiscRoutes {
   mutable std::shared_future<Meshes> finer_;  // last: what its thread uses outlives it
 };
 
-// The routes for the space and radius last asked for: many queries on one map build them once. Thread-safe;
-// while one caller builds, others wait for it.
+// The routes for the space last asked for and the few radii last used on it: many queries on one map build them once,
+// as do queries that are asked again with a smaller margin. Thread-safe; while one caller builds, others wait for it.
 class DiscRoutesCache {
  public:
   [[nodiscard]] std::shared_ptr<const DiscRoutes> routes_of(const std::shared_ptr<const DiscSpace>& space,
                                                             double radius_m) const;
-  // What it holds; null before anything is asked for.
+  // What was last asked for; null before.
   [[nodiscard]] std::shared_ptr<const DiscRoutes> last() const;
 
  private:
   mutable std::mutex mutex_;
-  mutable std::shared_ptr<const DiscRoutes> last_;
+  mutable std::vector<std::shared_ptr<const DiscRoutes>> kept_;  // the last used first
 };
 
 }  // namespace cairn

@@ -60,7 +60,7 @@ std::string note_on(const Pose2& approach, const Landmark& landmark) {
   const double away_m = (approach.position() - usual).norm();
   if (away_m == 0.0) return {};
   return "; it ends " + metres_text(away_m) + " from " + label_of(landmark) +
-         (landmark.access ? ", whose usual place is not free" : "");
+         (landmark.access ? ", whose usual place leaves too little room" : "");
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ Status Exploration::tick(const WorldView& world, BehaviourContext& context) {
       return face(world, context);
     case Mode::back_off:
       return back_off(world, context);
-    case Mode::route:
-      return route(world, context);
+    case Mode::passage:
+      return pass(world, context);
     case Mode::travel:
       break;
   }
@@ -93,12 +93,6 @@ bool Exploration::choose(const WorldView& world, BehaviourContext& context) {
   chosen_s_ = world.time_s;
   task_ = chooser_.choose(world, task_);
   if (!task_) return false;
-  if (task_->by_route) {
-    drive_.begin(*task_, world.time_s);
-    set_mode(Mode::route, world.time_s);
-    context.report(sentence_of(*task_));
-    return true;
-  }
   follower_.take(task_->path);
   if (task_->kind == TaskKind::orbit && (task_->about - announced_).norm() > config_.orbit_distance_m) {
     announced_ = task_->about;
@@ -118,7 +112,6 @@ Status Exploration::travel(const WorldView& world, BehaviourContext& context) {
   const bool blocked = task_ && chooser_.is_blocked(world, task_->path, follower_.along_m());
   if (needs_choice(world) || (blocked && world.time_s - chosen_s_ >= config_.exploring.choice.apart_s)) {
     if (!choose(world, context)) return nothing_left(world, context);
-    if (mode_ == Mode::route) return route(world, context);
   } else if (blocked) {
     follower_.drive({}, world, context);
     return {StepState::running, "something has turned up on the path"};
@@ -130,23 +123,20 @@ Status Exploration::travel(const WorldView& world, BehaviourContext& context) {
   return {StepState::running, task_ ? sentence_of(*task_) : "choosing what to do next"};
 }
 
-// As `goto` drives, to where no path with the usual room leads.
-Status Exploration::route(const WorldView& world, BehaviourContext& context) {
+void Exploration::begin_passage(const WorldView& world) {
+  drive_.begin(*task_, world);
+  chooser_.begin_passage();
+  set_mode(Mode::passage, world.time_s);
+}
+
+Status Exploration::pass(const WorldView& world, BehaviourContext& context) {
   const Status status = drive_.tick(*task_, world, context);
   if (status.state == StepState::running) return {StepState::running, sentence_of(*task_) + ": " + status.reason};
-  const bool has_arrived = status.state == StepState::success;
+  const bool has_passed = status.state == StepState::success;
+  context.report(sentence_of(*task_) + (has_passed ? ": passed" : ": " + status.reason));
+  chooser_.record_passage(*task_, has_passed, status.reason);
+  task_.reset();
   set_mode(Mode::travel, world.time_s);
-  if (!has_arrived) context.report("does not get there: " + status.reason);
-  if (task_->kind == TaskKind::passage) {
-    chooser_.record_passage(*task_, has_arrived, status.reason);
-    if (has_arrived) chooser_.begin_here(world);
-    task_.reset();
-  } else if (has_arrived) {
-    arrive(world);
-  } else {
-    chooser_.give_up(*task_, world);
-    task_.reset();
-  }
   return {StepState::running, "choosing what to do next"};
 }
 
@@ -155,8 +145,10 @@ void Exploration::arrive(const WorldView& world) {
     set_mode(Mode::face, world.time_s);
     faced_s_ = world.time_s;
     is_faced_ = false;
+    if (task_->kind == TaskKind::opening) chooser_.begin_look(world, task_->about);
     return;
   }
+  if (task_->kind == TaskKind::passage) return begin_passage(world);
   // What it arrives at again without having gone anywhere has nothing more to show, whatever is still missing of it.
   const bool is_still_here = travelled_.driven_m - arrived_at_m_ < config_.exploring.choice.there_m;
   arrived_at_m_ = travelled_.driven_m;
@@ -172,15 +164,13 @@ Status Exploration::face(const WorldView& world, BehaviourContext& context) {
   const bool has_time = world.time_s - mode_since_s_ < config_.exploring.face.at_most_s;
   const double dwell_s = is_opening ? config_.exploring.face.opening_dwell_s : config_.exploring.face.dwell_s;
   const bool is_sweeping = is_opening && is_faced_;
-  if (is_opening) chooser_.see_through(world, task_->about);
+  if (is_opening) chooser_.look_through(world, task_->about);
   if (std::abs(error_rad) > config_.exploring.face.faced_rad && has_time && !is_sweeping) {
     faced_s_ = world.time_s;
     follower_.drive(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   } else if (world.time_s - faced_s_ >= dwell_s || !has_time ||
              !still_worthwhile(*task_, world.grid, config_.exploring.weights)) {
-    chooser_.give_up(*task_, world);
-    task_.reset();
-    set_mode(Mode::travel, world.time_s);
+    end_facing(world);
   } else if (is_opening) {
     is_faced_ = true;
     const double phase_rad = 2.0 * std::numbers::pi * (world.time_s - faced_s_) / std::max(dwell_s, 0.1);
@@ -188,6 +178,17 @@ Status Exploration::face(const WorldView& world, BehaviourContext& context) {
     follower_.drive(motion::turn_by(off_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   }
   return {StepState::running, "facing what is still unknown"};
+}
+
+void Exploration::end_facing(const WorldView& world) {
+  if (task_->kind != TaskKind::opening) {
+    chooser_.give_up(*task_, world);
+    task_.reset();
+  } else {
+    task_ = chooser_.end_look(*task_, world);
+    if (task_) return begin_passage(world);
+  }
+  set_mode(Mode::travel, world.time_s);
 }
 
 Status Exploration::get_unstuck(const WorldView& world, BehaviourContext& context) {

@@ -27,13 +27,13 @@ class Exploration {
   }
 
  private:
-  enum class Mode { look_around, travel, face, back_off, route };
+  enum class Mode { look_around, travel, face, back_off, passage };
 
   Status look_around(const WorldView& world, BehaviourContext& context);
   Status travel(const WorldView& world, BehaviourContext& context);
   Status face(const WorldView& world, BehaviourContext& context);
   Status back_off(const WorldView& world, BehaviourContext& context);
-  Status route(const WorldView& world, BehaviourContext& context);
+  Status pass(const WorldView& world, BehaviourContext& context);
 
   void begin_here(const WorldView& world);
   void set_mode(Mode mode, double time_s);
@@ -42,6 +42,8 @@ class Exploration {
   [[nodiscard]] bool choose(const WorldView& world, BehaviourContext& context);
   Status nothing_left(const WorldView& world, BehaviourContext& context);
   void arrive(const WorldView& world);
+  void begin_passage(const WorldView& world);
+  void end_facing(const WorldView& world);
   Status get_unstuck(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] Status finished(const WorldView& world);
   [[nodiscard]] Status explored(const WorldView& world);

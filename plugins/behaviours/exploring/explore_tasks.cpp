@@ -60,11 +60,12 @@ struct Worth {
   double max_m_per_m = 0.0;    // ... no longer path for each of their metres
   double gain_m = 0.0;         // > 0: the area that would be seen counts instead of the length
   double gain_range_m = 0.0;
+  bool over_unknown = false;  // looked at over cells that are not known, too
 };
 
 void offer_groups(Choice& best, std::vector<CellGroup> groups, const Worth& worth, const FreeSpace& space,
                   const ExploreTask* previous, const TaskWeights& weights) {
-  const std::vector<std::optional<Cell>> stands = lookouts(space, groups, worth.view_m);
+  const std::vector<std::optional<Cell>> stands = lookouts(space, groups, worth.view_m, worth.over_unknown);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!stands[i]) continue;
     const double size_m = static_cast<double>(groups[i].size()) * space.cell_m();
@@ -133,9 +134,13 @@ std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_
   const TaskWeights& weights = settings.weights;
   const double look_closer_m = settings.orbit.look_closer_m;
   if (look_closer_m > 0.0) {
-    const std::vector<Cell> left = unseen(space, edge_cells(space), memory.trace, {look_closer_m}, memory.seen_edges);
-    const Worth worth{TaskKind::edge, weights.view_ratio * look_closer_m, 0.0, weights.small_edge_m,
-                      weights.max_path_for_edges_m_per_m};
+    const bool is_far = settings.far_edge_cells > 0;
+    std::vector<Cell> edges = is_far ? far_edge_cells(space, settings.far_edge_cells) : edge_cells(space);
+    std::erase_if(edges, [&](Cell c) { return is_far && is_at_rim(settings.window, c); });
+    const std::vector<Cell> left = unseen(space, edges, memory.trace, {look_closer_m}, memory.seen_edges);
+    Worth worth{TaskKind::edge, weights.view_ratio * look_closer_m, 0.0, weights.small_edge_m,
+                weights.max_path_for_edges_m_per_m};
+    worth.over_unknown = is_far;
     offer_groups(best, groups_of(left, weights.min_edge_m / space.cell_m()), worth, space, previous, weights);
   }
   if (frontiers_wanted) {

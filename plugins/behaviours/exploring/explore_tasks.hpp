@@ -13,7 +13,8 @@
 namespace cairn::behaviours {
 
 struct TaskSettings {
-  OrbitSettings orbit;  // look_closer_m 0: no orbits and no edges
+  OrbitSettings orbit;     // look_closer_m 0: no orbits and no edges
+  int far_edge_cells = 0;  // > 0: edges with free cells within so many count too
   double smallest_frontier_m = 0.3;
   double gain_m = 0.0;        // what e times the new area is worth; 0: the nearest frontier first
   double gain_range_m = 3.0;  // of the sensors, for the new area
@@ -49,9 +50,10 @@ struct ExploreTask {
   std::vector<Point> path;
   double path_m = 0.0;  // of the path, to the lookout; an orbit continues behind it
   double cost_m = 0.0;
-  bool by_route = false;    // driven as `goto` drives: no path with the usual room leads to the lookout
+  // Of a passage: the lookout is before it, lined up, and the drive through it ends there.
+  Point beyond_m{0.0, 0.0};
   bool is_suspect = false;  // an opening that is drawn shut
-  double width_m = 0.0;     // of a passage
+  double width_m = 0.0;     // of a passage, by the map or as it was heard
 };
 
 // None when nothing in reach is left. previous: what the robot is at, preferred when nearly as good.
@@ -64,7 +66,7 @@ struct ExploreTask {
 bool look_again(const FreeSpace& space, const LandmarkGraph& known, const TaskSettings& settings,
                 ExploreMemory& memory);
 
-// For when nothing else is left either: an opening that looks too narrow, to be looked at head on.
+// For when enough is known: an opening that looks too narrow, to be looked at head on.
 [[nodiscard]] std::optional<ExploreTask> opening_task(const FreeSpace& space, const FreeSpace& narrow,
                                                       const TaskSettings& settings, const ExploreMemory& memory);
 

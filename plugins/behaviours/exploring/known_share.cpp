@@ -23,14 +23,20 @@ void KnownShareSettings::describe(Fields<KnownShareSettings>& fields) {
                 "unknown ground counts that may be reached within this of the box around everything occupied");
   fields.number("behind_edges_m", &C::behind_edges_m, {0.0, 100.0}, "m",
                 "what may lie behind an edge that the robot has not been near to");
+  fields.number("closed_radius_m", &C::closed_radius_m, {0.0, 10.0}, "m",
+                "nothing lies behind what was looked at and found closed: within this of it");
 }
 
 void KnownShare::count(const FreeSpace& space, const CellLayer<char>& reach, std::size_t unseen_edges,
-                       double gap_radius_m, double time_s) {
+                       double gap_radius_m, double time_s, const std::vector<Point>& closed) {
   counted_s_ = time_s;
   const CellBox box = outline_box(space, reach).grown(static_cast<int>(settings_.rim_m / space.cell_m()));
   CellLayer<char> visited(box, 0, 1);
   CellGroup queue;
+  const auto is_closed = [&](Cell c) {
+    return std::ranges::any_of(
+        closed, [&](const Point& p) { return (space.centre_of(c) - p).norm() < settings_.closed_radius_m; });
+  };
   std::size_t known = 0;
   std::size_t unknown = 0;
   for (int y = box.min.y; y < box.max.y; ++y)
@@ -45,7 +51,7 @@ void KnownShare::count(const FreeSpace& space, const CellLayer<char>& reach, std
       const Cell next = queue[i] + step;
       if (visited.at(next) || space.state(next) == CellState::occupied) continue;
       const double room_m = space.box().contains(next) ? space.distance_m(next) : space.min_distance_m();
-      if (room_m < gap_radius_m) continue;
+      if (room_m < gap_radius_m || is_closed(next)) continue;
       visited[next] = 1;
       queue.push_back(next);
       unknown += room_m >= space.min_distance_m() ? 1 : 0;

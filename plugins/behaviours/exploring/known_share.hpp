@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "plugins/behaviours/local_map/cell_layer.hpp"
 #include "plugins/behaviours/local_map/free_space.hpp"
@@ -17,6 +18,7 @@ struct KnownShareSettings {
   double every_s = 4.0;
   double rim_m = 1.0;
   double behind_edges_m = 0.5;
+  double closed_radius_m = 0.45;
   static void describe(Fields<KnownShareSettings>& fields);
 };
 
@@ -26,9 +28,9 @@ class KnownShare {
 
   [[nodiscard]] bool is_due(double time_s) const { return time_s >= counted_s_ + settings_.every_s; }
   // reach: as reach_of() of the space. unseen_edges: cells. gap_radius_m: unknown places behind a gap twice this wide
-  // count. O(cells).
+  // count. closed: what was looked at and found closed, for the robot. O(cells).
   void count(const FreeSpace& space, const CellLayer<char>& reach, std::size_t unseen_edges, double gap_radius_m,
-             double time_s);
+             double time_s, const std::vector<Point>& closed = {});
   // 0 before the first count.
   [[nodiscard]] double ratio() const { return ratio_; }
 

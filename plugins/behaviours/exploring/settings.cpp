@@ -13,6 +13,8 @@ void ChoiceSettings::describe(Fields<ChoiceSettings>& fields) {
   fields.integer("near_trace_cells", &C::near_trace_cells, {0.0, 1000.0}, "this near to such a place counts");
   fields.number("narrow_radius_m", &C::narrow_radius_m, {0.01, 5.0}, "m",
                 "an opening twice this wide is looked into, though it is too narrow on the map");
+  fields.integer("far_edge_cells", &C::far_edge_cells, {0.0, 100.0},
+                 "when nothing else is left, edges are looked at, too, that have free cells only within this; 0: none");
   fields.number("tight_clearance_m", &C::tight_clearance_m, {0.0, 5.0}, "m",
                 "room kept beside the robot when it is shut in");
   fields.number("there_m", &C::there_m, {0.0, 5.0}, "m", "a place this near needs no drive");
@@ -93,6 +95,22 @@ void ExploreBlockedSettings::describe(Fields<ExploreBlockedSettings>& fields) {
   fields.number("progress_m", &C::progress_m, {0.0, 100.0}, "m", "blockages with this drive between are not in a row");
 }
 
+void PassageDriveSettings::describe(Fields<PassageDriveSettings>& fields) {
+  using C = PassageDriveSettings;
+  fields.numbers(
+      "clearances_m", &C::clearances_m, {0.0, 5.0}, "m",
+      "room beside the robot with which a passage is tried, one after the other; those that it is too narrow "
+      "for by its echoes are left out; [0.1, 0.05, 0.02] unless given");
+  fields.numbers("speeds_mps", &C::speeds_mps, {0.001, 5.0}, "m/s",
+                 "top speeds of these tries; [0.15, 0.08, 0.05] unless given");
+  fields.number("width_error_m", &C::width_error_m, {0.0, 1.0}, "m",
+                "a passage may be wider by this than its echoes say: its outermost parts are seldom heard");
+  fields.number("past_m", &C::past_m, {0.05, 5.0}, "m", "the drive ends with its edge this far behind the opening");
+  fields.number("through_m", &C::through_m, {0.0, 5.0}, "m", "the robot has passed when its edge is this far behind");
+  fields.number("arrived_m", &C::arrived_m, {0.001, 1.0}, "m", "this near to the end of the drive is there");
+  fields.number("at_most_s", &C::at_most_s, {1.0, 3600.0}, "s", "time for all tries of one drive");
+}
+
 void EstimateSettings::describe(Fields<EstimateSettings>& fields) {
   using C = EstimateSettings;
   fields.number("every_s", &C::every_s, {0.1, 3600.0}, "s", "the map is counted this often");
@@ -108,6 +126,7 @@ void ExploringSettings::describe(Fields<ExploringSettings>& fields) {
   fields.group("weights", &C::weights, "what tasks are worth, in metres of path");
   fields.group("openings", &C::openings, "openings that look too narrow, and rooms out of reach");
   fields.group("passages", &C::passages, "doors and gaps into what it has not been in");
+  fields.group("passage_drive", &C::passage_drive, "driving through them");
   fields.group("known", &C::known, "which share of what can be reached is known");
   fields.group("motion", &C::motion, "how it moves");
   fields.group("face", &C::face, "turning the sonars to what is unknown");

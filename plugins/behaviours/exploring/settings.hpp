@@ -1,6 +1,8 @@
 // The settings of exploring that few missions need, in groups.
 #pragma once
 
+#include <vector>
+
 #include "framework/config/fields.hpp"
 #include "plugins/behaviours/exploring/known_share.hpp"
 #include "plugins/behaviours/following/back_up.hpp"
@@ -17,6 +19,7 @@ struct ChoiceSettings {
   double shut_in_ratio = 0.9;
   int near_trace_cells = 4;
   double narrow_radius_m = 0.12;
+  int far_edge_cells = 4;
   double tight_clearance_m = 0.02;
   double there_m = 0.12;
   double trusted_range_m = 3.0;
@@ -81,6 +84,18 @@ struct ExploreBlockedSettings {
   static void describe(Fields<ExploreBlockedSettings>& fields);
 };
 
+// Driving through a passage.
+struct PassageDriveSettings {
+  std::vector<double> clearances_m{0.10, 0.05, 0.02};
+  std::vector<double> speeds_mps{0.15, 0.08, 0.05};
+  double width_error_m = 0.12;
+  double past_m = 0.4;
+  double through_m = 0.2;
+  double arrived_m = 0.08;
+  double at_most_s = 90.0;
+  static void describe(Fields<PassageDriveSettings>& fields);
+};
+
 // How long exploring still takes, for people.
 struct EstimateSettings {
   double every_s = 5.0;
@@ -95,6 +110,7 @@ struct ExploringSettings {
   TaskWeights weights;
   OpeningSettings openings;
   PassageSettings passages;
+  PassageDriveSettings passage_drive;
   KnownShareSettings known;
   ExploreMotionSettings motion;
   ExploreFaceSettings face;

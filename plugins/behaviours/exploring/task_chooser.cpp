@@ -38,7 +38,9 @@ TaskChooser::TaskChooser(const ExploreConfig& config, const WorldView& world)
     : config_(config),
       settings_(task_settings(config, world.robot)),
       near_echoes_(world.grid, config.driving.local_map.echoes.near),
-      passages_(config.exploring.passages),
+      passed_(world.grid, config.exploring.passages.passed),
+      opening_echoes_(config.exploring.passages.echoes),
+      passages_(config.exploring.passages, config.exploring.passage_drive),
       known_(config.exploring.known) {}
 
 void TaskChooser::begin_here(const WorldView& world) {
@@ -47,18 +49,40 @@ void TaskChooser::begin_here(const WorldView& world) {
 }
 
 void TaskChooser::forget_echoes(const WorldView& world) {
+  spaces_.clear();
   near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
 }
 
-void TaskChooser::see_through(const WorldView& world, const Point& opening) {
+void TaskChooser::begin_look(const WorldView& world, const Point& opening) {
+  opening_echoes_.begin(opening, world.pose.T_map_robot.position());
+}
+
+void TaskChooser::look_through(const WorldView& world, const Point& opening) {
+  if (world.observation == nullptr) return;
   const double to_m = (opening - world.pose.T_map_robot.position()).norm() + config_.exploring.passages.max_wall_m;
-  if (world.observation != nullptr) near_echoes_.see_through(*world.observation, world.pose.T_map_robot, to_m);
+  near_echoes_.see_through(*world.observation, world.pose.T_map_robot, to_m);
+  opening_echoes_.see(*world.observation, world.pose.T_map_robot);
+}
+
+std::optional<ExploreTask> TaskChooser::end_look(const ExploreTask& task, const WorldView& world) {
+  give_up(task, world);
+  std::optional<ExploreTask> through = passages_.record_look(task, opening_echoes_.heard(), world.robot.radius_m);
+  const bool is_wanted = through && known_ratio() < config_.until_known_ratio;
+  if (!is_wanted) return std::nullopt;
+  search_ = {kEverywhere_m, config_.clearance_m};
+  const FreeSpace usual = space(world);
+  if (usual.reaches(usual.cell_at(through->beyond_m))) return std::nullopt;  // as usual, with more room
+  return through;
 }
 
 void TaskChooser::see(const WorldView& world) {
+  spaces_.clear();
   const Pose2& pose = world.pose.T_map_robot;
-  if (world.observation != nullptr) near_echoes_.see(*world.observation, pose);
-  near_echoes_.stand_at(pose.position(), world.robot.radius_m);
+  if (world.observation != nullptr) {
+    near_echoes_.see(*world.observation, pose);
+    passed_.see(*world.observation, pose);
+  }
+  near_echoes_.stand_at(pose.position(), world.robot.radius_m + (is_in_passage_ ? world.grid.cell_m() : 0.0));
   const Pose2& last = memory_.trace.back();
   const ExploreMotionSettings& motion = config_.exploring.motion;
   if ((pose.position() - last.position()).norm() >= motion.trace_apart_m ||
@@ -75,6 +99,12 @@ CellBox TaskChooser::window_of(const Search& search, const WorldView& world) {
 }
 
 FreeSpace TaskChooser::space_within(const Search& search, const WorldView& world) const {
+  if (const auto found = spaces_.find({search.within_m, search.clearance_m}); found != spaces_.end())
+    return found->second;
+  return spaces_.emplace(std::pair{search.within_m, search.clearance_m}, new_space(search, world)).first->second;
+}
+
+FreeSpace TaskChooser::new_space(const Search& search, const WorldView& world) const {
   const Point position = world.pose.T_map_robot.position();
   return FreeSpace(near_echoes_.applied_to(world.grid, window_of(search, world)),
                    {position, world.robot.radius_m, search.clearance_m, config_.driving.local_map.paths}, memory_.trace,
@@ -105,10 +135,21 @@ std::optional<ExploreTask> TaskChooser::choose_again(const WorldView& world, con
   return choose_within(search, world, before);
 }
 
+// As long as not enough is known, passages are searched, which are more than these.
 std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
+  if (known_ratio() < config_.until_known_ratio) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
   const double narrow_m = config_.exploring.choice.narrow_radius_m - world.robot.radius_m;
   return opening_task(space_within(search_, world), space_within({kEverywhere_m, narrow_m}, world), settings_, memory_);
+}
+
+std::optional<ExploreTask> TaskChooser::choose_far_edge(const WorldView& world,
+                                                        const std::optional<ExploreTask>& before) {
+  if (known_ratio() >= config_.until_known_ratio || config_.exploring.choice.far_edge_cells == 0) return std::nullopt;
+  settings_.far_edge_cells = config_.exploring.choice.far_edge_cells;
+  std::optional<ExploreTask> task = choose_within({kEverywhere_m, config_.clearance_m}, world, before);
+  settings_.far_edge_cells = 0;
+  return task;
 }
 
 void TaskChooser::count_known(const WorldView& world) {
@@ -119,34 +160,73 @@ void TaskChooser::count_known(const WorldView& world) {
   std::vector<Cell> edges = edge_cells(space);
   std::erase_if(edges, [&](Cell c) { return !is_beside(reach, c, space.min_distance_m() / space.cell_m()); });
   const std::size_t left = unseen(space, edges, memory_.trace, {near_m}, memory_.seen_edges).size();
-  known_.count(space, reach, left, config_.exploring.passages.drive_radius_m, world.time_s);
+  known_.count(space, reach, left, config_.exploring.passages.drive_radius_m, world.time_s, passages_.closed());
+}
+
+// Walls that echoes have passed are not known to be there.
+FreeSpace TaskChooser::space_behind_walls(const WorldView& world, double clearance_m) const {
+  const CellBox window = window_of({kEverywhere_m, clearance_m}, world);
+  OccupancyGrid map = near_echoes_.applied_to(world.grid, window);
+  const CellBox box = map.bounds();
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x) {
+      const Cell c{x, y};
+      if (passed_.is_conservatively_free(c) && map.state(c) == CellState::occupied) map.set_log_odds(c, 0);
+    }
+  const Point position = world.pose.T_map_robot.position();
+  return FreeSpace(map, {position, world.robot.radius_m, clearance_m, config_.driving.local_map.paths}, memory_.trace,
+                   memory_.troubles);
 }
 
 std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
   if (known_ratio() >= config_.until_known_ratio) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
-  return passages_.next(space_within(search_, world), {world.grid, memory_.trace, memory_.seen_openings},
-                        world.pose.T_map_robot.position());
+  const FreeSpace usual = space(world);
+  const FreeSpace map = space_behind_walls(world, config_.clearance_m);
+  const PassageTasks::Explored explored{usual, map, passed_.votes(), memory_.trace, world.robot.radius_m};
+  while (std::optional<ExploreTask> task = passages_.next(explored, world.pose.T_map_robot.position())) {
+    if (!task->path.empty()) return task;
+    search_ = {kEverywhere_m, std::min(config_.clearance_m, config_.exploring.choice.tight_clearance_m)};
+    const FreeSpace tight = space(world);
+    task->path = tight.path_to(tight.cell_at(task->lookout));
+    if (!task->path.empty()) return task;
+    if (std::optional<ExploreTask> on_the_way = back_through_passage(task->lookout, world)) return on_the_way;
+    passages_.record_unreachable(*task);
+  }
+  return std::nullopt;
 }
 
-std::optional<ExploreTask> TaskChooser::choose_by_route(const WorldView& world,
-                                                        const std::optional<ExploreTask>& before) {
-  const Search slim{kEverywhere_m, config_.exploring.passages.drive_radius_m - world.robot.radius_m};
-  const double min_m = world.robot.radius_m + config_.exploring.choice.tight_clearance_m;
-  while (std::optional<ExploreTask> task = choose_within(slim, world, before)) {
-    const FreeSpace there = space(world);
-    if (there.distance_m(there.cell_at(task->lookout)) >= min_m) {
-      task->by_route = true;
-      return task;
-    }
-    behaviours::give_up(*task, there, settings_, memory_);  // the robot does not fit in there
+// As the robot came: with little room to the passage, then through it.
+std::optional<ExploreTask> TaskChooser::back_through_passage(const Point& to, const WorldView& world) {
+  const FreeSpace slim = space_within({kEverywhere_m, slim_clearance_m(world.robot)}, world);
+  std::optional<ExploreTask> through = passages_.passed_on(slim.path_to(slim.cell_at(to)), world.robot.radius_m);
+  if (!through) return std::nullopt;
+  search_ = {kEverywhere_m, std::min(config_.clearance_m, config_.exploring.choice.tight_clearance_m)};
+  const FreeSpace tight = space(world);
+  through->path = tight.path_to(tight.cell_at(through->lookout));
+  if (through->path.empty()) return std::nullopt;
+  return through;
+}
+
+double TaskChooser::slim_clearance_m(const RobotModel& robot) const {
+  return config_.exploring.passages.drive_radius_m - robot.radius_m;
+}
+
+std::optional<ExploreTask> TaskChooser::choose_behind_passages(const WorldView& world,
+                                                               const std::optional<ExploreTask>& before) {
+  const Search slim{kEverywhere_m, slim_clearance_m(world.robot)};
+  while (const std::optional<ExploreTask> task = choose_within(slim, world, before)) {
+    if (std::optional<ExploreTask> through = back_through_passage(task->lookout, world)) return through;
+    search_ = slim;
+    behaviours::give_up(*task, space(world), settings_, memory_);  // the robot has never been in there
   }
   return std::nullopt;
 }
 
 std::vector<NotEntered> TaskChooser::not_entered(const WorldView& world) const {
-  const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
-  return passages_.not_entered(space, {world.grid, memory_.trace, memory_.seen_openings}, world.robot.radius_m);
+  const FreeSpace usual = space_within({kEverywhere_m, config_.clearance_m}, world);
+  return passages_.not_entered(
+      {usual, space_behind_walls(world, config_.clearance_m), passed_.votes(), memory_.trace, world.robot.radius_m});
 }
 
 bool TaskChooser::is_shut_in(const WorldView& world) const {
@@ -182,16 +262,16 @@ std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std
   if (auto task = choose_opening(world)) return task;
   if (leads_on(world, tight))
     if (auto task = choose_within(tight, world, before)) return task;
+  if (auto task = choose_far_edge(world, before)) return task;
   if (auto task = choose_passage(world)) return task;
-  if (auto task = choose_by_route(world, before)) return task;
+  if (auto task = choose_behind_passages(world, before)) return task;
   search_ = {kEverywhere_m, config_.clearance_m};
   return choose_again(world, before);
 }
 
 void TaskChooser::give_up(const ExploreTask& task, const WorldView& world) {
   behaviours::give_up(task, space(world), settings_, memory_);
-  passages_.record_look(task);
-  if (task.kind == TaskKind::passage) passages_.record(task, false, "it was given up");
+  if (task.kind == TaskKind::passage) passages_.record(task, false, "blocked on the way to it");
 }
 
 bool TaskChooser::is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const {

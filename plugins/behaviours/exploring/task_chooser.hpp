@@ -1,7 +1,9 @@
 // Chooses what exploring does next, on the map as the robot itself has seen it.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "plugins/behaviours/exploring/explore.hpp"
@@ -20,8 +22,11 @@ class TaskChooser {
   // Every tick.
   void see(const WorldView& world);
   void forget_echoes(const WorldView& world);
-  // While the robot faces an opening.
-  void see_through(const WorldView& world, const Point& opening);
+  // A look into an opening: at its beginning, every tick of it, and at its end. At the end: the drive through it, where
+  // the robot may fit and there is no path with the usual room.
+  void begin_look(const WorldView& world, const Point& opening);
+  void look_through(const WorldView& world, const Point& opening);
+  [[nodiscard]] std::optional<ExploreTask> end_look(const ExploreTask& task, const WorldView& world);
   [[nodiscard]] const NearEchoes& near_echoes() const { return near_echoes_; }
 
   // The cheapest task; none when nothing in reach is left. before: what the robot is at, preferred when nearly as good.
@@ -31,12 +36,14 @@ class TaskChooser {
   // Paths avoid the place until then, where they can.
   void avoid(const Point& at, double until_s) { memory_.troubles.push_back({at, until_s}); }
 
-  // What has come of a drive through a passage.
+  // A drive through a passage begins, and what has come of it.
+  void begin_passage() { is_in_passage_ = true; }
   void record_passage(const ExploreTask& task, bool has_passed, const std::string& why) {
+    is_in_passage_ = false;
     passages_.record(task, has_passed, why);
   }
   // Passages that were given up are tried once more, from where the robot is now. False when there are none.
-  [[nodiscard]] bool retry_passages() { return passages_.retry(memory_.seen_openings); }
+  [[nodiscard]] bool retry_passages() { return passages_.retry(); }
   // Those that still lead to what is unknown, or to where the robot has not been.
   [[nodiscard]] std::vector<NotEntered> not_entered(const WorldView& world) const;
 
@@ -60,24 +67,37 @@ class TaskChooser {
   };
   // The part of the map that is searched; may reach beyond the map.
   [[nodiscard]] static CellBox window_of(const Search& search, const WorldView& world);
+  // Made once a tick: one choice asks for the same part several times.
   [[nodiscard]] FreeSpace space_within(const Search& search, const WorldView& world) const;
+  [[nodiscard]] FreeSpace new_space(const Search& search, const WorldView& world) const;
   [[nodiscard]] std::optional<ExploreTask> choose_within(const Search& search, const WorldView& world,
                                                          const std::optional<ExploreTask>& before);
   [[nodiscard]] std::optional<ExploreTask> choose_again(const WorldView& world,
                                                         const std::optional<ExploreTask>& before);
   [[nodiscard]] std::optional<ExploreTask> choose_opening(const WorldView& world);
+  // Walls that were seen from afar only: they may hide doors.
+  [[nodiscard]] std::optional<ExploreTask> choose_far_edge(const WorldView& world,
+                                                           const std::optional<ExploreTask>& before);
   void count_known(const WorldView& world);
   [[nodiscard]] std::optional<ExploreTask> choose_passage(const WorldView& world);
-  // What is left where the robot can only get as `goto` does: through what it has come through before.
-  [[nodiscard]] std::optional<ExploreTask> choose_by_route(const WorldView& world,
-                                                           const std::optional<ExploreTask>& before);
+  [[nodiscard]] FreeSpace space_behind_walls(const WorldView& world, double clearance_m) const;
+  // The drive to a passage that the robot has come through before, on the way to a place behind it.
+  [[nodiscard]] std::optional<ExploreTask> back_through_passage(const Point& to, const WorldView& world);
+  [[nodiscard]] double slim_clearance_m(const RobotModel& robot) const;
+  // The same to what is left behind it.
+  [[nodiscard]] std::optional<ExploreTask> choose_behind_passages(const WorldView& world,
+                                                                  const std::optional<ExploreTask>& before);
   // Whether keeping less room gets the robot to more of the map.
   [[nodiscard]] bool leads_on(const WorldView& world, const Search& tight) const;
 
   ExploreConfig config_;
+  mutable std::map<std::pair<double, double>, FreeSpace> spaces_;  // of this tick, by part and clearance
   TaskSettings settings_;
   Search search_;  // of the last choice
   NearEchoes near_echoes_;
+  NearEchoes passed_;  // what echoes from near and far have passed
+  OpeningEchoes opening_echoes_;
+  bool is_in_passage_ = false;
   ExploreMemory memory_;
   PassageTasks passages_;
   KnownShare known_;

@@ -72,6 +72,8 @@ class NearEchoes {
   [[nodiscard]] bool is_occupied(const OccupancyGrid& map, Cell cell) const {
     return is_solid(cell) || (map.state(cell) == CellState::occupied && !is_conservatively_free(cell));
   }
+  // What the echoes say about each cell: less than 0: more have passed it than came from it.
+  [[nodiscard]] const OccupancyGrid& votes() const { return votes_; }
   // A copy of this part of the map with the votes applied.
   [[nodiscard]] OccupancyGrid applied_to(const OccupancyGrid& map, const CellBox& part) const;
 

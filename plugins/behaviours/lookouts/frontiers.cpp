@@ -47,9 +47,19 @@ std::vector<Cell> edge_cells(const FreeSpace& space) {
   return cells_where(space.box(), [&](Cell c) { return is_edge(space, c); });
 }
 
+std::vector<Cell> far_edge_cells(const FreeSpace& space, int within_cells) {
+  const auto has_free_near = [&](Cell c) {
+    for (int dy = -within_cells; dy <= within_cells; ++dy)
+      for (int dx = -within_cells; dx <= within_cells; ++dx)
+        if (space.state(c + Cell{dx, dy}) == CellState::free) return true;
+    return false;
+  };
+  return cells_where(space.box(), [&](Cell c) { return space.state(c) == CellState::occupied && has_free_near(c); });
+}
+
 // Dial's algorithm with steps of 5 and 7 fifths of a cell: one bucket a distance.
-std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vector<CellGroup>& groups,
-                                          double within_m) {
+std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vector<CellGroup>& groups, double within_m,
+                                          bool over_unknown) {
   struct Entry {
     Cell cell;
     int group;
@@ -76,7 +86,9 @@ std::vector<std::optional<Cell>> lookouts(const FreeSpace& space, const std::vec
         const int next_length = length + (is_diagonal ? kDiagonal : kStraight);
         const Cell next = entry.cell + step;
         if (is_diagonal && cuts_corner(space, entry.cell, step)) continue;
-        if (next_length <= most && !settled.at(next) && space.state(next) == CellState::free)
+        const CellState state = space.state(next);
+        const bool is_open = state == CellState::free || (over_unknown && state == CellState::unknown);
+        if (next_length <= most && !settled.at(next) && is_open)
           buckets[static_cast<std::size_t>(next_length)].push_back({next, entry.group});
       }
     }

@@ -9,7 +9,7 @@ namespace cairn::behaviours {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr LogOdds kSeenThrough = -60;  // P = 0.44
+constexpr LogOdds kSeenThrough = -60;  // of what says which cells echoes have passed
 constexpr double kThroughWall = 8.0;   // what a metre of wall costs, against one that is open
 
 // The cheapest steps from what is in reach to every cell beyond it.
@@ -37,7 +37,8 @@ class PassageFinder {
       if (!passage || is_at_any(passage->at_m, search_.without, settings_.same_m)) continue;
       const double path_m = space_.cost_m(passage->lookout);
       const double far_m = (space_.centre_of(passage->lookout) - robot_).norm();
-      const double cost_m = path_m < kInfinite ? path_m : kFar_m + far_m;
+      const double missing_m = std::max(0.0, 2.0 * space_.min_distance_m() - passage->width_m);
+      const double cost_m = (path_m < kInfinite ? path_m : kFar_m + far_m) + settings_.narrow_cost * missing_m;
       if (cost_m >= best_m) continue;
       best = passage;
       best_m = cost_m;
@@ -125,7 +126,11 @@ class PassageFinder {
     std::vector<CellGroup> groups = grouped(cells, 1);
     const double cell_m2 = space_.cell_m() * space_.cell_m();
     const double min_m2 = search_.through_walls ? settings_.seen_through_m2 : settings_.room_behind_m2;
-    std::erase_if(groups, [&](const CellGroup& g) { return static_cast<double>(g.size()) * cell_m2 < min_m2; });
+    const double min_depth_m = search_.through_walls ? 0.0 : settings_.min_depth_m;
+    const auto is_deep = [&](Cell c) { return beyond_.cost_m.at(c) >= min_depth_m; };
+    std::erase_if(groups, [&](const CellGroup& g) {
+      return static_cast<double>(g.size()) * cell_m2 < min_m2 || std::ranges::none_of(g, is_deep);
+    });
     return groups;
   }
 
@@ -169,14 +174,29 @@ class PassageFinder {
     passage.at_m = space_.centre_of(*narrowest);
     passage.width_m = search_.through_walls ? 0.0 : 2.0 * room_m(*narrowest);
     passage.beyond_m = inside(place);
-    const Point from_m = space_.centre_of(path.front());
-    Point ahead = passage.at_m - from_m;
-    if (ahead.norm() < 2.0 * space_.cell_m()) ahead = passage.beyond_m - from_m;
-    const std::optional<Cell> lookout = lookout_before(passage.at_m, ahead.normalized());
+    const std::optional<Cell> lookout =
+        lookout_before(passage.at_m, ahead_of(*narrowest, passage.beyond_m - space_.centre_of(path.front())));
     if (!lookout) return std::nullopt;
     passage.lookout = *lookout;
     return passage;
   }
+
+  // Across the line to the nearest post, about as `towards`.
+  [[nodiscard]] Point ahead_of(Cell narrowest, const Point& towards) const {
+    const int reach = static_cast<int>(room_m(narrowest) / space_.cell_m()) + 1;
+    std::optional<Cell> post;
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx) {
+        const Cell c = narrowest + Cell{dx, dy};
+        if (space_.state(c) != CellState::occupied) continue;
+        if (!post || squared(c - narrowest) < squared(*post - narrowest)) post = c;
+      }
+    if (!post || *post == narrowest) return towards.normalized();
+    const Point along = space_.centre_of(*post) - space_.centre_of(narrowest);
+    const Point across = Point(-along.y(), along.x()).normalized();
+    return across.dot(towards) >= 0.0 ? across : Point(-across);
+  }
+  [[nodiscard]] static int squared(Cell c) { return c.x * c.x + c.y * c.y; }
 
   // In reach, in sight of the place, and straight before it.
   [[nodiscard]] std::optional<Cell> lookout_before(const Point& at_m, const Point& ahead) const {
@@ -188,7 +208,7 @@ class PassageFinder {
     for (int dy = -reach; dy <= reach; ++dy)
       for (int dx = -reach; dx <= reach; ++dx) {
         const Cell c = centre + Cell{dx, dy};
-        if (!reach_.at(c)) continue;
+        if (!reach_.at(c) || (space_.centre_of(c) - at_m).norm() < settings_.look_at_least_from_m) continue;
         const double off_m = (space_.centre_of(c) - ideal_m).norm();
         if (off_m >= best_m || !space_.sees(space_.centre_of(c), centre)) continue;
         best = c;
@@ -214,19 +234,28 @@ void PassageSettings::describe(Fields<PassageSettings>& fields) {
   fields.number("min_radius_m", &C::min_radius_m, {0.01, 5.0}, "m",
                 "a passage twice this wide on the map is looked at: sonars draw openings narrower than they are");
   fields.number("drive_radius_m", &C::drive_radius_m, {0.01, 5.0}, "m",
-                "one that is twice this wide after that is driven through");
+                "one that is twice this wide on the map leads to what is not known yet");
   fields.number("room_behind_m2", &C::room_behind_m2, {0.0, 1e4}, "m2",
                 "when there may be so much room for the robot's centre behind it");
+  fields.number("min_depth_m", &C::min_depth_m, {0.0, 50.0}, "m",
+                "that reaches at least so far from what is in reach: a strip along a wall is no room");
   fields.number("seen_through_m2", &C::seen_through_m2, {0.0, 1e4}, "m2",
                 "a wall is looked at again when echoes have come through it from so much behind it");
   fields.number("max_wall_m", &C::max_wall_m, {0.0, 5.0}, "m", "within this of what is in reach");
   fields.number("look_from_m", &C::look_from_m, {0.1, 5.0}, "m",
                 "a passage is looked at from here, straight before it");
+  fields.number("look_at_least_from_m", &C::look_at_least_from_m, {0.0, 5.0}, "m",
+                "and never from nearer than this: it is no passage then");
   fields.number("beyond_m", &C::beyond_m, {0.0, 5.0}, "m", "so far into the room behind it the robot drives at first");
   fields.number("same_m", &C::same_m, {0.0, 50.0}, "m", "passages this near to each other are the same");
+  fields.number(
+      "narrow_cost", &C::narrow_cost, {0.0, 1000.0}, "",
+      "metres of path that a passage comes later for each metre that the robot's width and clearance lack in it");
   fields.integer("max_suspects", &C::max_suspects, {0.0, 1e4}, "at most so many walls are looked at again");
   fields.integer("max_tries", &C::max_tries, {0.0, 100.0}, "how often a passage is tried before it is given up");
-  fields.number("at_most_s", &C::at_most_s, {1.0, 3600.0}, "s", "time for each try");
+  fields.group("echoes", &C::echoes, "how wide a passage is by the echoes of a look");
+  fields.group("passed", &C::passed,
+               "what counts as passed by echoes while the robot drives: walls that echoes have passed are looked at");
 }
 
 CellLayer<char> reach_of(const FreeSpace& space, const std::vector<Pose2>& trace) {

@@ -9,21 +9,28 @@
 
 #include "plugins/behaviours/local_map/cell_layer.hpp"
 #include "plugins/behaviours/local_map/free_space.hpp"
+#include "plugins/behaviours/local_map/near_echoes.hpp"
+#include "plugins/behaviours/lookouts/opening_echoes.hpp"
 
 namespace cairn::behaviours {
 
 struct PassageSettings {
-  double min_radius_m = 0.06;
+  double min_radius_m = 0.08;
   double drive_radius_m = 0.1;
   double room_behind_m2 = 0.4;
+  double min_depth_m = 0.5;
   double seen_through_m2 = 0.15;
   double max_wall_m = 0.5;
   double look_from_m = 0.7;
+  double look_at_least_from_m = 0.35;
   double beyond_m = 0.5;
   double same_m = 0.45;
-  int max_suspects = 20;
+  double narrow_cost = 10.0;
+  int max_suspects = 4;
   int max_tries = 2;
-  double at_most_s = 90.0;
+  OpeningEchoSettings echoes;
+  NearEchoSettings passed{
+      .within_m = 4.0, .hit = 10, .passed = -40, .solid_at = 32000, .free_at = -120, .clamp_nat = 0.8};
   static void describe(Fields<PassageSettings>& fields);
 };
 
@@ -43,7 +50,8 @@ struct PassageSearch {
   std::vector<Point> without;  // none within same_m of these
 };
 
-// The one whose lookout is nearest to the robot by path, as the crow flies where there is none. None within same_m of
+// The one whose lookout is nearest to the robot by path, as the crow flies where there is none; narrow ones come later.
+// None within same_m of
 // what it is to do without. O(cells log cells).
 [[nodiscard]] std::optional<Passage> nearest_passage(const FreeSpace& space, const OccupancyGrid& grid,
                                                      const CellLayer<char>& reach, const Point& robot,

@@ -30,6 +30,7 @@ void ScanLog::add(const Scan& scan, std::size_t source, std::span<const double> 
   static_cast<Scan&>(kept) = scan;
   kept.source = source;
   kept.first_range = ranges_m_.size();
+  kept.recorded_s = scan.stamp_s;
   ranges_m_.insert(ranges_m_.end(), ranges_m.begin(), ranges_m.end());
   scans_.push_back(kept);
 }
@@ -69,6 +70,11 @@ void ScanLog::set_pose(const Pose2& T_log_robot, Scan& scan) {
   if (rules_.compass_from_pose) scan.compass_rad = T_log_robot.theta_rad;
 }
 
+void ScanLog::replace_odometry(std::span<const Pose2> T_odom_robot) {
+  start_.reset();
+  for (std::size_t i = 0; i < scans_.size(); ++i) set_pose(T_odom_robot[i], scans_[i]);
+}
+
 std::string ScanLog::name_of_file() const {
   return std::filesystem::path(file_).filename().string();
 }
@@ -91,11 +97,17 @@ void ScanLog::unknown_line(std::string_view kind) {
     unknown_.emplace(kind, 1);
 }
 
-void ScanLog::require_scans() const {
+void ScanLog::require_scans() {
   if (scans_.empty())
     throw ConfigError({file_, 0, 0},
                       "the log holds no observation" + (bad_lines_ > 0 ? "; first bad line: " + first_bad_ : "") +
                           (unknown_lines_ > 0 ? "; " + counted(unknown_lines_, "line") + " of unknown kinds" : ""));
+  const bool stands =
+      std::ranges::all_of(scans_, [&](const Kept& scan) { return scan.T_odom_robot == scans_.front().T_odom_robot; });
+  if (stands && scans_.size() >= kFewestToJudge)
+    note(
+        "all observations have the same pose: the log holds no poses, or the robot stood still; where it drove, "
+        "`localizer: {plugin: scan_to_map}` estimates them from a laser's scans");
 }
 
 void ScanLog::finish() {
@@ -140,6 +152,7 @@ Observation ScanLog::observation(std::size_t i) const {
   const Kept& scan = scans_[i];
   Observation seen;
   seen.stamp_s = scan.stamp_s;
+  seen.recorded_s = scan.recorded_s;
   seen.T_odom_robot = scan.T_odom_robot;
   seen.compass_rad = scan.compass_rad;
   seen.bumped = scan.bumped;

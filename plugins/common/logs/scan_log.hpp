@@ -106,6 +106,9 @@ class ScanLog {
   // Odometry as counted from the first pose of the log; sets compass and start, too.
   void set_pose(const Pose2& T_log_robot, Scan& scan);
   void set_start(const Pose2& T_map_start) { start_ = T_map_start; }
+  // Other odometry than that of the scans, a pose a scan: where a log states it behind them. The start is its first
+  // pose.
+  void replace_odometry(std::span<const Pose2> T_odom_robot);
 
   // Takes every line of a file that is not blank, cut as LogLine::cut does; one at which take throws ConfigError is a
   // bad line. Returns the place of the last. Throws ReadingEnded when the budget is exhausted.
@@ -116,8 +119,8 @@ class ScanLog {
   void unknown_line(std::string_view kind);
   void note(const std::string& sentence) { notes_.push_back(sentence); }
 
-  // When all is read. Throws ConfigError for a log without a scan.
-  void require_scans() const;
+  // When all is read. Throws ConfigError for a log without a scan. Notes that all of several scans have the same pose.
+  void require_scans();
   // The same, and decides on the stamps. Throws ConfigError also for a clock jump when those are refused.
   void finish();
 
@@ -133,6 +136,7 @@ class ScanLog {
   struct Kept : Scan {
     std::size_t source = 0;
     std::size_t first_range = 0;
+    double recorded_s = 0.0;
   };
   void bridge_jumps();
   [[nodiscard]] std::string name_of_file() const;

@@ -44,9 +44,7 @@ struct QueryTimes {
 void searches(benchmark::State& state) {
   const LandmarkGraph graph = part_of_complex(static_cast<std::size_t>(state.range(0)));
   const Hierarchy hierarchy(graph);
-  ClusterSizes none;
-  none.flat_below = SIZE_MAX;
-  const Hierarchy flat(graph, {}, cost_by_length, none);
+  const Hierarchy flat(graph, {}, cost_by_length, no_clusters());
   BoostSearches boost(graph, kFloorHeight_m);
   BoostSearch on_levels, on_landmarks;
   HierarchySearch both_ends, both_ends_flat;

@@ -8,7 +8,8 @@ const std::filesystem::path kModules = std::filesystem::path(CAIRN_BINARY_DIR) /
 
 INSTANTIATE_TEST_SUITE_P(Shipped, LocalizerConformance,
                          testing::Values(module<Localizer>(kModules, "odometry_compass"),
-                                         module<Localizer>(kModules, "scan_to_map")));
+                                         module<Localizer>(kModules, "scan_to_map"),
+                                         module<Localizer>(kModules, "submap_graph")));
 
 }  // namespace
 }  // namespace cairn::conformance

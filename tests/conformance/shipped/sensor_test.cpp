@@ -100,6 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SensorConformance,
                                          module<Sensor>(kModules, "carmen_log", kCarmen),
                                          module<Sensor>(kModules, "player_log", config_of("player.log")),
                                          module<Sensor>(kModules, "json_log", config_of("scans.json")),
+                                         module<Sensor>(kModules, "laser_log", config_of("scans.json")),
                                          module<Sensor>(kModules, "lego_log", kLego),
                                          module<Sensor>(kModules, "sonar_from_laser", kDerived)));
 

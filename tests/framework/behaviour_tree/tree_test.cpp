@@ -101,6 +101,15 @@ TEST_F(MissionTreeFiles, EveryNodeIsReadWithItsSettingsAndPath) {
   EXPECT_EQ(behaviours[2], &tree.steps[1].children[0]);
 }
 
+TEST_F(MissionTreeFiles, NameAloneWithSettingsIsTheBehaviourOfThatName) {
+  const MissionTree tree = read("- name: {as: sofa}\n- {wait: 1, name: rest}\n");
+  ASSERT_EQ(tree.errors.size(), 0U);
+  EXPECT_EQ(tree.steps[0].choice.name, "name");
+  EXPECT_EQ(tree.steps[0].name, "name");
+  EXPECT_EQ(tree.steps[1].choice.name, "wait");
+  EXPECT_EQ(tree.steps[1].name, "rest");
+}
+
 TEST_F(MissionTreeFiles, WhatIsWrongIsReportedWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"wait: 1", "main.yaml:1:1: steps: expected a list of at least one step, found a map"},

@@ -84,6 +84,10 @@ TEST(Override, SaysWhatIsWrong) {
   EXPECT_EQ(setting("seed"), "--set: expected KEY=VALUE, found \"seed\"");
   EXPECT_EQ(setting("=3"), "--set: expected KEY=VALUE, found \"=3\"");
   EXPECT_EQ(setting("a..b=3"), "--set a..b: a part of the key is empty");
+  ConfigValue root = example();
+  EXPECT_EQ(error_of([&] { apply_override(root, "a..b=3", "--clusters"); }),
+            "--clusters a..b: a part of the key is empty")
+      << "the option that it was given to";
   EXPECT_EQ(setting("seed.x=3"), "--set seed.x: no key \"x\" below the value \"7\" at m.yaml:1:7, which is not a map");
   EXPECT_EQ(setting("steps.2.save=b"),
             "--set steps.2.save: \"2\" is not an item of the list at m.yaml:4:3; allowed: 0 to 1");

@@ -43,6 +43,7 @@ TEST(ExperimentReport, RunsThatDidNotEndWellAreLeftOutAndCounted) {
   rows[3].result.outcome = MissionOutcome::cancelled;
   rows[3].quality.reset();
   const std::string table = table_of(maps_of_two(), rows);
+  EXPECT_THAT(table, testing::StartsWith("**Cancelled: 1 of 4 runs did not come to their end.**\n"));
   EXPECT_THAT(table, HasSubstr("1 that did not end well left out"));
   EXPECT_THAT(table, HasSubstr("| better | 0.1000 |"));
   EXPECT_THAT(table, HasSubstr("| -0.1000 |")) << "of the one seed that both have, which has no interval";

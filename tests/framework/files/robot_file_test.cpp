@@ -153,6 +153,11 @@ TEST(RobotFile, LittleIsNeeded) {
   EXPECT_TRUE(robot.firing_order.empty());
 }
 
+TEST(RobotFile, WithoutACompassInItTheRobotHasNone) {
+  EXPECT_FALSE(load_text("name: disc\nradius_m: 0.3\n").has_compass);
+  EXPECT_TRUE(load_text("name: disc\nradius_m: 0.3\ncompass: {noise_deg: 2}\n").has_compass);
+}
+
 TEST(RobotFile, APolygonIsEnclosedByItsRadius) {
   const RobotModel robot = load_text(
       "name: box\npolygon_m: [[-0.1, -0.2], [-0.1, 0.2], [0.3, 0.2], [0.3, -0.2]]\nkinematics: car\n"

@@ -75,6 +75,17 @@ TEST_F(LandmarkTrackerTest, ADetectionNearALandmarkIsThatLandmark) {
   EXPECT_DOUBLE_EQ(tracker_.graph().find(1)->T_map_landmark.x_m, 1.5);
 }
 
+TEST_F(LandmarkTrackerTest, ANameStaysWithTheLandmarkThatAnotherProvesToBe) {
+  update(detection_at(1.5, 2.0, "square", 0.6));
+  update(detection_at(1.95, 2.0, "square", 0.65));
+  EXPECT_TRUE(tracker_.name(2, "desk"));
+  EXPECT_FALSE(tracker_.name(7, "desk"));
+  EXPECT_EQ(update(detection_at(1.78, 2.0, "square", 0.7)),
+            (Changes{{2, ChangeKind::retired}, {1, ChangeKind::changed}}));
+  EXPECT_EQ(tracker_.graph().find(1)->name, "desk");
+  EXPECT_EQ(tracker_.graph().retired().at(2).reason, "is desk");
+}
+
 TEST_F(LandmarkTrackerTest, ABetterDegreeCorrectsThePlaceButKeepsTheId) {
   update(detection_at(1.5, 2.0, "square", 0.6));
   EXPECT_EQ(update(detection_at(1.55, 2.0, "square", 0.8)), (Changes{{1, ChangeKind::changed}}));

@@ -15,6 +15,7 @@ TemplateSet circle_only() {
 
 INSTANTIATE_TEST_SUITE_P(PillarFinder, DetectorConformance,
                          testing::Values(module<Detector>(PLUGIN_FOLDER, "pillar_finder", "{diameter_m: 0.5}")
+                                             .with_robot_file(ROBOT_FILE)
                                              .with_templates(circle_only())));
 
 }  // namespace

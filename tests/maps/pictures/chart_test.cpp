@@ -58,7 +58,7 @@ TEST_F(Charts, DrawUnevenIntervalsByTheirEnds) {
   Series none{"nothing", {{0, kNan}}, SeriesStyle::lines, {}};
   none.ends = {{0, 0}};
   chart.series = {shares, none};
-  chart.both_from_zero = true;
+  chart.of_shares_over_x = true;
   const std::string script = gnuplot_script(chart);
   EXPECT_THAT(script, HasSubstr("$data0 << END_OF_DATA\n0 0.9 0.7 0.95\n0.1 0.5 0.3 0.6\nEND_OF_DATA\n"));
   EXPECT_THAT(script, HasSubstr("using 1:2:3:4 with yerrorlines"));
@@ -68,11 +68,22 @@ TEST_F(Charts, DrawUnevenIntervalsByTheirEnds) {
 
 TEST_F(Charts, BeginAtZeroWhereNothingIsLess) {
   Chart chart;
-  chart.series = {{"error", {{0, 0.0}, {1, 0.02}}, SeriesStyle::lines, {}}};
-  EXPECT_THAT(gnuplot_script(chart), testing::Not(HasSubstr("set yrange")));
-  chart.from_zero = true;
-  EXPECT_THAT(gnuplot_script(chart), HasSubstr("set yrange [0:*]\n"));
+  chart.series = {{"error", {{2, 0.5}, {3, 0.52}}, SeriesStyle::lines, {}}};
+  EXPECT_THAT(gnuplot_script(chart), HasSubstr("set xrange [0:*]\nset yrange [0:*]\n"));
   EXPECT_TRUE(write_chart(file("error.png"), chart).drawn);
+  chart.series[0].points.emplace_back(4, -0.1);
+  EXPECT_THAT(gnuplot_script(chart), HasSubstr("set xrange [0:*]\nset offsets"));
+  EXPECT_TRUE(write_chart(file("log_loss.png"), chart).drawn);
+  chart.series[0].points.emplace_back(-4, 0.1);
+  EXPECT_THAT(gnuplot_script(chart), testing::Not(HasSubstr("range [0")));
+}
+
+TEST_F(Charts, LogarithmicAxesDoNotBeginAtZero) {
+  Chart chart;
+  chart.series = {{"time", {{1, 1}, {1000, 50}}, SeriesStyle::lines, {}}};
+  chart.log_x = chart.log_y = true;
+  EXPECT_THAT(gnuplot_script(chart), testing::Not(HasSubstr("range [0")));
+  EXPECT_TRUE(write_chart(file("time.png"), chart).drawn);
 }
 
 TEST_F(Charts, NamePlacesAndDrawErrorBarsWhereTheyAreGiven) {
@@ -89,7 +100,6 @@ TEST_F(Charts, NamePlacesAndDrawErrorBarsWhereTheyAreGiven) {
 TEST_F(Charts, OfSharesReachFromZeroToOne) {
   Chart chart;
   chart.series = {{"curve", {{0.4, 0.9}, {0.6, 0.8}}, SeriesStyle::lines, {}}};
-  EXPECT_EQ(gnuplot_script(chart).find("set xrange"), std::string::npos);
   chart.of_shares = true;
   EXPECT_THAT(gnuplot_script(chart), HasSubstr("set xrange [0:1.01]\nset yrange [0:1.01]\n"));
   EXPECT_TRUE(write_chart(file("shares.png"), chart).drawn);

@@ -257,7 +257,7 @@ TEST(LabelPlacer, KeepsLabelsOffLandmarksAndOffEachOther) {
   // A landmark is round: a label may touch the corners of its box.
   for (const Pixel& centre : centres) taken.push_back({centre - Pixel(14, 14), centre + Pixel(14, 14)});
   for (const Pixel& centre : centres) {
-    const PixelBox label = placer.place(centre, 20.0, {110, 18});
+    const PixelBox label = placer.place(centre, 20.0, {110, 18}).value();
     for (const PixelBox& other : taken) EXPECT_FALSE(overlap(label, other)) << centre.transpose();
     EXPECT_TRUE(label.min.x() >= 0 && label.min.y() >= 0 && label.max.x() <= 1000 && label.max.y() <= 1000);
     taken.push_back(label);
@@ -267,7 +267,26 @@ TEST(LabelPlacer, KeepsLabelsOffLandmarksAndOffEachOther) {
 TEST(LabelPlacer, WouldRatherCoverTheEmptyBackground) {
   const PixelBox area{{0, 0}, {400, 400}};
   pictures::LabelPlacer placer(area, [](const PixelBox& box) { return box.centre().x() > 200 ? 1.0 : 0.0; });
-  EXPECT_LT(placer.place({200, 200}, 10.0, {80, 18}).max.x(), 200);
+  EXPECT_LT(placer.place({200, 200}, 10.0, {80, 18}).value().max.x(), 200);
+}
+
+TEST(LabelPlacer, LeavesOutALabelThatWouldOverlapAnotherOrWhatIsKeptClear) {
+  const PixelBox area{{0, 0}, {400, 400}};
+  pictures::LabelPlacer placer(area, [](const PixelBox&) { return 0.0; });
+  placer.keep_line_clear(std::array{Pixel(100, 0), Pixel(100, 400)});
+  std::vector<PixelBox> labels;
+  int left_out = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto label = placer.place({200, 200}, 5.0, {60, 18});
+    left_out += label ? 0 : 1;
+    if (label) labels.push_back(*label);
+  }
+  EXPECT_GT(labels.size(), 4U);
+  EXPECT_GT(left_out, 20) << "there is not that much room about one point";
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(overlap(labels[i], labels[k]));
+  for (const PixelBox& label : labels) EXPECT_TRUE(label.max.x() < 100 || label.min.x() > 100);
+  EXPECT_FALSE(placer.place({200, 200}, 5.0, {900, 18})) << "wider than the picture";
 }
 
 TEST_F(MapPictures, OfTheCoarseGridShowItsGreysAndItsTrigger) {

@@ -49,6 +49,11 @@ class FakeHost : public BehaviourContext {
     return found == values.end() ? std::nullopt : std::optional(found->second);
   }
   void output(const std::string& name, const Place& place) override { values[name] = place; }
+  Status name_landmark(LandmarkId id, const std::string& name) override {
+    if (graph.find(id) == nullptr) return {StepState::failure, "no such landmark"};
+    graph.find(id)->name = name;
+    return {StepState::success, "L" + std::to_string(id) + " is now " + name};
+  }
 
   // Ticks until the behaviour ends or the time is up (then its status is still running).
   Status run(Behaviour& behaviour, double at_most_s);

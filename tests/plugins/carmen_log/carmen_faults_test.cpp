@@ -69,6 +69,39 @@ TEST_F(CarmenFaults, RangesOf1e300AreRefusedOrTheirLineIsSkipped) {
             "\"1e300\"");
 }
 
+// Laser lines of a robot that drives 0.1 m from one to the next, with a pose and the odometry beside it.
+std::string driven(int lines, double odometry_ratio) {
+  std::string text;
+  for (int i = 0; i < lines; ++i) {
+    const std::string x = std::to_string(0.1 * i);
+    text += "FLASER 2 1 2 " + x + " 0 0 " + std::to_string(odometry_ratio * 0.1 * i) + " 0 0 " + std::to_string(i) +
+            " host 1\n";
+  }
+  return text;
+}
+
+TEST_F(CarmenFaults, ALogWithoutPosesIsWarnedOf) {
+  EXPECT_EQ(fault_of(driven(12, 1.0)).find("same pose"), std::string::npos);
+  std::string text;
+  for (int i = 0; i < 12; ++i) text += "FLASER 2 1 2 0 0 0 0 0 0 " + std::to_string(i) + " host 1\n";
+  EXPECT_EQ(
+      fault_of(text),
+      "end of a.log after 12 observations; all observations have the same pose: the log holds no poses, or the "
+      "robot stood still; where it drove, `localizer: {plugin: scan_to_map}` estimates them from a laser's scans");
+  EXPECT_EQ(fault_of(kGood + kGood + kGood), "end of a.log after 3 observations") << "too few to judge";
+}
+
+TEST_F(CarmenFaults, OdometryThatEqualsThePosesIsWarnedOf) {
+  const std::string warning =
+      "end of a.log after 12 observations; the odometry of all 12 laser lines equals their pose: the log is not "
+      "corrected, or its odometry was replaced by the corrected poses, on which no localizer can be tried";
+  EXPECT_EQ(fault_of(driven(12, 1.0)), warning);
+  config_.poses = Poses::odometry;
+  EXPECT_EQ(fault_of(driven(12, 1.0)), warning);
+  EXPECT_EQ(fault_of(driven(12, 1.01)), "end of a.log after 12 observations");
+  EXPECT_EQ(fault_of(driven(9, 1.0)), "end of a.log after 9 observations") << "too few to judge";
+}
+
 TEST_F(CarmenFaults, ACutOffLogIsRefusedOrReadAsFarAsItGoes) {
   std::string text;
   std::mt19937 random(1);

@@ -147,6 +147,14 @@ TEST(SimulatedRobot, DrivesArcsWithinItsLimits) {
   EXPECT_NEAR(drive_for(sensor, {0.0, 0.0}, 2.0).true_T_map_robot->y_m - 2.0, 0.16 + 9.2 * 0.4 + 0.16, 1e-9);
 }
 
+TEST(SimulatedRobot, HasNoCompassWhereItsFileGivesNone) {
+  const World world;
+  RobotModel robot = exact_robot();
+  robot.has_compass = false;
+  SimulatedRobot sensor({}, robot, &world, {1.0, 2.0, 0.0}, 1);
+  EXPECT_FALSE(drive_for(sensor, {0.1, 0.0}, 1.0).compass_rad);
+}
+
 TEST(SimulatedRobot, ClosesACircleExactly) {
   RobotModel robot = exact_robot();
   robot.max_acceleration_mps2 = 1e6;

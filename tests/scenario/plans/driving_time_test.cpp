@@ -31,7 +31,7 @@ class DrivingTime : public testing::Test {
   }
   [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
   [[nodiscard]] Finished run(const std::string& map, std::vector<std::string> more) const {
-    more.insert(more.begin(), {"plan", file(map), "--from", "1,3", "--to", "4,3"});
+    more.insert(more.begin(), {"plan", file(map), "--from", "1,3", "--to", "4,3", "--margin-m", "0"});
     return run_cairn(more);
   }
   [[nodiscard]] json asked(const std::string& map, std::vector<std::string> more = {}) const {

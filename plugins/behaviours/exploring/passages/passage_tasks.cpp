@@ -3,24 +3,21 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "plugins/common/motion/path.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
-ExploreTask look_at(const Passage& passage, const FreeSpace& space) {
-  ExploreTask task;
-  task.kind = TaskKind::opening;
-  task.about = passage.at_m;
-  task.width_m = passage.width_m;
-  task.lookout = space.centre_of(passage.lookout);
-  task.path = space.path_to(passage.lookout);
-  task.by_route = task.path.empty();
-  return task;
+std::string too_narrow(double radius_m) {
+  char text[64];
+  std::snprintf(text, sizeof text, "too narrow for %.2f m", 2.0 * radius_m);
+  return text;
 }
 
 }  // namespace
 
 std::string sentence_of(const NotEntered& opening) {
-  char text[160];
+  char text[240];
   std::snprintf(text, sizeof text, "opening at (%.2f, %.2f), %.2f m wide: %s", opening.at_m.x(), opening.at_m.y(),
                 opening.width_m, opening.why.c_str());
   return text;
@@ -32,80 +29,152 @@ const PassageTasks::Tried* PassageTasks::find(const Point& at_m) const {
   return found == tried_.end() ? nullptr : &*found;
 }
 
-std::vector<Point> PassageTasks::given_up() const {
+PassageTasks::Tried& PassageTasks::at(const Point& at_m) {
+  const auto found =
+      std::ranges::find_if(tried_, [&](const Tried& t) { return (t.at_m - at_m).norm() < settings_.same_m; });
+  if (found != tried_.end()) return *found;
+  Tried tried;
+  tried.at_m = at_m;
+  return *tried_.insert(tried_.end(), tried);
+}
+
+std::vector<Point> PassageTasks::places_where(bool (*is_so)(const Tried&)) const {
   std::vector<Point> places;
   for (const Tried& tried : tried_)
-    if (tried.is_given_up) places.push_back(tried.at_m);
+    if (is_so(tried)) places.push_back(tried.at_m);
   return places;
 }
 
-std::optional<ExploreTask> PassageTasks::next(const FreeSpace& space, const Explored& explored, const Point& robot) {
-  const CellLayer<char> reach = reach_of(space, explored.trace);
-  PassageSearch open{false, given_up()};
-  while (const auto passage = nearest_passage(space, explored.grid, reach, robot, open, settings_)) {
-    const bool is_looked_at = std::ranges::any_of(
-        explored.looked_at, [&](const Point& p) { return (p - passage->at_m).norm() < settings_.same_m; });
-    ExploreTask task = look_at(*passage, space);
-    if (!is_looked_at) return task;
-    if (passage->width_m < 2.0 * settings_.drive_radius_m) {
-      record(task, false, "it still looks too narrow from straight before it");
-      open.without.push_back(passage->at_m);
-      continue;
-    }
-    task.kind = TaskKind::passage;
-    task.lookout = passage->beyond_m;
-    task.path.clear();
-    task.by_route = true;
+ExploreTask PassageTasks::drive_through(const HeardOpening& heard, double radius_m) const {
+  ExploreTask task;
+  task.kind = TaskKind::passage;
+  task.about = heard.middle_m;
+  task.width_m = heard.width_m;
+  const Point ahead = (heard.middle_m - heard.from_m).normalized();
+  task.lookout = heard.from_m;
+  task.beyond_m = heard.middle_m + (radius_m + drive_.past_m) * ahead;
+  return task;
+}
+
+std::optional<ExploreTask> PassageTasks::next(const Explored& explored, const Point& robot) {
+  const CellLayer<char> reach = reach_of(explored.space, explored.trace);
+  const auto look_at = [&](const Passage& passage) {
+    ExploreTask task;
+    task.kind = TaskKind::opening;
+    task.about = passage.at_m;
+    task.width_m = passage.width_m;
+    task.lookout = explored.space.centre_of(passage.lookout);
+    task.path = explored.space.path_to(passage.lookout);
+    return task;
+  };
+  PassageSearch open{false, places_where([](const Tried& t) { return t.is_given_up; })};
+  if (const auto passage = nearest_passage(explored.map, explored.passed, reach, robot, open, settings_)) {
+    const Tried* const tried = find(passage->at_m);
+    if (tried == nullptr || !tried->heard) return look_at(*passage);
+    ExploreTask task = drive_through(*tried->heard, explored.radius_m);
+    task.path = explored.space.path_to(explored.space.cell_at(task.lookout));
     return task;
   }
   if (suspects_ >= settings_.max_suspects) return std::nullopt;
-  PassageSearch hidden{true, given_up()};
-  hidden.without.insert(hidden.without.end(), open.without.begin(), open.without.end());
-  hidden.without.insert(hidden.without.end(), explored.looked_at.begin(), explored.looked_at.end());
-  const auto suspect = nearest_passage(space, explored.grid, reach, robot, hidden, settings_);
+  PassageSearch hidden{true, places_where([](const Tried& t) { return t.is_given_up || t.heard; })};
+  const auto suspect = nearest_passage(explored.map, explored.passed, reach, robot, hidden, settings_);
   if (!suspect) return std::nullopt;
-  ExploreTask task = look_at(*suspect, space);
+  ExploreTask task = look_at(*suspect);
   task.is_suspect = true;
   return task;
 }
 
-void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::string& why) {
-  auto found =
-      std::ranges::find_if(tried_, [&](const Tried& t) { return (t.at_m - task.about).norm() < settings_.same_m; });
-  if (found == tried_.end()) found = tried_.insert(tried_.end(), Tried{task.about, 0, false, {}});
-  ++found->tries;
-  found->why = why;
-  // One that was passed and is still not known to be open is not driven through for ever.
-  found->is_given_up = !has_passed || found->tries >= settings_.max_tries;
+void PassageTasks::record_unreachable(const ExploreTask& task) {
+  Tried& tried = at(task.about);
+  tried.is_given_up = true;
+  tried.is_unreachable = true;
+  tried.why = "no path leads to it";
 }
 
-bool PassageTasks::retry(std::vector<Point>& looked_at) {
+std::optional<ExploreTask> PassageTasks::record_look(const ExploreTask& task, const HeardOpening& heard,
+                                                     double radius_m) {
+  suspects_ += task.is_suspect ? 1 : 0;
+  Tried& tried = at(task.about);
+  tried.heard = heard;
+  if (!heard.is_heard) {  // without a sonar that looks there, the map is all that is known
+    tried.heard->width_m = task.width_m;
+    tried.heard->middle_m = task.about;
+  }
+  tried.at_m = tried.heard->middle_m;
+  const double min_clearance_m =
+      drive_.clearances_m.empty() ? 0.0 : *std::min_element(drive_.clearances_m.begin(), drive_.clearances_m.end());
+  tried.is_too_narrow = tried.heard->width_m + drive_.width_error_m < 2.0 * (radius_m + min_clearance_m);
+  if (!tried.is_too_narrow) return drive_through(*tried.heard, radius_m);
+  tried.is_given_up = true;
+  tried.why = too_narrow(radius_m);
+  return std::nullopt;
+}
+
+void PassageTasks::forget_unreachable() {
+  for (Tried& tried : tried_) {
+    if (!tried.is_unreachable) continue;
+    tried.is_unreachable = false;
+    tried.is_given_up = false;
+  }
+}
+
+void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::string& why) {
+  if (has_passed) forget_unreachable();
+  Tried& tried = at(task.about);
+  ++tried.tries;
+  tried.why = why;
+  tried.was_passed = tried.was_passed || has_passed;
+  // One that was passed and is still not known to be open is not driven through for ever.
+  tried.is_given_up = !has_passed || tried.tries >= settings_.max_tries;
+}
+
+std::optional<ExploreTask> PassageTasks::passed_on(const std::vector<Point>& path, double radius_m) const {
+  constexpr double kStep_m = 0.05;
+  const double length_m = length_of(path);
+  for (double s = 0.0; s < length_m; s += kStep_m) {
+    const Point p = motion::point_along(path, s);
+    for (const Tried& tried : tried_) {
+      if (!tried.was_passed || !tried.heard || (p - tried.heard->middle_m).norm() > 0.5 * tried.heard->width_m)
+        continue;
+      HeardOpening through = *tried.heard;
+      const Point ahead = motion::point_along(path, std::min(length_m, s + radius_m)) - p;
+      if (ahead.dot(through.middle_m - through.from_m) < 0.0)  // back
+        through.from_m = 2.0 * through.middle_m - through.from_m;
+      return drive_through(through, radius_m);
+    }
+  }
+  return std::nullopt;
+}
+
+bool PassageTasks::retry() {
   if (has_retried_) return false;
   has_retried_ = true;
   bool is_any = false;
   for (Tried& tried : tried_) {
-    if (!tried.is_given_up || tried.why.empty() || tried.tries >= settings_.max_tries) continue;
+    is_any = is_any || tried.is_unreachable;
+    if (!tried.is_given_up || tried.was_passed || tried.tries == 0 || tried.tries >= settings_.max_tries) continue;
     tried.is_given_up = false;
-    std::erase_if(looked_at, [&](const Point& p) { return (p - tried.at_m).norm() < settings_.same_m; });
+    tried.heard.reset();
     is_any = true;
   }
+  forget_unreachable();
   return is_any;
 }
 
-std::vector<NotEntered> PassageTasks::not_entered(const FreeSpace& space, const Explored& explored,
-                                                  double radius_m) const {
-  const CellLayer<char> reach = reach_of(space, explored.trace);
+std::vector<NotEntered> PassageTasks::not_entered(const Explored& explored) const {
+  const CellLayer<char> reach = reach_of(explored.space, explored.trace);
   const Point robot = explored.trace.back().position();
   std::vector<NotEntered> openings;
   PassageSearch search;
-  while (const auto passage = nearest_passage(space, explored.grid, reach, robot, search, settings_)) {
+  while (const auto passage = nearest_passage(explored.map, explored.passed, reach, robot, search, settings_)) {
     search.without.push_back(passage->at_m);
-    NotEntered opening{passage->at_m, passage->width_m, passage->width_m < 2.0 * radius_m, {}};
-    char text[64];
-    std::snprintf(text, sizeof text, "too narrow for %.2f m", 2.0 * radius_m);
-    const Tried* const tried = find(passage->at_m);
-    if (tried != nullptr && tried->why.empty()) continue;  // it has been in there
-    opening.why = opening.is_too_narrow ? text : tried != nullptr ? tried->why : "not tried";
+    NotEntered opening{passage->at_m, passage->width_m, false, "not tried"};
+    if (const Tried* const tried = find(passage->at_m)) {
+      if (tried->was_passed) continue;  // it has been in there
+      if (tried->heard) opening.width_m = tried->heard->width_m;
+      opening.is_too_narrow = tried->is_too_narrow;
+      opening.why = tried->why;
+    }
     openings.push_back(opening);
   }
   return openings;

@@ -1,7 +1,8 @@
 // Which passage exploring looks at or drives through next, and what has come of those that it has tried.
 //
-// Each passage is looked at from straight before it, then driven through as `goto` drives. One that the robot does not
-// get through is tried once more when nothing else is left, then given up with its reason.
+// Each passage is looked at from straight before it, and its width is what was heard in that look. Where the robot may
+// fit it drives through at once. One that it does not get through is tried once more when nothing else is left, then
+// given up with its reason.
 #pragma once
 
 #include <optional>
@@ -24,34 +25,59 @@ struct NotEntered {
 
 class PassageTasks {
  public:
-  explicit PassageTasks(const PassageSettings& settings) : settings_(settings) {}
+  PassageTasks(const PassageSettings& settings, const PassageDriveSettings& drive)
+      : settings_(settings), drive_(drive) {}
 
+  // space: as the robot moves in it. map: what passages are searched in, of the same cells, without the walls that
+  // echoes have passed. passed: log-odds below 0 where echoes have passed.
   struct Explored {
-    const OccupancyGrid& grid;
+    const FreeSpace& space;
+    const FreeSpace& map;
+    const OccupancyGrid& passed;
     const std::vector<Pose2>& trace;
-    const std::vector<Point>& looked_at;  // openings
+    double radius_m = 0.2;  // of the robot
   };
-  // The next look or drive; then walls that may hide a door. None when nothing is left.
-  [[nodiscard]] std::optional<ExploreTask> next(const FreeSpace& space, const Explored& explored, const Point& robot);
-  void record_look(const ExploreTask& task) { suspects_ += task.is_suspect ? 1 : 0; }
+  // The next passage to look at, or one that was looked at and not driven through yet; then walls that may hide a door.
+  // None when nothing is left. Its path is empty where none leads to its lookout with the space's clearance.
+  [[nodiscard]] std::optional<ExploreTask> next(const Explored& explored, const Point& robot);
+  // That the robot cannot get to where it would look, or line up; until it has passed another passage, or tries all
+  // once more.
+  void record_unreachable(const ExploreTask& task);
+  // What was looked at and is too narrow.
+  [[nodiscard]] std::vector<Point> closed() const {
+    return places_where([](const Tried& t) { return t.is_too_narrow; });
+  }
+  // What a look has shown. The drive through it, where the robot may fit.
+  [[nodiscard]] std::optional<ExploreTask> record_look(const ExploreTask& task, const HeardOpening& heard,
+                                                       double radius_m);
+  // What has come of the drive.
   void record(const ExploreTask& task, bool has_passed, const std::string& why);
-  // looked_at: what is tried once more is looked at again, too.
-  [[nodiscard]] bool retry(std::vector<Point>& looked_at);
+  // The drive back, or there again, through the first passage on a path that the robot has passed before.
+  [[nodiscard]] std::optional<ExploreTask> passed_on(const std::vector<Point>& path, double radius_m) const;
+  // False when there is none to try once more; what is tried once more is looked at again, too.
+  [[nodiscard]] bool retry();
   // Given up or never tried.
-  [[nodiscard]] std::vector<NotEntered> not_entered(const FreeSpace& space, const Explored& explored,
-                                                    double radius_m) const;
+  [[nodiscard]] std::vector<NotEntered> not_entered(const Explored& explored) const;
 
  private:
   struct Tried {
     Point at_m{0.0, 0.0};
+    std::optional<HeardOpening> heard;  // when it was looked at last
     int tries = 0;
+    bool is_too_narrow = false;
+    bool is_unreachable = false;
     bool is_given_up = false;  // for now
+    bool was_passed = false;
     std::string why;
   };
   [[nodiscard]] const Tried* find(const Point& at_m) const;
-  [[nodiscard]] std::vector<Point> given_up() const;
+  void forget_unreachable();
+  [[nodiscard]] Tried& at(const Point& at_m);
+  [[nodiscard]] std::vector<Point> places_where(bool (*is_so)(const Tried&)) const;
+  [[nodiscard]] ExploreTask drive_through(const HeardOpening& heard, double radius_m) const;
 
   PassageSettings settings_;
+  PassageDriveSettings drive_;
   std::vector<Tried> tried_;
   int suspects_ = 0;  // looked at
   bool has_retried_ = false;

@@ -89,6 +89,54 @@ TEST(RandomWorld, TheSpecularRatioChangesSurfacesOnly) {
   EXPECT_NE(random_world_yaml({}, shapes(), 0.0, 8), rough);
 }
 
+TEST(RandomWorld, PutsAShelfBesideEachLandmark) {
+  RandomWorldConfig config;
+  config.shelf_gap_m = 0.1;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const World world = loaded(random_world_yaml(config, shapes(), 0.0, seed));
+    const auto is_landmark = [](const WorldObject& object) { return !object.category.empty(); };
+    const auto landmarks = std::ranges::count_if(world.objects, is_landmark);
+    const std::size_t first_shelf = world.objects.size() - static_cast<std::size_t>(landmarks);
+    std::size_t shelf = first_shelf;
+    for (std::size_t i = 0; i < first_shelf; ++i) {
+      const WorldObject& a = world.objects[i];
+      if (!is_landmark(a)) continue;
+      const WorldObject& b = world.objects[shelf++];
+      const double to_shelf_m = b.contour.signed_distance(inverse(b.T_map_object) * a.T_map_object.position());
+      EXPECT_NEAR(to_shelf_m, 0.5 * a.contour.outer_diameter_m() + 0.1, 3e-3) << "seed " << seed;
+    }
+    EXPECT_EQ(shelf, world.objects.size());
+  }
+}
+
+TEST(RandomWorld, ChairsStandOnFourLegsClearOfAllElse) {
+  RandomWorldConfig config;
+  config.chairs = 3;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const World world = loaded(random_world_yaml(config, shapes(), 0.0, seed));
+    const std::size_t things = world.objects.size() - 12;
+    for (std::size_t leg = things; leg < world.objects.size(); ++leg) {
+      const Point at_m = world.objects[leg].T_map_object.position();
+      EXPECT_NEAR(world.objects[leg].contour.outer_diameter_m(), 0.04, 1e-9);
+      EXPECT_GT((at_m - config.start_m).norm(), config.start_gap_m);
+      for (std::size_t i = 0; i < things; ++i)
+        EXPECT_GT((at_m - world.objects[i].T_map_object.position()).norm(),
+                  0.5 * world.objects[i].contour.outer_diameter_m() + 0.5)
+            << "seed " << seed;
+      for (std::size_t other = things; other < leg; ++other)
+        EXPECT_GT((at_m - world.objects[other].T_map_object.position()).norm(), 0.39) << "seed " << seed;
+    }
+  }
+}
+
+TEST(RandomWorld, HasAtLeastSoManyMovers) {
+  RandomWorldConfig config;
+  config.min_movers = 2;
+  config.max_movers = 2;
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    EXPECT_EQ(loaded(random_world_yaml(config, shapes(), 0.0, seed)).movers.size(), 2U) << "seed " << seed;
+}
+
 double distance_to_way(const Point& p, const WorldMover& mover) {
   double nearest_m = 1e9;
   for (int i = 0; i <= 100; ++i)

@@ -54,6 +54,20 @@ TEST_F(BehaviourRequestsTest, WithoutAPlannerThereIsNoRoute) {
   EXPECT_EQ(none.reason, "the mission names no planner");
 }
 
+TEST_F(BehaviourRequestsTest, ALandmarkGetsANameUnlessItWouldFindSomethingElse) {
+  LandmarkGraph graph;
+  graph.add({});
+  graph.add({});
+  tracker_.restore(graph, {}, {});
+  EXPECT_EQ(requests().name_landmark(2, "sofa"), (Status{StepState::success, "L2 is now sofa"}));
+  EXPECT_EQ(tracker_.graph().find_by_name("sofa")->id, 2);
+  EXPECT_EQ(requests().name_landmark(2, "sofa").state, StepState::success) << "its own";
+  EXPECT_EQ(requests().name_landmark(1, "sofa"),
+            (Status{StepState::failure, "the name \"sofa\" cannot be given: landmark L2 has it"}));
+  EXPECT_EQ(requests().name_landmark(2, "couch"), (Status{StepState::success, "sofa is now couch"}));
+  EXPECT_EQ(requests().name_landmark(7, "desk"), (Status{StepState::failure, "there is no landmark L7"}));
+}
+
 TEST_F(BehaviourRequestsTest, ASaveThatFailsIsRememberedForItsLeaf) {
   EXPECT_EQ(requests().save("a.cairn").state, StepState::success);
   EXPECT_FALSE(requests().take().has_failed_to_save);

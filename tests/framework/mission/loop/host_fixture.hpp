@@ -95,7 +95,8 @@ class HostFixture : public testing::Test {
     return *saving_;
   }
   HostParts host() {
-    return {mission_, modules().clock, world_, publisher_, monitor_, planning(), saving(), modules().controller};
+    return {mission_, modules().clock,      world_,  publisher_, monitor_, planning(),
+            saving(), modules().controller, tracker_};
   }
   void attach_drive() { monitor_.attach({drive_, modules().clock, modules().drive}); }
   [[nodiscard]] virtual SavedMap content(ClusterTree clusters) const {
@@ -121,6 +122,7 @@ class HostFixture : public testing::Test {
   OccupancyGrid grid_ = free_floor();
   LandmarkGraph graph_;
   WorldState world_{mission_.robot, graph_, Pose2{}};
+  LandmarkTracker tracker_{mission_.config.landmarks, mission_.robot, {}};
   Publisher publisher_{world_};
   EventNames events_;
   CollisionMonitor monitor_{CollisionMonitorConfig{}, mission_.robot};

@@ -23,6 +23,33 @@ class OffsetLocalizer : public Localizer {
   std::size_t landmarks_known = 0;
 };
 
+// Finds out at some time that all poses so far were off by so much.
+class CorrectingLocalizer : public OffsetLocalizer, public PoseHistory {
+ public:
+  PoseEstimate update(const Observation& observation, const KnownMap& known) override {
+    const PoseEstimate pose = OffsetLocalizer::update(observation, known);
+    poses_.push_back(pose.T_map_robot);
+    return pose;
+  }
+  PoseHistory* history() override { return this; }
+  void correct(double by_m) {
+    for (Pose2& pose : poses_) pose.x_m += by_m;
+    ++revision_;
+  }
+  [[nodiscard]] std::vector<Pose2> poses() const override { return poses_; }
+  [[nodiscard]] std::uint64_t revision() const override { return revision_; }
+  bool finish_part() override {
+    if (parts_left == 0) return false;
+    if (--parts_left == 0) correct(0.02);
+    return true;
+  }
+  int parts_left = 3;
+
+ private:
+  std::vector<Pose2> poses_;
+  std::uint64_t revision_ = 0;
+};
+
 class CountingMapper : public Mapper {
  public:
   CountingMapper() { grid_.set_log_odds({3, 3}, 500); }
@@ -178,6 +205,59 @@ TEST_F(PerceptionTest, TheGridOfAnEarlierRunIsShownToTheDetectorWithoutAnyMatchi
   EXPECT_EQ(detector_->shown, 1);
   EXPECT_TRUE(perception().tracker().graph().landmarks().empty());
   EXPECT_EQ(perception().tracker().driven_path(), map.driven_path);
+}
+
+TEST_F(PerceptionTest, AMapOfAPastThatWasCorrectedIsDrawnAnewAtTheCorrectedPoses) {
+  const auto correcting = std::make_shared<CorrectingLocalizer>();
+  built_.localizer = correcting;
+  (void)perception().begin();
+  const auto tick = [&](double x_m) {
+    const Observation seen = observation(2, x_m);
+    const PoseEstimate pose = perception().localize(seen);
+    const bool is_moved = perception().is_map_moved();
+    perception().map(seen, pose);
+    return is_moved;
+  };
+  EXPECT_FALSE(tick(0.0));
+  EXPECT_FALSE(tick(1.0)) << "nothing was corrected";
+  correcting->correct(0.1);
+  EXPECT_FALSE(tick(2.0)) << "by less than what a map is drawn anew for";
+  correcting->correct(0.5);
+  const Observation seen = observation(2, 3.0);
+  const PoseEstimate pose = perception().localize(seen);
+  ASSERT_TRUE(perception().is_map_moved());
+  const auto map = std::make_shared<CountingMapper>();
+  EXPECT_EQ(&perception().redraw(map), &map->grid());
+  EXPECT_EQ(map->readings, 6U) << "of three observations";
+  EXPECT_NEAR(map->at.x_m, 2.0 + 1.0 + 0.5, 1e-12) << "the third, and what was corrected after it";
+  const CellChanges& changes = perception().map(seen, pose);
+  EXPECT_FALSE(changes.spans.empty()) << "the detector examines all of it";
+  EXPECT_EQ(map->readings, 8U);
+  EXPECT_EQ(mapper_->readings, 6U) << "the earlier map gets nothing more";
+  EXPECT_NEAR(perception().tracker().driven_path().front().x_m, 1.0 + 0.6, 1e-12);
+}
+
+TEST_F(PerceptionTest, TheLastCorrectionsAreAskedForUntilNothingIsLeft) {
+  const auto correcting = std::make_shared<CorrectingLocalizer>();
+  built_.localizer = correcting;
+  (void)perception().begin();
+  EXPECT_FALSE(perception().finish()) << "nothing was observed";
+  const Observation seen = observation(2, 0.0);
+  perception().map(seen, perception().localize(seen));
+  EXPECT_TRUE(perception().finish());
+  EXPECT_EQ(correcting->parts_left, 0);
+  (void)perception().redraw(std::make_shared<CountingMapper>());
+  EXPECT_NEAR(perception().past().poses().front().T_map_robot.x_m, 1.02, 1e-12);
+  EXPECT_FALSE(perception().finish()) << "all is drawn where it is known to be";
+}
+
+TEST_F(PerceptionTest, PosesOfALocalizerThatNeverCorrectsAnyAreRecordedWhereTheyAreAskedFor) {
+  (void)perception().begin(true);
+  const Observation seen = observation(2, 0.0);
+  perception().map(seen, perception().localize(seen));
+  EXPECT_FALSE(perception().finish());
+  ASSERT_EQ(perception().past().size(), 1U);
+  EXPECT_EQ(perception().past().poses().front().T_map_robot.x_m, 1.0);
 }
 
 TEST_F(PerceptionTest, WithoutADetectorNothingIsRecognised) {

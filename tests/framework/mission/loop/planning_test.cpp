@@ -80,5 +80,45 @@ TEST_F(PlanningTest, APlannerThatThrowsIsAFaultOfItsStage) {
             "module straight failed in stage routes: lost");
 }
 
+// Two rows of five, joined by one route.
+SavedMap map_of_two_rows(const ClustersConfig& config) {
+  SavedMap map;
+  std::vector<LandmarkId> ids;
+  for (int i = 0; i < 10; ++i) {
+    Landmark landmark;
+    landmark.category = "place";
+    landmark.T_map_landmark = {1.0 * (i % 5), i < 5 ? 0.0 : 6.0, 0.0};
+    ids.push_back(map.graph.add(landmark));
+  }
+  for (std::size_t i = 0; i + 1 < ids.size(); ++i)
+    map.graph.add_route({.from = ids[i], .to = ids[i + 1], .cost_m = i == 4 ? 6.0 : 1.0});
+  map.properties[kClustersProperty] = text_of(config);
+  map.clusters = cluster_landmarks(map.graph, {}, {config.sizes(), {}});
+  return map;
+}
+
+TEST(ClustersToBeginWith, AreThoseOfTheMapOrMadeAnewByOtherSettingsWithTheirNames) {
+  const ClustersConfig saved;
+  SavedMap map = map_of_two_rows(saved);
+  ASSERT_GE(map.clusters.clusters.size(), 2U);
+  Cluster& named = map.clusters.clusters.begin()->second;
+  named.name = "kitchen";
+  EXPECT_EQ(clusters_to_begin_with(saved, nullptr), ClusterTree{});
+  EXPECT_EQ(clusters_to_begin_with(saved, &map), map.clusters);
+
+  ClustersConfig smaller;
+  smaller.max_landmarks = 2;
+  const ClusterTree made = clusters_to_begin_with(smaller, &map);
+  EXPECT_GT(made.clusters.size(), map.clusters.clusters.size());
+  for (const auto& [id, cluster] : made.clusters) EXPECT_LE(members_of(made, id).size(), 2U);
+  const Cluster* const heir = find_cluster(made, map.graph, "kitchen");
+  ASSERT_NE(heir, nullptr);
+  EXPECT_THAT(members_of(made, heir->id), testing::Contains(named.anchor));
+
+  ClustersConfig none;
+  none.from_landmarks = 100;
+  EXPECT_TRUE(clusters_to_begin_with(none, &map).clusters.empty());
+}
+
 }  // namespace
 }  // namespace cairn

@@ -67,6 +67,23 @@ TEST(Nav2Routes, NodesAreLandmarksAndEdgesRoutes) {
   EXPECT_THAT(graph.warnings, IsEmpty());
 }
 
+TEST(Nav2Routes, AnEdgeIsALineStringOrAMultiLineStringOfOneOrSeveralLines) {
+  const auto edge_of = [](const std::string& type, const std::string& coordinates) {
+    return R"({"type": "Feature", "properties": {"id": 3, "startid": 1, "endid": 2}, "geometry": {"type": ")" + type +
+           R"(", "coordinates": )" + coordinates + "}}";
+  };
+  for (const auto& [type, coordinates] :
+       std::vector<std::pair<std::string, std::string>>{{"LineString", "[[1, 2], [4, 6]]"},
+                                                        {"MultiLineString", "[[[1, 2], [4, 6]]]"},
+                                                        {"MultiLineString", "[[[1, 2], [2, 3]], [[2, 3], [4, 6]]]"}}) {
+    const ImportedGraph graph = read({kTwoNodes, edge_of(type, coordinates)});
+    ASSERT_NE(graph.graph.find_route(3), nullptr) << type << " " << coordinates;
+    EXPECT_EQ(graph.graph.find_route(3)->from, 1);
+    EXPECT_EQ(graph.graph.find_route(3)->to, 2);
+    EXPECT_EQ(graph.graph.find_route(3)->cost_m, 5.0);
+  }
+}
+
 TEST(Nav2Routes, ACostThatIsNotSetIsTheStraightLengthAndStaysNotSet) {
   const ImportedGraph graph = read({kTwoNodes, edge(R"("id": 3, "startid": 1, "endid": 2)"),
                                     edge(R"("id": 4, "startid": 2, "endid": 1, "cost": 0, "overridable": false)")});

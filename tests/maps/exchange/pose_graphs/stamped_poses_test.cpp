@@ -15,6 +15,19 @@ TEST(StampedPoses, AreReadInBothForms) {
   EXPECT_NEAR(poses[1].T_map_robot.theta_rad, radians(90.0), 1e-9);
 }
 
+TEST(StampedPoses, AreWrittenInTheTumFormToTheLastBit) {
+  const std::vector<StampedPose> poses = {{976053558.437199, {1.0 / 3.0, -2.5, 3.0}}, {0.5, {0.0, 1e-9, -0.25}}};
+  const std::string text = tum_of(poses);
+  EXPECT_EQ(text.substr(0, text.find(' ')), "976053558.437199");
+  const std::vector<StampedPose> read = parse_stamped_poses(text, "poses.tum");
+  ASSERT_EQ(read.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read[i].stamp_s, poses[i].stamp_s);
+    EXPECT_EQ(read[i].T_map_robot.position(), poses[i].T_map_robot.position());
+    EXPECT_NEAR(read[i].T_map_robot.theta_rad, poses[i].T_map_robot.theta_rad, 1e-12);
+  }
+}
+
 TEST(StampedPoses, RelationsKeepWhatIsPlanar) {
   const auto relations = parse_relations("1 2 0.4 -0.1 9 9 9 -0.07\n", "r");
   ASSERT_EQ(relations.size(), 1U);

@@ -7,6 +7,8 @@
 namespace cairn::behaviours {
 namespace {
 
+constexpr double kRadius_m = 0.2;
+
 // Cells of 0.1 m; what is behind the doorway is not known. width: of the doorway, in cells.
 std::string room(int width) {
   std::string drawing = "\n############\n";
@@ -18,78 +20,114 @@ std::string room(int width) {
 }
 
 struct Passing {
-  explicit Passing(int width) : map(room(width)) {}
-  [[nodiscard]] FreeSpace space() const { return FreeSpace(map.grid, {robot().position(), 0.2, 0.1}, trace()); }
-  [[nodiscard]] Pose2 robot() const { return {map.at('R').x(), map.at('R').y(), 0.0}; }
-  [[nodiscard]] std::vector<Pose2> trace() const { return {robot()}; }
+  explicit Passing(int width) : map(room(width)), trace{{map.at('R').x(), map.at('R').y(), 0.0}} {}
+  [[nodiscard]] FreeSpace space() const { return FreeSpace(map.grid, {trace[0].position(), kRadius_m, 0.1}, trace); }
   std::optional<ExploreTask> next() {
-    const std::vector<Pose2> been = trace();
-    return tasks.next(space(), {map.grid, been, looked_at}, robot().position());
+    const FreeSpace here = space();
+    return tasks.next({here, here, map.grid, trace, kRadius_m}, trace[0].position());
   }
   std::vector<NotEntered> not_entered() {
-    const std::vector<Pose2> been = trace();
-    return tasks.not_entered(space(), {map.grid, been, looked_at}, 0.2);
+    const FreeSpace here = space();
+    return tasks.not_entered({here, here, map.grid, trace, kRadius_m});
+  }
+  // A look from the lookout, in which so much was heard to be open.
+  std::optional<ExploreTask> look(double heard_m) {
+    const std::optional<ExploreTask> task = next();
+    return tasks.record_look(*task, HeardOpening{true, heard_m, task->about, task->lookout}, kRadius_m);
   }
   AsciiGrid map;
-  PassageTasks tasks{PassageSettings{}};
-  std::vector<Point> looked_at;
+  std::vector<Pose2> trace;
+  PassageTasks tasks{PassageSettings{}, PassageDriveSettings{}};
 };
 
-TEST(PassageTasks, APassageIsLookedAtThenDrivenThrough) {
-  Passing passing(5);
-  std::optional<ExploreTask> task = passing.next();
+TEST(PassageTasks, APassageIsLookedAtFirst) {
+  const std::optional<ExploreTask> task = Passing(5).next();
   ASSERT_TRUE(task);
   EXPECT_EQ(task->kind, TaskKind::opening);
   EXPECT_FALSE(task->path.empty());
-  passing.looked_at.push_back(task->about);
-  task = passing.next();
+}
+
+TEST(PassageTasks, AfterTheLookTheDriveLeadsStraightThroughTheMiddleThatWasHeard) {
+  Passing passing(5);
+  const std::optional<ExploreTask> drive = passing.look(0.7);
+  ASSERT_TRUE(drive);
+  EXPECT_EQ(drive->kind, TaskKind::passage);
+  EXPECT_DOUBLE_EQ(drive->width_m, 0.7);
+  const Point ahead = (drive->about - drive->lookout).normalized();
+  EXPECT_NEAR((drive->beyond_m - drive->about).normalized().dot(ahead), 1.0, 1e-9);
+  EXPECT_GT((drive->beyond_m - drive->about).norm(), kRadius_m);
+}
+
+TEST(PassageTasks, ADoorThatTheMapDrawsTooNarrowIsDrivenThroughWhenItIsHeardToBeWide) {
+  EXPECT_TRUE(Passing(2).look(0.75));
+}
+
+TEST(PassageTasks, OneThatWasLookedAtAndNotDrivenThroughYetIsDrivenThroughNext) {
+  Passing passing(5);
+  ASSERT_TRUE(passing.look(0.7));
+  const std::optional<ExploreTask> task = passing.next();
   ASSERT_TRUE(task);
   EXPECT_EQ(task->kind, TaskKind::passage);
-  EXPECT_TRUE(task->by_route);
-  EXPECT_GT(task->lookout.x(), task->about.x());
 }
 
 TEST(PassageTasks, OneThatWasNotGotThroughIsTriedOnceMoreAndLookedAtAgain) {
   Passing passing(5);
-  passing.looked_at.push_back(passing.next()->about);
-  passing.tasks.record(*passing.next(), false, "the robot is blocked");
+  passing.tasks.record(*passing.look(0.7), false, "the robot is blocked");
   EXPECT_FALSE(passing.next());
-  EXPECT_TRUE(passing.tasks.retry(passing.looked_at));
-  EXPECT_TRUE(passing.looked_at.empty());
+  EXPECT_TRUE(passing.tasks.retry());
   EXPECT_EQ(passing.next()->kind, TaskKind::opening);
-  EXPECT_FALSE(passing.tasks.retry(passing.looked_at)) << "once only";
+  EXPECT_FALSE(passing.tasks.retry()) << "once only";
 }
 
 TEST(PassageTasks, OneThatWasNotGotThroughIsReportedWithItsPlaceWidthAndReason) {
   Passing passing(5);
-  passing.looked_at.push_back(passing.next()->about);
-  passing.tasks.record(*passing.next(), false, "the robot is blocked");
+  passing.tasks.record(*passing.look(0.7), false, "the robot is blocked");
   const std::vector<NotEntered> left = passing.not_entered();
   ASSERT_EQ(left.size(), 1U);
   EXPECT_FALSE(left[0].is_too_narrow);
   EXPECT_EQ(left[0].why, "the robot is blocked");
-  EXPECT_NEAR(left[0].width_m, 0.5, 0.15);
+  EXPECT_DOUBLE_EQ(left[0].width_m, 0.7);
 }
 
 TEST(PassageTasks, OneThatWasNeverTriedIsReportedAsThat) {
   const std::vector<NotEntered> left = Passing(5).not_entered();
   ASSERT_EQ(left.size(), 1U);
+  EXPECT_FALSE(left[0].is_too_narrow);
   EXPECT_EQ(left[0].why, "not tried");
 }
 
-TEST(PassageTasks, ANarrowGapIsLookedAtAndReportedAsTooNarrow) {
+TEST(PassageTasks, AGapThatIsHeardToBeNarrowIsReportedAsTooNarrowAndCountsAsClosed) {
   Passing passing(2);
-  PassageSettings settings;
-  settings.drive_radius_m = 0.16;
-  passing.tasks = PassageTasks(settings);
-  std::optional<ExploreTask> task = passing.next();
-  ASSERT_TRUE(task);
-  passing.looked_at.push_back(task->about);
+  EXPECT_FALSE(passing.look(0.2));
   EXPECT_FALSE(passing.next());
   const std::vector<NotEntered> left = passing.not_entered();
   ASSERT_EQ(left.size(), 1U);
   EXPECT_TRUE(left[0].is_too_narrow);
   EXPECT_EQ(left[0].why, "too narrow for 0.40 m");
+  EXPECT_EQ(passing.tasks.closed().size(), 1U);
+}
+
+TEST(PassageTasks, OneThatTheRobotCannotGetToIsReportedAsThat) {
+  Passing passing(5);
+  passing.tasks.record_unreachable(*passing.next());
+  EXPECT_FALSE(passing.next());
+  ASSERT_EQ(passing.not_entered().size(), 1U);
+  EXPECT_EQ(passing.not_entered()[0].why, "no path leads to it");
+  EXPECT_FALSE(passing.not_entered()[0].is_too_narrow);
+  EXPECT_TRUE(passing.tasks.retry());
+  EXPECT_TRUE(passing.next()) << "from where the robot is at the end";
+}
+
+TEST(PassageTasks, TheWayBackLeadsThroughAPassageThatWasPassedTheOtherWayRound) {
+  Passing passing(5);
+  const ExploreTask there = *passing.look(0.7);
+  const std::vector<Point> back{there.beyond_m, there.lookout};
+  EXPECT_FALSE(passing.tasks.passed_on(back, kRadius_m)) << "it was not passed yet";
+  passing.tasks.record(there, true, {});
+  const std::optional<ExploreTask> task = passing.tasks.passed_on(back, kRadius_m);
+  ASSERT_TRUE(task);
+  EXPECT_LT((task->beyond_m - task->about).dot(there.beyond_m - there.about), 0.0);
+  EXPECT_FALSE(passing.tasks.passed_on({{0.0, 0.0}, {0.5, 0.0}}, kRadius_m)) << "not on this path";
 }
 
 TEST(PassageTasks, ASentenceNamesThePlaceTheWidthAndTheReason) {

@@ -1,0 +1,44 @@
+#include "plugins/submap_graph/config.hpp"
+
+namespace cairn::submap_graph {
+
+void Config::describe(Fields<Config>& fields) {
+  fields.number("longest_m", &Config::longest_m, {0.1, 1000.0}, "m", "echoes from farther away are left out");
+  fields.number("point_spacing_m", &Config::point_spacing_m, {0.0, 10.0}, "m",
+                "of a scan's echoes in one square of this side the first is used; 0: all");
+  fields.angle("widest_half_beam_deg", &Config::widest_half_beam_rad, {0.0, 90.0},
+               "readings of wider beams are left out: their echoes are no points");
+  fields.number("surface_cell_m", &Config::surface_cell_m, {0.01, 10.0}, "m",
+                "side of a submap's cells; the line of a cell is fitted to its echoes and its neighbours'");
+  fields.number("echo_sigma_m", &Config::echo_sigma_m, {0.001, 10.0}, "m", "standard deviation of one echo");
+  fields.number("search_m", &Config::search_m, {0.0, 10.0}, "m",
+                "a scan is also searched for so far around where odometry puts it");
+  fields.angle("search_deg", &Config::search_rad, {0.0, 180.0}, "the same for the heading");
+  fields.number("odometry_ratio", &Config::odometry_ratio, {0.001, 10.0}, "",
+                "standard deviation of a step of odometry, of its length");
+  fields.angle("odometry_deg_per_m", &Config::odometry_rad_per_m, {0.01, 180.0},
+               "standard deviation of a step's turn, each metre");
+  fields.number("odometry_turn_ratio", &Config::odometry_rad_per_rad, {0.001, 10.0}, "",
+                "standard deviation of a step's turn, of the turn");
+  fields.number("node_m", &Config::node_m, {0.01, 100.0}, "m", "distance between two nodes of the pose graph");
+  fields.angle("node_deg", &Config::node_rad, {0.1, 180.0}, "or turn between them");
+  fields.number("submap_m", &Config::submap_m, {0.1, 1000.0}, "m",
+                "way on which a submap is drawn; a turn of one radian counts as a metre");
+  fields.number(
+      "drift_ratio", &Config::drift_ratio, {0.0, 1.0}, "",
+      "drift of the pose since the last closure, of the way: by it the windows of closures grow, and closures "
+      "may disagree");
+  fields.number("min_window_m", &Config::min_window_m, {0.1, 100.0}, "m", "half side of the least window");
+  fields.number("max_window_m", &Config::max_window_m, {0.1, 100.0}, "m", "and of the greatest");
+  fields.angle("window_deg", &Config::window_rad, {0.1, 180.0}, "half angle of the windows of closures");
+  fields.number("min_score", &Config::min_score, {0.0, 1.0}, "",
+                "mean likelihood of a scan's echoes in a submap, from which on it may be a closure");
+  fields.number("min_matched_ratio", &Config::min_matched_ratio, {0.0, 1.0}, "",
+                "and the part of them that must lie on its walls");
+  fields.number("witness_m", &Config::witness_m, {0.1, 1000.0}, "m",
+                "a closure waits so far on the way for a second one that agrees");
+  fields.integer("solve_every_nodes", &Config::solve_every_nodes, {1, 100000},
+                 "nodes between two solutions of the pose graph");
+}
+
+}  // namespace cairn::submap_graph

@@ -1,0 +1,48 @@
+#include "plugins/submap_graph/submap_graph.hpp"
+
+#include <cmath>
+#include <set>
+
+namespace cairn::submap_graph {
+namespace {
+
+constexpr double kFarthest_m = 1e6;  // further out than any robot gets
+constexpr double kMatched_ratio = 0.5;
+
+bool is_usable(const Pose2& pose) {
+  return is_finite(pose) && std::abs(pose.x_m) <= kFarthest_m && std::abs(pose.y_m) <= kFarthest_m;
+}
+
+bool is_usable(const RangeReading& reading, const Config& config) {
+  return reading.half_beam_rad <= config.widest_half_beam_rad && std::isfinite(reading.range_m) &&
+         reading.range_m >= reading.min_m && reading.range_m < reading.max_m && reading.range_m <= config.longest_m &&
+         is_usable(reading.T_robot_sensor);
+}
+
+}  // namespace
+
+void gather_points(const Observation& observation, const Config& config, std::vector<Point>& points_m) {
+  points_m.clear();
+  std::set<std::pair<int, int>> taken;
+  for (const RangeReading& reading : observation.ranges) {
+    if (!is_usable(reading, config)) continue;
+    const Point point_m = reading.T_robot_sensor * Point(reading.range_m, 0.0);
+    if (!(point_m.norm() <= 2.0 * config.longest_m)) continue;
+    const auto square = [&](double x) { return static_cast<int>(std::floor(x / config.point_spacing_m)); };
+    if (config.point_spacing_m > 0.0 && !taken.emplace(square(point_m.x()), square(point_m.y())).second) continue;
+    points_m.push_back(point_m);
+  }
+}
+
+PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&) {
+  gather_points(observation, config_, points_m_);
+  if (is_usable(observation.T_odom_robot) || !T_odom_robot_)
+    T_odom_robot_ = is_usable(observation.T_odom_robot) ? observation.T_odom_robot : Pose2{};
+  PoseEstimate estimate;
+  estimate.T_map_robot = graph_.add(points_m_, *T_odom_robot_);
+  estimate.covariance = graph_.covariance();
+  (graph_.matched_ratio() >= kMatched_ratio ? estimate.sightings_used : estimate.sightings_refused) = 1;
+  return estimate;
+}
+
+}  // namespace cairn::submap_graph

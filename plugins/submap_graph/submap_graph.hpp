@@ -1,0 +1,46 @@
+// Localizer: odometry and laser scans, by a graph of submaps that closes loops and corrects the past (docs/slam.md).
+//
+// For robots with a laser, with or without a compass. Each scan is laid on the submap under way; places that were
+// passed before are recognised by searching the scan in their submaps, believed with a second witness, and the pose
+// graph is solved. Then the pose jumps to where it is in the corrected map, and history() gives the earlier ones.
+//
+//   odometry that is not finite, or      the step is taken as none
+//   beyond 1000 km
+//   readings of wide beams, no echoes,   left out
+//   bad readings, far ones
+//   nothing to match                     odometry alone
+//
+// The compass, the known map and landmarks are not used. The covariance is that of the latest match and of the drift
+// since the last closure. The graph and its submaps grow with the way, so update() allocates.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "framework/contracts/localizer.hpp"
+#include "plugins/submap_graph/laser_graph.hpp"
+
+namespace cairn::submap_graph {
+
+class SubmapGraph final : public Localizer, public PoseHistory {
+ public:
+  SubmapGraph(const Config& config, const Pose2& T_map_start) : config_(config), graph_(config, T_map_start) {}
+
+  PoseEstimate update(const Observation& observation, const KnownMap& known) override;
+  PoseHistory* history() override { return this; }
+
+  [[nodiscard]] std::vector<Pose2> poses() const override { return graph_.poses(); }
+  [[nodiscard]] std::uint64_t revision() const override { return graph_.revision(); }
+  bool finish_part() override { return graph_.finish_part(); }
+
+ private:
+  Config config_;
+  LaserGraph graph_;
+  std::optional<Pose2> T_odom_robot_;  // the last good one
+  std::vector<Point> points_m_;        // of this scan, from the robot
+};
+
+// A scan's echoes as points, thinned.
+void gather_points(const Observation& observation, const Config& config, std::vector<Point>& points_m);
+
+}  // namespace cairn::submap_graph

@@ -1,0 +1,110 @@
+// Ends that are poses are joined to the landmarks of their own cluster, and a path from cluster to cluster is preferred
+// to the direct one where cutting its corners leaves it hardly longer.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "maps/hierarchy/hierarchies.hpp"
+#include "tests/planners/hybrid/hybrid_world.hpp"
+
+namespace cairn {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::StartsWith;
+
+// A is a cluster by itself, in the left room; U, in the middle of the upper corridor, and B, in the right room, are
+// another.
+class HybridClusters : public test::Hybrid {
+ protected:
+  HybridClusters() : a_(landmark('A')), u_(landmark('U')), b_(landmark('B')) {
+    route(a_, u_, "AU");
+    route(u_, b_, "UB");
+    for (const ClusterId id : {1, 2}) {
+      clusters_.clusters[id].id = id;
+      clusters_.clusters[id].anchor = id == 1 ? a_ : u_;
+    }
+    clusters_.cluster_of = {{a_, 1}, {u_, 2}, {b_, 2}};
+    clusters_.next_id = 3;
+  }
+
+  [[nodiscard]] PlanResult plan_in_clusters(const PlanRequest& request) const {
+    const Hierarchies hierarchies(world.graph, clusters_, {});
+    WorldView view = world.view();
+    view.hierarchies = &hierarchies;
+    return HybridPlanner(config, router, searcher).plan(request, view, {});
+  }
+
+  LandmarkId a_, u_, b_;
+  ClusterTree clusters_;
+};
+
+// From M it is 5 squares back to A, and 9 on to U.
+TEST_F(HybridClusters, AStartIsJoinedToTheLandmarksOfItsOwnClusterOnly) {
+  EXPECT_THAT(plan(request('M', 'B')).landmarks, ElementsAre(u_, b_)) << "without clusters, to the cheapest";
+  const PlanResult result = plan_in_clusters(request('M', 'B'));
+  ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
+  EXPECT_THAT(result.landmarks, ElementsAre(a_, u_, b_)) << result.reason;
+  const double direct_m = (world.places['B'] - world.places['M']).norm();
+  EXPECT_GT(result.cost_m, 1.3 * direct_m) << "more than a path over landmarks may cost within one cluster";
+  EXPECT_LE(result.length_m, 1.1 * direct_m) << "its corners are cut\n" << test::drawing_of(world.grid, result.path);
+  expect_clear(result);
+}
+
+TEST_F(HybridClusters, AGoalIsJoinedToTheLandmarksOfItsOwnClusterOnly) {
+  route(b_, u_, "BU");
+  route(u_, a_, "UA");
+  EXPECT_THAT(plan(request('B', 'M')).landmarks, ElementsAre(b_, u_)) << "without clusters, to the cheapest";
+  const PlanResult result = plan_in_clusters(request('B', 'M'));
+  ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
+  EXPECT_THAT(result.landmarks, ElementsAre(b_, u_, a_)) << result.reason;
+}
+
+// From corridor to corridor: straight on through the right room, or back by landmarks through the left one. What stands
+// between the corridors lets no cut corner make the one as short as the other.
+class HybridDetour : public test::Hybrid {
+ protected:
+  HybridDetour() : u_(landmark('U')), m_(landmark('M')), p_(landmark('P')), v_(landmark('V')) {
+    route(u_, m_, "UM");
+    route(m_, p_, "", 0.8);
+    route(p_, v_, "PV");
+  }
+  // second: the cluster of P and V; U and M are in cluster 1.
+  [[nodiscard]] PlanResult plan_in_clusters(ClusterId second) const {
+    ClusterTree clusters;
+    for (ClusterId id = 1; id <= second; ++id) {
+      clusters.clusters[id].id = id;
+      clusters.clusters[id].anchor = id == 1 ? u_ : v_;
+    }
+    clusters.cluster_of = {{u_, 1}, {m_, 1}, {p_, second}, {v_, second}};
+    clusters.next_id = second + 1;
+    const Hierarchies hierarchies(world.graph, clusters, {});
+    WorldView view = world.view();
+    view.hierarchies = &hierarchies;
+    return HybridPlanner(config, router, searcher).plan(request('U', 'V'), view, {});
+  }
+
+  LandmarkId u_, m_, p_, v_;
+};
+
+TEST_F(HybridDetour, WithinOneClusterIsNotTaken) {
+  config.shortened_ratio = 3.0;
+  const PlanResult result = plan_in_clusters(1);
+  ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
+  EXPECT_THAT(result.reason, StartsWith("directly"));
+}
+
+TEST_F(HybridDetour, FromClusterToClusterIsTakenUpToTheShortenedRatio) {
+  const PlanResult direct = plan_in_clusters(2);
+  ASSERT_EQ(direct.outcome, PlanOutcome::solved) << direct.reason;
+  EXPECT_THAT(direct.reason, StartsWith("directly: over landmarks it is ")) << "1.1 unless set";
+  config.shortened_ratio = 3.0;
+  const PlanResult over = plan_in_clusters(2);
+  ASSERT_EQ(over.outcome, PlanOutcome::solved) << over.reason;
+  EXPECT_THAT(over.landmarks, ElementsAre(u_, m_, p_, v_)) << over.reason;
+  EXPECT_GT(over.length_m, 1.1 * direct.length_m);
+  expect_clear(over);
+}
+
+}  // namespace
+}  // namespace cairn

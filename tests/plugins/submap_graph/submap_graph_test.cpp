@@ -1,0 +1,67 @@
+#include "plugins/submap_graph/submap_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/plugins/submap_graph/driven_ring.hpp"
+
+namespace cairn::submap_graph {
+namespace {
+
+RangeReading reading(double bearing_rad, double range_m, double half_beam_rad = 0.0) {
+  return {{0.0, 0.0, bearing_rad}, half_beam_rad, 0.05, 80.0, range_m, 0};
+}
+
+KnownMap nothing_known() {
+  static const OccupancyGrid grid(0.05);
+  static const LandmarkGraph landmarks;
+  return {grid, landmarks};
+}
+
+TEST(GatherPoints, TakesEchoesOfNarrowBeamsWithinReachOneASquare) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Observation seen;
+  seen.ranges = {reading(0.0, 2.0),  reading(0.0, 2.001),        reading(1.0, 3.0, 0.3), reading(2.0, infinity),
+                 reading(2.0, 40.0), reading(2.0, std::nan("")), reading(2.0, 80.0),     reading(2.0, -infinity)};
+  std::vector<Point> points_m;
+  gather_points(seen, {}, points_m);
+  ASSERT_EQ(points_m.size(), 1U);
+  EXPECT_NEAR((points_m[0] - Point(2.0, 0.0)).norm(), 0.0, 1e-12);
+}
+
+TEST(SubmapGraph, CorrectsThePastWhenALoopCloses) {
+  const std::vector<DrivenScan> drive = ring_drive(1, radians(3.0), 0.05);
+  const std::vector<DrawnWall> walls = ring_walls();
+  SubmapGraph localizer({}, drive.front().T_map_robot);
+  std::uint64_t seed = 0;
+  for (const DrivenScan& scan : drive) {
+    Observation seen;
+    seen.T_odom_robot = scan.T_odom_robot;
+    for (const Point& point_m : seen_from(walls, scan.T_map_robot, 120, 0.01, ++seed))
+      seen.ranges.push_back(reading(std::atan2(point_m.y(), point_m.x()), point_m.norm()));
+    const PoseEstimate estimate = localizer.update(seen, nothing_known());
+    EXPECT_LT((estimate.T_map_robot.position() - scan.T_map_robot.position()).norm(), 0.6);
+  }
+  PoseHistory* history = localizer.history();
+  ASSERT_NE(history, nullptr);
+  while (history->finish_part()) {
+  }
+  const std::vector<Pose2> poses = history->poses();
+  ASSERT_EQ(poses.size(), drive.size());
+  for (std::size_t i = 0; i < drive.size(); ++i)
+    EXPECT_LT((poses[i].position() - drive[i].T_map_robot.position()).norm(), 0.1) << i;
+}
+
+TEST(SubmapGraph, OdometryThatIsNotFiniteIsAStepOfNone) {
+  SubmapGraph localizer({}, {1.0, 2.0, 0.0});
+  Observation seen;
+  (void)localizer.update(seen, nothing_known());
+  seen.T_odom_robot = {std::nan(""), 0.0, 0.0};
+  EXPECT_EQ(localizer.update(seen, nothing_known()).T_map_robot, (Pose2{1.0, 2.0, 0.0}));
+  seen.T_odom_robot = {0.1, 0.0, 0.0};
+  EXPECT_NEAR(localizer.update(seen, nothing_known()).T_map_robot.x_m, 1.1, 1e-9);
+}
+
+}  // namespace
+}  // namespace cairn::submap_graph
