@@ -135,8 +135,8 @@ TEST(RobotFile, SaysWhatIsWrongWithALaser) {
   EXPECT_EQ(error_in(begin + "{x_m: 0, y_m: 0, beams: 0}\n"),
             "r.yaml:4:29: beams must be a whole number from 1 to 4096, found \"0\"");
   EXPECT_THAT(error_in(begin + "{x_m: 0, y_m: 0, rate: 10}\n"),
-              testing::StartsWith("r.yaml:4:22: unknown key \"rate\" in lasers[0] (did you mean \"rate_hz\"?)"));
-  EXPECT_THAT(error_in(begin + "{y_m: 0}\n"), testing::StartsWith("r.yaml:4:5: lasers[0] lacks the key \"x_m\""));
+              testing::StartsWith("r.yaml:4:22: unknown key \"rate\" in lasers (did you mean \"rate_hz\"?)"));
+  EXPECT_THAT(error_in(begin + "{y_m: 0}\n"), testing::StartsWith("r.yaml:4:5: lasers lacks the key \"x_m\""));
 }
 
 TEST(RobotFile, LittleIsNeeded) {

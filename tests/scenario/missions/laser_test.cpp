@@ -19,7 +19,8 @@ std::string two_rooms_mission(const std::string& robot, const std::string& local
          "/worlds/two_rooms.yaml\nstart: {at_m: [0.6, 0.6], angle_deg: 0}\nsensor: {plugin: simulated_robot}\n"
          "localizer: {plugin: " +
          localizer +
-         "}\nmap: {plugin: muriel, cell_m: 0.05}\nplanner: {plugin: hybrid}\nat_most_s: 1500\n"
+         "}\nmap: {plugin: muriel, cell_m: 0.05}\ndetector: {plugin: template_matcher, templates: " + config +
+         "/templates, rendering: ideal, coarse_cells: 5}\nplanner: {plugin: hybrid}\nat_most_s: 1500\n"
          "record: recorded.log\nsteps:\n  - explore: {until_known_ratio: 0.97, at_most_s: 1200}\n";
 }
 
