@@ -252,7 +252,7 @@ Status Exploration::explored(const WorldView& world) {
   const std::vector<NotEntered> left = chooser_.not_entered(world);
   std::string text;
   for (const NotEntered& opening : left) text += (text.empty() ? "; not entered: " : ", ") + sentence_of(opening);
-  const bool is_half_known = chooser_.known_ratio() < config_.until_known_ratio;
+  const bool is_half_known = !chooser_.is_enough_known();
   const bool has_missed = std::ranges::any_of(left, [](const NotEntered& opening) { return !opening.is_too_narrow; });
   if (is_half_known && has_missed) return {StepState::failure, "openings not entered: " + summary(world) + text};
   return {StepState::success, "nothing left to explore: " + summary(world) + text};

@@ -65,9 +65,9 @@ void TaskChooser::look_through(const WorldView& world, const Point& opening) {
 }
 
 std::optional<ExploreTask> TaskChooser::end_look(const ExploreTask& task, const WorldView& world) {
-  give_up(task, world);
+  behaviours::give_up(task, space(world), settings_, memory_);
   std::optional<ExploreTask> through = passages_.record_look(task, opening_echoes_.heard(), world.robot.radius_m);
-  const bool is_wanted = through && known_ratio() < config_.until_known_ratio;
+  const bool is_wanted = through && !is_enough_known();
   if (!is_wanted) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
   const FreeSpace usual = space(world);
@@ -116,7 +116,7 @@ std::optional<ExploreTask> TaskChooser::choose_within(const Search& search, cons
   search_ = search;
   const FreeSpace space = space_within(search, world);
   settings_.window = window_of(search, world);
-  const bool frontiers_wanted = known_ratio() < config_.until_known_ratio;
+  const bool frontiers_wanted = !is_enough_known();
   // Each turn of the loop either ends it or gives a part of a task up.
   for (;;) {
     std::optional<ExploreTask> task =
@@ -137,7 +137,7 @@ std::optional<ExploreTask> TaskChooser::choose_again(const WorldView& world, con
 
 // As long as not enough is known, passages are searched, which are more than these.
 std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
-  if (known_ratio() < config_.until_known_ratio) return std::nullopt;
+  if (!is_enough_known()) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
   const double narrow_m = config_.exploring.choice.narrow_radius_m - world.robot.radius_m;
   return opening_task(space_within(search_, world), space_within({kEverywhere_m, narrow_m}, world), settings_, memory_);
@@ -145,7 +145,7 @@ std::optional<ExploreTask> TaskChooser::choose_opening(const WorldView& world) {
 
 std::optional<ExploreTask> TaskChooser::choose_far_edge(const WorldView& world,
                                                         const std::optional<ExploreTask>& before) {
-  if (known_ratio() >= config_.until_known_ratio || config_.exploring.choice.far_edge_cells == 0) return std::nullopt;
+  if (is_enough_known() || config_.exploring.choice.far_edge_cells == 0) return std::nullopt;
   settings_.far_edge_cells = config_.exploring.choice.far_edge_cells;
   std::optional<ExploreTask> task = choose_within({kEverywhere_m, config_.clearance_m}, world, before);
   settings_.far_edge_cells = 0;
@@ -179,7 +179,7 @@ FreeSpace TaskChooser::space_behind_walls(const WorldView& world, double clearan
 }
 
 std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
-  if (known_ratio() >= config_.until_known_ratio) return std::nullopt;
+  if (is_enough_known()) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
   const FreeSpace usual = space(world);
   const FreeSpace map = space_behind_walls(world, config_.clearance_m);
@@ -271,6 +271,7 @@ std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std
 
 void TaskChooser::give_up(const ExploreTask& task, const WorldView& world) {
   behaviours::give_up(task, space(world), settings_, memory_);
+  if (task.kind == TaskKind::opening) passages_.record_unreachable(task);
   if (task.kind == TaskKind::passage) passages_.record(task, false, "blocked on the way to it");
 }
 

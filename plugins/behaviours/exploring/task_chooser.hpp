@@ -49,6 +49,10 @@ class TaskChooser {
 
   // Of what can be reached; counted anew when the next task is chosen, every few seconds.
   [[nodiscard]] double known_ratio() const { return known_.ratio(); }
+  // Never when all is asked for: the share counts only doors that the map shows.
+  [[nodiscard]] bool is_enough_known() const {
+    return config_.until_known_ratio < 1.0 && known_ratio() >= config_.until_known_ratio;
+  }
 
   // Whether something has turned up on a path that keeps as much room as the last task's.
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const;

@@ -96,6 +96,8 @@ std::optional<ExploreTask> PassageTasks::record_look(const ExploreTask& task, co
   suspects_ += task.is_suspect ? 1 : 0;
   Tried& tried = at(task.about);
   tried.heard = heard;
+  tried.is_unreachable = false;
+  tried.is_given_up = false;
   if (!heard.is_heard) {  // without a sonar that looks there, the map is all that is known
     tried.heard->width_m = task.width_m;
     tried.heard->middle_m = task.about;
