@@ -151,7 +151,7 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
   list_first(map.clusters.clusters, "clusters", [&](const Cluster& cluster) {
     const std::vector<LandmarkId> members = members_of(map.clusters, cluster.id);
     return fmt::format("  C{}:L{}{}, {}:{}\n", cluster.level, cluster.anchor,
-                       cluster.name.empty() ? "" : ", " + in_quotes(cluster.name), counted(members.size(), "landmark"),
+                       cluster.name.empty() ? "" : " " + printable(cluster.name), counted(members.size(), "landmark"),
                        text_of_first(members));
   });
   list_first(map.graph.routes(), "routes", [](const Route& route) {

@@ -102,7 +102,9 @@ Errors drive_round(const RobotModel& robot, const Disturbance& disturbance, std:
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   Pose2 truth{1.0, 1.0, 0.0};
-  OdometryCompass localizer({}, robot, truth);
+  Config config;
+  config.unstated_bias_rad = radians(5.0);
+  OdometryCompass localizer(config, robot, truth);
   Pose2 T_odom_robot;
   Errors errors;
   double driven_m = 0.0;
