@@ -7,7 +7,7 @@
 namespace cairn::submap_graph {
 namespace {
 
-constexpr int kBeams = 90;
+constexpr int kBeams = 120;
 
 LaserGraph driven(const std::vector<DrivenScan>& drive, const Config& config = {}) {
   LaserGraph graph(config, drive.front().T_map_robot);
