@@ -10,9 +10,9 @@
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
 #include "framework/mission/hearing/hearing_record.hpp"
-#include "framework/mission/loop/perception.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"
+#include "framework/mission/perception/perception.hpp"
 #include "framework/modules/plausibility.hpp"
 #include "framework/safety/fatal_ends.hpp"
 

@@ -1,4 +1,4 @@
-#include "framework/mission/loop/perception.hpp"
+#include "framework/mission/perception/perception.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "framework/mission/loop/past.hpp"
+#include "framework/mission/perception/past.hpp"
 
 #include <algorithm>
 

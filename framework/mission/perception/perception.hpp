@@ -9,8 +9,8 @@
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/held_out.hpp"
-#include "framework/mission/loop/past.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
+#include "framework/mission/perception/past.hpp"
 
 namespace cairn {
 
