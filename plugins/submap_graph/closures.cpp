@@ -125,8 +125,7 @@ std::vector<Closure> Closer::close(std::size_t node, const TiedGraph& graph,
   std::erase_if(waiting_, [&](const Waiting& waiting) {
     return driven_m_[node] - driven_m_[waiting.closure.node] > config_.witness_m;
   });
-  const std::vector<Closure> believed =
-      witnessed(find(node, graph, window_m, config_.window_rad, kCandidates, finished));
+  std::vector<Closure> believed = witnessed(find(node, graph, window_m, config_.window_rad, kCandidates, finished));
   if (!believed.empty()) trusted_at_m_ = driven_m_[node];
   return believed;
 }

@@ -58,7 +58,7 @@ LocalPose LocalMap::match(std::span<const Point> points_m, const Pose2& T_odom_r
 Alignment LocalMap::aligned_with_older(std::span<const Point> points_m, const PosePrediction& odometry) {
   const SurfaceMap& map = open_.front()->surfaces();
   const AlignmentSettings settings = alignment_of(config_);
-  const Alignment near = align(map, points_m, odometry.T_map_scan, odometry, settings);
+  Alignment near = align(map, points_m, odometry.T_map_scan, odometry, settings);
   if (!field_) field_ = open_.front()->pyramid(kFieldCell_m, kFieldSigma_m, kLocalLevels);
   const auto found = search(*field_, points_m, {odometry.T_map_scan, config_.search_m, config_.search_rad}, kMinScore);
   if (!found) return near;

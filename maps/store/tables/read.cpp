@@ -89,8 +89,10 @@ void take_tile(OccupancyGrid& grid, Cell tile, const std::string& raw, const Cel
   if (inside.empty()) return;
   LogOdds* const taken = grid.cells_of_tile_for_writing(tile);
   for (int y = inside.min.y - first.y; y < inside.max.y - first.y; ++y)
-    for (int x = inside.min.x - first.x; x < inside.max.x - first.x; ++x)
-      taken[y * kSide + x] = values[static_cast<std::size_t>(y * kSide + x)];
+    for (int x = inside.min.x - first.x; x < inside.max.x - first.x; ++x) {
+      const auto i = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+      taken[i] = values[i];
+    }
 }
 
 void read_tiles(Reading& reading, const std::string& where, const CellBox& box, OccupancyGrid& grid) {

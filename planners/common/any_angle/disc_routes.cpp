@@ -244,7 +244,7 @@ DiscRoute DiscRoutes::coarse_route(const Point& from, const Point& to, const Bud
 }
 
 DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& budget) const {
-  const DiscRoute answer = coarse_route(from, to, budget);
+  DiscRoute answer = coarse_route(from, to, budget);
   if (answer.interrupted || answer.impossible || !is_doubtful(answer)) return answer;
   const Meshes* const fine = finer(budget);
   if (fine == nullptr) return answer;

@@ -88,6 +88,7 @@ void NearEchoes::vote(std::span<const RangeReading> rays, const Pose2& T_map_rob
   if (!votes_.can_include(T_map_sensor.position(), settings_.within_m)) return;
   if (!counts_anew(near.front(), T_map_sensor)) return;
   std::vector<Cell> hit;
+  hit.reserve(near.size());
   for (const RangeReading& ray : near)
     hit.push_back(votes_.cell_at(T_map_robot * (ray.T_robot_sensor * Point(ray.range_m, 0.0))));
   std::vector<Cell> passed;
