@@ -46,6 +46,8 @@ std::string_view name_of(PlanOutcome outcome) {
       return "cancelled";
     case PlanOutcome::unknown_place:
       return "unknown_place";
+    case PlanOutcome::unsupported:
+      return "unsupported";
   }
   return "?";
 }

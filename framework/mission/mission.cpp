@@ -51,6 +51,12 @@ std::vector<std::string> categories_of(const std::vector<LandmarkShape>& shapes)
   return categories;
 }
 
+void check_recordings(const ConfigValue& root, const MissionConfig& config) {
+  if (config.record_mcap.empty() || config.record_mcap != config.record) return;
+  throw ConfigError(root.find("record_mcap")->place,
+                    "record_mcap: " + in_quotes(config.record) + " is what `record` writes; each needs its own file");
+}
+
 // A plain name: an autosave never leaves the output folder.
 void check_autosave(const ConfigValue& root, const std::string& mission, const std::string& file) {
   const auto refuse = [&](const std::string& why) {
@@ -147,6 +153,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.file_name(
       "record", &C::record,
       "file in the output folder that gets all observations as a CARMEN log, to be played back by carmen_log");
+  fields.file_name("record_mcap", &C::record_mcap,
+                   "file in the output folder that gets the run as an MCAP recording, for Foxglove, Rerun and ROS 2");
   fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6},
                  "every n-th range reading is held out of the map, so that an experiment can measure how well the "
                  "map predicts it; 0: none");
@@ -181,6 +189,7 @@ ReadMission read_mission(const std::filesystem::path& file, const std::vector<st
   ConfigErrors errors;
   errors.attempt([&] { schema_of<MissionConfig>().load_into(&mission.config, root, "mission"); });
   errors.attempt([&] { check_autosave(root, mission.config.mission, mission.config.autosave.file); });
+  errors.attempt([&] { check_recordings(root, mission.config); });
   if (seed) mission.config.seed = *seed;
   mission.start_place = start_place_of(root);
   read.has_files = read_files(root, mission, errors);

@@ -48,6 +48,7 @@ struct MissionConfig {
   double at_most_s = 36000.0;
   double watchdog_s = 30.0;
   std::string record;
+  std::string record_mcap;
   int hold_out_every = 0;
   AutosaveConfig autosave;
   HistoryConfig history;

@@ -11,8 +11,7 @@ namespace {
 
 // Another margin changes nothing.
 bool is_final(PlanOutcome outcome) {
-  return outcome == PlanOutcome::unknown_place || outcome == PlanOutcome::cancelled ||
-         outcome == PlanOutcome::out_of_budget;
+  return is_refusal(outcome) || outcome == PlanOutcome::out_of_budget;
 }
 
 // No path with less of a margin can be much shorter.

@@ -54,6 +54,17 @@ void add_base(CLI::App& app, CommandLine& line) {
   add_repeatable(sub, "--set", c->overrides, "override a setting: --set start.angle_deg=90 (may be repeated)");
 }
 
+void add_doctor(CLI::App& app, CommandLine& line) {
+  CLI::App* doctor = app.add_subcommand("doctor", "Look at a robot before it is driven");
+  doctor->require_subcommand(1);
+  const auto [sub, c] =
+      add_command(*doctor, line, doctor_live, "live", "What a mission's robot says of itself; no wheel turns");
+  sub->add_option("MISSION", c->mission, "mission file whose sensor is looked at")->required();
+  add_number(sub, "--for", c->for_s, "seconds to look", 0.5, 600.0);
+  sub->add_flag("--wiggle", c->wiggle, "then drive 5 cm and turn 10 degrees, there and back, and see whether it stops");
+  add_repeatable(sub, "--set", c->overrides, "override a setting: --set sensor.device=/dev/ttyUSB1 (may be repeated)");
+}
+
 void add_plan(CLI::App& app, CommandLine& line) {
   const auto [sub, c] = add_command(app, line, plan, "plan", "Ask a saved map for a route");
   sub->add_option("MAP", c->map, "saved map (*.cairn)")->required();
@@ -269,9 +280,9 @@ int main_of(int argc, char** argv) {
   CommandLine line;
   add_repeatable(&app, "--plugins", line.common.plugin_folders, "further folder of modules (may be repeated)");
   app.add_flag("--json", line.common.json, "JSON on standard output; text for people on standard error");
-  for (const auto add :
-       {add_run, add_base, add_mission, add_plan, add_map, add_map_files, add_map_name, add_map_lint, add_template,
-        add_template_capture, add_plugins, add_plugins_new, add_reference, add_experiment, add_chart, add_slam})
+  for (const auto add : {add_run, add_base, add_doctor, add_mission, add_plan, add_map, add_map_files, add_map_name,
+                         add_map_lint, add_template, add_template_capture, add_plugins, add_plugins_new, add_reference,
+                         add_experiment, add_chart, add_slam})
     add(app, line);
   try {
     app.parse(argc, argv);

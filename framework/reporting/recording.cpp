@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/reporting/recording_errors.hpp"
+#include "framework/reporting/scan_rays.hpp"
 #include "maps/base/source_text.hpp"
 
 namespace cairn {
@@ -44,32 +46,6 @@ void append_range(std::string& text, const RangeReading& reading) {
 bool is_same_transducer(const RangeReading& a, const RangeReading& b) {
   return a.T_robot_sensor == b.T_robot_sensor && a.half_beam_rad == b.half_beam_rad && a.min_m == b.min_m &&
          a.max_m == b.max_m;
-}
-
-// How many rays at the beginning are a laser's scan: from one place, as far from each to the next; 0: it is none.
-std::size_t rays_of_a_scan(std::span<const RangeReading> ranges) {
-  constexpr double kEven_rad = 1e-9;
-  const auto continues = [&](std::size_t i) {
-    const RangeReading& ray = ranges[i];
-    if (ray.half_beam_rad != 0.0 || ray.max_m != ranges[0].max_m) return false;
-    if (ray.T_robot_sensor.position() != ranges[0].T_robot_sensor.position()) return false;
-    if (i < 2) return true;
-    const double step_rad = ranges[1].T_robot_sensor.theta_rad - ranges[0].T_robot_sensor.theta_rad;
-    const double here_rad = ray.T_robot_sensor.theta_rad - ranges[i - 1].T_robot_sensor.theta_rad;
-    return std::abs(wrap_angle(here_rad - step_rad)) <= kEven_rad;
-  };
-  std::size_t count = 0;
-  while (count < ranges.size() && continues(count)) ++count;
-  return count;
-}
-
-template <class Work>
-auto in_recording(const std::string& file_name, const Work& work) {
-  try {
-    return work();
-  } catch (const OutputError& error) {
-    throw std::runtime_error(file_name + ": the recording " + error.what());
-  }
 }
 
 }  // namespace

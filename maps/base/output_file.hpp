@@ -49,13 +49,14 @@ class GrowingFile {
   GrowingFile& operator=(const GrowingFile&) = delete;
   ~GrowingFile();
 
+  // Small pieces wait until there are enough of them, or for flush().
   void append(std::string_view bytes);
+  // The file holds what was appended, also when the program is killed.
+  void flush();
   // Everything is on the disk.
   void close();
 
  private:
-  void flush();
-
   int fd_ = -1;
   std::string waiting_;  // not yet written
 };

@@ -5,16 +5,12 @@ namespace {
 
 constexpr double kTie = 1.0;
 
-struct Jacobians {
-  Eigen::Matrix3d by_from = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d by_to = Eigen::Matrix3d::Zero();
-};
+}  // namespace
 
-// Of error_of(), by the position in the map and the heading of either end.
-Jacobians jacobians_of(const PoseEdge& edge, const Pose2& T_map_from, const Pose2& T_map_to) {
+ErrorJacobians jacobians_of(const PoseEdge& edge, const Pose2& T_map_from, const Pose2& T_map_to) {
   const Eigen::Matrix2d R_z_map = rotation(-edge.T_from_to.theta_rad - T_map_from.theta_rad);
   const Point d = T_map_to.position() - T_map_from.position();
-  Jacobians jacobians;
+  ErrorJacobians jacobians;
   jacobians.by_from.topLeftCorner<2, 2>() = -R_z_map;
   // The derivative of a turn by -theta turns by another quarter clockwise.
   jacobians.by_from.topRightCorner<2, 1>() = -to_left(R_z_map * d);
@@ -23,8 +19,6 @@ Jacobians jacobians_of(const PoseEdge& edge, const Pose2& T_map_from, const Pose
   jacobians.by_to(2, 2) = 1.0;
   return jacobians;
 }
-
-}  // namespace
 
 NormalEquations::NormalEquations(const PoseGraph& graph) : graph_(graph) {
   const auto rows = static_cast<Eigen::Index>(3 * graph.T_map_node.size());
@@ -45,7 +39,7 @@ void NormalEquations::add_block(std::size_t a, std::size_t b, const Eigen::Matri
 void NormalEquations::add_edge(const PoseEdge& edge, std::span<const Pose2> T_map_node) {
   const Pose2& T_map_from = T_map_node[edge.from];
   const Pose2& T_map_to = T_map_node[edge.to];
-  const Jacobians jacobians = jacobians_of(edge, T_map_from, T_map_to);
+  const ErrorJacobians jacobians = jacobians_of(edge, T_map_from, T_map_to);
   const Eigen::Matrix3d& information = edge.information;
   const Eigen::Vector3d pull = information * error_of(edge, T_map_from, T_map_to);
   add_block(edge.from, edge.from, jacobians.by_from.transpose() * information * jacobians.by_from);

@@ -8,6 +8,13 @@
 
 namespace cairn {
 
+// Of error_of(), by the position in the map and the heading of either end.
+struct ErrorJacobians {
+  Eigen::Matrix3d by_from = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d by_to = Eigen::Matrix3d::Zero();
+};
+[[nodiscard]] ErrorJacobians jacobians_of(const PoseEdge& edge, const Pose2& T_map_from, const Pose2& T_map_to);
+
 // The lower half of H, and b. The graph has no place of its own: node 0 is tied to
 // where it is, in heading too unless there are headings; that changes no minimum.
 class NormalEquations {

@@ -108,7 +108,7 @@ PoseGraphSolution solve(const PoseGraph& graph, const PoseGraphSettings& setting
   check(graph);
   PoseGraphSolution solution;
   solution.T_map_node = graph.T_map_node;
-  take_better_start(graph, solution);
+  if (settings.linear_start) take_better_start(graph, solution);
   Descent descent(graph, settings, cancelled);
   descent.run(solution);
   return solution;

@@ -1,5 +1,6 @@
 // Finds the poses by which the chi2 of a pose graph is least: Levenberg and Marquardt from the better of a linear start
-// and the poses so far, with a sparse Cholesky decomposition. Every edge is believed. Deterministic.
+// and the poses so far, with a sparse Cholesky decomposition. Every edge is believed (robust_solver.hpp: not all).
+// Deterministic.
 #pragma once
 
 #include <functional>
@@ -12,6 +13,7 @@ namespace cairn {
 struct PoseGraphSettings {
   int max_iterations = 100;        // linear systems solved
   double relative_change = 1e-10;  // of chi2 in one step, at which it has converged
+  bool linear_start = true;        // or only from the poses so far
 };
 
 struct PoseGraphSolution {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "maps/base/text.hpp"
 #include "planners/hybrid/segments.hpp"
 
 namespace cairn {
@@ -54,8 +55,9 @@ PlanResult over_landmarks(const AnswerRules& rules, const PlanningGround& ground
   result.cost_m = walk.cost_m;
   result.landmarks = path.landmarks;
   result.routes = path.routes;
-  result.reason = fmt::format("over {} landmarks, by {} stored and {} newly planned legs{}{}", path.landmarks.size(),
-                              walk.stored_legs, walk.planned_legs, goal.note, escape_text(start));
+  result.reason =
+      fmt::format("over {}, by {} stored and {} newly planned legs{}{}", counted(path.landmarks.size(), "landmark"),
+                  walk.stored_legs, walk.planned_legs, goal.note, escape_text(start));
   return result;
 }
 

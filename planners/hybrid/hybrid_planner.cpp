@@ -39,8 +39,10 @@ PlanResult HybridPlanner::plan_without_landmarks(const PlanRequest& request, con
     const auto space = usual_.spaces.space_of(world.grid, {traits_.unknown, {}}, world.grid_version);
     avoiding = with_avoided_blocked(world, request, *space, request.radius_m + kMinRadius_m);
   }
+  PlanRequest direct = request;
+  direct.avoid.clear();  // the grid says so
   PlanResult result =
-      LonePathPlanner(path_planner_).plan(request, avoiding ? with_grid(*avoiding, world) : world, budget);
+      LonePathPlanner(path_planner_).plan(direct, avoiding ? with_grid(*avoiding, world) : world, budget);
   if (avoiding && result.outcome != PlanOutcome::solved) result.reason += kAvoidedCount;
   if (result.outcome == PlanOutcome::solved) result.segments = {{PathSegment::Origin::planned, 0, result.length_m}};
   result.reason = "directly, since landmark legs are for a disc that turns on the spot; " + result.reason;

@@ -110,9 +110,12 @@ RouteResult search_graph(const RouteRequest& request, const LandmarkGraph& graph
   RouteResult result;
   result.outcome = PlanOutcome::unknown_place;
   result.reason = complaint_about(request, graph);
-  if (const std::string what = unsupported(request); !what.empty())
-    result.reason = "flat_search does not know " + what + "; landmark_search does";
   if (!result.reason.empty()) return result;
+  if (const std::string what = unsupported(request); !what.empty()) {
+    result.outcome = PlanOutcome::unsupported;
+    result.reason = "flat_search does not know " + what + "; landmark_search does";
+    return result;
+  }
   if (budget.exhausted() || budget.iterations <= 0) return stopped_search(budget);
 
   const BoostLandmarkGraph model(graph, request);

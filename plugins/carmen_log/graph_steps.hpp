@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,18 +20,26 @@ class GraphSteps {
   void add_scan();
 
   [[nodiscard]] bool has_steps() const { return !steps_.empty(); }
-  // The scans' poses in order, from the first one's.
-  [[nodiscard]] std::vector<Pose2> chained() const;
-  // Scans without an edge from the one before.
-  [[nodiscard]] std::size_t missing() const;
+  struct Chain {
+    std::vector<Pose2> T_first_scan;
+    std::size_t missing = 0;  // steps without edges
+  };
+  // The scans' poses in order, from the first one's. Where no edges lead from a scan to the next one, the step between
+  // the other poses is taken, of which there is one a scan.
+  [[nodiscard]] Chain chained(std::span<const Pose2> T_odom_scan) const;
 
  private:
-  using Ids = std::pair<std::int64_t, std::int64_t>;
-  [[nodiscard]] std::optional<Pose2> step(std::int64_t from, std::int64_t to) const;
+  using Id = std::int64_t;
+  // By one edge.
+  [[nodiscard]] std::optional<Pose2> edge(Id from, Id to) const;
+  // Also over the vertices that the log names between the two, which may have no scans.
+  [[nodiscard]] std::optional<Pose2> step(Id from, Id to) const;
+  [[nodiscard]] std::vector<Id> vertices_of_scans() const;
 
-  std::map<Ids, Pose2> steps_;
-  std::optional<std::int64_t> vertex_;
-  std::vector<std::int64_t> scans_;  // their vertices
+  std::map<std::pair<Id, Id>, Pose2> steps_;
+  std::vector<Id> vertices_;              // in the order of the log
+  std::map<Id, std::size_t> place_of_;    // in vertices_
+  std::vector<std::optional<Id>> scans_;  // their vertices
 };
 
 }  // namespace cairn::carmen_log

@@ -3,9 +3,10 @@
 //   {"map": {"976052890.244111": {"range": [1.09, ...], "x": 0.6, "y": -0.03, "theta": -0.35}, ...}}
 //
 // One observation a stamp, in order of time; x, y, theta is the laser's pose, the robot's is the laser's
-// less its offset. Bad scans (no such keys, a number that is none, a stamp that is none, a pose or a
-// finite range beyond 100 km) are refused, naming file and stamp, or skipped and counted. Text that is
-// no JSON is refused at its line and column in any case.
+// less its offset. A scan without a pose is taken at that of the one before. NaN, Infinity and null are ranges too.
+// Bad scans (no "range", a number that is none, a stamp that is none, a pose beyond 100 km) are refused, naming file
+// and stamp, or skipped and counted. Text that is no JSON is refused at its line and column; when bad lines are
+// skipped, the scans before it count.
 #pragma once
 
 #include <filesystem>

@@ -1,10 +1,14 @@
 #include "plugins/laser_log/laser_log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 
-#include "maps/base/text.hpp"
+#include "plugins/common/logs/derived_sonar.hpp"
+#include "plugins/common/logs/log_line.hpp"
 #include "plugins/common/logs/log_text.hpp"
 
 namespace cairn::laser_log {
@@ -14,16 +18,34 @@ constexpr std::string_view kJson = "json_log";
 constexpr std::string_view kPlayer = "player_log";
 constexpr std::string_view kCarmen = "carmen_log";
 
-// A long first line is one of JSON.
+constexpr int kLinesToJudge = 10000;
+
+// time host robot interface index type subtype payload
+bool is_of_player(const log_common::LogLine& line) {
+  constexpr std::array<std::string_view, 4> kInterfaces = {"laser", "position2d", "ranger", "sonar"};
+  double time_s = 0.0;
+  return line.size() > 6 && log_common::read_number(line.word(0), time_s) &&
+         std::ranges::find(kInterfaces, line.word(3)) != kInterfaces.end();
+}
+
+bool is_of_carmen(std::string_view kind) {
+  constexpr std::array<std::string_view, 6> kBeginnings = {"FLASER",   "RLASER",        "ROBOTLASER",
+                                                           "RAWLASER", "LASER_READING", "VERTEX"};
+  return std::ranges::any_of(kBeginnings, [&](std::string_view begin) { return kind.starts_with(begin); });
+}
+
+// The first line that only one of them has decides. A long first line is one of JSON.
 std::string_view name_of_reader(const std::filesystem::path& file, const Budget& budget) {
   log_common::LogText text(file, budget);
-  std::string_view line;
+  log_common::LogLine line(file.string());
+  std::string_view content;
   try {
-    while (text.next(line)) {
-      const std::string_view content = trimmed(line);
-      if (content.empty()) continue;
-      if (content.front() == '{') return kJson;
-      return content.starts_with("## Player") ? kPlayer : kCarmen;
+    while (text.line_number() < kLinesToJudge && text.next(content)) {
+      line.cut(content, text.line_number());
+      if (line.size() == 0) continue;
+      if (line.word(0).front() == '{') return kJson;
+      if (line.text().starts_with("## Player") || is_of_player(line)) return kPlayer;
+      if (is_of_carmen(line.word(0))) return kCarmen;
     }
   } catch (const log_common::ReadingEnded&) {
     throw;
@@ -41,12 +63,50 @@ void set(ConfigValue& map, const std::string& key, const std::string& value) {
   map.entries.push_back(std::move(entry));
 }
 
+constexpr double kResolution_m = 1e-3;
+constexpr std::size_t kOneIn = 1000;
+constexpr std::size_t kFewestOfACode = 10;
+constexpr double kJustBelow = 0.995;  // neighbouring numbers are codes of other faults
+constexpr double kFlank = 0.95;
+
+// A far wall has ranges on both sides of its most frequent one, a code has not.
+bool stands_out(const std::map<double, std::size_t>& counts, double range_m, std::size_t count) {
+  constexpr std::size_t kTimes = 3;
+  std::size_t below = 0;
+  for (auto at = counts.lower_bound(kFlank * range_m); at != counts.end() && at->first < kJustBelow * range_m; ++at)
+    below += at->second;
+  return count >= kTimes * below;
+}
+
+bool is_of_a_laser(const std::vector<RangeReading>& readings) {
+  constexpr double kNarrow_rad = radians(1.0);
+  return std::ranges::all_of(readings,
+                             [&](const RangeReading& reading) { return reading.half_beam_rad <= kNarrow_rad; });
+}
+
+std::vector<RangeReading> derived_ring(const std::vector<RangeReading>& beams, const Config& config) {
+  std::vector<RangeReading> readings;
+  int number = 0;
+  for (const SonarModel& sonar :
+       log_common::ring_for(beams, config.sonars, config.sonar_half_beam_rad, config.sonar_max_m)) {
+    const int sensor = number++;
+    if (const auto range_m = log_common::derived_range(sonar, beams))
+      readings.push_back({sonar.T_robot_sonar, sonar.half_beam_rad, sonar.min_m, sonar.max_m, *range_m, sensor});
+  }
+  return readings;
+}
+
 }  // namespace
 
 void Config::describe(Fields<Config>& fields) {
   fields.file("file", &Config::file, "the log, plain or gzip").required = true;
   fields.number("longest_m", &Config::longest_m, {0.1, 1000.0}, "m",
                 "echoes from farther away say nothing: lasers write a great range for no echo");
+  fields.integer("sonars", &Config::sonars, {0, 1000},
+                 "each scan as so many sonars, spread over the laser's field, might have heard it: the nearest echo in "
+                 "each cone; 0: the scan itself");
+  fields.angle("sonar_half_beam_deg", &Config::sonar_half_beam_rad, {0.1, 90}, "half the width of such a cone");
+  fields.number("sonar_max_m", &Config::sonar_max_m, {0.2, 1000.0}, "m", "longest range of such a sonar");
 }
 
 PluginChoice reader_of(const std::filesystem::path& file, const Budget& budget) {
@@ -62,30 +122,31 @@ PluginChoice reader_of(const std::filesystem::path& file, const Budget& budget) 
 }
 
 double longest_echo_m(Sensor& log, double longest_m, const Budget& budget) {
-  constexpr std::size_t kOneIn = 1000;
-  constexpr std::size_t kFewest = 10;
-  constexpr double kJustBelow = 0.995;  // neighbouring numbers are codes of other faults
-  double greatest_m = 0.0;
-  std::size_t greatest = 0;
+  std::map<double, std::size_t> counts;  // of the ranges
   std::size_t all = 0;
   while (true) {
     const SensorStep step = log.next(budget);
     if (step.state != SensorState::observation) break;
     for (const RangeReading& reading : step.observation.ranges) {
       ++all;
-      if (!std::isfinite(reading.range_m) || reading.range_m < greatest_m) continue;
-      greatest = reading.range_m > greatest_m ? 1 : greatest + 1;
-      greatest_m = reading.range_m;
+      if (std::isfinite(reading.range_m)) ++counts[std::round(reading.range_m / kResolution_m) * kResolution_m];
     }
   }
-  const bool is_no_echo = greatest >= kFewest && kOneIn * greatest >= all;
-  return is_no_echo ? std::min(longest_m, kJustBelow * greatest_m) : longest_m;
+  const auto beyond = counts.lower_bound(longest_m);
+  if (beyond == counts.begin()) return longest_m;
+  const auto& [greatest_m, count] = *std::prev(beyond);
+  const bool is_code = count >= kFewestOfACode && kOneIn * count >= all && stands_out(counts, greatest_m, count);
+  return is_code ? kJustBelow * greatest_m : longest_m;
 }
 
 SensorStep LaserLog::next(const Budget& budget) {
   SensorStep step = source_->next(budget);
+  // Nearer than a laser measures is a fault of the reading, often written as 0.
   for (RangeReading& reading : step.observation.ranges)
-    if (reading.range_m > longest_m_) reading.range_m = std::numeric_limits<double>::quiet_NaN();
+    if (reading.range_m > longest_m_ || reading.range_m < reading.min_m)
+      reading.range_m = std::numeric_limits<double>::quiet_NaN();
+  if (config_.sonars > 0 && is_of_a_laser(step.observation.ranges))
+    step.observation.ranges = derived_ring(step.observation.ranges, config_);
   return step;
 }
 

@@ -13,7 +13,8 @@ void register_module(cairn::Registrar& registrar) {
         const cairn::PluginChoice reader = laser_log::reader_of(config.file, context.budget);
         const double longest_m = laser_log::longest_echo_m(*context.modules->make<cairn::Sensor>(reader, context),
                                                            config.longest_m, context.budget);
-        return std::make_unique<laser_log::LaserLog>(context.modules->make<cairn::Sensor>(reader, context), longest_m);
+        return std::make_unique<laser_log::LaserLog>(context.modules->make<cairn::Sensor>(reader, context), longest_m,
+                                                     config);
       });
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace cairn::odometry_compass {
 namespace {
@@ -13,7 +14,13 @@ namespace {
 // Further out than any robot gets; squares of what is beyond would drown every covariance.
 constexpr double kFarthest_m = 1e6;
 constexpr double kSmoothness = 6.0;
-constexpr double kDriftShare = 0.15;  // of the newest reading in the mean that drift is seen by: about 12 readings
+constexpr double kCrept = 3.0;           // how much more a slow drift has turned the heading than it shows
+constexpr double kBiasBeforeSlip = 2.0;  // deviation of the bias over that of the heading when they have parted
+// What steel turns a compass by changes less from place to place than a wheel that slips turns the robot.
+constexpr double kFastestBias_radpm = radians(30.0);
+constexpr double kSettled_m = 0.8;  // of way, after which slow compasses have shown their noise
+constexpr double kFarBias = 3.0;    // deviations
+constexpr int kVerdict = 6;         // corrections by walls and landmarks until a suspicion is judged
 
 bool is_usable(const Pose2& pose) {
   return std::abs(pose.x_m) <= kFarthest_m && std::abs(pose.y_m) <= kFarthest_m && std::isfinite(pose.theta_rad);
@@ -37,7 +44,8 @@ MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
   noise.across_ratio = config.min_distance_ratio;
   noise.heading_rad_per_m = std::max(config.min_heading_rad_per_m, robot.odometry_error.heading_rad_per_m);
   noise.turn_as_distance_m_per_rad = config.turn_as_distance_m_per_rad;
-  noise.bias_rad = config.local_bias_ratio * robot.compass_error.local_bias_rad;
+  const bool is_stated = robot.compass_error.local_bias_rad > 0.0;
+  noise.bias_rad = is_stated ? config.local_bias_ratio * robot.compass_error.local_bias_rad : config.unstated_bias_rad;
   // The bias is a smooth function of the place, not of the path: over short distances it changes less than a
   // Gauss-Markov process of the same scale does, and it comes back where the robot comes back.
   noise.bias_scale_m = kSmoothness * std::max(0.01, robot.compass_error.local_bias_scale_m);
@@ -57,15 +65,17 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
                                  std::span<const LandmarkShape> shapes)
     : config_(config),
       motion_noise_(motion_noise_of(config, robot)),
-      compass_noise_rad_(std::max(config.min_compass_noise_rad, robot.compass_error.noise_rad)),
-      max_bias_rad_(robot.compass_error.local_bias_rad),
+      use_compass_(config.use_compass && robot.has_compass),
+      compass_noise_(std::max(config.min_compass_noise_rad, robot.compass_error.noise_rad)),
+      stated_bias_rad_(motion_noise_.bias_rad),
+      stated_max_bias_rad_(std::max(robot.compass_error.local_bias_rad,
+                                    robot.compass_error.local_bias_rad > 0.0 ? 0.0 : kFarBias * stated_bias_rad_)),
+      max_bias_rad_(stated_max_bias_rad_),
       about_half_track_m_(robot.kinematics == Kinematics::differential ? robot.radius_m : 0.0),
       filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
                             motion_noise_.bias_rad}),
-      wall_finder_(wall_rules_of(motion_noise_, config.use_compass && robot.has_compass ? compass_noise_rad_ : 0.0)),
-      landmark_sightings_({shapes.begin(), shapes.end()}) {
-  config_.use_compass = config.use_compass && robot.has_compass;
-}
+      wall_finder_(wall_rules_of(motion_noise_, use_compass_ ? compass_noise_rad() : 0.0)),
+      landmark_sightings_({shapes.begin(), shapes.end()}) {}
 
 PoseEstimate OdometryCompass::update(const Observation& observation, const KnownMap& known) {
   return update_by(observation, see_again(observation, known));
@@ -79,10 +89,12 @@ std::span<const LandmarkSighting> OdometryCompass::see_again(const Observation& 
 
 PoseEstimate OdometryCompass::update_by(const Observation& observation, std::span<const LandmarkSighting> sightings) {
   follow_odometry(observation.T_odom_robot);
-  if (config_.use_compass && observation.compass_rad) follow_compass(*observation.compass_rad, observation.stamp_s);
+  if (use_compass_ && observation.compass_rad) follow_compass(*observation.compass_rad, observation.stamp_s);
   int used = config_.use_walls ? follow_walls(observation) : 0;
   int refused = 0;
   for (const LandmarkSighting& sighting : sightings) ++(follow_landmark(sighting) ? used : refused);
+  witnesses_ += used;
+  judge_suspect();
   PoseEstimate estimate = filter_.estimate();
   estimate.sightings_used = used;
   estimate.sightings_refused = refused;
@@ -103,13 +115,15 @@ void OdometryCompass::follow_odometry(const Pose2& T_odom_robot) {
 
 void OdometryCompass::follow_compass(double compass_rad, double stamp_s) {
   if (!std::isfinite(compass_rad)) return;
+  if (compass_rad_) compass_noise_.add(wrap_angle(wrap_angle(compass_rad - *compass_rad_) - turned_rad_));
   jumped_ = jumped_ || has_jumped(compass_rad);
-  drift_rolled_m_ = (1.0 - kDriftShare) * drift_rolled_m_ + rolled_m_;
+  drift_rolled_m_ = (1.0 - CompassDrift::kFastShare) * drift_rolled_m_ + rolled_m_;
   compass_rad_ = compass_rad;
+  rolled_in_all_m_ += rolled_m_;
   turned_rad_ = 0.0;
-  rolled_m_ = 0.0;
+  const double last_rolled_m = std::exchange(rolled_m_, 0.0);
   const double gate = config_.compass_gate_sigmas;
-  const auto [off_rad, sigma_rad] = filter_.compare_heading(compass_rad, compass_noise_rad_);
+  const auto [off_rad, sigma_rad] = filter_.compare_heading(compass_rad, compass_noise_rad());
   const double off_sigmas = off_rad / sigma_rad;
   if (std::abs(off_sigmas) <= gate) {
     jumped_ = false;
@@ -119,32 +133,61 @@ void OdometryCompass::follow_compass(double compass_rad, double stamp_s) {
   }
   const bool persists = refused_since_s_ && stamp_s - *refused_since_s_ >= config_.compass_refused_at_most_s;
   if (jumped_ && !persists) return;
-  drift_sigmas_ += kDriftShare * (std::clamp(off_sigmas, -gate, gate) - drift_sigmas_);
-  const double doubted_rad = std::max(std::abs(off_rad), std::abs(drift_sigmas_) * sigma_rad);
-  const bool slips = !jumped_ && is_drifting() && could_slip(doubted_rad);
+  drift_.add(std::clamp(off_sigmas, -gate, gate));
+  const double doubted_rad = std::max(std::abs(off_rad), std::abs(drift_.fast_sigmas()) * sigma_rad);
+  const bool parts = !jumped_ && drift_.is_fast(config_.compass_drift_sigmas) && could_slip(doubted_rad);
+  const bool noise_is_known = compass_noise_.is_settled() || rolled_in_all_m_ > kSettled_m;
+  const bool is_sudden = doubted_rad > kFastestBias_radpm * drift_rolled_m_ ||
+                         (std::abs(off_sigmas) > gate && std::abs(off_rad) > kFastestBias_radpm * last_rolled_m);
+  const bool slips = parts && noise_is_known && is_sudden;
   const double before_rad = filter_.estimate().T_map_robot.theta_rad;
   if (slips || persists) {
     filter_.doubt_heading(doubted_rad);
-    drift_sigmas_ = 0.0;
+    drift_.restart();
     refused_since_s_.reset();
+  } else if (parts && has_witness()) {
+    suspect_bias(doubted_rad);
+  } else if (!jumped_ && has_witness() && drift_.is_slow(config_.compass_drift_sigmas)) {
+    suspect_bias(kCrept * std::abs(drift_.slow_sigmas()) * sigma_rad);
   }
-  (void)filter_.correct_heading(compass_rad, compass_noise_rad_, gate);
+  (void)filter_.correct_heading(compass_rad, compass_noise_rad(), gate);
   if (slips) follow_slip(wrap_angle(filter_.estimate().T_map_robot.theta_rad - before_rad));
   if (config_.bound_bias) filter_.bound_bias(max_bias_rad_);
+}
+
+// The compass and the heading have parted, and one of them is wrong: the compass most likely, as something of steel is
+// met more often than a wheel slips. Both are widened, so that the next walls and landmarks decide.
+void OdometryCompass::suspect_bias(double off_rad) {
+  filter_.doubt_heading(off_rad);
+  filter_.doubt_bias(kBiasBeforeSlip * off_rad);
+  if (about_half_track_m_ > 0.0) filter_.slide(0.0, std::min(2.0 * off_rad * about_half_track_m_, drift_rolled_m_));
+  motion_noise_.bias_rad = std::hypot(motion_noise_.bias_rad, kBiasBeforeSlip * off_rad);
+  max_bias_rad_ = std::max(max_bias_rad_, kFarBias * motion_noise_.bias_rad);
+  wall_finder_.rate_compass(0.0);
+  suspect_ = Suspect{off_rad, witnesses_};
+  drift_.restart();
+  refused_since_s_.reset();
+}
+
+// After some more walls and landmarks the bias is known. Where there is next to none, a wheel had slipped, and the
+// compass is what its file says.
+void OdometryCompass::judge_suspect() {
+  if (!suspect_ || witnesses_ < suspect_->witnesses + kVerdict) return;
+  if (std::abs(filter_.bias_rad()) < 0.5 * suspect_->off_rad) {
+    motion_noise_.bias_rad = stated_bias_rad_;
+    max_bias_rad_ = std::max(stated_max_bias_rad_, std::abs(filter_.bias_rad()));
+    wall_finder_.rate_compass(compass_noise_rad());
+  }
+  suspect_.reset();
 }
 
 // The compass itself has turned, and it and the odometry have parted by more than a wheel that slips could make them.
 bool OdometryCompass::has_jumped(double compass_rad) const {
   if (!compass_rad_) return false;
-  const double noise_rad = config_.compass_jump_sigmas * std::numbers::sqrt2 * compass_noise_rad_;
+  const double noise_rad = config_.compass_jump_sigmas * std::numbers::sqrt2 * compass_noise_rad();
   const double slip_rad = about_half_track_m_ > 0.0 ? rolled_m_ / (2.0 * about_half_track_m_) : 0.0;
   const double turned_rad = wrap_angle(compass_rad - *compass_rad_);
   return std::abs(turned_rad) > noise_rad && std::abs(wrap_angle(turned_rad - turned_rad_)) > noise_rad + slip_rad;
-}
-
-bool OdometryCompass::is_drifting() const {
-  const double mean_sigmas = std::sqrt(kDriftShare / (2.0 - kDriftShare));
-  return std::abs(drift_sigmas_) > config_.compass_drift_sigmas * mean_sigmas;
 }
 
 // Whether the wheels have rolled far enough for half of it. Nobody knows of a car's.

@@ -8,8 +8,11 @@
 //   no compass, or not finite         odometry alone
 //   compass that turns at once by     a disturbance: refused while it is beyond the gate, at most
 //   what no wheel could turn          `compass_refused_at_most_s`
-//   compass that parts from the       wheels slip: the heading is the suspect
-//   heading little by little
+//   compass readings that scatter     their noise is estimated: at least what the file says
+//   compass that parts from the       no wall or landmark has been met again yet: wheels slip, the heading is the
+//   heading little by little          suspect; later: the compass's bias is the suspect before the heading, and walls
+//                                     and landmarks decide
+//   no compass in the robot's file    its readings are not used
 //   landmark beyond the gate          refused (the wrong landmark, most likely)
 //   landmark further than 1000 km     refused
 // Walls come after the compass, landmarks after walls.
@@ -20,6 +23,7 @@
 
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "plugins/odometry_compass/compass_trust.hpp"
 #include "plugins/odometry_compass/config.hpp"
 #include "plugins/odometry_compass/landmark_sightings.hpp"
 #include "plugins/odometry_compass/pose_filter.hpp"
@@ -37,11 +41,20 @@ class OdometryCompass final : public Localizer {
   PoseEstimate update_by(const Observation& observation, std::span<const LandmarkSighting> sightings);
 
  private:
+  // The bias, since the compass has parted from the heading by so much.
+  struct Suspect {
+    double off_rad = 0.0;
+    int witnesses = 0;  // that have spoken when it was suspected
+  };
+  static constexpr int kWitnesses = 3;
   void follow_odometry(const Pose2& T_odom_robot);
   void follow_compass(double compass_rad, double stamp_s);
   void follow_slip(double turned_rad);
+  void suspect_bias(double off_rad);
+  void judge_suspect();
   [[nodiscard]] bool has_jumped(double compass_rad) const;
-  [[nodiscard]] bool is_drifting() const;
+  [[nodiscard]] double compass_noise_rad() const { return compass_noise_.deviation_rad(); }
+  [[nodiscard]] bool has_witness() const { return witnesses_ >= kWitnesses; }
   [[nodiscard]] bool could_slip(double turned_rad) const;
   [[nodiscard]] std::span<const LandmarkSighting> see_again(const Observation& observation, const KnownMap& known);
   int follow_walls(const Observation& observation);
@@ -50,7 +63,10 @@ class OdometryCompass final : public Localizer {
 
   Config config_;
   MotionNoise motion_noise_;
-  double compass_noise_rad_;
+  bool use_compass_;
+  CompassNoise compass_noise_;
+  double stated_bias_rad_;  // deviation of the compass's bias, as far as the robot's file knows
+  double stated_max_bias_rad_;
   double max_bias_rad_;
   double about_half_track_m_;  // of a differential robot; 0: of another
   PoseFilter filter_;
@@ -63,9 +79,12 @@ class OdometryCompass final : public Localizer {
   double rolled_m_ = 0.0;                  // since then, by the wheel that rolled more
   bool jumped_ = false;                    // the compass; nothing of it was within the gate since
   std::optional<double> refused_since_s_;  // the compass
-  double drift_sigmas_ = 0.0;              // mean of how far off the last readings were
-  double drift_rolled_m_ = 0.0;            // rolled in that time, about
-  int refused_places_ = 0;                 // sightings in a row that would all move the robot by about the same
+  CompassDrift drift_;
+  double rolled_in_all_m_ = 0.0;
+  double drift_rolled_m_ = 0.0;  // rolled in that time, about
+  int witnesses_ = 0;            // corrections by walls and landmarks
+  std::optional<Suspect> suspect_;
+  int refused_places_ = 0;  // sightings in a row that would all move the robot by about the same
   Point refused_off_m_{0.0, 0.0};
 };
 

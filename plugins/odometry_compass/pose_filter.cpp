@@ -92,6 +92,10 @@ void PoseFilter::doubt_heading(double off_rad) {
   covariance_(kTheta, kTheta) += squared(off_rad);
 }
 
+void PoseFilter::doubt_bias(double off_rad) {
+  covariance_(kBias, kBias) += squared(off_rad);
+}
+
 void PoseFilter::slide(double along_m, double deviation_m) {
   const Point ahead = unit_vector(state_[kTheta]);
   state_.head<2>() += along_m * ahead;

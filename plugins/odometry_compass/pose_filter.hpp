@@ -48,6 +48,9 @@ class PoseFilter {
   [[nodiscard]] HeadingOff compare_heading(double compass_rad, double noise_rad) const;
   // Widens the heading by that.
   void doubt_heading(double off_rad);
+  // Widens the compass's bias by that.
+  void doubt_bias(double off_rad);
+  [[nodiscard]] double bias_rad() const { return state_[kBias]; }
   // The robot has gone so much farther along its heading than it was believed, give or take the deviation.
   void slide(double along_m, double deviation_m);
   // Brings a compass bias that is beyond that bound back within it, and all that goes together with it: the moments of

@@ -35,6 +35,8 @@ class WallFinder {
  public:
   explicit WallFinder(const WallFinderRules& rules);
 
+  // The standard deviation of a compass reading from now on; 0: it is not to be believed.
+  void rate_compass(double noise_rad) { rules_.compass_noise_rad = noise_rad; }
   // Keeps the echoes of an observation. Its odometry must be finite.
   void take(const Observation& observation);
   // Whether enough new echoes have come for a search.

@@ -39,7 +39,10 @@ class Reader {
   void read_line(const LogLine& line);
   void read_sonar_geometry(const LogLine& line);
   void read_sonar_ranges(const LogLine& line);
-  void read_laser_scan(const LogLine& line);
+  void read_laser_scan(const LogLine& line, std::size_t at);
+  void read_ranger(const LogLine& line, const Header& header);
+  void add_fan(const LogLine& line, log_common::Fan fan, double max_m, std::size_t count, std::size_t first_range,
+               std::size_t words_a_range);
   void add_scan(const LogLine& line, std::size_t source, std::vector<double> ranges);
   [[nodiscard]] bool wants(std::string_view interface) const;
 
@@ -48,6 +51,12 @@ class Reader {
   std::vector<Pose2> robot_sonars_;
   std::vector<Pose2> T_robot_sonars_;  // as the log says
   std::optional<Pose2> T_robot_laser_;
+  struct Ranger {
+    double first_angle_rad = 0.0;
+    double step_rad = 0.0;
+    double max_m = 0.0;
+  };
+  std::optional<Ranger> ranger_;
   std::optional<Pose2> T_log_robot_;
   int next_sensor_ = 0;  // transducers are numbered in the order of their sources
 };
@@ -112,7 +121,11 @@ void Reader::read_line(const LogLine& line) {
   } else if (header.is("laser", config_.laser_index, 4, 1)) {
     T_robot_laser_ = line.pose(kPayload);
   } else if (header.is("laser", config_.laser_index, 1, 1)) {
-    if (wants(header.interface)) read_laser_scan(line);
+    if (wants(header.interface)) read_laser_scan(line, kPayload + 1);
+  } else if (header.is("laser", config_.laser_index, 1, 2)) {
+    if (wants(header.interface)) read_laser_scan(line, kPayload + 4);
+  } else if (header.interface == "ranger" && header.index == config_.laser_index) {
+    read_ranger(line, header);
   } else {
     scans_.unknown_line(std::string(header.interface) + ":" + std::to_string(header.type) + ":" +
                         std::to_string(header.subtype));
@@ -151,13 +164,18 @@ void Reader::read_sonar_ranges(const LogLine& line) {
   add_scan(line, source, line.ranges_m(kPayload + 1, count));
 }
 
-// id min_angle max_angle resolution max_range count (range intensity)...
-void Reader::read_laser_scan(const LogLine& line) {
+// id [x y theta] min_angle max_angle resolution max_range count (range intensity)...
+void Reader::read_laser_scan(const LogLine& line, std::size_t at) {
   log_common::Fan fan;
-  fan.first_angle_rad = line.metres(kPayload + 1, "smallest angle");
-  fan.step_rad = line.metres(kPayload + 3, "resolution");
-  const double max_m = line.metres(kPayload + 4, "maximum range");
-  const std::size_t count = counted_words(line, kPayload + 5, 2, "ranges with intensities");
+  fan.first_angle_rad = line.metres(at, "smallest angle");
+  fan.step_rad = line.metres(at + 2, "resolution");
+  const double max_m = line.metres(at + 3, "maximum range");
+  const std::size_t count = counted_words(line, at + 4, 2, "ranges with intensities");
+  add_fan(line, fan, max_m, count, at + 5, 2);
+}
+
+void Reader::add_fan(const LogLine& line, log_common::Fan fan, double max_m, std::size_t count, std::size_t first_range,
+                     std::size_t words_a_range) {
   fan.max_m = config_.laser.max_m.value_or(max_m > config_.laser.min_m ? max_m : log_common::kUsualLaserMax_m);
   fan.T_robot_laser = config_.laser.placed(T_robot_laser_.value_or(Pose2{}));
   const std::size_t source = scans_.source("laser " + log_common::key_of(fan, count), [&] {
@@ -165,15 +183,38 @@ void Reader::read_laser_scan(const LogLine& line) {
     next_sensor_ += static_cast<int>(count);
     return log_common::readings_of(fan, count, config_.laser, first);
   });
-  add_scan(line, source, line.ranges_m(kPayload + 6, count, 2));
+  add_scan(line, source, line.ranges_m(first_range, count, words_a_range));
 }
 
+// Geometry: x y z roll pitch yaw ...; configuration: min_angle max_angle resolution min_range max_range ...; ranges:
+// count r0 r1 ... A few of them are no laser's.
+void Reader::read_ranger(const LogLine& line, const Header& header) {
+  constexpr std::size_t kFewestOfALaser = 30;
+  const bool has_ranges = header.type == 1 && header.subtype <= 2;
+  const std::size_t count = has_ranges ? line.count(kPayload, "count of ranges") : 0;
+  if (header.type == 4 && header.subtype == 1) {
+    T_robot_laser_ = Pose2{line.metres(kPayload, "x"), line.metres(kPayload + 1, "y"), line.heading(kPayload + 5)};
+  } else if (header.type == 4 && header.subtype == 5) {
+    ranger_ = Ranger{line.metres(kPayload, "smallest angle"), line.metres(kPayload + 2, "resolution"),
+                     line.metres(kPayload + 4, "maximum range")};
+  } else if (count < kFewestOfALaser) {
+    scans_.unknown_line("ranger:" + std::to_string(header.type) + ":" + std::to_string(header.subtype));
+  } else if (wants("laser")) {
+    log_common::Fan fan = log_common::usual_fan(config_.laser, count);
+    if (ranger_ && ranger_->step_rad > 0.0) {
+      fan.first_angle_rad = ranger_->first_angle_rad;
+      fan.step_rad = ranger_->step_rad;
+    }
+    add_fan(line, fan, ranger_ ? ranger_->max_m : 0.0, count, kPayload + 1, 1);
+  }
+}
+
+// Before any pose the robot is taken to be where the first one says.
 void Reader::add_scan(const LogLine& line, std::size_t source, std::vector<double> ranges) {
-  if (!T_log_robot_) throw ConfigError(line.place(0), "no position2d line before this one says where the robot is");
   log_common::Scan scan;
   scan.stamp_s = line.finite(0, "time");
   scan.line = line.line();
-  scans_.set_pose(*T_log_robot_, scan);
+  if (T_log_robot_) scans_.set_pose(*T_log_robot_, scan);
   scans_.add_recorded(scan, source, std::move(ranges));
 }
 

@@ -1,14 +1,15 @@
 // A Player log (file version 0.3) played back. Plugin `player_log`, kind sensor; nothing to drive.
 //
 // Lines: `time host robot interface index type subtype payload`. Read are position2d 1:1 (odometry),
-// sonar 1:1 (ranges), 1:2 and 4:1 (where the transducers sit), laser 1:1 (a scan with intensities) and
-// 4:1 (where it sits). Each line with ranges is one observation at the odometry of the last position2d
-// line before it. Without a sonar geometry so far, the robot file's sonars serve when they are as many.
+// sonar 1:1 (ranges), 1:2 and 4:1 (where the transducers sit), laser 1:1 (a scan with intensities), 1:2
+// (the same with a pose, which is not used) and 4:1 (where it sits), ranger 1:1, 1:2, 4:1 and 4:5 as lasers (30 ranges
+// or more). Each line with ranges is one observation at the odometry of the last position2d line before it, or else of
+// the first. Without a sonar geometry so far, the robot file's sonars serve when they are as many.
 // Comments (#) say nothing, all other lines are counted, as interface:type:subtype.
 //
 // Bad lines, refused at their file:line:column or skipped and counted: a number that is none, a count
-// that does not fit the line, a pose or a finite range beyond 100 km, more than 1 MiB in a line, damaged
-// compression, ranges before any odometry, sonar ranges without a geometry. Another file version is
+// that does not fit the line, a pose beyond 100 km, more than 1 MiB in a line, damaged
+// compression, sonar ranges without a geometry. Another file version is
 // refused in any case.
 #pragma once
 

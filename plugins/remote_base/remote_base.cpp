@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "framework/live/steady_time.hpp"
 #include "framework/live/wire.hpp"
 #include "maps/base/spelling.hpp"
 
@@ -62,7 +63,7 @@ RemoteBase::RemoteBase(const Config& config, const RobotModel& robot)
 
 SensorStep RemoteBase::next(const Budget& budget) {
   if (!fault_.empty()) return fault_of(fault_);
-  const double begin_s = now_s();
+  const double begin_s = live::now_s();
   received_s_ = begin_s;
   while (!budget.exhausted()) {
     std::optional<Observation> seen;
@@ -74,7 +75,7 @@ SensorStep RemoteBase::next(const Budget& budget) {
       return fault_of(fault_);
     }
     if (seen) return {SensorState::observation, std::move(*seen), {}};
-    if (const double waited_s = now_s() - begin_s; waited_s > config_.reconnect_s) {
+    if (const double waited_s = live::now_s() - begin_s; waited_s > config_.reconnect_s) {
       fault_ = "no observation from the base at " + live::text_of(address_) + " for " + seconds(waited_s) +
                (disconnect_reason_.empty() ? "" : ": " + disconnect_reason_);
       disconnect(disconnect_reason_);
@@ -97,14 +98,14 @@ std::optional<Observation> RemoteBase::wait_for_observation() {
   std::optional<Observation> seen = received();
   if (!is_there)
     disconnect(disconnect_reason_.empty() ? "it has closed the connection" : disconnect_reason_);
-  else if (now_s() - received_s_ > config_.silent_s)
+  else if (live::now_s() - received_s_ > config_.silent_s)
     disconnect("it sends nothing");
   return seen;
 }
 
 std::optional<Observation> RemoteBase::received() {
   std::vector<Observation> seen;
-  const double arrived_s = now_s();
+  const double arrived_s = live::now_s();
   while (const auto line = reader_.next()) {
     live::BaseLine message;
     try {
@@ -135,7 +136,7 @@ void RemoteBase::connect() {
   is_connected_ = true;
   is_asked_ = false;
   is_stop_sent_ = live::send_now(link_.get(), live::kStopLine);
-  received_s_ = now_s();
+  received_s_ = live::now_s();
   reader_.clear();
 }
 
@@ -169,10 +170,6 @@ void RemoteBase::stop() noexcept {
   const int error = errno;
   if (live::send_now(link_.get(), live::kStopLine)) is_stop_sent_ = true;
   errno = error;
-}
-
-double RemoteBase::now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace cairn::remote_base

@@ -47,7 +47,6 @@ class RemoteBase final : public Sensor, public Drive {
   // The observations that have come, as one; connects and waits up to some ms for them.
   [[nodiscard]] std::optional<Observation> wait_for_observation();
   [[nodiscard]] std::optional<Observation> received();
-  [[nodiscard]] static double now_s();
 
   Config config_;
   RobotModel robot_;

@@ -42,7 +42,4 @@ class SonarFromLaser final : public Sensor {
   std::vector<SonarModel> sonars_;
 };
 
-// What one sonar would have read; nothing when no beam is in its cone.
-[[nodiscard]] std::optional<double> derived_range(const SonarModel& sonar, const std::vector<RangeReading>& beams);
-
 }  // namespace cairn::sonar_from_laser

@@ -33,8 +33,9 @@ const FieldPyramid& Closer::pyramid_of(const Submap& submap) {
     std::rotate(pyramids_.begin(), at, at + 1);
   } else {
     if (pyramids_.size() >= kPyramidsKept) pyramids_.pop_back();
-    pyramids_.emplace(pyramids_.begin(), &submap,
-                      std::make_unique<FieldPyramid>(submap.pyramid(kFieldCell_m, kFieldSigma_m, kClosureLevels)));
+    pyramids_.emplace(
+        pyramids_.begin(), &submap,
+        std::make_unique<FieldPyramid>(submap.pyramid(kFieldCell_m, config_.field_sigma_m, kClosureLevels)));
   }
   return *pyramids_.front().second;
 }

@@ -25,6 +25,12 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("submap_m", &Config::submap_m, {0.1, 1000.0}, "m",
                 "way on which a submap is drawn; a turn of one radian counts as a metre");
   fields.number(
+      "gather_m", &Config::gather_m, {0.0, 1000.0}, "m",
+      "for sonars: a single scan is not matched, odometry counts from node to node; closures are searched with "
+      "the echoes of so much of the way; 0: for lasers");
+  fields.number("field_sigma_m", &Config::field_sigma_m, {0.01, 10.0}, "m",
+                "of the likelihood of an echo by its distance to a submap's nearest one");
+  fields.number(
       "drift_ratio", &Config::drift_ratio, {0.0, 1.0}, "",
       "drift of the pose since the last closure, of the way: by it the windows of closures grow, and closures "
       "may disagree");

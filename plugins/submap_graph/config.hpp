@@ -7,7 +7,6 @@ namespace cairn::submap_graph {
 
 // Of the fields that scans are searched in.
 inline constexpr double kFieldCell_m = 0.1;
-inline constexpr double kFieldSigma_m = 0.12;
 
 struct Config {
   // Scans.
@@ -26,7 +25,9 @@ struct Config {
   double node_m = 0.5;
   double node_rad = radians(15.0);
   double submap_m = 5.0;
+  double gather_m = 0.0;
   // Closures.
+  double field_sigma_m = 0.12;
   double drift_ratio = 0.03;
   double min_window_m = 1.0;
   double max_window_m = 7.0;

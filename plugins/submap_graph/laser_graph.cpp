@@ -14,7 +14,7 @@ constexpr std::size_t kNodesInPart = 20;
 }  // namespace
 
 LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start)
-    : config_(config), local_map_(config), closer_(config), T_map_start_(T_map_start) {}
+    : config_(config), local_map_(config), closer_(config), gathered_(config.gather_m), T_map_start_(T_map_start) {}
 
 Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot) {
   const LocalPose local = local_map_.match(points_m, T_odom_robot);
@@ -22,12 +22,14 @@ Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot
   if (scans_.empty()) {
     graph_.add_node(T_map_start_);
     T_local_node_ = T_map_start_;
+    gathered_.add(points_m, T_local_node_);
     take_node(0, points_m, local);
     scans_.push_back({0, Pose2{}});
     return T_map_start_;
   }
   covariance_ = covariance_in_map(local);
   const Pose2 T_node_robot = inverse(local_map_.T_older_node()) * local.T_submap_robot;
+  gathered_.add(points_m, T_local_node_ * T_node_robot);
   const std::size_t last = graph_.size() - 1;
   if (T_node_robot.position().norm() < config_.node_m && std::abs(T_node_robot.theta_rad) < config_.node_rad) {
     scans_.push_back({last, T_node_robot});
@@ -35,6 +37,7 @@ Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot
   }
   const std::size_t node = graph_.add_node(graph_.T_map(last) * T_node_robot);
   T_local_node_ = T_local_node_ * T_node_robot;
+  step_ = T_node_robot;
   scans_.push_back({node, Pose2{}});
   take_node(node, points_m, local);
   return graph_.T_map(node);
@@ -52,15 +55,27 @@ Eigen::Matrix3d LaserGraph::covariance_in_map(const LocalPose& local) const {
 }
 
 void LaserGraph::take_node(std::size_t node, std::span<const Point> points_m, const LocalPose& local) {
-  local_map_.add_node(node, points_m, local);
-  for (const LocalMap::Tie& tie : local_map_.ties())
-    graph_.tie(tie.anchor, node, tie.T_anchor_node, with_floor(tie.information, kTieFloor_m, kTieFloor_rad));
-  closer_.add_node(points_m, T_local_node_);
+  const bool gathers = config_.gather_m > 0.0;
+  local_map_.add_node(node, gathers ? gathered_.since_last_node(T_local_node_) : points_m, local);
+  tie(node, step_);
+  closer_.add_node(gathers ? gathered_.all(T_local_node_) : points_m, T_local_node_);
   for (const Closure& closure : closer_.close(node, graph_, finished())) graph_.add(closure);
   if (graph_.closures().size() <= solved_closures_ ||
       node < solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes))
     return;
   solve();
+}
+
+void LaserGraph::tie(std::size_t node, const Pose2& step) {
+  const auto floored = [](const Eigen::Matrix3d& information) {
+    return with_floor(information, kTieFloor_m, kTieFloor_rad);
+  };
+  if (config_.gather_m <= 0.0) {
+    for (const LocalMap::Tie& tie : local_map_.ties())
+      graph_.tie(tie.anchor, node, tie.T_anchor_node, floored(tie.information));
+  } else if (node > 0) {
+    graph_.tie(node - 1, node, step, floored(local_map_.step_information(Pose2{}, step)));
+  }
 }
 
 std::span<const std::shared_ptr<const Submap>> LaserGraph::finished() const {

@@ -1,7 +1,9 @@
 // Laser SLAM without a mission: scans in, poses out, the past corrected.
 //
 // Each scan is laid on the submap under way (LocalMap): that gives the pose in the submap's frame, which never jumps. A
-// scan each half metre or quarter of a right angle is a node of the pose graph, tied to the submaps that it is in.
+// scan each half metre or quarter of a right angle is a node of the pose graph, tied to the submaps that it is in. With
+// sonars (gather_m) a scan has too few echoes for that: odometry ties each node to the one before, and the echoes of
+// some metres of the way are searched in submaps together.
 // Closures tie nodes to finished submaps; a solution moves the nodes, and all that hangs on them.
 #pragma once
 
@@ -14,6 +16,7 @@
 #include "maps/submaps/submap.hpp"
 #include "plugins/submap_graph/closures.hpp"
 #include "plugins/submap_graph/config.hpp"
+#include "plugins/submap_graph/gathered_echoes.hpp"
 #include "plugins/submap_graph/local_map.hpp"
 
 namespace cairn::submap_graph {
@@ -43,6 +46,7 @@ class LaserGraph {
     Pose2 T_node_scan;
   };
   void take_node(std::size_t node, std::span<const Point> points_m, const LocalPose& local);
+  void tie(std::size_t node, const Pose2& step);
   void solve();
   [[nodiscard]] Eigen::Matrix3d covariance_in_map(const LocalPose& local) const;
   [[nodiscard]] std::span<const std::shared_ptr<const Submap>> finished() const;
@@ -52,6 +56,7 @@ class LaserGraph {
   LocalMap local_map_;
   TiedGraph graph_;
   Closer closer_;
+  GatheredEchoes gathered_;
   std::vector<Scan> scans_;
   std::uint64_t revision_ = 0;
   std::size_t solved_at_node_ = 0;
@@ -60,6 +65,7 @@ class LaserGraph {
   std::size_t solved_closures_ = 0;
   Pose2 T_map_start_;
   Pose2 T_local_node_;  // of the latest node, never corrected
+  Pose2 step_;          // to it, from the one before
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   double matched_ratio_ = 0.0;
 };

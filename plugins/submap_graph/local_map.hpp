@@ -29,6 +29,8 @@ class LocalMap {
   // Makes the scan just matched part of the open submaps, as this node; opens and finishes submaps.
   void add_node(std::size_t node, std::span<const Point> points_m, const LocalPose& local);
 
+  // Of a step of odometry, in the frame in which it begins at this pose.
+  [[nodiscard]] Eigen::Matrix3d step_information(const Pose2& T_submap_before, const Pose2& step) const;
   // In the order in which they were begun; the open ones are last.
   [[nodiscard]] const std::vector<std::shared_ptr<const Submap>>& submaps() const { return submaps_; }
   [[nodiscard]] std::size_t finished() const { return older_; }
@@ -43,7 +45,6 @@ class LocalMap {
   [[nodiscard]] const std::vector<Tie>& ties() const { return ties_; }
 
  private:
-  [[nodiscard]] Eigen::Matrix3d step_information(const Pose2& T_submap_before, const Pose2& step) const;
   [[nodiscard]] Alignment aligned_with_older(std::span<const Point> points_m, const PosePrediction& odometry);
   void begin_submap(std::size_t node);
 

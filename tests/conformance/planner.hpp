@@ -6,7 +6,7 @@
 //   }
 //
 // A planner need not take every kind of place: one that only knows landmarks answers poses with
-// unknown_place, and the other way round. One of the two it must take.
+// unsupported, or unknown_place, and the other way round. One of the two it must take.
 #pragma once
 
 #include "tests/conformance/planning_laws.hpp"

@@ -27,8 +27,7 @@ class PlanningLaws : public Conformance<Interface> {
   [[nodiscard]] std::vector<Request> requests_for(const Interface& planner) const {
     std::vector<Request> taken;
     for (const Request& request : easy_requests())
-      if (planner.plan(request, world_.view(), Budget{}).outcome != PlanOutcome::unknown_place)
-        taken.push_back(request);
+      if (!is_refusal(planner.plan(request, world_.view(), Budget{}).outcome)) taken.push_back(request);
     return taken;
   }
   static std::string plan(const Interface& planner, const Request& request, const WorldView& world) {

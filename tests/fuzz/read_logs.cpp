@@ -5,6 +5,7 @@
 #include "plugins/carmen_log/carmen_log.hpp"
 #include "plugins/common/logs/scan_log.hpp"
 #include "plugins/json_log/json_log.hpp"
+#include "plugins/laser_log/laser_log.hpp"
 #include "plugins/lego_log/lego_log.hpp"
 #include "plugins/player_log/player_log.hpp"
 #include "plugins/table_log/table_log.hpp"
@@ -53,6 +54,15 @@ void play(Read read) {
   }
 }
 
+template <class Config>
+Config with_rules(const std::filesystem::path& file) {
+  Config config;
+  config.file = file;
+  config.on_bad_line = log_common::BadLine::skip;
+  config.no_echo_means = log_common::NoEcho::nothing;
+  return config;
+}
+
 }  // namespace
 
 void read_carmen_log(Input input) {
@@ -67,6 +77,36 @@ void read_json_log(Input input) {
   config.file = log_file(input);
   config.on_bad_line = log_common::BadLine::skip;
   play([&] { return json_log::read_json_log(config); });
+}
+
+// The reader that the content asks for, as laser_log uses it.
+void read_laser_log(Input input) {
+  const std::filesystem::path file = log_file(input);
+  static const RobotModel robot;
+  try {
+    const std::string name = laser_log::reader_of(file, {}).name;
+    const auto make = [&]() -> std::shared_ptr<log_common::ScanPlayer> {
+      const auto player = [](log_common::ScanLog log) {
+        return std::make_shared<log_common::ScanPlayer>(std::move(log));
+      };
+      if (name == "json_log") return player(json_log::read_json_log(with_rules<json_log::Config>(file)));
+      if (name == "player_log") return player(player_log::read_player_log(with_rules<player_log::Config>(file), robot));
+      auto config = with_rules<carmen_log::Config>(file);
+      config.poses = carmen_log::Poses::odometry;
+      return player(carmen_log::read_carmen_log(config));
+    };
+    const double longest_m = laser_log::longest_echo_m(*make(), 30.0, {});
+    promise(longest_m > 0.0 && longest_m <= 30.0, "there is a longest echo");
+    laser_log::LaserLog log(make(), longest_m);
+    double last_s = -std::numeric_limits<double>::infinity();
+    for (SensorStep step = log.next({}); step.state == SensorState::observation; step = log.next({})) {
+      check(step.observation, last_s);
+      last_s = step.observation.stamp_s;
+      for (const RangeReading& reading : step.observation.ranges)
+        promise(std::isnan(reading.range_m) || reading.range_m <= longest_m, "an echo is no code");
+    }
+  } catch (const ConfigError&) {
+  }
 }
 
 // Scans and motors from one file: each reader counts the other's lines as unknown.

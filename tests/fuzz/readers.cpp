@@ -14,6 +14,7 @@ constexpr std::array kReaders{
     Reader{"graph_list", read_graph_list},
     Reader{"graphml", read_graphml},
     Reader{"json_log", read_json_log},
+    Reader{"laser_log", read_laser_log},
     Reader{"lego_log", read_lego_log},
     Reader{"map_server", read_map_server},
     Reader{"mission", read_mission},

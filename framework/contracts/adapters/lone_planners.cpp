@@ -36,8 +36,15 @@ void join_trajectories(PlanResult& result, const LandmarkGraph& graph) {
 
 PlanResult not_a_landmark(const std::string& end) {
   PlanResult result;
-  result.outcome = PlanOutcome::unknown_place;
+  result.outcome = PlanOutcome::unsupported;
   result.reason = "the " + end + " is a pose, and a search over the landmark graph needs landmarks";
+  return result;
+}
+
+PlanResult not_on_the_grid(const std::string& what) {
+  PlanResult result;
+  result.outcome = PlanOutcome::unsupported;
+  result.reason = what + " of the landmark graph, and this planner plans on the grid alone; hybrid does both";
   return result;
 }
 
@@ -68,8 +75,11 @@ PlanResult plan_of(PathResult&& found) {
 }
 
 PlanResult LonePathPlanner::plan(const PlanRequest& request, const WorldView& world, const Budget& budget) const {
+  if (request.alternatives > 0) return not_on_the_grid("alternatives are routes");
+  if (!request.avoid.empty()) return not_on_the_grid("what is to be avoided are landmarks");
   const Time begin = Budget::Clock::now();
   PlanResult result = plan_of(paths_->plan(path_request_of(request), world, budget));
+  if (result.outcome == PlanOutcome::solved) result.segments = {{PathSegment::Origin::planned, 0, result.length_m}};
   result.time_ms.route_ms = ms_between(begin, Budget::Clock::now());
   result.time_ms.total_ms = result.time_ms.route_ms;
   return result;

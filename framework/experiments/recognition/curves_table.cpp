@@ -6,6 +6,7 @@
 
 #include "framework/experiments/recognition/recognition_table.hpp"
 #include "framework/experiments/report.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -42,11 +43,11 @@ std::string curves_table(const ExperimentConfig& config, const std::vector<Exper
       const Rows of_variant = rows_of(rows, mission, variant.name);
       if (of_variant.empty()) continue;
       text += fmt::format(
-          "### {}, {}\n\n{} worlds; 95 % intervals. A landmark further than {:.2f} m from everything is false. The "
+          "### {}, {}\n\n{}; 95 % intervals. A landmark further than {:.2f} m from everything is false. The "
           "mission itself: what it has recognised along its whole drive. The others: on its finished grid at once, "
           "each "
           "at the threshold where its F1 is highest on these grids.\n\n{}\n",
-          mission, variant.name, of_variant.size(), config.tolerance_m, table_of(config, of_variant));
+          mission, variant.name, counted(of_variant.size(), "world"), config.tolerance_m, table_of(config, of_variant));
     }
   return text;
 }

@@ -9,6 +9,7 @@
 
 #include "framework/experiments/recognition/precision_recall.hpp"
 #include "framework/experiments/report.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -141,12 +142,12 @@ std::string recognition_table(const ExperimentConfig& config, const std::vector<
   std::string text;
   for (const std::string& mission : missions_of(rows)) {
     text += fmt::format(
-        "## {}\n\n{} worlds a variant; 95 % intervals. A landmark further than {:.2f} m from everything is false. "
+        "## {}\n\n{} a variant; 95 % intervals. A landmark further than {:.2f} m from everything is false. "
         "Driven: until first known.\n\n"
         "| variant | precision | recall | F1 | right category | median error m | within one step | driven m | "
         "matchings |\n"
         "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-        mission, rows_of(rows, mission, config.variants.front().name).size(), config.tolerance_m);
+        mission, counted(rows_of(rows, mission, config.variants.front().name).size(), "world"), config.tolerance_m);
     std::string matrices;
     for (const ExperimentVariant& variant : config.variants) {
       const Rows of_variant = rows_of(rows, mission, variant.name);

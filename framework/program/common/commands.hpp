@@ -46,6 +46,14 @@ struct BaseCommand {
 };
 int base(const BaseCommand& command, const CommonOptions& common);
 
+struct DoctorLiveCommand {
+  std::filesystem::path mission;
+  double for_s = 5.0;
+  bool wiggle = false;
+  std::vector<std::string> overrides;
+};
+int doctor_live(const DoctorLiveCommand& command, const CommonOptions& common);
+
 struct SlamEvalCommand {
   std::filesystem::path relations;
   std::filesystem::path poses;
@@ -56,6 +64,7 @@ int slam_eval(const SlamEvalCommand& command, const CommonOptions& common);
 struct SlamSolveCommand {
   std::filesystem::path graph;
   std::filesystem::path out;  // empty: none
+  bool robust = false;
 };
 int slam_solve(const SlamSolveCommand& command, const CommonOptions& common);
 

@@ -98,18 +98,26 @@ bool is_nav_graph(const std::filesystem::path& file) {
   return file.extension() == kMapServer[0] && file.stem().extension() == ".nav";
 }
 
+// No format of other tools holds clusters.
+void warn_of_cluster_names(const ClusterTree& clusters, std::vector<std::string>& warnings) {
+  const auto named =
+      std::ranges::count_if(clusters.clusters, [](const auto& entry) { return !entry.second.name.empty(); });
+  if (named > 0) warnings.push_back(counted(named, "name") + " of clusters: not written");
+}
+
 Written write_nav_graph(const ExchangeCommand& command, const SavedMap& map) {
   if (map.graph.landmarks().empty())
     throw std::runtime_error(command.from.string() + ": holds no landmark to make a vertex of");
   const auto site = map.properties.find("rmf");
-  const ExportedGraph exported =
-      rmf_nav_graph_of(map.graph, site == map.properties.end() ? std::string() : site->second);
+  ExportedGraph exported = rmf_nav_graph_of(map.graph, site == map.properties.end() ? std::string() : site->second);
+  warn_of_cluster_names(map.clusters, exported.warnings);
   write_file(command.to, exported.text);
   return {{command.to}, exported.warnings};
 }
 
 Written write_graph(const ExchangeCommand& command, const SavedMap& map, GraphFormat format) {
-  const ExportedGraph exported = graph_text_of(map.graph, format);
+  ExportedGraph exported = graph_text_of(map.graph, format);
+  warn_of_cluster_names(map.clusters, exported.warnings);
   write_file(command.to, exported.text);
   return {{command.to}, exported.warnings};
 }

@@ -26,7 +26,11 @@ void report_explanation(std::string& out, const RouteExplanation& explanation, C
   out += "\n";
   for (std::size_t level = explanation.clusters.size(); level-- > 0;) {
     out += fmt::format("  level {}:", level + 1);
-    for (const ClusterId id : explanation.clusters[level]) out += " " + label_of(clusters.clusters.at(id), map.graph);
+    const char* between = " ";
+    for (const ClusterId id : explanation.clusters[level]) {
+      out += between + label_of(clusters.clusters.at(id), map.graph);
+      between = ", ";
+    }
     out += "\n";
   }
   if (!explanation.cost_with_closed_open) return;
@@ -80,7 +84,7 @@ std::string text_of(const PlanQuery& query, const PlanResult& result, const Save
   if (!result.reason.empty()) out += "\n  " + result.reason;
   out += "\n";
   for (const RouteAlternative& other : result.alternatives) {
-    out += fmt::format("  or {:.2f} m:", other.cost_m);
+    out += fmt::format("  or by routes of {:.2f} m in all:", other.cost_m);
     list(other.landmarks);
     out += "\n";
   }

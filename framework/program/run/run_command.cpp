@@ -24,6 +24,7 @@
 #include "framework/program/mission/control_server.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "framework/program/run/progress_line.hpp"
+#include "framework/reporting/mcap_recording.hpp"
 #include "framework/reporting/recording.hpp"
 #include "framework/reporting/report.hpp"
 #include "framework/safety/fatal_ends.hpp"
@@ -38,6 +39,28 @@ namespace {
 void finish(RunRecording& recording) {
   try {
     recording.close();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+  }
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error(file.string() + ": cannot be read for the recording");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// With the mission's file, its report and its map. What is missing of them leaves a recording that is whole.
+void finish(McapRecording& recording, const RunCommand& command, const MissionResult& result,
+            const OccupancyGrid* grid) {
+  const auto attach = [&](const std::filesystem::path& file, const char* media_type) {
+    if (std::filesystem::is_regular_file(file)) recording.attach(file.filename().string(), media_type, bytes_of(file));
+  };
+  try {
+    attach(command.mission, "application/yaml");
+    attach(command.out / "report.json", "application/json");
+    if (!result.map_file.empty()) attach(command.out / result.map_file, "application/vnd.sqlite3");
+    recording.close(grid);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
   }
@@ -81,6 +104,8 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
   const double speed = result.time_s / std::max(wall_s, 1e-9);
   out << fmt::format("  took        {:.1f} s, {:.{}f} x real time\n", wall_s, speed, speed < 10.0 ? 1 : 0);
   if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
+  if (!mission.config.record_mcap.empty())
+    out << "  recording   " << (folder / mission.config.record_mcap).string() << "\n";
   if (!result.map_file.empty()) out << "  map         " << (folder / result.map_file).string() << "\n";
   if (std::filesystem::exists(folder / "report.json"))
     out << "  report      " << (folder / "report.json").string() << "\n";
@@ -192,7 +217,7 @@ class RunResults {
 };
 
 MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
-                                 RunReport& report, std::ostream& people) {
+                                 RunReport& report, McapRecording* mcap, std::ostream& people) {
   std::optional<RunRecording> recording;
   if (!mission.config.record.empty()) recording.emplace(command.out / mission.config.record, runner.T_map_start());
   std::ostream terminal(terminal_of(people));
@@ -202,6 +227,7 @@ MissionResult run_with_listeners(const RunCommand& command, const Mission& missi
     ProgressLine progress(terminal, live, [&] { return runner.status(); });
     runner.subscribe(report);
     if (recording) runner.subscribe(*recording);
+    if (mcap != nullptr) runner.subscribe(*mcap);
     runner.subscribe(progress);
     result = runner.run();
   }
@@ -229,8 +255,11 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   MissionRunner runner = runner_of(mission, library, options, command);
   keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
-  const MissionResult result = run_with_listeners(command, mission, runner, report, people);
+  std::optional<McapRecording> mcap;
+  if (!mission.config.record_mcap.empty()) mcap.emplace(command.out / mission.config.record_mcap);
+  const MissionResult result = run_with_listeners(command, mission, runner, report, mcap ? &*mcap : nullptr, people);
   const bool is_reported = results.write(report, result, runner);
+  if (mcap) finish(*mcap, command, result, runner.grid());
   results.print(report, result, runner);
   if (runner.gave_up()) {
     // The lost call still runs: nothing that it may use can be torn down.

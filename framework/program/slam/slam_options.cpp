@@ -12,6 +12,9 @@ void add_slam(CLI::App& app, CommandLine& line) {
       add_command(app, line, slam_solve, "slam-solve", "Find the poses that fit the edges of a planar pose graph best");
   solve->add_option("GRAPH", s->graph, "pose graph of g2o: VERTEX_SE2 and EDGE_SE2")->required();
   solve->add_option("-o,--out", s->out, "file for the graph with the poses found");
+  solve->add_flag("--robust", s->robust,
+                  "trust the first edge from each vertex to the next one in the file only, and leave out those others "
+                  "that do not agree");
 }
 
 }  // namespace cairn

@@ -36,8 +36,7 @@ PlanResult PlannerRequests::ask(const Place& goal, const WorldView& world, Motio
       request.radius_m = world.robot.radius_m + clearance_m;
       result = context.plan(request);
       for (const RouteId route : result.blocked_routes) close(route, world.time_s);
-      if (result.outcome == PlanOutcome::solved) return result;
-      if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return result;
+      if (result.outcome == PlanOutcome::solved || is_refusal(result.outcome)) return result;
     }
   }
   return result;

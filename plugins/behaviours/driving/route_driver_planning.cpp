@@ -62,7 +62,7 @@ bool RouteDriver::plan_locally(const WorldView& world, Optimism optimism) {
 Status RouteDriver::without_route(const PlanResult& result, const WorldView& world, BehaviourContext& context) {
   const std::string why = std::string(name_of(result.outcome)) + ": " + result.reason;
   Status failed{StepState::failure, why + (tried_.empty() ? "" : "; " + tried_)};
-  if (result.outcome == PlanOutcome::unknown_place || result.outcome == PlanOutcome::cancelled) return failed;
+  if (is_refusal(result.outcome)) return failed;
   if (result.outcome == PlanOutcome::start_blocked && begin_escape(world)) {
     set_mode(Mode::travel, world.time_s);
     return {StepState::running, "leaving a tight place"};

@@ -126,6 +126,7 @@ Status RouteDriver::look(const WorldView& world, BehaviourContext& context) {
   if (looked_s < target.at_least_s || (!is_open && looked_s < target.at_most_s))
     return {StepState::running, "looking whether the path is free again"};
   if (target.is_live && is_open) map_.forget_echoes(world);
+  map_.reopen(world.grid, look_.doubts().seen_through);
   set_mode(Mode::plan, world.time_s);
   return plan(world, context);
 }

@@ -16,6 +16,13 @@ bool can_turn(const RobotModel& robot) {
   return robot.kinematics != Kinematics::car || robot.min_turning_radius_m <= 0.0;
 }
 
+std::string width_of(const HeardOpening& heard) {
+  if (!heard.is_heard) return "no echo";
+  char text[32];
+  std::snprintf(text, sizeof text, "heard %.2f m wide", heard.width_m);
+  return text;
+}
+
 }  // namespace
 
 Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
@@ -170,7 +177,7 @@ Status Exploration::face(const WorldView& world, BehaviourContext& context) {
     follower_.drive(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   } else if (world.time_s - faced_s_ >= dwell_s || !has_time ||
              !still_worthwhile(*task_, world.grid, config_.exploring.weights)) {
-    end_facing(world);
+    end_facing(world, context);
   } else if (is_opening) {
     is_faced_ = true;
     const double phase_rad = 2.0 * std::numbers::pi * (world.time_s - faced_s_) / std::max(dwell_s, 0.1);
@@ -180,11 +187,12 @@ Status Exploration::face(const WorldView& world, BehaviourContext& context) {
   return {StepState::running, "facing what is still unknown"};
 }
 
-void Exploration::end_facing(const WorldView& world) {
+void Exploration::end_facing(const WorldView& world, BehaviourContext& context) {
   if (task_->kind != TaskKind::opening) {
     chooser_.give_up(*task_, world);
     task_.reset();
   } else {
+    context.report(sentence_of(*task_) + ": " + width_of(chooser_.heard()));
     task_ = chooser_.end_look(*task_, world);
     if (task_) return begin_passage(world);
   }
@@ -249,6 +257,7 @@ Status Exploration::finished(const WorldView& world) {
 // A failure when the robot has not got into places that it should fit into, and much is unknown.
 Status Exploration::explored(const WorldView& world) {
   has_nothing_left_ = true;
+  chooser_.settle_known(world);
   const std::vector<NotEntered> left = chooser_.not_entered(world);
   std::string text;
   for (const NotEntered& opening : left) text += (text.empty() ? "; not entered: " : ", ") + sentence_of(opening);

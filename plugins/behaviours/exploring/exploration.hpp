@@ -43,7 +43,7 @@ class Exploration {
   Status nothing_left(const WorldView& world, BehaviourContext& context);
   void arrive(const WorldView& world);
   void begin_passage(const WorldView& world);
-  void end_facing(const WorldView& world);
+  void end_facing(const WorldView& world, BehaviourContext& context);
   Status get_unstuck(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] Status finished(const WorldView& world);
   [[nodiscard]] Status explored(const WorldView& world);

@@ -153,14 +153,16 @@ std::optional<ExploreTask> TaskChooser::choose_far_edge(const WorldView& world,
 }
 
 void TaskChooser::count_known(const WorldView& world) {
-  if (!known_.is_due(world.time_s)) return;
   const FreeSpace space = space_within({kEverywhere_m, config_.exploring.choice.tight_clearance_m}, world);
   const double near_m = config_.look_closer_m > 0.0 ? config_.look_closer_m : config_.exploring.estimate.passed_m;
   const CellLayer<char> reach = reach_of(space, memory_.trace);
   std::vector<Cell> edges = edge_cells(space);
   std::erase_if(edges, [&](Cell c) { return !is_beside(reach, c, space.min_distance_m() / space.cell_m()); });
   const std::size_t left = unseen(space, edges, memory_.trace, {near_m}, memory_.seen_edges).size();
-  known_.count(space, reach, left, config_.exploring.passages.drive_radius_m, world.time_s, passages_.closed());
+  const FreeSpace map = space_behind_walls(world, config_.clearance_m);
+  const double hidden_m2 = passages_.suspected_m2({space, map, passed_.votes(), memory_.trace, world.robot.radius_m});
+  known_.count(space, reach, left, config_.exploring.passages.drive_radius_m, world.time_s, passages_.closed(),
+               hidden_m2);
 }
 
 // Walls that echoes have passed are not known to be there.
@@ -191,9 +193,26 @@ std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
     task->path = tight.path_to(tight.cell_at(task->lookout));
     if (!task->path.empty()) return task;
     if (std::optional<ExploreTask> on_the_way = back_through_passage(task->lookout, world)) return on_the_way;
+    task->path = path_as_before(task->lookout, world);
+    if (!task->path.empty()) return task;
     passages_.record_unreachable(*task);
   }
   return std::nullopt;
+}
+
+// With as little room as passages are driven through with, then a cell less than the robot is wide: where it has stood
+// is drawn that wide, so what it has come along is a path. The collision monitor is what sees to it then.
+std::vector<Point> TaskChooser::path_as_before(const Point& to, const WorldView& world) {
+  double least_m = config_.clearance_m;
+  for (const double clearance_m : config_.exploring.passage_drive.clearances_m)
+    least_m = std::min(least_m, clearance_m);
+  for (const double clearance_m : {least_m, -world.grid.cell_m()}) {
+    search_ = {kEverywhere_m, clearance_m};
+    const FreeSpace least = space(world);
+    std::vector<Point> path = least.path_to(least.cell_at(to));
+    if (!path.empty()) return path;
+  }
+  return {};
 }
 
 // As the robot came: with little room to the passage, then through it.
@@ -252,7 +271,7 @@ bool TaskChooser::leads_on(const WorldView& world, const Search& tight) const {
 // also from right ahead.
 std::optional<ExploreTask> TaskChooser::choose(const WorldView& world, const std::optional<ExploreTask>& before) {
   std::erase_if(memory_.troubles, [&](const TroubleSpot& spot) { return spot.until_s < world.time_s; });
-  count_known(world);
+  if (known_.is_due(world.time_s)) count_known(world);
   const ChoiceSettings& choice = config_.exploring.choice;
   const Search tight{kEverywhere_m, std::min(config_.clearance_m, choice.tight_clearance_m)};
   if (auto task = choose_within({choice.around_m, config_.clearance_m}, world, before)) return task;

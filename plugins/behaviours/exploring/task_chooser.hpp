@@ -27,6 +27,8 @@ class TaskChooser {
   void begin_look(const WorldView& world, const Point& opening);
   void look_through(const WorldView& world, const Point& opening);
   [[nodiscard]] std::optional<ExploreTask> end_look(const ExploreTask& task, const WorldView& world);
+  // What that look, or the last one, has heard.
+  [[nodiscard]] HeardOpening heard() const { return opening_echoes_.heard(); }
   [[nodiscard]] const NearEchoes& near_echoes() const { return near_echoes_; }
 
   // The cheapest task; none when nothing in reach is left. before: what the robot is at, preferred when nearly as good.
@@ -47,6 +49,11 @@ class TaskChooser {
   // Those that still lead to what is unknown, or to where the robot has not been.
   [[nodiscard]] std::vector<NotEntered> not_entered(const WorldView& world) const;
 
+  // Once more, at the end.
+  void settle_known(const WorldView& world) {
+    count_known(world);
+    known_.settle();
+  }
   // Of what can be reached; counted anew when the next task is chosen, every few seconds.
   [[nodiscard]] double known_ratio() const { return known_.ratio(); }
   // Never when all is asked for: the share counts only doors that the map shows.
@@ -82,11 +89,14 @@ class TaskChooser {
   // Walls that were seen from afar only: they may hide doors.
   [[nodiscard]] std::optional<ExploreTask> choose_far_edge(const WorldView& world,
                                                            const std::optional<ExploreTask>& before);
+  // What the robot can reach, and how much of it is known by now.
   void count_known(const WorldView& world);
   [[nodiscard]] std::optional<ExploreTask> choose_passage(const WorldView& world);
   [[nodiscard]] FreeSpace space_behind_walls(const WorldView& world, double clearance_m) const;
   // The drive to a passage that the robot has come through before, on the way to a place behind it.
   [[nodiscard]] std::optional<ExploreTask> back_through_passage(const Point& to, const WorldView& world);
+  // With the least room there is a path with; empty: there is none.
+  [[nodiscard]] std::vector<Point> path_as_before(const Point& to, const WorldView& world);
   [[nodiscard]] double slim_clearance_m(const RobotModel& robot) const;
   // The same to what is left behind it.
   [[nodiscard]] std::optional<ExploreTask> choose_behind_passages(const WorldView& world,

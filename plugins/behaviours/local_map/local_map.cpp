@@ -1,6 +1,7 @@
 #include "plugins/behaviours/local_map/local_map.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "plugins/common/motion/path.hpp"
 
@@ -98,6 +99,15 @@ bool LocalMap::is_blocked(const WorldView& world, const std::vector<Point>& path
                           double radius_m) const {
   const auto is_occupied = [&](Cell c) { return echoes_.now().is_occupied(world.grid, c) && !ignored_.contains(c); };
   return path_is_blocked(world.grid, is_occupied, path, along_m, ahead_m, radius_m);
+}
+
+// A cell beside it will do: poses shift by that much between the blockage and the look.
+void LocalMap::reopen(const OccupancyGrid& map, const std::vector<Cell>& seen_through) {
+  std::erase_if(shut_, [&](const TroubleSpot& spot) {
+    const Cell at = map.cell_at(spot.at_m);
+    return std::ranges::any_of(seen_through,
+                               [&](Cell c) { return std::max(std::abs(c.x - at.x), std::abs(c.y - at.y)) <= 1; });
+  });
 }
 
 void LocalMap::ignore(const std::vector<Cell>& cells, const WorldView& world, const Doubts& doubts) {

@@ -39,6 +39,8 @@ class LocalMap {
   void avoid(const Point& at, double until_s) { avoided_.push_back({at, until_s}); }
   // No path that takes unknown ground to be free leads there until then.
   void shut(const Point& at, double until_s) { shut_.push_back({at, until_s}); }
+  // What blocked the robot there has gone: echoes have come from behind these cells.
+  void reopen(const OccupancyGrid& map, const std::vector<Cell>& seen_through);
 
   // Where the robot can go. goal: about it, too, unknown ground is taken to be free where that is asked for.
   [[nodiscard]] FreeSpace space(const WorldView& world, double clearance_m, Optimism optimism, const Point& goal,

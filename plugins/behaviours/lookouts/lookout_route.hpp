@@ -14,8 +14,8 @@ struct LookoutCosts {
   double seen_once = 3.0;  // unknown, but an echo has come through
   double unknown = 15.0;
   double occupied = 20.0;
-  double certainly_occupied = 60.0;  // besides, at the map's bound of certainty
-  double looked_at = 12.0;           // less than a wall: a door is looked at twice before one
+  double certainly_occupied = 250.0;  // besides, at the map's bound of certainty: a wall costs more than looks at doors
+  double looked_at = 12.0;            // less than a wall: a door is looked at twice before one
   double looked_at_radius_m = 0.8;
   static void describe(Fields<LookoutCosts>& fields);
 };

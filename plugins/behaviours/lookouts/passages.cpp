@@ -38,7 +38,8 @@ class PassageFinder {
       const double path_m = space_.cost_m(passage->lookout);
       const double far_m = (space_.centre_of(passage->lookout) - robot_).norm();
       const double missing_m = std::max(0.0, 2.0 * space_.min_distance_m() - passage->width_m);
-      const double cost_m = (path_m < kInfinite ? path_m : kFar_m + far_m) + settings_.narrow_cost * missing_m;
+      const double cost_m = (path_m < kInfinite ? path_m : kFar_m + far_m) + settings_.narrow_cost * missing_m +
+                            (search_.through_walls ? suspicion_cost_m(*passage) : 0.0);
       if (cost_m >= best_m) continue;
       best = passage;
       best_m = cost_m;
@@ -46,8 +47,26 @@ class PassageFinder {
     return best;
   }
 
+  [[nodiscard]] double seen_behind_walls_m2() {
+    spread();
+    double all_m2 = 0.0;
+    for (const CellGroup& place : places_beyond()) all_m2 += area_m2(place);
+    return all_m2;
+  }
+
  private:
   static constexpr double kFar_m = 1e3;
+
+  // Less where much was seen behind, more for each look beside it: one room would have all of its wall looked at.
+  [[nodiscard]] double suspicion_cost_m(const Passage& passage) const {
+    const auto beside = std::ranges::count_if(
+        search_.without, [&](const Point& p) { return (p - passage.at_m).norm() < settings_.beside_m; });
+    return settings_.look_beside_m * static_cast<double>(beside) -
+           settings_.seen_bonus_m_per_m2 * std::min(passage.behind_m2, settings_.max_seen_m2);
+  }
+  [[nodiscard]] double area_m2(const CellGroup& place) const {
+    return static_cast<double>(place.size()) * space_.cell_m() * space_.cell_m();
+  }
 
   // Beyond the map's rim everything is unknown.
   [[nodiscard]] double room_m(Cell cell) const {
@@ -124,13 +143,10 @@ class PassageFinder {
         if (search_.through_walls ? is_seen_behind_wall(c) : room_m(c) >= space_.min_distance_m()) cells.push_back(c);
       }
     std::vector<CellGroup> groups = grouped(cells, 1);
-    const double cell_m2 = space_.cell_m() * space_.cell_m();
     const double min_m2 = search_.through_walls ? settings_.seen_through_m2 : settings_.room_behind_m2;
     const double min_depth_m = search_.through_walls ? 0.0 : settings_.min_depth_m;
     const auto is_deep = [&](Cell c) { return beyond_.cost_m.at(c) >= min_depth_m; };
-    std::erase_if(groups, [&](const CellGroup& g) {
-      return static_cast<double>(g.size()) * cell_m2 < min_m2 || std::ranges::none_of(g, is_deep);
-    });
+    std::erase_if(groups, [&](const CellGroup& g) { return area_m2(g) < min_m2 || std::ranges::none_of(g, is_deep); });
     return groups;
   }
 
@@ -173,6 +189,7 @@ class PassageFinder {
     Passage passage;
     passage.at_m = space_.centre_of(*narrowest);
     passage.width_m = search_.through_walls ? 0.0 : 2.0 * room_m(*narrowest);
+    passage.behind_m2 = search_.through_walls ? area_m2(place) : 0.0;
     passage.beyond_m = inside(place);
     const std::optional<Cell> lookout =
         lookout_before(passage.at_m, ahead_of(*narrowest, passage.beyond_m - space_.centre_of(path.front())));
@@ -241,9 +258,12 @@ void PassageSettings::describe(Fields<PassageSettings>& fields) {
                 "that reaches at least so far from what is in reach: a strip along a wall is no room");
   fields.number("seen_through_m2", &C::seen_through_m2, {0.0, 1e4}, "m2",
                 "a wall is looked at again when echoes have come through it from so much behind it");
+  fields.number("missed_m2", &C::missed_m2, {0.0, 1e4}, "m2",
+                "a wall that was not looked at makes the step fail when echoes have shown so much behind it");
   fields.number("max_wall_m", &C::max_wall_m, {0.0, 5.0}, "m", "within this of what is in reach");
   fields.number("look_from_m", &C::look_from_m, {0.1, 5.0}, "m",
                 "a passage is looked at from here, straight before it");
+  fields.number("look_again_from_m", &C::look_again_from_m, {0.1, 5.0}, "m", "the same when it is looked at once more");
   fields.number("look_at_least_from_m", &C::look_at_least_from_m, {0.0, 5.0}, "m",
                 "and never from nearer than this: it is no passage then");
   fields.number("beyond_m", &C::beyond_m, {0.0, 5.0}, "m", "so far into the room behind it the robot drives at first");
@@ -251,6 +271,13 @@ void PassageSettings::describe(Fields<PassageSettings>& fields) {
   fields.number(
       "narrow_cost", &C::narrow_cost, {0.0, 1000.0}, "",
       "metres of path that a passage comes later for each metre that the robot's width and clearance lack in it");
+  fields.number(
+      "seen_bonus_m_per_m2", &C::seen_bonus_m_per_m2, {0.0, 1000.0}, "m/m2",
+      "metres of path that a wall is looked at earlier for each square metre that echoes have shown behind it");
+  fields.number("max_seen_m2", &C::max_seen_m2, {0.0, 1000.0}, "m2", "and for so much at most");
+  fields.number("look_beside_m", &C::look_beside_m, {0.0, 1000.0}, "m",
+                "metres of path that a wall is looked at later for each look at the wall beside it");
+  fields.number("beside_m", &C::beside_m, {0.0, 100.0}, "m", "within this");
   fields.integer("max_suspects", &C::max_suspects, {0.0, 1e4}, "at most so many walls are looked at again");
   fields.integer("max_tries", &C::max_tries, {0.0, 100.0}, "how often a passage is tried before it is given up");
   fields.group("echoes", &C::echoes, "how wide a passage is by the echoes of a look");
@@ -277,6 +304,12 @@ std::optional<Passage> nearest_passage(const FreeSpace& space, const OccupancyGr
                                        const Point& robot, const PassageSearch& search,
                                        const PassageSettings& settings) {
   return PassageFinder(space, grid, reach, robot, search, settings).nearest();
+}
+
+double seen_behind_walls_m2(const FreeSpace& space, const OccupancyGrid& grid, const CellLayer<char>& reach,
+                            const std::vector<Point>& without, const PassageSettings& settings) {
+  const PassageSearch search{true, without};
+  return PassageFinder(space, grid, reach, {0.0, 0.0}, search, settings).seen_behind_walls_m2();
 }
 
 }  // namespace cairn::behaviours

@@ -20,13 +20,19 @@ struct PassageSettings {
   double room_behind_m2 = 0.4;
   double min_depth_m = 0.5;
   double seen_through_m2 = 0.15;
+  double missed_m2 = 1.0;
   double max_wall_m = 0.5;
   double look_from_m = 0.7;
+  double look_again_from_m = 0.5;
   double look_at_least_from_m = 0.35;
   double beyond_m = 0.5;
   double same_m = 0.45;
   double narrow_cost = 10.0;
-  int max_suspects = 4;
+  double seen_bonus_m_per_m2 = 4.0;
+  double max_seen_m2 = 3.0;
+  double look_beside_m = 6.0;
+  double beside_m = 2.0;
+  int max_suspects = 8;
   int max_tries = 2;
   OpeningEchoSettings echoes;
   NearEchoSettings passed{
@@ -39,20 +45,25 @@ struct Passage {
   double width_m = 0.0;  // there, between what is drawn occupied
   Cell lookout;          // straight before it, where the robot can get to
   Point beyond_m{0.0, 0.0};
+  double behind_m2 = 0.0;  // of a suspected one: what echoes have shown behind it
 };
 
 // What the robot can get to from where it is or has ever been: known free cells with the space's clearance, joined to a
 // place of the trace.
 [[nodiscard]] CellLayer<char> reach_of(const FreeSpace& space, const std::vector<Pose2>& trace);
 
+// How much room echoes have shown behind walls, all of it that is near to what is in reach.
+[[nodiscard]] double seen_behind_walls_m2(const FreeSpace& space, const OccupancyGrid& grid,
+                                          const CellLayer<char>& reach, const std::vector<Point>& without,
+                                          const PassageSettings& settings = {});
+
 struct PassageSearch {
   bool through_walls = false;  // suspected ones: drawn shut, but seen through
   std::vector<Point> without;  // none within same_m of these
 };
 
-// The one whose lookout is nearest to the robot by path, as the crow flies where there is none; narrow ones come later.
-// None within same_m of
-// what it is to do without. O(cells log cells).
+// The one whose lookout is nearest to the robot by path, as the crow flies where there is none; narrow ones come later,
+// suspected ones with much behind them earlier. None within same_m of what it is to do without. O(cells log cells).
 [[nodiscard]] std::optional<Passage> nearest_passage(const FreeSpace& space, const OccupancyGrid& grid,
                                                      const CellLayer<char>& reach, const Point& robot,
                                                      const PassageSearch& search, const PassageSettings& settings = {});

@@ -1,5 +1,7 @@
 #include "plugins/common/logs/laser.hpp"
 
+#include <array>
+
 namespace cairn::log_common {
 
 void LaserConfig::describe(Fields<LaserConfig>& fields) {
@@ -11,10 +13,10 @@ void LaserConfig::describe(Fields<LaserConfig>& fields) {
   fields.angle("angle_deg", &LaserConfig::angle_rad, {-360, 360},
                "which way it looks; left out: what the log says, or 0, or 180 for a rear laser");
   fields.angle("first_angle_deg", &LaserConfig::first_angle_rad, {-360, 360},
-               "of the first beam; left out: what the log says, or -90");
+               "of the first beam; left out: what the log says, or that of usual lasers with as many beams");
   fields.angle("step_deg", &LaserConfig::step_rad, {-90, 90},
-               "from beam to beam; left out: what the log says, or 1 for 180 and 181 beams, 0.5 for 360 and 361, "
-               "otherwise so that the last beam is at 90");
+               "from beam to beam; left out: what the log says, or that of usual lasers with as many beams (1 for 180 "
+               "and 181, 0.5 for 360 and 361, ...), otherwise so that the beams are from -90 to 90");
   fields.angle("half_beam_deg", &LaserConfig::half_beam_rad, {0, 90}, "half the width of a beam; 0: a ray");
   fields.number("min_m", &LaserConfig::min_m, {0, 100}, "m", "shortest range");
   fields.number("max_m", &LaserConfig::max_m, {0.01, 1000}, "m",
@@ -22,16 +24,29 @@ void LaserConfig::describe(Fields<LaserConfig>& fields) {
                 "PARAM robot_front_laser_max or robot_rear_laser_max), or 80");
 }
 
-double usual_step(std::size_t beams) {
-  if (beams == 180 || beams == 181) return radians(1.0);
-  if (beams == 360 || beams == 361) return radians(0.5);
-  return beams > 1 ? std::numbers::pi / static_cast<double>(beams - 1) : 0.0;
+UsualAngles usual_angles(std::size_t beams) {
+  struct Laser {
+    std::size_t beams;  // or one less
+    double field_deg;
+    double step_deg;
+  };
+  // SICK LMS 2xx in both its fields, LMS 1xx, Hokuyo UTM-30LX and URG-04LX.
+  constexpr std::array kLasers{Laser{181, 180.0, 1.0},           Laser{361, 180.0, 0.5}, Laser{721, 180.0, 0.25},
+                               Laser{101, 100.0, 1.0},           Laser{201, 100.0, 0.5}, Laser{401, 100.0, 0.25},
+                               Laser{271, 270.0, 1.0},           Laser{541, 270.0, 0.5}, Laser{1081, 270.0, 0.25},
+                               Laser{683, 240.0, 360.0 / 1024.0}};
+  for (const Laser& laser : kLasers)
+    if (beams == laser.beams || beams + 1 == laser.beams)
+      return {radians(-0.5 * laser.field_deg), radians(laser.step_deg)};
+  return {-0.5 * std::numbers::pi, beams > 1 ? std::numbers::pi / static_cast<double>(beams - 1) : 0.0};
 }
 
 Fan usual_fan(const LaserConfig& config, std::size_t beams) {
   Fan fan;
   fan.T_robot_laser = config.placed({});
-  fan.step_rad = usual_step(beams);
+  const UsualAngles angles = usual_angles(beams);
+  fan.first_angle_rad = angles.first_rad;
+  fan.step_rad = angles.step_rad;
   fan.max_m = config.max_m.value_or(kUsualLaserMax_m);
   return fan;
 }

@@ -37,9 +37,14 @@ struct Fan {
   double max_m = kUsualLaserMax_m;
 };
 
-// From beam to beam in the usual field of -90 to 90 deg: 1 deg for 180 and 181 beams, 0.5 for 360 and
-// 361, otherwise so that the last beam is at 90.
-[[nodiscard]] double usual_step(std::size_t beams);
+struct UsualAngles {
+  double first_rad = 0.0;
+  double step_rad = 0.0;
+};
+
+// Of the usual laser with so many beams: 180 and 181 are 1 deg apart from -90 deg on, 360 and 361 half a degree, 541
+// half a degree from -135 deg on, ...; otherwise the beams are from -90 to 90 deg.
+[[nodiscard]] UsualAngles usual_angles(std::size_t beams);
 
 // Of a laser of which the log says nothing.
 [[nodiscard]] Fan usual_fan(const LaserConfig& config, std::size_t beams);

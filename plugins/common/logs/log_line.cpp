@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "maps/base/text.hpp"
 
@@ -12,9 +13,23 @@ namespace {
 constexpr std::string_view kBlank = " \t";
 constexpr double kLargestCount = 1e6;
 
+// How old Windows programs write what is no number: "1.#INF", "-1.#IND", "1.#QNAN00".
+std::optional<double> odd_number(std::string_view text) {
+  const bool is_negative = text.starts_with('-');
+  if (is_negative) text.remove_prefix(1);
+  if (!text.starts_with("1.#")) return std::nullopt;
+  const double infinity = std::numeric_limits<double>::infinity();
+  if (text.substr(3).starts_with("INF")) return is_negative ? -infinity : infinity;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 bool read_number(std::string_view text, double& value) {
+  if (const std::optional<double> odd = odd_number(text)) {
+    value = *odd;
+    return true;
+  }
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return !text.empty() && error == std::errc{} && end == text.data() + text.size();
@@ -80,7 +95,7 @@ Pose2 LogLine::pose(std::size_t i) const {
 
 double LogLine::range_m(std::size_t i) const {
   const double value = number(i, "range");
-  return std::isfinite(value) ? metres(i, "range") : value;
+  return std::abs(value) > kFarthest_m ? std::copysign(std::numeric_limits<double>::infinity(), value) : value;
 }
 
 std::vector<double> LogLine::ranges_m(std::size_t first, std::size_t count, std::size_t step) const {

@@ -14,7 +14,7 @@ namespace cairn::log_common {
 // Farther than any recorded robot or echo; what is beyond is a broken number, not a place.
 inline constexpr double kFarthest_m = 1e5;
 
-// A number as logs write it ("+3.5", "nan", "inf" too); false when the text is anything else or the
+// A number as logs write it ("+3.5", "nan", "inf", "1.#INF" too); false when the text is anything else or the
 // number fits no double.
 [[nodiscard]] bool read_number(std::string_view text, double& value);
 
@@ -42,7 +42,7 @@ class LogLine {
   [[nodiscard]] double heading(std::size_t i) const;
   // x, y and heading in three words, the heading wrapped.
   [[nodiscard]] Pose2 pose(std::size_t i) const;
-  // Any number but a finite one beyond kFarthest_m.
+  // Any number; one beyond kFarthest_m is infinite: logs write such for "no echo".
   [[nodiscard]] double range_m(std::size_t i) const;
   // So many of them, `step` words apart.
   [[nodiscard]] std::vector<double> ranges_m(std::size_t first, std::size_t count, std::size_t step = 1) const;

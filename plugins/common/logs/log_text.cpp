@@ -111,13 +111,13 @@ bool LogText::next(std::string_view& line) {
   return true;
 }
 
-std::string text_of_file(const std::filesystem::path& file, const Budget& budget) {
+std::string text_of_file(const std::filesystem::path& file, const Budget& budget, std::string& damage) {
   LogText::Reader reader(file);
   std::string all;
   while (!reader.ended) {
     check_budget(budget, file.string());
-    const std::string damage = reader.append_to(all);
-    if (!damage.empty()) throw ConfigError({file.string(), 0, 0}, damage);
+    damage = reader.append_to(all);
+    if (!damage.empty()) break;
     if (all.size() > kLargestText) throw ConfigError({file.string(), 0, 0}, "the log is larger than 1 GiB");
   }
   return all;

@@ -53,9 +53,9 @@ class LogText {
   std::string damage_;  // what is wrong with the compressed data, until it has been reported
 };
 
-// The whole of such a file. Throws ConfigError when it cannot be read, is damaged or is larger than 1 GiB, ReadingEnded
-// when the budget is exhausted.
-[[nodiscard]] std::string text_of_file(const std::filesystem::path& file, const Budget& budget = {});
+// The whole of such a file, or what could be unpacked of it; then `damage` says what is wrong. Throws ConfigError when
+// it cannot be read or is larger than 1 GiB, ReadingEnded when the budget is exhausted.
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& file, const Budget& budget, std::string& damage);
 
 // Throws ReadingEnded at this line when the budget is exhausted.
 void check_budget(const Budget& budget, const std::string& file, int line = 0);

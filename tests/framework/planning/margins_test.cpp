@@ -111,7 +111,8 @@ TEST(Margins, WithoutAPathForTheRobotItselfTheAnswerIsThatOfTheLastOne) {
 }
 
 TEST(Margins, WhatAnotherMarginCannotChangeIsAskedOnce) {
-  for (const PlanOutcome outcome : {PlanOutcome::unknown_place, PlanOutcome::cancelled, PlanOutcome::out_of_budget}) {
+  for (const PlanOutcome outcome :
+       {PlanOutcome::unknown_place, PlanOutcome::unsupported, PlanOutcome::cancelled, PlanOutcome::out_of_budget}) {
     Gap gap(0.1, outcome);
     EXPECT_EQ(gap.plan(0.2).outcome, outcome);
     EXPECT_EQ(gap.radii_m.size(), 1U);

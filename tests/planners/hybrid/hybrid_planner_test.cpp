@@ -180,7 +180,7 @@ TEST_F(Hybrid, OnAMapWithoutAGridTheGraphAnswers) {
   EXPECT_EQ(result.path.size(), 2U);
   EXPECT_EQ(router->calls, 0);
   PlanRequest poses = request('A', 'B');
-  EXPECT_EQ(plan(poses).outcome, PlanOutcome::unknown_place);
+  EXPECT_EQ(plan(poses).outcome, PlanOutcome::unsupported);
 }
 
 TEST_F(Hybrid, KeepsToItsBudget) {

@@ -41,7 +41,7 @@ TEST(FlatSearch, SaysWhatItDoesNotKnow) {
     RouteRequest asked = request({1}, {2});
     change(asked);
     const RouteResult result = world.plan(FlatSearch(), asked);
-    EXPECT_EQ(result.outcome, PlanOutcome::unknown_place);
+    EXPECT_EQ(result.outcome, PlanOutcome::unsupported);
     return result.reason;
   };
   EXPECT_EQ(reason([](RouteRequest& asked) { asked.alternatives = 1; }),

@@ -60,13 +60,14 @@ TEST_F(CarmenFaults, NumbersThatAreNoneAreRefusedAtTheWord) {
   EXPECT_EQ(fault_of("ODOM 1e9 0 0\n"), "a.log:1:6: the x is beyond 100 km: \"1e9\"");
 }
 
-TEST_F(CarmenFaults, RangesOf1e300AreRefusedOrTheirLineIsSkipped) {
-  const std::string text = kGood + "FLASER 2 1 1e300 0 0 0 0 0 0 2 host 1\n" + kGood;
-  EXPECT_EQ(fault_of(text), "a.log:2:12: the range is beyond 100 km: \"1e300\"");
-  config_.on_bad_line = log_common::BadLine::skip;
-  EXPECT_EQ(fault_of(text),
-            "end of a.log after 2 observations; 1 bad line skipped, the first: a.log:2:12: the range is beyond 100 km: "
-            "\"1e300\"");
+TEST_F(CarmenFaults, RangesBeyondAllPlacesAreNoEcho) {
+  config_.file = folder_.write("a.log", "FLASER 4 1 1e300 3.4e38 1.#INF 0 0 0 0 0 0 2 host 1\n");
+  log_common::ScanPlayer player(read_carmen_log(config_));
+  std::string reason;
+  const auto seen = log_files::play(player, reason);
+  EXPECT_EQ(seen[0].ranges[0].range_m, 1.0);
+  for (const std::size_t i : {1U, 2U, 3U})
+    EXPECT_EQ(seen[0].ranges[i].range_m, std::numeric_limits<double>::infinity());
 }
 
 // Laser lines of a robot that drives 0.1 m from one to the next, with a pose and the odometry beside it.
@@ -135,8 +136,8 @@ TEST_F(CarmenFaults, ClocksThatJumpAreBridgedOrRefused) {
   EXPECT_EQ(fault_of(text), "a.log:3:1: the clock jumps from 6 s to 1 s");
 }
 
-TEST_F(CarmenFaults, SonarsNeedAPose) {
-  EXPECT_EQ(fault_of("SONAR 0.5 1 1 0 0 0 1 host 1\n"), "a.log:1:1: no line before this one says where the robot is");
+TEST_F(CarmenFaults, SonarsBeforeAnyPoseAreTakenWhereTheFirstOneIs) {
+  EXPECT_EQ(fault_of("SONAR 0.5 1 1 0 0 0 1 host 1\n"), "end of a.log after 1 observations");
 }
 
 TEST_F(CarmenFaults, SettingsThatFitNoLogAreRefused) {

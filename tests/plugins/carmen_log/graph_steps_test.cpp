@@ -53,9 +53,27 @@ TEST(GraphSteps, AScanWithoutAnEdgeFromTheOneBeforeIsCounted) {
   const auto seen = play("VERTEX_SE2 0 0 0 0\n" + scan(1.0, 0.0) + "VERTEX_SE2 1 5 0 0\n" + scan(2.0, 5.0) +
                              "VERTEX_SE2 2 6 0 0\n" + scan(3.0, 6.0) + "EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nFIX 0\n",
                          Poses::odometry, reason);
-  EXPECT_EQ(seen[1].T_odom_robot, Pose2{});
-  EXPECT_NEAR(seen[2].T_odom_robot.x_m, 1.0, 1e-12);
-  EXPECT_NE(reason.find("1 step between scans missing, taken as none"), std::string::npos) << reason;
+  EXPECT_NEAR(seen[1].T_odom_robot.x_m, 5.0, 1e-12) << "as the laser lines say";
+  EXPECT_NEAR(seen[2].T_odom_robot.x_m, 6.0, 1e-12);
+  EXPECT_NE(reason.find("1 step between scans without an edge, taken from the laser lines"), std::string::npos)
+      << reason;
+}
+
+TEST(GraphSteps, StepsLeadOverVerticesWithoutScans) {
+  std::string reason;
+  const auto seen = play("VERTEX_SE2 0 0 0 0\n" + scan(1.0, 0.0) + "VERTEX_SE2 1 5 0 0\nVERTEX_SE2 2 6 0 0\n" +
+                             scan(3.0, 6.0) + "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 2 0 0 1 0 0 1 0 1\n",
+                         Poses::odometry, reason);
+  EXPECT_NEAR(seen[1].T_odom_robot.x_m, 3.0, 1e-12);
+  EXPECT_EQ(reason.find("without an edge"), std::string::npos) << reason;
+}
+
+TEST(GraphSteps, ScansBehindAllVerticesBelongToThemInOrder) {
+  std::string reason;
+  const auto seen = play(
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 5 0 0\n" + scan(1.0, 0.0) + scan(2.0, 5.0) + "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n",
+      Poses::odometry, reason);
+  EXPECT_NEAR(seen[1].T_odom_robot.x_m, 1.0, 1e-12);
 }
 
 TEST(GraphSteps, AVertexThatIsNoWholeNumberIsRefusedAtItsPlace) {

@@ -67,6 +67,8 @@ TEST_F(JsonLog, TextThatIsNoJsonIsRefusedAtItsPlace) {
   EXPECT_EQ(fault_of("{\"map\": {}}"), "a.json: the log holds no observation");
   const std::string packed = folder_.gzip("{\"map\": {}}");
   EXPECT_EQ(fault_of(packed.substr(0, packed.size() - 3)), "a.json: the compressed log is cut off here");
+  config_.on_bad_line = log_common::BadLine::skip;
+  EXPECT_EQ(fault_of("{\"map\":\n  {\"1\": oops}}"), "a.json:2:9: no JSON from here on") << "no scan is whole";
 }
 
 TEST_F(JsonLog, BadScansAreRefusedByStampOrSkipped) {
@@ -76,15 +78,43 @@ TEST_F(JsonLog, BadScansAreRefusedByStampOrSkipped) {
   EXPECT_EQ(with(R"("1": 7)"), "a.json: at stamp \"1\": no \"range\"");
   EXPECT_EQ(with(R"("1": {"range": 3, "x": 1, "y": 1, "theta": 0})"),
             "a.json: at stamp \"1\": \"range\" must be a list");
-  EXPECT_EQ(with(R"("1": {"range": [null], "x": 1, "y": 1, "theta": 0})"),
+  EXPECT_EQ(with(R"("1": {"range": ["far"], "x": 1, "y": 1, "theta": 0})"),
             "a.json: at stamp \"1\": a range must be a number");
-  EXPECT_EQ(with(R"("1": {"range": [1e300], "x": 1, "y": 1, "theta": 0})"),
-            "a.json: at stamp \"1\": a range is beyond 100 km");
+  EXPECT_EQ(with(R"("1": {"range": [1], "x": 1e6, "y": 1, "theta": 0})"), "a.json: at stamp \"1\": x is beyond 100 km");
+  EXPECT_EQ(with(R"("1": {"range": [1], "x": 1, "theta": 0})"), "a.json: at stamp \"1\": no \"y\"");
   EXPECT_EQ(with(R"("noon": {"range": [1], "x": 1, "y": 1, "theta": 0})"),
             "a.json: at stamp \"noon\": a stamp must be a number of seconds");
   config_.on_bad_line = log_common::BadLine::skip;
-  EXPECT_THAT(with(R"("1": {"range": [1e300], "x": 1, "y": 1, "theta": 0})"),
+  EXPECT_THAT(with(R"("1": {"range": [1], "x": 1e6, "y": 1, "theta": 0})"),
               HasSubstr("end of a.json after 1 observations; 1 bad line skipped, the first: "));
+}
+
+TEST_F(JsonLog, NumbersThatJsonLacksAndScansWithoutPosesAreRead) {
+  config_.file = folder_.write("a.json", R"({"map": {"1": {"range": [NaN, Infinity, null, 1e300, 2]},
+                                            "2": {"range": [3], "x": 2, "y": 2, "theta": 0}}})");
+  const auto seen = play();
+  ASSERT_EQ(seen.size(), 2U);
+  EXPECT_TRUE(std::isnan(seen[0].ranges[0].range_m) && std::isnan(seen[0].ranges[2].range_m));
+  EXPECT_TRUE(std::isinf(seen[0].ranges[1].range_m) && std::isinf(seen[0].ranges[3].range_m));
+  EXPECT_EQ(seen[0].ranges[4].range_m, 2.0);
+  EXPECT_EQ(seen[0].T_odom_robot, seen[1].T_odom_robot) << "before any pose the robot is where the first one says";
+}
+
+TEST_F(JsonLog, OfATextThatEndsEarlyTheWholeScansCountWhenBadLinesAreSkipped) {
+  config_.on_bad_line = log_common::BadLine::skip;
+  std::string text = "{\"map\": {";
+  for (int i = 0; i < 500; ++i)
+    text += "\"" + std::to_string(i) + ".5\": {\"range\": [1, " + std::to_string(1.0 / (i + 3)) +
+            "], \"x\": " + std::to_string(i) + ", \"y\": 0, \"theta\": 0}, ";
+  config_.file = folder_.write("a.json", text + "\"900\": {\"range\": [1, 2");
+  EXPECT_EQ(play().size(), 500U);
+  EXPECT_THAT(reason_, HasSubstr("1 bad line skipped"));
+  const std::string packed = folder_.gzip(text + "}}");
+  config_.file = folder_.write("b.json", packed.substr(0, packed.size() / 2));
+  const std::size_t scans = play().size();
+  EXPECT_GT(scans, 100U);
+  EXPECT_LT(scans, 500U);
+  EXPECT_THAT(reason_, HasSubstr("the compressed log is cut off here"));
 }
 
 TEST_F(JsonLog, DeepNestingIsRefusedNotACrash) {

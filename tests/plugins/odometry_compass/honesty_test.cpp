@@ -49,10 +49,9 @@ struct Ending {
 };
 
 // Drives about at 0.2 m/s, turning now and then, until the path is long enough.
-Ending drive(const RobotModel& robot, double way_m, std::uint64_t seed, bool compass = true) {
+Ending drive(const RobotModel& robot, double way_m, std::uint64_t seed, bool compass, const Config& config) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  const Config config;
   const Pose2 T_map_start{1.0, 2.0, 0.3};
   const BiasField field(robot.compass_error, random);
   const OdometryError& error = robot.odometry_error;
@@ -105,13 +104,13 @@ struct Summary {
   double median_heading_rad = 0.0;
 };
 
-Summary many_drives(const RobotModel& robot, bool compass = true) {
+Summary many_drives(const RobotModel& robot, bool compass = true, const Config& config = {}) {
   constexpr int kRuns = 100;
   Summary summary;
   std::vector<double> position_m;
   std::vector<double> heading_rad;
   for (int seed = 1; seed <= kRuns; ++seed) {
-    const Ending ending = drive(robot, 30.0, static_cast<std::uint64_t>(seed), compass);
+    const Ending ending = drive(robot, 30.0, static_cast<std::uint64_t>(seed), compass, config);
     summary.mean_nees += ending.nees / kRuns;
     position_m.push_back(ending.position_m);
     heading_rad.push_back(ending.heading_rad);
@@ -127,11 +126,20 @@ Summary many_drives(const RobotModel& robot, bool compass = true) {
 }
 
 TEST(Honesty, HoldsForACalibratedRobot) {
-  const Summary summary = many_drives(calibrated());
+  Config config;
+  config.unstated_bias_rad = 0.0;
+  const Summary summary = many_drives(calibrated(), true, config);
   EXPECT_GT(summary.mean_nees, 2.0);
   EXPECT_LT(summary.mean_nees, 4.0);
   EXPECT_LT(summary.median_position_m, 0.15);
   EXPECT_LT(summary.median_heading_rad, radians(0.5));
+}
+
+TEST(Honesty, HoldsForACompassWhoseBiasIsNotStated) {
+  const Summary summary = many_drives(calibrated());
+  EXPECT_GT(summary.mean_nees, 1.5);
+  EXPECT_LT(summary.mean_nees, 4.0);
+  EXPECT_LT(summary.median_heading_rad, radians(2.0));
 }
 
 TEST(Honesty, HoldsForAWornRobotWithABiasedCompass) {

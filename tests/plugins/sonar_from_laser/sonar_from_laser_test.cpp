@@ -6,8 +6,12 @@
 #include <limits>
 #include <random>
 
+#include "plugins/common/logs/derived_sonar.hpp"
+
 namespace cairn::sonar_from_laser {
 namespace {
+
+using log_common::derived_range;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

@@ -38,6 +38,28 @@ TEST(LaserGraph, ADriveRoundAndRoundComesBackToWhereItBeganAlthoughOdometryDoesN
   EXPECT_FALSE(graph.finish_part()) << "once is enough";
 }
 
+// Eight echoes a scan, of at most 5 m: none is matched alone.
+TEST(LaserGraph, FewEchoesThatAreGatheredOverTheWayCloseLoopsToo) {
+  const std::vector<DrivenScan> drive = ring_drive(3, radians(0.3), 0.01);
+  Config config;
+  config.gather_m = 5.0;
+  config.submap_m = 8.0;
+  config.surface_cell_m = 0.3;
+  config.echo_sigma_m = 0.1;
+  config.odometry_ratio = 0.05;
+  config.odometry_rad_per_m = radians(2.0);
+  LaserGraph graph(config, drive.front().T_map_robot);
+  const std::vector<DrawnWall> walls = ring_walls();
+  std::uint64_t seed = 0;
+  for (const DrivenScan& scan : drive)
+    graph.add(seen_from(walls, scan.T_map_robot, 8, 0.02, ++seed), scan.T_odom_robot);
+  while (graph.finish_part()) {
+  }
+  const double odometry_m = (drive.front().T_map_robot * drive.back().T_odom_robot).position().norm();
+  EXPECT_GT(graph.graph().believed(), 10U);
+  EXPECT_LT((graph.poses().back().position() - drive.back().T_map_robot.position()).norm(), 0.5 * odometry_m);
+}
+
 TEST(LaserGraph, TheSameScansGiveTheSamePosesToTheLastBit) {
   std::vector<DrivenScan> drive = ring_drive(1, radians(2.0), 0.0);
   drive.resize(60);

@@ -182,6 +182,19 @@ TEST_F(Exchange, ABadGridIsRefusedWithItsPlace) {
   EXPECT_FALSE(std::filesystem::exists(file("g.cairn")));
 }
 
+TEST_F(Exchange, NamesOfClustersThatNoFormatHoldsAreToldOf) {
+  write_text(file("two.graph"), "node 1 0 0\nnode 2 1 0\n");
+  done({"import", file("two.graph"), "-o", file("g.cairn")});
+  SavedMap map = load_map(file("g.cairn"));
+  map.clusters.cluster_of = {{1, 1}, {2, 1}};
+  map.clusters.clusters = {{1, {1, 1, 0, 1, "kitchen"}}};
+  map.clusters.next_id = 2;
+  save_map(file("g.cairn"), map);
+  for (const char* name : {"out.graphml", "out.geojson"})
+    EXPECT_THAT(done({"export", file("g.cairn"), "-o", file(name)})["warnings"].dump(),
+                HasSubstr("1 name of clusters: not written"));
+}
+
 TEST_F(Exchange, InfoShowsTheLevelsAndTheFirstOfMany) {
   std::string text;
   for (int i = 1; i <= 60; ++i) text += "node " + std::to_string(i) + " 0 0\n";

@@ -39,14 +39,20 @@ class GraphQuestions : public testing::Test {
   [[nodiscard]] std::string refused_key(const std::string& key) const {
     return refused(R"({"from": "L1", "to": "L2", )" + key + "}\n");
   }
-  // Of a question that names what the map does not hold.
-  [[nodiscard]] std::string unknown(std::vector<std::string> arguments) const {
+  // Of a question that names what the map does not hold, or asks for what the planner does not do.
+  [[nodiscard]] std::string refused(std::vector<std::string> arguments, const std::string& outcome) const {
     arguments.emplace_back("--json");
     const Finished finished = run(arguments);
     EXPECT_EQ(finished.exit_status, 1) << finished.err;
     const json answer = json::parse(finished.out, nullptr, false);
-    EXPECT_EQ(answer.value("outcome", ""), "unknown_place") << finished.out;
+    EXPECT_EQ(answer.value("outcome", ""), outcome) << finished.out;
     return answer.value("reason", "");
+  }
+  [[nodiscard]] std::string unknown(const std::vector<std::string>& arguments) const {
+    return refused(arguments, "unknown_place");
+  }
+  [[nodiscard]] std::string unsupported(const std::vector<std::string>& arguments) const {
+    return refused(arguments, "unsupported");
   }
 
   const std::filesystem::path folder_ = fresh_folder("graph_questions");
@@ -140,7 +146,7 @@ TEST_F(GraphQuestions, WhatTheMapDoesNotHoldIsAnUnknownPlace) {
   EXPECT_EQ(with("--avoid", "hal"), "there is no landmark and no cluster \"hal\" to avoid (did you mean \"hall\"?)");
   EXPECT_THAT(with("--via", "hal"), HasSubstr("unknown place \"hal\" (did you mean \"hall\"?)"));
   EXPECT_THAT(unknown({"--from", "L1", "--to", "\xff"}), HasSubstr("unknown place"));  // no UTF-8, yet JSON comes out
-  EXPECT_EQ(unknown({"--from", "0,0", "--to", "L2"}),
+  EXPECT_EQ(unsupported({"--from", "0,0", "--to", "L2"}),
             "the start is a pose, and a search over the landmark graph needs landmarks");
 }
 
@@ -199,7 +205,7 @@ TEST_F(GraphQuestions, FlatSearchRefusesWhatItDoesNotKnow) {
   const auto reported = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = ends;
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return unknown(arguments);
+    return unsupported(arguments);
   };
   EXPECT_EQ(reported({"--explain"}), "flat_search does not know an explanation; landmark_search does");
   EXPECT_EQ(reported({"--alternatives", "2"}), "flat_search does not know alternatives; landmark_search does");

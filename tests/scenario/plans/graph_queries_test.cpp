@@ -154,7 +154,8 @@ TEST_F(GraphQueries, AlternativesComeTheCheapestFirstAsManyAsThereAre) {
       {"cost_m": 29.5, "landmarks": ["L1", "L4", "L3"], "routes": [7, 6]},
       {"cost_m": 35.0, "landmarks": ["L1", "L2", "L4", "L3"], "routes": [1, 5, 6]}])"));
   EXPECT_EQ(from_to("L1", "L3", {"--alternatives", "1"})["alternatives"].size(), 1U);
-  EXPECT_THAT(run({"--from", "L1", "--to", "L3", "--alternatives", "1"}).out, HasSubstr("  or 22.00 m: L1 L2 L3\n"));
+  EXPECT_THAT(run({"--from", "L1", "--to", "L3", "--alternatives", "1"}).out,
+              HasSubstr("  or by routes of 22.00 m in all: L1 L2 L3\n"));
 }
 
 TEST_F(GraphQueries, CostByTimeIsReportedInSecondsAndTheSumInMetres) {
@@ -266,7 +267,7 @@ TEST_F(GraphQueries, OverManyLandmarksTheExplanationReportsClustersAndLevels) {
   EXPECT_EQ(answer["settled"], settled);
   const std::string first = explanation["clusters"][0][0];
   EXPECT_THAT(first, testing::StartsWith("C1:L"));
-  EXPECT_THAT(run({"--from", "L1", "--to", "L400", "--explain"}).out, HasSubstr("\n  level 1: " + first + " "));
+  EXPECT_THAT(run({"--from", "L1", "--to", "L400", "--explain"}).out, HasSubstr("\n  level 1: " + first + ", "));
 }
 
 TEST_F(GraphQueries, TheExplanationSaysWhichSearchAnsweredAndFromWhereOnItIsAnother) {

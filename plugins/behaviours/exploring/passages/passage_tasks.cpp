@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "plugins/common/motion/path.hpp"
 
@@ -27,6 +28,18 @@ const PassageTasks::Tried* PassageTasks::find(const Point& at_m) const {
   const auto found =
       std::ranges::find_if(tried_, [&](const Tried& t) { return (t.at_m - at_m).norm() < settings_.same_m; });
   return found == tried_.end() ? nullptr : &*found;
+}
+
+const PassageTasks::Tried* PassageTasks::given_up_beside(const Point& at_m) const {
+  const Tried* nearest = nullptr;
+  double nearest_m = 2.0 * settings_.same_m;
+  for (const Tried& tried : tried_) {
+    const double away_m = (tried.at_m - at_m).norm();
+    if (!tried.is_given_up || tried.was_passed || away_m >= nearest_m) continue;
+    nearest = &tried;
+    nearest_m = away_m;
+  }
+  return nearest;
 }
 
 PassageTasks::Tried& PassageTasks::at(const Point& at_m) {
@@ -67,8 +80,10 @@ std::optional<ExploreTask> PassageTasks::next(const Explored& explored, const Po
     task.path = explored.space.path_to(passage.lookout);
     return task;
   };
+  PassageSettings settings = settings_;
+  if (has_retried_) settings.look_from_m = settings_.look_again_from_m;
   PassageSearch open{false, places_where([](const Tried& t) { return t.is_given_up; })};
-  if (const auto passage = nearest_passage(explored.map, explored.passed, reach, robot, open, settings_)) {
+  if (const auto passage = nearest_passage(explored.map, explored.passed, reach, robot, open, settings)) {
     const Tried* const tried = find(passage->at_m);
     if (tried == nullptr || !tried->heard) return look_at(*passage);
     ExploreTask task = drive_through(*tried->heard, explored.radius_m);
@@ -76,7 +91,7 @@ std::optional<ExploreTask> PassageTasks::next(const Explored& explored, const Po
     return task;
   }
   if (suspects_ >= settings_.max_suspects) return std::nullopt;
-  PassageSearch hidden{true, places_where([](const Tried& t) { return t.is_given_up || t.heard; })};
+  PassageSearch hidden{true, looked_at()};
   const auto suspect = nearest_passage(explored.map, explored.passed, reach, robot, hidden, settings_);
   if (!suspect) return std::nullopt;
   ExploreTask task = look_at(*suspect);
@@ -102,6 +117,8 @@ std::optional<ExploreTask> PassageTasks::record_look(const ExploreTask& task, co
     tried.heard->width_m = task.width_m;
     tried.heard->middle_m = task.about;
   }
+  if (tried.heard_before && tried.heard_before->width_m > tried.heard->width_m) tried.heard = tried.heard_before;
+  tried.is_suspect = task.is_suspect;
   tried.at_m = tried.heard->middle_m;
   const double min_clearance_m =
       drive_.clearances_m.empty() ? 0.0 : *std::min_element(drive_.clearances_m.begin(), drive_.clearances_m.end());
@@ -154,9 +171,10 @@ bool PassageTasks::retry() {
   bool is_any = false;
   for (Tried& tried : tried_) {
     is_any = is_any || tried.is_unreachable;
-    if (!tried.is_given_up || tried.was_passed || tried.tries == 0 || tried.tries >= settings_.max_tries) continue;
+    if (!tried.is_given_up || tried.was_passed || !tried.heard || tried.tries >= settings_.max_tries) continue;
+    if (tried.is_suspect && tried.heard->width_m <= 0.0) continue;  // a wall
     tried.is_given_up = false;
-    tried.heard.reset();
+    tried.heard_before = std::exchange(tried.heard, std::nullopt);
     is_any = true;
   }
   forget_unreachable();
@@ -171,7 +189,9 @@ std::vector<NotEntered> PassageTasks::not_entered(const Explored& explored) cons
   while (const auto passage = nearest_passage(explored.map, explored.passed, reach, robot, search, settings_)) {
     search.without.push_back(passage->at_m);
     NotEntered opening{passage->at_m, passage->width_m, false, "not tried"};
-    if (const Tried* const tried = find(passage->at_m)) {
+    const Tried* tried = find(passage->at_m);
+    if (tried == nullptr) tried = given_up_beside(passage->at_m);
+    if (tried != nullptr) {
       if (tried->was_passed) continue;  // it has been in there
       if (tried->heard) opening.width_m = tried->heard->width_m;
       opening.is_too_narrow = tried->is_too_narrow;
@@ -179,7 +199,19 @@ std::vector<NotEntered> PassageTasks::not_entered(const Explored& explored) cons
     }
     openings.push_back(opening);
   }
+  PassageSearch hidden{true, looked_at()};
+  for (const NotEntered& opening : openings) hidden.without.push_back(opening.at_m);
+  while (const auto wall = nearest_passage(explored.map, explored.passed, reach, robot, hidden, settings_)) {
+    hidden.without.push_back(wall->at_m);
+    if (wall->behind_m2 >= std::max(settings_.missed_m2, settings_.room_behind_m2))
+      openings.push_back({wall->at_m, 0.0, false, "drawn shut, though echoes have passed it, and not looked at"});
+  }
   return openings;
+}
+
+double PassageTasks::suspected_m2(const Explored& explored) const {
+  const CellLayer<char> reach = reach_of(explored.space, explored.trace);
+  return seen_behind_walls_m2(explored.map, explored.passed, reach, looked_at(), settings_);
 }
 
 }  // namespace cairn::behaviours

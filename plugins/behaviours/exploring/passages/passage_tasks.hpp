@@ -1,8 +1,9 @@
 // Which passage exploring looks at or drives through next, and what has come of those that it has tried.
 //
 // Each passage is looked at from straight before it, and its width is what was heard in that look. Where the robot may
-// fit it drives through at once. One that it does not get through is tried once more when nothing else is left, then
-// given up with its reason.
+// fit it drives through at once. One that it does not get through, or that is heard to be too narrow, is tried once
+// more when nothing else is left, looked at from nearer, then given up with its reason: a look that has heard nothing
+// from behind an opening is no proof that it is closed.
 #pragma once
 
 #include <optional>
@@ -43,9 +44,11 @@ class PassageTasks {
   // That the robot cannot get to where it would look, or line up; until it has passed another passage, or tries all
   // once more.
   void record_unreachable(const ExploreTask& task);
+  // How much echoes have shown behind walls that were not looked at.
+  [[nodiscard]] double suspected_m2(const Explored& explored) const;
   // What was looked at and is too narrow.
   [[nodiscard]] std::vector<Point> closed() const {
-    return places_where([](const Tried& t) { return t.is_too_narrow; });
+    return places_where([](const Tried& t) { return t.is_too_narrow && t.is_given_up; });
   }
   // What a look has shown. The drive through it, where the robot may fit.
   [[nodiscard]] std::optional<ExploreTask> record_look(const ExploreTask& task, const HeardOpening& heard,
@@ -62,8 +65,10 @@ class PassageTasks {
  private:
   struct Tried {
     Point at_m{0.0, 0.0};
-    std::optional<HeardOpening> heard;  // when it was looked at last
+    std::optional<HeardOpening> heard;  // when it was looked at last, or before where that was wider
+    std::optional<HeardOpening> heard_before;
     int tries = 0;
+    bool is_suspect = false;  // a wall that may hide a door
     bool is_too_narrow = false;
     bool is_unreachable = false;
     bool is_given_up = false;  // for now
@@ -71,8 +76,13 @@ class PassageTasks {
     std::string why;
   };
   [[nodiscard]] const Tried* find(const Point& at_m) const;
+  // The nearest that was given up, a little farther off: what closes a gap closes the ones beside it.
+  [[nodiscard]] const Tried* given_up_beside(const Point& at_m) const;
   void forget_unreachable();
   [[nodiscard]] Tried& at(const Point& at_m);
+  [[nodiscard]] std::vector<Point> looked_at() const {
+    return places_where([](const Tried& t) { return t.is_given_up || t.heard; });
+  }
   [[nodiscard]] std::vector<Point> places_where(bool (*is_so)(const Tried&)) const;
   [[nodiscard]] ExploreTask drive_through(const HeardOpening& heard, double radius_m) const;
 

@@ -15,11 +15,13 @@ struct FixedPathPlanner : PathPlanner {
   [[nodiscard]] PlannerTraits traits() const override { return {}; }
   [[nodiscard]] PathResult plan(const PathRequest& request, const WorldView&, const Budget&) const override {
     asked = request;
+    ++calls;
     return answer;
   }
   void prepare(const WorldView&, double radius_m) const override { prepared_m = radius_m; }
   PathResult answer;
   mutable PathRequest asked;
+  mutable int calls = 0;
   mutable double prepared_m = 0.0;
 };
 
@@ -65,7 +67,12 @@ class LonePlanners : public ::testing::Test {
   }
   [[nodiscard]] WorldView world() const { return {grid, graph, robot, {}}; }
   [[nodiscard]] PlanResult plan_routes() const { return LoneRoutePlanner(routes).plan(request, world(), {}); }
-  [[nodiscard]] PlanResult plan_paths() const { return LonePathPlanner(paths).plan(request, world(), {}); }
+  [[nodiscard]] PlanResult plan_paths() const {
+    PlanRequest asked = request;
+    asked.alternatives = 0;  // what is of the graph alone
+    asked.avoid.clear();
+    return LonePathPlanner(paths).plan(asked, world(), {});
+  }
 
   OccupancyGrid grid{0.1};
   LandmarkGraph graph;
@@ -98,6 +105,8 @@ TEST_F(LonePlanners, PassAPathOnAsAPlan) {
   EXPECT_EQ(result.path, paths->answer.path);
   EXPECT_EQ(result.length_lower_bound_m, 1.9);
   EXPECT_EQ(result.driving_time_s, 7.5);
+  ASSERT_EQ(result.segments.size(), 1U);
+  EXPECT_EQ(result.segments.front().length_m, 2.0);
   EXPECT_GE(result.time_ms.route_ms, 0.0);
   EXPECT_EQ(result.time_ms.total_ms, result.time_ms.route_ms);
   paths->answer.to_landmark = 1;
@@ -139,9 +148,22 @@ TEST_F(LonePlanners, JoinStoredTrajectoriesAndFillGapsWithApproachPoses) {
   EXPECT_EQ(plan_routes().reason, "none");
 }
 
-TEST_F(LonePlanners, ForARoutePlannerAPoseIsAnUnknownPlace) {
+TEST_F(LonePlanners, DoNotAskAPathPlannerForWhatIsOfTheGraph) {
+  const auto refusal = [&](int alternatives, std::vector<LandmarkId> avoid) {
+    request.alternatives = alternatives;
+    request.avoid = std::move(avoid);
+    const PlanResult result = LonePathPlanner(paths).plan(request, world(), {});
+    EXPECT_EQ(result.outcome, PlanOutcome::unsupported);
+    return result.reason;
+  };
+  EXPECT_THAT(refusal(2, {}), HasSubstr("alternatives are routes of the landmark graph"));
+  EXPECT_THAT(refusal(0, {1}), HasSubstr("avoided are landmarks of the landmark graph"));
+  EXPECT_EQ(paths->calls, 0);
+}
+
+TEST_F(LonePlanners, DoNotAskARoutePlannerForPoses) {
   request.to.pose = Pose2{};
-  EXPECT_EQ(plan_routes().outcome, PlanOutcome::unknown_place);
+  EXPECT_EQ(plan_routes().outcome, PlanOutcome::unsupported);
   EXPECT_THAT(plan_routes().reason, HasSubstr("the goal is a pose"));
   request.from.pose = Pose2{};
   EXPECT_THAT(plan_routes().reason, HasSubstr("the start is a pose"));

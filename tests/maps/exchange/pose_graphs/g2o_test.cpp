@@ -1,5 +1,6 @@
 #include "maps/exchange/pose_graphs/g2o.hpp"
 
+#include "maps/pose_graph/robust_solver.hpp"
 #include "maps/pose_graph/solver.hpp"
 #include "tests/maps/exchange/exchange_fixture.hpp"
 
@@ -69,6 +70,29 @@ TEST(G2o, TheSolverFindsTheLeastKnownChi2OfPublicGraphs) {
     EXPECT_TRUE(solution.converged) << known.name;
     EXPECT_LE(solution.chi2, known.chi2 * (1.0 + 1e-5)) << known.name;
   }
+}
+
+// As many again with a false closure each: between any two nodes, to anywhere near.
+TEST(G2o, OfAPublicGraphWithHalfOfItsClosuresFalseTheTrueOnesFitAsWithoutThem) {
+  const char* const data = std::getenv("CAIRN_DATA");
+  const std::filesystem::path file =
+      (data != nullptr ? std::filesystem::path(data) : std::filesystem::path(CAIRN_SOURCE_DIR) / "../shared/data") /
+      "slam/pose_graphs/vertigo_ring.g2o.gz";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs slam/pose_graphs of the data folder (CAIRN_DATA)";
+  const PoseGraph graph = parse_g2o(exchange::text_of_file(file), file.string()).graph;
+  DividedGraph divided = odometry_and_closures(graph);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const std::size_t closures = divided.closures.size();
+  while (divided.closures.size() < 2 * closures) {
+    PoseEdge edge = divided.closures[random() % closures];
+    edge.from = random() % graph.T_map_node.size();
+    edge.to = random() % graph.T_map_node.size();
+    edge.T_from_to = {2.0 * unit(random), 2.0 * unit(random), 3.0 * unit(random)};
+    if (edge.to > edge.from + 1) divided.closures.push_back(edge);
+  }
+  const RobustSolution solution = solve_robustly(divided.odometry, divided.closures);
+  EXPECT_LE(chi2_of(graph, solution.T_map_node), 1.05 * 11.1631);
 }
 
 }  // namespace

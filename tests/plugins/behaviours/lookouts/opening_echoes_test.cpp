@@ -82,13 +82,30 @@ TEST(OpeningEchoes, ASlitIsNoWiderThanItIs) {
   EXPECT_LE(heard_in({-0.1, 0.1}).width_m, 0.2);
 }
 
-TEST(OpeningEchoes, SilenceSaysNothing) {
+// The last reading of each transducer is an echo: it is not deaf.
+HeardOpening heard_of_silence(double off_deg, int silent, bool has_echoed = true) {
   OpeningEchoes echoes;
   echoes.begin({0.0, 0.0}, {-0.7, 0.0});
-  Observation silence = echoes_at({-0.4, 0.4}, {-0.7, 0.0, 0.0});
-  for (RangeReading& reading : silence.ranges) reading.range_m = std::numeric_limits<double>::infinity();
-  echoes.see(silence, {-0.7, 0.0, 0.0});
-  EXPECT_EQ(echoes.heard().width_m, 0.0);
+  const Pose2 T_map_robot{-0.7, 0.0, radians(off_deg)};
+  Observation seen = echoes_at({5.0, 6.0}, T_map_robot);  // a wall
+  for (std::size_t i = 0; i < seen.ranges.size(); ++i) seen.ranges[i].sensor = static_cast<int>(i);
+  if (has_echoed) echoes.see(seen, T_map_robot);
+  for (RangeReading& reading : seen.ranges) reading.range_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < silent; ++i) echoes.see(seen, T_map_robot);
+  return echoes.heard();
+}
+
+TEST(OpeningEchoes, SilenceStraightAheadIsARoomThatIsDeeperThanTheRange) {
+  EXPECT_GT(heard_of_silence(0.0, 3).width_m, 0.3);
+}
+
+TEST(OpeningEchoes, SilenceAtASlantSaysNothing) {
+  EXPECT_EQ(heard_of_silence(60.0, 10).width_m, 0.0);
+}
+
+TEST(OpeningEchoes, SilenceOfOneReadingOrOfADeafTransducerSaysNothing) {
+  EXPECT_EQ(heard_of_silence(0.0, 1).width_m, 0.0);
+  EXPECT_EQ(heard_of_silence(0.0, 10, false).width_m, 0.0);
 }
 
 TEST(OpeningEchoes, ANewLookForgetsTheLastOne) {

@@ -52,7 +52,8 @@ TEST(LogText, ReadingABombEndsWithItsBudget) {
   const std::filesystem::path bomb = folder.write("bomb.gz", folder.gzip(std::string(std::size_t{64} << 20U, '\0')));
   std::atomic<bool> cancel = true;
   EXPECT_THROW(LogText(bomb, {.cancel = &cancel}), ReadingEnded);
-  EXPECT_THROW((void)text_of_file(bomb, {.cancel = &cancel}), ReadingEnded);
+  std::string damage;
+  EXPECT_THROW((void)text_of_file(bomb, {.cancel = &cancel}, damage), ReadingEnded);
   cancel = false;
   LogText text(bomb, {.cancel = &cancel});
   cancel = true;
@@ -60,7 +61,7 @@ TEST(LogText, ReadingABombEndsWithItsBudget) {
   EXPECT_THAT([&] { text.next(line); },
               ::testing::ThrowsMessage<ReadingEnded>(HasSubstr("bomb.gz:1:1: reading this log was cancelled")));
   const Budget late{.deadline = Budget::Clock::now() - std::chrono::seconds(1)};
-  EXPECT_THAT([&] { (void)text_of_file(bomb, late); },
+  EXPECT_THAT([&] { (void)text_of_file(bomb, late, damage); },
               ::testing::ThrowsMessage<ReadingEnded>(HasSubstr("reading this log took too long")));
 }
 

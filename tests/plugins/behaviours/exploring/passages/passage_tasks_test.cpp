@@ -107,6 +107,27 @@ TEST(PassageTasks, AGapThatIsHeardToBeNarrowIsReportedAsTooNarrowAndCountsAsClos
   EXPECT_EQ(passing.tasks.closed().size(), 1U);
 }
 
+TEST(PassageTasks, AGapThatIsHeardToBeNarrowIsLookedAtOnceMoreFromNearerAndTheWiderLookCounts) {
+  Passing passing(2);
+  const Point first = passing.next()->lookout;
+  const Point gap = passing.next()->about;
+  EXPECT_FALSE(passing.look(0.3));
+  EXPECT_TRUE(passing.tasks.retry());
+  EXPECT_TRUE(passing.tasks.closed().empty()) << "not before it was looked at again";
+  const std::optional<ExploreTask> again = passing.next();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->kind, TaskKind::opening);
+  EXPECT_LT((again->lookout - gap).norm(), (first - gap).norm());
+  EXPECT_FALSE(passing.look(0.1));
+  EXPECT_DOUBLE_EQ(passing.not_entered()[0].width_m, 0.3);
+  EXPECT_FALSE(passing.next());
+  EXPECT_FALSE(passing.tasks.retry());
+  Passing door(2);
+  EXPECT_FALSE(door.look(0.26));
+  EXPECT_TRUE(door.tasks.retry());
+  EXPECT_TRUE(door.look(0.7)) << "the first look had missed most of it";
+}
+
 TEST(PassageTasks, OneThatTheRobotCannotGetToIsReportedAsThat) {
   Passing passing(5);
   passing.tasks.record_unreachable(*passing.next());

@@ -1,0 +1,38 @@
+// The way to one kind of base: a serial protocol, a network. What all live robots share is in live_robot.hpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/contracts/budget.hpp"
+#include "framework/contracts/observation.hpp"
+
+namespace cairn::live {
+
+class BaseLink {
+ public:
+  virtual ~BaseLink() = default;
+  // For people: "the robot at /dev/ttyUSB0".
+  [[nodiscard]] virtual std::string name() const = 0;
+
+  // By the thread of the mission. ---------------------------------------------------------------------------------
+  // Makes the connection, with the wheels ordered to stand first. False: not now, why says for what reason. Looks at
+  // the budget every 20 ms. Throws std::runtime_error when it makes no sense to try again.
+  [[nodiscard]] virtual bool connect(const Budget& budget, std::string& why) = 0;
+  virtual void disconnect() = 0;
+  // Adds what has come, in order of time, stamped by now_s(); waits for it a short time, 20 ms at most. False: the
+  // other end is gone. Throws std::runtime_error with what came that makes no sense.
+  [[nodiscard]] virtual bool receive(std::vector<Observation>& seen) = 0;
+
+  // By the thread that sends, while connected, beside receive(). ---------------------------------------------------
+  virtual void send(const Twist& twist) noexcept = 0;
+  // Nothing to send, but the mission lives.
+  virtual void send_pulse() noexcept = 0;
+  // 20 times a second, whatever happens: this process lives.
+  virtual void beat() noexcept {}
+
+  // From any thread and from a signal handler, connected or not: the wheels stand. ---------------------------------
+  virtual void send_stop() noexcept = 0;
+};
+
+}  // namespace cairn::live

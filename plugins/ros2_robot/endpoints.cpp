@@ -1,0 +1,136 @@
+#include "plugins/ros2_robot/endpoints.hpp"
+
+#include <stdexcept>
+
+namespace cairn::ros2_robot {
+namespace {
+
+constexpr int kKept = 50;  // messages of a reader
+constexpr int kMaxEndpoints = 512;
+
+[[noreturn]] void fail(const std::string& what, dds_return_t error) {
+  throw std::runtime_error(what + ": " + dds_strretcode(error));
+}
+
+Entity checked(dds_entity_t handle, const std::string& what) {
+  if (handle < 0) fail(what, handle);
+  return Entity(handle);
+}
+
+// Characters that could end what they stand in are no part of a name or an address.
+std::string plain(const std::string& text) {
+  for (const char c : text)
+    if (c == '"' || c == '<' || c == '&') throw std::runtime_error("\"" + text + "\" is no name or address");
+  return text;
+}
+
+std::string settings_of(const NetworkChoice& network) {
+  std::string general;
+  const std::string interface = network.is_local ? "lo" : network.interface;
+  if (!interface.empty())
+    general += "<Interfaces><NetworkInterface name=\"" + plain(interface) + "\"" +
+               (network.is_local ? " multicast=\"false\"" : "") + "/></Interfaces>";
+  if (network.is_local) general += "<AllowMulticast>false</AllowMulticast>";
+  std::vector<std::string> peers = network.peers;
+  if (network.is_local) peers.emplace_back("127.0.0.1");
+  std::string discovery =
+      "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>";
+  if (!peers.empty()) {
+    discovery += "<Peers>";
+    for (const std::string& peer : peers) discovery += "<Peer Address=\"" + plain(peer) + "\"/>";
+    discovery += "</Peers>";
+  }
+  return "<CycloneDDS><Domain><General>" + general + "</General><Discovery>" + discovery +
+         "</Discovery></Domain></CycloneDDS>";
+}
+
+// "/scan" is the DDS topic "rt/scan".
+std::string dds_name_of(const std::string& topic) {
+  return "rt" + topic;
+}
+
+std::string ros_name_of(const std::string& topic) {
+  return topic.starts_with("rt/") ? topic.substr(2) : topic;
+}
+
+// "sensor_msgs::msg::dds_::LaserScan_" is sensor_msgs/msg/LaserScan.
+std::string ros_type_of(std::string type) {
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"::dds_::", "::"}, {"::", "/"}})
+    for (std::size_t at = type.find(from); at != std::string::npos; at = type.find(from, at + to.size()))
+      type.replace(at, from.size(), to);
+  if (type.ends_with('_')) type.pop_back();
+  return type;
+}
+
+struct Qos {
+  Qos() : qos(dds_create_qos()) {}
+  ~Qos() { dds_delete_qos(qos); }
+  Qos(const Qos&) = delete;
+  Qos& operator=(const Qos&) = delete;
+  dds_qos_t* qos;
+};
+
+}  // namespace
+
+Participant::Participant(const NetworkChoice& network) {
+  const auto domain = static_cast<dds_domainid_t>(network.domain);
+  const dds_entity_t made = dds_create_domain(domain, settings_of(network).c_str());
+  if (made > 0)
+    domain_ = Entity(made);
+  else if (made != DDS_RETCODE_PRECONDITION_NOT_MET)  // this process is in it already
+    fail("ros2_robot: domain " + std::to_string(network.domain), made);
+  const Qos qos;
+  constexpr char kEnclave[] = "enclave=/;";  // without it ROS does not list the participant
+  dds_qset_userdata(qos.qos, kEnclave, sizeof kEnclave - 1);
+  participant_ = checked(dds_create_participant(domain, qos.qos, nullptr),
+                         "ros2_robot: no participant in domain " + std::to_string(network.domain));
+  publications_ = checked(dds_create_reader(participant_.get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
+                          "ros2_robot: no list of publishers");
+}
+
+Entity Participant::reader(const std::string& topic, const dds_topic_descriptor_t& type) const {
+  const dds_entity_t of = dds_create_topic(participant_.get(), &type, dds_name_of(topic).c_str(), nullptr, nullptr);
+  if (of < 0) fail("ros2_robot: topic " + topic, of);
+  const Qos qos;
+  dds_qset_reliability(qos.qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, kKept);
+  return checked(dds_create_reader(participant_.get(), of, qos.qos, nullptr), "ros2_robot: no reader of " + topic);
+}
+
+Entity Participant::latched_reader(const std::string& topic, const dds_topic_descriptor_t& type) const {
+  const dds_entity_t of = dds_create_topic(participant_.get(), &type, dds_name_of(topic).c_str(), nullptr, nullptr);
+  if (of < 0) fail("ros2_robot: topic " + topic, of);
+  const Qos qos;
+  dds_qset_reliability(qos.qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(20));
+  dds_qset_durability(qos.qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, kKept);
+  return checked(dds_create_reader(participant_.get(), of, qos.qos, nullptr), "ros2_robot: no reader of " + topic);
+}
+
+Entity Participant::writer(const std::string& topic, const dds_topic_descriptor_t& type) const {
+  const dds_entity_t of = dds_create_topic(participant_.get(), &type, dds_name_of(topic).c_str(), nullptr, nullptr);
+  if (of < 0) fail("ros2_robot: topic " + topic, of);
+  const Qos qos;
+  dds_qset_reliability(qos.qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(20));
+  dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, 1);
+  return checked(dds_create_writer(participant_.get(), of, qos.qos, nullptr), "ros2_robot: no writer of " + topic);
+}
+
+std::vector<Endpoint> Participant::publishers() const {
+  void* samples[kMaxEndpoints] = {};
+  dds_sample_info_t infos[kMaxEndpoints];
+  const dds_return_t count = dds_read(publications_.get(), samples, infos, kMaxEndpoints, kMaxEndpoints);
+  std::vector<Endpoint> all;
+  dds_guid_t own{};
+  (void)dds_get_guid(participant_.get(), &own);
+  for (dds_return_t i = 0; i < count; ++i) {
+    const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
+    const bool is_alive = infos[i].instance_state == DDS_ALIVE_INSTANCE_STATE && infos[i].valid_data;
+    if (!is_alive || std::equal(std::begin(own.v), std::end(own.v), std::begin(endpoint.participant_key.v))) continue;
+    all.push_back({ros_name_of(endpoint.topic_name), ros_type_of(endpoint.type_name)});
+  }
+  if (count > 0) dds_return_loan(publications_.get(), samples, count);
+  return all;
+}
+
+}  // namespace cairn::ros2_robot

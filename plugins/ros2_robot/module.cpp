@@ -1,0 +1,20 @@
+#include "framework/contracts/module.hpp"
+
+#include "framework/live/live_robot.hpp"
+#include "plugins/ros2_robot/ros2_robot.hpp"
+
+namespace {
+
+void register_module(cairn::Registrar& registrar) {
+  namespace ros2_robot = cairn::ros2_robot;
+  registrar.add<cairn::Sensor, ros2_robot::Config>(
+      "ros2_robot", "drives a robot on a ROS 2 network, without ROS on this computer",
+      [](const ros2_robot::Config& config, const cairn::SensorContext& context) {
+        return std::make_unique<cairn::live::LiveRobot>(ros2_robot::link_to(config, context.robot), config.stop_when,
+                                                        context.robot);
+      });
+}
+
+}  // namespace
+
+CAIRN_MODULE(register_module)

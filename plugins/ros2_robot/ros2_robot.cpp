@@ -1,0 +1,11 @@
+#include "plugins/ros2_robot/ros2_robot.hpp"
+
+#include "plugins/ros2_robot/ros_link.hpp"
+
+namespace cairn::ros2_robot {
+
+std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot) {
+  return std::make_unique<RosLink>(config, robot);
+}
+
+}  // namespace cairn::ros2_robot

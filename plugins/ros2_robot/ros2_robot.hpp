@@ -1,0 +1,15 @@
+// A robot on a ROS 2 network, without ROS on this computer (docs/your-robot.md). Plugin `ros2_robot`, kind sensor.
+#pragma once
+
+#include <memory>
+
+#include "framework/contracts/robot_model.hpp"
+#include "framework/live/base_link.hpp"
+#include "plugins/ros2_robot/config.hpp"
+
+namespace cairn::ros2_robot {
+
+// Throws std::invalid_argument with a setting that cannot be.
+[[nodiscard]] std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot);
+
+}  // namespace cairn::ros2_robot

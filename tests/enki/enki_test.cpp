@@ -1,0 +1,127 @@
+// A Pioneer in a world that is not ours, by its serial protocol: looked at, driven, and left alone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/scenario/missions/base_process.hpp"
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double kStands_s = 0.5;
+const std::string kProgram = std::string(CAIRN_BINARY_DIR) + "/bin/enki_pioneer";
+
+struct Tick {
+  double monotonic_s = 0.0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double angle_deg = 0.0;
+  double v_mps = 0.0;
+  double touches = 0.0;
+};
+
+class EnkiPioneer : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kProgram)) GTEST_SKIP() << "libenki-dev is not installed";
+    process_ = ::fork();
+    if (process_ == 0) {
+      ::execl(kProgram.c_str(), kProgram.c_str(), line_.c_str(), log_.c_str(), nullptr);
+      ::_exit(127);
+    }
+    ASSERT_TRUE(wait_for([&] { return std::filesystem::exists(line_); }));
+  }
+  void TearDown() override {
+    if (process_ > 0) ::kill(process_, SIGKILL);
+    if (process_ > 0) ::waitpid(process_, nullptr, 0);
+    std::filesystem::remove_all(folder_);
+  }
+  [[nodiscard]] std::vector<std::string> of_mission(const std::string& command, const std::string& steps) const {
+    write_text(
+        folder_ / "mission.yaml",
+        "mission: enki\nrobot: " + source_folder() +
+            "/config/robots/pioneer3dx_serial.yaml\nsensor: {plugin: p2os_robot, device: " + line_.string() +
+            "}\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel}\ncollision_monitor: {blind_s: 0.4}\n"
+            "steps:\n  - " +
+            steps + "\n");
+    if (command == "run") return {"run", (folder_ / "mission.yaml").string(), "--out", (folder_ / "out").string()};
+    return {"doctor", "live", (folder_ / "mission.yaml").string(), "--json"};
+  }
+  [[nodiscard]] std::vector<Tick> ticks() const {
+    std::vector<Tick> all;
+    std::ifstream file(log_);
+    std::string text;
+    std::getline(file, text);
+    while (std::getline(file, text)) {
+      std::istringstream line(text);
+      Tick tick;
+      char comma = 0;
+      if (line >> tick.monotonic_s >> comma >> tick.x_m >> comma >> tick.y_m >> comma >> tick.angle_deg >> comma >>
+          tick.v_mps >> comma >> tick.touches)
+        all.push_back(tick);
+    }
+    return all;
+  }
+  [[nodiscard]] bool is_driving() const {
+    const std::vector<Tick> all = ticks();
+    return !all.empty() && all.back().v_mps > 0.1;
+  }
+
+  const std::filesystem::path folder_ = fresh_folder("enki");
+  const std::filesystem::path line_ = folder_ / "pioneer";
+  const std::filesystem::path log_ = folder_ / "wheels.csv";
+  pid_t process_ = -1;
+};
+
+TEST_F(EnkiPioneer, TheDoctorSeesAndWigglesIt) {
+  std::vector<std::string> arguments = of_mission("doctor", "wait: 1");
+  arguments.insert(arguments.end(), {"--for", "2", "--wiggle"});
+  const Finished finished = run_cairn(arguments);
+  EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  const json said = json::parse(finished.out);
+  EXPECT_TRUE(said["ok"]);
+  EXPECT_EQ(said["findings"].size(), 16U);
+  EXPECT_THAT(finished.out, HasSubstr("16 of 16 transducers were read"));
+  const Tick last = ticks().back();
+  EXPECT_NEAR(last.x_m, 0.7, 0.06);
+  EXPECT_NEAR(last.y_m, 0.7, 0.05);
+}
+
+TEST_F(EnkiPioneer, DrivesWhereItIsToAndTouchesNothing) {
+  const Finished finished = run_cairn(of_mission("run", "drive: {points_m: [[0, 0], [0, 1.2]], speed_mps: 0.3}"));
+  EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  const Tick last = ticks().back();
+  EXPECT_NEAR(last.x_m, 0.7, 0.1);
+  EXPECT_NEAR(last.y_m, 1.9, 0.15);
+  EXPECT_EQ(last.touches, 0.0);
+}
+
+TEST_F(EnkiPioneer, StandsWhenTheMissionIsKilledOrHalted) {
+  for (const int signal : {SIGSTOP, SIGKILL}) {
+    const Background mission(of_mission("run", "drive: {points_m: [[0, 0], [0, 2], [0, 0], [0, 2]], speed_mps: 0.3}"),
+                             folder_ / "mission.txt");
+    ASSERT_TRUE(wait_for([&] { return is_driving(); })) << mission.output();
+    const double moment_s = monotonic_s();
+    mission.send(signal);
+    ASSERT_TRUE(wait_for([&] { return monotonic_s() > moment_s + 1.0; }));
+    double stood_s = 0.0;
+    for (const Tick& tick : ticks())
+      if (std::abs(tick.v_mps) > 0.01) stood_s = tick.monotonic_s;
+    EXPECT_LT(stood_s - moment_s, kStands_s) << signal;
+    mission.send(SIGKILL);
+  }
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
