@@ -157,13 +157,12 @@ double DiscRoutes::length_lower_bound_m(const Point& from, const Point& to, cons
          space.cell_m();
 }
 
-std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, double max_m,
-                                            const Budget& budget) const {
+NumberedCells DiscRoutes::cells_between(const Point& from, const Point& to, double max_m, const Budget& budget) const {
   constexpr int kAskEvery = 4096;
   const CellMesh& mesh = coarse_.optimistic;
   const DistanceField& field = coarse_.space->field();
   const CellMesh::Index start = mesh.rectangle_of(field.cell_at(from));
-  std::vector<Cell> cells;
+  NumberedCells cells;
   if (start == CellMesh::kNone) return cells;
   const auto min_m = [&](const CellBox& cells_of_box) {  // from point to box to point
     const FieldBox box = box_of(field, cells_of_box);
@@ -171,14 +170,25 @@ std::vector<Cell> DiscRoutes::cells_between(const Point& from, const Point& to, 
     return off_m(from) + off_m(to);
   };
   int asked = 0;
+  const auto is_over = [&] { return ++asked % kAskEvery == 0 && budget.exhausted(); };
   for (CellMesh::Index i = 0; i < mesh.rectangles(); ++i) {
+    if (is_over()) return {};
     const CellBox& r = mesh.rectangle(i);
     if (mesh.part_of(i) != mesh.part_of(start) || min_m(r) > max_m) continue;
-    for (int y = r.min.y; y < r.max.y; ++y)
+    if (std::isinf(max_m)) {
+      cells.add(r);
+      continue;
+    }
+    for (int y = r.min.y; y < r.max.y; ++y) {
+      int begin = r.min.x;  // of the run of cells that are near enough
       for (int x = r.min.x; x < r.max.x; ++x) {
-        if (++asked % kAskEvery == 0 && budget.exhausted()) return {};
-        if (min_m({{x, y}, {x + 1, y + 1}}) <= max_m) cells.push_back({x, y});
+        if (is_over()) return {};
+        if (min_m({{x, y}, {x + 1, y + 1}}) <= max_m) continue;
+        cells.add({{begin, y}, {x, y + 1}});
+        begin = x + 1;
       }
+      cells.add({{begin, y}, {r.max.x, y + 1}});
+    }
   }
   return cells;
 }

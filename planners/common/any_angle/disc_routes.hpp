@@ -13,6 +13,7 @@
 
 #include "framework/contracts/budget.hpp"
 #include "planners/common/any_angle/mesh_search.hpp"
+#include "planners/common/any_angle/numbered_cells.hpp"
 #include "planners/common/disc_space/disc_space.hpp"
 
 namespace cairn {
@@ -41,10 +42,10 @@ class DiscRoutes {
   [[nodiscard]] bool may_reach(const Point& from, const Point& to) const;
   // No route is shorter; +inf when there is none. Less than nothing is known when the budget ends: 0.
   [[nodiscard]] double length_lower_bound_m(const Point& from, const Point& to, const Budget& budget) const;
-  // The lattice's cells that routes between two points may pass, of those not longer than max_m. O(cells); none when
-  // the budget ends it.
-  [[nodiscard]] std::vector<Cell> cells_between(const Point& from, const Point& to, double max_m,
-                                                const Budget& budget = {}) const;
+  // The lattice's cells that routes between two points may pass, of those not longer than max_m. O(cells), O(rectangles)
+  // where max_m is infinite; none when the budget ends it.
+  [[nodiscard]] NumberedCells cells_between(const Point& from, const Point& to, double max_m,
+                                            const Budget& budget = {}) const;
   [[nodiscard]] const std::shared_ptr<const DiscSpace>& lattice() const { return coarse_.space; }
 
   // Between two places where the disc fits. None without `impossible`: the route, if there is one, is narrower

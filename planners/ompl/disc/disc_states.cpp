@@ -51,7 +51,7 @@ class CellDraw {
   CellDraw(const SampledCells& samples, std::uint64_t seed) : samples_(&samples), generator_(seed) {}
 
   [[nodiscard]] Point point() {
-    const std::vector<Cell>& cells = samples_->cells;
+    const NumberedCells& cells = samples_->cells;
     const auto index = static_cast<std::size_t>(unit() * static_cast<double>(cells.size()));
     const Point offset{unit() - 0.5, unit() - 0.5};
     return samples_->lattice->field().centre_of(cells[std::min(index, cells.size() - 1)]) +

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "planners/common/any_angle/numbered_cells.hpp"
 #include "planners/ompl/search/known_states.hpp"
 #include "planners/ompl/search/travel_cost.hpp"
 
@@ -24,7 +25,7 @@ void set_point(ompl::base::State* state, const Point& p);
 // Where samples are drawn from: the cells of a lattice, evenly.
 struct SampledCells {
   std::shared_ptr<const DiscSpace> lattice;
-  std::vector<Cell> cells;
+  NumberedCells cells;
 };
 
 // A route that samples are drawn about: so many of all, up to so far beside it.

@@ -15,6 +15,7 @@
 #include <random>
 #include <vector>
 
+#include "planners/common/any_angle/numbered_cells.hpp"
 #include "planners/common/pose_space/pose_space.hpp"
 #include "planners/ompl/pose/motion_kind.hpp"
 
@@ -58,7 +59,7 @@ class PoseMotionValidator : public ompl::base::MotionValidator {
 
 // Where poses are drawn from: evenly over cells with any heading, and a share of them about a route.
 struct PoseDraw {
-  std::vector<Cell> cells;        // not empty
+  NumberedCells cells;            // not empty
   std::vector<Point> guide;       // corners of the route; no share with fewer than two
   double guide_share = 0.0;       // of the draws
   double guide_width_m = 0.5;     // not further beside the route, along each axis

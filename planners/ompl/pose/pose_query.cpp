@@ -97,8 +97,8 @@ PathResult PoseQuery::answer_to(const StartPlace& start, const GoalPlace& goal, 
         {PlanOutcome::out_of_budget,
          fmt::format("no path was found in {} iterations; whether there is one for such a robot is not known",
                      std::min(tools_.config.iterations, budget_.iterations))});
-  PathResult result = result_of(problem, setup_, world_, start, goal, found);
-  result.length_lower_bound_m = guide.length_lower_bound_m;
+  PathResult result = result_of(problem, setup_, world_, start, goal, found, budget_);
+  if (result.outcome == PlanOutcome::solved) result.length_lower_bound_m = guide.length_lower_bound_m;
   return result;
 }
 
@@ -155,7 +155,7 @@ FoundPath PoseQuery::find_along_route(const PoseProblem& problem, const StartPla
 bool PoseQuery::fits_along(const PoseProblem& problem, const std::vector<Pose2>& states) const {
   const auto space = make_kinematic_space(setup_.kinematics, problem.poses.ground().field());
   for (const Motion& motion : motions_of(*space, states))
-    if (!problem.poses.fits_along(motion)) return false;
+    if (budget_.cancelled() || !problem.poses.fits_along(motion)) return false;
   return true;
 }
 

@@ -43,11 +43,13 @@ std::vector<Pose2> path_along(const std::vector<Motion>& motions, const Pose2& o
 }  // namespace
 
 PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
-                     const StartPlace& start, const GoalPlace& goal, const FoundPath& found) {
+                     const StartPlace& start, const GoalPlace& goal, const FoundPath& found,
+                     const Budget& budget) {
   const auto space = make_kinematic_space(setup.kinematics, start.space->field());
   const std::vector<Motion> motions = motions_of(*space, found.states);
   int reversals = 0;
   for (const Motion& motion : motions) {
+    if (budget.cancelled()) return refused<PathResult>(stopped(stop_outcome(budget)));
     const auto touch = first_touch(start.grid_of(world), setup.ends.ground, setup.footprint, motion,
                                    recheck_slack_m(start.space->cell_m()));
     if (touch)

@@ -14,7 +14,9 @@ struct FoundPath {
 };
 
 // The re-check is straight from the grid, over the whole of every motion; throws std::logic_error when it refuses.
+// A path of hundreds of metres takes long to check: a cancelled budget ends it with a refusal, a deadline does not.
 [[nodiscard]] PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
-                                   const StartPlace& start, const GoalPlace& goal, const FoundPath& found);
+                                   const StartPlace& start, const GoalPlace& goal, const FoundPath& found,
+                                   const Budget& budget);
 
 }  // namespace cairn

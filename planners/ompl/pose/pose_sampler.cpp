@@ -37,7 +37,7 @@ void PoseSampler::sampleUniform(ob::State* state) {
     space_->enforceBounds(state);
     return;
   }
-  const std::vector<Cell>& cells = draw_->cells;
+  const NumberedCells& cells = draw_->cells;
   const auto index = static_cast<std::size_t>(unit() * static_cast<double>(cells.size()));
   const Point centre = field_->centre_of(cells[std::min(index, cells.size() - 1)]);
   const double x_m = centre.x() + symmetric(0.5 * field_->cell_m());

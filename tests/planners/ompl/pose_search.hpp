@@ -41,7 +41,7 @@ struct PoseSearch {
     const CellBox box = world.grid.bounds();
     for (int y = box.min.y; y < box.max.y; ++y)
       for (int x = box.min.x; x < box.max.x; ++x)
-        if (!ground.is_blocked({x, y})) draw.cells.push_back({x, y});
+        if (!ground.is_blocked({x, y})) draw.cells.add({{x, y}, {x + 1, y + 1}});
   }
 
   // The poses of an exact path; empty when there is none.

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <set>
+#include <utility>
+
 #include "planners/common/disc_space/routes.hpp"
 #include "tests/planners/common/any_angle/plain_paths.hpp"
 #include "tests/planners/drawn_world.hpp"
@@ -164,6 +168,36 @@ TEST(DiscRoutes, ADiscOfAQuarterCellPassesCorridorsOneCellWide) {
   ASSERT_FALSE(found.route.empty());
   EXPECT_EQ(refused_segment(world.grid, found.route, 0.3 - 1e-6), 0U);
   EXPECT_LT(length_of(found.route), 1.05 * found.length_lower_bound_m + 0.5);
+}
+
+TEST(DiscRoutes, CellsBetweenAreThoseJoinedThatARouteOfTheLengthMayPass) {
+  std::mt19937_64 random(33);
+  for (int round = 0; round < 12; ++round) {
+    const OpenCells cells = random_cells(random, 24, 20, 0.1 + 0.08 * (round % 4));
+    const OccupancyGrid grid = grid_of(cells, 0.05, {-0.3, 0.7});
+    const DiscRoutes routes = routes_on(grid, kMinRadius_m);
+    const Point from = grid.centre_of(Cell{static_cast<int>(random() % 24), static_cast<int>(random() % 20)});
+    const Point to = grid.centre_of(Cell{static_cast<int>(random() % 24), static_cast<int>(random() % 20)});
+    for (const double max_m : {0.503, 0.907, std::numeric_limits<double>::infinity()}) {
+      const auto is_wanted = [&](Cell cell) {
+        const Point centre = grid.centre_of(cell);
+        const auto off_m = [&](const Point& end) {
+          return ((end - centre).cwiseAbs() - Point(0.025, 0.025)).cwiseMax(0.0).norm();
+        };
+        return cells.is_open(cell.x, cell.y) && routes.may_reach(from, centre) && off_m(from) + off_m(to) <= max_m;
+      };
+      const NumberedCells found = routes.cells_between(from, to, max_m);
+      std::size_t wanted = 0;
+      for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 24; ++x) wanted += is_wanted({x, y}) ? 1U : 0U;
+      EXPECT_EQ(found.size(), wanted) << max_m << drawing_of(cells);
+      std::set<std::pair<int, int>> seen;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_TRUE(is_wanted(found[i])) << max_m << drawing_of(cells);
+        EXPECT_TRUE(seen.emplace(found[i].x, found[i].y).second);
+      }
+    }
+  }
 }
 
 }  // namespace

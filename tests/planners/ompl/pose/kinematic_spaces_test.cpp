@@ -230,7 +230,8 @@ TEST(PoseMotionValidator, TheLastValidPoseFitsAndLiesOnTheMotion) {
 
 TEST(PoseSampler, DrawsFromItsCellsAndTheShareAskedForNearTheRoute) {
   PoseSearch search(MotionKind::reeds_shepp);
-  search.draw.cells = {{3, 3}, {30, 12}};
+  search.draw.cells = {};
+  for (const Cell cell : {Cell{3, 3}, Cell{30, 12}}) search.draw.cells.add({cell, cell + Cell{1, 1}});
   search.draw.guide = {{1.0, 1.0}, {3.0, 1.0}, {3.0, 1.5}};
   search.draw.guide_share = 0.25;
   search.draw.guide_width_m = 0.1;
