@@ -60,11 +60,15 @@ function(cairn_test_options name)
   endif()
 endfunction()
 
-# cairn_add_test(NAME SOURCES ... [LINK ...] [SHARDS N] [SLOW_ORACLE]): one GoogleTest program, run as one test, or as N
-# processes that share its cases: to start a process takes longer than most cases.
+# cairn_add_test(NAME SOURCES ... [ALONE ...] [LINK ...] [SHARDS N] [SLOW_ORACLE]): one GoogleTest program, run as one
+# test, or as N processes that share its cases: to start a process takes longer than most cases.
+# ALONE: further sources, whose helpers have names of others' ("redefinition of"): each compiled alone, the others eight
+# together.
 # SLOW_ORACLE: what the test itself computes takes too long without optimization, where tests are built so.
 function(cairn_add_test name)
-  cmake_parse_arguments(arg "SLOW_ORACLE" "SHARDS" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "SLOW_ORACLE" "SHARDS" "SOURCES;ALONE;LINK" ${ARGN})
+  set_source_files_properties(${arg_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  list(APPEND arg_SOURCES ${arg_ALONE})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE GTest::gmock GTest::gtest_main cairn_private_options ${arg_LINK})
   target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
