@@ -20,6 +20,7 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
 constexpr int kShortcutRounds = 5;
+constexpr std::size_t kMaxCollapsed = 64;  // states: OMPL measures between all pairs first, and nothing ends that
 
 // One holder at a time in the process, because the seeds of all of OMPL's generators come from one place.
 // Not a timed mutex: thread sanitizers of this compiler do not know those.
@@ -69,7 +70,7 @@ class Simplifier : public og::PathSimplifier {
 
   void simplify_within(og::PathGeometric& path, const Budget& budget) {
     if (!budget.exhausted()) reduceVertices(path);
-    if (!budget.exhausted()) collapseCloseVertices(path);
+    if (!budget.exhausted() && path.getStateCount() <= kMaxCollapsed) collapseCloseVertices(path);
     for (int round = 0; round < kShortcutRounds && !budget.exhausted(); ++round)
       if (!shortcutPath(path)) break;
     if (!budget.exhausted()) reduceVertices(path);
