@@ -27,14 +27,14 @@ class PoseBelief {
 
   // Whether the robot has driven so far that a search is worth its time. At every tick.
   bool drive(const Pose2& T_local_robot);
-  // What a search has found, from where drive() was told last.
-  void update(const std::vector<PoseHypothesis>& found);
+  // What a search has found that began there.
+  void update(const std::vector<PoseHypothesis>& found, const Pose2& T_local_robot);
 
   [[nodiscard]] double driven_m() const { return driven_m_; }
   // Of the last search, best first.
   [[nodiscard]] const std::vector<PoseHypothesis>& guesses() const { return guesses_; }
-  // Where the robot is, once a guess is believed, as of the last search.
-  [[nodiscard]] const std::optional<PoseHypothesis>& believed() const { return believed_; }
+  // Where the robot's own frame lies in the map, once a guess is believed, as of the last search.
+  [[nodiscard]] const std::optional<Pose2>& T_map_local() const { return T_map_local_; }
 
  private:
   [[nodiscard]] bool is_clear() const;
@@ -46,7 +46,7 @@ class PoseBelief {
   std::vector<PoseHypothesis> guesses_;
   std::optional<Pose2> T_map_local_ahead_;  // of the guess that is clearly ahead
   double ahead_since_m_ = 0.0;
-  std::optional<PoseHypothesis> believed_;
+  std::optional<Pose2> T_map_local_;
 };
 
 }  // namespace cairn

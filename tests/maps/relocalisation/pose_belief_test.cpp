@@ -14,8 +14,10 @@ std::optional<double> believed_after_m(Guesses guesses_at, double at_most_m = 12
   for (double x_m = 0.0; x_m <= at_most_m; x_m += 0.05) {
     const Pose2 T_local_robot{x_m, 0.0, 0.0};
     if (!belief.drive(T_local_robot)) continue;
-    belief.update(guesses_at(kT_map_local * T_local_robot, x_m));
-    if (belief.believed()) return belief.driven_m();
+    belief.update(guesses_at(kT_map_local * T_local_robot, x_m), T_local_robot);
+    if (!belief.T_map_local()) continue;
+    EXPECT_LT((belief.T_map_local()->position() - kT_map_local.position()).norm(), 1e-9);
+    return belief.driven_m();
   }
   return std::nullopt;
 }
