@@ -187,6 +187,7 @@ ordered_json json_of(const LocalisationFigures& figures) {
   for (const PoseHypothesis& guess : figures.guesses) {
     ordered_json row = json_of(guess.T_map_robot);
     row["score"] = rounded(guess.score);
+    row["contradicted_ratio"] = rounded(guess.contradicted_ratio);
     row["held_by_corners"] = guess.is_held_by_corners;
     json["guesses"].push_back(std::move(row));
   }

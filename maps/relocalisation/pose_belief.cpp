@@ -11,9 +11,11 @@ bool PoseBelief::drive(const Pose2& T_local_robot) {
 }
 
 bool PoseBelief::is_clear() const {
-  if (guesses_.empty() || !guesses_.front().is_held_by_corners || guesses_.front().score < rules_.min_score)
-    return false;
-  return guesses_.size() < 2 || guesses_[1].score <= rules_.clear_ratio * guesses_.front().score;
+  if (guesses_.empty()) return false;
+  const PoseHypothesis& best = guesses_.front();
+  if (!best.is_held_by_corners || best.score < rules_.min_score) return false;
+  if (best.contradicted_ratio > rules_.max_contradicted_ratio) return false;
+  return guesses_.size() < 2 || guesses_[1].score <= rules_.clear_ratio * best.score;
 }
 
 void PoseBelief::update(const std::vector<PoseHypothesis>& found, const Pose2& T_local_robot) {

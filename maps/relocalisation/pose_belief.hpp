@@ -2,7 +2,8 @@
 //
 // Each search looks at all that has been seen since the robot began, so guesses that have become wrong drop out, and
 // one that stays ahead has explained more and more of it. One guess is believed when, at each search over so many
-// metres driven, it was the same one, its score was high, no other came near it, and corners hold it.
+// metres driven, it was the same one, its score was high, next to nothing contradicted it, no other came near it, and
+// corners hold it.
 #pragma once
 
 #include <optional>
@@ -17,6 +18,7 @@ struct BeliefRules {
   double ahead_for_m = 3.0;     // driven
   double min_score = 0.7;
   double clear_ratio = 0.93;  // no other guess scores more than this, of the best
+  double max_contradicted_ratio = 0.03;
   double same_m = 0.5;        // how far the same guess may move between two searches
   double same_rad = radians(10.0);
 };

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kLevels = 7;
 constexpr double kSharp = 0.2;  // of a cell: a field that is full in its own cells and 0 beside them
+constexpr int kOnIt = 250;    // in 255ths: of a field that is full in the cells of what is occupied
 constexpr double kSurfaceCell_m = 0.3;
 constexpr double kMaxMoved_m = 0.3;  // by the alignment
 constexpr double kMaxMoved_rad = radians(6.0);
@@ -66,14 +67,30 @@ std::vector<PoseHypothesis> PoseSearch::find(const Surroundings& surroundings,
   return found;
 }
 
+double PoseSearch::contradicted_ratio(const Surroundings& surroundings, const Pose2& T_map_robot) const {
+  const auto value = [&](const FieldPyramid& pyramid, const Point& point_m) {
+    const LikelihoodField& field = pyramid.field();
+    const Point at_m = T_map_robot * point_m;
+    return field.value(field.cell_of(at_m.x()), field.cell_of(at_m.y()));
+  };
+  std::size_t contradicted = 0;
+  for (const Point& echo_m : surroundings.echoes_m)
+    contradicted += value(free_, echo_m) > 0 && value(occupied_, echo_m) == 0 ? 1U : 0U;
+  for (const Point& free_m : surroundings.free_m) contradicted += value(occupied_, free_m) >= kOnIt ? 1U : 0U;
+  return static_cast<double>(contradicted) /
+         static_cast<double>(surroundings.echoes_m.size() + surroundings.free_m.size());
+}
+
 PoseHypothesis PoseSearch::aligned(const ScanMatch& match, const Surroundings& surroundings) const {
   AlignmentSettings settings;
   settings.echo_sigma_m = 0.05;
   const Alignment alignment = align(surfaces_, surroundings.echoes_m, match.T_field_scan, {}, settings);
   const Pose2 moved = inverse(match.T_field_scan) * alignment.T_map_scan;
   PoseHypothesis hypothesis{match.T_field_scan, match.score};
+  hypothesis.contradicted_ratio = contradicted_ratio(surroundings, match.T_field_scan);
   if (moved.position().norm() > kMaxMoved_m || std::abs(moved.theta_rad) > kMaxMoved_rad) return hypothesis;
   hypothesis.T_map_robot = alignment.T_map_scan;
+  hypothesis.contradicted_ratio = contradicted_ratio(surroundings, alignment.T_map_scan);
   hypothesis.is_held_by_corners = alignment.matched_ratio >= settings_.min_matched_ratio &&
                                   evenness(alignment.information) >= settings_.min_corner_ratio;
   return hypothesis;

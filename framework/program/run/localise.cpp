@@ -55,7 +55,7 @@ void begin_with_finding_itself(Mission& mission) {
 std::string trust_text(const LocalisationFigures& figures) {
   if (figures.is_pose_given) return "tracking: the pose was given";
   if (!figures.found_s)
-    return fmt::format("lost: after {:.1f} m and {}, {} fit", figures.driven_m, counted(figures.searches, "search"),
+    return fmt::format("lost: after {:.1f} m and {}, {} fit", figures.driven_m, counted(figures.searches, "look"),
                        counted(figures.guesses.size(), "place"));
   const Pose2& at = figures.T_map_robot;
   return fmt::format("tracking: found itself after {:.1f} m, at {:.0f} s, at ({:.2f}, {:.2f}) m, {:.0f} degrees",

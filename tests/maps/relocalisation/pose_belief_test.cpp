@@ -54,6 +54,11 @@ TEST(PoseBelief, DoesNotBelieveWhatFitsBadly) {
       [](const Pose2& truth, double) { return std::vector<PoseHypothesis>{{truth, 0.55, true}}; }));
 }
 
+TEST(PoseBelief, DoesNotBelieveWhatTheMapContradicts) {
+  EXPECT_FALSE(believed_after_m(
+      [](const Pose2& truth, double) { return std::vector<PoseHypothesis>{{truth, 0.9, true, 0.06}}; }));
+}
+
 TEST(PoseBelief, DoesNotBelieveAGuessThatDoesNotMoveWithTheRobot) {
   EXPECT_FALSE(believed_after_m(
       [](const Pose2&, double) { return std::vector<PoseHypothesis>{{{3.0, 3.0, 0.0}, 0.95, true}}; }));

@@ -80,6 +80,18 @@ TEST(PoseSearch, TwoLikeRoomsAreTwoGuessesOfAboutOneScore) {
   EXPECT_NEAR(std::abs(found[0].T_map_robot.x_m - found[1].T_map_robot.x_m), 5.9, 0.15);
 }
 
+TEST(PoseSearch, WhatStandsInTheOpenOfTheMapContradictsAGuess) {
+  const OccupancyGrid map = two_rooms(true);
+  const Surroundings around = surroundings_of(seen_in(map, {9.0, 2.5, 0.0}, right_room(map)), {});
+  const std::vector<PoseHypothesis> found = PoseSearch(map).find(around, KnownHeading{0.0, radians(20.0)});
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(found[0].contradicted_ratio, 0.02);
+  const std::vector<PoseHypothesis> elsewhere =
+      PoseSearch(two_rooms(false)).find(around, KnownHeading{0.0, radians(20.0)});
+  ASSERT_FALSE(elsewhere.empty());
+  EXPECT_GT(elsewhere[0].contradicted_ratio, 0.03) << "a cupboard is not in this map";
+}
+
 TEST(PoseSearch, AKnownHeadingLeavesOutPosesThatAreTurned) {
   OccupancyGrid map = free_area(6.2, 6.2);
   rectangle(map, {0.1, 0.1}, {6.0, 6.0});
