@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/reporting/event_sentences.hpp"
+#include "framework/reporting/localisation_json.hpp"
 #include "maps/landmarks/close_categories.hpp"
 
 namespace cairn {
@@ -168,32 +169,6 @@ ordered_json main_figures(const Mission& mission, const MissionResult& result, c
           {"time_s", rounded(result.time_s)}};
 }
 
-ordered_json json_of(const Pose2& pose) {
-  return {{"x_m", rounded(pose.x_m)}, {"y_m", rounded(pose.y_m)}, {"angle_deg", rounded(degrees(pose.theta_rad))}};
-}
-
-ordered_json json_of(const LocalisationFigures& figures) {
-  const bool is_known = figures.is_pose_given || figures.found_s;
-  ordered_json json = {{"trust", std::string(name_of(is_known ? PoseTrust::tracking : PoseTrust::lost))},
-                       {"pose_given", figures.is_pose_given}};
-  if (figures.is_pose_given) return json;
-  json["searches"] = figures.searches;
-  json["driven_m"] = rounded(figures.driven_m);
-  if (figures.found_s) {
-    json["found_s"] = rounded(*figures.found_s);
-    json["found_at"] = json_of(figures.T_map_robot);
-  }
-  json["guesses"] = ordered_json::array();
-  for (const PoseHypothesis& guess : figures.guesses) {
-    ordered_json row = json_of(guess.T_map_robot);
-    row["score"] = rounded(guess.score);
-    row["contradicted_ratio"] = rounded(guess.contradicted_ratio);
-    row["held_by_corners"] = guess.is_held_by_corners;
-    json["guesses"].push_back(std::move(row));
-  }
-  return json;
-}
-
 ordered_json json_of(const PoseErrorFigures& error) {
   return {{"median_m", rounded(error.median_m)},
           {"p95_m", rounded(error.p95_m)},
@@ -284,7 +259,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   report["node_runs"] = json_of(result.node_runs.runs());
   report["node_runs_left_out"] = result.node_runs.left_out();
   add_timeline(report, timeline_);
-  if (result.localisation) report["localisation"] = json_of(*result.localisation);
+  if (result.localisation) report["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   report["map"] = result.map_file;
   report["pictures"] = pictures;
   if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
@@ -313,7 +288,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   summary["explored_ratio"] = rounded(result.explored_ratio);
   if (const auto error = pose_errors_.figures()) summary["pose_error"] = json_of(*error);
   summary["wall_s"] = rounded(wall_s);
-  if (result.localisation) summary["localisation"] = json_of(*result.localisation);
+  if (result.localisation) summary["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
   summary["autosave"] = json_of(result.autosave);
   summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();

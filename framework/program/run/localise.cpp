@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -21,10 +22,10 @@ Pose2 pose_of(const std::string& text) {
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ','); ++count) {
     const auto number = number_from<double>(part);
-    if (!number || !std::isfinite(*number) || count >= numbers.size()) break;
-    numbers[count] = *number;
+    if (count < numbers.size()) numbers[count] = number.value_or(std::numeric_limits<double>::quiet_NaN());
   }
-  if (count != numbers.size() || !parts.eof() || text.ends_with(','))
+  const bool are_numbers = std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+  if (count != numbers.size() || !are_numbers || text.ends_with(','))
     throw std::runtime_error("--pose: " + in_quotes(text) + " is not X,Y,DEGREES, such as 1.5,-2,90");
   return {numbers[0], numbers[1], wrap_angle(radians(numbers[2]))};
 }

@@ -46,8 +46,8 @@ TEST(LocaliseIn, AKidnappedRobotFindsItselfAndTheMapIsLeftAlone) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     EXPECT_NE(entry.path().extension(), ".cairn") << entry.path();
   const auto report = nlohmann::json::parse(text_of_file(folder / "report.json"));
-  EXPECT_EQ(report["steps"][0]["name"], "find_myself");
-  EXPECT_EQ(report["steps"][1]["name"], "goto");
+  EXPECT_EQ(report["steps"][0]["step"], "find_myself");
+  EXPECT_EQ(report["steps"][1]["step"], "goto");
 }
 
 TEST(LocaliseIn, TheSameSeedFindsTheSame) {
