@@ -33,6 +33,7 @@ Status known(const std::string& landmark, const LandmarkGraph& graph) {
 }
 
 Status at_place(const Condition& condition, const WorldView& world) {
+  if (world.pose.trust == PoseTrust::lost) return answer(false, "the robot does not know where it is");
   std::vector<Point> places;
   if (condition.at_m) places.push_back(*condition.at_m);
   if (!condition.at_m)

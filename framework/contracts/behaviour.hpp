@@ -73,6 +73,9 @@ class Behaviour {
   // Called when the step is left before it ended, and when it is to be done once more after its end; it must
   // not ask for anything. A tick after it begins the step afresh.
   virtual void halt() = 0;
+  // Whether it makes sense only where the robot knows its place in the map. While it does not (PoseTrust::lost), such a
+  // behaviour is not ticked: it waits.
+  [[nodiscard]] virtual bool needs_pose() const { return true; }
 };
 
 // Not the BehaviourContext of a tick.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "framework/contracts/module_context.hpp"
@@ -14,12 +15,19 @@
 
 namespace cairn {
 
+// lost: the pose is in a frame of its own that began where the robot was switched on; no map has to do with it yet.
+enum class PoseTrust : std::uint8_t { tracking, lost };
+[[nodiscard]] constexpr std::string_view name_of(PoseTrust trust) {
+  return trust == PoseTrust::lost ? "lost" : "tracking";
+}
+
 struct PoseEstimate {
   Pose2 T_map_robot;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // x_m, y_m, theta_rad
   // In this observation: known walls and landmarks seen again that corrected the pose, or were too far off for that.
   int sightings_used = 0;
   int sightings_refused = 0;
+  PoseTrust trust = PoseTrust::tracking;  // by the host
 };
 
 // What is known of the world before the observation: what earlier ones have mapped, or a saved map.
@@ -51,9 +59,16 @@ class Localizer {
   virtual PoseHistory* history() { return nullptr; }
 };
 
+// Standard deviations of the start pose, at least; where a localizer knows them to be larger, it takes its own.
+struct StartUncertainty {
+  double position_m = 0.0;
+  double heading_rad = 0.0;
+};
+
 struct LocalizerContext : ModuleContext {
   Pose2 T_map_start{};                               // where the robot begins
   std::span<const LandmarkShape> landmark_shapes{};  // the outlines that the mission's templates describe
+  StartUncertainty start_uncertainty{};
 };
 
 template <>

@@ -32,12 +32,6 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
                         Budget{.cancel = cancel}});
 }
 
-std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
-                                           const MissionModules& built) {
-  return build<Localizer>(library, mission.config.localizer,
-                          {context_for(mission, library, PluginKind::localizer), built.T_map_start, mission.shapes});
-}
-
 std::shared_ptr<Mapper> build_mapper(const Mission& mission, const ModuleLibrary& library,
                                      const OccupancyGrid* grid_so_far = nullptr) {
   return build<Mapper>(library, mission.config.map, {context_for(mission, library, PluginKind::map), grid_so_far});
@@ -162,6 +156,13 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
   return build_sensor(mission, library, built);
 }
 
+std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
+                                           const LocalizerStart& start) {
+  return build<Localizer>(library, mission.config.localizer,
+                          {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes,
+                           start.uncertainty});
+}
+
 std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
                                   const OccupancyGrid* grid_so_far) {
   return build_mapper(mission, library, grid_so_far);
@@ -175,7 +176,7 @@ std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLib
 }
 
 MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume,
-                             const std::atomic<bool>* cancel) {
+                             const std::atomic<bool>* cancel, const std::optional<LocalizerStart>& start_known) {
   const MissionConfig& config = mission.config;
   MissionModules built;
   built.T_map_start = start_of(config);
@@ -190,10 +191,12 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
   if (start) built.T_map_start = *start;
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
-  built.localizer = build_localizer(mission, library, built);
+  if (start_known) built.T_map_start = start_known->T_map_start;
+  built.localizer = build_localizer(mission, library, start_known.value_or(LocalizerStart{built.T_map_start, {}}));
   built.mapper = build_mapper(mission, library);
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
-  if (!config.detector.name.empty()) add_detector(mission, library, built.mapper->grid().cell_m(), built);
+  if (!config.detector.name.empty() && !start_known)
+    add_detector(mission, library, built.mapper->grid().cell_m(), built);
   if (!config.planner.name.empty()) built.planner = build_planner(mission, library);
   built.controller = build_controller(mission, library);
   if (const std::vector<ConfigError> missing = missing_inputs(mission.steps, library); !missing.empty())
@@ -224,7 +227,7 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
     check_can_start(mission, *sensor);
   });
   attempt([&] {
-    if (!config.localizer.name.empty()) (void)build_localizer(mission, library, built);
+    if (!config.localizer.name.empty()) (void)build_localizer(mission, library, LocalizerStart{built.T_map_start, {}});
   });
   attempt([&] {
     if (!config.map.name.empty()) built.mapper = build_mapper(mission, library);

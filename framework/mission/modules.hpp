@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/mission/mission.hpp"
@@ -10,6 +11,12 @@
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
+
+// A run that leaves its map alone: what the localizer begins with.
+struct LocalizerStart {
+  Pose2 T_map_start;
+  StartUncertainty uncertainty;
+};
 
 struct MissionModules {
   std::shared_ptr<Sensor> sensor;
@@ -24,10 +31,16 @@ struct MissionModules {
   double begin_s = 0.0;  // the mission's clock
 };
 
-// resume: the map to go on from, or null. cancel: ends the reading of a log that is under way. Throws ConfigError or
+// resume: the map to go on from, or null. start: of a run that leaves its map alone, which needs no detector; its mapper
+// begins with nothing, and where the sensor begins is not where the robot is said to be. cancel: ends the reading of a log that is under way. Throws ConfigError or
 // ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
-                                           const SavedMap* resume = nullptr, const std::atomic<bool>* cancel = nullptr);
+                                           const SavedMap* resume = nullptr, const std::atomic<bool>* cancel = nullptr,
+                                           const std::optional<LocalizerStart>& start = std::nullopt);
+
+// The mission's localizer alone.
+[[nodiscard]] std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
+                                                         const LocalizerStart& start);
 
 // The mission's map module alone. grid_so_far: what it begins with, or null.
 [[nodiscard]] std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "framework/behaviour_tree/time_left.hpp"
+#include "framework/contracts/localizer.hpp"
 #include "maps/geometry/pose.hpp"
 
 namespace cairn {
@@ -39,6 +40,7 @@ struct RunStatus {
   double paused_s = 0.0;
   double explored_ratio = 0.0;
   Pose2 T_map_robot{};
+  PoseTrust trust = PoseTrust::tracking;  // lost: the pose is not one in the map
   double distance_m = 0.0;
   std::size_t landmarks = 0;
   std::optional<TimeLeft> left{};  // none: it has no steps, or has ended

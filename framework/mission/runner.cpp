@@ -84,7 +84,7 @@ const CoarseGrid* MissionRunner::coarse_grid() const {
   return loop_->coarse_grid();
 }
 const LandmarkGraph& MissionRunner::graph() const {
-  return loop_->tracker().graph();
+  return loop_->graph();
 }
 const std::vector<Pose2>& MissionRunner::driven_path() const {
   return loop_->tracker().driven_path();

@@ -10,6 +10,7 @@
 #include "framework/behaviour_tree/node_runs.hpp"
 #include "framework/behaviour_tree/runner.hpp"
 #include "framework/mission/events.hpp"
+#include "framework/mission/localisation/self_finder.hpp"
 #include "framework/mission/mission.hpp"
 #include "framework/mission/run_control.hpp"
 #include "framework/modules/module_library.hpp"
@@ -25,6 +26,12 @@ namespace cairn {
 enum class MissionOutcome { done, step_failed, out_of_time, cancelled, sensor_fault, module_fault, map_not_saved };
 [[nodiscard]] std::string_view name_of(MissionOutcome outcome);
 
+// A saved map in which the robot finds out where it is, and which is left alone.
+struct LocaliseIn {
+  const SavedMap* map = nullptr;     // must outlive the runner
+  std::optional<Pose2> T_map_start;  // none: anywhere
+};
+
 struct RunOptions {
   std::filesystem::path out;  // folder of everything written; must exist
   bool realtime = false;      // pace simulated time to the wall clock
@@ -34,6 +41,7 @@ struct RunOptions {
   RunControl* control = nullptr;     // must outlive the runner
   // For pacing, intervals and the watch over modules.
   std::shared_ptr<const WallClock> wall_clock = std::make_shared<SteadyClock>();
+  std::optional<LocaliseIn> localise_in = std::nullopt;  // not with resume
 };
 
 struct StepReport {
@@ -63,6 +71,7 @@ struct MissionResult {
   ClusterTree clusters{};  // of the landmarks, as they were last clustered
   std::vector<ClusterLevel> cluster_levels{};
   std::vector<StampedPose> poses{};  // of all observations, as known at the end; none for most missions that drive
+  std::optional<LocalisationFigures> localisation{};  // of a run that leaves its map alone
   std::string map_file;              // name in the output folder; empty: could not be saved
 };
 

@@ -38,7 +38,12 @@ void add_run(CLI::App& app, CommandLine& line) {
   sub->add_option("--out", c->out, "folder for map, pictures and report")->capture_default_str();
   sub->add_option("--seed", c->seed, "seed, in place of the mission's")->check(seed_range());
   add_repeatable(sub, "--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)");
-  sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to continue");
+  CLI::Option* const resume =
+      sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to continue");
+  CLI::Option* const localise_in = sub->add_option(
+      "--localize-in", c->localise_in, "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
+  localise_in->excludes(resume);
+  sub->add_option("--pose", c->pose, "where the robot is in that map: X,Y,DEGREES")->needs(localise_in);
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
   sub->add_flag("--realtime", c->realtime, "pace simulated time to the clock");
 }

@@ -19,7 +19,7 @@ double quantile(std::vector<double> values, double share) {
 void PoseErrors::note(const WorldView& world, const std::optional<Pose2>& true_T_map_robot) {
   corrections_ += world.pose.sightings_used;
   refused_ += world.pose.sightings_refused;
-  if (!true_T_map_robot) return;
+  if (!true_T_map_robot || world.pose.trust == PoseTrust::lost) return;
   if (last_ && world.time_s < last_->time_s + kEvery_s) return;
   const Pose2& truth = *true_T_map_robot;
   const Point off_m = truth.position() - world.pose.T_map_robot.position();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/reporting/event_sentences.hpp"
+#include "framework/reporting/localisation_json.hpp"
 #include "maps/landmarks/close_categories.hpp"
 
 namespace cairn {
@@ -258,6 +259,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   report["node_runs"] = json_of(result.node_runs.runs());
   report["node_runs_left_out"] = result.node_runs.left_out();
   add_timeline(report, timeline_);
+  if (result.localisation) report["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   report["map"] = result.map_file;
   report["pictures"] = pictures;
   if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
@@ -286,6 +288,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   summary["explored_ratio"] = rounded(result.explored_ratio);
   if (const auto error = pose_errors_.figures()) summary["pose_error"] = json_of(*error);
   summary["wall_s"] = rounded(wall_s);
+  if (result.localisation) summary["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
   summary["autosave"] = json_of(result.autosave);
   summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();

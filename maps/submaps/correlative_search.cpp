@@ -5,13 +5,14 @@
 namespace cairn {
 namespace {
 
-// The window's lattice, and the scan's points as cells at one of its headings.
+// The window's lattice, and the points of a scan as cells at one of its headings.
 class Lattice {
  public:
-  Lattice(const LikelihoodField& field, std::span<const Point> points_m, const SearchWindow& window)
-      : field_(field), points_m_(points_m), window_(window) {
+  Lattice(const LikelihoodField& field, std::span<const SearchLayer> layers, const SearchWindow& window)
+      : field_(field), window_(window) {
     double farthest_m = field.cell_m();
-    for (const Point& point_m : points_m) farthest_m = std::max(farthest_m, point_m.norm());
+    for (const SearchLayer& layer : layers)
+      for (const Point& point_m : layer.points_m) farthest_m = std::max(farthest_m, point_m.norm());
     step_rad_ = field.cell_m() / farthest_m;
     half_headings_ = static_cast<int>(std::floor(window.half_angle_rad / step_rad_));
     half_side_ = static_cast<int>(std::floor(window.half_side_m / field.cell_m()));
@@ -19,15 +20,17 @@ class Lattice {
 
   [[nodiscard]] int headings() const { return 2 * half_headings_ + 1; }
   [[nodiscard]] int half_side() const { return half_side_; }
+  [[nodiscard]] double step_rad() const { return step_rad_; }
+  [[nodiscard]] double cell_m() const { return field_.cell_m(); }
   [[nodiscard]] Pose2 pose(int heading, int x, int y) const {
     return {window_.T_field_scan.x_m + x * field_.cell_m(), window_.T_field_scan.y_m + y * field_.cell_m(),
             wrap_angle(window_.T_field_scan.theta_rad + (heading - half_headings_) * step_rad_)};
   }
-  [[nodiscard]] std::vector<Eigen::Vector2i> cells(int heading) const {
+  [[nodiscard]] std::vector<Eigen::Vector2i> cells(int heading, std::span<const Point> points_m) const {
     const Pose2 T_field_scan = pose(heading, 0, 0);
     std::vector<Eigen::Vector2i> cells;
-    cells.reserve(points_m_.size());
-    for (const Point& point_m : points_m_) {
+    cells.reserve(points_m.size());
+    for (const Point& point_m : points_m) {
       const Point at_m = T_field_scan * point_m;
       cells.emplace_back(field_.cell_of(at_m.x()), field_.cell_of(at_m.y()));
     }
@@ -36,7 +39,6 @@ class Lattice {
 
  private:
   const LikelihoodField& field_;
-  std::span<const Point> points_m_;
   SearchWindow window_;
   double step_rad_ = 0.0;
   int half_headings_ = 0;
@@ -64,54 +66,104 @@ double score_of_sum(int sum, std::size_t points) {
   return sum / (255.0 * static_cast<double>(points));
 }
 
-std::optional<ScanMatch> match_of(const Lattice& lattice, const std::optional<Candidate>& best, std::size_t points) {
-  if (!best) return std::nullopt;
-  return ScanMatch{lattice.pose(best->heading, best->x, best->y), score_of_sum(best->sum, points)};
+ScanMatch match_of(const Lattice& lattice, const Candidate& best, std::size_t points) {
+  return {lattice.pose(best.heading, best.x, best.y), score_of_sum(best.sum, points)};
 }
+
+std::size_t count_points(std::span<const SearchLayer> layers) {
+  std::size_t points = 0;
+  for (const SearchLayer& layer : layers) points += layer.points_m.size();
+  return points;
+}
+
+// The poses around those found that are no other ones.
+class Excluded {
+ public:
+  Excluded(const Lattice& lattice, double apart_m, double apart_rad)
+      : lattice_(lattice), apart_m_(apart_m), apart_rad_(apart_rad) {}
+
+  void add(const Candidate& found) { found_.push_back(found); }
+  // Whether all poses of the square are.
+  [[nodiscard]] bool holds(const Candidate& square, int side) const {
+    return std::ranges::any_of(found_, [&](const Candidate& found) {
+      const double turned_rad = wrap_angle((square.heading - found.heading) * lattice_.step_rad());
+      if (std::abs(turned_rad) >= apart_rad_) return false;
+      const double x = std::max(std::abs(square.x - found.x), std::abs(square.x + side - 1 - found.x));
+      const double y = std::max(std::abs(square.y - found.y), std::abs(square.y + side - 1 - found.y));
+      return std::hypot(x, y) * lattice_.cell_m() < apart_m_;
+    });
+  }
+
+ private:
+  const Lattice& lattice_;
+  double apart_m_;
+  double apart_rad_;
+  std::vector<Candidate> found_;
+};
 
 class BranchAndBound {
  public:
-  BranchAndBound(const FieldPyramid& pyramid, std::span<const Point> points_m, const SearchWindow& window,
-                 double min_score)
-      : pyramid_(pyramid),
-        lattice_(pyramid.field(), points_m, window),
-        least_sum_(least_sum(min_score, points_m.size())) {
-    for (int heading = 0; heading < lattice_.headings(); ++heading) cells_.push_back(lattice_.cells(heading));
+  BranchAndBound(std::span<const SearchLayer> layers, const FieldPyramid* standing, const SearchWindow& window)
+      : layers_(layers.begin(), layers.end()),
+        standing_(standing),
+        lattice_(layers.front().pyramid->field(), layers, window),
+        top_level_(layers.front().pyramid->levels() - 1) {
+    const Point origin_m{0.0, 0.0};
+    origin_ = lattice_.cells(0, {&origin_m, 1}).front();
+    for (const SearchLayer& layer : layers) top_level_ = std::min(top_level_, layer.pyramid->levels() - 1);
+    if (standing != nullptr) top_level_ = std::min(top_level_, standing->levels() - 1);
+    for (int heading = 0; heading < lattice_.headings(); ++heading)
+      for (const SearchLayer& layer : layers) cells_.push_back(lattice_.cells(heading, layer.points_m));
+    add_roots();
   }
 
-  std::optional<Candidate> run() {
-    const int level = pyramid_.levels() - 1;
-    const int side = 1 << level;
-    std::vector<Candidate> roots;
-    for (int heading = 0; heading < lattice_.headings(); ++heading)
-      for (int y = -lattice_.half_side(); y <= lattice_.half_side(); y += side)
-        for (int x = -lattice_.half_side(); x <= lattice_.half_side(); x += side)
-          roots.push_back({bound(level, heading, x, y), heading, x, y});
-    descend(level, roots);
+  // The best pose with at least this sum; excluded: null, or what is left out.
+  std::optional<Candidate> find(int least_sum, const Excluded* excluded = nullptr) {
+    least_sum_ = least_sum;
+    excluded_ = excluded;
+    best_.reset();
+    descend(top_level_, roots_);
     return best_;
   }
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
 
  private:
+  void add_roots() {
+    const int side = 1 << top_level_;
+    for (int heading = 0; heading < lattice_.headings(); ++heading)
+      for (int y = -lattice_.half_side(); y <= lattice_.half_side(); y += side)
+        for (int x = -lattice_.half_side(); x <= lattice_.half_side(); x += side)
+          add_bounded(top_level_, heading, x, y, roots_);
+    sort(roots_);
+  }
+
+  static void sort(std::vector<Candidate>& candidates) {
+    std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) { return a.is_before(b); });
+  }
+
+  void add_bounded(int level, int heading, int x, int y, std::vector<Candidate>& candidates) const {
+    if (standing_ != nullptr && standing_->greatest(level, origin_.x() + x, origin_.y() + y) == 0) return;
+    candidates.push_back({bound(level, heading, x, y), heading, x, y});
+  }
+
   // No pose in the square of 2^level positions has a greater sum.
   [[nodiscard]] int bound(int level, int heading, int x, int y) const {
     int sum = 0;
-    for (const Eigen::Vector2i& cell : cells_[static_cast<std::size_t>(heading)])
-      sum += pyramid_.greatest(level, cell.x() + x, cell.y() + y);
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+      for (const Eigen::Vector2i& cell : cells_[static_cast<std::size_t>(heading) * layers_.size() + i])
+        sum += layers_[i].pyramid->greatest(level, cell.x() + x, cell.y() + y);
     return sum;
   }
 
-  void descend(int level, std::vector<Candidate>& candidates) {
-    std::sort(candidates.begin(), candidates.end(),
-              [](const Candidate& a, const Candidate& b) { return a.is_before(b); });
+  // candidates: sorted.
+  void descend(int level, const std::vector<Candidate>& candidates) {
     for (const Candidate& candidate : candidates) {
       if (candidate.sum < least_sum_ || (best_ && candidate.sum < best_->sum)) return;
-      if (level == 0) {
-        if (!best_ || candidate.is_before(*best_)) best_ = candidate;
-      } else {
-        std::vector<Candidate> parts = parts_of(level, candidate);
-        descend(level - 1, parts);
-      }
+      if (excluded_ != nullptr && excluded_->holds(candidate, 1 << level)) continue;
+      if (level > 0)
+        descend(level - 1, parts_of(level, candidate));
+      else if (!best_ || candidate.is_before(*best_))
+        best_ = candidate;
     }
   }
 
@@ -121,14 +173,20 @@ class BranchAndBound {
     for (const int y : {whole.y, whole.y + side})
       for (const int x : {whole.x, whole.x + side})
         if (x <= lattice_.half_side() && y <= lattice_.half_side())
-          parts.push_back({bound(level - 1, whole.heading, x, y), whole.heading, x, y});
+          add_bounded(level - 1, whole.heading, x, y, parts);
+    sort(parts);
     return parts;
   }
 
-  const FieldPyramid& pyramid_;
+  std::vector<SearchLayer> layers_;
+  const FieldPyramid* standing_;
   Lattice lattice_;
-  int least_sum_;
-  std::vector<std::vector<Eigen::Vector2i>> cells_;  // by heading
+  int top_level_;
+  Eigen::Vector2i origin_;                           // of the scan, in the window's middle
+  std::vector<std::vector<Eigen::Vector2i>> cells_;  // by heading, then by layer
+  std::vector<Candidate> roots_;
+  int least_sum_ = 1;
+  const Excluded* excluded_ = nullptr;
   std::optional<Candidate> best_;
 };
 
@@ -167,10 +225,11 @@ double score_of(const LikelihoodField& field, std::span<const Point> points_m, c
 std::optional<ScanMatch> search_all(const LikelihoodField& field, std::span<const Point> points_m,
                                     const SearchWindow& window, double min_score) {
   if (points_m.empty()) return std::nullopt;
-  const Lattice lattice(field, points_m, window);
+  const SearchLayer layer{nullptr, points_m};
+  const Lattice lattice(field, {&layer, 1}, window);
   std::optional<Candidate> best;
   for (int heading = 0; heading < lattice.headings(); ++heading) {
-    const std::vector<Eigen::Vector2i> cells = lattice.cells(heading);
+    const std::vector<Eigen::Vector2i> cells = lattice.cells(heading, points_m);
     for (int y = -lattice.half_side(); y <= lattice.half_side(); ++y) {
       for (int x = -lattice.half_side(); x <= lattice.half_side(); ++x) {
         Candidate candidate{0, heading, x, y};
@@ -180,15 +239,34 @@ std::optional<ScanMatch> search_all(const LikelihoodField& field, std::span<cons
       }
     }
   }
-  return match_of(lattice, best, points_m.size());
+  return best ? std::optional(match_of(lattice, *best, points_m.size())) : std::nullopt;
 }
 
 std::optional<ScanMatch> search(const FieldPyramid& pyramid, std::span<const Point> points_m,
                                 const SearchWindow& window, double min_score) {
   if (points_m.empty()) return std::nullopt;
-  BranchAndBound search(pyramid, points_m, window, min_score);
-  const std::optional<Candidate> best = search.run();
-  return match_of(search.lattice(), best, points_m.size());
+  const SearchLayer layer{&pyramid, points_m};
+  BranchAndBound search({&layer, 1}, nullptr, window);
+  const std::optional<Candidate> best = search.find(least_sum(min_score, points_m.size()));
+  return best ? std::optional(match_of(search.lattice(), *best, points_m.size())) : std::nullopt;
+}
+
+std::vector<ScanMatch> search_distinct(std::span<const SearchLayer> layers, const FieldPyramid* standing,
+                                       const SearchWindow& window, const DistinctRules& rules) {
+  std::vector<ScanMatch> found;
+  const std::size_t points = count_points(layers);
+  if (points == 0) return found;
+  BranchAndBound search(layers, standing, window);
+  Excluded excluded(search.lattice(), rules.apart_m, rules.apart_rad);
+  double min_score = rules.min_score;
+  while (found.size() < rules.at_most) {
+    const std::optional<Candidate> best = search.find(least_sum(min_score, points), &excluded);
+    if (!best) break;
+    found.push_back(match_of(search.lattice(), *best, points));
+    min_score = std::max(rules.min_score, rules.min_of_best_ratio * found.front().score);
+    excluded.add(*best);
+  }
+  return found;
 }
 
 }  // namespace cairn

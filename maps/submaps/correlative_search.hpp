@@ -60,6 +60,21 @@ class FieldPyramid {
   std::vector<Maxima> maxima_;  // of level 1, 2, ...
 };
 
+// Points and what they are laid on. Each point of each layer counts alike.
+struct SearchLayer {
+  const FieldPyramid* pyramid = nullptr;
+  std::span<const Point> points_m;
+};
+
+struct DistinctRules {
+  double min_score = 0.5;
+  double min_of_best_ratio = 0.8;  // of the best score
+  // Two poses are one when they are nearer than this and turned by less.
+  double apart_m = 1.0;
+  double apart_rad = 0.5;
+  std::size_t at_most = 20;
+};
+
 // Mean likelihood of the points at this pose; 0 without points.
 [[nodiscard]] double score_of(const LikelihoodField& field, std::span<const Point> points_m, const Pose2& T_field_scan);
 
@@ -69,5 +84,11 @@ class FieldPyramid {
 // The same answer, by branch and bound.
 [[nodiscard]] std::optional<ScanMatch> search(const FieldPyramid& pyramid, std::span<const Point> points_m,
                                               const SearchWindow& window, double min_score);
+
+// The best pose of the window, then the best of those that are apart from it, and so on, best first. All fields have
+// cells of one size. standing: null, or where the scan's origin can be: where the field is not 0. Exact, by branch and
+// bound; each further pose costs about as much as the first.
+[[nodiscard]] std::vector<ScanMatch> search_distinct(std::span<const SearchLayer> layers, const FieldPyramid* standing,
+                                                     const SearchWindow& window, const DistinctRules& rules);
 
 }  // namespace cairn

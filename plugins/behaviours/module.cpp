@@ -2,6 +2,7 @@
 
 #include "framework/config/named_category.hpp"
 #include "plugins/behaviours/docking/dock.hpp"
+#include "plugins/behaviours/errands/find_myself.hpp"
 #include "plugins/behaviours/errands/go_to.hpp"
 #include "plugins/behaviours/errands/name_landmark.hpp"
 #include "plugins/behaviours/errands/records.hpp"
@@ -37,6 +38,8 @@ void add(Registrar& registrar, const char* name, const char* summary, Member... 
 void register_module(Registrar& registrar) {
   add<Explore, ExploreConfig>(registrar, "explore",
                               "explores the reachable space at a safe distance and looks closer at what it finds");
+  add<FindMyself, FindMyselfConfig>(registrar, "find_myself",
+                                    "drives until a robot that is lost has found itself in its map");
   registrar.add<Behaviour, SearchConfig>("search", "explores until so many landmarks of a category are known",
                                          [](const SearchConfig& config, const BehaviourFactoryContext& context) {
                                            return std::make_unique<Search>(config, context.seed, context.categories);

@@ -10,7 +10,8 @@ void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Localizer, Config>(
       "odometry_compass", "Kalman filter over odometry, compass, walls and known landmarks, with a covariance",
       [](const Config& config, const cairn::LocalizerContext& context) {
-        return std::make_unique<OdometryCompass>(config, context.robot, context.T_map_start, context.landmark_shapes);
+        return std::make_unique<OdometryCompass>(config, context.robot, context.T_map_start, context.landmark_shapes,
+                                                 context.start_uncertainty);
       });
 }
 

@@ -62,7 +62,7 @@ WallFinderRules wall_rules_of(const MotionNoise& noise, double compass_noise_rad
 }  // namespace
 
 OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start,
-                                 std::span<const LandmarkShape> shapes)
+                                 std::span<const LandmarkShape> shapes, const StartUncertainty& start)
     : config_(config),
       motion_noise_(motion_noise_of(config, robot)),
       use_compass_(config.use_compass && robot.has_compass),
@@ -72,8 +72,9 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
                                     robot.compass_error.local_bias_rad > 0.0 ? 0.0 : kFarBias * stated_bias_rad_)),
       max_bias_rad_(stated_max_bias_rad_),
       about_half_track_m_(robot.kinematics == Kinematics::differential ? robot.radius_m : 0.0),
-      filter_(T_map_start, {config.start_position_m, config.start_heading_rad, robot.odometry_error.distance_bias_ratio,
-                            motion_noise_.bias_rad}),
+      filter_(T_map_start, {std::max(config.start_position_m, start.position_m),
+                            std::max(config.start_heading_rad, start.heading_rad),
+                            robot.odometry_error.distance_bias_ratio, motion_noise_.bias_rad}),
       wall_finder_(wall_rules_of(motion_noise_, use_compass_ ? compass_noise_rad() : 0.0)),
       landmark_sightings_({shapes.begin(), shapes.end()}) {}
 

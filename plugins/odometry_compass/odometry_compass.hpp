@@ -34,7 +34,7 @@ namespace cairn::odometry_compass {
 class OdometryCompass final : public Localizer {
  public:
   OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start,
-                  std::span<const LandmarkShape> shapes = {});
+                  std::span<const LandmarkShape> shapes = {}, const StartUncertainty& start = {});
 
   PoseEstimate update(const Observation& observation, const KnownMap& known) override;
   // The same with what has been seen again.

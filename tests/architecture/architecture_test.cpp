@@ -89,8 +89,9 @@ TEST(Architecture, ArrowsBetweenRoomsPointDownOnly) {
 }
 
 // Lowest first: each room uses those before it only.
-const std::vector<std::string> kMapsRooms = {"base",       "geometry",  "pose_graph", "grid",  "submaps", "landmarks",
-                                             "clustering", "hierarchy", "exchange",   "store", "edit",    "pictures"};
+const std::vector<std::string> kMapsRooms = {"base",           "geometry",  "pose_graph", "grid",      "submaps",
+                                             "relocalisation", "landmarks", "clustering", "hierarchy", "exchange",
+                                             "store",          "edit",      "pictures"};
 const std::vector<std::string> kFrameworkRooms = {"config",    "contracts",      "files",       "live",     "modules",
                                                   "templates", "behaviour_tree", "landmarks",   "planning", "safety",
                                                   "mission",   "reporting",      "experiments", "program"};

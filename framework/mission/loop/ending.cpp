@@ -74,7 +74,7 @@ void MissionLoop::finish() {
       world_.pose.T_map_robot = perception_.past().poses().back().T_map_robot;
     }
     if (ending_.outcome != MissionOutcome::cancelled && world_.grid != nullptr)
-      planning_.connect(perception_.tracker(), world_.view());
+      connect_landmarks();
   } catch (const ModuleFault& fault) {
     add_sentence(ending_.reason, fault.what());
     ending_.outcome = MissionOutcome::module_fault;
@@ -136,6 +136,7 @@ MissionResult MissionLoop::result() const {
   result.collision_monitor = monitor_.figures();
   result.hearing = hearing_.summary();
   result.autosave = saving_.figures();
+  result.localisation = localisation_;
   result.map_file = saving_.map_file();
   result.clusters = planning_.last_clusters();
   result.poses = perception_.past().poses();
@@ -151,8 +152,9 @@ RunStatus MissionLoop::status_in(RunState state) const {
   status.paused_s = clock_.paused_s();
   status.explored_ratio = world_.explored_ratio();
   status.T_map_robot = world_.pose.T_map_robot;
+  status.trust = world_.pose.trust;
   status.distance_m = counts_.figures().distance_m;
-  status.landmarks = world_.graph.landmarks().size();
+  status.landmarks = world_.known_graph().landmarks().size();
   steps_.describe(status);
   return status;
 }

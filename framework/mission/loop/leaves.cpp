@@ -11,6 +11,7 @@ Leaves::Leaves(const HostParts& host, const std::vector<Staged<Behaviour>>& beha
 LeafTick Leaves::tick_leaf(const TreeNode& node) {
   if (is_condition(node.kind)) return {check_(node, world_.view())};
   Leaf& leaf = leaves_.at(&node);
+  if (waits(leaf)) return {{StepState::running, "waits: the robot does not know where it is"}};
   // Only halt() promises that it begins afresh.
   if (leaf.has_ended) halt_leaf(node);
   requests_.begin(node);
@@ -20,6 +21,10 @@ LeafTick Leaves::tick_leaf(const TreeNode& node) {
   const LeafRequests asked = requests_.take();
   has_failed_to_save_ = asked.has_failed_to_save;
   return {status, asked.wanted, has_failed_to_save_ && status.state == StepState::failure};
+}
+
+bool Leaves::waits(const Leaf& leaf) const {
+  return world_.is_lost() && leaf.behaviour.call([](const Behaviour& behaviour) { return behaviour.needs_pose(); });
 }
 
 void Leaves::halt_leaf(const TreeNode& node) {

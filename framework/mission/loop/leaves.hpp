@@ -36,6 +36,7 @@ class Leaves final : public TreeHost {
     Staged<Behaviour> behaviour;
     bool has_ended = false;
   };
+  [[nodiscard]] bool waits(const Leaf& leaf) const;
 
   const WorldState& world_;
   Publisher& publisher_;

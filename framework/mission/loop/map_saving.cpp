@@ -54,6 +54,8 @@ std::string MapSaving::refusal_of(const std::string& file_name) const {
 }
 
 Status MapSaving::save(const std::string& file_name) {
+  if (options_.leaves_map_alone)
+    return {StepState::success, "not saved: this mission leaves its map alone"};
   Status saved = write(file_name);
   if (saved.state != StepState::success && not_saved_.empty()) not_saved_ = saved.reason;
   return saved;
@@ -70,6 +72,10 @@ void MapSaving::keep_finished_map(const std::string& name, bool is_done) {
 
 // The autosave has done its work when a whole map has taken its place.
 std::string MapSaving::save_last(bool is_done) {
+  if (options_.leaves_map_alone) {
+    explored_ratio_ = world_.explored_ratio();
+    return {};
+  }
   autosaver_.finish();
   report_autosave();
   const AutosaveFigures autosaves = autosaver_.figures();

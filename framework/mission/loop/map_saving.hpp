@@ -20,6 +20,7 @@ class MapSaving {
     bool autosaves = false;   // as the mission's settings say
     bool is_resumed = false;  // what lies in the folder is of this mission
     std::shared_ptr<const WallClock> wall_clock;
+    bool leaves_map_alone = false;  // nothing is saved
   };
   // All must outlive it. content: the map as it stands, with these clusters.
   MapSaving(const Mission& mission, Options options, Planning& planning, const WorldState& world, Publisher& publisher,

@@ -1,5 +1,7 @@
 #include "framework/mission/loop/mission_loop.hpp"
 
+#include <fmt/format.h>
+
 #include "framework/mission/hearing/expected_echoes.hpp"
 
 namespace cairn {
@@ -11,6 +13,21 @@ Budget budget_of(const RunOptions& options) {
   return budget;
 }
 
+// How well a robot knows its place once it has found itself.
+constexpr StartUncertainty kFound{0.1, radians(2.0)};
+constexpr double kAnyHeading_rad = 2.0;  // standard deviation
+
+std::optional<LocalizerStart> start_of(const RunOptions& options, const RobotModel& robot) {
+  if (!options.localise_in) return std::nullopt;
+  if (options.localise_in->T_map_start) return LocalizerStart{*options.localise_in->T_map_start, kFound};
+  // A frame of its own, turned as the compass says.
+  return LocalizerStart{{}, {0.0, robot.has_compass ? kAnyHeading_rad : 0.0}};
+}
+
+const SavedMap* map_of(const RunOptions& options) {
+  return options.localise_in ? options.localise_in->map : options.resume;
+}
+
 }  // namespace
 
 MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, const RunOptions& options)
@@ -19,7 +36,9 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       library_(library),
       grid_so_far_(options.resume != nullptr ? std::optional(options.resume->grid) : std::nullopt),
       budget_(budget_of(options)),
-      modules_(build_modules(mission_, library, options.resume, options.cancel), mission_, options.wall_clock),
+      map_left_alone_(options.localise_in ? std::optional(options.localise_in->map->grid) : std::nullopt),
+      modules_(build_modules(mission_, library, options.resume, options.cancel, start_of(options, mission_.robot)),
+               mission_, options.wall_clock),
       perception_(mission_, modules_, budget_),
       world_{mission_.robot, perception_.tracker().graph(), modules_.T_map_start},
       publisher_(world_, &modules_.clock, modules_.host.listeners),
@@ -27,10 +46,12 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       pace_(options.wall_clock),
       pauses_(options.control, options.wall_clock),
       monitor_(mission_.config.collision_monitor, mission_.robot, options.wall_clock),
-      planning_(mission_, modules_, world_.graph, clusters_to_begin_with(mission_.config.clusters, options.resume),
+      planning_(mission_, modules_, world_.graph, clusters_to_begin_with(mission_.config.clusters, map_of(options)),
                 monitor_, budget_),
-      saving_(mission_, {options.out, options.autosave, options.resume != nullptr, options.wall_clock}, planning_,
-              world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
+      saving_(mission_,
+              {options.out, options.autosave && !options.localise_in, options.resume != nullptr, options.wall_clock,
+               options.localise_in.has_value()},
+              planning_, world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
       steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller,
               perception_.tracker()},
              modules_.behaviours, TextFiles(options.out, options.resume != nullptr)),
@@ -39,6 +60,40 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
   world_.hierarchies = &planning_.hierarchies();
   world_.speed_law = mission_.config.collision_monitor.speed_law();
   if (options.resume != nullptr) restore(*options.resume);
+  if (options.localise_in) begin_localisation(*options.localise_in);
+}
+
+void MissionLoop::begin_localisation(const LocaliseIn& localise) {
+  localisation_.emplace();
+  localisation_->is_pose_given = localise.T_map_start.has_value();
+  perception_.leave_alone(*map_left_alone_, localise.map->graph, !localise.T_map_start);
+  if (localise.T_map_start) return;
+  world_.pose.trust = PoseTrust::lost;
+  finder_.emplace(*map_left_alone_, mission_.robot);
+}
+
+// From the tick on at which it is believed, all see the map and the robot's place in it.
+void MissionLoop::find_itself() {
+  finder_->update(world_.observation, world_.pose.T_map_robot, *world_.grid, world_.time_s);
+  localisation_ = finder_->figures();
+  if (!finder_->T_map_local()) return;
+  const Pose2 T_map_local = *finder_->T_map_local();
+  const Pose2 T_map_robot = T_map_local * world_.pose.T_map_robot;
+  localisation_->found_s = world_.time_s;
+  localisation_->T_map_robot = T_map_robot;
+  finder_.reset();
+  world_.T_map_start = T_map_local * world_.T_map_start;
+  world_.grid = &perception_.settle(build_localizer(mission_, library_, {T_map_robot, kFound}));
+  world_.coarse = nullptr;
+  world_.pose = perception_.localize(world_.observation);
+  publisher_.publish(Message{fmt::format("found itself after {:.1f} m: at ({:.2f}, {:.2f}) m, {:.0f} degrees",
+                                         localisation_->driven_m, T_map_robot.x_m, T_map_robot.y_m,
+                                         degrees(T_map_robot.theta_rad))});
+}
+
+// A map that is left alone keeps the routes that it has.
+void MissionLoop::connect_landmarks() {
+  if (!options_.localise_in) planning_.connect(perception_.tracker(), world_.view());
 }
 
 void MissionLoop::run() {
@@ -100,6 +155,7 @@ void MissionLoop::tick(Sensed sensed) {
   const Observation& observation = world_.observation;
 
   world_.pose = in(stages.perception, [&] { return perception_.localize(observation); });
+  if (finder_) in(stages.perception, [&] { find_itself(); });
   if (perception_.is_map_moved()) in(stages.perception, [&] { redraw_map(); });
   const std::vector<ExpectedEcho> expected = in(stages.echo_prediction, [&] { return expected_of(observation); });
   const CellChanges& cells = in(stages.perception, [&]() -> const CellChanges& {
@@ -112,7 +168,7 @@ void MissionLoop::tick(Sensed sensed) {
   for (const Event& event : recognised.events) publisher_.publish(event);
 
   const StepsTick steps = in(stages.behaviour_tree, [&] { return tick_steps(); });
-  if (steps.has_ended_step) in(stages.route_joining, [&] { planning_.connect(perception_.tracker(), world_.view()); });
+  if (steps.has_ended_step) in(stages.route_joining, [&] { connect_landmarks(); });
   world_.driven = in(stages.collision_monitor, [&] { return monitor_.drive(observation, steps.wanted, expected); });
   publish_driven();
   in(stages.run_control, [&] {

@@ -10,6 +10,7 @@
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
 #include "framework/mission/hearing/hearing_record.hpp"
+#include "framework/mission/localisation/self_finder.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"
 #include "framework/mission/perception/perception.hpp"
@@ -40,6 +41,8 @@ class MissionLoop {
   [[nodiscard]] RunStatus last_status() const;
   [[nodiscard]] const OccupancyGrid* grid() const { return world_.grid; }
   [[nodiscard]] const CoarseGrid* coarse_grid() const { return world_.coarse; }
+  // Of the map that grid() is.
+  [[nodiscard]] const LandmarkGraph& graph() const { return world_.known_graph(); }
   [[nodiscard]] const LandmarkTracker& tracker() const { return perception_.tracker(); }
   [[nodiscard]] std::vector<StageTime> times() const { return modules_.clock.times(); }
   [[nodiscard]] const Pose2& T_map_start() const { return modules_.T_map_start; }
@@ -78,6 +81,9 @@ class MissionLoop {
   void finish();
   void save_last();
   void redraw_map();
+  void begin_localisation(const LocaliseIn& localise);
+  void find_itself();
+  void connect_landmarks();
   [[nodiscard]] Stalled stalled_for(double for_s) const;
   void publish_any(const std::optional<Event>& event);
   [[nodiscard]] RunStatus status_in(RunState state) const;
@@ -87,6 +93,8 @@ class MissionLoop {
   const ModuleLibrary& library_;
   const std::optional<OccupancyGrid> grid_so_far_;  // what the map of a run that goes on began with
   const Budget budget_;
+  const std::optional<OccupancyGrid> map_left_alone_;
+  std::optional<LocalisationFigures> localisation_;
   StagedModules modules_;
   Perception perception_;
   WorldState world_;
@@ -102,6 +110,7 @@ class MissionLoop {
   Planning planning_;
   MapSaving saving_;
   Steps steps_;
+  std::optional<SelfFinder> finder_;  // while the robot does not know where it is
   Ending ending_;
   FatalEnds fatal_ends_;  // the last: what it shows must be there
 };

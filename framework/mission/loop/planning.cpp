@@ -44,7 +44,7 @@ PlanResult Planning::plan(const PlanRequest& request, WorldView world) {
   monitor_.stand();
   grid_ = &world.grid;
   hierarchies_.update();
-  world.hierarchies = &hierarchies_;
+  if (world.pose.trust != PoseTrust::lost) world.hierarchies = &hierarchies_;
   return modules_.planner.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
 }
 

@@ -27,12 +27,16 @@ struct WorldState {
   DriveCommand driven{};
   const Hierarchies* hierarchies = nullptr;  // for the names of clusters
   SpeedLaw speed_law{};                      // of the mission's collision monitor
+  const LandmarkGraph no_landmarks{};
 
   void observe(Observation seen, const std::optional<GroundTruth>& truth_then) {
     observation = std::move(seen);
     truth = truth_then;
     has_observation = true;
   }
+  [[nodiscard]] bool is_lost() const { return pose.trust == PoseTrust::lost; }
+  // Landmarks of a map have no place in the frame of a robot that is lost.
+  [[nodiscard]] const LandmarkGraph& known_graph() const { return is_lost() ? no_landmarks : graph; }
   // There must be a grid.
   [[nodiscard]] WorldView view() const;
   [[nodiscard]] double explored_ratio() const;  // 0 without a grid

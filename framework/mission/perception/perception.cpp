@@ -27,11 +27,26 @@ void Perception::restore(const SavedMap& map) {
   is_resumed_ = true;
 }
 
+void Perception::leave_alone(const OccupancyGrid& map, LandmarkGraph graph, bool is_lost) {
+  use_ = is_lost ? MapUse::lost : MapUse::left_alone;
+  map_left_alone_ = &map;
+  tracker_.restore(std::move(graph), {}, {});
+}
+
+const OccupancyGrid& Perception::settle(std::shared_ptr<Localizer> localizer) {
+  modules_.localizer.replace(std::move(localizer));
+  use_ = MapUse::left_alone;
+  grid_ = map_left_alone_;
+  return *grid_;
+}
+
 const OccupancyGrid& Perception::begin(bool records_poses) {
-  history_ = modules_.localizer.call([](Localizer& localizer) { return localizer.history(); });
+  if (use_ == MapUse::grows)
+    history_ = modules_.localizer.call([](Localizer& localizer) { return localizer.history(); });
   records_poses_ = records_poses || history_ != nullptr;
   past_ = Past(history_ != nullptr);
   grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
+  if (use_ == MapUse::left_alone) grid_ = map_left_alone_;
   return *grid_;
 }
 
@@ -45,16 +60,17 @@ const CoarseGrid* Perception::show_earlier_map() {
 }
 
 PoseEstimate Perception::localize(const Observation& observation) {
-  const KnownMap known{*grid_, tracker_.graph()};
+  const KnownMap known{*grid_, use_ == MapUse::lost ? no_landmarks_ : tracker_.graph()};
   PoseEstimate pose =
       modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, known); });
   if (const std::string fault = fault_of(pose); !fault.empty()) throw modules_.localizer.fault(fault);
+  pose.trust = use_ == MapUse::lost ? PoseTrust::lost : PoseTrust::tracking;
   return pose;
 }
 
 const CellChanges& Perception::map(const Observation& observation, const PoseEstimate& pose,
                                    std::span<const int> deaf) {
-  tracker_.record_pose(pose);
+  if (use_ != MapUse::lost) tracker_.record_pose(pose);
   const auto is_unheard = [&](const RangeReading& reading) {
     return is_no_echo(reading) && std::ranges::binary_search(deaf, reading.sensor);
   };
@@ -66,7 +82,11 @@ const CellChanges& Perception::map(const Observation& observation, const PoseEst
     std::erase_if(for_map_.ranges, is_unheard);
   }
   const Observation& seen = all ? observation : for_map_;
-  if (records_poses_) past_.add(seen, pose.T_map_robot);
+  if (records_poses_ && use_ != MapUse::lost) past_.add(seen, pose.T_map_robot);
+  if (use_ == MapUse::left_alone) {
+    changes_ = {};
+    return changes_;
+  }
   const CellChanges& changes =
       modules_.mapper.call([&](Mapper& mapper) -> const CellChanges& { return mapper.integrate(seen, pose); });
   if (!is_redrawn_) return changes;

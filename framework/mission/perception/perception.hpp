@@ -28,6 +28,11 @@ class Perception {
 
   // Goes on from what an earlier run has known. Before begin().
   void restore(const SavedMap& map);
+  // The map is left alone: nothing is drawn into it, nothing recognised. Before begin(). map must outlive it. is_lost: a
+  // map of its own is drawn, in the frame of a localizer that does not know the map, until settle().
+  void leave_alone(const OccupancyGrid& map, LandmarkGraph graph, bool is_lost);
+  // The robot has found where in that map it is: from here on by this localizer. The map's grid.
+  const OccupancyGrid& settle(std::shared_ptr<Localizer> localizer);
   // Once, before all below: asks the mapper for its grid. Throws ModuleFault, as all below do.
   // records_poses: whether past() holds them also when the localizer never corrects any.
   const OccupancyGrid& begin(bool records_poses = false);
@@ -53,6 +58,7 @@ class Perception {
   [[nodiscard]] const LandmarkTracker& tracker() const { return tracker_; }
 
  private:
+  enum class MapUse { grows, left_alone, lost };
   struct Detected {
     DetectionReport report;
     const CoarseGrid* coarse = nullptr;
@@ -71,6 +77,9 @@ class Perception {
   CellChanges changes_;  // when the map was drawn anew
   double last_freed_check_s_ = 0.0;
   bool is_resumed_ = false;
+  MapUse use_ = MapUse::grows;
+  const OccupancyGrid* map_left_alone_ = nullptr;
+  const LandmarkGraph no_landmarks_;
   bool records_poses_ = false;
   PoseHistory* history_ = nullptr;  // the localizer's
   Past past_;

@@ -29,6 +29,8 @@ struct RunCommand {
   std::filesystem::path mission;
   std::filesystem::path out = "out";
   std::filesystem::path resume;  // a saved map to go on from; empty: from the beginning
+  std::filesystem::path localise_in;  // a saved map that is left alone; empty: none
+  std::string pose;                   // "x,y,degrees" in that map; empty: not known
   std::optional<std::int64_t> seed;
   std::vector<std::string> overrides;
   bool realtime = false;

@@ -22,6 +22,7 @@
 #include "framework/program/common/printable_stream.hpp"
 #include "framework/program/common/refusal.hpp"
 #include "framework/program/mission/control_server.hpp"
+#include "framework/program/run/localise.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "framework/program/run/progress_line.hpp"
 #include "framework/reporting/mcap_recording.hpp"
@@ -99,6 +100,7 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
   if (const auto error = report.pose_errors().figures())
     out << fmt::format("  pose error  median {:.3f} m, 95 % {:.3f} m, worst {:.3f} m; {} corrections, {} refused\n",
                        error->median_m, error->p95_m, error->worst_m, error->corrections, error->refused);
+  if (result.localisation) out << "  trust       " << trust_text(*result.localisation) << "\n";
   out << fmt::format("  readings    {}, {}, {}, {}\n", result.readings, counted(result.matchings, "matching"),
                      counted(runner.graph().landmarks().size(), "landmark"), counted_routes(runner.graph()));
   const double speed = result.time_s / std::max(wall_s, 1e-9);
@@ -130,8 +132,10 @@ class CancelledEarly : public std::runtime_error {
 MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
                         const RunCommand& command) {
   try {
-    return refused_about<StoreError>(command.resume.string(), [&] {
+    const std::filesystem::path& map = options.localise_in ? command.localise_in : command.resume;
+    return refused_about<StoreError>(map.string(), [&] {
       if (options.resume != nullptr && !command.other_world) check_same_world(*options.resume, mission);
+      if (options.localise_in && !command.other_world) check_same_world(*options.localise_in->map, mission);
       return MissionRunner(mission, library, options);
     });
   } catch (const ConfigError& error) {
@@ -240,7 +244,9 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   ControlFlags& flags = flags_of_signals();
   std::optional<std::int64_t> seed = command.seed;
   const std::optional<SavedMap> resume = map_to_resume(command, seed);
-  const Mission mission = load_mission(command.mission, command.overrides, seed);
+  const std::optional<MapToLocaliseIn> known = map_to_localise_in(command);
+  Mission mission = load_mission(command.mission, command.overrides, seed);
+  if (known && !known->T_map_start) begin_with_finding_itself(mission);
   RunResults results(command, common, mission);
   const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
@@ -252,8 +258,9 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunControl control(flags, mission.config.mission);
   std::unique_ptr<ControlServer> server = control_server(command.out, control);
   RunOptions options{command.out, command.realtime, &flags.cancel, true, resume ? &*resume : nullptr, &control};
+  if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
-  keep_earlier_run(command, mission.config, people);
+  if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
   std::optional<McapRecording> mcap;
   if (!mission.config.record_mcap.empty()) mcap.emplace(command.out / mission.config.record_mcap);

@@ -72,6 +72,7 @@ class Log : public Behaviour {
   explicit Log(const LogConfig& config);
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override {}
+  [[nodiscard]] bool needs_pose() const override { return false; }
 
  private:
   struct Piece {

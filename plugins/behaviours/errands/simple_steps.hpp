@@ -52,6 +52,7 @@ class Wait : public Behaviour {
   explicit Wait(const WaitConfig& config) : config_(config) {}
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override { begun_s_.reset(); }
+  [[nodiscard]] bool needs_pose() const override { return false; }
 
  private:
   WaitConfig config_;

@@ -1,0 +1,61 @@
+// Finds out where in a saved map a robot is that began somewhere in it.
+//
+// Until then the robot draws a small map of its own, in a frame that begins where it began. Each metre that it drives,
+// that small map is searched in the whole of the saved one (maps/relocalisation), in a thread of its own; the answer is
+// taken kAnswerAfter_s later by the mission's clock, and waited for if it is late: the same run gives the same bytes.
+// The compass, where there is one, limits how the two frames can be turned to each other.
+#pragma once
+
+#include <future>
+#include <optional>
+#include <vector>
+
+#include "framework/contracts/observation.hpp"
+#include "framework/contracts/robot_model.hpp"
+#include "maps/relocalisation/pose_belief.hpp"
+
+namespace cairn {
+
+// Of a run that leaves its map alone.
+struct LocalisationFigures {
+  bool is_pose_given = false;
+  std::optional<double> found_s;  // by the mission's clock; none: lost still, or the pose was given
+  double driven_m = 0.0;          // until then
+  Pose2 T_map_robot;              // then
+  int searches = 0;
+  std::vector<PoseHypothesis> guesses;  // of the last search, best first
+};
+
+class SelfFinder {
+ public:
+  // The map must outlive it.
+  SelfFinder(const OccupancyGrid& map, const RobotModel& robot);
+
+  // At every tick. seen: the small map.
+  void update(const Observation& observation, const Pose2& T_local_robot, const OccupancyGrid& seen, double time_s);
+  // Where the robot's own frame lies in the map, once that is known.
+  [[nodiscard]] const std::optional<Pose2>& T_map_local() const { return belief_.T_map_local(); }
+  // All but found_s and T_map_robot.
+  [[nodiscard]] LocalisationFigures figures() const;
+
+  static constexpr double kAnswerAfter_s = 1.0;
+
+ private:
+  struct Search {
+    std::future<std::vector<PoseHypothesis>> answer;
+    Pose2 T_local_robot;
+    double begun_s = 0.0;
+  };
+  void follow_compass(const Observation& observation, const Pose2& T_local_robot);
+  [[nodiscard]] std::optional<KnownHeading> heading(const Pose2& T_local_robot) const;
+
+  const PoseSearch search_;
+  double compass_within_rad_;
+  bool has_compass_;
+  Point compass_sum_{0.0, 0.0};  // of unit vectors: by how much the map's frame is turned from the robot's own
+  PoseBelief belief_;
+  int searches_ = 0;
+  std::optional<Search> running_;  // last: its thread uses search_
+};
+
+}  // namespace cairn

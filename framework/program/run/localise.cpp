@@ -1,0 +1,66 @@
+#include "framework/program/run/localise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "maps/base/text.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr const char* kFindMyself = "find_myself";
+
+Pose2 pose_of(const std::string& text) {
+  std::array<double, 3> numbers{};
+  std::size_t count = 0;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ','); ++count) {
+    const auto number = number_from<double>(part);
+    if (count < numbers.size()) numbers[count] = number.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+  const bool are_numbers = std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+  if (count != numbers.size() || !are_numbers || text.ends_with(','))
+    throw std::runtime_error("--pose: " + in_quotes(text) + " is not X,Y,DEGREES, such as 1.5,-2,90");
+  return {numbers[0], numbers[1], wrap_angle(radians(numbers[2]))};
+}
+
+}  // namespace
+
+std::optional<MapToLocaliseIn> map_to_localise_in(const RunCommand& command) {
+  if (command.localise_in.empty()) return std::nullopt;
+  std::optional<Pose2> T_map_start;
+  if (!command.pose.empty()) T_map_start = pose_of(command.pose);
+  return MapToLocaliseIn{load_map(command.localise_in), T_map_start};
+}
+
+void begin_with_finding_itself(Mission& mission) {
+  const std::vector<const TreeNode*> behaviours = behaviours_of(mission.steps);
+  const auto finds = [](const TreeNode* node) { return node->choice.name == kFindMyself; };
+  if (behaviours.empty() || std::ranges::any_of(behaviours, finds)) return;
+  TreeNode node;
+  node.name = kFindMyself;
+  node.choice.name = kFindMyself;
+  node.choice.config.kind = ConfigValue::Kind::map;
+  node.choice.config.place = mission.config.steps.place;
+  node.place = mission.config.steps.place;
+  node.path = "0";  // before the first step of the file
+  mission.steps.insert(mission.steps.begin(), std::move(node));
+}
+
+std::string trust_text(const LocalisationFigures& figures) {
+  if (figures.is_pose_given) return "tracking: the pose was given";
+  if (!figures.found_s)
+    return fmt::format("lost: after {:.1f} m and {}, {} fit", figures.driven_m, counted(figures.searches, "look"),
+                       counted(figures.guesses.size(), "place"));
+  const Pose2& at = figures.T_map_robot;
+  return fmt::format("tracking: found itself after {:.1f} m, at {:.0f} s, at ({:.2f}, {:.2f}) m, {:.0f} degrees",
+                     figures.driven_m, *figures.found_s, at.x_m, at.y_m, degrees(at.theta_rad));
+}
+
+}  // namespace cairn

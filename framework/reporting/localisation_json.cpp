@@ -1,0 +1,43 @@
+#include "framework/reporting/localisation_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "framework/contracts/localizer.hpp"
+
+namespace cairn {
+namespace {
+
+double to_micro(double value) {
+  return std::round(value * 1e6) / 1e6;
+}
+
+nlohmann::ordered_json place_json(const Pose2& pose) {
+  return {{"x_m", to_micro(pose.x_m)}, {"y_m", to_micro(pose.y_m)}, {"angle_deg", to_micro(degrees(pose.theta_rad))}};
+}
+
+}  // namespace
+
+std::string localisation_json(const LocalisationFigures& figures) {
+  const bool is_known = figures.is_pose_given || figures.found_s;
+  nlohmann::ordered_json json = {{"trust", std::string(name_of(is_known ? PoseTrust::tracking : PoseTrust::lost))},
+                                 {"pose_given", figures.is_pose_given}};
+  if (figures.is_pose_given) return json.dump();
+  json["searches"] = figures.searches;
+  json["driven_m"] = to_micro(figures.driven_m);
+  if (figures.found_s) {
+    json["found_s"] = to_micro(*figures.found_s);
+    json["found_at"] = place_json(figures.T_map_robot);
+  }
+  json["guesses"] = nlohmann::ordered_json::array();
+  for (const PoseHypothesis& guess : figures.guesses) {
+    nlohmann::ordered_json row = place_json(guess.T_map_robot);
+    row["score"] = to_micro(guess.score);
+    row["contradicted_ratio"] = to_micro(guess.contradicted_ratio);
+    row["held_by_corners"] = guess.is_held_by_corners;
+    json["guesses"].push_back(std::move(row));
+  }
+  return json.dump();
+}
+
+}  // namespace cairn

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Robots that are put down anywhere in a mapped world: do they find themselves?
+
+    tests/bench/kidnapped_table.py OUT [RUNS [WORLD...]]
+
+Each world is mapped once by `explore`. Then RUNS robots begin at random places and headings, and know nothing but the
+map and a compass. Starts that the map does not hold as free are a group of their own: there is nothing to be found.
+"""
+import concurrent.futures, json, pathlib, random, statistics, subprocess, sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CAIRN = ROOT / "build/release/bin/cairn"
+WRONG_M = 0.5
+AT_MOST_M = 60
+WORLDS = {  # robot, start of the run that maps it, box of the starts
+    "office": ("pioneer1", (0.6, 0.6), (0, 0, 6, 5)),
+    "my_flat": ("pioneer1", (0.8, 0.8), (0, 0, 8.4, 8)),
+    "building": ("pioneer1", (0.8, 6), (0, 0, 18, 12)),
+    "joined_rooms": ("pioneer1", (0.6, 0.6), (0, 0, 12, 5)),
+    "two_rooms": ("pioneer1", (0.6, 0.6), (0, 0, 12, 6)),
+    "hallway": ("pioneer1", (0.6, 0.6), (0, -0.3, 12, 2.7)),
+    "store_room": ("pioneer1", (0.6, 0.6), (0, 0, 9, 5)),
+    "twins": ("pioneer1", (0.6, 0.6), (0, 0, 8, 6)),
+    "turtlebot_home": ("turtlebot3", (0.6, 2.6), (0, 0, 7, 6)),
+}
+MISSION = """mission: kidnapped
+seed: 1
+robot: {root}/config/robots/{robot}.yaml
+world: {root}/config/worlds/{world}.yaml
+start: {{at_m: [{x}, {y}], angle_deg: {angle}}}
+sensor: {{plugin: simulated_robot}}
+localizer: {{plugin: odometry_compass}}
+map: {{plugin: muriel, cell_m: 0.05}}
+detector: {{plugin: template_matcher, templates: {root}/config/templates, coarse_cells: 5}}
+planner: {{plugin: hybrid}}
+steps:
+{steps}
+"""
+
+
+def run(folder, world, start, angle, steps, *options):
+    folder.mkdir(parents=True, exist_ok=True)
+    mission = folder / "mission.yaml"
+    mission.write_text(MISSION.format(root=ROOT, robot=WORLDS[world][0], world=world, x=start[0], y=start[1],
+                                      angle=angle, steps=steps))
+    done = subprocess.run([CAIRN, "run", mission, "--out", folder, "--json", *options], capture_output=True, text=True)
+    return json.loads(done.stdout) if done.stdout.startswith("{") else None
+
+
+def map_world(out, world):
+    if not (out / f"map_{world}/kidnapped.cairn").exists():
+        run(out / f"map_{world}", world, WORLDS[world][1], 0, "  - explore: {until_known_ratio: 0.97, at_most_s: 3000}")
+
+
+def kidnap(out, world, i):
+    places = random.Random(f"{world} {i}")
+    x0, y0, x1, y1 = WORLDS[world][2]
+    map_file = out / f"map_{world}/kidnapped.cairn"
+    while True:
+        start = (round(places.uniform(x0, x1), 2), round(places.uniform(y0, y1), 2))
+        summary = run(out / f"{world}_{i}", world, start, places.randrange(360),
+                      f"  - find_myself: {{at_most_m: {AT_MOST_M}}}\n  - wait: 1", "--localize-in", str(map_file),
+                      "--seed", str(100 + i))
+        if summary is None or "cannot start" in summary["reason"]:
+            continue  # in a wall
+        plan = subprocess.run([CAIRN, "plan", map_file, "--from", f"{start[0]},{start[1]}", "--to",
+                               f"{WORLDS[world][1][0]},{WORLDS[world][1][1]}", "--radius-m", "0.1", "--json"],
+                              capture_output=True, text=True)
+        found = summary["localisation"]
+        return {"world": world, "run": i, "start": start, "is_mapped": plan.returncode == 0, "is_found": "found_s" in found,
+                "driven_m": found["driven_m"], "error_m": summary.get("pose_error", {}).get("last_m"),
+                "touches": summary["collisions"], "reason": summary["reason"]}
+
+
+def print_table(rows):
+    print("| world | starts in the map | found | within 15 m | wrongly believed | driven m, median, most | error m, median, most |"
+          " starts outside | of these believed | touches |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|")
+    for world in dict.fromkeys(row["world"] for row in rows):
+        mine = [row for row in rows if row["world"] == world]
+        inside = [row for row in mine if row["is_mapped"]]
+        outside = [row for row in mine if not row["is_mapped"]]
+        right = [row for row in inside if row["is_found"] and row["error_m"] <= WRONG_M]
+        wrong = sum(row["is_found"] for row in inside) - len(right)
+        of = lambda key: f"{statistics.median(r[key] for r in right):.2f}, {max(r[key] for r in right):.2f}" if right else ""
+        print(f"| {world} | {len(inside)} | {len(right)} | {sum(r['driven_m'] <= 15 for r in right)} | {wrong} | "
+              f"{of('driven_m')} | {of('error_m')} | {len(outside)} | {sum(r['is_found'] for r in outside)} | "
+              f"{sum(r['touches'] for r in mine)} |")
+
+
+def main():
+    out = pathlib.Path(sys.argv[1]).resolve()
+    runs = int(sys.argv[2]) if len(sys.argv) > 2 else 10
+    worlds = sys.argv[3:] or list(WORLDS)
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        list(pool.map(lambda world: map_world(out, world), worlds))
+        rows = list(pool.map(lambda job: kidnap(out, *job), [(w, i) for w in worlds for i in range(runs)]))
+    (out / "rows.json").write_text(json.dumps(rows, indent=1))
+    print_table(rows)
+
+
+main()
