@@ -40,7 +40,8 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_repeatable(sub, "--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)");
   sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to continue");
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
-  sub->add_flag("--realtime", c->realtime, "pace simulated time to the clock");
+  sub->add_option("--orders", c->orders, "orders of an earlier run (orders.jsonl) to give again, each with its tick");
+  add_pace(sub, c->pace);
 }
 
 void add_base(CLI::App& app, CommandLine& line) {

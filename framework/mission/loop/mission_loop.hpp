@@ -80,6 +80,7 @@ class MissionLoop {
   void redraw_map();
   [[nodiscard]] Stalled stalled_for(double for_s) const;
   void publish_any(const std::optional<Event>& event);
+  void publish_all(const std::vector<std::string>& sentences);
   [[nodiscard]] RunStatus status_in(RunState state) const;
 
   const Mission mission_;
@@ -101,6 +102,7 @@ class MissionLoop {
   std::atomic<StageClock::Id> stalled_stage_{StageClock::kHost};
   Planning planning_;
   MapSaving saving_;
+  Orders orders_;
   Steps steps_;
   Ending ending_;
   FatalEnds fatal_ends_;  // the last: what it shows must be there

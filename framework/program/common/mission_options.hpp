@@ -6,6 +6,8 @@
 namespace cairn {
 
 // The line must outlive the parsing.
+// --pace and --realtime of `cairn run`.
+void add_pace(CLI::App* run, double& pace);
 void add_mission(CLI::App& app, CommandLine& line);
 
 }  // namespace cairn
