@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/contracts/controller.hpp"
+#include "framework/contracts/order.hpp"
 #include "framework/contracts/plan_question.hpp"
 #include "framework/contracts/planner.hpp"
 
@@ -64,7 +65,18 @@ class NamedPlaces {
   virtual Status name_landmark(LandmarkId id, const std::string& name) = 0;
 };
 
-class BehaviourContext : public MotionRequests, public OutputRequests, public NamedPlaces {};
+// Orders that people give while the mission runs. Those that no behaviour asks for are refused with the tick.
+class OrderRequests {
+ public:
+  virtual ~OrderRequests() = default;
+  // The next one that has come, each once; none: no more in this tick.
+  virtual std::optional<Order> next_order() = 0;
+  // Of the order that was handed out last, before the next one: success when it is taken, and recorded with this tick;
+  // failure when it is refused, with the reason. Whoever has sent it gets the answer.
+  virtual void answer_order(const Status& answer) = 0;
+};
+
+class BehaviourContext : public MotionRequests, public OutputRequests, public NamedPlaces, public OrderRequests {};
 
 class Behaviour {
  public:

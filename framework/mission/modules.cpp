@@ -248,4 +248,15 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
   return errors;
 }
 
+void check_orders(const std::vector<RecordedOrder>& orders, const Mission& mission, const ModuleLibrary& library) {
+  for (const RecordedOrder& recorded : orders) {
+    const Order& order = recorded.order;
+    if (order.kind == "stop" || order.kind == "finish") continue;
+    TreeNode step;
+    step.choice = {order.kind, order.settings};
+    step.place = order.settings.place;
+    (void)build_behaviour(mission, library, step);
+  }
+}
+
 }  // namespace cairn

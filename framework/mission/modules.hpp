@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "framework/mission/mission.hpp"
+#include "framework/mission/orders/order_text.hpp"
 #include "framework/modules/module_library.hpp"
 #include "maps/store/map_store.hpp"
 
@@ -49,6 +50,9 @@ struct MissionModules {
 // What is wrong with the mission's modules and their settings, each as `cairn run` would report the first: every module
 // is made once. Costs no rendering of templates.
 [[nodiscard]] std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library);
+
+// Throws ConfigError when an order has settings that its step does not take.
+void check_orders(const std::vector<RecordedOrder>& orders, const Mission& mission, const ModuleLibrary& library);
 
 // Templates as the mission's detector gets them: rendered for the mission's cell size, or taken from the
 // user's cache.

@@ -46,6 +46,7 @@ void RunControl::tick(const std::function<RunStatus()>& look) {
 }
 
 void RunControl::publish(RunStatus status) {
+  if (status.state == RunState::ended) orders_.close();
   const std::scoped_lock lock(mutex_);
   last_ = std::move(status);
   ++reported_;

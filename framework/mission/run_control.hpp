@@ -1,4 +1,4 @@
-// A hold on a running mission for other threads: pause, go on, cancel, and ask how it stands.
+// A hold on a running mission for other threads: pause, go on, cancel, give orders, and ask how it stands.
 #pragma once
 
 #include <atomic>
@@ -13,6 +13,7 @@
 
 #include "framework/behaviour_tree/time_left.hpp"
 #include "framework/contracts/localizer.hpp"
+#include "framework/mission/orders/order_inbox.hpp"
 #include "maps/geometry/pose.hpp"
 
 namespace cairn {
@@ -54,6 +55,7 @@ class RunControl {
   explicit RunControl(ControlFlags& flags, std::string mission);
 
   [[nodiscard]] ControlFlags& flags() const { return flags_; }
+  [[nodiscard]] OrderInbox& orders() { return orders_; }
 
   // The mission as it is at its next tick; as it was last, when that has not come within at_most.
   [[nodiscard]] RunStatus status(std::chrono::milliseconds at_most);
@@ -62,11 +64,12 @@ class RunControl {
 
   // For the mission's thread, in every tick: cheap when nobody waits. look is called when somebody does.
   void tick(const std::function<RunStatus()>& look);
-  // As the mission changes its state.
+  // As the mission changes its state. Once it has ended it takes no orders.
   void publish(RunStatus status);
 
  private:
   ControlFlags& flags_;
+  OrderInbox orders_;
   std::atomic<int> waiting_{0};
   std::mutex mutex_;
   std::condition_variable changed_;

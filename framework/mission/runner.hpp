@@ -12,6 +12,7 @@
 #include "framework/mission/events.hpp"
 #include "framework/mission/localisation/self_finder.hpp"
 #include "framework/mission/mission.hpp"
+#include "framework/mission/orders/order_text.hpp"
 #include "framework/mission/run_control.hpp"
 #include "framework/modules/module_library.hpp"
 #include "framework/modules/stage_clock.hpp"
@@ -34,11 +35,13 @@ struct LocaliseIn {
 
 struct RunOptions {
   std::filesystem::path out;  // folder of everything written; must exist
-  bool realtime = false;      // pace simulated time to the wall clock
+  // Seconds of the mission in a second of the wall clock, at most; 0: as fast as the machine. Changes no result.
+  double pace = 0.0;
   const std::atomic<bool>* cancel = nullptr;
-  bool autosave = false;             // as the mission's settings say
-  const SavedMap* resume = nullptr;  // go on from this map; must outlive the constructor's call only
-  RunControl* control = nullptr;     // must outlive the runner
+  bool autosave = false;                // as the mission's settings say
+  const SavedMap* resume = nullptr;     // go on from this map; must outlive the constructor's call only
+  RunControl* control = nullptr;        // must outlive the runner
+  std::vector<RecordedOrder> orders{};  // that are given again
   // For pacing, intervals and the watch over modules.
   std::shared_ptr<const WallClock> wall_clock = std::make_shared<SteadyClock>();
   std::optional<LocaliseIn> localise_in = std::nullopt;  // not with resume

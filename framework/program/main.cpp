@@ -45,7 +45,8 @@ void add_run(CLI::App& app, CommandLine& line) {
   localise_in->excludes(resume);
   sub->add_option("--pose", c->pose, "where the robot is in that map: X,Y,DEGREES")->needs(localise_in);
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
-  sub->add_flag("--realtime", c->realtime, "pace simulated time to the clock");
+  sub->add_option("--orders", c->orders, "orders of an earlier run (orders.jsonl) to give again, each with its tick");
+  add_pace(sub, c->pace);
 }
 
 void add_base(CLI::App& app, CommandLine& line) {

@@ -2,6 +2,7 @@
 
 #include "framework/config/named_category.hpp"
 #include "plugins/behaviours/docking/dock.hpp"
+#include "plugins/behaviours/errands/await_orders.hpp"
 #include "plugins/behaviours/errands/find_myself.hpp"
 #include "plugins/behaviours/errands/go_to.hpp"
 #include "plugins/behaviours/errands/name_landmark.hpp"
@@ -58,6 +59,9 @@ void register_module(Registrar& registrar) {
   add_driving<Dock, DockConfig>(registrar, "dock", "stops at a distance beside a landmark, on a given side of it",
                                 &DockConfig::landmark);
   add_driving<DriveTo, DriveConfig>(registrar, "drive", "drives straight from point to point");
+  add_driving<AwaitOrders, AwaitOrdersConfig>(registrar, "await_orders",
+                                              "waits for orders that people give while the mission runs, and carries "
+                                              "each out");
   add<Wait, WaitConfig>(registrar, "wait", "stands still for a time");
   add<NameLandmark, NameConfig>(registrar, "name", "gives a landmark a name, by which steps and questions find it",
                                 &NameConfig::landmark);

@@ -117,6 +117,11 @@ Status BehaviourHost::name_landmark(LandmarkId id, const std::string& name) {
   return {StepState::success, "L" + std::to_string(id) + " is now " + name};
 }
 
+void BehaviourHost::answer_order(const Status& answer) {
+  record_ += "answer " + answer.reason + "\n";
+  if (fault_.empty()) fault_ = "answered an order that nobody gave";
+}
+
 Status BehaviourHost::tick(Behaviour& behaviour) {
   wanted_ = {};
   Observation seen = seen_in_room(T_map_robot, time_s, robot);

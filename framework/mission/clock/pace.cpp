@@ -10,9 +10,9 @@ constexpr std::chrono::nanoseconds kMaxWait = std::chrono::milliseconds(20);
 
 }  // namespace
 
-void Pace::keep(double stamp_s, const Budget& budget) {
-  if (!begin_) begin_ = Begin{wall_clock_->now(), stamp_s};
-  const std::chrono::duration<double> until(stamp_s - begin_->stamp_s);
+void Pace::keep(double stamp_s, const Budget& budget, double factor) {
+  if (!begin_ || begin_->factor != factor) begin_ = Begin{wall_clock_->now(), stamp_s, factor};
+  const std::chrono::duration<double> until((stamp_s - begin_->stamp_s) / factor);
   while (!budget.cancelled()) {
     const std::chrono::duration<double> rest = until - (wall_clock_->now() - begin_->wall);
     if (rest.count() <= 0.0) return;

@@ -13,8 +13,9 @@ class Pace {
  public:
   explicit Pace(std::shared_ptr<const WallClock> wall_clock) : wall_clock_(std::move(wall_clock)) {}
 
-  // Sleeps until as much wall clock has passed since the pace began as the stamps say, or the budget is cancelled.
-  void keep(double stamp_s, const Budget& budget);
+  // Sleeps until as much wall clock has passed since the pace began as the stamps say, divided by the factor (> 0), or
+  // the budget is cancelled. With another factor than before it begins afresh.
+  void keep(double stamp_s, const Budget& budget, double factor = 1.0);
   // The next keep() begins afresh.
   void release() { begin_.reset(); }
   [[nodiscard]] bool is_kept() const { return begin_.has_value(); }
@@ -23,6 +24,7 @@ class Pace {
   struct Begin {
     WallClock::Time wall;
     double stamp_s = 0.0;
+    double factor = 1.0;
   };
 
   std::shared_ptr<const WallClock> wall_clock_;

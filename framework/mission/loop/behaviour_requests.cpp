@@ -134,4 +134,14 @@ Status BehaviourRequests::name_landmark(LandmarkId id, const std::string& name) 
   return {StepState::success, before + " is now " + name};
 }
 
+std::optional<Order> BehaviourRequests::next_order() {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  return host_.orders.next();
+}
+
+void BehaviourRequests::answer_order(const Status& answer) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  host_.orders.answer(answer);
+}
+
 }  // namespace cairn

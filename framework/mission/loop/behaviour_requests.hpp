@@ -9,6 +9,7 @@
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/loop/text_files.hpp"
 #include "framework/mission/named_values.hpp"
+#include "framework/mission/orders/orders.hpp"
 
 namespace cairn {
 
@@ -23,6 +24,7 @@ struct HostParts {
   MapSaving& saving;
   const Staged<Controller>& controller;  // may be none
   LandmarkTracker& tracker;
+  Orders& orders;
 };
 
 // What one behaviour has asked for in one tick.
@@ -54,6 +56,8 @@ class BehaviourRequests final : public BehaviourContext {
   std::optional<Place> input(const std::string& name) override;
   void output(const std::string& name, const Place& place) override;
   Status name_landmark(LandmarkId id, const std::string& name) override;
+  std::optional<Order> next_order() override;
+  void answer_order(const Status& answer) override;
 
  private:
   const HostParts host_;

@@ -52,10 +52,12 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
               {options.out, options.autosave && !options.localise_in, options.resume != nullptr, options.wall_clock,
                options.localise_in.has_value()},
               planning_, world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
+      orders_(options.control == nullptr ? nullptr : &options.control->orders(), options.orders, options.out),
       steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller,
-              perception_.tracker()},
+              perception_.tracker(), orders_},
              modules_.behaviours, TextFiles(options.out, options.resume != nullptr)),
       fatal_ends_(monitor_, modules_.clock) {
+  check_orders(options.orders, mission_, library);
   world_.pose.T_map_robot = modules_.T_map_start;
   world_.hierarchies = &planning_.hierarchies();
   world_.speed_law = mission_.config.collision_monitor.speed_law();
@@ -186,7 +188,14 @@ void MissionLoop::take(Sensed sensed) {
 
 StepsTick MissionLoop::tick_steps() {
   if (monitor_.has_drive()) publish_any(pauses_.apply(clock_.paused_s()));
-  return pauses_.is_paused() ? StepsTick{} : steps_.tick(world_.time_s);
+  if (pauses_.is_paused()) {
+    publish_all(orders_.refuse_all("the mission is paused"));
+    return {};
+  }
+  orders_.begin_tick(world_.time_s);
+  const StepsTick ticked = steps_.tick(world_.time_s);
+  publish_all(orders_.end_tick());
+  return ticked;
 }
 
 void MissionLoop::publish_driven() {
@@ -213,8 +222,9 @@ std::vector<ExpectedEcho> MissionLoop::expected_of(const Observation& observatio
 
 // As fast as the wall clock when the user wants it so, and while nothing but time passes.
 void MissionLoop::keep_pace() {
-  if (options_.realtime || pauses_.is_paused())
-    pace_.keep(world_.observation.stamp_s, budget_);
+  const double factor = pauses_.is_paused() ? 1.0 : options_.pace;
+  if (factor > 0.0)
+    pace_.keep(world_.observation.stamp_s, budget_, factor);
   else
     pace_.release();
 }
@@ -244,6 +254,10 @@ Stalled MissionLoop::stalled_for(double for_s) const {
 
 void MissionLoop::publish_any(const std::optional<Event>& event) {
   if (event) publisher_.publish(*event);
+}
+
+void MissionLoop::publish_all(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) publisher_.publish(Message{sentence});
 }
 
 }  // namespace cairn

@@ -86,6 +86,7 @@ class MissionLoop {
   void connect_landmarks();
   [[nodiscard]] Stalled stalled_for(double for_s) const;
   void publish_any(const std::optional<Event>& event);
+  void publish_all(const std::vector<std::string>& sentences);
   [[nodiscard]] RunStatus status_in(RunState state) const;
 
   const Mission mission_;
@@ -109,6 +110,7 @@ class MissionLoop {
   std::atomic<StageClock::Id> stalled_stage_{StageClock::kHost};
   Planning planning_;
   MapSaving saving_;
+  Orders orders_;
   Steps steps_;
   std::optional<SelfFinder> finder_;  // while the robot does not know where it is
   Ending ending_;

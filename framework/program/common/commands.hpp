@@ -33,8 +33,9 @@ struct RunCommand {
   std::string pose;                   // "x,y,degrees" in that map; empty: not known
   std::optional<std::int64_t> seed;
   std::vector<std::string> overrides;
-  bool realtime = false;
-  bool other_world = false;  // go on although the map was made in another one
+  double pace = 0.0;             // seconds of the mission a second, at most; 0: as fast as the machine
+  std::filesystem::path orders;  // recorded orders that are given again; empty: none
+  bool other_world = false;      // go on although the map was made in another one
 };
 int run(const RunCommand& command, const CommonOptions& common);
 
@@ -86,7 +87,8 @@ int mission_show(const MissionShowCommand& command, const CommonOptions& common)
 
 struct MissionControlCommand {
   std::filesystem::path out;  // of the run
-  std::string command;        // pause, resume or cancel
+  std::string command;        // pause, resume, cancel or order
+  std::string order{};        // as JSON
 };
 // 1 when it has not come about; throws when no mission runs there.
 int mission_control(const MissionControlCommand& command, const CommonOptions& common);

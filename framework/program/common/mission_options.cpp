@@ -15,10 +15,34 @@ void add_control(CLI::App& mission, CommandLine& line) {
   add("pause", "Stop the robot of a running mission; readings still come, the mission's clock stands", mission_control);
   add("resume", "Let a paused mission go on", mission_control);
   add("cancel", "End a running mission: the robot stops, the map is saved", mission_control);
+  const auto [order, o] = add_command(mission, line, mission_control, "order",
+                                      "Give a running mission an order, which its step await_orders carries out");
+  order->add_option("OUT", o->out, "output folder of the run")->required();
+  order
+      ->add_option("ORDER", o->order, R"(as JSON: '{"goto": "pillar"}'; also explore, return_home, name, stop, finish)")
+      ->required();
+  o->command = "order";
   add("status", "How a mission stands, or what has come of it", mission_status);
 }
 
 }  // namespace
+
+void add_pace(CLI::App* run, double& pace) {
+  const auto to_number = [](std::string& text) {
+    if (text == "max")
+      text = "0";
+    else if (const std::string refusal = number_within(0.01, 1000.0)(text); !refusal.empty())
+      return refusal + ", or max";
+    return std::string();
+  };
+  CLI::Option* option = run->add_option("--pace", pace,
+                                        "seconds of the mission in one of the clock, or max: as fast as "
+                                        "the machine (as without it); changes no result");
+  option->transform(CLI::Validator(to_number, "FLOAT or max", "pace"));
+  run->add_flag_callback(
+         "--realtime", [&pace] { pace = 1.0; }, "the same as --pace 1")
+      ->excludes(option);
+}
 
 void add_mission(CLI::App& app, CommandLine& line) {
   CLI::App* mission = app.add_subcommand("mission", "Check and show missions; pause, resume, cancel running ones");

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "framework/behaviour_tree/time_left.hpp"
+#include "framework/mission/orders/order_text.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/mission/control_socket.hpp"
@@ -137,15 +138,30 @@ std::pair<std::string, bool> reported(const std::string& command, const ordered_
   return {mission + " has received " + command + ", but is still busy at " + where_text(answer), false};
 }
 
+// An order as it goes to the mission. Throws ConfigError on one that no mission takes.
+std::string line_of(const MissionControlCommand& command) {
+  return command.command == "order" ? "order " + parse_order(command.order).text : command.command;
+}
+
+std::pair<std::string, bool> order_reported(const ordered_json& answer) {
+  const bool is_taken = answer.value("taken", ordered_json(false)) == ordered_json(true);
+  const std::string reason = text_in(answer, "reason");
+  if (!is_taken) return {"not taken: " + reason, false};
+  return {
+      fmt::format("taken at {:.1f} s, tick {:.0f}: {}", number_in(answer, "time_s"), number_in(answer, "tick"), reason),
+      true};
+}
+
 }  // namespace
 
 int mission_control(const MissionControlCommand& command, const CommonOptions& common) {
+  const std::string line = line_of(command);
   if (!std::filesystem::is_directory(command.out)) fail_nobody(command.out);
-  const ControlAnswer reached = ask_mission(command.out, command.command);
+  const ControlAnswer reached = ask_mission(command.out, line);
   if (reached.reached == Reached::left_behind) throw std::runtime_error(cut_short_text(command.out));
   if (reached.reached == Reached::nobody) fail_nobody(command.out);
   const ordered_json answer = parsed(command.out, reached.line);
-  const auto [text, is_done] = reported(command.command, answer);
+  const auto [text, is_done] = command.command == "order" ? order_reported(answer) : reported(command.command, answer);
   print_report(answer, text, {}, common);
   return is_done ? kExitDone : kExitNotSolved;
 }

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/mission/orders/order_text.hpp"
 #include "maps/base/spelling.hpp"
 
 namespace cairn {
@@ -25,6 +26,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::string_view kOrderPrefix = "order ";
 constexpr seconds kAskWithin(2);
 constexpr seconds kTickWithin(10);  // a planner may be at work
 constexpr seconds kEndWithin(60);   // the map is saved
@@ -78,19 +80,41 @@ bool is_the_users(int connection) {
   return peer.uid == ::geteuid() || peer.uid == 0;
 }
 
+std::string one_line(const ordered_json& answer) {
+  return answer.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 std::string refusal(const std::string& error) {
-  return ordered_json{{"ok", false}, {"error", error}}.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return one_line({{"ok", false}, {"error", error}});
 }
 
 std::string command_rule() {
   return refusal("a command is one line of at most " + std::to_string(kMaxCommandBytes) + " bytes, sent within 2 s");
 }
 
+std::string answer_to_order(const std::string& text, RunControl& control, seconds at_most) {
+  try {
+    const Order order = parse_order(text);
+    const OrderAnswer answer = control.orders().give(order, at_most);
+    ordered_json json{{"ok", true},
+                      {"command", "order"},
+                      {"order", ordered_json::parse(order.text)},
+                      {"taken", answer.is_taken},
+                      {"reason", answer.reason}};
+    if (answer.is_taken) json.update({{"tick", answer.tick}, {"time_s", rounded(answer.time_s)}});
+    return one_line(json);
+  } catch (const ConfigError& error) {
+    return refusal(error.what());
+  }
+}
+
 }  // namespace
 
 std::string answer_to(const std::string& command, RunControl& control, Waiting waiting) {
   const auto within = [waiting](seconds limit) { return waiting == Waiting::until_done ? limit : seconds(0); };
-  const std::vector<std::string> known{"pause", "resume", "cancel", "status"};
+  const std::vector<std::string> known{"pause", "resume", "cancel", "status", "order"};
+  if (command.starts_with(kOrderPrefix))
+    return answer_to_order(command.substr(kOrderPrefix.size()), control, within(kTickWithin));
   RunStatus status;
   if (command == "pause" || command == "resume") {
     const bool pause = command == "pause";
@@ -103,11 +127,11 @@ std::string answer_to(const std::string& command, RunControl& control, Waiting w
     status = control.status(within(kAskWithin));
   } else {
     return refusal("unknown command " + in_quotes(command) + did_you_mean(command, known) +
-                   "; known are: pause, resume, cancel, status");
+                   "; known are: pause, resume, cancel, status, and order with JSON behind it");
   }
   ordered_json answer{{"ok", true}, {"command", command}};
   answer.update(json_of(status));
-  return answer.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return one_line(answer);
 }
 
 ControlServer::ControlServer(std::filesystem::path folder, RunControl& control)

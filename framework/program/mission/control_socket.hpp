@@ -1,7 +1,8 @@
 // The socket in an output folder by which the mission that runs there is controlled.
 //
 // A Unix-domain socket: no network, and the kernel says who is at the other end and whether anyone still is. One line
-// goes in (pause, resume, cancel, status), one line of JSON comes out, and the connection ends.
+// goes in (pause, resume, cancel, status, or order with JSON behind it), one line of JSON comes out, and the connection
+// ends.
 #pragma once
 
 #include <chrono>
@@ -14,7 +15,7 @@
 namespace cairn {
 
 inline constexpr const char* kControlSocket = "control.sock";
-inline constexpr std::size_t kMaxCommandBytes = 256;
+inline constexpr std::size_t kMaxCommandBytes = 1024;
 
 // Listens there without waiting in accept(); only the user may connect. Takes a socket away that an earlier run has
 // left: hold the folder first. Throws std::runtime_error with the reason.

@@ -123,6 +123,16 @@ std::optional<SavedMap> map_to_resume(const RunCommand& command, std::optional<s
   return map;
 }
 
+// This run records the orders that it takes, over those of an earlier one.
+std::vector<RecordedOrder> orders_to_give(const RunCommand& command) {
+  if (command.orders.empty()) return {};
+  std::error_code error;
+  if (std::filesystem::equivalent(command.orders, command.out / kOrdersFile, error))
+    throw std::runtime_error(command.orders.string() +
+                             ": this run would write over it; choose another folder by --out");
+  return read_orders(command.orders);
+}
+
 // The mission was cancelled while its modules were made, as when a signal comes while a log is read.
 class CancelledEarly : public std::runtime_error {
  public:
@@ -247,6 +257,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   const std::optional<MapToLocaliseIn> known = map_to_localise_in(command);
   Mission mission = load_mission(command.mission, command.overrides, seed);
   if (known && !known->T_map_start) begin_with_finding_itself(mission);
+  const std::vector<RecordedOrder> orders = orders_to_give(command);
   RunResults results(command, common, mission);
   const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
@@ -257,7 +268,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
   RunControl control(flags, mission.config.mission);
   std::unique_ptr<ControlServer> server = control_server(command.out, control);
-  RunOptions options{command.out, command.realtime, &flags.cancel, true, resume ? &*resume : nullptr, &control};
+  RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
   if (!known) keep_earlier_run(command, mission.config, people);

@@ -30,6 +30,10 @@ class GoTo : public Behaviour {
 
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
+  // Why the place that it goes to is none on this map; empty: it is one.
+  [[nodiscard]] std::string unknown_place(const WorldView& world, NamedPlaces& places) const {
+    return find_goal(world, places).unknown;
+  }
 
  private:
   Status drive_there(const WorldView& world, BehaviourContext& context);

@@ -24,6 +24,10 @@ void ReturnHome::halt() {
   *this = ReturnHome(config_, seed_);
 }
 
+std::string ReturnHome::unknown_place(const WorldView& world, NamedPlaces& /*places*/) const {
+  return to_.empty() ? "" : find_landmarks(to_, world).unknown;
+}
+
 Status ReturnHome::tick(const WorldView& world, BehaviourContext& context) {
   const std::string home = to_.empty() ? "home at " + described(world.T_map_start.position()) : "home at " + to_;
   if (!begun_s_) begun_s_ = world.time_s;

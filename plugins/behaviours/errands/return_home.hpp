@@ -22,6 +22,8 @@ class ReturnHome : public Behaviour {
   ReturnHome(const ReturnHomeConfig& config, std::uint64_t seed);
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
+  // Why its home is no place on this map; empty: it is one.
+  [[nodiscard]] std::string unknown_place(const WorldView& world, NamedPlaces& places) const;
 
  private:
   ReturnHomeConfig config_;

@@ -4,6 +4,7 @@
 //   #  solid        .  free        R  free, the robot starts here, looking right
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -55,6 +56,14 @@ class FakeHost : public BehaviourContext {
     return {StepState::success, "L" + std::to_string(id) + " is now " + name};
   }
 
+  std::optional<Order> next_order() override {
+    if (orders.empty()) return std::nullopt;
+    Order order = std::move(orders.front());
+    orders.pop_front();
+    return order;
+  }
+  void answer_order(const Status& answer) override { answers.push_back(answer); }
+
   // Ticks until the behaviour ends or the time is up (then its status is still running).
   Status run(Behaviour& behaviour, double at_most_s);
   Status tick(Behaviour& behaviour);
@@ -90,6 +99,8 @@ class FakeHost : public BehaviourContext {
   std::vector<std::string> saved;
   std::vector<std::string> said;
   std::vector<PlanQuestion> asked;
+  std::deque<Order> orders;  // that come
+  std::vector<Status> answers;
   std::map<std::string, std::string> written;  // text by file name
   double driven_m = 0.0;
   double nearest_solid_m = 1e9;  // over the whole run

@@ -153,7 +153,7 @@ TEST_F(Control, WhatIsNoCommandIsRefusedAndTheMissionGoesOn) {
   EXPECT_EQ(unknown["ok"], false);
   EXPECT_THAT(unknown["error"].get<std::string>(), HasSubstr("did you mean \"resume\"?"));
   const json long_one = json::parse(answer_to(out_ / "control.sock", std::string(100000, 'x')));
-  EXPECT_THAT(long_one["error"].get<std::string>(), HasSubstr("one line of at most 256 bytes"));
+  EXPECT_THAT(long_one["error"].get<std::string>(), HasSubstr("one line of at most 1024 bytes"));
   EXPECT_EQ(json::parse(answer_to(out_ / "control.sock", "status\n"))["state"], "running");
   EXPECT_EQ(report("cancel").exit_status, 0);
   EXPECT_EQ(run.exit_status(), 1);

@@ -25,6 +25,16 @@ TEST_F(PaceTest, SleepsUntilAsMuchTimeHasPassedAsTheStampsSay) {
   EXPECT_NEAR(passed_s(), 1.0, 1e-6) << "what the tick took counts";
 }
 
+TEST_F(PaceTest, AFactorDividesTheTime) {
+  pace_.keep(100.0, {}, 4.0);
+  pace_.keep(102.0, {}, 4.0);
+  EXPECT_NEAR(passed_s(), 0.5, 1e-6);
+  pace_.keep(103.0, {}, 1.0);
+  EXPECT_NEAR(passed_s(), 0.5, 1e-6) << "another factor begins afresh";
+  pace_.keep(104.0, {}, 1.0);
+  EXPECT_NEAR(passed_s(), 1.5, 1e-6);
+}
+
 TEST_F(PaceTest, AMissionThatIsLateDoesNotSleep) {
   pace_.keep(0.0, {});
   clock_->advance(std::chrono::seconds(9));

@@ -95,8 +95,8 @@ class HostFixture : public testing::Test {
     return *saving_;
   }
   HostParts host() {
-    return {mission_, modules().clock,      world_,  publisher_, monitor_, planning(),
-            saving(), modules().controller, tracker_};
+    return {mission_, modules().clock,      world_,   publisher_, monitor_, planning(),
+            saving(), modules().controller, tracker_, orders_};
   }
   void attach_drive() { monitor_.attach({drive_, modules().clock, modules().drive}); }
   [[nodiscard]] virtual SavedMap content(ClusterTree clusters) const {
@@ -124,6 +124,8 @@ class HostFixture : public testing::Test {
   WorldState world_{mission_.robot, graph_, Pose2{}};
   LandmarkTracker tracker_{mission_.config.landmarks, mission_.robot, {}};
   Publisher publisher_{world_};
+  OrderInbox inbox_;
+  Orders orders_{&inbox_, {}, folder_};
   EventNames events_;
   CollisionMonitor monitor_{CollisionMonitorConfig{}, mission_.robot};
   std::unique_ptr<StagedModules> modules_;
