@@ -110,6 +110,14 @@ void add_plan(CLI::App& app, CommandLine& line) {
   sub->add_option("--picture", c->picture, "draw the route into this PNG file");
 }
 
+void add_view(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] = add_command(app, line, view, "view", "Look at a saved map in a browser, and plan by clicks");
+  sub->add_option("MAP", c->map, "saved map (*.cairn), or the folder of a finished run")->required();
+  sub->add_option("--port", c->port, "of 127.0.0.1; 0: a free one")->capture_default_str();
+  sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
+  add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);
+}
+
 void add_map(CLI::App& app, CommandLine& line) {
   CLI::App* map = app.add_subcommand("map", "Look at saved maps, import, export, name, merge, crop and compare");
   map->require_subcommand(1);
@@ -286,9 +294,9 @@ int main_of(int argc, char** argv) {
   CommandLine line;
   add_repeatable(&app, "--plugins", line.common.plugin_folders, "further folder of modules (may be repeated)");
   app.add_flag("--json", line.common.json, "JSON on standard output; text for people on standard error");
-  for (const auto add : {add_run, add_base, add_doctor, add_mission, add_plan, add_map, add_map_files, add_map_name,
-                         add_map_lint, add_template, add_template_capture, add_plugins, add_plugins_new, add_reference,
-                         add_experiment, add_chart, add_slam})
+  for (const auto add : {add_run, add_base, add_doctor, add_mission, add_plan, add_view, add_map, add_map_files,
+                         add_map_name, add_map_lint, add_template, add_template_capture, add_plugins, add_plugins_new,
+                         add_reference, add_experiment, add_chart, add_slam})
     add(app, line);
   try {
     app.parse(argc, argv);

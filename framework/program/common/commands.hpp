@@ -110,6 +110,15 @@ struct PlanCommand {
 };
 int plan(const PlanCommand& command, const CommonOptions& common);
 
+struct ViewCommand {
+  std::filesystem::path map;  // or the folder of a finished run
+  std::uint16_t port = 0;     // 0: a free one
+  std::string planner = "hybrid";
+  double budget_ms = 10000.0;  // of a plan
+};
+// Serves the map to browsers of this machine until Ctrl-C.
+int view(const ViewCommand& command, const CommonOptions& common);
+
 struct MapCommand {
   std::filesystem::path map;
   std::filesystem::path picture;  // empty: map.png, unless there is one

@@ -6,9 +6,8 @@
 #include <thread>
 
 #include "framework/config/config_value.hpp"
-#include "framework/planning/plan_answer.hpp"
-#include "framework/planning/trajectory.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/plan/answer_line.hpp"
 #include "framework/program/plan/line_reader.hpp"
 #include "framework/program/plan/map_planner.hpp"
 #include "framework/program/plan/plan_query.hpp"
@@ -17,22 +16,6 @@
 
 namespace cairn {
 namespace {
-
-const ClusterTree& clusters_for(const MapPlanner& planner, const PlanResult& result) {
-  return result.explanation ? planner.clusters() : planner.map().clusters;
-}
-
-std::vector<TrajectoryPoint> trajectory_for(const MapPlanner& planner, const PlanQuery& query,
-                                            const PlanResult& result) {
-  if (!query.question.trajectory || result.outcome != PlanOutcome::solved) return {};
-  return trajectory_of(result.path, planner.robot());
-}
-
-std::string json_line_of(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {
-  return json_text_of({query.id.dump(), query.question, result, planner.map().graph, clusters_for(planner, result),
-                       trajectory_for(planner, query, result)}) +
-         "\n";
-}
 
 std::string text_for_people(const PlanQuery& query, const PlanResult& result, const MapPlanner& planner) {
   std::string text = text_of(query, result, planner.map(), clusters_for(planner, result));

@@ -1,0 +1,161 @@
+#include "framework/program/view/view_server.hpp"
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+using Text = http::string_body;
+
+constexpr std::uint32_t kMaxHeader = 16 * 1024;
+constexpr std::chrono::milliseconds kEndCheck{100};
+
+std::string only_value(const http::request<Text>& request, http::field field, const std::string& of_several) {
+  const auto count = request.count(field);
+  if (count == 0) return {};
+  return count == 1 ? std::string(request[field]) : of_several;
+}
+
+ViewRequest view_request_of(http::request<Text>&& request) {
+  return {std::string(request.method_string()),
+          std::string(request.target()),
+          only_value(request, http::field::host, ""),
+          only_value(request, http::field::origin, "several"),
+          std::string(request["X-Cairn-Token"]),
+          std::string(request[http::field::content_type]),
+          std::move(request.body())};
+}
+
+http::response<Text> http_of(ViewResponse&& answer) {
+  http::response<Text> response(static_cast<http::status>(answer.status), 11);
+  response.set(http::field::content_type, answer.type);
+  response.set(http::field::cache_control, "no-store");
+  response.set("Content-Security-Policy",
+               "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+  response.keep_alive(false);
+  response.body() = std::move(answer.body);
+  response.prepare_payload();
+  return response;
+}
+
+}  // namespace
+
+struct ViewServer::State {
+  asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  asio::steady_timer timer{io};
+  std::string token;
+  ViewHandler handler;
+  int clients = 0;
+
+  class Session;
+  void accept();
+  void check_end(const std::atomic<bool>& end);
+  [[nodiscard]] ViewResponse answer(const ViewRequest& request) const;
+};
+
+// One request and its answer.
+class ViewServer::State::Session : public std::enable_shared_from_this<Session> {
+ public:
+  Session(State& state, tcp::socket socket) : state_(state), stream_(std::move(socket)) {
+    ++state_.clients;
+    parser_.body_limit(kMaxViewBody);
+    parser_.header_limit(kMaxHeader);
+  }
+  ~Session() { --state_.clients; }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  void read() {
+    stream_.expires_after(std::chrono::seconds(kViewTimeout_s));
+    http::async_read(stream_, buffer_, parser_,
+                     [self = shared_from_this()](beast::error_code error, std::size_t) { self->on_read(error); });
+  }
+
+ private:
+  void on_read(beast::error_code error) {
+    if (error == http::error::body_limit) return write(view_error(413, "the body is longer than 1 MB"));
+    if (error == http::error::header_limit) return write(view_error(431, "the header is longer than 16 kB"));
+    if (!error) write(state_.answer(view_request_of(parser_.release())));
+  }
+
+  void write(ViewResponse&& answer) {
+    response_ = http_of(std::move(answer));
+    stream_.expires_after(std::chrono::seconds(kViewTimeout_s));
+    http::async_write(stream_, *response_, [self = shared_from_this()](beast::error_code, std::size_t) {
+      beast::error_code ignored;
+      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    });
+  }
+
+  State& state_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  http::request_parser<Text> parser_;
+  std::optional<http::response<Text>> response_;
+};
+
+ViewResponse ViewServer::State::answer(const ViewRequest& request) const {
+  if (auto refused = refusal_of(request, acceptor.local_endpoint().port(), token)) return *refused;
+  try {
+    return handler(request);
+  } catch (const std::exception& error) {
+    return view_error(500, error.what());
+  }
+}
+
+void ViewServer::State::accept() {
+  acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (!error && clients < kMaxViewClients) std::make_shared<Session>(*this, std::move(socket))->read();
+    accept();
+  });
+}
+
+void ViewServer::State::check_end(const std::atomic<bool>& end) {
+  if (end) return io.stop();
+  timer.expires_after(kEndCheck);
+  timer.async_wait([this, &end](beast::error_code) { check_end(end); });
+}
+
+ViewServer::ViewServer(std::uint16_t port, std::string token, ViewHandler handler) : state_(std::make_unique<State>()) {
+  state_->token = std::move(token);
+  state_->handler = std::move(handler);
+  const tcp::endpoint here(asio::ip::address_v4::loopback(), port);
+  try {
+    state_->acceptor.open(here.protocol());
+    state_->acceptor.set_option(asio::socket_base::reuse_address(true));
+    state_->acceptor.bind(here);
+    state_->acceptor.listen();
+  } catch (const boost::system::system_error& error) {
+    throw std::runtime_error("view: cannot listen on 127.0.0.1:" + std::to_string(port) + ": " +
+                             error.code().message());
+  }
+  state_->accept();
+}
+
+ViewServer::~ViewServer() = default;
+
+std::uint16_t ViewServer::port() const {
+  return state_->acceptor.local_endpoint().port();
+}
+
+void ViewServer::run(const std::atomic<bool>& end) {
+  state_->check_end(end);
+  state_->io.run();
+}
+
+}  // namespace cairn

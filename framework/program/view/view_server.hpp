@@ -1,0 +1,35 @@
+// HTTP on 127.0.0.1, for one page and its API. The only user of Boost.Beast.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "framework/program/view/view_request.hpp"
+
+namespace cairn {
+
+inline constexpr std::size_t kMaxViewBody = std::size_t{1} << 20;  // bytes of a request's body
+inline constexpr int kMaxViewClients = 16;                         // connections at once; more are closed
+inline constexpr int kViewTimeout_s = 30;                          // for a request to come, and for its answer to go
+
+class ViewServer {
+ public:
+  // Port 0: a free one. Throws std::runtime_error when it cannot listen. The token: refusal_of().
+  ViewServer(std::uint16_t port, std::string token, ViewHandler handler);
+  ~ViewServer();
+  ViewServer(const ViewServer&) = delete;
+  ViewServer& operator=(const ViewServer&) = delete;
+
+  [[nodiscard]] std::uint16_t port() const;
+  // Answers until `end`. One thread: a plan that takes long lets others wait.
+  void run(const std::atomic<bool>& end);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace cairn
