@@ -22,6 +22,7 @@ class Conditions : public testing::Test {
     const std::vector<TreeNode> steps = testing_tree::steps_of("[" + yaml + "]");
     WorldView world{grid_, graph_, robot_, {}, time_s};
     world.pose.T_map_robot = {1.0, 2.0, 0.0};
+    world.pose.trust = trust_;
     world.observation = seen_ ? &*seen_ : nullptr;
     return check_(steps.front(), world);
   }
@@ -33,6 +34,7 @@ class Conditions : public testing::Test {
   LandmarkGraph graph_;
   const RobotModel robot_;
   std::optional<Observation> seen_;
+  PoseTrust trust_ = PoseTrust::tracking;
   ConditionCheck check_;
 };
 
@@ -53,6 +55,11 @@ TEST_F(Conditions, APlaceIsNearOrNot) {
   EXPECT_FALSE(holds("at_place: {landmark: circle, within_m: 1000}"));
   EXPECT_EQ(ask("at_place: square").reason, "1.00 m away");
   EXPECT_EQ(ask("at_place: circle").reason, "no landmark \"circle\" is known");
+}
+
+TEST_F(Conditions, ARobotThatIsLostIsAtNoPlace) {
+  trust_ = PoseTrust::lost;
+  EXPECT_EQ(ask("at_place: square"), (Status{StepState::failure, "the robot does not know where it is"}));
 }
 
 TEST_F(Conditions, ABatteryIsAboveItsShareOrNotKnown) {

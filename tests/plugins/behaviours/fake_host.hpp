@@ -84,6 +84,7 @@ class FakeHost : public BehaviourContext {
   Pose2 T_map_start;  // as the drawing has it
   // What the sensors see in a tick; nothing by default.
   std::function<Observation(const FakeHost&)> observe;
+  PoseTrust trust = PoseTrust::tracking;
   double time_s = 0.0;
   double speed_reduction_ratio = 0.0;
   // What the collision monitor lets through; all of it by default.
