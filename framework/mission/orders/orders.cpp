@@ -27,7 +27,7 @@ std::optional<Order> Orders::next() {
   if (handed_out_) answer({StepState::failure, "the step that takes orders has not answered"});
   if (open_.empty()) return std::nullopt;
   handed_out_ = std::move(open_.front());
-  open_.pop_front();
+  open_.erase(open_.begin());
   return handed_out_->order;
 }
 

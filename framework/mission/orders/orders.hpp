@@ -48,7 +48,7 @@ class Orders {
   TextFiles files_;
   std::int64_t tick_ = 0;
   double time_s_ = 0.0;
-  std::deque<Open> open_;
+  std::vector<Open> open_;  // no deque: an empty one allocates, each tick
   std::optional<Open> handed_out_;
   std::vector<std::string> sentences_;
 };
