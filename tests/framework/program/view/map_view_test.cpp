@@ -32,8 +32,8 @@ TEST(MapView, LargeGridsBeginAtACoarserLevel) {
 TEST(MapView, RoutesWithoutATrajectoryAreStraight) {
   LandmarkGraph graph;
   Landmark a, b;
-  a.T_map_landmark = Pose2(1.0, 2.0, 0.0);
-  b.T_map_landmark = Pose2(4.0, 6.0, 0.0);
+  a.T_map_landmark = {1.0, 2.0, 0.0};
+  b.T_map_landmark = {4.0, 6.0, 0.0};
   Route route;
   route.from = graph.add(a);
   route.to = graph.add(b);
