@@ -307,7 +307,11 @@ void TreeRunner::abandon(double time_s, const std::string& reason) {
 std::vector<NodeReport> TreeRunner::reports() const {
   std::vector<NodeReport> reports;
   for (const State& state : states_)
-    if (state.report.ticks > 0) reports.push_back(state.report);
+    if (state.report.ticks > 0) {
+      reports.push_back(state.report);
+      reports.back().is_running = state.is_running;
+      if (state.is_running) reports.back().doing = state.reported.reason;
+    }
   return reports;
 }
 

@@ -34,6 +34,8 @@ struct NodeReport {
   double end_s = 0.0;      // last ended
   std::int64_t ticks = 0;
   std::int64_t runs = 0;  // how often it was begun
+  bool is_running = false;
+  std::string doing{};  // of a running leaf: what it says that it is doing
 };
 
 // How long behaviours have taken in this run, by their kind.

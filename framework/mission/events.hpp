@@ -16,7 +16,10 @@
 
 namespace cairn {
 
-struct TickDone {};  // after each tick; the view holds the new state
+// After each tick; the view holds the new state.
+struct TickDone {
+  const CellChanges* changes = nullptr;  // what of the grid may have changed with it; null: nothing
+};
 struct MatchingDone {
   Matching matching;
 };

@@ -77,6 +77,10 @@ RunStatus MissionRunner::status() const {
   return loop_->status();
 }
 
+std::vector<NodeReport> MissionRunner::node_reports() const {
+  return loop_->node_reports();
+}
+
 const OccupancyGrid* MissionRunner::grid() const {
   return loop_->grid();
 }

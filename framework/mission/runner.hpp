@@ -75,7 +75,7 @@ struct MissionResult {
   std::vector<ClusterLevel> cluster_levels{};
   std::vector<StampedPose> poses{};  // of all observations, as known at the end; none for most missions that drive
   std::optional<LocalisationFigures> localisation{};  // of a run that leaves its map alone
-  std::string map_file;              // name in the output folder; empty: could not be saved
+  std::string map_file;                               // name in the output folder; empty: could not be saved
 };
 
 class MissionLoop;
@@ -101,14 +101,15 @@ class MissionRunner {
   // tearing anything down (std::_Exit).
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
-  // How it stands: for listeners, while an event is published.
+  // How it stands, and where it has driven: for listeners, while an event is published.
   [[nodiscard]] RunStatus status() const;
+  [[nodiscard]] std::vector<NodeReport> node_reports() const;  // of all nodes that were ticked
+  [[nodiscard]] const std::vector<Pose2>& driven_path() const;
 
   // After run(). The grids are null when the module that was left behind was working on them.
   [[nodiscard]] const OccupancyGrid* grid() const;
   [[nodiscard]] const CoarseGrid* coarse_grid() const;
   [[nodiscard]] const LandmarkGraph& graph() const;
-  [[nodiscard]] const std::vector<Pose2>& driven_path() const;
   [[nodiscard]] std::vector<StageTime> times() const;  // wall clock: differs from run to run
 
  private:

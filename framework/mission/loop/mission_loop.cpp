@@ -88,9 +88,9 @@ void MissionLoop::find_itself() {
   world_.grid = &perception_.settle(build_localizer(mission_, library_, {T_map_robot, kFound}));
   world_.coarse = nullptr;
   world_.pose = perception_.localize(world_.observation);
-  publisher_.publish(Message{fmt::format("found itself after {:.1f} m: at ({:.2f}, {:.2f}) m, {:.0f} degrees",
-                                         localisation_->driven_m, T_map_robot.x_m, T_map_robot.y_m,
-                                         degrees(T_map_robot.theta_rad))});
+  publisher_.publish(
+      Message{fmt::format("found itself after {:.1f} m: at ({:.2f}, {:.2f}) m, {:.0f} degrees", localisation_->driven_m,
+                          T_map_robot.x_m, T_map_robot.y_m, degrees(T_map_robot.theta_rad))});
 }
 
 // A map that is left alone keeps the routes that it has.
@@ -172,7 +172,7 @@ void MissionLoop::tick(Sensed sensed) {
   const StepsTick steps = in(stages.behaviour_tree, [&] { return tick_steps(); });
   if (steps.has_ended_step) in(stages.route_joining, [&] { connect_landmarks(); });
   world_.driven = in(stages.collision_monitor, [&] { return monitor_.drive(observation, steps.wanted, expected); });
-  publish_driven();
+  publish_driven(cells);
   in(stages.run_control, [&] {
     if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   });
@@ -198,14 +198,14 @@ StepsTick MissionLoop::tick_steps() {
   return ticked;
 }
 
-void MissionLoop::publish_driven() {
+void MissionLoop::publish_driven(const CellChanges& cells) {
   if (monitor_.has_drive())
     for (const Event& event : hearing_.update(monitor_.hearing(), world_.time_s)) publisher_.publish(event);
   if (const auto for_s = monitor_.stalled_s()) {
     publisher_.publish(stalled_for(*for_s));
     stalled_stage_ = StageClock::kHost;
   }
-  publisher_.publish(TickDone{});
+  publisher_.publish(TickDone{&cells});
 }
 
 // All that look on see the old map or the new one, never a part.

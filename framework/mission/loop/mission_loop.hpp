@@ -36,6 +36,7 @@ class MissionLoop {
 
   // While run() runs, in its thread.
   [[nodiscard]] RunStatus status() const;
+  [[nodiscard]] std::vector<NodeReport> node_reports() const { return steps_.node_reports(); }
   // After run(), or after give_up_after() returned true.
   [[nodiscard]] MissionResult result() const;
   [[nodiscard]] RunStatus last_status() const;
@@ -63,7 +64,7 @@ class MissionLoop {
   void tick(Sensed sensed);
   void take(Sensed sensed);
   StepsTick tick_steps();
-  void publish_driven();
+  void publish_driven(const CellChanges& cells);
   // The host's own work, in its stage.
   template <class DoIt>
   auto in(StageClock::Id stage, DoIt&& do_it) -> decltype(do_it()) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "framework/mission/orders/order_text.hpp"
+#include "framework/program/mission/status_json.hpp"
 #include "maps/base/spelling.hpp"
 
 namespace cairn {
@@ -38,39 +39,6 @@ constexpr std::chrono::milliseconds kNoneLeftFor(100);
 
 double rounded(double value) {
   return std::round(value * 1e3) / 1e3;
-}
-
-ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? ordered_json(rounded(value)) : ordered_json(nullptr);
-}
-
-ordered_json json_of(const RunStatus& status) {
-  const TimeLeft none{0.0, std::numeric_limits<double>::infinity(), {""}};
-  const TimeLeft& left = status.left ? *status.left : none;
-  const bool is_known = left.without.empty() || left.about_s > 0.0;
-  return {{"mission", status.mission},
-          {"state", std::string(name_of(status.state))},
-          {"step", status.step},
-          {"steps", status.steps},
-          {"step_name", status.step_name},
-          {"node", status.node},
-          {"doing", status.doing},
-          {"time_s", rounded(status.time_s)},
-          {"paused_s", rounded(status.paused_s)},
-          {"explored_ratio", rounded(status.explored_ratio)},
-          {"pose",
-           {{"x_m", rounded(status.T_map_robot.x_m)},
-            {"y_m", rounded(status.T_map_robot.y_m)},
-            {"angle_deg", rounded(degrees(status.T_map_robot.theta_rad))},
-            {"trust", std::string(name_of(status.trust))}}},
-          {"distance_m", rounded(status.distance_m)},
-          {"landmarks", status.landmarks},
-          {"eta_s", is_known && status.left ? ordered_json(rounded(left.about_s)) : ordered_json(nullptr)},
-          {"eta_without", status.left ? left.without : std::vector<std::string>{}},
-          {"eta_at_most_s", number_or_null(left.max_s)},
-          {"outcome", status.outcome},
-          {"reason", status.reason},
-          {"map", status.map_file}};
 }
 
 bool is_the_users(int connection) {
@@ -112,7 +80,7 @@ std::string answer_to_order(const std::string& text, RunControl& control, second
 
 std::string answer_to(const std::string& command, RunControl& control, Waiting waiting) {
   const auto within = [waiting](seconds limit) { return waiting == Waiting::until_done ? limit : seconds(0); };
-  const std::vector<std::string> known{"pause", "resume", "cancel", "status", "order"};
+  const std::vector<std::string> known{"pause", "resume", "cancel", "status", "watch", "order"};
   if (command.starts_with(kOrderPrefix))
     return answer_to_order(command.substr(kOrderPrefix.size()), control, within(kTickWithin));
   RunStatus status;
@@ -127,18 +95,19 @@ std::string answer_to(const std::string& command, RunControl& control, Waiting w
     status = control.status(within(kAskWithin));
   } else {
     return refusal("unknown command " + in_quotes(command) + did_you_mean(command, known) +
-                   "; known are: pause, resume, cancel, status, and order with JSON behind it");
+                   "; known are: pause, resume, cancel, status, watch, and order with JSON behind it");
   }
   ordered_json answer{{"ok", true}, {"command", command}};
   answer.update(json_of(status));
   return one_line(answer);
 }
 
-ControlServer::ControlServer(std::filesystem::path folder, RunControl& control)
+ControlServer::ControlServer(std::filesystem::path folder, RunControl& control, Watching watching)
     : folder_(std::move(folder)),
       control_(control),
       listening_(listen_in(folder_)),
-      ending_(::eventfd(0, EFD_CLOEXEC)) {
+      ending_(::eventfd(0, EFD_CLOEXEC)),
+      watching_(std::move(watching)) {
   if (ending_.get() < 0) throw std::system_error(errno, std::generic_category(), "no descriptor is left");
   thread_ = std::thread([this] { serve(); });
 }
@@ -148,6 +117,7 @@ ControlServer::~ControlServer() {
   (void)!::write(ending_.get(), &one, sizeof one);
   thread_.join();
   answers_.clear();  // waits for them
+  streams_.clear();
   remove_socket(folder_);
 }
 
@@ -218,7 +188,24 @@ bool ControlServer::read_caller(Caller& caller) {
   return false;
 }
 
+void ControlServer::begin_watch(Descriptor connection, const std::string& command) {
+  streams_.remove_if([](const WatchStream& stream) { return stream.has_ended(); });
+  try {
+    const WatchRequest request = watch_request_of(command);
+    auto watch = watching_.source == nullptr ? nullptr : watching_.source->attach(kMaxWatches);
+    if (!watch) {
+      write_line(connection.get(), refusal("already watched by " + std::to_string(kMaxWatches)));
+      return;
+    }
+    streams_.emplace_back(std::move(connection), std::move(watch), request, watching_.first_line, control_);
+  } catch (const std::invalid_argument& error) {
+    write_line(connection.get(), refusal(error.what()));
+  } catch (const std::system_error&) {  // no thread is left: the connection closes unanswered
+  }
+}
+
 void ControlServer::begin_answer(Descriptor connection, const std::string& command) {
+  if (is_watch_request(command)) return begin_watch(std::move(connection), command);
   std::erase_if(answers_, [](const Answer& given) { return given.is_given.load(); });
   const bool is_status = command == "status";
   const auto under_way = std::ranges::count(answers_, is_status, &Answer::is_status);

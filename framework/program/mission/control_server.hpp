@@ -12,6 +12,7 @@
 
 #include "framework/mission/run_control.hpp"
 #include "framework/program/mission/control_socket.hpp"
+#include "framework/program/mission/watch_stream.hpp"
 
 namespace cairn {
 
@@ -21,14 +22,21 @@ enum class Waiting { until_done, not_at_all };
 [[nodiscard]] std::string answer_to(const std::string& command, RunControl& control,
                                     Waiting waiting = Waiting::until_done);
 
+// What those get who ask to watch. Null: nobody may.
+struct Watching {
+  WatchSource* source = nullptr;
+  std::string first_line{};
+};
+
 class ControlServer {
  public:
-  // The control must outlive it. Throws std::runtime_error when it cannot listen there, std::system_error when there is
-  // no thread or descriptor left.
-  ControlServer(std::filesystem::path folder, RunControl& control);
+  // Control and source must outlive it. Throws std::runtime_error when it cannot listen there, std::system_error when
+  // there is no thread or descriptor left.
+  ControlServer(std::filesystem::path folder, RunControl& control, Watching watching = {});
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
-  // Removes the socket. Waits for answers in progress: the mission must have ended or not begun.
+  // Removes the socket. Waits for answers in progress: the mission must have ended or not begun, and its source with
+  // it.
   ~ControlServer();
 
  private:
@@ -49,6 +57,7 @@ class ControlServer {
   // False when nothing more is to be heard from the caller.
   bool read_caller(Caller& caller);
   void begin_answer(Descriptor connection, const std::string& command);
+  void begin_watch(Descriptor connection, const std::string& command);
 
   std::filesystem::path folder_;
   RunControl& control_;
@@ -56,6 +65,8 @@ class ControlServer {
   Descriptor ending_;          // readable when it is to end
   std::list<Caller> callers_;  // of the listening thread, like the answers; the longest there first
   std::list<Answer> answers_;  // under way
+  const Watching watching_;
+  std::list<WatchStream> streams_;
   std::thread thread_;
 };
 

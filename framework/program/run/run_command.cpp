@@ -22,12 +22,14 @@
 #include "framework/program/common/printable_stream.hpp"
 #include "framework/program/common/refusal.hpp"
 #include "framework/program/mission/control_server.hpp"
+#include "framework/program/mission/watch_text.hpp"
 #include "framework/program/run/localise.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "framework/program/run/progress_line.hpp"
 #include "framework/reporting/mcap_recording.hpp"
 #include "framework/reporting/recording.hpp"
 #include "framework/reporting/report.hpp"
+#include "framework/reporting/watching/watch_source.hpp"
 #include "framework/safety/fatal_ends.hpp"
 #include "maps/base/text.hpp"
 #include "maps/exchange/pose_graphs/stamped_poses.hpp"
@@ -173,9 +175,11 @@ void keep_earlier_run(const RunCommand& command, const MissionConfig& config, st
 }
 
 // Without it the mission runs all the same, and signals still reach it.
-std::unique_ptr<ControlServer> control_server(const std::filesystem::path& folder, RunControl& control) {
+std::unique_ptr<ControlServer> control_server(const std::filesystem::path& folder, RunControl& control,
+                                              const Mission& mission, WatchSource& source) {
   try {
-    return std::make_unique<ControlServer>(folder, control);
+    Watching watching{&source, WatchText::first_line(mission.config.mission, mission.steps, mission.robot.radius_m)};
+    return std::make_unique<ControlServer>(folder, control, std::move(watching));
   } catch (const std::exception& error) {
     std::cerr << "`cairn mission` cannot reach this run: " << error.what() << "\n";
     return nullptr;
@@ -231,7 +235,7 @@ class RunResults {
 };
 
 MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
-                                 RunReport& report, McapRecording* mcap, std::ostream& people) {
+                                 RunReport& report, McapRecording* mcap, WatchSource& watched, std::ostream& people) {
   std::optional<RunRecording> recording;
   if (!mission.config.record.empty()) recording.emplace(command.out / mission.config.record, runner.T_map_start());
   std::ostream terminal(terminal_of(people));
@@ -243,7 +247,9 @@ MissionResult run_with_listeners(const RunCommand& command, const Mission& missi
     if (recording) runner.subscribe(*recording);
     if (mcap != nullptr) runner.subscribe(*mcap);
     runner.subscribe(progress);
+    runner.subscribe(watched);
     result = runner.run();
+    watched.end(runner.grid(), runner.graph());
   }
   for (const std::string& fault : runner.listener_faults()) std::cerr << "a listener failed: " << fault << "\n";
   if (recording) finish(*recording);
@@ -267,15 +273,19 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   std::ostream& people = common.json ? std::cerr : std::cout;
   people << fmt::format("mission {}, seed {}\n", mission.config.mission, mission.config.seed) << std::flush;
   RunControl control(flags, mission.config.mission);
-  std::unique_ptr<ControlServer> server = control_server(command.out, control);
+  WatchSource watched;
+  std::unique_ptr<ControlServer> server = control_server(command.out, control, mission, watched);
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
   if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
+  watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },
+                   [&runner]() -> const std::vector<Pose2>& { return runner.driven_path(); }});
   std::optional<McapRecording> mcap;
   if (!mission.config.record_mcap.empty()) mcap.emplace(command.out / mission.config.record_mcap);
-  const MissionResult result = run_with_listeners(command, mission, runner, report, mcap ? &*mcap : nullptr, people);
+  const MissionResult result =
+      run_with_listeners(command, mission, runner, report, mcap ? &*mcap : nullptr, watched, people);
   const bool is_reported = results.write(report, result, runner);
   if (mcap) finish(*mcap, command, result, runner.grid());
   results.print(report, result, runner);
