@@ -40,12 +40,15 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_repeatable(sub, "--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)");
   CLI::Option* const resume =
       sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to continue");
-  CLI::Option* const localise_in = sub->add_option(
-      "--localize-in", c->localise_in, "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
+  CLI::Option* const localise_in =
+      sub->add_option("--localize-in", c->localise_in,
+                      "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
   localise_in->excludes(resume);
   sub->add_option("--pose", c->pose, "where the robot is in that map: X,Y,DEGREES")->needs(localise_in);
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
   sub->add_option("--orders", c->orders, "orders of an earlier run (orders.jsonl) to give again, each with its tick");
+  CLI::Option* const view = sub->add_flag("--view", c->view, "watch in a browser: prints the address");
+  sub->add_flag("--control", c->control, "let the page pause, resume and cancel, and give orders")->needs(view);
   add_pace(sub, c->pace);
 }
 
@@ -111,8 +114,10 @@ void add_plan(CLI::App& app, CommandLine& line) {
 }
 
 void add_view(CLI::App& app, CommandLine& line) {
-  const auto [sub, c] = add_command(app, line, view, "view", "Look at a saved map in a browser, and plan by clicks");
-  sub->add_option("MAP", c->map, "saved map (*.cairn), or the folder of a finished run")->required();
+  const auto [sub, c] =
+      add_command(app, line, view, "view", "Look at a saved map or a run in a browser, and plan by clicks");
+  sub->add_option("MAP", c->map, "saved map (*.cairn), or the output folder of a run")->required();
+  sub->add_flag("--control", c->control, "let the page pause, resume and cancel a running mission, and give it orders");
   sub->add_option("--port", c->port, "of 127.0.0.1; 0: a free one")->capture_default_str();
   sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
   add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);

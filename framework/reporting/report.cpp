@@ -221,10 +221,12 @@ RunReport::RunReport(const HistoryConfig& history)
     : max_contacts_(history.max_events),
       degrees_(history.max_samples),
       pose_errors_(history.max_samples),
+      track_(history),
       events_(history.max_events) {}
 
 void RunReport::on(const Event& event, const MissionView& view) {
   timeline_.on(event, view);
+  track_.on(event, view);
   if (const auto* done = std::get_if<MatchingDone>(&event)) {
     const Matching& matching = done->matching;
     near_misses_.update(matching);

@@ -12,6 +12,7 @@
 #include "framework/reporting/event_log.hpp"
 #include "framework/reporting/near_misses.hpp"
 #include "framework/reporting/pose_errors.hpp"
+#include "framework/reporting/run_track.hpp"
 #include "framework/reporting/thinned_series.hpp"
 #include "framework/reporting/timeline.hpp"
 
@@ -54,6 +55,7 @@ class RunReport : public Listener {
   [[nodiscard]] const PoseErrors& pose_errors() const { return pose_errors_; }
   [[nodiscard]] const NearMisses& near_misses() const { return near_misses_; }
   [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
+  [[nodiscard]] const RunTrack& track() const { return track_; }
 
  private:
   void note_contact(const MissionView& view);
@@ -64,6 +66,7 @@ class RunReport : public Listener {
   NearMisses near_misses_;
   PoseErrors pose_errors_;
   RunTimeline timeline_;
+  RunTrack track_;
   EventLog events_;  // sentences with their time
 };
 

@@ -28,7 +28,7 @@ struct CommonOptions {
 struct RunCommand {
   std::filesystem::path mission;
   std::filesystem::path out = "out";
-  std::filesystem::path resume;  // a saved map to go on from; empty: from the beginning
+  std::filesystem::path resume;       // a saved map to go on from; empty: from the beginning
   std::filesystem::path localise_in;  // a saved map that is left alone; empty: none
   std::string pose;                   // "x,y,degrees" in that map; empty: not known
   std::optional<std::int64_t> seed;
@@ -36,6 +36,8 @@ struct RunCommand {
   double pace = 0.0;             // seconds of the mission a second, at most; 0: as fast as the machine
   std::filesystem::path orders;  // recorded orders that are given again; empty: none
   bool other_world = false;      // go on although the map was made in another one
+  bool view = false;             // with a viewer beside it
+  bool control = false;          // which may steer
 };
 int run(const RunCommand& command, const CommonOptions& common);
 
@@ -111,12 +113,13 @@ struct PlanCommand {
 int plan(const PlanCommand& command, const CommonOptions& common);
 
 struct ViewCommand {
-  std::filesystem::path map;  // or the folder of a finished run
+  std::filesystem::path map;  // or the output folder of a run
   std::uint16_t port = 0;     // 0: a free one
+  bool control = false;       // the page may pause, resume, cancel and order
   std::string planner = "hybrid";
   double budget_ms = 10000.0;  // of a plan
 };
-// Serves the map to browsers of this machine until Ctrl-C.
+// Serves the map or the run to browsers of this machine until Ctrl-C.
 int view(const ViewCommand& command, const CommonOptions& common);
 
 struct MapCommand {

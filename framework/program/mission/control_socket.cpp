@@ -107,9 +107,9 @@ bool write_line(int socket, std::string line) {
   return true;
 }
 
-ControlAnswer ask_mission(const std::filesystem::path& folder, const std::string& command) {
+MissionConnection connect_to_mission(const std::filesystem::path& folder) {
   const Address address = address_in(folder);
-  const Descriptor made = new_socket(folder);
+  Descriptor made = new_socket(folder);
   const timeval at_most{kAnswerWithin.count(), 0};  // for the connection, too: the process may have been stopped
   ::setsockopt(made.get(), SOL_SOCKET, SO_SNDTIMEO, &at_most, sizeof at_most);
   if (::connect(made.get(), base_of(address), sizeof address.name) != 0) {
@@ -117,8 +117,15 @@ ControlAnswer ask_mission(const std::filesystem::path& folder, const std::string
     if (errno == ECONNREFUSED) return {Reached::left_behind};
     fail(folder, errno == EACCES ? "only the user who runs the mission may control it" : text_of_error(errno));
   }
+  return {Reached::answered, std::move(made)};
+}
+
+ControlAnswer ask_mission(const std::filesystem::path& folder, const std::string& command) {
+  const MissionConnection connection = connect_to_mission(folder);
+  if (connection.reached != Reached::answered) return {connection.reached};
   std::optional<std::string> line;
-  if (write_line(made.get(), command)) line = read_line(made.get(), kMaxAnswerBytes, kAnswerWithin);
+  if (write_line(connection.socket.get(), command))
+    line = read_line(connection.socket.get(), kMaxAnswerBytes, kAnswerWithin);
   if (!line || line->empty()) fail(folder, "the mission does not answer");
   return {Reached::answered, *line};
 }

@@ -2,7 +2,7 @@
 //
 // A Unix-domain socket: no network, and the kernel says who is at the other end and whether anyone still is. One line
 // goes in (pause, resume, cancel, status, or order with JSON behind it), one line of JSON comes out, and the connection
-// ends.
+// ends. After `watch` it stays, and lines come until the run ends.
 #pragma once
 
 #include <chrono>
@@ -33,6 +33,12 @@ struct ControlAnswer {
   Reached reached = Reached::nobody;  // left_behind: a run that was killed has left its socket
   std::string line{};
 };
+struct MissionConnection {
+  Reached reached = Reached::nobody;  // answered: somebody listens
+  Descriptor socket{};
+};
+// Throws std::runtime_error when the mission that runs there may not be asked.
+[[nodiscard]] MissionConnection connect_to_mission(const std::filesystem::path& folder);
 // Asks the mission that runs there. Throws std::runtime_error when it may not be asked or does not answer.
 [[nodiscard]] ControlAnswer ask_mission(const std::filesystem::path& folder, const std::string& command);
 

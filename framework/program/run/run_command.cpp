@@ -26,6 +26,7 @@
 #include "framework/program/run/localise.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "framework/program/run/progress_line.hpp"
+#include "framework/program/run/viewer.hpp"
 #include "framework/reporting/mcap_recording.hpp"
 #include "framework/reporting/recording.hpp"
 #include "framework/reporting/report.hpp"
@@ -211,6 +212,7 @@ class RunResults {
     };
     // First of all, since drawing may take long, or end the program; then once more with the names of the pictures.
     const bool is_written = write_report();
+    try_to_write(command_.out / "track.json", report.track().json());
     try_to_write(command_.out / "timing.json", timing_json(runner.times()) + "\n");
     if (!result.poses.empty()) try_to_write(command_.out / "poses.tum", tum_of(result.poses));
     pictures_ = draw_run(command_.out, mission_, runner, result, report);
@@ -275,6 +277,8 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunControl control(flags, mission.config.mission);
   WatchSource watched;
   std::unique_ptr<ControlServer> server = control_server(command.out, control, mission, watched);
+  std::optional<Viewer> viewer;
+  if (command.view && server) viewer.emplace(command.out, command.control, common.json);
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);

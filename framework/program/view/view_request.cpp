@@ -42,10 +42,11 @@ std::optional<ViewResponse> refusal_of(const ViewRequest& request, std::uint16_t
   if (!is_own_host(request.host, port)) return view_error(403, "Host is not this view");
   if (!request.origin.empty() && request.origin != "http://" + request.host)
     return view_error(403, "Origin is not this view");
-  const bool is_api = request.target.starts_with("/api/");
+  const bool is_api = request.target.starts_with("/api/") || request.target == kLiveTarget;
   if (is_api && !is_same_token(request.token, token))
     return view_error(401, "the header X-Cairn-Token must hold the token of the printed address");
-  const std::string method = request.target == "/api/plan" ? "POST" : "GET";
+  const bool is_post = request.target == "/api/plan" || request.target.starts_with(kSteerTarget);
+  const std::string method = is_post ? "POST" : "GET";
   if (request.method != method) return view_error(405, "the method must be " + method);
   if (method == "POST" && request.content_type != "application/json")
     return view_error(415, "Content-Type must be application/json");

@@ -12,12 +12,15 @@
 
 namespace cairn {
 
+inline constexpr const char* kLiveTarget = "/live";       // a WebSocket with the stream of a running mission
+inline constexpr const char* kSteerTarget = "/api/run/";  // with a command of its control socket behind it
+
 struct ViewRequest {
   std::string method;
   std::string target;  // with its query
   std::string host;    // empty: none, or several
   std::string origin;  // empty: none, as of programs that are no browser
-  std::string token;   // of the header X-Cairn-Token
+  std::string token;   // of the header X-Cairn-Token; of a WebSocket, of its sub-protocol "token.TOKEN"
   std::string content_type;
   std::string body;
 };
@@ -28,7 +31,7 @@ struct ViewResponse {
   std::string body;
 };
 
-// Called by one thread.
+// Called by several threads at once.
 using ViewHandler = std::function<ViewResponse(const ViewRequest& request)>;
 
 // 128 random bits in hexadecimal.

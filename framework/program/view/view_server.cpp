@@ -1,13 +1,18 @@
 #include "framework/program/view/view_server.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include "framework/program/view/live_session.hpp"
 
 namespace cairn {
 namespace {
@@ -27,14 +32,14 @@ std::string only_value(const http::request<Text>& request, http::field field, co
   return count == 1 ? std::string(request[field]) : of_several;
 }
 
-ViewRequest view_request_of(http::request<Text>&& request) {
+ViewRequest view_request_of(const http::request<Text>& request) {
   return {std::string(request.method_string()),
           std::string(request.target()),
           only_value(request, http::field::host, ""),
           only_value(request, http::field::origin, "several"),
-          std::string(request["X-Cairn-Token"]),
+          request.target() == kLiveTarget ? live_token_of(request) : std::string(request["X-Cairn-Token"]),
           std::string(request[http::field::content_type]),
-          std::move(request.body())};
+          request.body()};
 }
 
 http::response<Text> http_of(ViewResponse&& answer) {
@@ -54,16 +59,19 @@ http::response<Text> http_of(ViewResponse&& answer) {
 }  // namespace
 
 struct ViewServer::State {
+  int clients = 0;
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io};
   std::string token;
   ViewHandler handler;
-  int clients = 0;
+  std::filesystem::path live;
+  asio::thread_pool workers{kViewWorkers};  // the last: it waits for the answers under way
 
   class Session;
   void accept();
   void check_end(const std::atomic<bool>& end);
+  [[nodiscard]] std::uint16_t port() const { return acceptor.local_endpoint().port(); }
   [[nodiscard]] ViewResponse answer(const ViewRequest& request) const;
 };
 
@@ -85,11 +93,35 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
                      [self = shared_from_this()](beast::error_code error, std::size_t) { self->on_read(error); });
   }
 
+  // One too many.
+  void refuse() {
+    is_refused_ = true;
+    read();
+  }
+
  private:
   void on_read(beast::error_code error) {
     if (error == http::error::body_limit) return write(view_error(413, "the body is longer than 1 MB"));
     if (error == http::error::header_limit) return write(view_error(431, "the header is longer than 16 kB"));
-    if (!error) write(state_.answer(view_request_of(parser_.release())));
+    if (error) return;
+    if (is_refused_)
+      return write(view_error(429, "so many connections are open already: " + std::to_string(kMaxViewClients)));
+    http::request<Text> request = parser_.release();
+    ViewRequest asked = view_request_of(request);
+    if (auto refused = refusal_of(asked, state_.port(), state_.token)) return write(std::move(*refused));
+    if (request.target() == kLiveTarget) return go_live(std::move(request));
+    stream_.expires_never();
+    asio::post(state_.workers, [self = shared_from_this(), asked = std::move(asked)] {
+      auto answer = std::make_shared<ViewResponse>(self->state_.answer(asked));
+      asio::post(self->state_.io, [self, answer] { self->write(std::move(*answer)); });
+    });
+  }
+
+  // The connection becomes a WebSocket, which counts as long as it lasts.
+  void go_live(http::request<Text>&& request) {
+    if (!beast::websocket::is_upgrade(request)) return write(view_error(426, "this is a WebSocket"));
+    const std::string why = serve_live(std::move(stream_), std::move(request), state_.live, shared_from_this());
+    if (!why.empty()) write(view_error(409, why));
   }
 
   void write(ViewResponse&& answer) {
@@ -102,6 +134,7 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
   }
 
   State& state_;
+  bool is_refused_ = false;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   http::request_parser<Text> parser_;
@@ -109,7 +142,6 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
 };
 
 ViewResponse ViewServer::State::answer(const ViewRequest& request) const {
-  if (auto refused = refusal_of(request, acceptor.local_endpoint().port(), token)) return *refused;
   try {
     return handler(request);
   } catch (const std::exception& error) {
@@ -120,7 +152,10 @@ ViewResponse ViewServer::State::answer(const ViewRequest& request) const {
 void ViewServer::State::accept() {
   acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    if (!error && clients < kMaxViewClients) std::make_shared<Session>(*this, std::move(socket))->read();
+    if (!error && clients < kMaxViewClients)
+      std::make_shared<Session>(*this, std::move(socket))->read();
+    else if (!error && clients < 2 * kMaxViewClients)
+      std::make_shared<Session>(*this, std::move(socket))->refuse();
     accept();
   });
 }
@@ -131,9 +166,11 @@ void ViewServer::State::check_end(const std::atomic<bool>& end) {
   timer.async_wait([this, &end](beast::error_code) { check_end(end); });
 }
 
-ViewServer::ViewServer(std::uint16_t port, std::string token, ViewHandler handler) : state_(std::make_unique<State>()) {
+ViewServer::ViewServer(std::uint16_t port, std::string token, ViewHandler handler, std::filesystem::path live)
+    : state_(std::make_unique<State>()) {
   state_->token = std::move(token);
   state_->handler = std::move(handler);
+  state_->live = std::move(live);
   const tcp::endpoint here(asio::ip::address_v4::loopback(), port);
   try {
     state_->acceptor.open(here.protocol());

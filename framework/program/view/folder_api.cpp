@@ -1,0 +1,120 @@
+#include "framework/program/view/folder_api.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "framework/config/config_value.hpp"
+#include "framework/mission/orders/order_text.hpp"
+#include "framework/program/mission/control_socket.hpp"
+#include "framework/program/view/page_files.hpp"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::array kCommands{"pause", "resume", "cancel", "order"};
+
+std::optional<std::string> bytes_of_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(in), {}};
+}
+
+bool is_running_in(const fs::path& folder) {
+  try {
+    return connect_to_mission(folder).reached == Reached::answered;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+// What the report names, or the only map.
+fs::path map_in(const fs::path& folder) {
+  const Json report = Json::parse(bytes_of_file(folder / "report.json").value_or("null"), nullptr, false);
+  if (report.is_object() && report.contains("map") && report["map"].is_string()) {
+    const fs::path named = folder / fs::path(report["map"].get<std::string>()).filename();
+    if (fs::is_regular_file(named)) return named;
+  }
+  std::vector<fs::path> maps;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".cairn") maps.push_back(entry.path());
+  if (maps.size() == 1) return maps.front();
+  throw std::runtime_error(fmt::format("view: {} holds {} saved maps (*.cairn); name one", folder.string(),
+                                       maps.empty() ? "no" : "several"));
+}
+
+PlanCommand plan_on(const fs::path& map, const ViewCommand& command) {
+  PlanCommand plan;
+  plan.map = map;
+  plan.planner = command.planner;
+  plan.budget_ms = command.budget_ms;
+  plan.queries = "-";  // many questions: what does not change is prepared once
+  return plan;
+}
+
+}  // namespace
+
+FolderApi::FolderApi(const ViewCommand& command, const CommonOptions& common)
+    : command_(command), common_(common), is_folder_(fs::is_directory(command.map)) {
+  if (kind() == "map") (void)map();
+}
+
+std::string FolderApi::kind() const {
+  if (!is_folder_) return "map";
+  if (is_running_in(command_.map)) return "live";
+  return fs::is_regular_file(command_.map / "report.json") ? "run" : "map";
+}
+
+MapApi& FolderApi::map() {
+  const std::scoped_lock lock(mutex_);
+  if (!map_)
+    map_ = std::make_unique<MapApi>(plan_on(is_folder_ ? map_in(command_.map) : command_.map, command_), common_);
+  return *map_;
+}
+
+ViewResponse FolderApi::answer(const ViewRequest& request) {
+  if (const auto file = page_file(request.target)) return *file;
+  if (request.target == "/api/view") {
+    const Json json{{"kind", kind()}, {"control", command_.control}, {"name", command_.map.filename().string()}};
+    return {200, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
+  }
+  if (request.target.starts_with(kSteerTarget)) return steer(request);
+  if (request.target == "/api/report") return file("report.json");
+  if (request.target == "/api/track") return file("track.json");
+  if (kind() != "live")
+    if (auto answered = map().answer(request)) return std::move(*answered);
+  return view_error(404, "there is nothing of that name");
+}
+
+ViewResponse FolderApi::file(const std::string& name) const {
+  auto text = is_folder_ ? bytes_of_file(command_.map / name) : std::nullopt;
+  if (!text) return view_error(404, "the folder holds no " + name);
+  return {200, "application/json", std::move(*text)};
+}
+
+ViewResponse FolderApi::steer(const ViewRequest& request) const {
+  if (!command_.control) return view_error(403, "this view only watches: cairn view --control steers");
+  const std::string name = request.target.substr(std::string_view(kSteerTarget).size());
+  if (std::ranges::find(kCommands, name) == kCommands.end()) return view_error(404, "there is nothing of that name");
+  if (!is_folder_) return view_error(409, "no mission runs there");
+  try {
+    const std::string line = name == "order" ? "order " + parse_order(request.body, "the request").text : name;
+    if (line.size() > kMaxCommandBytes) return view_error(400, "the order is too long");
+    const ControlAnswer answer = ask_mission(command_.map, line);
+    if (answer.reached != Reached::answered) return view_error(409, "no mission runs there");
+    return {200, "application/json", answer.line + "\n"};
+  } catch (const ConfigError& error) {
+    return view_error(400, error.what());
+  }
+}
+
+}  // namespace cairn

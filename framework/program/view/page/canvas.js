@@ -1,0 +1,234 @@
+// The map's canvas: metres of the map to pixels, y up; and what is drawn on it.
+import { element } from './api.js';
+
+export const canvas = element('map');
+export const context = canvas.getContext('2d', { alpha: false });
+export const view = { x: 0, y: 0, scale: 40 };  // centre in metres, pixels a metre
+// Okabe and Ito's colours: also told apart by who sees no red or green.
+export const kColours = ['#d55e00', '#0072b2', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
+
+let draw_all = () => {};
+let asked = false;
+
+export const to_screen = (x, y) => [canvas.width / 2 + (x - view.x) * view.scale, canvas.height / 2 - (y - view.y) * view.scale];
+export const to_map = (px, py) => [view.x + (px - canvas.width / 2) / view.scale, view.y - (py - canvas.height / 2) / view.scale];
+
+export function redraw() {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(() => {
+    asked = false;
+    context.fillStyle = '#b0b0b0'; context.fillRect(0, 0, canvas.width, canvas.height);
+    draw_all();
+    draw_scale_bar();
+  });
+}
+
+// A picture of cells, white (free) to black (occupied), unknown ones grey; rows rise with y.
+export function paint_cells(picture, cell_at) {
+  const { width, height } = picture;
+  const image = new ImageData(width, height);
+  const pixels = new Uint32Array(image.data.buffer);
+  for (let row = 0; row < height; ++row)
+    for (let column = 0; column < width; ++column) {
+      const ol = cell_at(column, row);
+      const grey = ol === 127 ? 176 : 255 - ol;
+      pixels[(height - 1 - row) * width + column] = 0xff000000 | grey << 16 | grey << 8 | grey;
+    }
+  picture.getContext('2d').putImageData(image, 0, 0);
+}
+
+export function new_picture(width, height) {
+  const picture = document.createElement('canvas');
+  picture.width = width; picture.height = height;
+  return picture;
+}
+
+// Its lowest left corner, and the side of a pixel, in metres.
+export function draw_picture(picture, left, low, side) {
+  context.imageSmoothingEnabled = false;
+  const [px, py] = to_screen(left, low + picture.height * side);
+  const width = picture.width * side * view.scale, height = picture.height * side * view.scale;
+  if (px < canvas.width && py < canvas.height && px + width > 0 && py + height > 0)
+    context.drawImage(picture, px, py, width, height);
+}
+
+export function draw_lines(lines, colour, width, dash = []) {
+  context.beginPath();
+  for (const points of lines)
+    points.forEach(([x, y], i) => context[i ? 'lineTo' : 'moveTo'](...to_screen(x, y)));
+  context.strokeStyle = colour; context.lineWidth = width * devicePixelRatio; context.setLineDash(dash);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+export function draw_routes(routes) {
+  draw_lines(routes.filter((r) => !r.closed && r.driven).map((r) => r.points), '#0072b2', 2);
+  draw_lines(routes.filter((r) => !r.closed && !r.driven).map((r) => r.points), '#56b4e9', 1.5, [8, 4]);
+  draw_lines(routes.filter((r) => r.closed).map((r) => r.points), '#d55e00', 2, [2, 4]);
+}
+
+// Category by shape and colour, degree by size.
+function add_shape(kind, x, y, r) {
+  if (kind % 3 === 0) { context.moveTo(x + r, y); context.arc(x, y, r, 0, 7); return; }
+  const corners = kind % 3 === 1 ? [[-1, -1], [1, -1], [1, 1], [-1, 1]] : [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]];
+  corners.forEach(([cx, cy], i) => context[i ? 'lineTo' : 'moveTo'](x + cx * r, y + cy * r));
+  context.closePath();
+}
+
+export const categories_of = (landmarks) => [...new Set(landmarks.map((landmark) => landmark.category))].sort();
+
+export function draw_landmarks(landmarks, categories) {
+  categories.forEach((category, kind) => {
+    context.beginPath();
+    for (const landmark of landmarks)
+      if (landmark.category === category)
+        add_shape(kind, ...to_screen(landmark.x, landmark.y), (4 + 5 * landmark.degree) * devicePixelRatio);
+    context.fillStyle = kColours[kind % kColours.length]; context.fill();
+    context.strokeStyle = '#000'; context.lineWidth = devicePixelRatio; context.stroke();
+  });
+  if (landmarks.length * 400 > view.scale * view.scale * 40 && landmarks.length > 200) return;
+  for (const landmark of landmarks) draw_label(landmark.label, landmark.x, landmark.y);
+}
+
+export function draw_label(text, x, y) {
+  const [px, py] = to_screen(x, y);
+  context.font = `${13 * devicePixelRatio}px system-ui, sans-serif`;
+  context.lineWidth = 3 * devicePixelRatio; context.strokeStyle = '#fff'; context.fillStyle = '#000';
+  context.strokeText(text, px + 11 * devicePixelRatio, py + 5 * devicePixelRatio);
+  context.fillText(text, px + 11 * devicePixelRatio, py + 5 * devicePixelRatio);
+}
+
+function draw_scale_bar() {
+  const metres = [0.1, 0.5, 1, 2, 5, 10, 20, 50, 100, 500].find((m) => m * view.scale > 60 * devicePixelRatio) ?? 1000;
+  const x = 12 * devicePixelRatio, y = canvas.height - 14 * devicePixelRatio;
+  context.fillStyle = '#fff'; context.fillRect(x - 4, y - 22 * devicePixelRatio, metres * view.scale + 8, 30 * devicePixelRatio);
+  context.fillStyle = '#000'; context.fillRect(x, y, metres * view.scale, 3 * devicePixelRatio);
+  context.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
+  context.fillText(`${metres} m`, x, y - 6 * devicePixelRatio);
+}
+
+// Shows the box from its lowest corner, in metres.
+export function fit(low, size) {
+  [view.x, view.y] = [low[0] + size[0] / 2, low[1] + size[1] / 2];
+  view.scale = Math.min(canvas.width / Math.max(size[0], 1), canvas.height / Math.max(size[1], 1)) * 0.95;
+  redraw();
+}
+
+function zoom(factor, px = canvas.width / 2, py = canvas.height / 2) {
+  const [x, y] = to_map(px, py);
+  view.scale = Math.min(Math.max(view.scale * factor, 0.05), 4000);
+  view.x = x - (px - canvas.width / 2) / view.scale;
+  view.y = y + (py - canvas.height / 2) / view.scale;
+  redraw();
+}
+
+function listen_to_pointers(click) {
+  const pointers = new Map();
+  let moved = 0;
+  const at = (event) => [event.offsetX * devicePixelRatio, event.offsetY * devicePixelRatio];
+  canvas.addEventListener('pointerdown', (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    if (!pointers.size) moved = 0;
+    pointers.set(event.pointerId, at(event));
+  });
+  canvas.addEventListener('pointermove', (event) => {
+    const before = pointers.get(event.pointerId);
+    if (!before) return;
+    const now = at(event);
+    const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
+    moved += Math.hypot(now[0] - before[0], now[1] - before[1]);
+    if (other) {
+      const distance = (p) => Math.max(Math.hypot(p[0] - other[0], p[1] - other[1]), 1);
+      zoom(distance(now) / distance(before), ...other);
+    } else if (moved > 5 * devicePixelRatio) {
+      view.x -= (now[0] - before[0]) / view.scale;
+      view.y += (now[1] - before[1]) / view.scale;
+    }
+    pointers.set(event.pointerId, now);
+    redraw();
+  });
+  canvas.addEventListener('pointerup', (event) => {
+    if (pointers.size === 1 && moved <= 5 * devicePixelRatio) click(...to_map(...at(event)));
+    pointers.delete(event.pointerId);
+  });
+  canvas.addEventListener('pointercancel', (event) => pointers.delete(event.pointerId));
+  canvas.addEventListener('wheel', (event) => {
+    event.preventDefault();
+    zoom(Math.exp(-event.deltaY / 400), ...at(event));
+  }, { passive: false });
+}
+
+// draw: all but the background; show_all: fits what there is; click: at a point of the map.
+export function begin({ draw, show_all, click }) {
+  draw_all = draw;
+  listen_to_pointers(click);
+  canvas.addEventListener('keydown', (event) => {
+    const step = 60 * devicePixelRatio / view.scale;
+    const keys = {
+      ArrowLeft: () => { view.x -= step; }, ArrowRight: () => { view.x += step; },
+      ArrowUp: () => { view.y += step; }, ArrowDown: () => { view.y -= step; },
+      '+': () => zoom(1.25), '=': () => zoom(1.25), '-': () => zoom(0.8), 0: show_all,
+    };
+    if (!keys[event.key] || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    keys[event.key]();
+    redraw();
+  });
+  element('in').onclick = () => zoom(1.25);
+  element('out').onclick = () => zoom(0.8);
+  element('all').onclick = show_all;
+  for (const box of document.querySelectorAll('#tools input, #tools select')) box.addEventListener('change', redraw);
+  canvas.width = canvas.clientWidth * devicePixelRatio;
+  canvas.height = canvas.clientHeight * devicePixelRatio;
+  new ResizeObserver(() => {
+    canvas.width = canvas.clientWidth * devicePixelRatio;
+    canvas.height = canvas.clientHeight * devicePixelRatio;
+    redraw();
+  }).observe(canvas);
+}
+
+// With the ellipse in which it is, of 95 % probability: covariance [xx, xy, yy, tt].
+export function draw_robot([x, y, theta], radius_m, colour, covariance) {
+  if (covariance) {
+    const [xx, xy, yy] = covariance;
+    const mean = (xx + yy) / 2, spread = Math.hypot((xx - yy) / 2, xy);
+    const axis = (variance) => Math.sqrt(Math.max(variance, 0) * 5.991) * view.scale;
+    context.beginPath();
+    context.ellipse(...to_screen(x, y), axis(mean + spread), axis(mean - spread), -Math.atan2(2 * xy, xx - yy) / 2, 0, 7);
+    context.fillStyle = '#cc79a733'; context.fill();
+    context.strokeStyle = '#cc79a7'; context.lineWidth = devicePixelRatio; context.stroke();
+  }
+  const [px, py] = to_screen(x, y);
+  const r = Math.max(radius_m * view.scale, 5 * devicePixelRatio);
+  context.beginPath();
+  context.arc(px, py, r, 0, 7);
+  context.moveTo(px, py); context.lineTo(px + r * Math.cos(theta), py - r * Math.sin(theta));
+  context.fillStyle = colour + '88'; context.fill();
+  context.strokeStyle = '#000'; context.lineWidth = 2 * devicePixelRatio; context.stroke();
+}
+
+// Cones of sonars and rays of lasers: [x, y, angle, half beam, range, state].
+export function draw_ranges(ranges) {
+  for (const [is_echo, colour] of [[false, '#56b4e9'], [true, '#e69f00']]) {
+    context.beginPath();
+    for (const [x, y, theta, half, range, state] of ranges) {
+      if ((state === 'echo') !== is_echo || state === 'bad' || state === 'too_near') continue;
+      const [px, py] = to_screen(x, y);
+      const r = range * view.scale;
+      context.moveTo(px, py);
+      if (half > 0) { context.arc(px, py, r, -theta - half, -theta + half); context.closePath(); }
+      else if (is_echo) context.lineTo(px + r * Math.cos(theta), py - r * Math.sin(theta));
+    }
+    context.strokeStyle = colour; context.lineWidth = devicePixelRatio;
+    context.fillStyle = colour + (is_echo ? '44' : '18'); context.fill();
+    context.stroke();
+  }
+}
+
+export function draw_plan(points) {
+  if (!points.length) return;
+  draw_lines([points], '#fff', 6); draw_lines([points], '#000', 3);
+  const [x, y] = points[points.length - 1];
+  draw_label('◎ goal', x, y);
+}

@@ -1,0 +1,157 @@
+// A mission while it runs: what its stream says, drawn as it comes.
+import { element, post, say, token } from './api.js';
+import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_plan, draw_ranges, draw_robot, draw_routes, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
+import { list_landmarks } from './map.js';
+import { add_lines, show_facts, show_node, show_parts, show_tree } from './panels.js';
+
+const kTile = 64;
+const kMaxPath = 20000;
+const run = { tiles: new Map(), landmarks: new Map(), routes: [], path: [], ranges: [], plan: null };
+let may_steer = false, has_fitted = false, has_ended = false, target = null;
+
+function take_tile([tx, ty, text]) {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const key = `${tx},${ty}`;
+  if (!run.tiles.has(key)) run.tiles.set(key, { tx, ty, picture: new_picture(kTile, kTile) });
+  paint_cells(run.tiles.get(key).picture, (column, row) => bytes[row * kTile + column]);
+}
+
+function take_landmarks(changed = [], retired = []) {
+  if (!changed.length && !retired.length) return;
+  for (const landmark of changed) run.landmarks.set(landmark.id, landmark);
+  for (const id of retired) run.landmarks.delete(id);
+  run.shown = [...run.landmarks.values()].sort((a, b) => a.id - b.id);
+  run.categories = categories_of(run.shown);
+  list_landmarks(run.shown, (one) => aim([one.x, one.y], one.label, `L${one.id}`));
+}
+
+function take_pose(pose) {
+  run.pose = pose;
+  const last = run.path[run.path.length - 1];
+  if (!last || Math.hypot(last[0] - pose.x_m, last[1] - pose.y_m) > 0.03) run.path.push([pose.x_m, pose.y_m]);
+  if (run.path.length > kMaxPath) run.path = run.path.filter((_, i) => i % 2 === 0);
+}
+
+function take_status(status) {
+  run.status = status;
+  const left = status.eta_s === null ? 'not known' : `about ${status.eta_s.toFixed(0)} s`;
+  show_facts([
+    ['time', `${status.time_s.toFixed(1)} s`],
+    ['step', `${status.step} of ${status.steps}: ${status.step_name}`],
+    ['doing', status.doing || '-'],
+    ['left', left],
+    ['explored', `${(100 * status.explored_ratio).toFixed(0)} %`],
+    ['driven', `${status.distance_m.toFixed(1)} m`],
+    ['landmarks', String(status.landmarks)],
+    ['pose', status.pose.trust]]);
+  say(`${status.mission}: ${status.state}${status.outcome ? `, ${status.outcome}` : ''}`);
+  element('pause').disabled = status.state !== 'running';
+  element('resume').disabled = status.state !== 'paused';
+}
+
+function begin_run(line) {
+  if (line.ok !== true) { say(`The run cannot be watched: ${line.error}`); return; }
+  Object.assign(run, { tiles: new Map(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [] });
+  run.radius_m = line.robot_radius_m;
+  document.title = element('name').textContent = line.mission;
+  element('log').replaceChildren();
+  show_tree(line.tree);
+  say(`${line.mission}: starting`);
+}
+
+function take(line) {
+  if ('ok' in line) return begin_run(line);
+  if (line.status) take_status(line.status);
+  if (line.ended) { end(); return; }
+  if (line.afresh) {
+    run.tiles.clear(); run.landmarks.clear();
+    take_landmarks([], [0]);
+  }
+  if (line.grid) run.grid = line.grid;
+  for (const tile of line.tiles ?? []) take_tile(tile);
+  take_landmarks(line.landmarks, line.retired);
+  if (line.routes) run.routes = line.routes;
+  if (line.driven) run.path = line.driven;
+  if (line.pose) take_pose(line.pose);
+  if (line.ranges) run.ranges = line.ranges;
+  run.truth = line.truth;
+  if ('plan' in line) run.plan = line.plan;
+  for (const [path, state, reason] of line.nodes ?? []) show_node(path, state, reason);
+  if (line.log) add_lines(line.log, line.log_left_out);
+  if (line.time_s !== undefined) element('clock').textContent = `${line.time_s.toFixed(1)} s${line.paused ? ', paused' : ''}`;
+  if (!has_fitted && run.grid && !line.more) { has_fitted = true; show_all(); }
+  redraw();
+}
+
+function draw() {
+  if (!run.grid) return;
+  const { cell_m, origin_m } = run.grid;
+  for (const { tx, ty, picture } of run.tiles.values())
+    draw_picture(picture, origin_m[0] + tx * kTile * cell_m, origin_m[1] + ty * kTile * cell_m, cell_m);
+  if (element('show-ranges').checked) draw_ranges(run.ranges);
+  if (element('show-routes').checked) draw_routes(run.routes);
+  if (element('show-path').checked) draw_lines([run.path], '#009e73', 1.5);
+  if (element('show-landmarks').checked) draw_landmarks(run.shown, run.categories);
+  draw_plan(run.plan?.points ?? []);
+  if (run.truth && element('show-truth').checked) draw_robot(run.truth, run.radius_m, '#e69f00');
+  if (run.pose) draw_robot([run.pose.x_m, run.pose.y_m, run.pose.theta_rad], run.radius_m, '#cc79a7', run.pose.covariance);
+  if (target) draw_label(`✚ ${target.text}`, ...target.at);
+}
+
+function show_all() {
+  if (!run.grid) return;
+  const { cell_m, origin_m, box } = run.grid;
+  fit([origin_m[0] + box.x * cell_m, origin_m[1] + box.y * cell_m], [box.width * cell_m, box.height * cell_m]);
+}
+
+// Where the button "Go there" leads.
+function aim(at, text, place = at.map((metres) => Number(metres.toFixed(3)))) {
+  if (!may_steer) return;
+  target = { at, text, place };
+  element('goto').disabled = has_ended;
+  element('goto').textContent = `Go to ${text}`;
+  redraw();
+}
+
+async function steer(command, body) {
+  try {
+    const answer = await post(`/api/run/${command}`, body);
+    if (answer.ok === false) say(answer.error);
+    else if (answer.taken === false) say(`Not taken: ${answer.reason}`);
+    else if (answer.taken) say(`Taken: ${answer.reason}`);
+    else take_status(answer);
+  } catch (error) { say(error.message); }
+}
+
+function end() {
+  has_ended = true;
+  for (const button of document.querySelectorAll('#steering button')) button.disabled = true;
+  say(`${run.status?.mission ?? 'The run'} has ended${run.status?.outcome ? `: ${run.status.outcome}` : ''}. Reload the page to browse it.`);
+}
+
+function connect() {
+  const socket = new WebSocket(`ws://${location.host}/live`, ['cairn.view.1', `token.${token}`]);
+  socket.onmessage = (event) => take(JSON.parse(event.data));
+  socket.onclose = () => {
+    if (has_ended) return;
+    say('The connection is lost. Trying again.');
+    setTimeout(connect, 1000);
+  };
+}
+
+export function show_live(settings) {
+  may_steer = settings.control;
+  document.title = element('name').textContent = settings.name;
+  show_parts('clock', 'facts-part', 'tree-part', 'log-part', 'ranges-label', 'truth-label');
+  element('show-path').checked = true;
+  if (may_steer) {
+    show_parts('steering');
+    for (const command of ['pause', 'resume', 'cancel']) element(command).onclick = () => steer(command, '{}');
+    element('goto').onclick = () => target && steer('order', { goto: target.place });
+    element('stop').onclick = () => steer('order', { stop: null });
+  }
+  element('plan-part').hidden = element('clusters-label').hidden = true;
+  begin({ draw, show_all, click: (x, y) => aim([x, y], `${x.toFixed(2)}, ${y.toFixed(2)}`) });
+  view.scale = 60;
+  connect();
+}

@@ -1,0 +1,151 @@
+// A saved map: its grid by levels, landmarks, routes and clusters; plans by two clicks.
+import { ask, ask_json, element, post, say } from './api.js';
+import { begin, canvas, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_routes, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
+
+const kTile = 512;
+export let map, landmarks = [], routes = [];
+let clusters = [], categories = [];
+let path = [], ends = [];
+const levels = new Map();  // level -> tiles or 'loading'
+
+function tiles_of(bytes, width, height) {
+  const tiles = [];
+  for (let y = 0; y < height; y += kTile)
+    for (let x = 0; x < width; x += kTile) {
+      const picture = new_picture(Math.min(kTile, width - x), Math.min(kTile, height - y));
+      paint_cells(picture, (column, row) => bytes[(y + row) * width + x + column]);
+      tiles.push({ x, y, picture });
+    }
+  return tiles;
+}
+
+async function load_level(level) {
+  if (levels.has(level)) return;
+  levels.set(level, 'loading');
+  try {
+    const bytes = new Uint8Array(await (await ask(`/api/grid?level=${level}`)).arrayBuffer());
+    levels.set(level, tiles_of(bytes, Math.ceil(map.box.width / level), Math.ceil(map.box.height / level)));
+    redraw();
+  } catch (error) { say(`The grid cannot be loaded: ${error.message}`); }
+}
+
+// The coarsest level whose pixels are no larger than the screen's; until it is there, the nearest that is.
+function grid_level() {
+  const cells_a_pixel = 1 / (view.scale * map.cell_m);
+  const wanted = [...map.levels].reverse().find((level) => level <= cells_a_pixel) ?? map.levels[0];
+  load_level(wanted);
+  if (Array.isArray(levels.get(wanted))) return wanted;
+  return map.levels.find((level) => Array.isArray(levels.get(level)));
+}
+
+function draw_grid() {
+  if (!map.levels.length) return;
+  const level = grid_level();
+  if (level === undefined) return;
+  const side = level * map.cell_m;
+  const left = map.origin_m[0] + map.box.x * map.cell_m, low = map.origin_m[1] + map.box.y * map.cell_m;
+  for (const { x, y, picture } of levels.get(level)) draw_picture(picture, left + x * side, low + y * side, side);
+}
+
+function draw_clusters() {
+  const level = Number(element('level').value);
+  const at = new Map(landmarks.map((landmark) => [landmark.id, landmark]));
+  for (const cluster of clusters.filter((one) => one.level === level)) {
+    const anchor = at.get(cluster.anchor);
+    if (!anchor) continue;
+    draw_lines(cluster.landmarks.map((id) => [[anchor.x, anchor.y], [at.get(id).x, at.get(id).y]]), '#cc79a7', 3, [6, 4]);
+    draw_label(cluster.label, anchor.x, anchor.y);
+  }
+}
+
+// shown: the landmarks that are drawn.
+export function draw_map(shown = landmarks) {
+  draw_grid();
+  if (element('show-routes').checked) draw_routes(routes);
+  draw_clusters();
+  if (element('show-landmarks').checked) draw_landmarks(shown, categories);
+}
+
+function draw() {
+  draw_map();
+  if (element('show-path').checked) draw_lines([map.driven_path], '#009e73', 1.5);
+  draw_plan();
+}
+
+export function draw_plan() {
+  draw_lines([path], '#fff', 7); draw_lines([path], '#000', 4);
+  ends.forEach(([x, y], i) => draw_label(i ? '◎ to' : '● from', x, y));
+}
+
+export function show_all() {
+  const box = map.box;
+  let low = [map.origin_m[0] + box.x * map.cell_m, map.origin_m[1] + box.y * map.cell_m];
+  let size = [box.width * map.cell_m, box.height * map.cell_m];
+  if (!map.levels.length && landmarks.length) {
+    const xs = landmarks.map((one) => one.x), ys = landmarks.map((one) => one.y);
+    low = [xs.reduce((a, b) => Math.min(a, b)) - 1, ys.reduce((a, b) => Math.min(a, b)) - 1];
+    size = [xs.reduce((a, b) => Math.max(a, b)) - low[0] + 1, ys.reduce((a, b) => Math.max(a, b)) - low[1] + 1];
+  }
+  fit(low, size);
+}
+
+async function plan() {
+  say('Planning.');
+  path = [];
+  try {
+    const { command, answer } = await post('/api/plan', { from: element('from').value, to: element('to').value });
+    path = (answer.path ?? []).map((pose) => Array.isArray(pose) ? pose : [pose.x, pose.y]);
+    element('command').textContent = command;
+    element('command').hidden = false;
+    say(answer.outcome === 'solved' ? `Solved: ${answer.length_m.toFixed(2)} m.` : `No path: ${answer.outcome.replaceAll('_', ' ')}.`);
+  } catch (error) { say(error.message); }
+  redraw();
+}
+
+export function choose(x, y, text = `${x.toFixed(3)},${y.toFixed(3)}`) {
+  if (ends.length === 2) clear();
+  ends.push([x, y]);
+  element(ends.length === 1 ? 'from' : 'to').value = text;
+  if (ends.length === 2) plan(); else { say(`From ${text}. Choose where to.`); redraw(); }
+}
+
+function clear() {
+  ends = []; path = [];
+  element('from').value = element('to').value = '';
+  element('command').hidden = true;
+  redraw();
+}
+
+export function list_landmarks(list, choose_landmark) {
+  element('landmarks').replaceChildren(...list.map((landmark) => {
+    const button = document.createElement('button');
+    button.textContent = `${landmark.label}: ${landmark.category || 'place'}, degree ${landmark.degree.toFixed(2)}`;
+    button.onclick = () => choose_landmark(landmark);
+    const item = document.createElement('li');
+    item.append(button);
+    return item;
+  }));
+}
+
+// Without drawing it. Throws when there is no map.
+export async function load_map() {
+  [map, landmarks, routes, clusters] =
+      await Promise.all(['/api/map', '/api/landmarks', '/api/routes', '/api/clusters'].map(ask_json));
+  categories = categories_of(landmarks);
+  for (const level of [...new Set(clusters.map((cluster) => cluster.level))].sort()) {
+    const option = document.createElement('option');
+    option.value = option.textContent = level;
+    element('level').append(option);
+  }
+  element('clear').onclick = clear;
+  element('plan').onsubmit = (event) => { event.preventDefault(); ends = []; plan(); };
+  list_landmarks(landmarks, (one) => choose(one.x, one.y, `L${one.id}`));
+}
+
+export async function show_map() {
+  await load_map();
+  document.title = element('name').textContent = map.name;
+  begin({ draw, show_all, click: choose });
+  show_all();
+  say(map.levels.length ? `${landmarks.length} landmarks, ${routes.length} routes.` : 'The map holds no grid.');
+}

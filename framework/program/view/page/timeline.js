@@ -1,0 +1,127 @@
+// A finished run: where the robot was, what it did and what had been said at any time of it.
+import { ask_json, element, say } from './api.js';
+import { begin, draw_lines, draw_plan, draw_robot, redraw } from './canvas.js';
+import * as saved from './map.js';
+import { clear_nodes, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
+
+const kRadius_m = 0.22;
+let report, track = { poses: [], plans: [], landmarks: [] };
+let events = [], runs = [], at_s = 0, end_s = 0, player = null;
+
+// The last whose time has come; -1: none.
+function last_before(list, time_of, time_s) {
+  let low = 0, high = list.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (time_of(list[middle]) <= time_s) low = middle + 1; else high = middle;
+  }
+  return low - 1;
+}
+
+// Sentences of the report begin with their time.
+const event_of = (sentence) => {
+  const found = /^([\d.]+) s: ([^]*)$/.exec(sentence);
+  return found ? [Number(found[1]), found[2]] : [0, sentence];
+};
+
+// "3/1/2" below "3/1" below "3"; the report names only what was ticked.
+function tree_of(nodes) {
+  const all = new Map(nodes.map((node) => [node.path, { ...node, settings: '', children: [] }]));
+  const roots = [];
+  for (const [path, node] of all) (all.get(path.slice(0, path.lastIndexOf('/')))?.children ?? roots).push(node);
+  return roots;
+}
+
+function show_nodes() {
+  clear_nodes();
+  for (const run of runs) if (run.begin_s <= at_s) show_node(run.path, at_s < run.end_s ? 'running' : run.outcome, '');
+}
+
+function pose_at(time_s) {
+  const i = last_before(track.poses, (pose) => pose[0], time_s);
+  if (i < 0) return track.poses[0];
+  const before = track.poses[i], after = track.poses[i + 1] ?? before;
+  const part = after[0] > before[0] ? (time_s - before[0]) / (after[0] - before[0]) : 0;
+  const turn = Math.atan2(Math.sin(after[3] - before[3]), Math.cos(after[3] - before[3]));
+  return [time_s, before[1] + part * (after[1] - before[1]), before[2] + part * (after[2] - before[2]), before[3] + part * turn];
+}
+
+// Landmarks that the run found are there from then on; others it had from the beginning.
+function landmarks_at(time_s) {
+  const found = new Map(track.landmarks.filter((one) => one.change === 'found').map((one) => [one.id, one.time_s]));
+  return saved.landmarks.filter((one) => (found.get(one.id) ?? 0) <= time_s);
+}
+
+function draw() {
+  if (saved.map) saved.draw_map(landmarks_at(at_s));
+  const i = last_before(track.poses, (pose) => pose[0], at_s);
+  const path = track.poses.slice(0, i + 1).map(([, x, y]) => [x, y]);
+  if (element('show-path').checked) draw_lines([path], '#009e73', 2);
+  const plan = track.plans[last_before(track.plans, (one) => one.time_s, at_s)];
+  draw_plan(plan?.points ?? []);
+  const pose = pose_at(at_s);
+  if (pose) draw_robot(pose.slice(1), kRadius_m, '#cc79a7');
+  saved.draw_plan();
+}
+
+function show_time(time_s) {
+  at_s = Math.min(Math.max(time_s, 0), end_s);
+  element('slider').value = at_s;
+  element('slider').setAttribute('aria-valuetext', `${at_s.toFixed(1)} seconds`);
+  element('clock').textContent = `${at_s.toFixed(1)} of ${end_s.toFixed(1)} s`;
+  show_nodes();
+  show_lines(events.slice(0, last_before(events, (event) => event[0], at_s) + 1));
+  redraw();
+}
+
+function play() {
+  if (player) { clearInterval(player); player = null; element('play').textContent = 'Play'; return; }
+  if (at_s >= end_s) show_time(0);
+  element('play').textContent = 'Stop';
+  player = setInterval(() => {
+    show_time(at_s + 0.1 * Number(element('speed').value));
+    if (at_s >= end_s) play();
+  }, 100);
+}
+
+// Where it was paused, stopped by what its sensors saw, or bumped.
+function draw_marks() {
+  const marks = element('marks');
+  const add = (begin_s, until_s, kind, title) => {
+    const mark = document.createElement('span');
+    mark.className = kind; mark.title = title;
+    mark.style.left = `${100 * begin_s / end_s}%`;
+    mark.style.width = `max(2px, ${100 * (until_s - begin_s) / end_s}%)`;
+    marks.append(mark);
+  };
+  for (const run of report.steps ?? []) add(run.begin_s, run.end_s, 'step', `${run.step}: ${run.outcome}`);
+  for (const stop of report.stops ?? []) add(stop.begin_s, stop.end_s, 'stop', 'stopped by the collision monitor');
+  for (const pause of report.pauses ?? []) add(pause.time_s, pause.time_s, 'pause', `paused for ${pause.for_s} s`);
+  for (const touch of report.contacts ?? []) add(touch.time_s, touch.time_s, 'contact', 'touched something');
+}
+
+export async function show_run(settings) {
+  report = await ask_json('/api/report');
+  track = await ask_json('/api/track').catch(() => track);
+  let why = '';
+  await saved.load_map().catch((error) => { why = ` No map: ${error.message}`; });
+  events = (report.events ?? []).map(event_of);
+  runs = [...report.node_runs ?? []].sort((a, b) => a.end_s - b.end_s);
+  end_s = Math.max(report.time_s, 0.1);
+  document.title = element('name').textContent = `${report.mission} (${settings.name})`;
+  show_parts('clock', 'timeline', 'tree-part', 'log-part', 'facts-part');
+  element('show-path').checked = true;
+  show_facts([['outcome', report.outcome], ['reason', report.reason || '-'], ['driven', `${report.distance_m.toFixed(1)} m`],
+              ['time', `${report.time_s.toFixed(1)} s`], ['landmarks', String(report.landmarks.length)]]);
+  show_tree(tree_of(report.nodes ?? []));
+  draw_marks();
+  const slider = element('slider');
+  slider.max = end_s; slider.step = Math.max(end_s / 5000, 0.01);
+  slider.oninput = () => show_time(Number(slider.value));
+  element('play').onclick = play;
+  begin({ draw, show_all: () => saved.map && saved.show_all(), click: saved.choose });
+  if (saved.map) saved.show_all();
+  show_time(end_s);
+  say((track.poses.length ? `${report.outcome}. Drag the time to go back in the run.` :
+      'The run has left no track of its poses; its log and its tree can be browsed.') + why);
+}

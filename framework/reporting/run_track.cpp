@@ -1,0 +1,75 @@
+#include "framework/reporting/run_track.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace cairn {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxPlanPoints = 200'000;  // of all plans
+constexpr std::size_t kMaxPointsOfAPlan = 200;
+
+// Tenths of a millimetre, of a milliradian and of a millisecond.
+double track_number(double value) {
+  return std::isfinite(value) ? std::round(value * 1e4) / 1e4 : 0.0;
+}
+
+std::vector<Point> thinned_path(const std::vector<Pose2>& path) {
+  const std::size_t every = (path.size() + kMaxPointsOfAPlan - 1) / kMaxPointsOfAPlan;
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < path.size(); i += every) points.push_back(path[i].position());
+  if (!path.empty() && points.back() != path.back().position()) points.push_back(path.back().position());
+  return points;
+}
+
+bool is_end_of_driving(const Event& event) {
+  if (std::holds_alternative<StepEnded>(event)) return true;
+  const auto* const ended = std::get_if<NodeEnded>(&event);
+  return ended != nullptr && ended->kind == NodeKind::behaviour;
+}
+
+}  // namespace
+
+RunTrack::RunTrack(const HistoryConfig& history) : max_events_(history.max_events), poses_(history.max_samples) {}
+
+void RunTrack::on(const Event& event, const MissionView& view) {
+  const double time_s = view.world.time_s;
+  if (std::holds_alternative<TickDone>(event)) return poses_.add({time_s, view.world.pose.T_map_robot});
+  if (const auto* const plan = std::get_if<PlanDone>(&event)) note_plan({time_s, thinned_path(plan->result.path)});
+  if (is_end_of_driving(event) && !plans_.empty() && !plans_.back().points.empty()) note_plan({time_s});
+  if (landmarks_.size() >= max_events_) return;
+  if (const auto* const change = std::get_if<LandmarkChanged>(&event); change != nullptr && change->is_new)
+    landmarks_.push_back({time_s, change->landmark.id, false});
+  if (const auto* const retired = std::get_if<LandmarkRetired>(&event))
+    landmarks_.push_back({time_s, retired->landmark.id, true});
+}
+
+void RunTrack::note_plan(Plan plan) {
+  if (plans_.size() >= max_events_ || plan_points_ + plan.points.size() > kMaxPlanPoints) return;
+  plan_points_ += plan.points.size();
+  plans_.push_back(std::move(plan));
+}
+
+std::string RunTrack::json() const {
+  Json track{{"poses_every", poses_.every()},
+             {"poses", Json::array()},
+             {"plans", Json::array()},
+             {"landmarks", Json::array()}};
+  for (const Sample& sample : poses_.samples())
+    track["poses"].push_back({track_number(sample.time_s), track_number(sample.T_map_robot.x_m),
+                              track_number(sample.T_map_robot.y_m), track_number(sample.T_map_robot.theta_rad)});
+  for (const Plan& plan : plans_) {
+    Json points = Json::array();
+    for (const Point& point : plan.points) points.push_back({track_number(point.x()), track_number(point.y())});
+    track["plans"].push_back({{"time_s", track_number(plan.time_s)}, {"points", std::move(points)}});
+  }
+  for (const Change& change : landmarks_)
+    track["landmarks"].push_back({{"time_s", track_number(change.time_s)},
+                                  {"id", change.id},
+                                  {"change", change.is_retired ? "retired" : "found"}});
+  return track.dump() + "\n";
+}
+
+}  // namespace cairn

@@ -1,0 +1,47 @@
+// Where the robot was when, which plan it had and when landmarks came and went: for the timeline of a finished run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/mission/events.hpp"
+#include "framework/mission/history.hpp"
+#include "framework/reporting/thinned_series.hpp"
+
+namespace cairn {
+
+class RunTrack final : public Listener {
+ public:
+  // history: bounds its size.
+  explicit RunTrack(const HistoryConfig& history = {});
+
+  void on(const Event& event, const MissionView& view) override;
+
+  // {"poses": [[time_s, x_m, y_m, theta_rad]], "poses_every": ticks, "plans": [{time_s, points}], "landmarks":
+  // [{time_s, id, change}]}, change: found or retired. The same bytes for the same build, mission and seed.
+  [[nodiscard]] std::string json() const;
+
+ private:
+  struct Sample {
+    double time_s = 0.0;
+    Pose2 T_map_robot;
+  };
+  struct Plan {
+    double time_s = 0.0;
+    std::vector<Point> points{};  // empty: the plan is over
+  };
+  struct Change {
+    double time_s = 0.0;
+    LandmarkId id = 0;
+    bool is_retired = false;
+  };
+  void note_plan(Plan plan);
+
+  const std::size_t max_events_;
+  ThinnedSeries<Sample> poses_;
+  std::vector<Plan> plans_;
+  std::size_t plan_points_ = 0;
+  std::vector<Change> landmarks_;
+};
+
+}  // namespace cairn
