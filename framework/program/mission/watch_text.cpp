@@ -77,10 +77,9 @@ std::string_view watch_state(double range_m) {
 }
 
 // Where the transducer is in the map, half its beam, and how far it has seen.
-Json watch_json(const std::vector<RangeReading>& ranges, const Pose2& T_map_robot) {
+Json watch_json(const std::vector<WatchRange>& ranges) {
   Json list = Json::array();
-  for (const RangeReading& reading : ranges) {
-    const Pose2 T_map_sensor = T_map_robot * reading.T_robot_sensor;
+  for (const auto& [time_s, T_map_sensor, reading] : ranges) {
     const double range_m = std::isfinite(reading.range_m) ? reading.range_m : reading.max_m;
     list.push_back({watch_number(T_map_sensor.x_m), watch_number(T_map_sensor.y_m),
                     watch_number(T_map_sensor.theta_rad), watch_number(reading.half_beam_rad), watch_number(range_m),
@@ -147,7 +146,7 @@ void add_watched_state(Json& line, const WatchFrame& frame) {
   line["pose"] = watch_json(frame.pose);
   line["commanded"] = {watch_number(frame.commanded.v_mps), watch_number(frame.commanded.w_radps)};
   if (frame.truth) line["truth"] = watch_json(*frame.truth);
-  line["ranges"] = watch_json(frame.ranges, frame.pose.T_map_robot);
+  line["ranges"] = watch_json(frame.ranges);
   if (frame.status) line["status"] = json_of(*frame.status);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/behaviour_tree/runner.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/run_control.hpp"
 
@@ -35,6 +36,13 @@ struct WatchPlan {
   PlanResult result;
 };
 
+// Where the transducer was then, too.
+struct WatchRange {
+  double time_s = 0.0;
+  Pose2 T_map_sensor;
+  RangeReading reading;
+};
+
 struct WatchFrame {
   bool is_last = false;    // of the run: has no pose, ranges and status
   bool is_afresh = false;  // all that was sent of the map is to be forgotten: it is another one now
@@ -44,7 +52,7 @@ struct WatchFrame {
   PoseEstimate pose;
   Twist commanded{};
   std::optional<Pose2> truth{};
-  std::vector<RangeReading> ranges{};
+  std::vector<WatchRange> ranges{};  // of the last observation; of few transducers, the last of each
   double cell_m = 0.0;
   Point origin_m{0.0, 0.0};
   CellBox bounds;

@@ -9,6 +9,8 @@ namespace cairn {
 namespace {
 
 constexpr int kTileShift = 6;
+constexpr std::size_t kMaxSonars = 32;  // with more it is a laser, which sees all at once
+constexpr double kRangesShown_s = 1.0;
 static_assert(OccupancyGrid::kTileSide == 1 << kTileShift);
 
 WatchTile tile_of(const OccupancyGrid& grid, Cell tile) {
@@ -53,6 +55,7 @@ void WatchSource::stop_watching() {
   landmarks_.clear();
   routes_.reset();
   plan_.reset();
+  ranges_.clear();
   lines_begin_ += lines_.size();
   lines_.clear();
 }
@@ -60,7 +63,7 @@ void WatchSource::stop_watching() {
 void WatchSource::note(const Event& event, const MissionView& view) {
   if (const auto* const tick = std::get_if<TickDone>(&event)) {
     if (tick->changes != nullptr) note_tiles(*tick->changes);
-    return;
+    return note_ranges(view.world);
   }
   if (const auto* const change = std::get_if<LandmarkChanged>(&event)) landmarks_.mark(change->landmark.id);
   if (const auto* const retired = std::get_if<LandmarkRetired>(&event)) landmarks_.mark(retired->landmark.id);
@@ -73,6 +76,18 @@ void WatchSource::note(const Event& event, const MissionView& view) {
   if (lines_.size() <= kMaxWatchedLines) return;
   lines_.pop_front();
   ++lines_begin_;
+}
+
+// Sonars fire in turn: the others' last readings are shown for a while.
+void WatchSource::note_ranges(const WorldView& world) {
+  if (world.observation == nullptr) return;
+  const std::vector<RangeReading>& ranges = world.observation->ranges;
+  std::erase_if(ranges_, [&](const WatchRange& old) {
+    return ranges.size() > kMaxSonars || old.time_s < world.time_s - kRangesShown_s ||
+           std::ranges::any_of(ranges, [&](const RangeReading& now) { return now.sensor == old.reading.sensor; });
+  });
+  for (const RangeReading& reading : evenly_chosen(ranges, kMaxFrameRanges))
+    ranges_.push_back({world.time_s, world.pose.T_map_robot * reading.T_robot_sensor, reading});
 }
 
 void WatchSource::note_tiles(const CellChanges& changes) {
@@ -141,7 +156,7 @@ WatchFrame WatchSource::frame_for(Reader& reader, const MissionView& view) const
   frame.pose = view.world.pose;
   frame.commanded = view.commanded;
   if (view.truth) frame.truth = view.truth->T_map_robot;
-  if (view.world.observation != nullptr) frame.ranges = evenly_chosen(view.world.observation->ranges, kMaxFrameRanges);
+  frame.ranges = ranges_;
   add_map(frame, reader, {view.world.grid, view.world.graph}, kMaxFrameTiles);
   frame.plan = plan_;
   if (look_.nodes) frame.nodes = look_.nodes();

@@ -101,7 +101,8 @@ export function draw_label(text, x, y) {
 
 function draw_scale_bar() {
   const metres = [0.1, 0.5, 1, 2, 5, 10, 20, 50, 100, 500].find((m) => m * view.scale > 60 * devicePixelRatio) ?? 1000;
-  const x = 12 * devicePixelRatio, y = canvas.height - 14 * devicePixelRatio;
+  const below = element('timeline').hidden ? 14 : 76;
+  const x = 12 * devicePixelRatio, y = canvas.height - below * devicePixelRatio;
   context.fillStyle = '#fff'; context.fillRect(x - 4, y - 22 * devicePixelRatio, metres * view.scale + 8, 30 * devicePixelRatio);
   context.fillStyle = '#000'; context.fillRect(x, y, metres * view.scale, 3 * devicePixelRatio);
   context.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;

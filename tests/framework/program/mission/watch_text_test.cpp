@@ -36,7 +36,8 @@ TEST(WatchText, WritesTilesAsBase64) {
 TEST(WatchText, WritesRangesWhereTheyAreInTheMap) {
   WatchFrame frame = small_frame();
   const double none = std::numeric_limits<double>::infinity();
-  frame.ranges = {{{0.5, 0.0, 1.0}, 0.1, 0.1, 5.0, 1.25, 0}, {{0.0, 0.0, 0.0}, 0.0, 0.1, 5.0, none, 1}};
+  frame.ranges = {{0.1, {1.5, 2.0, 1.0}, {{0.5, 0.0, 1.0}, 0.1, 0.1, 5.0, 1.25, 0}},
+                  {0.2, {1.0, 2.0, 0.0}, {{0.0, 0.0, 0.0}, 0.0, 0.1, 5.0, none, 1}}};
   const json line = json::parse(WatchText().line_of(frame));
   EXPECT_EQ(line["ranges"],
             json::parse(R"([[1.5, 2.0, 1.0, 0.1, 1.25, "echo"], [1.0, 2.0, 0.0, 0.0, 5.0, "no_echo"]])"));

@@ -57,6 +57,11 @@ TEST(ViewRequest, WhatIsRefused) {
       {"a map by POST", {"POST", "/api/map", here, "", kToken, "application/json", ""}, 405},
       {"OPTIONS", {"OPTIONS", "/api/map", here, "", kToken, "", ""}, 405},
       {"a form", {"POST", "/api/plan", here, "", kToken, "application/x-www-form-urlencoded", ""}, 415},
+      {"a stream without the token", {"GET", "/live", here, "", "", "", ""}, 401},
+      {"a stream for a foreign page", {"GET", "/live", here, "http://evil.example", kToken, "", ""}, 403},
+      {"steering without the token", {"POST", "/api/run/pause", here, "", "", "application/json", "{}"}, 401},
+      {"steering by GET", {"GET", "/api/run/pause", here, "", kToken, "application/json", ""}, 405},
+      {"steering by a form", {"POST", "/api/run/pause", here, "", kToken, "text/plain", "{}"}, 415},
       {"plain text", {"POST", "/api/plan", here, "", kToken, "text/plain", ""}, 415},
   };
   for (const Row& row : rows) {

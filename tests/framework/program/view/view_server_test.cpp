@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <thread>
+#include <vector>
 
 namespace cairn {
 namespace {
@@ -20,14 +21,18 @@ class RunningServer {
     thread_.join();
   }
 
-  // Everything that comes back until the server closes.
-  std::string ask(const std::string& first_lines, const std::string& body = "") const {
+  [[nodiscard]] int connect() const {
     const int client = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(server_.port());
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     EXPECT_EQ(::connect(client, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+    return client;
+  }
+  // Everything that comes back until the server closes.
+  std::string ask(const std::string& first_lines, const std::string& body = "") const {
+    const int client = connect();
     const std::string sent = first_lines + "Host: 127.0.0.1:" + std::to_string(server_.port()) + "\r\n\r\n" + body;
     EXPECT_EQ(::send(client, sent.data(), sent.size(), MSG_NOSIGNAL), static_cast<ssize_t>(sent.size()));
     std::string answer;
@@ -85,6 +90,30 @@ TEST(ViewServer, AFailureIsAnAnswer) {
   const std::string answer = RunningServer().ask("GET /api/fails HTTP/1.1\r\nX-Cairn-Token: " + kToken + "\r\n");
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 500")) << answer;
   EXPECT_NE(answer.find("it fails"), std::string::npos);
+}
+
+TEST(ViewServer, OneConnectionTooManyIsReported) {
+  const RunningServer server;
+  std::vector<int> idle;
+  for (int i = 0; i < kMaxViewClients; ++i) idle.push_back(server.connect());
+  EXPECT_TRUE(server.ask("GET / HTTP/1.1\r\n").starts_with("HTTP/1.1 429"));
+  for (const int client : idle) ::close(client);
+  std::string answer;
+  for (int i = 0; i < 1000 && !answer.starts_with("HTTP/1.1 200"); ++i) answer = server.ask("GET / HTTP/1.1\r\n");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+}
+
+TEST(ViewServer, OfAMapThereIsNoStream) {
+  const std::string upgrade =
+      "GET /live HTTP/1.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
+  EXPECT_TRUE(RunningServer().ask(upgrade).starts_with("HTTP/1.1 401"));
+  const std::string answer =
+      RunningServer().ask(upgrade + "Sec-WebSocket-Protocol: cairn.view.1, token." + kToken + "\r\n");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 409")) << answer;
+  EXPECT_TRUE(RunningServer()
+                  .ask("GET /live HTTP/1.1\r\nSec-WebSocket-Protocol: token." + kToken + "\r\n")
+                  .starts_with("HTTP/1.1 426"));
 }
 
 TEST(ViewServer, APortInUseIsReported) {

@@ -49,7 +49,7 @@ TEST_F(WatchedMission, TheFirstFrameHoldsAllAndTheNextWhatHasChanged) {
   ASSERT_TRUE(first);
   EXPECT_TRUE(first->is_afresh);
   EXPECT_EQ(first->tick, 4) << "those before it was watched count";
-  EXPECT_EQ(first->pose.T_map_robot, Pose2(1.0, 2.0, 0.5));
+  EXPECT_EQ(first->pose.T_map_robot, (Pose2{1.0, 2.0, 0.5}));
   ASSERT_THAT(first->tiles, SizeIs(1));
   EXPECT_EQ(first->tiles[0].ol[0], ol_of(500));
   EXPECT_EQ(first->tiles[0].ol[1], kUnknownOl);
@@ -156,6 +156,22 @@ TEST_F(WatchedMission, WhatIsLeftAtTheEndComesWithTheLastFrame) {
   EXPECT_EQ(last->lines[0].sentence, "saved held.cairn");
   EXPECT_TRUE(watch->has_ended());
   EXPECT_FALSE(watch->next(milliseconds(0), false));
+}
+
+TEST_F(WatchedMission, OfSonarsThatFireInTurnTheLastOfEachIsShownForASecond) {
+  const auto watch = source_.attach(1);
+  (void)frame_of(*watch);
+  observation_.ranges[0].sensor = 1;
+  observation_.ranges[0].range_m = 2.0;
+  (void)frame_of(*watch);
+  observation_.ranges[0].range_m = 2.5;
+  const Frame frame = frame_of(*watch);
+  ASSERT_THAT(frame->ranges, SizeIs(2));
+  EXPECT_EQ(frame->ranges[0].reading.range_m, 1.5);
+  EXPECT_EQ(frame->ranges[1].reading.range_m, 2.5);
+  EXPECT_EQ(frame->ranges[1].T_map_sensor, (Pose2{1.0, 2.0, 0.5} * Pose2{0.1, 0.0, 0.0}));
+  for (int i = 0; i < 12; ++i) (void)frame_of(*watch);
+  EXPECT_THAT(frame_of(*watch)->ranges, SizeIs(1));
 }
 
 TEST_F(WatchedMission, OnlySoManyMayWatch) {

@@ -1,0 +1,142 @@
+// `cairn view` of a run: its stream, its steering, and what is left of it.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/program.hpp"
+
+namespace cairn::testing_program {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+// A `cairn view` and requests to it.
+class ViewOfARun : public testing::Test {
+ protected:
+  ViewOfARun() {
+    const std::string config = source_folder() + "/config/";
+    write_text(folder_ / "world.yaml",
+               "bounds_m: [[0, 0], [3, 3]]\nwalls: [{points_m: [[0, 0], [3, 0], [3, 3], [0, 3], [0, 0]]}]\n");
+    write_text(folder_ / "mission.yaml", "mission: held\nrobot: " + config +
+                                             "robots/pioneer1.yaml\nworld: world.yaml\n"
+                                             "start: {at_m: [0.6, 0.6], angle_deg: 0}\n"
+                                             "sensor: {plugin: simulated_robot}\n"
+                                             "localizer: {plugin: odometry_compass}\n"
+                                             "map: {plugin: muriel, cell_m: 0.05}\nsteps: [wait: 1000]\n");
+  }
+  ~ViewOfARun() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::vector<std::string> run_with(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"run", (folder_ / "mission.yaml").string(), "--out", out_.string(), "--pace",
+                                       "10"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  void read_address(const Conversation& program) {
+    std::string line = program.hear();
+    while (!line.empty() && !line.starts_with("http://")) line = program.hear();
+    const std::size_t port = line.rfind(':') + 1;
+    host_ = line.substr(7, line.find('/', 7) - 7);
+    port_ = static_cast<std::uint16_t>(std::stoi(line.substr(port)));
+    token_ = line.substr(line.find("#t=") + 3);
+  }
+  // What comes back until the view closes, or so many bytes.
+  [[nodiscard]] std::string ask(const std::string& first_line, const std::string& headers, const std::string& body,
+                                std::size_t max_bytes = 1'000'000'000) const {
+    const int client = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port_);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(client, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    const std::string sent = first_line + " HTTP/1.1\r\nHost: " + host_ + "\r\n" + headers +
+                             "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+    (void)::send(client, sent.data(), sent.size(), MSG_NOSIGNAL);
+    std::string answer;
+    char piece[4096];
+    for (ssize_t n = 0; answer.size() < max_bytes && (n = ::recv(client, piece, sizeof piece, 0)) > 0;)
+      answer.append(piece, static_cast<std::size_t>(n));
+    ::close(client);
+    return answer;
+  }
+  [[nodiscard]] std::string get(const std::string& target) const {
+    return ask("GET " + target, "X-Cairn-Token: " + token_ + "\r\n", "");
+  }
+  [[nodiscard]] std::string post(const std::string& target, const std::string& body) const {
+    return ask("POST " + target, "Content-Type: application/json\r\nX-Cairn-Token: " + token_ + "\r\n", body);
+  }
+  static json body_of(const std::string& answer) { return json::parse(answer.substr(answer.find("\r\n\r\n") + 4)); }
+
+  const fs::path folder_ = fresh_folder("view_of_a_run");
+  const fs::path out_ = folder_ / "out";
+  std::string host_;
+  std::uint16_t port_ = 0;
+  std::string token_;
+};
+
+TEST_F(ViewOfARun, OnlyWatchesUnlessItMaySteer) {
+  Conversation run(run_with({"--view"}));
+  read_address(run);
+  EXPECT_EQ(body_of(get("/api/view")), json::parse(R"({"kind": "live", "control": false, "name": "out"})"));
+  const std::string refused = post("/api/run/cancel", "{}");
+  EXPECT_TRUE(refused.starts_with("HTTP/1.1 403")) << refused;
+  EXPECT_THAT(refused, HasSubstr("--control"));
+  EXPECT_TRUE(get("/api/run/cancel").starts_with("HTTP/1.1 405"));
+
+  const std::string upgrade =
+      "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
+  const std::string protocol = "Sec-WebSocket-Protocol: cairn.view.1, token.";
+  EXPECT_TRUE(ask("GET /live", upgrade, "").starts_with("HTTP/1.1 401"));
+  EXPECT_TRUE(ask("GET /live", upgrade + protocol + std::string(32, 'a') + "\r\n", "").starts_with("HTTP/1.1 401"));
+  EXPECT_TRUE(ask("GET /live", upgrade + protocol + token_ + "\r\nOrigin: http://evil.example\r\n", "")
+                  .starts_with("HTTP/1.1 403"));
+  const std::string stream = ask("GET /live", upgrade + protocol + token_ + "\r\n", "", 3000);
+  EXPECT_TRUE(stream.starts_with("HTTP/1.1 101")) << stream;
+  EXPECT_THAT(stream, HasSubstr("Sec-WebSocket-Protocol: cairn.view.1\r\n"));
+  EXPECT_THAT(stream, HasSubstr(R"({"ok":true,"watch":1,"mission":"held")"));
+  EXPECT_THAT(stream, HasSubstr(R"("afresh":true)"));
+  run.send(SIGTERM);
+  EXPECT_EQ(run.exit_status(), 1);
+}
+
+TEST_F(ViewOfARun, SteersAsTheCommandLineDoes) {
+  Conversation run(run_with({"--view", "--control"}));
+  read_address(run);
+  EXPECT_EQ(body_of(post("/api/run/pause", "{}"))["state"], "paused");
+  EXPECT_EQ(body_of(post("/api/run/resume", "{}"))["state"], "running");
+  const json order = body_of(post("/api/run/order", R"({"goto": [1, 2]})"));
+  EXPECT_EQ(order["taken"], false);
+  EXPECT_NE(order["reason"], "");
+  EXPECT_TRUE(post("/api/run/order", R"({"gota": [1, 2]})").starts_with("HTTP/1.1 400"));
+  EXPECT_TRUE(post("/api/run/status", "{}").starts_with("HTTP/1.1 404"));
+  EXPECT_EQ(body_of(post("/api/run/cancel", "{}"))["outcome"], "cancelled");
+  EXPECT_EQ(run.exit_status(), 1);
+}
+
+TEST_F(ViewOfARun, OutlivesTheRunWhenItIsOnItsOwn) {
+  Conversation run(run_with({"--json"}));
+  for (int i = 0; i < 2000 && !fs::exists(out_ / "control.sock"); ++i) ::usleep(5000);
+  Conversation view({"view", out_.string(), "--control"});
+  read_address(view);
+  EXPECT_EQ(body_of(get("/api/view"))["kind"], "live");
+  EXPECT_EQ(body_of(post("/api/run/cancel", "{}"))["outcome"], "cancelled");
+  EXPECT_EQ(run.exit_status(), 1);
+  EXPECT_EQ(body_of(get("/api/view"))["kind"], "run");
+  EXPECT_EQ(body_of(get("/api/report"))["outcome"], "cancelled");
+  EXPECT_FALSE(body_of(get("/api/track"))["poses"].empty());
+  EXPECT_EQ(body_of(get("/api/map"))["name"], "held.cairn");
+  EXPECT_TRUE(post("/api/run/pause", "{}").starts_with("HTTP/1.1 409"));
+  view.send(SIGTERM);
+  EXPECT_EQ(view.exit_status(), 0);
+}
+
+}  // namespace
+}  // namespace cairn::testing_program
