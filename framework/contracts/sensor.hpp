@@ -8,6 +8,7 @@
 namespace cairn {
 
 class GroundTruthSource;
+class MissionDisplay;
 struct World;
 
 // The wheels. They stop by themselves: a command counts for a time only, so that a robot stands whose software hangs or
@@ -35,6 +36,9 @@ class Sensor {
   [[nodiscard]] virtual std::optional<Pose2> start() const { return std::nullopt; }
   // Where it really is, for reports (framework/contracts/ground_truth.hpp); null when the source never knows.
   [[nodiscard]] virtual const GroundTruthSource* truth() const { return nullptr; }
+  // Where it shows the mission to people (framework/contracts/mission_display.hpp); null when it cannot. Part of the
+  // sensor.
+  [[nodiscard]] virtual MissionDisplay* display() { return nullptr; }
 };
 
 struct SensorContext : ModuleContext {

@@ -1,11 +1,16 @@
 // The way to one kind of base: a serial protocol, a network. What all live robots share is in live_robot.hpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/contracts/budget.hpp"
 #include "framework/contracts/observation.hpp"
+
+namespace cairn {
+class MissionDisplay;
+}
 
 namespace cairn::live {
 
@@ -23,6 +28,11 @@ class BaseLink {
   // Adds what has come, in order of time, stamped by now_s(); waits for it a short time, 20 ms at most. False: the
   // other end is gone. Throws std::runtime_error with what came that makes no sense.
   [[nodiscard]] virtual bool receive(std::vector<Observation>& seen) = 0;
+
+  // Where the robot begins in the map frame, when the other end says so; may wait for that. Throws std::runtime_error.
+  [[nodiscard]] virtual std::optional<Pose2> start() { return std::nullopt; }
+  // Where the mission is shown; null: nowhere. A part of the link; by the same thread.
+  [[nodiscard]] virtual MissionDisplay* display() { return nullptr; }
 
   // By the thread that sends, while connected, beside receive(). ---------------------------------------------------
   virtual void send(const Twist& twist) noexcept = 0;

@@ -40,6 +40,8 @@ class LiveRobot final : public Sensor, public Drive {
   // A call that its budget ends is a fault that says so, and the next one goes on.
   SensorStep next(const Budget& budget) override;
   Drive* drive() override { return this; }
+  [[nodiscard]] std::optional<Pose2> start() const override { return link_->start(); }
+  MissionDisplay* display() override { return link_->display(); }
 
   // Throws std::invalid_argument when not finite.
   void command(const Twist& twist, double valid_for_s) override;

@@ -158,9 +158,9 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
 
 std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
                                            const LocalizerStart& start) {
-  return build<Localizer>(library, mission.config.localizer,
-                          {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes,
-                           start.uncertainty});
+  return build<Localizer>(
+      library, mission.config.localizer,
+      {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes, start.uncertainty});
 }
 
 std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
@@ -188,8 +188,10 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   }
   built.sensor = build_sensor(mission, library, built, cancel);
   check_has_steps(config, mission.steps, *built.sensor);
-  const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
-  if (start) built.T_map_start = *start;
+  if (resume == nullptr && !start_known) {
+    const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
+    if (start) built.T_map_start = *start;
+  }
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
   if (start_known) built.T_map_start = start_known->T_map_start;
   built.localizer = build_localizer(mission, library, start_known.value_or(LocalizerStart{built.T_map_start, {}}));

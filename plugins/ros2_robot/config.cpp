@@ -34,6 +34,27 @@ void CommandTopic::describe(Fields<CommandTopic>& fields) {
   fields.text("frame", &CommandTopic::frame, "frame_id of a TwistStamped");
 }
 
+void ShownTopics::describe(Fields<ShownTopics>& fields) {
+  fields.text("map", &ShownTopics::map, "nav_msgs/OccupancyGrid; empty: not shown");
+  fields.text("pose", &ShownTopics::pose, "geometry_msgs/PoseWithCovarianceStamped; empty: not shown");
+  fields.text("plan", &ShownTopics::plan, "nav_msgs/Path that is being driven; empty: not shown");
+  fields.text("landmarks", &ShownTopics::landmarks, "visualization_msgs/MarkerArray; empty: not shown");
+  fields.text("diagnostics", &ShownTopics::diagnostics,
+              "diagnostic_msgs/DiagnosticArray, once a second; empty: not shown");
+  fields.flag("tf", &ShownTopics::tf,
+              "publishes where the odometry's frame is in the map on /tf: only when nobody else does");
+  fields.number("map_every_s", &ShownTopics::map_every_s, {0.5, 600.0}, "s",
+                "a map that has changed is not sent more often");
+  fields.text("map_frame", &ShownTopics::map_frame, "frame_id of all that is shown, and of goals");
+}
+
+void InitialPoseTopic::describe(Fields<InitialPoseTopic>& fields) {
+  fields.text("topic", &InitialPoseTopic::topic,
+              "geometry_msgs/PoseWithCovarianceStamped where the robot begins, as /initialpose; empty: as the mission "
+              "says");
+  fields.number("wait_s", &InitialPoseTopic::wait_s, {1.0, 3600.0}, "s", "a mission without it by then does not begin");
+}
+
 void Config::describe(Fields<Config>& fields) {
   fields.integer("domain", &Config::domain, {0, 232}, "as ROS_DOMAIN_ID");
   fields.choice("network", &Config::network, {{"any", Network::any}, {"localhost", Network::localhost}},
@@ -57,6 +78,10 @@ void Config::describe(Fields<Config>& fields) {
   fields.choice("stamp", &Config::stamp, {{"header", Stamp::header}, {"arrival", Stamp::arrival}},
                 "whose time counts: the messages' or when they came");
   fields.group("command", &Config::command, "velocities");
+  fields.group("show", &Config::show, "topics that show the mission to people");
+  fields.text("goal", &Config::goal,
+              "geometry_msgs/PoseStamped, as /goal_pose: orders for a mission that awaits them; empty: none");
+  fields.group("initial_pose", &Config::initial_pose, "a start that people give");
   fields.group("stop_when", &Config::stop_when, "when the wheels stop by themselves");
 }
 

@@ -41,6 +41,27 @@ struct CommandTopic {
   static void describe(Fields<CommandTopic>& fields);
 };
 
+// Where the mission is shown; an empty name: it is not.
+struct ShownTopics {
+  std::string map = "/cairn/map";
+  std::string pose = "/cairn/pose";
+  std::string plan = "/cairn/plan";
+  std::string landmarks = "/cairn/landmarks";
+  std::string diagnostics = "/diagnostics";
+  bool tf = false;
+  double map_every_s = 3.0;
+  std::string map_frame = "map";
+
+  static void describe(Fields<ShownTopics>& fields);
+};
+
+struct InitialPoseTopic {
+  std::string topic;  // empty: the mission says where the robot begins
+  double wait_s = 60.0;
+
+  static void describe(Fields<InitialPoseTopic>& fields);
+};
+
 struct Config {
   int domain = 0;
   Network network = Network::any;
@@ -58,6 +79,9 @@ struct Config {
   Mounting mounting = Mounting::agree;
   Stamp stamp = Stamp::header;
   CommandTopic command;
+  ShownTopics show;
+  std::string goal;  // empty: none
+  InitialPoseTopic initial_pose;
   live::LiveRules stop_when;
 
   static void describe(Fields<Config>& fields);

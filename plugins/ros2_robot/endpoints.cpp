@@ -7,6 +7,7 @@ namespace {
 
 constexpr int kKept = 50;  // messages of a reader
 constexpr int kMaxEndpoints = 512;
+constexpr dds_duration_t kBlockFor = DDS_MSECS(20);
 
 [[noreturn]] void fail(const std::string& what, dds_return_t error) {
   throw std::runtime_error(what + ": " + dds_strretcode(error));
@@ -88,32 +89,41 @@ Participant::Participant(const NetworkChoice& network) {
                           "ros2_robot: no list of publishers");
 }
 
-Entity Participant::reader(const std::string& topic, const dds_topic_descriptor_t& type) const {
-  const dds_entity_t of = dds_create_topic(participant_.get(), &type, dds_name_of(topic).c_str(), nullptr, nullptr);
-  if (of < 0) fail("ros2_robot: topic " + topic, of);
-  const Qos qos;
-  dds_qset_reliability(qos.qos, DDS_RELIABILITY_BEST_EFFORT, 0);
-  dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, kKept);
-  return checked(dds_create_reader(participant_.get(), of, qos.qos, nullptr), "ros2_robot: no reader of " + topic);
+Entity Participant::topic(const std::string& name, const dds_topic_descriptor_t& type) const {
+  return checked(dds_create_topic(participant_.get(), &type, dds_name_of(name).c_str(), nullptr, nullptr),
+                 "ros2_robot: topic " + name);
 }
 
-Entity Participant::latched_reader(const std::string& topic, const dds_topic_descriptor_t& type) const {
-  const dds_entity_t of = dds_create_topic(participant_.get(), &type, dds_name_of(topic).c_str(), nullptr, nullptr);
-  if (of < 0) fail("ros2_robot: topic " + topic, of);
+Entity Participant::reader(const std::string& name, const dds_topic_descriptor_t& type, Reading reading) const {
   const Qos qos;
-  dds_qset_reliability(qos.qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(20));
-  dds_qset_durability(qos.qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  if (reading == Reading::best_effort)
+    dds_qset_reliability(qos.qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+  else
+    dds_qset_reliability(qos.qos, DDS_RELIABILITY_RELIABLE, kBlockFor);
+  if (reading == Reading::latched) dds_qset_durability(qos.qos, DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, kKept);
-  return checked(dds_create_reader(participant_.get(), of, qos.qos, nullptr), "ros2_robot: no reader of " + topic);
+  Entity of = topic(name, type);
+  return checked(dds_create_reader(participant_.get(), of.release(), qos.qos, nullptr),
+                 "ros2_robot: no reader of " + name);
 }
 
-Entity Participant::writer(const std::string& topic, const dds_topic_descriptor_t& type) const {
-  const dds_entity_t of = dds_create_topic(participant_.get(), &type, dds_name_of(topic).c_str(), nullptr, nullptr);
-  if (of < 0) fail("ros2_robot: topic " + topic, of);
+Entity Participant::writer(const std::string& name, const dds_topic_descriptor_t& type, Writing writing) const {
   const Qos qos;
-  dds_qset_reliability(qos.qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(20));
+  dds_qset_reliability(qos.qos, DDS_RELIABILITY_RELIABLE, kBlockFor);
   dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, 1);
-  return checked(dds_create_writer(participant_.get(), of, qos.qos, nullptr), "ros2_robot: no writer of " + topic);
+  if (writing == Writing::latched) {
+    dds_qset_durability(qos.qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_qset_durability_service(qos.qos, 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
+                                DDS_LENGTH_UNLIMITED);
+  }
+  Entity of = topic(name, type);
+  return checked(dds_create_writer(participant_.get(), of.release(), qos.qos, nullptr),
+                 "ros2_robot: no writer of " + name);
+}
+
+bool is_read(const Entity& writer) {
+  dds_publication_matched_status_t matched{};
+  return writer && dds_get_publication_matched_status(writer.get(), &matched) == 0 && matched.current_count > 0;
 }
 
 std::vector<Endpoint> Participant::publishers() const {

@@ -24,6 +24,8 @@ class Entity {
   }
   [[nodiscard]] dds_entity_t get() const { return handle_; }
   [[nodiscard]] explicit operator bool() const { return handle_ > 0; }
+  // It is deleted with its parent from now on.
+  [[nodiscard]] dds_entity_t release() { return std::exchange(handle_, 0); }
 
  private:
   dds_entity_t handle_;
@@ -42,26 +44,37 @@ struct Endpoint {
   std::string type;   // sensor_msgs/msg/LaserScan
 };
 
+// best_effort fits whatever is offered; reliable is for what is said once; latched is also what was written before the
+// reader was there, as /tf_static.
+enum class Reading { best_effort, reliable, latched };
+// latched: the last message is for those, too, who come later.
+enum class Writing { passing, latched };
+
 class Participant {
  public:
   // Throws std::runtime_error with DDS's reason.
   explicit Participant(const NetworkChoice& network);
 
-  // Reads best effort: that fits whatever is offered. Throws std::runtime_error.
-  [[nodiscard]] Entity reader(const std::string& topic, const dds_topic_descriptor_t& type) const;
-  // Also what was written before it was there (reliable, transient local), as /tf_static. Throws std::runtime_error.
-  [[nodiscard]] Entity latched_reader(const std::string& topic, const dds_topic_descriptor_t& type) const;
-  // Writes reliably: that fits whatever is wanted. Throws std::runtime_error.
-  [[nodiscard]] Entity writer(const std::string& topic, const dds_topic_descriptor_t& type) const;
+  // Throw std::runtime_error.
+  [[nodiscard]] Entity reader(const std::string& name, const dds_topic_descriptor_t& type,
+                              Reading reading = Reading::best_effort) const;
+  // Writes reliably: that fits whatever is wanted.
+  [[nodiscard]] Entity writer(const std::string& name, const dds_topic_descriptor_t& type,
+                              Writing writing = Writing::passing) const;
 
   // Of others, as known now.
   [[nodiscard]] std::vector<Endpoint> publishers() const;
 
  private:
+  [[nodiscard]] Entity topic(const std::string& name, const dds_topic_descriptor_t& type) const;
+
   Entity domain_;
   Entity participant_;
   Entity publications_;
 };
+
+// Somebody has subscribed to what it writes.
+[[nodiscard]] bool is_read(const Entity& writer);
 
 // Samples that DDS has lent, which go back to it whatever happens.
 class Loan {

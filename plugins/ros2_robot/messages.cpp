@@ -68,7 +68,11 @@ std::optional<double> heading_rad(const geometry_msgs_msg_dds__Quaternion_& q) {
 }
 
 std::optional<Pose2> pose_of(const Odometry& odometry) {
-  const auto& [position, orientation] = odometry.pose.pose;
+  return pose_of(odometry.pose.pose);
+}
+
+std::optional<Pose2> pose_of(const geometry_msgs_msg_dds__Pose_& pose) {
+  const auto& [position, orientation] = pose;
   const std::optional<double> heading = heading_rad(orientation);
   if (!heading || !std::isfinite(position.x) || !std::isfinite(position.y)) return std::nullopt;
   return Pose2{position.x, position.y, *heading};

@@ -23,6 +23,13 @@ using TFMessage = tf2_msgs_msg_dds__TFMessage_;
 using Imu = sensor_msgs_msg_dds__Imu_;
 using BatteryState = sensor_msgs_msg_dds__BatteryState_;
 using TwistMessage = geometry_msgs_msg_dds__Twist_;
+using PoseStamped = geometry_msgs_msg_dds__PoseStamped_;
+using PoseWithCovarianceStamped = geometry_msgs_msg_dds__PoseWithCovarianceStamped_;
+using OccupancyGridMessage = nav_msgs_msg_dds__OccupancyGrid_;
+using Path = nav_msgs_msg_dds__Path_;
+using Marker = visualization_msgs_msg_dds__Marker_;
+using MarkerArray = visualization_msgs_msg_dds__MarkerArray_;
+using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
 using TwistStamped = geometry_msgs_msg_dds__TwistStamped_;
 
 [[nodiscard]] double seconds_of(const Time& time);
@@ -31,6 +38,7 @@ using TwistStamped = geometry_msgs_msg_dds__TwistStamped_;
 [[nodiscard]] std::optional<double> heading_rad(const geometry_msgs_msg_dds__Quaternion_& orientation);
 // None when it is not finite.
 [[nodiscard]] std::optional<Pose2> pose_of(const Odometry& odometry);
+[[nodiscard]] std::optional<Pose2> pose_of(const geometry_msgs_msg_dds__Pose_& pose);
 // A compass's heading; none when the message says that it has no orientation.
 [[nodiscard]] std::optional<double> compass_rad(const Imu& imu, double offset_rad);
 // The same of the field that a level robot measures; none when it has no direction.

@@ -10,8 +10,8 @@ void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Sensor, ros2_robot::Config>(
       "ros2_robot", "drives a robot on a ROS 2 network, without ROS on this computer",
       [](const ros2_robot::Config& config, const cairn::SensorContext& context) {
-        return std::make_unique<cairn::live::LiveRobot>(ros2_robot::link_to(config, context.robot), config.stop_when,
-                                                        context.robot);
+        return std::make_unique<cairn::live::LiveRobot>(ros2_robot::link_to(config, context.robot, context.budget),
+                                                        config.stop_when, context.robot);
       });
 }
 

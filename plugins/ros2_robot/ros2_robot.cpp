@@ -4,8 +4,8 @@
 
 namespace cairn::ros2_robot {
 
-std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot) {
-  return std::make_unique<RosLink>(config, robot);
+std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot, const Budget& budget) {
+  return std::make_unique<RosLink>(config, robot, budget);
 }
 
 }  // namespace cairn::ros2_robot

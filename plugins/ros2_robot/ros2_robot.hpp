@@ -9,7 +9,8 @@
 
 namespace cairn::ros2_robot {
 
-// Throws std::invalid_argument with a setting that cannot be.
-[[nodiscard]] std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot);
+// Throws std::invalid_argument with a setting that cannot be. The budget is of waiting for a pose to begin at.
+[[nodiscard]] std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot,
+                                                      const Budget& budget = {});
 
 }  // namespace cairn::ros2_robot

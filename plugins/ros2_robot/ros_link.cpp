@@ -11,6 +11,7 @@
 
 #include "framework/live/steady_time.hpp"
 #include "maps/base/spelling.hpp"
+#include "plugins/ros2_robot/settings_check.hpp"
 
 namespace cairn::ros2_robot {
 namespace {
@@ -19,64 +20,47 @@ constexpr double kFindWithin_s = 2.0;
 constexpr std::chrono::milliseconds kLookEvery(5);
 constexpr std::chrono::milliseconds kReceiveWithin(20);
 constexpr double kLookWhoListensEvery_s = 0.5;
-constexpr double kMaxReadingAge_s = 1.0;
-constexpr double kMaxReadingAhead_s = 0.3;  // of the odometry; it waits for the next
 constexpr double kTwoPublishersWithin_s = 1.0;
-constexpr std::size_t kMaxHeard = 20000;
 constexpr std::size_t kMaxListed = 8;
 
 double wall_clock_s() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-const dds_topic_descriptor_t& type_of(RangeKind kind) {
-  switch (kind) {
-    case RangeKind::range:
-      return sensor_msgs_msg_dds__Range__desc;
-    case RangeKind::laser:
-      return sensor_msgs_msg_dds__LaserScan__desc;
-    case RangeKind::point_cloud:
-      return sensor_msgs_msg_dds__PointCloud__desc;
-    case RangeKind::point_cloud2:
-      break;
-  }
-  return sensor_msgs_msg_dds__PointCloud2__desc;
-}
-
-void check_topic(const char* key, const std::string& topic, bool may_be_empty) {
-  if (topic.empty() && may_be_empty) return;
-  if (!topic.starts_with('/') || topic.ends_with('/'))
-    throw std::invalid_argument(
-        fmt::format("ros2_robot: `{}` is \"{}\"; a topic is given by its full name, as /scan", key, topic));
-}
-
 }  // namespace
 
-RosLink::RosLink(const Config& config, const RobotModel& robot)
-    : config_(config), robot_(robot), places_(config), continuity_(robot_) {
-  check_topic("odometry", config.odometry, false);
-  check_topic("command.topic", config.command.topic, false);
-  check_topic("compass.topic", config.compass.topic, true);
-  check_topic("battery", config.battery, true);
-  check_topic("emergency", config.emergency, true);
-  check_topic("static_frames", config.static_frames, true);
-  for (const std::string& bumper : config.bumpers) check_topic("bumpers", bumper, false);
-  if (config.mounting == Mounting::frames && config.static_frames.empty())
-    throw std::invalid_argument("ros2_robot: `mounting: frames` needs `static_frames`, which is empty");
-  if (config.ranges.empty()) throw std::invalid_argument("ros2_robot: `ranges` names no topic: what does it see by?");
-  for (const RangeTopic& range : config_.ranges) {
-    check_topic("ranges.topic", range.topic, false);
-    const bool is_laser = range.kind == RangeKind::laser;
-    const std::size_t known = is_laser ? robot.lasers.size() : robot.sonars.size();
-    const std::size_t wanted = static_cast<std::size_t>(range.first) + std::max<std::size_t>(1, range.frames.size());
-    if (wanted > known)
-      throw std::invalid_argument(fmt::format("ros2_robot: {} is of {} {}, and the robot's file has {}", range.topic,
-                                              is_laser ? "laser" : "sonar", wanted - 1, known));
-  }
+RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& budget)
+    : config_(config),
+      robot_(robot),
+      budget_(budget),
+      ranges_(config_, robot_),
+      places_(config),
+      continuity_(robot_),
+      display_(config_.show, config_.goal) {
+  check_settings(config, robot);
 }
 
 std::string RosLink::name() const {
   return fmt::format("the robot in ROS domain {}", config_.domain);
+}
+
+// Whoever gives the pose has found this participant by then, or gives it again.
+std::optional<Pose2> RosLink::start() {
+  const InitialPoseTopic& initial = config_.initial_pose;
+  if (initial.topic.empty()) return std::nullopt;
+  if (!participant_) make_endpoints();
+  const Entity reader =
+      participant_->reader(initial.topic, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, Reading::reliable);
+  std::optional<Pose2> given;
+  for (const double until_s = live::now_s() + initial.wait_s; !given && live::now_s() < until_s && !budget_.cancelled();
+       std::this_thread::sleep_for(kLookEvery))
+    take_all<PoseWithCovarianceStamped>(reader.get(), [&](const PoseWithCovarianceStamped& pose) {
+      if (is_in_frame(pose.header, config_.show.map_frame)) given = pose_of(pose.pose.pose);
+    });
+  if (!given)
+    throw std::runtime_error(fmt::format("nobody has given a pose on {} in the frame {} for {:g} s", initial.topic,
+                                         config_.show.map_frame, initial.wait_s));
+  return given;
 }
 
 bool RosLink::connect(const Budget& budget, std::string& why) {
@@ -98,28 +82,28 @@ bool RosLink::connect(const Budget& budget, std::string& why) {
 
 // Nothing is deleted: who was there may come back, and discovery takes seconds.
 void RosLink::disconnect() {
-  heard_.clear();
+  ranges_.clear();
 }
 
 void RosLink::make_endpoints() {
   participant_.emplace(
       NetworkChoice{config_.domain, config_.network == Network::localhost, config_.interface, config_.peers});
   odometry_ = participant_->reader(config_.odometry, nav_msgs_msg_dds__Odometry__desc);
-  for (const RangeTopic& range : config_.ranges)
-    ranges_.push_back({&range, participant_->reader(range.topic, type_of(range.kind))});
+  ranges_.open(*participant_);
   const CompassTopic& compass = config_.compass;
   if (!compass.topic.empty())
     compass_ = participant_->reader(compass.topic, compass.kind == CompassKind::imu
                                                        ? sensor_msgs_msg_dds__Imu__desc
                                                        : sensor_msgs_msg_dds__MagneticField__desc);
   if (!config_.static_frames.empty())
-    static_frames_ = participant_->latched_reader(config_.static_frames, tf2_msgs_msg_dds__TFMessage__desc);
+    static_frames_ = participant_->reader(config_.static_frames, tf2_msgs_msg_dds__TFMessage__desc, Reading::latched);
   for (const std::string& bumper : config_.bumpers)
     bumpers_.push_back(participant_->reader(bumper, std_msgs_msg_dds__Bool__desc));
   bumped_.assign(bumpers_.size(), 0);
   if (!config_.battery.empty())
     battery_ = participant_->reader(config_.battery, sensor_msgs_msg_dds__BatteryState__desc);
   if (!config_.emergency.empty()) emergency_ = participant_->reader(config_.emergency, std_msgs_msg_dds__Bool__desc);
+  display_.open(*participant_);
   const CommandTopic& command = config_.command;
   if (command.kind != CommandKind::twist_stamped)
     twist_ = participant_->writer(command.topic, geometry_msgs_msg_dds__Twist__desc);
@@ -132,12 +116,8 @@ void RosLink::choose_command_type() {
   const double now_s = live::now_s();
   if (now_s - looked_s_ < kLookWhoListensEvery_s) return;
   looked_s_ = now_s;
-  const auto listens = [](const Entity& writer) {
-    dds_publication_matched_status_t matched{};
-    return writer && dds_get_publication_matched_status(writer.get(), &matched) == 0 && matched.current_count > 0;
-  };
-  sends_twist_ = listens(twist_);
-  sends_stamped_ = listens(twist_stamped_);
+  sends_twist_ = is_read(twist_);
+  sends_stamped_ = is_read(twist_stamped_);
 }
 
 std::string RosLink::nobody_there() const {
@@ -167,85 +147,13 @@ bool RosLink::receive(std::vector<Observation>& seen) {
   do {
     if (static_frames_)
       take_all<TFMessage>(static_frames_.get(), [this](const TFMessage& frames) { places_.add(frames); });
-    for (const RangeReader& from : ranges_) take_ranges(from);
+    ranges_.take(places_);
     take_others();
     take_odometry(seen);
     if (!seen.empty()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   } while (std::chrono::steady_clock::now() < until);
   return true;
-}
-
-double RosLink::stamp_s(const Header& header, double arrived_s) const {
-  return config_.stamp == Stamp::header ? seconds_of(header.stamp) : arrived_s;
-}
-
-int RosLink::sonar_of(const RangeTopic& topic, const std::string& frame) const {
-  if (topic.frames.empty()) return topic.first;
-  const auto found = std::ranges::find(topic.frames, frame);
-  if (found == topic.frames.end())
-    throw std::runtime_error(fmt::format("{} has the frame \"{}\", and `frames` does not{}", topic.topic, frame,
-                                         did_you_mean(frame, topic.frames)));
-  return topic.first + static_cast<int>(found - topic.frames.begin());
-}
-
-void RosLink::take_ranges(const RangeReader& from) {
-  const double arrived_s = live::now_s();
-  const RangeTopic& topic = *from.topic;
-  const dds_entity_t reader = from.reader.get();
-  const auto take_cloud = [&](const auto& cloud) {
-    try {
-      take_points(topic, cloud.header, points_of(cloud), arrived_s);
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(topic.topic + ": " + error.what());
-    }
-  };
-  if (topic.kind == RangeKind::range)
-    take_all<Range>(reader, [&](const Range& range) { take_range(topic, range, arrived_s); });
-  else if (topic.kind == RangeKind::laser)
-    take_all<LaserScan>(reader, [&](const LaserScan& scan) { take_scan(topic, scan, arrived_s); });
-  else if (topic.kind == RangeKind::point_cloud)
-    take_all<PointCloud>(reader, take_cloud);
-  else
-    take_all<PointCloud2>(reader, take_cloud);
-  if (heard_.size() > kMaxHeard) heard_.erase(heard_.begin(), heard_.end() - kMaxHeard);
-}
-
-void RosLink::take_range(const RangeTopic& topic, const Range& range, double arrived_s) {
-  const int number = sonar_of(topic, range.header.frame_id);
-  SonarModel sonar = robot_.sonars[static_cast<std::size_t>(number)];
-  const auto place = places_.of_sensor(range.header.frame_id, sonar.T_robot_sonar, arrived_s);
-  if (!place) return;
-  sonar.T_robot_sonar = place->T_base_sensor;
-  heard_.push_back({stamp_s(range.header, arrived_s), reading_of(range, sonar, number, config_.no_echo_from_m)});
-}
-
-void RosLink::take_scan(const RangeTopic& topic, const LaserScan& scan, double arrived_s) {
-  const auto number = static_cast<std::size_t>(topic.first);
-  LaserModel laser = robot_.lasers[number];
-  const auto place = places_.of_sensor(scan.header.frame_id, laser.T_robot_laser, arrived_s);
-  if (!place) return;
-  laser.T_robot_laser = place->T_base_sensor;
-  for (const RangeReading& reading :
-       readings_of(scan, laser, first_beam_of(robot_, number), config_.no_echo_from_m, place->is_upside_down))
-    heard_.push_back({stamp_s(scan.header, arrived_s), reading});
-}
-
-void RosLink::take_points(const RangeTopic& topic, const Header& header, const std::vector<Point>& points_m,
-                          double arrived_s) {
-  const std::size_t known = robot_.sonars.size() - static_cast<std::size_t>(topic.first);
-  if (points_m.size() > known)
-    throw std::runtime_error(fmt::format("has {} points, and the robot's file {} sonars from number {} on",
-                                         points_m.size(), known, topic.first));
-  const auto place = places_.of_frame(header.frame_id, arrived_s);
-  if (!place) return;
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    const int number = topic.first + static_cast<int>(i);
-    const Point seen_m(points_m[i].x(), place->is_upside_down ? -points_m[i].y() : points_m[i].y());
-    heard_.push_back({stamp_s(header, arrived_s),
-                      reading_of(place->T_base_sensor * seen_m, robot_.sonars[static_cast<std::size_t>(number)], number,
-                                 config_.no_echo_from_m)});
-  }
 }
 
 void RosLink::take_others() {
@@ -291,23 +199,15 @@ void RosLink::observe(const Odometry& odometry, double arrived_s, std::vector<Ob
   const std::optional<Pose2> pose = pose_of(odometry);
   if (!pose) return;
   Observation observation;
-  observation.stamp_s = stamp_s(odometry.header, arrived_s);
+  observation.stamp_s = stamp_s(config_, odometry.header, arrived_s);
   observation.T_odom_robot = *pose;
   observation.compass_rad = std::exchange(compass_rad_, std::nullopt);
   observation.battery_ratio = battery_ratio_;
   observation.bumped = std::ranges::find(bumped_, 1) != bumped_.end();
   base_ahead_s_ = seconds_of(odometry.header.stamp) - arrived_s;
   poses_.add(observation.stamp_s, *pose);
-  std::vector<HeardRange> ahead;
-  for (HeardRange& heard : heard_) {
-    const double age_s = observation.stamp_s - heard.stamp_s;
-    if (age_s < 0.0 && age_s >= -kMaxReadingAhead_s) ahead.push_back(heard);
-    if (age_s < 0.0 || age_s > kMaxReadingAge_s) continue;
-    const Pose2 T_now_then = inverse(*pose) * poses_.at(heard.stamp_s).value_or(*pose);
-    heard.reading.T_robot_sensor = T_now_then * heard.reading.T_robot_sensor;
-    observation.ranges.push_back(heard.reading);
-  }
-  heard_ = std::move(ahead);
+  display_.observed(odometry.header, *pose);
+  observation.ranges = ranges_.seen_from(observation.stamp_s, *pose, poses_);
   seen.push_back(continuity_.continued(std::move(observation), arrived_s));
 }
 

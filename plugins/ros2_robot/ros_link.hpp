@@ -11,23 +11,28 @@
 #include "framework/live/base_link.hpp"
 #include "framework/live/continuity.hpp"
 #include "plugins/ros2_robot/config.hpp"
+#include "plugins/ros2_robot/display_topics.hpp"
 #include "plugins/ros2_robot/endpoints.hpp"
 #include "plugins/ros2_robot/messages.hpp"
 #include "plugins/ros2_robot/pose_history.hpp"
+#include "plugins/ros2_robot/range_topics.hpp"
 #include "plugins/ros2_robot/sensor_places.hpp"
 
 namespace cairn::ros2_robot {
 
 class RosLink final : public live::BaseLink {
  public:
-  // Throws std::invalid_argument with a setting that cannot be.
-  RosLink(const Config& config, const RobotModel& robot);
+  // Throws std::invalid_argument with a setting that cannot be. The budget is of start().
+  RosLink(const Config& config, const RobotModel& robot, const Budget& budget);
 
   [[nodiscard]] std::string name() const override;
   // Until the odometry comes, two seconds at most.
   [[nodiscard]] bool connect(const Budget& budget, std::string& why) override;
   void disconnect() override;
   [[nodiscard]] bool receive(std::vector<Observation>& seen) override;
+  // Waits for it where the settings say so.
+  [[nodiscard]] std::optional<Pose2> start() override;
+  [[nodiscard]] MissionDisplay* display() override { return &display_; }
   void send(const Twist& twist) noexcept override;
   void send_pulse() noexcept override {}
   // DDS cannot be asked from a signal handler: the thread that sends does so within 50 ms. A process that ends by a
@@ -35,26 +40,10 @@ class RosLink final : public live::BaseLink {
   void send_stop() noexcept override {}
 
  private:
-  struct RangeReader {
-    const RangeTopic* topic = nullptr;
-    Entity reader;
-  };
-  struct HeardRange {
-    double stamp_s = 0.0;
-    RangeReading reading;
-  };
   void make_endpoints();
-  void take_ranges(const RangeReader& from);
-  void take_range(const RangeTopic& topic, const Range& range, double arrived_s);
-  void take_scan(const RangeTopic& topic, const LaserScan& scan, double arrived_s);
-  // A point a sonar, in the frame of the header.
-  void take_points(const RangeTopic& topic, const Header& header, const std::vector<Point>& points_m, double arrived_s);
   void take_others();
   void take_odometry(std::vector<Observation>& seen);
   void observe(const Odometry& odometry, double arrived_s, std::vector<Observation>& seen);
-  [[nodiscard]] double stamp_s(const Header& header, double arrived_s) const;
-  // The sonar that a message is of; throws std::runtime_error when the settings do not name it.
-  [[nodiscard]] int sonar_of(const RangeTopic& topic, const std::string& frame) const;
   void choose_command_type();
   [[nodiscard]] std::string nobody_there() const;
   // Throws std::runtime_error when two send the odometry by turns.
@@ -64,6 +53,7 @@ class RosLink final : public live::BaseLink {
 
   Config config_;
   RobotModel robot_;
+  Budget budget_;
   std::optional<Participant> participant_;
   Entity odometry_;
   Entity compass_;
@@ -71,7 +61,7 @@ class RosLink final : public live::BaseLink {
   Entity static_frames_;
   std::vector<Entity> bumpers_;
   Entity emergency_;
-  std::vector<RangeReader> ranges_;
+  RangeTopics ranges_;
   Entity twist_;
   Entity twist_stamped_;
   std::atomic<bool> sends_twist_{false};
@@ -82,13 +72,13 @@ class RosLink final : public live::BaseLink {
   dds_instance_handle_t publisher_before_ = 0;
   double publisher_changed_s_ = 0.0;
   double looked_s_ = 0.0;  // when it last looked who listens
-  std::vector<HeardRange> heard_;
   std::optional<double> compass_rad_;
   std::optional<double> battery_ratio_;
   std::vector<char> bumped_;  // each bumper's last word
   SensorPlaces places_;
   PoseHistory poses_;
   live::Continuity continuity_;
+  DisplayTopics display_;
 };
 
 }  // namespace cairn::ros2_robot

@@ -73,8 +73,7 @@ void MissionLoop::finish() {
       redraw_map();
       world_.pose.T_map_robot = perception_.past().poses().back().T_map_robot;
     }
-    if (ending_.outcome != MissionOutcome::cancelled && world_.grid != nullptr)
-      connect_landmarks();
+    if (ending_.outcome != MissionOutcome::cancelled && world_.grid != nullptr) connect_landmarks();
   } catch (const ModuleFault& fault) {
     add_sentence(ending_.reason, fault.what());
     ending_.outcome = MissionOutcome::module_fault;

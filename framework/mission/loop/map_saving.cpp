@@ -54,8 +54,7 @@ std::string MapSaving::refusal_of(const std::string& file_name) const {
 }
 
 Status MapSaving::save(const std::string& file_name) {
-  if (options_.leaves_map_alone)
-    return {StepState::success, "not saved: this mission leaves its map alone"};
+  if (options_.leaves_map_alone) return {StepState::success, "not saved: this mission leaves its map alone"};
   Status saved = write(file_name);
   if (saved.state != StepState::success && not_saved_.empty()) not_saved_ = saved.reason;
   return saved;

@@ -53,11 +53,13 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
                options.localise_in.has_value()},
               planning_, world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); }),
       orders_(options.control == nullptr ? nullptr : &options.control->orders(), options.orders, options.out),
+      display_(modules_.display),
       steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller,
               perception_.tracker(), orders_},
              modules_.behaviours, TextFiles(options.out, options.resume != nullptr)),
       fatal_ends_(monitor_, modules_.clock) {
   check_orders(options.orders, mission_, library);
+  if (display_) publisher_.subscribe(display_);
   world_.pose.T_map_robot = modules_.T_map_start;
   world_.hierarchies = &planning_.hierarchies();
   world_.speed_law = mission_.config.collision_monitor.speed_law();
@@ -173,6 +175,7 @@ void MissionLoop::tick(Sensed sensed) {
   if (steps.has_ended_step) in(stages.route_joining, [&] { connect_landmarks(); });
   world_.driven = in(stages.collision_monitor, [&] { return monitor_.drive(observation, steps.wanted, expected); });
   publish_driven(cells);
+  show();
   in(stages.run_control, [&] {
     if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   });
@@ -188,6 +191,7 @@ void MissionLoop::take(Sensed sensed) {
 
 StepsTick MissionLoop::tick_steps() {
   if (monitor_.has_drive()) publish_any(pauses_.apply(clock_.paused_s()));
+  publish_all(display_.hand_orders_to(orders_));
   if (pauses_.is_paused()) {
     publish_all(orders_.refuse_all("the mission is paused"));
     return {};
@@ -206,6 +210,15 @@ void MissionLoop::publish_driven(const CellChanges& cells) {
     stalled_stage_ = StageClock::kHost;
   }
   publisher_.publish(TickDone{&cells});
+}
+
+void MissionLoop::show() {
+  if (!display_) return;
+  const auto describe = [this] {
+    const RunStatus now = status();
+    return now.step_name + (now.doing.empty() ? "" : ": " + now.doing);
+  };
+  publish_all(display_.show(world_.view(), world_.driven.commanded, describe));
 }
 
 // All that look on see the old map or the new one, never a part.

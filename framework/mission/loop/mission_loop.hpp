@@ -11,6 +11,7 @@
 #include "framework/mission/clock/pauses.hpp"
 #include "framework/mission/hearing/hearing_record.hpp"
 #include "framework/mission/localisation/self_finder.hpp"
+#include "framework/mission/loop/display_feed.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"
 #include "framework/mission/perception/perception.hpp"
@@ -65,6 +66,7 @@ class MissionLoop {
   void take(Sensed sensed);
   StepsTick tick_steps();
   void publish_driven(const CellChanges& cells);
+  void show();
   // The host's own work, in its stage.
   template <class DoIt>
   auto in(StageClock::Id stage, DoIt&& do_it) -> decltype(do_it()) {
@@ -112,6 +114,7 @@ class MissionLoop {
   Planning planning_;
   MapSaving saving_;
   Orders orders_;
+  DisplayFeed display_;
   Steps steps_;
   std::optional<SelfFinder> finder_;  // while the robot does not know where it is
   Ending ending_;

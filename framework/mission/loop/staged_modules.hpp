@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "framework/contracts/mission_display.hpp"
 #include "framework/mission/modules.hpp"
 #include "framework/modules/staged.hpp"
 
@@ -43,6 +44,7 @@ struct StagedModules {
   Staged<Controller> controller;              // may be none
   std::vector<Staged<Behaviour>> behaviours;  // in the order of behaviours_of()
   StageClock::Id drive = StageClock::kHost;
+  Staged<MissionDisplay> display;  // may be none
   Pose2 T_map_start;
 };
 

@@ -3,8 +3,13 @@
 namespace cairn {
 
 WorldView WorldState::view() const {
-  WorldView world{
-      *grid, known_graph(), robot, pose, time_s, has_observation ? &observation : nullptr, driven.speed_reduction_ratio};
+  WorldView world{*grid,
+                  known_graph(),
+                  robot,
+                  pose,
+                  time_s,
+                  has_observation ? &observation : nullptr,
+                  driven.speed_reduction_ratio};
   world.T_map_start = T_map_start;
   world.hierarchies = is_lost() ? nullptr : hierarchies;
   world.speed_law = speed_law;

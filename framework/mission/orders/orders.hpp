@@ -23,6 +23,8 @@ class Orders {
   // earlier run.
   Orders(OrderInbox* inbox, std::vector<RecordedOrder> played, const std::filesystem::path& out);
 
+  // One that nobody waits for the answer of; of the next tick.
+  void give(Order order) { open_.push_back({std::move(order)}); }
   // A tick of the steps: what has come by now, and what is recorded for it, is handed out until the tick ends.
   void begin_tick(double time_s);
   [[nodiscard]] std::optional<Order> next();
