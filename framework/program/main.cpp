@@ -40,8 +40,9 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_repeatable(sub, "--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)");
   CLI::Option* const resume =
       sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to continue");
-  CLI::Option* const localise_in = sub->add_option(
-      "--localize-in", c->localise_in, "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
+  CLI::Option* const localise_in =
+      sub->add_option("--localize-in", c->localise_in,
+                      "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
   localise_in->excludes(resume);
   sub->add_option("--pose", c->pose, "where the robot is in that map: X,Y,DEGREES")->needs(localise_in);
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
@@ -114,6 +115,8 @@ void add_view(CLI::App& app, CommandLine& line) {
   const auto [sub, c] = add_command(app, line, view, "view", "Look at a saved map in a browser, and plan by clicks");
   sub->add_option("MAP", c->map, "saved map (*.cairn), or the folder of a finished run")->required();
   sub->add_option("--port", c->port, "of 127.0.0.1; 0: a free one")->capture_default_str();
+  add_repeatable(sub, "--allow-origin", c->allowed_origins,
+                 "page elsewhere whose Foxglove viewer may connect, as https://example.org (may be repeated)");
   sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
   add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);
 }

@@ -28,7 +28,7 @@ struct CommonOptions {
 struct RunCommand {
   std::filesystem::path mission;
   std::filesystem::path out = "out";
-  std::filesystem::path resume;  // a saved map to go on from; empty: from the beginning
+  std::filesystem::path resume;       // a saved map to go on from; empty: from the beginning
   std::filesystem::path localise_in;  // a saved map that is left alone; empty: none
   std::string pose;                   // "x,y,degrees" in that map; empty: not known
   std::optional<std::int64_t> seed;
@@ -114,7 +114,8 @@ struct ViewCommand {
   std::filesystem::path map;  // or the folder of a finished run
   std::uint16_t port = 0;     // 0: a free one
   std::string planner = "hybrid";
-  double budget_ms = 10000.0;  // of a plan
+  double budget_ms = 10000.0;                // of a plan
+  std::vector<std::string> allowed_origins;  // of pages elsewhere whose viewers may connect
 };
 // Serves the map to browsers of this machine until Ctrl-C.
 int view(const ViewCommand& command, const CommonOptions& common);

@@ -81,6 +81,13 @@ std::filesystem::path map_of(const std::filesystem::path& named) {
       fmt::format("view: {} holds {} saved maps (*.cairn); name one", named.string(), maps.empty() ? "no" : "several"));
 }
 
+// As the page has it answered.
+std::string planned(const MapApi& api, const std::string& body) {
+  const ViewResponse answer = api.answer({"POST", "/api/plan", "", "", "", "application/json", body});
+  if (answer.status != 200) throw std::runtime_error(answer.body);
+  return answer.body;
+}
+
 }  // namespace
 
 int view(const ViewCommand& command, const CommonOptions& common) {
@@ -92,7 +99,10 @@ int view(const ViewCommand& command, const CommonOptions& common) {
   const MapApi api(command, plan, common);
   const std::string token = new_view_token();
   ViewServer server(command.port, token, [&](const ViewRequest& request) { return api.answer(request); });
-  std::cout << fmt::format("http://127.0.0.1:{}/#t={}\n", server.port(), token) << std::flush;
+  server.offer_foxglove({played_lazily(command.map), [&](const std::string& body) { return planned(api, body); },
+                         command.allowed_origins});
+  std::cout << fmt::format("http://127.0.0.1:{}/#t={}\n", server.port(), token)
+            << fmt::format("Foxglove, Lichtblick: ws://127.0.0.1:{}/?token={}\n", server.port(), token) << std::flush;
   server.run(cancel_on_interrupt());
   return kExitDone;
 }

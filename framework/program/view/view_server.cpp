@@ -1,5 +1,6 @@
 #include "framework/program/view/view_server.hpp"
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
@@ -8,6 +9,8 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include "framework/program/view/foxglove_session.hpp"
 
 namespace cairn {
 namespace {
@@ -59,6 +62,7 @@ struct ViewServer::State {
   asio::steady_timer timer{io};
   std::string token;
   ViewHandler handler;
+  std::optional<FoxgloveOffer> foxglove;
   int clients = 0;
 
   class Session;
@@ -89,7 +93,21 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
   void on_read(beast::error_code error) {
     if (error == http::error::body_limit) return write(view_error(413, "the body is longer than 1 MB"));
     if (error == http::error::header_limit) return write(view_error(431, "the header is longer than 16 kB"));
+    if (!error && state_.foxglove && is_foxglove(parser_.get())) return go_foxglove(parser_.release());
     if (!error) write(state_.answer(view_request_of(parser_.release())));
+  }
+
+  // The connection becomes a WebSocket, which counts as long as it lasts.
+  void go_foxglove(http::request<Text>&& request) {
+    ViewRequest asked = view_request_of(http::request<Text>(request));
+    asked.target = "/api/foxglove";
+    asked.token = foxglove_token_of(request);
+    if (std::ranges::count(state_.foxglove->origins, asked.origin) > 0) asked.origin.clear();
+    if (auto refused = refusal_of(asked, state_.acceptor.local_endpoint().port(), state_.token))
+      return write(std::move(*refused));
+    const std::string why =
+        serve_foxglove(std::move(stream_), std::move(request), *state_.foxglove, shared_from_this());
+    if (!why.empty()) write(view_error(409, why));
   }
 
   void write(ViewResponse&& answer) {
@@ -151,6 +169,10 @@ ViewServer::~ViewServer() = default;
 
 std::uint16_t ViewServer::port() const {
   return state_->acceptor.local_endpoint().port();
+}
+
+void ViewServer::offer_foxglove(FoxgloveOffer offer) {
+  state_->foxglove = std::move(offer);
 }
 
 void ViewServer::run(const std::atomic<bool>& end) {

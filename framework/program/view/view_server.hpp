@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "framework/program/view/foxglove_offer.hpp"
 #include "framework/program/view/view_request.hpp"
 
 namespace cairn {
@@ -24,6 +25,8 @@ class ViewServer {
   ViewServer& operator=(const ViewServer&) = delete;
 
   [[nodiscard]] std::uint16_t port() const;
+  // Before run(): viewers of Foxglove's protocol are served too, by the same thread.
+  void offer_foxglove(FoxgloveOffer offer);
   // Answers until `end`. One thread: a plan that takes long lets others wait.
   void run(const std::atomic<bool>& end);
 
