@@ -22,6 +22,7 @@ namespace ros2 = exchange::ros2;
 using exchange::FoxgloveMessage;
 
 constexpr std::string_view kMapFrame = "map";
+constexpr std::string_view kOdometryFrame = "odom";
 constexpr std::string_view kRobotFrame = "base_link";
 constexpr double kNsPerS = 1e9;
 constexpr int kMaxGridSide = 1024;
@@ -175,6 +176,11 @@ McapRecording::Topics McapRecording::add_topics() {
   topics.ros_pose = ros("/ros/pose", ros2::Message::pose_stamped);
   topics.ros_tf = ros("/tf", ros2::Message::tf);
   topics.ros_map = ros("/ros/map", ros2::Message::occupancy_grid);
+  topics.ros_odometry = ros("/ros/odom", ros2::Message::odometry);
+  topics.ros_range = ros("/ros/range", ros2::Message::range);
+  topics.ros_scan = ros("/ros/scan", ros2::Message::laser_scan);
+  topics.ros_compass = ros("/ros/compass", ros2::Message::imu);
+  topics.ros_static = ros("/tf_static", ros2::Message::tf);
   return topics;
 }
 
@@ -221,6 +227,37 @@ void McapRecording::write_ranges(const Observation& observation) {
     writer_.write(topics_.scan, now_ns_, foxglove::laser_scan(now_ns_, kRobotFrame, *scan));
   else
     writer_.write(topics_.ranges, now_ns_, ranges_text(observation));
+  write_for_ros(observation);
+}
+
+// What a robot with ROS 2 would publish of it, so that its programs, and mcap_log, read the run as that of a robot.
+void McapRecording::write_for_ros(const Observation& observation) {
+  writer_.write(topics_.ros_odometry, now_ns_,
+                ros2::odometry({now_ns_, kOdometryFrame}, kRobotFrame, observation.T_odom_robot));
+  if (observation.compass_rad)
+    writer_.write(topics_.ros_compass, now_ns_, ros2::imu({now_ns_, kRobotFrame}, *observation.compass_rad));
+  if (const auto scan = scan_of(observation.ranges)) {
+    const RangeReading& ray = observation.ranges.front();
+    const std::string frame = frame_of("laser_" + std::to_string(ray.sensor), scan->T_frame_laser);
+    writer_.write(topics_.ros_scan, now_ns_, ros2::laser_scan({now_ns_, frame}, *scan, ray.min_m, ray.max_m));
+    return;
+  }
+  for (const RangeReading& reading : observation.ranges) {
+    const std::string frame = frame_of("sonar_" + std::to_string(reading.sensor), reading.T_robot_sensor);
+    writer_.write(
+        topics_.ros_range, now_ns_,
+        ros2::range({now_ns_, frame}, {reading.half_beam_rad, reading.min_m, reading.max_m, reading.range_m}));
+  }
+}
+
+// That of a sensor; its place is written where it is new.
+std::string McapRecording::frame_of(const std::string& name, const Pose2& T_robot_sensor) {
+  const auto known = frames_.find(name);
+  if (known != frames_.end() && known->second == T_robot_sensor) return name;
+  frames_[name] = T_robot_sensor;
+  const ros2::Transform transform{name, T_robot_sensor};
+  writer_.write(topics_.ros_static, now_ns_, ros2::tf({now_ns_, kRobotFrame}, {&transform, 1}));
+  return name;
 }
 
 // Those of an earlier run that this one goes on from.

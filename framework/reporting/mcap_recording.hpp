@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,11 +32,14 @@ class McapRecording : public Listener {
   struct Topics {
     Ids pose, transform, truth, ranges, scan, map, landmarks, plan, plan_result, tree, log;
     Ids ros_pose, ros_tf, ros_map;
+    Ids ros_odometry, ros_range, ros_scan, ros_compass, ros_static;
   };
 
   [[nodiscard]] Topics add_topics();
   void write_tick(const MissionView& view);
   void write_ranges(const Observation& observation);
+  void write_for_ros(const Observation& observation);
+  [[nodiscard]] std::string frame_of(const std::string& name, const Pose2& T_robot_sensor);
   void write_landmarks(const LandmarkGraph& graph);
   void write_event(const Event& event);
   void write_grid_when_due(const OccupancyGrid& grid, std::uint64_t version);
@@ -49,6 +53,7 @@ class McapRecording : public Listener {
   std::optional<std::uint64_t> next_grid_ns_;
   std::optional<std::uint64_t> grid_version_;
   bool has_landmarks_ = false;
+  std::map<std::string, Pose2> frames_;  // of sensors, that have been written
 };
 
 }  // namespace cairn

@@ -17,6 +17,8 @@ namespace {
 constexpr std::string_view kJson = "json_log";
 constexpr std::string_view kPlayer = "player_log";
 constexpr std::string_view kCarmen = "carmen_log";
+constexpr std::string_view kMcap = "mcap_log";
+constexpr std::string_view kMcapBegin = "\x89MCAP0";
 
 constexpr int kLinesToJudge = 10000;
 
@@ -41,6 +43,7 @@ std::string_view name_of_reader(const std::filesystem::path& file, const Budget&
   std::string_view content;
   try {
     while (text.line_number() < kLinesToJudge && text.next(content)) {
+      if (text.line_number() == 1 && content.starts_with(kMcapBegin)) return kMcap;
       line.cut(content, text.line_number());
       if (line.size() == 0) continue;
       if (line.word(0).front() == '{') return kJson;

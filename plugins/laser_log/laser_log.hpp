@@ -4,6 +4,7 @@
 //   its first line that says so                        read by
 //   { ...                                              json_log
 //   ## Player, or TIME HOST ROBOT INTERFACE ...        player_log
+//   \x89MCAP0                                    mcap_log
 //   FLASER, ROBOTLASER1, LASER_READING, VERTEX2, ...   carmen_log, also when no line says so
 //
 // Odometry is what the log has of it: the raw one beside corrected poses, or the edges of its pose graph. Compressed by

@@ -31,10 +31,11 @@ void SensorPlaces::add(const TFMessage& transforms) {
   }
 }
 
-std::optional<Mounted> SensorPlaces::of_sensor(const std::string& frame, const Pose2& T_robot_sensor, double now_s) {
-  const Mounted by_file{T_robot_sensor, false};
+std::optional<frames::Mounted> SensorPlaces::of_sensor(const std::string& frame, const Pose2& T_robot_sensor,
+                                                       double now_s) {
+  const frames::Mounted by_file{T_robot_sensor, false};
   if (mounting_ == Mounting::file) return by_file;
-  const std::optional<Mounted> by_frames = frames_.find(base_, frame);
+  const std::optional<frames::Mounted> by_frames = frames_.find(base_, frame);
   if (mounting_ == Mounting::frames) {
     if (!by_frames) wait_for(frame, now_s);
     return by_frames;
@@ -46,18 +47,18 @@ std::optional<Mounted> SensorPlaces::of_sensor(const std::string& frame, const P
         "the sensor \"{}\" is at {} from \"{}\" by {}, and at {} by the robot's file; correct the file, or say "
         "`mounting: frames` or `mounting: file`",
         frame, text_of(by_frames->T_base_sensor), base_, topic_, text_of(T_robot_sensor)));
-  return Mounted{T_robot_sensor, by_frames->is_upside_down};
+  return frames::Mounted{T_robot_sensor, by_frames->is_upside_down};
 }
 
-std::optional<Mounted> SensorPlaces::of_frame(const std::string& frame, double now_s) {
-  if (mounting_ == Mounting::file || frame.empty() || frame == base_) return Mounted{};
-  const std::optional<Mounted> found = frames_.find(base_, frame);
+std::optional<frames::Mounted> SensorPlaces::of_frame(const std::string& frame, double now_s) {
+  if (mounting_ == Mounting::file || frame.empty() || frame == base_) return frames::Mounted{};
+  const std::optional<frames::Mounted> found = frames_.find(base_, frame);
   if (!found) wait_for(frame, now_s);
   return found;
 }
 
 void SensorPlaces::wait_for(const std::string& frame, double now_s) {
-  const bool is_one_too_many = waiting_since_s_.size() >= StaticFrames::kMaxFrames;
+  const bool is_one_too_many = waiting_since_s_.size() >= frames::StaticFrames::kMaxFrames;
   const double since_s = waiting_since_s_.try_emplace(frame, now_s).first->second;
   if (now_s - since_s < kKnownWithin_s && !is_one_too_many) return;
   const std::vector<std::string> known = frames_.names();

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "plugins/common/frames/static_frames.hpp"
 #include "plugins/ros2_robot/config.hpp"
 #include "plugins/ros2_robot/messages.hpp"
-#include "plugins/ros2_robot/static_frames.hpp"
 
 namespace cairn::ros2_robot {
 
@@ -23,9 +23,10 @@ class SensorPlaces {
   }
   // Of the sensor of a frame that the robot's file puts there. None: not known yet. now_s: by a clock that does not
   // step. Throws std::runtime_error when file and frames differ, or when the frame has not become known for 5 s.
-  [[nodiscard]] std::optional<Mounted> of_sensor(const std::string& frame, const Pose2& T_robot_sensor, double now_s);
+  [[nodiscard]] std::optional<frames::Mounted> of_sensor(const std::string& frame, const Pose2& T_robot_sensor,
+                                                         double now_s);
   // Of a frame that points are given in; the robot's own is always known. The same otherwise.
-  [[nodiscard]] std::optional<Mounted> of_frame(const std::string& frame, double now_s);
+  [[nodiscard]] std::optional<frames::Mounted> of_frame(const std::string& frame, double now_s);
 
  private:
   void wait_for(const std::string& frame, double now_s);
@@ -33,7 +34,7 @@ class SensorPlaces {
   Mounting mounting_;
   std::string topic_;
   std::string base_;
-  StaticFrames frames_;
+  frames::StaticFrames frames_;
   std::map<std::string, double> waiting_since_s_;  // frames that are not known yet
 };
 

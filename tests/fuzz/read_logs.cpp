@@ -7,6 +7,7 @@
 #include "plugins/json_log/json_log.hpp"
 #include "plugins/laser_log/laser_log.hpp"
 #include "plugins/lego_log/lego_log.hpp"
+#include "plugins/mcap_log/mcap_log.hpp"
 #include "plugins/player_log/player_log.hpp"
 #include "plugins/table_log/table_log.hpp"
 #include "tests/fuzz/scratch.hpp"
@@ -90,6 +91,7 @@ void read_laser_log(Input input) {
         return std::make_shared<log_common::ScanPlayer>(std::move(log));
       };
       if (name == "json_log") return player(json_log::read_json_log(with_rules<json_log::Config>(file)));
+      if (name == "mcap_log") return player(mcap_log::read_mcap_log(with_rules<mcap_log::Config>(file)));
       if (name == "player_log") return player(player_log::read_player_log(with_rules<player_log::Config>(file), robot));
       auto config = with_rules<carmen_log::Config>(file);
       config.poses = carmen_log::Poses::odometry;
@@ -117,6 +119,17 @@ void read_lego_log(Input input) {
   config.range_offset_m = 0.05;
   config.on_bad_line = log_common::BadLine::skip;
   play([&] { return lego_log::read_lego_log(config, 0.5); });
+}
+
+// Once as its topics single themselves out, and once with all of them named.
+void read_mcap_log(Input input) {
+  auto config = with_rules<mcap_log::Config>(log_file(input));
+  play([&] { return mcap_log::read_mcap_log(config); });
+  config.ranges = {"/scan", "/sonar"};
+  config.odometry = "/tf";
+  config.compass = "/imu";
+  config.stamp = mcap_log::Stamp::log;
+  play([&] { return mcap_log::read_mcap_log(config); });
 }
 
 void read_player_log(Input input) {

@@ -63,6 +63,7 @@ void read_carmen_log(Input input);
 void read_json_log(Input input);
 void read_laser_log(Input input);  // of any kind, by its content
 void read_lego_log(Input input);
+void read_mcap_log(Input input);
 void read_player_log(Input input);
 void read_table_log(Input input);
 

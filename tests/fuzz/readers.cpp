@@ -17,6 +17,7 @@ constexpr std::array kReaders{
     Reader{"laser_log", read_laser_log},
     Reader{"lego_log", read_lego_log},
     Reader{"map_server", read_map_server},
+    Reader{"mcap_log", read_mcap_log},
     Reader{"mission", read_mission},
     Reader{"moving_ai_map", read_moving_ai_map},
     Reader{"moving_ai_scen", read_moving_ai_scen},

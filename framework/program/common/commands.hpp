@@ -117,7 +117,8 @@ struct ViewCommand {
   std::uint16_t port = 0;     // 0: a free one
   bool control = false;       // the page may pause, resume, cancel and order
   std::string planner = "hybrid";
-  double budget_ms = 10000.0;  // of a plan
+  double budget_ms = 10000.0;                // of a plan
+  std::vector<std::string> allowed_origins;  // of pages elsewhere whose viewers may connect
 };
 // Serves the map or the run to browsers of this machine until Ctrl-C.
 int view(const ViewCommand& command, const CommonOptions& common);

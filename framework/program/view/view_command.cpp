@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <stdexcept>
+#include <string>
 
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
@@ -8,13 +10,26 @@
 #include "framework/program/view/view_server.hpp"
 
 namespace cairn {
+namespace {
+
+// As the page has it answered.
+std::string planned(FolderApi& api, const std::string& body) {
+  const ViewResponse answer = api.answer({"POST", "/api/plan", "", "", "", "application/json", body});
+  if (answer.status != 200) throw std::runtime_error(answer.body);
+  return answer.body;
+}
+
+}  // namespace
 
 int view(const ViewCommand& command, const CommonOptions& common) {
   FolderApi api(command, common);
   const std::string token = new_view_token();
   ViewServer server(
       command.port, token, [&](const ViewRequest& request) { return api.answer(request); }, api.folder());
-  std::cout << fmt::format("http://127.0.0.1:{}/#t={}\n", server.port(), token) << std::flush;
+  server.offer_foxglove({played_lazily(command.map), [&](const std::string& body) { return planned(api, body); },
+                         command.allowed_origins});
+  std::cout << fmt::format("http://127.0.0.1:{}/#t={}\n", server.port(), token)
+            << fmt::format("Foxglove, Lichtblick: ws://127.0.0.1:{}/?token={}\n", server.port(), token) << std::flush;
   server.run(cancel_on_interrupt());
   return kExitDone;
 }

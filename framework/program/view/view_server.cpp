@@ -1,5 +1,6 @@
 #include "framework/program/view/view_server.hpp"
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "framework/program/view/foxglove_session.hpp"
 #include "framework/program/view/live_session.hpp"
 
 namespace cairn {
@@ -66,6 +68,7 @@ struct ViewServer::State {
   std::string token;
   ViewHandler handler;
   std::filesystem::path live;
+  std::optional<FoxgloveOffer> foxglove;
   asio::thread_pool workers{kViewWorkers};  // the last: it waits for the answers under way
 
   class Session;
@@ -107,6 +110,7 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
     if (is_refused_)
       return write(view_error(429, "so many connections are open already: " + std::to_string(kMaxViewClients)));
     http::request<Text> request = parser_.release();
+    if (state_.foxglove && is_foxglove(request)) return go_foxglove(std::move(request));
     ViewRequest asked = view_request_of(request);
     if (auto refused = refusal_of(asked, state_.port(), state_.token)) return write(std::move(*refused));
     if (request.target() == kLiveTarget) return go_live(std::move(request));
@@ -121,6 +125,18 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
   void go_live(http::request<Text>&& request) {
     if (!beast::websocket::is_upgrade(request)) return write(view_error(426, "this is a WebSocket"));
     const std::string why = serve_live(std::move(stream_), std::move(request), state_.live, shared_from_this());
+    if (!why.empty()) write(view_error(409, why));
+  }
+
+  // The connection becomes a WebSocket, which counts as long as it lasts.
+  void go_foxglove(http::request<Text>&& request) {
+    ViewRequest asked = view_request_of(http::request<Text>(request));
+    asked.target = "/api/foxglove";
+    asked.token = foxglove_token_of(request);
+    if (std::ranges::count(state_.foxglove->origins, asked.origin) > 0) asked.origin.clear();
+    if (auto refused = refusal_of(asked, state_.port(), state_.token)) return write(std::move(*refused));
+    const std::string why =
+        serve_foxglove(std::move(stream_), std::move(request), *state_.foxglove, shared_from_this());
     if (!why.empty()) write(view_error(409, why));
   }
 
@@ -188,6 +204,10 @@ ViewServer::~ViewServer() = default;
 
 std::uint16_t ViewServer::port() const {
   return state_->acceptor.local_endpoint().port();
+}
+
+void ViewServer::offer_foxglove(FoxgloveOffer offer) {
+  state_->foxglove = std::move(offer);
 }
 
 void ViewServer::run(const std::atomic<bool>& end) {

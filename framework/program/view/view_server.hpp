@@ -1,4 +1,4 @@
-// HTTP on 127.0.0.1, for one page and its API. With live_session.hpp the only user of Boost.Beast.
+// HTTP on 127.0.0.1, for one page and its API. With live_session.hpp and foxglove_session.hpp the only user of Boost.Beast.
 #pragma once
 
 #include <atomic>
@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "framework/program/view/foxglove_offer.hpp"
 #include "framework/program/view/view_request.hpp"
 
 namespace cairn {
@@ -27,7 +28,9 @@ class ViewServer {
   ViewServer& operator=(const ViewServer&) = delete;
 
   [[nodiscard]] std::uint16_t port() const;
-  // Answers until `end`. Streams go on while the handler is at work.
+  // Before run(): viewers of Foxglove's protocol are served too, by the thread of run().
+  void offer_foxglove(FoxgloveOffer offer);
+  // Answers until `end`. Streams go on while the handler is at work, but for a plan that a viewer of Foxglove's asks.
   void run(const std::atomic<bool>& end);
 
  private:

@@ -26,4 +26,7 @@ enum class McapRecord : std::uint8_t {
   data_end = 0x0F
 };
 
+// The checksum that they have (CRC-32); begin: that of the bytes before.
+[[nodiscard]] std::uint32_t crc32_of(std::string_view bytes, std::uint32_t begin = 0);
+
 }  // namespace cairn::exchange

@@ -11,12 +11,13 @@
 #include "maps/exchange/recordings/mcap_records.hpp"
 
 namespace cairn::exchange {
-namespace {
 
-std::uint32_t crc32_of(std::string_view bytes, std::uint32_t begin = 0) {
+std::uint32_t crc32_of(std::string_view bytes, std::uint32_t begin) {
   return static_cast<std::uint32_t>(
       crc32_z(begin, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));  // NOLINT: what zlib takes
 }
+
+namespace {
 
 template <class Unsigned>
 void add_number(std::string& bytes, Unsigned value) {

@@ -31,7 +31,14 @@ class Cdr {
   // A position and an orientation.
   Cdr& pose(const Pose2& pose) {
     f64(pose.x_m).f64(pose.y_m).f64(0.0);
-    return f64(0.0).f64(0.0).f64(std::sin(pose.theta_rad / 2)).f64(std::cos(pose.theta_rad / 2));
+    return orientation(pose.theta_rad);
+  }
+  Cdr& orientation(double theta_rad) {
+    return f64(0.0).f64(0.0).f64(std::sin(theta_rad / 2)).f64(std::cos(theta_rad / 2));
+  }
+  Cdr& zeros(int count) {
+    for (int i = 0; i < count; ++i) f64(0.0);
+    return *this;
   }
   [[nodiscard]] std::string take() { return std::move(bytes_); }
 
@@ -54,6 +61,9 @@ constexpr std::string_view kPose = "geometry_msgs/Pose";
 constexpr std::string_view kPoint = "geometry_msgs/Point";
 constexpr std::string_view kQuaternion = "geometry_msgs/Quaternion";
 constexpr std::string_view kVector3 = "geometry_msgs/Vector3";
+constexpr std::string_view kPoseWithCovariance = "geometry_msgs/PoseWithCovariance";
+constexpr std::string_view kTwist = "geometry_msgs/Twist";
+constexpr std::string_view kTwistWithCovariance = "geometry_msgs/TwistWithCovariance";
 
 std::string_view fields_of(std::string_view type) {
   static constexpr std::pair<std::string_view, std::string_view> kFields[] = {
@@ -66,6 +76,9 @@ std::string_view fields_of(std::string_view type) {
       {"geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
       {"geometry_msgs/TransformStamped",
        "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
+      {kPoseWithCovariance, "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+      {kTwist, "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+      {kTwistWithCovariance, "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
       {"nav_msgs/MapMetaData",
        "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\n"
        "geometry_msgs/Pose origin\n"}};
@@ -94,6 +107,29 @@ Definition definition(Message message) {
       return {"tf2_msgs/msg/TFMessage",
               "geometry_msgs/TransformStamped[] transforms\n",
               {"geometry_msgs/TransformStamped", kHeader, kTime, "geometry_msgs/Transform", kVector3, kQuaternion}};
+    case Message::odometry:
+      return {
+          "nav_msgs/msg/Odometry",
+          "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
+          "geometry_msgs/TwistWithCovariance twist\n",
+          {kHeader, kTime, kPoseWithCovariance, kPose, kPoint, kQuaternion, kTwistWithCovariance, kTwist, kVector3}};
+    case Message::range:
+      return {"sensor_msgs/msg/Range",
+              "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nstd_msgs/Header header\nuint8 radiation_type\n"
+              "float32 field_of_view\nfloat32 min_range\nfloat32 max_range\nfloat32 range\n",
+              {kHeader, kTime}};
+    case Message::laser_scan:
+      return {"sensor_msgs/msg/LaserScan",
+              "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
+              "float32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\n"
+              "float32[] ranges\nfloat32[] intensities\n",
+              {kHeader, kTime}};
+    case Message::imu:
+      return {"sensor_msgs/msg/Imu",
+              "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"
+              "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n"
+              "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n",
+              {kHeader, kTime, kQuaternion, kVector3}};
   }
   throw std::logic_error("no such message of ROS 2");
 }
@@ -132,6 +168,39 @@ std::string occupancy_grid(const Header& header, const foxglove::GridBytes& grid
   constexpr int kOlMax = 255;
   for (const std::uint8_t ol : grid.ol)
     cdr.u8(ol == kUnknownOl ? 0xFF : static_cast<std::uint8_t>((100 * ol + kOlMax / 2) / kOlMax));
+  return cdr.take();
+}
+
+std::string odometry(const Header& header, std::string_view child_frame, const Pose2& T_frame_child) {
+  constexpr int kCovariance = 36;
+  constexpr int kTwist = 6;
+  return Cdr().header(header).text(child_frame).pose(T_frame_child).zeros(kCovariance + kTwist + kCovariance).take();
+}
+
+std::string range(const Header& header, const Range& range) {
+  const std::uint8_t is_light = range.half_beam_rad == 0.0 ? 1 : 0;
+  Cdr cdr;
+  cdr.header(header).u8(is_light).f32(2.0 * range.half_beam_rad).f32(range.min_m).f32(range.max_m).f32(range.range_m);
+  return cdr.take();
+}
+
+std::string laser_scan(const Header& header, const foxglove::Scan& scan, double min_m, double max_m) {
+  const auto count = static_cast<std::uint32_t>(scan.ranges_m.size());
+  const double step_rad = count > 1 ? (scan.last_rad - scan.first_rad) / (count - 1) : 0.0;
+  Cdr cdr;
+  cdr.header(header).f32(scan.first_rad).f32(scan.last_rad).f32(step_rad).f32(0.0).f32(0.0).f32(min_m).f32(max_m);
+  cdr.u32(count);
+  for (const double range_m : scan.ranges_m) cdr.f32(range_m);
+  return cdr.u32(0).take();
+}
+
+std::string imu(const Header& header, double heading_rad) {
+  constexpr int kMatrix = 9;
+  constexpr int kVector = 3;
+  constexpr double kUnknown = -1.0;
+  Cdr cdr;
+  cdr.header(header).orientation(heading_rad).zeros(kMatrix);
+  for (int i = 0; i < 2; ++i) cdr.zeros(kVector).f64(kUnknown).zeros(kMatrix - 1);  // neither turning nor acceleration
   return cdr.take();
 }
 

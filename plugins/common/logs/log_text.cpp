@@ -111,6 +111,28 @@ bool LogText::next(std::string_view& line) {
   return true;
 }
 
+LogBytes::LogBytes(const std::filesystem::path& file, const Budget& budget)
+    : name_(file.string()), budget_(budget), reader_(std::make_unique<LogText::Reader>(file)) {}
+
+LogBytes::~LogBytes() = default;
+
+std::size_t LogBytes::read(char* to, std::size_t count) {
+  std::size_t given = 0;
+  while (given < count) {
+    if (begin_ == buffer_.size()) {
+      if (reader_->ended || !damage_.empty()) break;
+      check_budget(budget_, name_);
+      buffer_.clear();
+      begin_ = 0;
+      damage_ = reader_->append_to(buffer_);
+    }
+    const std::size_t some = buffer_.copy(to + given, count - given, begin_);
+    begin_ += some;
+    given += some;
+  }
+  return given;
+}
+
 std::string text_of_file(const std::filesystem::path& file, const Budget& budget, std::string& damage) {
   LogText::Reader reader(file);
   std::string all;

@@ -57,6 +57,30 @@ class LogText {
 // it cannot be read or is larger than 1 GiB, ReadingEnded when the budget is exhausted.
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& file, const Budget& budget, std::string& damage);
 
+// The bytes of such a file, for logs that are no text.
+class LogBytes {
+ public:
+  // Throws ConfigError when the file cannot be read.
+  explicit LogBytes(const std::filesystem::path& file, const Budget& budget = {});
+  ~LogBytes();
+  LogBytes(const LogBytes&) = delete;
+  LogBytes& operator=(const LogBytes&) = delete;
+
+  // At most count bytes; fewer at the end and where compressed data is cut off or damaged. Throws ReadingEnded when the
+  // budget is exhausted.
+  std::size_t read(char* to, std::size_t count);
+  // What is wrong with the compressed data, if anything is.
+  [[nodiscard]] const std::string& damage() const { return damage_; }
+
+ private:
+  std::string name_;
+  Budget budget_;
+  std::unique_ptr<LogText::Reader> reader_;
+  std::string buffer_;
+  std::size_t begin_ = 0;  // of what has not been given out
+  std::string damage_;
+};
+
 // Throws ReadingEnded at this line when the budget is exhausted.
 void check_budget(const Budget& budget, const std::string& file, int line = 0);
 

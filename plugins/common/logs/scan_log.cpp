@@ -100,7 +100,8 @@ void ScanLog::unknown_line(std::string_view kind) {
 void ScanLog::require_scans() {
   if (scans_.empty())
     throw ConfigError({file_, 0, 0},
-                      "the log holds no observation" + (bad_lines_ > 0 ? "; first bad line: " + first_bad_ : "") +
+                      "the log holds no observation" +
+                          (bad_lines_ > 0 ? "; first bad " + unit_ + ": " + first_bad_ : "") +
                           (unknown_lines_ > 0 ? "; " + counted(unknown_lines_, "line") + " of unknown kinds" : ""));
   const bool stands =
       std::ranges::all_of(scans_, [&](const Kept& scan) { return scan.T_odom_robot == scans_.front().T_odom_robot; });
@@ -129,7 +130,7 @@ void ScanLog::bridge_jumps() {
   double ahead_s = 0.0;
   double last_stamp_s = scans_.front().stamp_s;
   int jumps = 0;
-  int first_line = 0;
+  std::string first;
   for (std::size_t i = 1; i < scans_.size(); ++i) {
     const double stamp_s = scans_[i].stamp_s;
     const double last_s = scans_[i - 1].stamp_s;
@@ -140,12 +141,13 @@ void ScanLog::bridge_jumps() {
                                                           config_detail::number_text(last_stamp_s) + " s to " +
                                                           config_detail::number_text(stamp_s) + " s");
       ahead_s = last_s + rules_.period_s - stamp_s;
-      if (jumps++ == 0) first_line = scans_[i].line;
+      if (jumps++ == 0)
+        first = scans_[i].line > 0 ? "line " + std::to_string(scans_[i].line) : "observation " + std::to_string(i + 1);
     }
     last_stamp_s = stamp_s;
     scans_[i].stamp_s = std::max(last_s, stamp_s + ahead_s);
   }
-  if (jumps > 0) note(counted(jumps, "clock jump") + " bridged, the first at line " + std::to_string(first_line));
+  if (jumps > 0) note(counted(jumps, "clock jump") + " bridged, the first at " + first);
 }
 
 Observation ScanLog::observation(std::size_t i) const {
@@ -168,7 +170,7 @@ std::optional<GroundTruth> ScanLog::truth(std::size_t i) const {
 
 std::string ScanLog::end_sentence() const {
   std::string text = "end of " + name_of_file() + " after " + std::to_string(scans_.size()) + " observations";
-  if (bad_lines_ > 0) text += "; " + counted(bad_lines_, "bad line") + " skipped, the first: " + first_bad_;
+  if (bad_lines_ > 0) text += "; " + counted(bad_lines_, "bad " + unit_) + " skipped, the first: " + first_bad_;
   if (unknown_lines_ > 0) {
     text += "; " + counted(unknown_lines_, "line") + " of kinds not read:";
     for (const auto& [kind, count] : unknown_) text += " " + in_quotes(kind) + " " + std::to_string(count);

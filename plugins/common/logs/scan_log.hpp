@@ -66,7 +66,7 @@ struct LogRules {
 
 struct Scan {
   double stamp_s = 0.0;
-  int line = 0;
+  int line = 0;  // 0: the log has none
   Pose2 T_odom_robot;
   std::optional<double> compass_rad;
   bool bumped = false;
@@ -114,6 +114,8 @@ class ScanLog {
   // bad line. Returns the place of the last. Throws ReadingEnded when the budget is exhausted.
   SourcePlace read_lines(const std::filesystem::path& file, const std::function<void(const LogLine&)>& take,
                          std::optional<char> separator = {});
+  // What a log is made of that has no lines.
+  void count_in(std::string unit) { unit_ = std::move(unit); }
   // Refuses or counts, by the rule.
   void bad_line(const ConfigError& error);
   void unknown_line(std::string_view kind);
@@ -149,6 +151,7 @@ class ScanLog {
   std::vector<Kept> scans_;
   std::vector<double> ranges_m_;
   std::optional<Pose2> start_;
+  std::string unit_ = "line";
   int bad_lines_ = 0;
   std::string first_bad_;
   std::map<std::string, int, std::less<>> unknown_;

@@ -32,6 +32,9 @@ const std::string kDerived =
 const std::string kLego = std::string("{file: \"") + CAIRN_SOURCE_DIR + "/tests/data/lego_scans.log\", motors: \"" +
                           CAIRN_SOURCE_DIR + "/tests/data/lego_motors.log\", compass_from_pose: true}";
 
+const std::string kBag =
+    std::string("{file: \"") + CAIRN_SOURCE_DIR + "/tests/data/bag.mcap\", ranges: [/scan, /sonar/left, /sonar/right]}";
+
 // Bases without a time of their own: a simulated robot for each connection, an observation each time that it is asked.
 class Bases {
  public:
@@ -102,6 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SensorConformance,
                                          module<Sensor>(kModules, "json_log", config_of("scans.json")),
                                          module<Sensor>(kModules, "laser_log", config_of("scans.json")),
                                          module<Sensor>(kModules, "lego_log", kLego),
+                                         module<Sensor>(kModules, "mcap_log", kBag),
                                          module<Sensor>(kModules, "sonar_from_laser", kDerived)));
 
 }  // namespace

@@ -24,6 +24,8 @@ TEST(LaserLog, KnowsTheReaderByTheContentWhateverTheNameAndTheCompression) {
   EXPECT_EQ(reader(folder.gzip("{\"map\": {}}")), "json_log");
   EXPECT_EQ(reader("1.5 host 6665 position2d 00 001 001 0 0 0 0 0 0 0\r\n"), "player_log") << "a log without its head";
   EXPECT_EQ(reader("PARAM a b\nODOM 0 0 0 0 0 0 1 h 1\nLASER_READING 1 2 0 0 0 1\n"), "carmen_log");
+  EXPECT_EQ(reader("\x89MCAP0\r\n"), "mcap_log");
+  EXPECT_EQ(reader(folder.gzip("\x89MCAP0\r\n\x01")), "mcap_log");
   EXPECT_EQ(reader(""), "carmen_log") << "which says that there is no observation";
   EXPECT_EQ(reader("{\"map\": " + std::string(3'000'000, ' ')), "json_log") << "one long line";
 }

@@ -1,4 +1,4 @@
-#include "plugins/ros2_robot/static_frames.hpp"
+#include "plugins/common/frames/static_frames.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Quaterniond turned(double angle_rad, const Vector3d& axis = Vector3d::UnitZ()) {
 }
 
 TEST(StaticFrames, HangOnEachOther) {
-  StaticFrames frames;
+  frames::StaticFrames frames;
   EXPECT_TRUE(frames.add("base_footprint", "base_link", {0.0, 0.0, 0.1}, kAsItIs));
   EXPECT_TRUE(frames.add("base_link", "mast", {0.2, 0.0, 0.5}, turned(std::numbers::pi / 2)));
   EXPECT_TRUE(frames.add("mast", "laser", {0.1, 0.0, 0.0}, kAsItIs));
@@ -40,7 +40,7 @@ TEST(StaticFrames, HangOnEachOther) {
 }
 
 TEST(StaticFrames, KnowWhatHangsUpsideDownAndWhatLooksUp) {
-  StaticFrames frames;
+  frames::StaticFrames frames;
   EXPECT_TRUE(frames.add("base", "below", {0.0, 0.0, 0.0}, turned(std::numbers::pi, Vector3d::UnitX())));
   EXPECT_TRUE(frames.add("base", "up", {0.0, 0.0, 0.0}, turned(-std::numbers::pi / 2, Vector3d::UnitY())));
   EXPECT_TRUE(frames.find("base", "below")->is_upside_down);
@@ -48,7 +48,7 @@ TEST(StaticFrames, KnowWhatHangsUpsideDownAndWhatLooksUp) {
 }
 
 TEST(StaticFrames, TakeNothingThatIsNoPoseAndNeverMoreThanTheyMay) {
-  StaticFrames frames;
+  frames::StaticFrames frames;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(frames.add("base", "laser", {nan, 0.0, 0.0}, kAsItIs));
   EXPECT_FALSE(frames.add("base", "laser", {1e9, 0.0, 0.0}, kAsItIs));
@@ -56,14 +56,14 @@ TEST(StaticFrames, TakeNothingThatIsNoPoseAndNeverMoreThanTheyMay) {
   EXPECT_FALSE(frames.add("base", "base", {0.0, 0.0, 0.0}, kAsItIs));
   EXPECT_FALSE(frames.add("", "laser", {0.0, 0.0, 0.0}, kAsItIs));
   EXPECT_TRUE(frames.names().empty());
-  for (std::size_t i = 0; i < StaticFrames::kMaxFrames; ++i)
+  for (std::size_t i = 0; i < frames::StaticFrames::kMaxFrames; ++i)
     EXPECT_TRUE(frames.add("base", "f" + std::to_string(i), {0.0, 0.0, 0.0}, kAsItIs));
   EXPECT_FALSE(frames.add("base", "one_more", {0.0, 0.0, 0.0}, kAsItIs));
   EXPECT_TRUE(frames.add("base", "f0", {1.0, 0.0, 0.0}, kAsItIs)) << "one that is known may move";
 }
 
 TEST(StaticFrames, ACircleLeadsNowhere) {
-  StaticFrames frames;
+  frames::StaticFrames frames;
   EXPECT_TRUE(frames.add("a", "b", {0.0, 0.0, 0.0}, kAsItIs));
   EXPECT_TRUE(frames.add("b", "a", {0.0, 0.0, 0.0}, kAsItIs));
   EXPECT_FALSE(frames.find("a", "b"));

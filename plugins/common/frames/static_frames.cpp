@@ -1,9 +1,9 @@
-#include "plugins/ros2_robot/static_frames.hpp"
+#include "plugins/common/frames/static_frames.hpp"
 
 #include <cmath>
 #include <set>
 
-namespace cairn::ros2_robot {
+namespace cairn::frames {
 namespace {
 
 constexpr double kFarthest_m = 100.0;  // of a sensor from its robot
@@ -49,4 +49,4 @@ std::vector<std::string> StaticFrames::names() const {
   return {all.begin(), all.end()};
 }
 
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::frames

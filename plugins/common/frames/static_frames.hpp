@@ -9,7 +9,7 @@
 
 #include "maps/geometry/pose.hpp"
 
-namespace cairn::ros2_robot {
+namespace cairn::frames {
 
 // A sensor seen from above.
 struct Mounted {
@@ -45,4 +45,4 @@ class StaticFrames {
   std::map<std::string, Frame> frames_;  // by their own name
 };
 
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::frames

@@ -1,0 +1,62 @@
+// One viewer of Foxglove's protocol: what is said to it, without the network.
+//
+// Playback begins with the first subscription, runs by the wall clock and stops at the end. A new subscription gets the
+// last message of its channel before, of landmarks all of them. Playback waits for a viewer that is slow: it never
+// leaves out a message, and never queues more than it is allowed to. Not thread-safe.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/program/view/foxglove_recording.hpp"
+
+namespace cairn {
+
+inline constexpr std::size_t kMaxFoxgloveSubscriptions = 1024;
+
+class FoxgloveConnection {
+ public:
+  using Frames = std::vector<foxglove_protocol::Frame>;
+  // The JSON of a plan to that of its answer (`POST /api/plan`). Throws std::exception with why it is refused.
+  using Plan = std::function<std::string(const std::string& request)>;
+
+  // has_control: the viewer knows control of playback. The recording must outlive this.
+  FoxgloveConnection(const PlayedRecording& recording, bool has_control, std::string session, Plan plan);
+
+  [[nodiscard]] Frames greeting() const;
+  [[nodiscard]] Frames on_text(std::string_view text);
+  [[nodiscard]] Frames on_binary(std::string_view frame);
+  // Time has gone on. No more messages once these have max_bytes together.
+  [[nodiscard]] Frames advance(double elapsed_s, std::size_t max_bytes);
+
+  [[nodiscard]] std::uint64_t position_ns() const { return position_ns_; }
+
+ private:
+  struct Subscription {
+    const PlayedChannel* channel = nullptr;
+    std::size_t next = 0;  // of its messages
+  };
+
+  [[nodiscard]] Frames subscribe(std::uint32_t id, std::uint32_t channel);
+  [[nodiscard]] Frames call(const foxglove_protocol::ServiceCall& call) const;
+  [[nodiscard]] Frames control(const foxglove_protocol::PlaybackControl& control);
+  void rewind(Subscription& subscription) const;
+  [[nodiscard]] bool send_until(std::uint64_t time_ns, std::size_t max_bytes, std::size_t& bytes, Frames& frames);
+  [[nodiscard]] foxglove_protocol::Frame state(bool did_seek, std::string_view request) const;
+
+  const PlayedRecording& recording_;
+  const bool has_control_;
+  const std::string session_;
+  const Plan plan_;
+  std::map<std::uint32_t, Subscription> subscriptions_;
+  std::uint64_t position_ns_;
+  double rest_ns_ = 0.0;  // of the position, below one
+  float speed_ = 1.0F;
+  bool is_begun_ = false;
+  bool is_playing_ = true;
+};
+
+}  // namespace cairn

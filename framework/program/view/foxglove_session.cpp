@@ -1,0 +1,160 @@
+#include "framework/program/view/foxglove_session.hpp"
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <utility>
+
+#include "framework/program/view/view_request.hpp"
+
+namespace cairn {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kTick{20};
+constexpr std::chrono::seconds kIdle{20};  // without a sign of life, then it has gone
+constexpr std::size_t kMaxHeard = std::size_t{1} << 20;
+constexpr std::size_t kMaxQueued = std::size_t{1} << 20;    // bytes, of playback
+constexpr std::size_t kMaxAnswers = std::size_t{64} << 20;  // bytes, of all: beyond, the viewer asks and does not read
+
+// The first of the viewer's list that is known here; empty: none.
+std::string chosen_protocol(const FoxgloveRequest& request) {
+  for (const auto& name : http::token_list(request[http::field::sec_websocket_protocol]))
+    if (name == foxglove_protocol::kName || name == foxglove_protocol::kOldName) return std::string(name);
+  return {};
+}
+
+class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
+ public:
+  FoxgloveSession(beast::tcp_stream&& stream, std::shared_ptr<const PlayedRecording> recording, std::string protocol,
+                  FoxgloveConnection::Plan plan, std::shared_ptr<void> counted)
+      : viewer_(std::move(stream)),
+        timer_(viewer_.get_executor()),
+        recording_(std::move(recording)),
+        protocol_(std::move(protocol)),
+        connection_(*recording_, protocol_ == foxglove_protocol::kName, new_view_token(), std::move(plan)),
+        counted_(std::move(counted)) {}
+
+  void accept(const FoxgloveRequest& request) {
+    beast::get_lowest_layer(viewer_).expires_never();
+    viewer_.set_option(websocket::stream_base::timeout{kIdle, kIdle, true});
+    viewer_.set_option(websocket::stream_base::decorator([name = protocol_](websocket::response_type& response) {
+      response.set(http::field::sec_websocket_protocol, name);
+    }));
+    viewer_.read_message_max(kMaxHeard);
+    viewer_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
+      if (error) return;
+      self->send(self->connection_.greeting());
+      self->listen();
+      self->last_ = Clock::now();
+      self->tick();
+    });
+  }
+
+ private:
+  void listen() {
+    viewer_.async_read(heard_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error) return self->end();
+      const std::string said = beast::buffers_to_string(self->heard_.data());
+      self->heard_.consume(self->heard_.size());
+      self->send(self->viewer_.got_text() ? self->connection_.on_text(said) : self->connection_.on_binary(said));
+      self->listen();
+    });
+  }
+
+  void tick() {
+    if (is_ended_) return;
+    const auto now = Clock::now();
+    const double elapsed_s = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    if (queued_ < kMaxQueued) send(connection_.advance(elapsed_s, kMaxQueued));
+    timer_.expires_after(kTick);
+    timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+      if (!error) self->tick();
+    });
+  }
+
+  void send(FoxgloveConnection::Frames&& frames) {
+    for (foxglove_protocol::Frame& frame : frames) {
+      queued_ += frame.bytes.size();
+      queue_.push_back(std::move(frame));
+    }
+    if (queued_ > kMaxAnswers) {
+      beast::error_code ignored;
+      beast::get_lowest_layer(viewer_).socket().close(ignored);
+      return end();
+    }
+    if (!is_writing_) write();
+  }
+
+  void write() {
+    if (queue_.empty() || is_ended_) return;
+    is_writing_ = true;
+    viewer_.text(queue_.front().is_text);
+    viewer_.async_write(asio::buffer(queue_.front().bytes),
+                        [self = shared_from_this()](beast::error_code error, std::size_t) {
+                          self->is_writing_ = false;
+                          if (error) return self->end();
+                          self->queued_ -= self->queue_.front().bytes.size();
+                          self->queue_.pop_front();
+                          self->write();
+                        });
+  }
+
+  void end() {
+    is_ended_ = true;
+    timer_.cancel();
+  }
+
+  websocket::stream<beast::tcp_stream> viewer_;
+  asio::steady_timer timer_;
+  std::shared_ptr<const PlayedRecording> recording_;
+  std::string protocol_;
+  FoxgloveConnection connection_;
+  std::shared_ptr<void> counted_;
+  beast::flat_buffer heard_;
+  std::deque<foxglove_protocol::Frame> queue_;
+  std::size_t queued_ = 0;
+  Clock::time_point last_;
+  bool is_writing_ = false;
+  bool is_ended_ = false;
+};
+
+}  // namespace
+
+bool is_foxglove(const FoxgloveRequest& request) {
+  return websocket::is_upgrade(request) && !chosen_protocol(request).empty();
+}
+
+std::string foxglove_token_of(const FoxgloveRequest& request) {
+  constexpr std::string_view kToken = "token=";
+  const std::string_view target(request.target().data(), request.target().size());
+  std::size_t begin = target.find('?');
+  while (begin != std::string_view::npos) {
+    const std::string_view rest = target.substr(begin + 1);
+    const std::string_view field = rest.substr(0, rest.find('&'));
+    if (field.starts_with(kToken)) return std::string(field.substr(kToken.size()));
+    begin = target.find('&', begin + 1);
+  }
+  return {};
+}
+
+std::string serve_foxglove(beast::tcp_stream&& stream, FoxgloveRequest&& request, const FoxgloveOffer& offer,
+                           std::shared_ptr<void> counted) {
+  try {
+    std::make_shared<FoxgloveSession>(std::move(stream), offer.recording(), chosen_protocol(request), offer.plan,
+                                      std::move(counted))
+        ->accept(request);
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace cairn

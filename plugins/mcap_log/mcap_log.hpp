@@ -1,0 +1,21 @@
+// An MCAP file of ROS 2 (rosbag2) played back. Plugin `mcap_log`, kind sensor; nothing to drive.
+//
+// Read are messages in CDR: sensor_msgs/msg/LaserScan and Range as observations, nav_msgs/msg/Odometry or the
+// transforms of the odometry's frame as poses, sensor_msgs/msg/Imu as a compass. The pose of an observation is that
+// between the two around its stamp. Range messages with the same stamp are one observation. Where a sensor is on the
+// robot is what the transforms say, those of the static topic first, or the settings.
+//
+// Bad records, refused or skipped and counted: a chunk whose checksum is wrong or that does not unpack, a message that
+// ends early, limits that are none, a sensor whose place is not known, a pose beyond 100 km. A file that ends early is
+// read up to its last whole chunk in any case.
+#pragma once
+
+#include "plugins/mcap_log/config.hpp"
+
+namespace cairn::mcap_log {
+
+// Reads the whole log. Throws ConfigError for what is refused, for topics that must be chosen, and for a log without an
+// observation.
+[[nodiscard]] log_common::ScanLog read_mcap_log(const Config& config, const Budget& budget = {});
+
+}  // namespace cairn::mcap_log
