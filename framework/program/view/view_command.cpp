@@ -5,10 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/config/config_value.hpp"
+#include "framework/planning/saved_map/map_planner.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/plan/answer_line.hpp"
-#include "framework/program/plan/map_planner.hpp"
 #include "framework/program/view/map_view.hpp"
 #include "framework/program/view/page_files.hpp"
 #include "framework/program/view/view_server.hpp"
@@ -27,8 +28,10 @@ std::string shell_word(const std::string& text) {
 
 class MapApi {
  public:
-  MapApi(const ViewCommand& command, const PlanCommand& plan, const CommonOptions& common)
-      : plan_(plan), planner_(plan, common), name_(command.map.filename().string()) {
+  MapApi(const ViewCommand& command, const MapPlannerOptions& plan, const CommonOptions& common)
+      : library_(module_library(common)),
+        planner_(plan, PlannerUse::many_at_once, library_),
+        name_(command.map.filename().string()) {
     options_ = shell_word(plan.map.string()) + " --planner " + shell_word(plan.planner) +
                fmt::format(" --budget-ms {}", *plan.budget_ms);
   }
@@ -54,8 +57,8 @@ class MapApi {
     std::string line = body;
     std::ranges::replace(line, '\n', ' ');
     try {
-      const PlanQuery query = query_of_line(line, kRequestBody, 1, plan_.question);
-      const std::string answered = json_line_of(query, planner_.answer(query), planner_);
+      const PlanQuery query = query_of_line(line, kRequestBody, 1, {});
+      const std::string answered = json_line_of(query, planner_.answer(query.question), planner_);
       const nlohmann::ordered_json command =
           "printf '%s\\n' " + shell_word(line) + " | cairn plan " + options_ + " --queries - --json";
       return json("{\"command\":" + command.dump() + ",\"answer\":" + answered.substr(0, answered.size() - 1) + "}\n");
@@ -64,7 +67,7 @@ class MapApi {
     }
   }
 
-  const PlanCommand& plan_;
+  ModuleLibrary library_;
   MapPlanner planner_;
   std::string name_;
   std::string options_;
@@ -84,11 +87,10 @@ std::filesystem::path map_of(const std::filesystem::path& named) {
 }  // namespace
 
 int view(const ViewCommand& command, const CommonOptions& common) {
-  PlanCommand plan;
+  MapPlannerOptions plan;
   plan.map = map_of(command.map);
   plan.planner = command.planner;
   plan.budget_ms = command.budget_ms;
-  plan.queries = "-";  // many questions: what does not change is prepared once
   const MapApi api(command, plan, common);
   const std::string token = new_view_token();
   ViewServer server(command.port, token, [&](const ViewRequest& request) { return api.answer(request); });
