@@ -40,8 +40,9 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_repeatable(sub, "--set", c->overrides, "override a setting: --set map.cell_m=0.1 (may be repeated)");
   CLI::Option* const resume =
       sub->add_option("--resume", c->resume, "saved or autosaved map of this mission (*.cairn) to continue");
-  CLI::Option* const localise_in = sub->add_option(
-      "--localize-in", c->localise_in, "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
+  CLI::Option* const localise_in =
+      sub->add_option("--localize-in", c->localise_in,
+                      "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
   localise_in->excludes(resume);
   sub->add_option("--pose", c->pose, "where the robot is in that map: X,Y,DEGREES")->needs(localise_in);
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
@@ -223,6 +224,9 @@ void add_experiment(CLI::App& app, CommandLine& line) {
   sub->add_option("FILE", c->file, "experiment file (config/experiments/*.yaml)")->required();
   sub->add_option("--out", c->out, "folder for the table and reports")->capture_default_str();
   add_repeatable(sub, "--set", c->overrides, "override a setting of the file, as seeds.count=20 (may be repeated)");
+  CLI::Option* const shard =
+      sub->add_option("--shard", c->shard, "run a part of it, as 3/16: the third of sixteen, all with the same --out");
+  sub->add_flag("--merge", c->merge, "run nothing: write the table of what the shards have run")->excludes(shard);
 }
 
 void add_chart(CLI::App& app, CommandLine& line) {

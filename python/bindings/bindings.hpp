@@ -38,6 +38,7 @@ void add_errors(pybind11::module_& module);
 void add_grid(pybind11::module_& module);
 void add_graph(pybind11::module_& module);
 void add_map(pybind11::module_& module, pybind11::class_<Map, std::shared_ptr<Map>>& map);
+void add_logs(pybind11::module_& module);
 void add_planning(pybind11::module_& module);
 void add_run(pybind11::module_& module);
 

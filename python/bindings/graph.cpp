@@ -38,15 +38,19 @@ py::list values_of(const Entries& entries) {
 }
 
 void add_landmark(py::module_& module) {
-  py::class_<Landmark>(module, "Landmark")
+  py::class_<Landmark>(module, "Landmark", "A landmark of a map.")
       .def_readonly("id", &Landmark::id)
       .def_readonly("name", &Landmark::name)
-      .def_property_readonly("label", [](const Landmark& landmark) { return label_of(landmark); })
+      .def_property_readonly(
+          "label", [](const Landmark& landmark) { return label_of(landmark); }, "Its name, or L<id>.")
       .def_readonly("category", &Landmark::category)
-      .def_property_readonly("pose", [](const Landmark& landmark) { return tuple_of(landmark.T_map_landmark); })
-      .def_property_readonly("approach_pose",
-                             [](const Landmark& landmark) { return tuple_of(landmark.approach_pose()); })
-      .def_readonly("degree", &Landmark::degree)
+      .def_property_readonly(
+          "pose", [](const Landmark& landmark) { return tuple_of(landmark.T_map_landmark); },
+          "(x m, y m, heading rad) in the map.")
+      .def_property_readonly(
+          "approach_pose", [](const Landmark& landmark) { return tuple_of(landmark.approach_pose()); },
+          "Where a robot stands to be at it: (x m, y m, heading rad).")
+      .def_readonly("degree", &Landmark::degree, "Of its best matching, 0 to 1.")
       .def_readonly("sightings", &Landmark::sightings)
       .def_readonly("level", &Landmark::level)
       .def("__repr__", [](const Landmark& landmark) {
@@ -55,16 +59,18 @@ void add_landmark(py::module_& module) {
 }
 
 void add_route(py::module_& module) {
-  py::class_<Route>(module, "Route")
+  py::class_<Route>(module, "Route", "A route from a landmark to another; it is directed.")
       .def_readonly("id", &Route::id)
-      .def_readonly("from_", &Route::from)
-      .def_readonly("to", &Route::to)
+      .def_readonly("from_", &Route::from, "Id of the landmark where it begins.")
+      .def_readonly("to", &Route::to, "Id of the landmark where it ends.")
       .def_readonly("cost_m", &Route::cost_m)
-      .def_readonly("driven", &Route::driven)
+      .def_readonly("driven", &Route::driven, "The robot has driven it; otherwise planned or imported.")
       .def_readonly("closed", &Route::closed)
       .def_readonly("level", &Route::level)
       .def_readonly("speed_limit_mps", &Route::speed_limit_mps)
-      .def_property_readonly("trajectory", [](const Route& route) { return array_of(route.trajectory); })
+      .def_property_readonly(
+          "trajectory", [](const Route& route) { return array_of(route.trajectory); },
+          "(N, 3) float64: x m, y m, heading rad; N is 0 where only the cost is known.")
       .def("__repr__", [](const Route& route) {
         return "<Route R" + std::to_string(route.id) + " from L" + std::to_string(route.from) + " to L" +
                std::to_string(route.to) + ">";
@@ -76,13 +82,15 @@ void add_route(py::module_& module) {
 void add_graph(py::module_& module) {
   add_landmark(module);
   add_route(module);
-  py::class_<LabelledCluster>(module, "Cluster")
+  py::class_<LabelledCluster>(module, "Cluster", "A cluster of landmarks, of level 1 or above.")
       .def_property_readonly("id", [](const LabelledCluster& it) { return it.cluster.id; })
       .def_property_readonly("level", [](const LabelledCluster& it) { return it.cluster.level; })
-      .def_property_readonly("parent", [](const LabelledCluster& it) { return it.cluster.parent; })
+      .def_property_readonly(
+          "parent", [](const LabelledCluster& it) { return it.cluster.parent; },
+          "Id of the cluster one level up; 0: it is on the highest.")
       .def_property_readonly("anchor", [](const LabelledCluster& it) { return it.cluster.anchor; })
       .def_readonly("label", &LabelledCluster::label)
-      .def_readonly("landmarks", &LabelledCluster::landmarks)
+      .def_readonly("landmarks", &LabelledCluster::landmarks, "Ids of the landmarks in it, rising.")
       .def("__repr__", [](const LabelledCluster& it) { return "<Cluster " + it.label + ">"; });
   module.def(
       "landmarks_of", [](const Map& map) { return values_of(map.saved().graph.landmarks()); }, py::arg("map"));

@@ -80,21 +80,35 @@ Point corner_of(const Grid& grid) {
 }  // namespace
 
 void add_grid(py::module_& module) {
-  py::class_<Grid>(module, "Grid")
-      .def_property_readonly("cell_m", [](const Grid& grid) { return grid.cells().cell_m(); })
-      .def_property_readonly("origin_m",
-                             [](const Grid& grid) {
-                               const Point corner = corner_of(grid);
-                               return py::make_tuple(corner.x(), corner.y());
-                             })
-      .def_property_readonly("first_cell",
-                             [](const Grid& grid) { return py::make_tuple(grid.box().min.x, grid.box().min.y); })
-      .def_property_readonly("shape",
-                             [](const Grid& grid) { return py::make_tuple(grid.box().height(), grid.box().width()); })
-      .def_property_readonly("tiles", tiles_of)
-      .def("ol", ol_array)
-      .def("log_odds", [](const Grid& grid) { return mapped(grid, [](LogOdds q) { return q / kLogOddsPerNat; }); })
-      .def("probability", [](const Grid& grid) { return mapped(grid, [](LogOdds q) { return probability_of(q); }); });
+  py::class_<Grid>(module, "Grid",
+                   "The occupancy grid of a map. In arrays of it row 0 has the smallest y, column 0 the smallest x.")
+      .def_property_readonly(
+          "cell_m", [](const Grid& grid) { return grid.cells().cell_m(); }, "Side of a cell, m.")
+      .def_property_readonly(
+          "origin_m",
+          [](const Grid& grid) {
+            const Point corner = corner_of(grid);
+            return py::make_tuple(corner.x(), corner.y());
+          },
+          "(x m, y m) of the lower left corner of element [0, 0] in the map frame.")
+      .def_property_readonly(
+          "first_cell", [](const Grid& grid) { return py::make_tuple(grid.box().min.x, grid.box().min.y); },
+          "(x, y): the lattice's index of element [0, 0]; tiles are named by such indices.")
+      .def_property_readonly(
+          "shape", [](const Grid& grid) { return py::make_tuple(grid.box().height(), grid.box().width()); },
+          "(rows, columns) of the whole.")
+      .def_property_readonly(
+          "tiles", tiles_of,
+          "Read-only views of the map's own memory, without a copy: [((x, y), (64, 64) int16), ...] "
+          "with the lattice's index of each one's first cell and log-odds in 1/256 nat. Where nothing was ever "
+          "written there is no tile.")
+      .def("ol", ol_array, "(rows, columns) uint8: floor(255 P), 127 where nothing is known. A copy.")
+      .def(
+          "log_odds", [](const Grid& grid) { return mapped(grid, [](LogOdds q) { return q / kLogOddsPerNat; }); },
+          "(rows, columns) float32, nat; above 0 is rather occupied. A copy.")
+      .def(
+          "probability", [](const Grid& grid) { return mapped(grid, [](LogOdds q) { return probability_of(q); }); },
+          "(rows, columns) float32: of being occupied; 0.5 where nothing is known. A copy.");
   module.def(
       "grid_of", [](const Map& map) { return Grid{map.shared()}; }, py::arg("map"));
 }

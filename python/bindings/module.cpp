@@ -19,6 +19,7 @@ PYBIND11_MODULE(_native, module) {
   add_graph(module);
   pybind11::class_<Map, std::shared_ptr<Map>> map(module, "Map");
   add_map(module, map);
+  add_logs(module);
   add_planning(module);
   add_run(module);
   module.attr("prefix") = cairn::installed_prefix().string();

@@ -164,23 +164,29 @@ std::pair<std::string, std::string> experiment(const std::filesystem::path& file
 
 void add_run(py::module_& module) {
   const auto pose_tuple = [](const Pose2& pose) { return py::make_tuple(pose.x_m, pose.y_m, pose.theta_rad); };
-  py::class_<Tick>(module, "Tick")
-      .def_property_readonly("time_s", [](const Tick& it) { return it.status.time_s; })
-      .def_property_readonly("pose", [=](const Tick& it) { return pose_tuple(it.status.T_map_robot); })
-      .def_property_readonly("true_pose",
-                             [=](const Tick& it) -> py::object {
-                               if (!it.true_pose) return py::none();
-                               return pose_tuple(*it.true_pose);
-                             })
-      .def_property_readonly("step", [](const Tick& it) { return it.status.step; })
+  py::class_<Tick>(module, "Tick", "How a mission stands after a tick.")
+      .def_property_readonly(
+          "time_s", [](const Tick& it) { return it.status.time_s; }, "By the mission's clock.")
+      .def_property_readonly(
+          "pose", [=](const Tick& it) { return pose_tuple(it.status.T_map_robot); },
+          "As estimated: (x m, y m, heading rad) in the map.")
+      .def_property_readonly(
+          "true_pose",
+          [=](const Tick& it) -> py::object {
+            if (!it.true_pose) return py::none();
+            return pose_tuple(*it.true_pose);
+          },
+          "The same in truth; None where that is not known.")
+      .def_property_readonly(
+          "step", [](const Tick& it) { return it.status.step; }, "The step under way, from 1; 0: none.")
       .def_property_readonly("steps", [](const Tick& it) { return it.status.steps; })
       .def_property_readonly("step_name", [](const Tick& it) { return it.status.step_name; })
       .def_property_readonly("doing", [](const Tick& it) { return it.status.doing; })
       .def_property_readonly("explored_ratio", [](const Tick& it) { return it.status.explored_ratio; })
       .def_property_readonly("distance_m", [](const Tick& it) { return it.status.distance_m; })
       .def_property_readonly("landmarks", [](const Tick& it) { return it.status.landmarks; });
-  module.def("run", &run, py::arg("mission"), py::arg("out"), py::arg("seed"), py::arg("overrides"),
-             py::arg("on_tick"), py::arg("pace"));
+  module.def("run", &run, py::arg("mission"), py::arg("out"), py::arg("seed"), py::arg("overrides"), py::arg("on_tick"),
+             py::arg("pace"));
   module.def("experiment", &experiment, py::arg("file"), py::arg("out"), py::arg("overrides"), py::arg("on_run"));
 }
 

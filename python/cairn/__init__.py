@@ -9,9 +9,10 @@ Lengths are metres, angles radians, times seconds. Arrays of poses have the colu
 """
 from cairn._native import Cluster, Grid, Landmark, Route, Tick
 from cairn.errors import CairnError, FileError, MapError, ModuleError
+from cairn.logs import Log, read_log
 from cairn.maps import Map, load
 from cairn.plans import Plan
 from cairn.runs import Experiment, Run, experiment, run
 
-__all__ = ["CairnError", "Cluster", "Experiment", "FileError", "Grid", "Landmark", "Map", "MapError", "ModuleError",
-           "Plan", "Route", "Run", "Tick", "experiment", "load", "run"]
+__all__ = ["CairnError", "Cluster", "Experiment", "FileError", "Grid", "Landmark", "Log", "Map", "MapError",
+           "ModuleError", "Plan", "Route", "Run", "Tick", "experiment", "load", "read_log", "run"]

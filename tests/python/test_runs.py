@@ -26,7 +26,7 @@ def test_a_mission_is_the_same_as_the_programs(office, tmp_path):
 
 
 def test_settings_and_seed_are_those_given(tmp_path):
-    run = cairn.run(MISSION, out=tmp_path, seed=7, set={"time_limit_s": 2.0})
+    run = cairn.run(MISSION, out=tmp_path, seed=7, set={"at_most_s": 2.0})
     assert not run.done
     assert run.report["seed"] == 7
 
