@@ -20,7 +20,6 @@
 #include "framework/program/common/command_line.hpp"
 #include "framework/program/common/mission_options.hpp"
 #include "framework/program/common/printable_stream.hpp"
-#include "framework/program/experiment/experiment_options.hpp"
 #include "framework/program/map/file_options.hpp"
 #include "framework/program/slam/slam_options.hpp"
 
@@ -217,6 +216,18 @@ void add_reference(CLI::App& app, CommandLine& line) {
                                     "Every setting of every file and module");
   sub->add_option("--markdown", c->markdown, "write the configuration reference into this file");
   sub->add_option("--schema-folder", c->schema_folder, "write the JSON schemas for editors into this folder");
+}
+
+void add_chart(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] = add_command(app, line, chart, "chart",
+                                    "Draw the tables of a Markdown file, such as an experiment's table.md, again");
+  sub->add_option("FILE", c->file, "Markdown file with tables; the first column of each is the x axis")->required();
+  add_repeatable(sub, "--column", c->columns, "column to draw (may be repeated); without it, all columns of numbers");
+  sub->add_option("--title", c->title, "of each chart; {} stands for the heading of the table's section");
+  sub->add_option("--y-label", c->y_label, "label of the y axis");
+  sub->add_flag("--shares", c->of_shares, "the y axis from 0 to 1");
+  sub->add_option("--out", c->out, "folder for the pictures")->capture_default_str();
+  sub->add_option("--prefix", c->prefix, "of the pictures' names, before the heading");
 }
 
 // What the parser calls unexpected is most often a misspelt command.

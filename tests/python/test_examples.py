@@ -58,3 +58,14 @@ def test_the_job_array_runs_the_shard_of_its_task(tmp_path):
     assert merged.returncode == 1 and "1 of 2 runs are missing" in merged.stderr
     assert task("1", SHARDS="2").returncode == 0
     assert (tmp_path / "seed_1/row.json").exists()
+
+
+def test_processes_of_mpirun_share_an_experiment(tmp_path):
+    experiment = [PROGRAM, "experiment", SOURCE / "config/experiments/first_mission.yaml", "--set", "seeds.count=2"]
+    subprocess.run([*experiment, "--out", tmp_path / "whole"], check=False, stdout=subprocess.DEVNULL)
+    for rank in ("0", "1"):
+        assert not (tmp_path / "parts/table.md").exists()
+        subprocess.run([*experiment, "--out", tmp_path / "parts"], check=False, stdout=subprocess.DEVNULL,
+                       env={**os.environ, "OMPI_COMM_WORLD_RANK": rank, "OMPI_COMM_WORLD_SIZE": "2"})
+    for table in ("table.md", "table.json"):
+        assert (tmp_path / "parts" / table).read_bytes() == (tmp_path / "whole" / table).read_bytes()

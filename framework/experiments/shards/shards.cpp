@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -34,6 +35,17 @@ Shard shard_of(const std::string& text) {
   }
   throw std::invalid_argument(
       fmt::format("{} is no shard: K/N with K from 1 to N, and N at most {}", in_quotes(text), kMaxShards));
+}
+
+std::optional<Shard> shard_of_launcher() {
+  const auto number = [](const char* name) {
+    const char* const text = std::getenv(name);
+    return number_from<std::size_t>(text == nullptr ? "" : text);
+  };
+  const auto rank = number("OMPI_COMM_WORLD_RANK");
+  const auto size = number("OMPI_COMM_WORLD_SIZE");
+  if (!rank || !size || *size < 2 || *size > kMaxShards || *rank >= *size) return std::nullopt;
+  return Shard{*rank + 1, *size};
 }
 
 std::string experiment_fingerprint(const std::filesystem::path& file, const ExperimentConfig& config,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct Shard {
 };
 // "K/N", 1 <= K <= N <= 100000. Throws std::invalid_argument with a sentence.
 [[nodiscard]] Shard shard_of(const std::string& text);
+
+// Of the process that Open MPI's mpirun has started, by its environment (OMPI_COMM_WORLD_RANK, OMPI_COMM_WORLD_SIZE);
+// none: it was not started so, or alone.
+[[nodiscard]] std::optional<Shard> shard_of_launcher();
 
 // Of the files of the experiment and its missions, and of the settings given over them.
 [[nodiscard]] std::string experiment_fingerprint(const std::filesystem::path& file, const ExperimentConfig& config,

@@ -83,18 +83,17 @@ int write_results(const ExperimentCommand& command, const CommonOptions& common,
 }
 
 // Of a shard: whether all its runs have ended, as good or bad as they may be.
-int report_shard(const ExperimentCommand& command, const std::vector<ExperimentRow>& rows) {
+int report_shard(const Shard& shard, const std::vector<ExperimentRow>& rows) {
   const auto ended = std::count_if(rows.begin(), rows.end(), [](const ExperimentRow& row) {
     return row.result.outcome != MissionOutcome::cancelled;
   });
-  std::cerr << fmt::format("shard {}: {} of {} runs have ended; --merge makes the table\n", command.shard, ended,
-                           rows.size());
+  std::cerr << fmt::format("shard {}/{}: {} of {} runs have ended; --merge makes the table\n", shard.number, shard.of,
+                           ended, rows.size());
   return static_cast<std::size_t>(ended) == rows.size() ? kExitDone : kExitNotSolved;
 }
 
 int merge(const ExperimentCommand& command, const CommonOptions& common, const ExperimentConfig& config,
-          const std::string& fingerprint) {
-  const MergedRows merged = merged_rows(config, command.out, fingerprint);
+          const MergedRows& merged) {
   if (merged.missing.size() == merged.rows.size() && !merged.missing.empty())
     throw std::runtime_error("experiment: there is nothing to merge: " + merged.missing.front());
   const int status = write_results(command, common, config, merged.rows);
@@ -117,12 +116,14 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   make_folder(command.out);
   if (config.experiment == ExperimentKind::buildings) return buildings_experiment(config, command.out);
   const std::string fingerprint = experiment_fingerprint(command.file, config, command.overrides);
-  if (command.merge) return merge(command, common, config, fingerprint);
+  if (command.merge) return merge(command, common, config, merged_rows(config, command.out, fingerprint));
+  const std::optional<Shard> shard =
+      command.shard.empty() ? shard_of_launcher()
+                            : std::optional(refused_about("--shard", [&] { return shard_of(command.shard); }));
   RunFilter filter;
-  if (!command.shard.empty()) {
-    const Shard shard = refused_about("--shard", [&] { return shard_of(command.shard); });
-    forget_rows(config, command.out, shard);
-    filter = runs_of(shard, fingerprint);
+  if (shard) {
+    forget_rows(config, command.out, *shard);
+    filter = runs_of(*shard, fingerprint);
   }
   const ModuleLibrary library = module_library(common);
   const bool live = ::isatty(STDERR_FILENO) != 0;
@@ -131,7 +132,14 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   };
   const std::vector<ExperimentRow> rows =
       run_experiment(config, library, command.out, cancel_on_interrupt(), tell, filter);
-  const int status = command.shard.empty() ? write_results(command, common, config, rows) : report_shard(command, rows);
+  const auto finish_shard = [&] {
+    const int status = report_shard(*shard, rows);
+    if (!command.shard.empty()) return status;
+    // Started by mpirun: the last to end finds all rows there. When several do, they write the same bytes.
+    const MergedRows merged = merged_rows(config, command.out, fingerprint);
+    return merged.missing.empty() ? merge(command, common, config, merged) : status;
+  };
+  const int status = shard ? finish_shard() : write_results(command, common, config, rows);
   if (std::any_of(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.gave_up; })) {
     // A lost call still runs: nothing that it may use can be torn down.
     std::cout.flush();

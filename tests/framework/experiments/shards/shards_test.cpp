@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace cairn {
 namespace {
 
@@ -20,6 +22,22 @@ TEST(Shards, AreNamedByNumberAndCount) {
   EXPECT_EQ(shard_of("3/16").of, 16U);
   for (const char* wrong : {"", "3", "0/4", "5/4", "1/0", "a/b", "1/2/3", "-1/2", "1/100001", " 1/2"})
     EXPECT_THROW(static_cast<void>(shard_of(wrong)), std::invalid_argument) << wrong;
+}
+
+TEST(Shards, OfProcessesOfMpirunAreThoseOfTheirRanks) {
+  ::unsetenv("OMPI_COMM_WORLD_RANK");
+  ::unsetenv("OMPI_COMM_WORLD_SIZE");
+  EXPECT_FALSE(shard_of_launcher());
+  ::setenv("OMPI_COMM_WORLD_RANK", "2", 1);
+  ::setenv("OMPI_COMM_WORLD_SIZE", "4", 1);
+  const auto shard = shard_of_launcher();
+  ASSERT_TRUE(shard);
+  EXPECT_EQ(shard->number, 3U);
+  EXPECT_EQ(shard->of, 4U);
+  ::setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
+  EXPECT_FALSE(shard_of_launcher()) << "no rank of so few";
+  ::unsetenv("OMPI_COMM_WORLD_RANK");
+  ::unsetenv("OMPI_COMM_WORLD_SIZE");
 }
 
 }  // namespace
