@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "framework/experiments/factors.hpp"
+#include "framework/experiments/jobs.hpp"
 #include "framework/mission/held_out.hpp"
 #include "framework/mission/mission.hpp"
 #include "maps/base/in_parallel.hpp"
@@ -17,35 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxRunsAtATime = 8;
 
-struct Job {
-  std::filesystem::path mission;
-  ExperimentVariant variant;
-  std::int64_t seed = 0;
-  std::filesystem::path out;
-};
-
-std::vector<Job> jobs_of(const ExperimentConfig& config, const std::filesystem::path& out) {
-  std::vector<Job> jobs;
-  const bool of_trials = config.experiment == ExperimentKind::trials;
-  const std::vector<std::filesystem::path> drawn{"trials"};  // each seed's own
-  const std::vector<std::filesystem::path>& missions = of_trials ? drawn : config.missions;
-  for (const std::filesystem::path& mission : missions) {
-    const bool is_log = !of_trials && !load_mission(mission, config.overrides).world;
-    const int seeds = is_log ? std::min(config.seeds.count, std::max(config.hold_out_every, 1)) : config.seeds.count;
-    for (const ExperimentVariant& variant : config.variants)
-      for (int i = 0; i < seeds; ++i) {
-        const std::int64_t seed = config.seeds.from + i;
-        const std::string name = "seed_" + std::to_string(seed);
-        // One mission as it stands needs no folders of its own.
-        const bool alone = missions.size() == 1 && config.variants.size() == 1;
-        jobs.push_back({mission, variant, seed, alone ? out / name : out / mission.stem() / variant.name / name});
-      }
-  }
-  return jobs;
-}
-
 // As random worlds: world.yaml in the run's folder. The start is the home's own.
-std::vector<std::string> write_home(const ExperimentConfig& config, const Job& job) {
+std::vector<std::string> write_home(const ExperimentConfig& config, const ExperimentJob& job) {
   const Home home = random_home(config.homes, static_cast<std::uint64_t>(job.seed));
   std::filesystem::create_directories(job.out);
   const std::filesystem::path file = std::filesystem::absolute(job.out / "world.yaml");
@@ -55,7 +29,8 @@ std::vector<std::string> write_home(const ExperimentConfig& config, const Job& j
 }
 
 // The world of a seed stays in the run's folder, so that `cairn run --set world=FILE` gives the run again.
-std::string write_world(const ExperimentConfig& config, const Job& job, const std::vector<LandmarkShape>& shapes) {
+std::string write_world(const ExperimentConfig& config, const ExperimentJob& job,
+                        const std::vector<LandmarkShape>& shapes) {
   if (shapes.empty())
     throw ConfigError({job.mission.string(), 0, 0},
                       "an experiment in random worlds needs a mission whose detector has templates");
@@ -67,7 +42,7 @@ std::string write_world(const ExperimentConfig& config, const Job& job, const st
 }
 
 // The robot file of a variant that overrides some of it stays in the run's folder too.
-std::string write_robot(const Job& job, const std::vector<std::string>& overrides) {
+std::string write_robot(const ExperimentJob& job, const std::vector<std::string>& overrides) {
   ConfigValue robot = read_config_file(load_mission(job.mission, overrides).config.robot);
   for (const std::string& assignment : job.variant.robot_overrides) apply_override(robot, assignment);
   std::filesystem::create_directories(job.out);
@@ -76,7 +51,7 @@ std::string write_robot(const Job& job, const std::vector<std::string>& override
   return file.string();
 }
 
-Mission mission_of(const ExperimentConfig& config, const Job& job) {
+Mission mission_of(const ExperimentConfig& config, const ExperimentJob& job) {
   std::vector<std::string> overrides = config.overrides;
   overrides.insert(overrides.end(), job.variant.overrides.begin(), job.variant.overrides.end());
   if (config.hold_out_every > 0) overrides.push_back("hold_out_every=" + std::to_string(config.hold_out_every));
@@ -93,8 +68,8 @@ Mission mission_of(const ExperimentConfig& config, const Job& job) {
 }
 
 // A fault in the last variant's settings is reported before the first one has run for an hour.
-void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<Job>& jobs) {
-  for (const Job& job : jobs) {
+void check(const ExperimentConfig& config, const ModuleLibrary& library, const std::vector<ExperimentJob>& jobs) {
+  for (const ExperimentJob& job : jobs) {
     if (job.seed != config.seeds.from) continue;
     const Mission mission = mission_of(config, job);
     if (config.experiment == ExperimentKind::places) check_places(config, mission, job.mission);
@@ -161,18 +136,14 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
 }
 
 ExperimentRow run_job(const ExperimentConfig& config, const ModuleLibrary& library, const std::atomic<bool>& cancel,
-                      const Job& job) {
+                      const ExperimentJob& job) {
   const auto begin = std::chrono::steady_clock::now();
   const Mission mission = mission_of(config, job);
   std::filesystem::create_directories(job.out);
   MissionRunner runner(mission, library, {job.out, false, &cancel});
   Listeners listeners(config, mission);
   listeners.subscribe_to(runner);
-  ExperimentRow row;
-  row.mission = job.mission.stem();
-  row.variant = job.variant.name;
-  row.seed = job.seed;
-  row.folder = job.out;
+  ExperimentRow row = row_before_run(job);
   row.result = runner.run();
   row.gave_up = runner.gave_up();
   for (const std::string& fault : runner.listener_faults()) {
@@ -201,16 +172,16 @@ bool ExperimentRow::is_good() const {
 
 std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
                                           const std::filesystem::path& out, const std::atomic<bool>& cancel,
-                                          const std::function<void(std::size_t, std::size_t)>& ended) {
-  const std::vector<Job> jobs = jobs_of(config, out);
+                                          const std::function<void(std::size_t, std::size_t)>& ended,
+                                          const RunFilter& filter) {
+  std::vector<ExperimentJob> jobs = jobs_of(config, out);
   check(config, library, jobs);
-  std::vector<ExperimentRow> rows(jobs.size());
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    rows[i].mission = jobs[i].mission.stem();
-    rows[i].variant = jobs[i].variant.name;
-    rows[i].seed = jobs[i].seed;
-    rows[i].result.outcome = MissionOutcome::cancelled;  // until it has run
+  if (filter.is_wanted) {
+    std::size_t at = 0;
+    std::erase_if(jobs, [&](const ExperimentJob&) { return !filter.is_wanted(at++); });
   }
+  std::vector<ExperimentRow> rows(jobs.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i) rows[i] = row_before_run(jobs[i]);
   std::mutex telling;
   std::size_t count = 0;
   in_parallel(
@@ -220,10 +191,21 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
         rows[i] = run_job(config, library, cancel, jobs[i]);
         const std::scoped_lock lock(telling);
         ++count;
+        if (filter.has_run) filter.has_run(rows[i]);
         if (ended) ended(count, jobs.size());
       },
       kMaxRunsAtATime);
   return rows;
+}
+
+ExperimentRow row_before_run(const ExperimentJob& job) {
+  ExperimentRow row;
+  row.mission = job.mission.stem();
+  row.variant = job.variant.name;
+  row.seed = job.seed;
+  row.folder = job.out;
+  row.result.outcome = MissionOutcome::cancelled;  // until it has run
+  return row;
 }
 
 }  // namespace cairn

@@ -10,6 +10,7 @@
 
 #include "framework/experiments/config.hpp"
 #include "framework/experiments/homes/record.hpp"
+#include "framework/experiments/jobs.hpp"
 #include "framework/experiments/map_quality.hpp"
 #include "framework/experiments/recognition/curves.hpp"
 #include "framework/experiments/recognition/orbit.hpp"
@@ -52,13 +53,24 @@ struct ExperimentRow {
   [[nodiscard]] bool is_good() const;
 };
 
+// Which runs, by their place in jobs_of(), and what is called after each, one at a time.
+struct RunFilter {
+  std::function<bool(std::size_t)> is_wanted{};  // none: all
+  std::function<void(const ExperimentRow&)> has_run{};
+};
+
 // Runs everything, as many at a time as the machine has cores, but at most eight; rows come by mission, variant and
 // seed. A recorded log is the same in each run: it is run on as many seeds as withhold other readings. Each run writes
 // its map and report into a folder of its own under out. Throws ConfigError or ModuleFault; the first fault stops the
 // runs that have not begun. ended: told after each run how many have ended, of how many, from any thread but one at a
 // time.
-[[nodiscard]] std::vector<ExperimentRow> run_experiment(
-    const ExperimentConfig& config, const ModuleLibrary& library, const std::filesystem::path& out,
-    const std::atomic<bool>& cancel, const std::function<void(std::size_t, std::size_t)>& ended = {});
+[[nodiscard]] std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const ModuleLibrary& library,
+                                                        const std::filesystem::path& out,
+                                                        const std::atomic<bool>& cancel,
+                                                        const std::function<void(std::size_t, std::size_t)>& ended = {},
+                                                        const RunFilter& filter = {});
+
+// A run that has not begun: cancelled.
+[[nodiscard]] ExperimentRow row_before_run(const ExperimentJob& job);
 
 }  // namespace cairn

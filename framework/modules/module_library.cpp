@@ -1,5 +1,7 @@
 #include "framework/modules/module_library.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -88,6 +90,13 @@ std::vector<std::filesystem::path> module_files(const std::filesystem::path& fol
   return files;
 }
 
+std::filesystem::path installed_prefix() {
+  Dl_info found{};
+  static const char kHere = 0;
+  if (dladdr(&kHere, &found) == 0 || found.dli_fname == nullptr) return {};
+  return std::filesystem::weakly_canonical(found.dli_fname).parent_path().parent_path();
+}
+
 std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesystem::path>& given) {
   std::vector<std::filesystem::path> folders = given;
   if (const char* variable = std::getenv("CAIRN_PLUGIN_PATH")) {
@@ -99,8 +108,7 @@ std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesys
       rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
     }
   }
-  const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  folders.push_back(program.parent_path().parent_path() / "lib" / "cairn");
+  folders.push_back(installed_prefix() / "lib" / "cairn");
   return folders;
 }
 

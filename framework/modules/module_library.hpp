@@ -62,8 +62,11 @@ class ModuleLibrary : public ModuleMaker {
 // The *.so files of a folder, sorted by name.
 [[nodiscard]] std::vector<std::filesystem::path> module_files(const std::filesystem::path& folder);
 
-// Where modules are looked for: folders given, then CAIRN_PLUGIN_PATH (colon separated), then
-// lib/cairn beside the program's bin folder.
+// The folder with bin lib share that this library is in, and so the program, its modules and its configuration.
+[[nodiscard]] std::filesystem::path installed_prefix();
+
+// Where modules are looked for: folders given, then CAIRN_PLUGIN_PATH (colon separated), then lib/cairn under the
+// installed prefix.
 [[nodiscard]] std::vector<std::filesystem::path> plugin_folders(const std::vector<std::filesystem::path>& given);
 
 }  // namespace cairn

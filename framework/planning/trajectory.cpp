@@ -63,9 +63,9 @@ Leg leg_between(const Pose2& from, const Pose2& to, bool turns_on_the_spot) {
   return leg;
 }
 
-class Drive {
+class TimedDrive {
  public:
-  explicit Drive(const RobotModel& robot) : robot_(robot) {}
+  explicit TimedDrive(const RobotModel& robot) : robot_(robot) {}
 
   void begin(const Pose2& pose) { points_.push_back({0.0, pose, 0.0, 0.0}); }
 
@@ -189,7 +189,7 @@ std::vector<TrajectoryPoint> trajectory_of(const std::vector<Pose2>& path, const
   const auto goes_on = [](const Leg& a, const Leg& b) {
     return a.backwards == b.backwards && std::abs(wrap_angle(b.heading_rad - a.last_heading_rad())) < kMinTurn_rad;
   };
-  Drive drive(robot);
+  TimedDrive drive(robot);
   drive.begin(path.front());
   for (std::size_t i = 0; i < legs.size();) {
     std::size_t end = i + 1;

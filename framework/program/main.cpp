@@ -224,14 +224,6 @@ void add_reference(CLI::App& app, CommandLine& line) {
   sub->add_option("--schema-folder", c->schema_folder, "write the JSON schemas for editors into this folder");
 }
 
-void add_experiment(CLI::App& app, CommandLine& line) {
-  const auto [sub, c] =
-      add_command(app, line, experiment, "experiment", "Run an experiment over many seeds and write its table");
-  sub->add_option("FILE", c->file, "experiment file (config/experiments/*.yaml)")->required();
-  sub->add_option("--out", c->out, "folder for the table and reports")->capture_default_str();
-  add_repeatable(sub, "--set", c->overrides, "override a setting of the file, as seeds.count=20 (may be repeated)");
-}
-
 void add_chart(CLI::App& app, CommandLine& line) {
   const auto [sub, c] = add_command(app, line, chart, "chart",
                                     "Draw the tables of a Markdown file, such as an experiment's table.md, again");

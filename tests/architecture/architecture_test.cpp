@@ -30,7 +30,7 @@ struct Source {
 const std::vector<Source>& sources() {
   static const std::vector<Source> all = [] {
     std::vector<Source> found;
-    for (const char* room : {"maps", "framework", "plugins", "planners", "tests"})
+    for (const char* room : {"maps", "framework", "plugins", "planners", "python", "tests"})
       for (const auto& entry : fs::recursive_directory_iterator(fs::path(CAIRN_SOURCE_DIR) / room)) {
         const auto extension = entry.path().extension();
         if (extension != ".hpp" && extension != ".cpp") continue;
@@ -79,6 +79,7 @@ TEST(Architecture, ArrowsBetweenRoomsPointDownOnly) {
       {"framework", {"framework", "maps"}},
       {"plugins", {"framework", "maps", "plugins"}},
       {"planners", {"framework", "maps", "planners"}},
+      {"python", {"framework", "maps", "python"}},
   };
   for (const Include& include : includes()) {
     const std::string from = room_of(include.file);
@@ -132,10 +133,10 @@ TEST(Architecture, SafetyCanBeAuditedAlone) {
     }
 }
 
-TEST(Architecture, OnlyTheProgramKnowsTheLaboratory) {
+TEST(Architecture, OnlyTheProgramAndThePythonPackageKnowTheLaboratory) {
   for (const Include& include : includes())
     if (include.header.starts_with("framework/experiments/")) {
-      EXPECT_TRUE(starts_with_any(include.file, {"framework/experiments/", "framework/program/", "tests/"}))
+      EXPECT_TRUE(starts_with_any(include.file, {"framework/experiments/", "framework/program/", "python/", "tests/"}))
           << include.file << " includes " << include.header;
     }
 }
@@ -220,6 +221,13 @@ TEST(Architecture, OnlyModulesThatAreSensorsReachTheTruth) {
   }
 }
 
+TEST(Architecture, ThePythonPackageIsMadeOfTheLibrariesNotOfTheProgram) {
+  for (const Include& include : includes())
+    if (include.file.starts_with("python/")) {
+      EXPECT_FALSE(include.header.starts_with("framework/program/")) << include.file << " includes " << include.header;
+    }
+}
+
 TEST(Architecture, TheProgramLinksNoModule) {
   for (const Include& include : includes())
     if (include.file.starts_with("framework/")) {
@@ -254,6 +262,7 @@ TEST(Architecture, EachLibraryIsTouchedOnlyWhereItBelongs) {
        {"framework/behaviour_tree/", "framework/experiments/", "framework/live/", "framework/mission/",
         "framework/planning/", "framework/program/", "framework/reporting/", "maps/base/json_text.cpp",
         "maps/exchange/", "plugins/json_log/"}},
+      {"pybind11/", {"python/bindings/"}},
       {"pugixml.hpp", {"maps/exchange/graphs/graphml_read.cpp"}},
   };
   for (const Include& include : includes())

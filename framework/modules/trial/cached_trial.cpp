@@ -3,13 +3,18 @@
 #include <dlfcn.h>
 #include <sys/stat.h>
 
+#include <chrono>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <string_view>
 
 #include "framework/contracts/abi_stamp.hpp"
 #include "framework/modules/cache_folder.hpp"
+#include "framework/modules/trial/child_trial.hpp"
 #include "maps/base/fingerprint.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -66,6 +71,13 @@ std::optional<TrialOutcome> read_entry(const CacheEntry& entry) {
   return all.ends_with(fingerprint_of(text)) ? outcome_from(text.substr(begin.size())) : std::nullopt;
 }
 
+std::chrono::milliseconds trial_limit() {
+  const char* const chosen = std::getenv("CAIRN_MODULE_TRIAL_S");
+  const auto limit_s = number_from<double>(chosen == nullptr ? "" : chosen);
+  if (!limit_s || !(*limit_s >= 0.1 && *limit_s <= 3600.0)) return kModuleTrialLimit;
+  return std::chrono::milliseconds(std::llround(1e3 * *limit_s));
+}
+
 }  // namespace
 
 TrialOutcome CachedTrial::outcome_of(const std::filesystem::path& file) const {
@@ -93,6 +105,10 @@ TrialOutcome CachedTrial::try_again(const std::filesystem::path& file) const {
 
 std::filesystem::path module_cache_folder() {
   return cache_folder("CAIRN_MODULE_CACHE", "modules");
+}
+
+std::shared_ptr<const ModuleTrial> remembered_child_trial(const std::filesystem::path& program) {
+  return std::make_shared<CachedTrial>(std::make_unique<ChildTrial>(program, trial_limit()), module_cache_folder());
 }
 
 }  // namespace cairn

@@ -26,4 +26,8 @@ class CachedTrial : public ModuleTrial {
 // CAIRN_MODULE_CACHE, or `modules` in the cache folder (cache_folder.hpp).
 [[nodiscard]] std::filesystem::path module_cache_folder();
 
+// In a child process of that program (ChildTrial), remembered in that folder. Its time limit is kModuleTrialLimit or
+// CAIRN_MODULE_TRIAL_S, for machines that are slower than any, and for sanitizers.
+[[nodiscard]] std::shared_ptr<const ModuleTrial> remembered_child_trial(const std::filesystem::path& program);
+
 }  // namespace cairn

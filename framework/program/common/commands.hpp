@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "framework/contracts/plan_question.hpp"
+#include "framework/planning/saved_map/map_planner_options.hpp"
 
 namespace cairn {
-
-inline constexpr double kMaxRadius_m = 10.0;  // of a robot that a plan is for
 
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitNotSolved = 1;
@@ -96,18 +95,10 @@ struct MissionControlCommand {
 int mission_control(const MissionControlCommand& command, const CommonOptions& common);
 int mission_status(const MissionControlCommand& command, const CommonOptions& common);
 
-struct PlanCommand {
-  std::filesystem::path map;
+struct PlanCommand : MapPlannerOptions {
   PlanQuestion question;
   std::string queries;      // a file, "-" for standard input, empty for one query
   std::optional<int> jobs;  // queries at once; none: as many as there are cores
-  std::string planner = "hybrid";
-  std::vector<std::string> settings;  // of the planner, key=value
-  std::filesystem::path robot;        // a robot file
-  std::optional<double> radius_m;
-  std::optional<double> margin_m;  // none: kMargins_m for a robot, none for a radius that is given
-  std::optional<double> budget_ms;
-  std::int64_t seed = 1;
   std::filesystem::path picture;
 };
 int plan(const PlanCommand& command, const CommonOptions& common);
@@ -266,6 +257,8 @@ struct ExperimentCommand {
   std::filesystem::path file;
   std::filesystem::path out = "out/experiment";
   std::vector<std::string> overrides{};
+  std::string shard{};  // "K/N": only these runs, and no table; empty: all
+  bool merge = false;   // nothing is run: the table of what shards have run
 };
 int experiment(const ExperimentCommand& command, const CommonOptions& common);
 

@@ -59,4 +59,15 @@ void add_mission(CLI::App& app, CommandLine& line) {
   add_control(*mission, line);
 }
 
+void add_experiment(CLI::App& app, CommandLine& line) {
+  const auto [sub, c] =
+      add_command(app, line, experiment, "experiment", "Run an experiment over many seeds and write its table");
+  sub->add_option("FILE", c->file, "experiment file (config/experiments/*.yaml)")->required();
+  sub->add_option("--out", c->out, "folder for the table and reports")->capture_default_str();
+  add_repeatable(sub, "--set", c->overrides, "override a setting of the file, as seeds.count=20 (may be repeated)");
+  CLI::Option* const shard =
+      sub->add_option("--shard", c->shard, "run a part of it, as 3/16: the third of sixteen, all with the same --out");
+  sub->add_flag("--merge", c->merge, "run nothing: write the table of what the shards have run")->excludes(shard);
+}
+
 }  // namespace cairn

@@ -9,11 +9,13 @@
 #include "framework/experiments/homes/table.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
 #include "framework/experiments/report.hpp"
+#include "framework/experiments/shards/shards.hpp"
 #include "framework/experiments/trials/table.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
+#include "framework/program/common/refusal.hpp"
 #include "framework/program/experiment/buildings_experiment.hpp"
 #include "framework/program/experiment/experiment_charts.hpp"
 
@@ -65,18 +67,9 @@ int exit_status_of(const ExperimentConfig& config, const std::vector<ExperimentR
   return enough && !cancelled ? kExitDone : kExitNotSolved;
 }
 
-}  // namespace
-
-int experiment(const ExperimentCommand& command, const CommonOptions& common) {
-  const ExperimentConfig config = load_experiment(command.file, command.overrides);
-  make_folder(command.out);
-  if (config.experiment == ExperimentKind::buildings) return buildings_experiment(config, command.out);
-  const ModuleLibrary library = module_library(common);
-  const bool live = ::isatty(STDERR_FILENO) != 0;
-  const auto tell = [live](std::size_t ended, std::size_t runs) {
-    if (live) std::cerr << fmt::format("\r{} of {} runs{}", ended, runs, ended == runs ? "\n" : "") << std::flush;
-  };
-  const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel_on_interrupt(), tell);
+// The table and what belongs to it, from rows of all runs.
+int write_results(const ExperimentCommand& command, const CommonOptions& common, const ExperimentConfig& config,
+                  const std::vector<ExperimentRow>& rows) {
   const std::string table = table_of(config, rows);
   const std::string json = json_of(config, rows);
   write_file(command.out / "table.md", table);
@@ -86,7 +79,67 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   std::ostream& people = common.json ? std::cerr : std::cout;
   people << table << times_text(config, rows) << "Table: " << (command.out / "table.md").string()
          << ", pictures beside it\n";
-  const int status = exit_status_of(config, rows);
+  return exit_status_of(config, rows);
+}
+
+// Of a shard: whether all its runs have ended, as good or bad as they may be.
+int report_shard(const Shard& shard, const std::vector<ExperimentRow>& rows) {
+  const auto ended = std::count_if(rows.begin(), rows.end(), [](const ExperimentRow& row) {
+    return row.result.outcome != MissionOutcome::cancelled;
+  });
+  std::cerr << fmt::format("shard {}/{}: {} of {} runs have ended; --merge makes the table\n", shard.number, shard.of,
+                           ended, rows.size());
+  return static_cast<std::size_t>(ended) == rows.size() ? kExitDone : kExitNotSolved;
+}
+
+int merge(const ExperimentCommand& command, const CommonOptions& common, const ExperimentConfig& config,
+          const MergedRows& merged) {
+  if (merged.missing.size() == merged.rows.size() && !merged.missing.empty())
+    throw std::runtime_error("experiment: there is nothing to merge: " + merged.missing.front());
+  const int status = write_results(command, common, config, merged.rows);
+  for (const std::string& sentence : merged.missing) std::cerr << "missing: " << sentence << "\n";
+  if (!merged.missing.empty())
+    std::cerr << fmt::format("{} of {} runs are missing; run their shards again\n", merged.missing.size(),
+                             merged.rows.size());
+  return merged.missing.empty() ? status : kExitNotSolved;
+}
+
+}  // namespace
+
+int experiment(const ExperimentCommand& command, const CommonOptions& common) {
+  const ExperimentConfig config = load_experiment(command.file, command.overrides);
+  const bool is_shared = command.merge || !command.shard.empty();
+  if (is_shared && config.experiment == ExperimentKind::buildings)
+    throw std::runtime_error(
+        "experiment: an experiment of buildings measures times, which no other machine knows: "
+        "--shard and --merge are for the other kinds");
+  make_folder(command.out);
+  if (config.experiment == ExperimentKind::buildings) return buildings_experiment(config, command.out);
+  const std::string fingerprint = experiment_fingerprint(command.file, config, command.overrides);
+  if (command.merge) return merge(command, common, config, merged_rows(config, command.out, fingerprint));
+  const std::optional<Shard> shard =
+      command.shard.empty() ? shard_of_launcher()
+                            : std::optional(refused_about("--shard", [&] { return shard_of(command.shard); }));
+  RunFilter filter;
+  if (shard) {
+    forget_rows(config, command.out, *shard);
+    filter = runs_of(*shard, fingerprint);
+  }
+  const ModuleLibrary library = module_library(common);
+  const bool live = ::isatty(STDERR_FILENO) != 0;
+  const auto tell = [live](std::size_t ended, std::size_t runs) {
+    if (live) std::cerr << fmt::format("\r{} of {} runs{}", ended, runs, ended == runs ? "\n" : "") << std::flush;
+  };
+  const std::vector<ExperimentRow> rows =
+      run_experiment(config, library, command.out, cancel_on_interrupt(), tell, filter);
+  const auto finish_shard = [&] {
+    const int status = report_shard(*shard, rows);
+    if (!command.shard.empty()) return status;
+    // Started by mpirun: the last to end finds all rows there. When several do, they write the same bytes.
+    const MergedRows merged = merged_rows(config, command.out, fingerprint);
+    return merged.missing.empty() ? merge(command, common, config, merged) : status;
+  };
+  const int status = shard ? finish_shard() : write_results(command, common, config, rows);
   if (std::any_of(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.gave_up; })) {
     // A lost call still runs: nothing that it may use can be torn down.
     std::cout.flush();

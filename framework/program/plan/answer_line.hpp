@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/planning/saved_map/map_planner.hpp"
 #include "framework/planning/trajectory.hpp"
-#include "framework/program/plan/map_planner.hpp"
+#include "framework/program/plan/plan_query.hpp"
 
 namespace cairn {
 

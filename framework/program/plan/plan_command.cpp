@@ -6,13 +6,14 @@
 #include <thread>
 
 #include "framework/config/config_value.hpp"
+#include "framework/planning/saved_map/map_planner.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/plan/answer_line.hpp"
 #include "framework/program/plan/line_reader.hpp"
-#include "framework/program/plan/map_planner.hpp"
 #include "framework/program/plan/plan_query.hpp"
 #include "maps/base/ordered_parallel_map.hpp"
-#include "maps/pictures/map_picture.hpp"
+#include "maps/pictures/saved_map_picture.hpp"
 
 namespace cairn {
 namespace {
@@ -30,7 +31,7 @@ struct QueryAnswer {
 };
 
 QueryAnswer answer_to(const PlanQuery& query, const MapPlanner& planner, const CommonOptions& common) {
-  const PlanResult result = planner.answer(query);
+  const PlanResult result = planner.answer(query.question);
   return {common.json ? json_line_of(query, result, planner) : text_for_people(query, result, planner),
           result.outcome == PlanOutcome::solved};
 }
@@ -65,11 +66,8 @@ int answer_queries(const MapPlanner& planner, const PlanCommand& command, const 
 }
 
 void draw(const MapPlanner& planner, const PlanCommand& command, const PlanQuery& query, const PlanResult& result) {
-  MapPicture picture;
-  picture.grid = &planner.map().grid;
-  picture.graph = &planner.map().graph;
-  picture.clusters = &planner.map().clusters;
-  picture.shapes = planner.map().shapes;
+  MapPicture picture = picture_of(planner.map());
+  picture.driven.clear();
   for (const Pose2& pose : result.path) picture.planned.push_back(pose.position());
   picture.planned_landmarks = result.landmarks;
   if (!result.path.empty()) {
@@ -82,6 +80,11 @@ void draw(const MapPlanner& planner, const PlanCommand& command, const PlanQuery
   picture.title = fmt::format("{} to {}: {}", query.question.from, query.question.to, name_of(result.outcome));
   if (result.outcome == PlanOutcome::solved) picture.title += fmt::format(", {:.2f} m", result.length_m);
   write_map_picture(command.picture, picture);
+}
+
+PlannerUse use_of(const PlanCommand& command) {
+  if (!command.queries.empty()) return command.jobs == 1 ? PlannerUse::many_in_turn : PlannerUse::many_at_once;
+  return command.picture.empty() ? PlannerUse::one_question : PlannerUse::one_question_whole_grid;
 }
 
 void check(const PlanCommand& command) {
@@ -104,10 +107,11 @@ void check(const PlanCommand& command) {
 
 int plan(const PlanCommand& command, const CommonOptions& common) {
   check(command);
-  const MapPlanner planner(command, common);
+  const ModuleLibrary library = module_library(common);
+  const MapPlanner planner(command, use_of(command), library);
   if (!command.queries.empty()) return answer_queries(planner, command, common);
   const PlanQuery query{"", command.question};
-  const PlanResult result = planner.answer(query);
+  const PlanResult result = planner.answer(query.question);
   if (common.json) std::cout << json_line_of(query, result, planner);
   (common.json ? std::cerr : std::cout) << text_for_people(query, result, planner);
   if (!command.picture.empty()) draw(planner, command, query, result);

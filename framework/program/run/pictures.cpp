@@ -7,6 +7,7 @@
 #include "maps/pictures/coarse_picture.hpp"
 #include "maps/pictures/drawing/chart.hpp"
 #include "maps/pictures/map_picture.hpp"
+#include "maps/pictures/saved_map_picture.hpp"
 
 namespace cairn {
 namespace {
@@ -77,12 +78,7 @@ void draw_chart(const std::filesystem::path& file, const Chart& chart) {
 }  // namespace
 
 void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, const std::string& title) {
-  MapPicture picture;
-  picture.grid = &map.grid;
-  picture.graph = &map.graph;
-  picture.clusters = &map.clusters;
-  picture.shapes = map.shapes;
-  for (const Pose2& pose : map.driven_path) picture.driven.push_back(pose.position());
+  MapPicture picture = picture_of(map);
   picture.title = title;
   write_map_picture(file, picture);
 }

@@ -52,12 +52,11 @@ fs::path map_in(const fs::path& folder) {
                                        maps.empty() ? "no" : "several"));
 }
 
-PlanCommand plan_on(const fs::path& map, const ViewCommand& command) {
-  PlanCommand plan;
+MapPlannerOptions plan_on(const fs::path& map, const ViewCommand& command) {
+  MapPlannerOptions plan;
   plan.map = map;
   plan.planner = command.planner;
   plan.budget_ms = command.budget_ms;
-  plan.queries = "-";  // many questions: what does not change is prepared once
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/config/config_value.hpp"
+#include "framework/program/common/modules.hpp"
 #include "framework/program/plan/answer_line.hpp"
 #include "framework/program/view/map_view.hpp"
 
@@ -28,12 +29,12 @@ ViewResponse json_answer(std::string text) {
 
 }  // namespace
 
-MapApi::MapApi(PlanCommand plan, const CommonOptions& common)
-    : plan_(std::move(plan)),
-      planner_(plan_, common),
-      name_(plan_.map.filename().string()),
-      options_(shell_word(plan_.map.string()) + " --planner " + shell_word(plan_.planner) +
-               fmt::format(" --budget-ms {}", *plan_.budget_ms)) {}
+MapApi::MapApi(const MapPlannerOptions& plan, const CommonOptions& common)
+    : library_(module_library(common)),
+      planner_(plan, PlannerUse::many_at_once, library_),
+      name_(plan.map.filename().string()),
+      options_(shell_word(plan.map.string()) + " --planner " + shell_word(plan.planner) +
+               fmt::format(" --budget-ms {}", *plan.budget_ms)) {}
 
 std::optional<ViewResponse> MapApi::answer(const ViewRequest& request) {
   const std::scoped_lock lock(mutex_);
@@ -53,8 +54,8 @@ ViewResponse MapApi::plan(const std::string& body) const {
   std::string line = body;
   std::ranges::replace(line, '\n', ' ');
   try {
-    const PlanQuery query = query_of_line(line, kRequestBody, 1, plan_.question);
-    const std::string answered = json_line_of(query, planner_.answer(query), planner_);
+    const PlanQuery query = query_of_line(line, kRequestBody, 1, {});
+    const std::string answered = json_line_of(query, planner_.answer(query.question), planner_);
     const nlohmann::ordered_json command =
         "printf '%s\\n' " + shell_word(line) + " | cairn plan " + options_ + " --queries - --json";
     return json_answer("{\"command\":" + command.dump() + ",\"answer\":" + answered.substr(0, answered.size() - 1) +

@@ -5,8 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "framework/modules/module_library.hpp"
+#include "framework/planning/saved_map/map_planner.hpp"
 #include "framework/program/common/commands.hpp"
-#include "framework/program/plan/map_planner.hpp"
 #include "framework/program/view/view_request.hpp"
 
 namespace cairn {
@@ -14,7 +15,7 @@ namespace cairn {
 class MapApi {
  public:
   // Loads the map. Throws what MapPlanner throws.
-  MapApi(PlanCommand plan, const CommonOptions& common);
+  MapApi(const MapPlannerOptions& plan, const CommonOptions& common);
 
   // None: it has no such thing. From any thread, one after the other: a plan makes others wait.
   [[nodiscard]] std::optional<ViewResponse> answer(const ViewRequest& request);
@@ -22,8 +23,8 @@ class MapApi {
  private:
   [[nodiscard]] ViewResponse plan(const std::string& body) const;
 
-  const PlanCommand plan_;
   std::mutex mutex_;
+  ModuleLibrary library_;
   MapPlanner planner_;
   std::string name_;
   std::string options_;  // of the command line that gives the same plan

@@ -1,4 +1,4 @@
-#include "framework/program/plan/map_cells.hpp"
+#include "framework/planning/saved_map/map_cells.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

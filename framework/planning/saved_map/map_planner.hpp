@@ -9,37 +9,42 @@
 #include <mutex>
 #include <optional>
 
+#include "framework/contracts/plan_question.hpp"
 #include "framework/contracts/planner.hpp"
 #include "framework/modules/module_library.hpp"
-#include "framework/program/plan/map_cells.hpp"
-#include "framework/program/plan/plan_query.hpp"
+#include "framework/planning/plan_task.hpp"
+#include "framework/planning/saved_map/map_cells.hpp"
+#include "framework/planning/saved_map/map_planner_options.hpp"
 #include "maps/hierarchy/hierarchies.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
 
-// The robot that the command and the map say: of the robot file, or of the saved radius; --radius-m makes a disc of
-// that radius of it. Throws ConfigError, StoreError.
-[[nodiscard]] RobotModel robot_of(const PlanCommand& command, const SavedMap& map);
+// The robot that the options and the map say: of the robot file, or of the saved radius; radius_m makes a disc of that
+// radius of it. Throws ConfigError, StoreError.
+[[nodiscard]] RobotModel robot_of(const MapPlannerOptions& options, const SavedMap& map);
 
 class MapPlanner {
  public:
-  // The command must outlive it. Throws what loading the map and the modules throws.
-  MapPlanner(const PlanCommand& command, const CommonOptions& common);
+  // Loads options.map. The library must outlive it. Throws what loading the map and the modules throws.
+  MapPlanner(MapPlannerOptions options, PlannerUse use, const ModuleLibrary& library);
+  // Of a map in memory, which nobody changes meanwhile, asked by several threads; options.map is its name in errors.
+  MapPlanner(MapPlannerOptions options, std::shared_ptr<SavedMap> map, const ModuleLibrary& library);
 
   // A text that names nothing on any map ends a single question with a MalformedPlace; among many it is answered, like
-  // a name that this map does not know, with `unknown_place`. Thread-safe among many
-  // questions; a single one is asked from one thread.
-  [[nodiscard]] PlanResult answer(const PlanQuery& query) const;
+  // a name that this map does not know, with `unknown_place`. Thread-safe when asked so (PlannerUse).
+  [[nodiscard]] PlanResult answer(const PlanQuestion& question) const;
   // As the hierarchy has them.
   [[nodiscard]] const ClusterTree& clusters() const;
   // Its grid may not be read yet where no question has needed it.
-  [[nodiscard]] const SavedMap& map() const { return map_; }
+  [[nodiscard]] const SavedMap& map() const { return *map_; }
   [[nodiscard]] const OccupancyGrid& whole_grid() const;
   [[nodiscard]] double radius_m() const { return robot_.radius_m; }
   [[nodiscard]] const RobotModel& robot() const { return robot_; }
 
  private:
+  MapPlanner(MapPlannerOptions options, bool many, std::optional<MapFile> file, std::shared_ptr<SavedMap> map,
+             const ModuleLibrary& library);
   [[nodiscard]] ClusterRules cluster_rules() const;
   [[nodiscard]] WorldView world_on(const OccupancyGrid& grid, std::uint64_t version) const;
   void prepare(const OccupancyGrid& grid, std::uint64_t version) const;
@@ -51,12 +56,11 @@ class MapPlanner {
   [[nodiscard]] PlanResult answer_asking_for_cells(const PlanTask& task) const;
   [[nodiscard]] Budget budget_after(Budget::Clock::duration spent) const;
 
-  const PlanCommand& command_;
+  MapPlannerOptions options_;
   bool many_ = false;
-  ModuleLibrary library_;
   std::optional<MapFile> file_;  // of a large map for one thread: its grid is read as far as it is needed
   mutable std::once_flag grid_read_;
-  mutable SavedMap map_;
+  std::shared_ptr<SavedMap> map_;  // its grid is read on in a const call, once
   std::optional<MapCells> cells_;  // of the file, for a planner that asks for them
   RobotModel robot_;
   std::vector<double> margins_m_;      // that are tried, the largest first

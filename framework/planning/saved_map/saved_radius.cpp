@@ -1,7 +1,7 @@
-#include "framework/program/plan/saved_radius.hpp"
+#include "framework/planning/saved_map/saved_radius.hpp"
 
 #include "framework/contracts/robot_model.hpp"
-#include "framework/program/common/commands.hpp"
+#include "framework/planning/saved_map/map_planner_options.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {

@@ -1,4 +1,4 @@
-#include "framework/program/plan/map_part.hpp"
+#include "framework/planning/saved_map/map_part.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,44 @@
+"""Builds Cairn and puts it whole into the package: the module, and under `prefix` the program, libraries and modules.
+
+CAIRN_BUILD: a build folder that is configured already, for who has one; otherwise build/python_package is made.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from setuptools import Distribution, setup
+from setuptools.command.build_py import build_py
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+class WithCairn(build_py):
+    """The Python files, and what CMake builds."""
+
+    def run(self) -> None:
+        super().run()
+        build = pathlib.Path(os.environ.get("CAIRN_BUILD", HERE.parent / "build/python_package"))
+        if not (build / "CMakeCache.txt").exists():
+            subprocess.run(["cmake", "-S", HERE.parent, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                            f"-DCAIRN_PYTHON={sys.executable}", "-DCAIRN_PYTHON_PACKAGE=ON",
+                            "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12"], check=True)
+        subprocess.run(["cmake", "--build", build], check=True)
+        package = pathlib.Path(self.build_lib) / "cairn"
+        shutil.rmtree(package / "prefix", ignore_errors=True)
+        subprocess.run(["cmake", "--install", build, "--prefix", package.resolve() / "prefix", "--strip"], check=True)
+        subprocess.run(["cmake", "--install", build, "--prefix", package.resolve(), "--component", "python"],
+                       check=True)
+        for headers in ("include", "lib/cmake", "lib/pkgconfig"):  # for authors of modules in C++
+            shutil.rmtree(package / "prefix" / headers, ignore_errors=True)
+
+
+class OfThisMachine(Distribution):
+    """Not of all machines."""
+
+    def has_ext_modules(self) -> bool:
+        return True
+
+
+setup(cmdclass={"build_py": WithCairn}, distclass=OfThisMachine, package_data={"cairn": ["py.typed", "*.pyi"]})
