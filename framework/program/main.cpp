@@ -22,6 +22,7 @@
 #include "framework/program/common/printable_stream.hpp"
 #include "framework/program/map/file_options.hpp"
 #include "framework/program/slam/slam_options.hpp"
+#include "framework/program/view/view_options.hpp"
 
 namespace cairn {
 namespace {
@@ -111,18 +112,6 @@ void add_plan(CLI::App& app, CommandLine& line) {
   add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);
   sub->add_option("--seed", c->seed, "seed of the planner")->check(seed_range())->capture_default_str();
   sub->add_option("--picture", c->picture, "draw the route into this PNG file");
-}
-
-void add_view(CLI::App& app, CommandLine& line) {
-  const auto [sub, c] =
-      add_command(app, line, view, "view", "Look at a saved map or a run in a browser, and plan by clicks");
-  sub->add_option("MAP", c->map, "saved map (*.cairn), or the output folder of a run")->required();
-  sub->add_flag("--control", c->control, "let the page pause, resume and cancel a running mission, and give it orders");
-  sub->add_option("--port", c->port, "of 127.0.0.1; 0: a free one")->capture_default_str();
-  add_repeatable(sub, "--allow-origin", c->allowed_origins,
-                 "page elsewhere whose Foxglove viewer may connect, as https://example.org (may be repeated)");
-  sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
-  add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);
 }
 
 void add_map(CLI::App& app, CommandLine& line) {

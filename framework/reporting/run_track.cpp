@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "framework/reporting/plan_end.hpp"
+
 namespace cairn {
 namespace {
 
@@ -24,21 +26,17 @@ std::vector<Point> thinned_path(const std::vector<Pose2>& path) {
   return points;
 }
 
-bool is_end_of_driving(const Event& event) {
-  if (std::holds_alternative<StepEnded>(event)) return true;
-  const auto* const ended = std::get_if<NodeEnded>(&event);
-  return ended != nullptr && ended->kind == NodeKind::behaviour;
-}
-
 }  // namespace
 
 RunTrack::RunTrack(const HistoryConfig& history) : max_events_(history.max_events), poses_(history.max_samples) {}
 
 void RunTrack::on(const Event& event, const MissionView& view) {
   const double time_s = view.world.time_s;
+  if (!plans_.empty() && !plans_.back().points.empty() &&
+      is_end_of_plan(event, view.world, plans_.back().points.back()))
+    note_plan({time_s});
   if (std::holds_alternative<TickDone>(event)) return poses_.add({time_s, view.world.pose.T_map_robot});
   if (const auto* const plan = std::get_if<PlanDone>(&event)) note_plan({time_s, thinned_path(plan->result.path)});
-  if (is_end_of_driving(event) && !plans_.empty() && !plans_.back().points.empty()) note_plan({time_s});
   if (landmarks_.size() >= max_events_) return;
   if (const auto* const change = std::get_if<LandmarkChanged>(&event); change != nullptr && change->is_new)
     landmarks_.push_back({time_s, change->landmark.id, false});

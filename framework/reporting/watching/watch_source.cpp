@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "framework/reporting/event_sentences.hpp"
+#include "framework/reporting/plan_end.hpp"
 
 namespace cairn {
 namespace {
@@ -27,12 +28,6 @@ std::vector<Item> evenly_chosen(const std::vector<Item>& items, std::size_t max)
   std::vector<Item> chosen;
   for (std::size_t i = 0; i < items.size(); i += every) chosen.push_back(items[i]);
   return chosen;
-}
-
-bool ends_plan(const Event& event) {
-  if (std::holds_alternative<StepEnded>(event)) return true;
-  const auto* const ended = std::get_if<NodeEnded>(&event);
-  return ended != nullptr && ended->kind == NodeKind::behaviour;
 }
 
 }  // namespace
@@ -61,13 +56,14 @@ void WatchSource::stop_watching() {
 }
 
 void WatchSource::note(const Event& event, const MissionView& view) {
+  if (plan_ && (plan_->result.path.empty() || is_end_of_plan(event, view.world, plan_->result.path.back().position())))
+    plan_.reset();
   if (const auto* const tick = std::get_if<TickDone>(&event)) {
     if (tick->changes != nullptr) note_tiles(*tick->changes);
     return note_ranges(view.world);
   }
   if (const auto* const change = std::get_if<LandmarkChanged>(&event)) landmarks_.mark(change->landmark.id);
   if (const auto* const retired = std::get_if<LandmarkRetired>(&event)) landmarks_.mark(retired->landmark.id);
-  if (ends_plan(event)) plan_.reset();
   if (const auto* const plan = std::get_if<PlanDone>(&event))
     plan_ = std::make_shared<WatchPlan>(WatchPlan{view.world.time_s, plan->result});
   std::string sentence = sentence_of(event);

@@ -26,8 +26,8 @@ class PlantedFiles : public HostileFiles {
 TEST_F(PlantedFiles, LinksInTheOutputFolderAreReplacedAndNotFollowed) {
   const std::string victim = written("victim", "precious");
   fs::create_directories(folder_ / "out");
-  const std::vector<std::string> names{"report.json",    "timing.json",  "held.cairn", "map.png",
-                                       "pose_error.png", "timeline.png", "a.log"};
+  const std::vector<std::string> names{"report.json", "track.json",     "timing.json",  "held.cairn",
+                                       "map.png",     "pose_error.png", "timeline.png", "a.log"};
   for (const std::string& name : names) {
     fs::create_symlink(victim, folder_ / "out" / name);
     fs::create_symlink(victim, folder_ / "out" / ("." + name + ".saving"));

@@ -118,7 +118,7 @@ async function steer(command, body) {
     const answer = await post(`/api/run/${command}`, body);
     if (answer.ok === false) say(answer.error);
     else if (answer.taken === false) say(`Not taken: ${answer.reason}`);
-    else if (answer.taken) say(`Taken: ${answer.reason}`);
+    else if (answer.taken) { say(`Taken: ${answer.reason}`); target = null; redraw(); }
     else take_status(answer);
   } catch (error) { say(error.message); }
 }
@@ -126,7 +126,7 @@ async function steer(command, body) {
 function end() {
   has_ended = true;
   for (const button of document.querySelectorAll('#steering button')) button.disabled = true;
-  say(`${run.status?.mission ?? 'The run'} has ended${run.status?.outcome ? `: ${run.status.outcome}` : ''}. Reload the page to browse it.`);
+  say(`${run.status?.mission ?? 'The run'} has ended${run.status?.outcome ? `: ${run.status.outcome}` : ''}. Reload, or start cairn view again, to browse it.`);
 }
 
 function connect() {

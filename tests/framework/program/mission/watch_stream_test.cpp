@@ -111,7 +111,7 @@ TEST_F(WatchedRun, OneWhoReadsNothingHoldsNothingUp) {
   wait_for_ticks(20'000);
   const Descriptor other = ask("watch");
   EXPECT_EQ(lines_of(other, 3).size(), 3U);
-  EXPECT_EQ(json::parse(ask_mission(folder_, "pause").line)["ok"], true);
+  EXPECT_EQ(json::parse(ask_mission(folder_, "status").line)["ok"], true);
   end();
 }
 

@@ -128,6 +128,9 @@ TEST_F(WatchedMission, APlanLastsUntilTheBehaviourEnds) {
   EXPECT_THAT(under_way->plan->result.path, SizeIs(2));
   publish(StepEnded{0, "goto", {StepState::success, ""}});
   EXPECT_FALSE(frame_of(*watch)->plan);
+  plan.path.push_back({1.1, 2.0, 0.0});
+  publish(PlanDone{plan});
+  EXPECT_FALSE(frame_of(*watch)->plan) << "the robot stands on its goal";
 }
 
 TEST_F(WatchedMission, RetiredLandmarksAreNamed) {
