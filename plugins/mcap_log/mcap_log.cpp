@@ -103,6 +103,7 @@ ScanLog LogReader::read() {
     }
     i = end;
   }
+  if (!config_.compass_from_pose) scans_.forget_start();
   scans_.finish();
   return std::move(scans_);
 }

@@ -5,6 +5,9 @@
 // between the two around its stamp. Range messages with the same stamp are one observation. Where a sensor is on the
 // robot is what the transforms say, those of the static topic first, or the settings.
 //
+// Odometry knows no place in a map: the mission's `start` says where the robot was at the first observation. With
+// compass_from_pose the log's frame is the map's, and its first pose is the start.
+//
 // Bad records, refused or skipped and counted: a chunk whose checksum is wrong or that does not unpack, a message that
 // ends early, limits that are none, a sensor whose place is not known, a pose beyond 100 km. A file that ends early is
 // read up to its last whole chunk in any case.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -30,9 +31,9 @@ std::vector<protocol::Service> services() {
           {cancel_service, "/cancel", "cairn.Cancel", any, any}};
 }
 
-std::optional<std::uint32_t> id_of(const nlohmann::json& json) {
-  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > UINT32_MAX) return std::nullopt;
-  return json.get<std::uint32_t>();
+std::optional<std::uint32_t> id_of(const nlohmann::json& value) {
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX) return std::nullopt;
+  return value.get<std::uint32_t>();
 }
 
 const nlohmann::json& list_of(const nlohmann::json& message, const char* key) {
@@ -136,6 +137,7 @@ FoxgloveConnection::Frames FoxgloveConnection::control(const protocol::PlaybackC
     for (auto& [id, subscription] : subscriptions_) rewind(subscription);
   }
   is_playing_ = asked.is_playing;
+  is_end_reported_ = position_ns_ == recording_.times.end_ns;
   is_begun_ = is_begun_ || is_playing_;
   return {state(asked.seek_ns.has_value(), asked.request)};
 }
@@ -172,16 +174,20 @@ bool FoxgloveConnection::send_until(std::uint64_t time_ns, std::size_t max_bytes
 FoxgloveConnection::Frames FoxgloveConnection::advance(double elapsed_s, std::size_t max_bytes) {
   Frames frames;
   std::size_t bytes = 0;
-  if (!send_until(position_ns_, max_bytes, bytes, frames)) return frames;
   const std::uint64_t end_ns = recording_.times.end_ns;
-  if (!is_begun_ || !is_playing_ || position_ns_ == end_ns) return frames;
-  const std::uint64_t before_ns = position_ns_;
-  const double step_ns = rest_ns_ + kNsOfSecond * static_cast<double>(speed_) * std::clamp(elapsed_s, 0.0, kMaxStep_s);
-  rest_ns_ = step_ns - std::floor(step_ns);
-  const std::uint64_t target_ns = before_ns + std::min(end_ns - before_ns, static_cast<std::uint64_t>(step_ns));
-  if (send_until(target_ns, max_bytes, bytes, frames)) position_ns_ = target_ns;
-  if (position_ns_ != before_ns) frames.push_back(protocol::time(position_ns_));
-  if (position_ns_ == end_ns && has_control_) frames.push_back(state(false, ""));
+  bool is_all_sent = send_until(position_ns_, max_bytes, bytes, frames);
+  if (is_all_sent && is_begun_ && is_playing_ && position_ns_ != end_ns) {
+    const std::uint64_t before_ns = position_ns_;
+    const double step_ns =
+        rest_ns_ + kNsOfSecond * static_cast<double>(speed_) * std::clamp(elapsed_s, 0.0, kMaxStep_s);
+    rest_ns_ = step_ns - std::floor(step_ns);
+    const std::uint64_t target_ns = before_ns + std::min(end_ns - before_ns, static_cast<std::uint64_t>(step_ns));
+    is_all_sent = send_until(target_ns, max_bytes, bytes, frames);
+    if (is_all_sent) position_ns_ = target_ns;
+    if (position_ns_ != before_ns) frames.push_back(protocol::time(position_ns_));
+  }
+  if (is_all_sent && is_begun_ && position_ns_ == end_ns && !std::exchange(is_end_reported_, true) && has_control_)
+    frames.push_back(state(false, ""));
   return frames;
 }
 

@@ -57,6 +57,7 @@ class FoxgloveConnection {
   float speed_ = 1.0F;
   bool is_begun_ = false;
   bool is_playing_ = true;
+  bool is_end_reported_ = false;
 };
 
 }  // namespace cairn

@@ -106,6 +106,8 @@ class ScanLog {
   // Odometry as counted from the first pose of the log; sets compass and start, too.
   void set_pose(const Pose2& T_log_robot, Scan& scan);
   void set_start(const Pose2& T_map_start) { start_ = T_map_start; }
+  // When all poses are set: the log's frame is not the map's.
+  void forget_start() { start_.reset(); }
   // Other odometry than that of the scans, a pose a scan: where a log states it behind them. The start is its first
   // pose.
   void replace_odometry(std::span<const Pose2> T_odom_robot);

@@ -18,8 +18,11 @@ using testing::HasSubstr;
 
 TEST(McapLog, AScanIsTakenWhereTheOdometryWasAtItsTime) {
   const log_files::LogFolder folder;
-  const Played log = played(folder, laser_bag());
+  Config config;
+  config.compass_from_pose = true;
+  const Played log = played(folder, laser_bag(), config);
   ASSERT_EQ(log.seen.size(), 21U) << log.reason;
+  EXPECT_FALSE(played(folder, laser_bag()).start) << "odometry knows no place";
   EXPECT_NEAR(log.seen[0].stamp_s, 10.05, 1e-9);
   EXPECT_NEAR(log.seen[3].T_odom_robot.x_m - log.seen[0].T_odom_robot.x_m, 0.3, 1e-9);
   EXPECT_NEAR(log.start->x_m, 0.05, 1e-9) << "between two poses";
@@ -55,7 +58,8 @@ TEST(McapLog, RangesOfOneStampAreOneObservation) {
   bag.range(1.0, "left", 1.5, "/sonar/left");
   bag.range(1.0, "right", std::numeric_limits<double>::infinity(), "/sonar/right");
   bag.range(1.5, "right", 0.5, "/sonar/right");
-  const Played log = played(folder, bag.closed());
+  const std::string bytes = bag.closed();
+  const Played log = played(folder, bytes);
   ASSERT_EQ(log.seen.size(), 2U) << log.reason;
   ASSERT_EQ(log.seen[0].ranges.size(), 2U);
   EXPECT_EQ(log.seen[0].ranges[0].range_m, 1.5);
@@ -64,7 +68,9 @@ TEST(McapLog, RangesOfOneStampAreOneObservation) {
   EXPECT_TRUE(std::isinf(log.seen[0].ranges[1].range_m));
   EXPECT_EQ(log.seen[0].ranges[1].sensor, log.seen[1].ranges[0].sensor);
   EXPECT_NE(log.seen[0].ranges[0].sensor, log.seen[0].ranges[1].sensor);
-  EXPECT_EQ(*log.start, (Pose2{5.0, 6.0, 0.0}));
+  Config config;
+  config.compass_from_pose = true;
+  EXPECT_EQ(played(folder, bytes, config).start, (Pose2{5.0, 6.0, 0.0}));
 }
 
 TEST(McapLog, TransformsServeAsOdometryWhereThereIsNone) {
@@ -78,12 +84,13 @@ TEST(McapLog, TransformsServeAsOdometryWhereThereIsNone) {
     bag.scan(i, {1.0, 2.0, 3.0});
   }
   const std::string bytes = bag.closed();
-  const Played log = played(folder, bytes);
+  Config config;
+  config.compass_from_pose = true;
+  const Played log = played(folder, bytes, config);
   ASSERT_EQ(log.seen.size(), 4U) << log.reason;
   EXPECT_NEAR(log.seen[3].T_odom_robot.x_m, 3.0, 1e-12);
   EXPECT_NEAR(log.start->x_m, 0.0, 1e-12);
   EXPECT_NEAR(log.seen[0].ranges[0].T_robot_sensor.x_m, 0.75, 1e-12) << "seen from base_footprint";
-  Config config;
   config.base_frame = "base_link";
   EXPECT_NEAR(played(folder, bytes, config).start->x_m, 0.5, 1e-12);
   EXPECT_NEAR(played(folder, bytes, config).seen[0].ranges[0].T_robot_sensor.x_m, 0.25, 1e-12);

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "maps/store/map_store.hpp"
@@ -17,27 +16,6 @@ std::string replay_of(const std::string& sensor) {
          "\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel, cell_m: 0.05}\n";
 }
 
-// How many cells read differently, and by how much at most.
-struct Difference {
-  int cells = 0;
-  int differing = 0;
-  int greatest = 0;
-};
-
-Difference difference(const OccupancyGrid& a, const OccupancyGrid& b) {
-  Difference all;
-  const CellBox box = a.bounds();
-  for (int y = box.min.y; y < box.min.y + box.height(); ++y)
-    for (int x = box.min.x; x < box.min.x + box.width(); ++x) {
-      const Point at = a.centre_of({x, y});
-      const int apart = std::abs(static_cast<int>(a.ol({x, y})) - static_cast<int>(b.ol(b.cell_at(at))));
-      ++all.cells;
-      if (apart > 0) ++all.differing;
-      all.greatest = std::max(all.greatest, apart);
-    }
-  return all;
-}
-
 TEST(McapLogReplay, ARunRecordedAsMcapGivesTheSameMap) {
   const auto out = fresh_folder("mcap_log");
   const Finished first =
@@ -50,12 +28,8 @@ TEST(McapLogReplay, ARunRecordedAsMcapGivesTheSameMap) {
   EXPECT_EQ(nlohmann::json::parse(first.out)["readings"], nlohmann::json::parse(second.out)["readings"]);
   const SavedMap recorded = load_map((out / "office.cairn").string());
   const SavedMap replayed = load_map((out / "replay.cairn").string());
-  const Difference apart = difference(recorded.grid, replayed.grid);
-  RecordProperty("cells", apart.cells);
-  RecordProperty("differing", apart.differing);
-  EXPECT_GT(apart.cells, 5000);
-  // Ranges are 32 bits in ROS 2: a reading may end in the next cell.
-  EXPECT_LE(apart.differing, apart.cells / 1000) << "by " << apart.greatest << " at most";
+  EXPECT_GT(recorded.grid.bounds().width(), 20);
+  EXPECT_TRUE(recorded.grid == replayed.grid) << "OG1 differs";
 }
 
 TEST(McapLogReplay, AFileCutOffByAKillStillBecomesAMap) {
