@@ -34,7 +34,7 @@ class Map {
 // Of the modules beside the package, and of CAIRN_PLUGIN_PATH; made once. Keep the interpreter's lock released.
 [[nodiscard]] const ModuleLibrary& module_library();
 
-void add_errors(pybind11::module_& module);
+void add_errors();
 void add_grid(pybind11::module_& module);
 void add_graph(pybind11::module_& module);
 void add_map(pybind11::module_& module, pybind11::class_<Map, std::shared_ptr<Map>>& map);

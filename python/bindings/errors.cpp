@@ -2,7 +2,6 @@
 // reason.
 #include "framework/config/config_value.hpp"
 #include "framework/modules/fence.hpp"
-#include "maps/base/output_file.hpp"
 #include "maps/base/source_text.hpp"
 #include "python/bindings/bindings.hpp"
 
@@ -10,7 +9,7 @@ namespace cairn::python {
 namespace py = pybind11;
 namespace {
 
-// Of the package, whose exceptions they are; null while it is being imported.
+// Of the package, whose exceptions they are.
 py::object exception_class(const char* name) {
   return py::module_::import("cairn.errors").attr(name);
 }
@@ -29,8 +28,7 @@ void raise(const ConfigError& error) {
 
 }  // namespace
 
-void add_errors(py::module_& module) {
-  static_cast<void>(module);
+void add_errors() {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -40,10 +38,12 @@ void add_errors(py::module_& module) {
       raise("MapError", error.what());
     } catch (const ExchangeError& error) {
       raise("FileError", error.what());
-    } catch (const OutputError& error) {
-      raise("CairnError", error.what());
     } catch (const ModuleFault& error) {
       raise("ModuleError", error.what());
+    } catch (const py::builtin_exception&) {
+      throw;  // pybind11's own
+    } catch (const std::runtime_error& error) {
+      raise("CairnError", error.what());
     }
   });
 }

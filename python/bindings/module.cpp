@@ -14,7 +14,7 @@ const ModuleLibrary& module_library() {
 PYBIND11_MODULE(_native, module) {
   using namespace cairn::python;
   module.doc() = "Cairn's libraries as Python sees them.";
-  add_errors(module);
+  add_errors();
   add_grid(module);
   add_graph(module);
   pybind11::class_<Map, std::shared_ptr<Map>> map(module, "Map");

@@ -91,7 +91,7 @@ class Map:
     def name(self, what: Union[str, _native.Landmark], name: str) -> None:
         """Names a landmark or a cluster, in memory; "" takes its name away.
 
-        Raises RuntimeError: there is nothing of that id or name, or the name cannot be given.
+        Raises CairnError: there is nothing of that id or name, or the name cannot be given.
         """
         self._native.name(f"L{what.id}" if isinstance(what, _native.Landmark) else what, name)
         self._planners.clear()
@@ -104,7 +104,7 @@ class Map:
                 longer_side_px: float = 930.0) -> bytes:
         """Draws it with its graph, and the path of a plan on top. Returns a PNG, and writes it to file if there is one.
 
-        Raises RuntimeError: the file cannot be written.
+        Raises CairnError: the file cannot be written.
         """
         path = [] if plan is None else plan.path.tolist()
         passed = [] if plan is None else [int(label[1:]) for label in plan.landmarks]

@@ -75,9 +75,9 @@ def test_a_name_finds_its_landmark_and_is_saved(office_map, tmp_path):
 
 
 def test_a_name_that_cannot_be_given_says_why(office_map):
-    with pytest.raises(RuntimeError, match="looks like an id"):
+    with pytest.raises(cairn.CairnError, match="looks like an id"):
         office_map.name(office_map.landmarks[0], "L99")
-    with pytest.raises(RuntimeError, match='there is no landmark and no cluster "L999"'):
+    with pytest.raises(cairn.CairnError, match='there is no landmark and no cluster "L999"'):
         office_map.name("L999", "x")
 
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "framework/planning/saved_map/saved_radius.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
-#include "framework/planning/saved_map/saved_radius.hpp"
 #include "maps/base/text.hpp"
 #include "maps/edit/graph_lint.hpp"
 #include "maps/store/map_store.hpp"
