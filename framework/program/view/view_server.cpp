@@ -115,9 +115,11 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
     if (auto refused = refusal_of(asked, state_.port(), state_.token)) return write(std::move(*refused));
     if (request.target() == kLiveTarget) return go_live(std::move(request));
     stream_.expires_never();
-    asio::post(state_.workers, [self = shared_from_this(), asked = std::move(asked)] {
-      auto answer = std::make_shared<ViewResponse>(self->state_.answer(asked));
-      asio::post(self->state_.io, [self, answer] { self->write(std::move(*answer)); });
+    asio::post(state_.workers, [self = shared_from_this(), asked = std::move(asked)]() mutable {
+      State& state = self->state_;
+      auto answer = std::make_shared<ViewResponse>(state.answer(asked));
+      // The session goes with it: it must end in the network's thread.
+      asio::post(state.io, [self = std::move(self), answer] { self->write(std::move(*answer)); });
     });
   }
 
