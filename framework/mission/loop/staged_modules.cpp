@@ -34,7 +34,7 @@ StagedModules::StagedModules(const MissionModules& modules, const Mission& missi
   for (std::size_t i = 0; i < nodes.size(); ++i)
     behaviours.push_back(staged(modules.behaviours[i], "behaviour", nodes[i]->choice));
   drive = clock.add("drive", config.sensor.name);
-  if (MissionDisplay* shown = sensor.call([](Sensor& source) { return source.display(); }))
+  if (MissionDisplay* const shown = sensor ? sensor.call([](Sensor& source) { return source.display(); }) : nullptr)
     display = {sensor.part(shown), clock, clock.add("display", config.sensor.name)};
 }
 
