@@ -1,4 +1,5 @@
-// HTTP on 127.0.0.1, for one page and its API. With live_session.hpp and foxglove_session.hpp the only user of Boost.Beast.
+// HTTP on 127.0.0.1, for one page and its API. With live_session.hpp and foxglove_session.hpp the only user of
+// Boost.Beast.
 #pragma once
 
 #include <atomic>

@@ -50,17 +50,17 @@ class FoxgloveClient {
     return head;
   }
 
-  // The content of the next frame.
-  std::string frame() {
-    const std::string head = receive(2);
-    if (head.size() < 2) return {};
-    std::uint64_t size = static_cast<unsigned char>(head[1]);
-    const int more = size == 126 ? 2 : size == 127 ? 8 : 0;
-    if (more > 0) {
-      size = 0;
-      for (const char c : receive(static_cast<std::size_t>(more))) size = size << 8U | static_cast<unsigned char>(c);
+  // The content of the next message, which may come in several frames.
+  std::string message() {
+    std::string whole;
+    bool is_last = false;
+    while (!is_last) {
+      const std::string head = receive(2);
+      if (head.size() < 2) return {};
+      is_last = (static_cast<unsigned char>(head[0]) & 0x80U) != 0;
+      whole += content(head);
     }
-    return receive(size);
+    return whole;
   }
 
   // Short, with a mask of zeros.
@@ -70,6 +70,15 @@ class FoxgloveClient {
   }
 
  private:
+  [[nodiscard]] std::string content(const std::string& head) const {
+    std::uint64_t size = static_cast<unsigned char>(head[1]);
+    const int more = size == 126 ? 2 : size == 127 ? 8 : 0;
+    if (more > 0) {
+      size = 0;
+      for (const char c : receive(static_cast<std::size_t>(more))) size = size << 8U | static_cast<unsigned char>(c);
+    }
+    return receive(size);
+  }
   void send_all(const std::string& bytes) const {
     EXPECT_EQ(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
   }
@@ -122,15 +131,15 @@ TEST_F(FoxgloveSessionTest, AnswersTheFirstNameThatItKnows) {
 TEST_F(FoxgloveSessionTest, SendsWhatItOffersAndThenTheMessages) {
   FoxgloveClient client(server_.port());
   EXPECT_THAT(client.shake_hands("foxglove.websocket.v1", target_), StartsWith("HTTP/1.1 101"));
-  EXPECT_EQ(nlohmann::json::parse(client.frame())["op"], "serverInfo");
-  EXPECT_EQ(nlohmann::json::parse(client.frame())["channels"][0]["topic"], "/a");
-  EXPECT_EQ(nlohmann::json::parse(client.frame())["op"], "advertiseServices");
+  EXPECT_EQ(nlohmann::json::parse(client.message())["op"], "serverInfo");
+  EXPECT_EQ(nlohmann::json::parse(client.message())["channels"][0]["topic"], "/a");
+  EXPECT_EQ(nlohmann::json::parse(client.message())["op"], "advertiseServices");
   client.send_text(R"({"op":"subscribe","subscriptions":[{"id":5,"channelId":1}]})");
   std::vector<std::string> payloads;
   while (payloads.size() < 3) {
-    const std::string frame = client.frame();
-    ASSERT_FALSE(frame.empty());
-    if (frame[0] == '\1') payloads.push_back(frame.substr(13));
+    const std::string message = client.message();
+    ASSERT_FALSE(message.empty());
+    if (message[0] == '\1') payloads.push_back(message.substr(13));
   }
   EXPECT_EQ(payloads[0], "first");
   EXPECT_TRUE(payloads[1] == std::string(3'000'000, 'x'));
@@ -161,7 +170,7 @@ TEST_F(FoxgloveSessionTest, AViewerThatIsGoneOrSilentLeavesTheOthersAlone) {
   }
   FoxgloveClient other(server_.port());
   EXPECT_THAT(other.shake_hands("foxglove.sdk.v1", target_), StartsWith("HTTP/1.1 101"));
-  EXPECT_EQ(nlohmann::json::parse(other.frame())["op"], "serverInfo");
+  EXPECT_EQ(nlohmann::json::parse(other.message())["op"], "serverInfo");
 }
 
 }  // namespace
