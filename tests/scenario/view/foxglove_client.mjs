@@ -53,7 +53,7 @@ client.on("advertiseServices", (services) => {
       encoding: "json",
       data: new Uint8Array(Buffer.from(JSON.stringify(request))),
     });
-  call("/plan", 1, { from: [0.6, 0.6], to: [1.0, 0.6] });
+  call("/plan", 1, { from: "0.6,0.6", to: "1.0,0.6" });
   call("/pause", 2, {});
 });
 client.on("serviceCallResponse", (response) => {
