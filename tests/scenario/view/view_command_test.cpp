@@ -127,6 +127,10 @@ TEST_F(ViewOfARun, OutlivesTheRunWhenItIsOnItsOwn) {
   Conversation view({"view", out_.string(), "--control"});
   read_address(view);
   EXPECT_EQ(body_of(get("/api/view"))["kind"], "live");
+  double time_s = 0.0;
+  for (int i = 0; i < 100 && time_s <= 0.0; ++i)
+    time_s = json::parse(run_cairn({"mission", "status", out_.string(), "--json"}).out)["time_s"].get<double>();
+  EXPECT_GT(time_s, 0.0);
   EXPECT_EQ(body_of(post("/api/run/cancel", "{}"))["outcome"], "cancelled");
   EXPECT_EQ(run.exit_status(), 1);
   EXPECT_EQ(body_of(get("/api/view"))["kind"], "run");
