@@ -14,8 +14,10 @@ namespace cairn {
 template <class Sample>
 class ThinnedSeries {
  public:
-  // At least two.
-  explicit ThinnedSeries(std::size_t max_samples) : max_(std::max<std::size_t>(2, max_samples)) {}
+  // At least two. Up to so many usual ones, taking one allocates nothing.
+  explicit ThinnedSeries(std::size_t max_samples) : max_(std::max<std::size_t>(2, max_samples)) {
+    samples_.reserve(std::min(max_, kUsualSamples));
+  }
 
   void add(Sample sample) {
     const std::int64_t number = offered_++;
@@ -37,6 +39,8 @@ class ThinnedSeries {
     samples_.erase(samples_.begin() + static_cast<std::ptrdiff_t>(kept), samples_.end());
     every_ *= 2;
   }
+
+  static constexpr std::size_t kUsualSamples = 10'000;
 
   std::size_t max_;
   std::vector<Sample> samples_;
