@@ -46,8 +46,8 @@ async function watch(page) {
 
 async function browse(page) {
   await status_holds(page, 'Drag the time');
-  const at_end = await colours_of(page);
-  check(at_end > 20, 'the map is blank');
+  for (let i = 0; i < 100 && await colours_of(page) <= 20; ++i) await page.waitForTimeout(50);
+  check(await colours_of(page) > 20, 'the map is blank');
   const end_s = await seconds_of(page);
   await page.locator('#slider').focus();
   await page.keyboard.press('Home');
