@@ -20,10 +20,8 @@ constexpr float kMaxSpeed = 100.0F;
 enum FoxgloveService : std::uint32_t { plan_service = 1, pause_service, resume_service, cancel_service };
 
 std::vector<protocol::Service> services() {
-  const std::string place =
-      R"({"oneOf":[{"type":"string"},{"type":"integer"},{"type":"array","items":{"type":"number"}}]})";
   const std::string ask =
-      R"({"type":"object","properties":{"from":)" + place + R"(,"to":)" + place + R"(},"required":["from","to"]})";
+      R"({"type":"object","properties":{"from":{"type":"string"},"to":{"type":"string"}},"required":["from","to"]})";
   const std::string any = R"({"type":"object"})";
   return {{plan_service, "/plan", "cairn.Plan", ask, any},
           {pause_service, "/pause", "cairn.Pause", any, any},
