@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -15,7 +16,7 @@ namespace {
 // As the page has it answered.
 std::string planned(FolderApi& api, const std::string& body) {
   const ViewResponse answer = api.answer({"POST", "/api/plan", "", "", "", "application/json", body});
-  if (answer.status != 200) throw std::runtime_error(answer.body);
+  if (answer.status != 200) throw std::runtime_error(nlohmann::json::parse(answer.body).at("error"));
   return answer.body;
 }
 
