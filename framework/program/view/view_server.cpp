@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "framework/program/view/foxglove_session.hpp"
+#include "framework/program/view/foxglove/session.hpp"
 #include "framework/program/view/live_session.hpp"
 
 namespace cairn {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "framework/program/view/foxglove_offer.hpp"
+#include "framework/program/view/foxglove/offer.hpp"
 #include "framework/program/view/view_request.hpp"
 
 namespace cairn {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/program/view/foxglove_connection.hpp"
+#include "framework/program/view/foxglove/connection.hpp"
 
 namespace cairn {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "framework/program/view/foxglove_offer.hpp"
+#include "framework/program/view/foxglove/offer.hpp"
 #include "framework/program/view/view_server.hpp"
 
 namespace cairn {

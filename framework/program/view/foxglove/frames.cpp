@@ -1,4 +1,4 @@
-#include "framework/program/view/foxglove_frames.hpp"
+#include "framework/program/view/foxglove/frames.hpp"
 
 #include <bit>
 #include <nlohmann/json.hpp>

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "framework/program/view/foxglove_recording.hpp"
+#include "framework/program/view/foxglove/recording.hpp"
 
 namespace cairn {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/program/view/foxglove_frames.hpp"
+#include "framework/program/view/foxglove/frames.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/program/view/foxglove_connection.hpp"
-#include "framework/program/view/foxglove_offer.hpp"
+#include "framework/program/view/foxglove/connection.hpp"
+#include "framework/program/view/foxglove/offer.hpp"
 
 namespace cairn {
 

@@ -1,4 +1,4 @@
-#include "framework/program/view/foxglove_recording.hpp"
+#include "framework/program/view/foxglove/recording.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,5 +1,5 @@
 // The byte layout of Foxglove's protocol.
-#include "framework/program/view/foxglove_frames.hpp"
+#include "framework/program/view/foxglove/frames.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "framework/program/view/foxglove_connection.hpp"
+#include "framework/program/view/foxglove/connection.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "framework/program/view/foxglove_offer.hpp"
+#include "framework/program/view/foxglove/offer.hpp"
 
 #include <mutex>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "framework/program/view/foxglove_session.hpp"
+#include "framework/program/view/foxglove/session.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
