@@ -1,6 +1,17 @@
 #include "framework/program/view/view_options.hpp"
 
+#include "framework/program/view/view_request.hpp"
+
 namespace cairn {
+namespace {
+
+std::string fault_of_origin(std::string& text) {
+  if (is_page_origin(text)) return {};
+  return "must be the origin of a page, as https://example.org or http://localhost:8080, without a path; found \"" +
+         text + "\"";
+}
+
+}  // namespace
 
 void add_view(CLI::App& app, CommandLine& line) {
   const auto [sub, c] =
@@ -8,8 +19,10 @@ void add_view(CLI::App& app, CommandLine& line) {
   sub->add_option("MAP", c->map, "saved map (*.cairn), or the output folder of a run")->required();
   sub->add_flag("--control", c->control, "let the page pause, resume and cancel a running mission, and give it orders");
   sub->add_option("--port", c->port, "of 127.0.0.1; 0: a free one")->capture_default_str();
-  add_repeatable(sub, "--allow-origin", c->allowed_origins,
-                 "page elsewhere whose Foxglove viewer may connect, as https://example.org (may be repeated)");
+  sub->add_option("--allow-origin", c->allowed_origins,
+                  "page elsewhere whose Foxglove viewer may connect, as https://example.org (may be repeated)")
+      ->allow_extra_args(false)
+      ->check(CLI::Validator(fault_of_origin, "ORIGIN"));
   sub->add_option("--planner", c->planner, "planner module")->capture_default_str();
   add_number(sub, "--budget-ms", c->budget_ms, "stop planning after this time", 0.0, 1e9);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
 
 namespace cairn {
 namespace {
@@ -31,6 +32,11 @@ std::string new_view_token() {
   std::string token;
   for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", static_cast<std::uint32_t>(random()));
   return token;
+}
+
+bool is_page_origin(const std::string& text) {
+  static const std::regex kOrigin(R"(https?://([a-z0-9.-]+|\[[0-9a-f:]+\])(:[0-9]{1,5})?)");
+  return std::regex_match(text, kOrigin);
 }
 
 ViewResponse view_error(int status, const std::string& why) {

@@ -37,6 +37,9 @@ using ViewHandler = std::function<ViewResponse(const ViewRequest& request)>;
 // 128 random bits in hexadecimal.
 [[nodiscard]] std::string new_view_token();
 
+// As browsers write the origin of a page: "https://example.org", "http://localhost:8080".
+[[nodiscard]] bool is_page_origin(const std::string& text);
+
 // {"error": why}
 [[nodiscard]] ViewResponse view_error(int status, const std::string& why);
 

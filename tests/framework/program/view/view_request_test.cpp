@@ -76,5 +76,13 @@ TEST(ViewRequest, TokensAreLongAndNew) {
   EXPECT_NE(new_view_token(), new_view_token());
 }
 
+TEST(ViewRequest, OriginsAreWrittenAsBrowsersDo) {
+  for (const char* origin : {"https://example.org", "http://localhost:8080", "http://[::1]:80"})
+    EXPECT_TRUE(is_page_origin(origin)) << origin;
+  for (const char* other : {"", "example.org", "https://example.org/", "https://Example.org", "ftp://example.org", "*",
+                            "https://a b", "https://example.org:99999999"})
+    EXPECT_FALSE(is_page_origin(other)) << other;
+}
+
 }  // namespace
 }  // namespace cairn
