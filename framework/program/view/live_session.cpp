@@ -34,9 +34,10 @@ std::vector<std::string> protocols_of(const LiveRequest& request) {
 
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
  public:
-  LiveSession(beast::tcp_stream&& stream, const Descriptor& run, std::shared_ptr<void> counted)
+  // Takes the descriptor.
+  LiveSession(beast::tcp_stream&& stream, int run, std::shared_ptr<void> counted)
       : browser_(std::move(stream)), run_(browser_.get_executor()), counted_(std::move(counted)) {
-    run_.assign(asio::local::stream_protocol(), ::dup(run.get()));
+    run_.assign(asio::local::stream_protocol(), run);
   }
 
   void accept(const LiveRequest& request) {
@@ -113,7 +114,9 @@ std::string serve_live(beast::tcp_stream&& stream, LiveRequest&& request, const 
   try {
     const MissionConnection run = connect_to_mission(folder);
     if (run.reached != Reached::answered || !write_line(run.socket.get(), "watch")) return "no mission runs there";
-    std::make_shared<LiveSession>(std::move(stream), run.socket, std::move(counted))->accept(request);
+    const int own = ::dup(run.socket.get());
+    if (own < 0) return "so many files are open already that none is left for another stream";
+    std::make_shared<LiveSession>(std::move(stream), own, std::move(counted))->accept(request);
     return {};
   } catch (const std::exception& error) {
     return error.what();
