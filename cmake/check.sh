@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What `make check` runs beside the tests: formatting, clang-tidy, whether the benches compile, and the unit tests under
-# AddressSanitizer and UndefinedBehaviorSanitizer, those with threads under ThreadSanitizer.
+# What `make check` runs beside the tests: formatting, clang-tidy, whether benches and each header alone compile, all tests
+# under AddressSanitizer and UndefinedBehaviorSanitizer, those with threads under ThreadSanitizer, and the fuzzers.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
@@ -14,8 +14,8 @@ git ls-files 'maps/*.cpp' 'framework/*.cpp' 'plugins/*.cpp' 'planners/*.cpp' |
   xargs -P "$jobs" -n 4 clang-tidy -p build/tidy --quiet --warnings-as-errors='*' 2>build/clang-tidy.log ||
   { tail -n 20 build/clang-tidy.log; exit 1; }
 
-echo "== benches, compiled only"
-cmake --build --preset release --target cairn_benches
+echo "== benches and every header alone, compiled only"
+cmake --build --preset release --target cairn_benches headers_compile_alone
 
 echo "== address and undefined behaviour sanitizers"
 cmake/sanitized_tests.sh
