@@ -107,6 +107,7 @@ struct ViewCommand {
   std::filesystem::path map;  // or the output folder of a run
   std::uint16_t port = 0;     // 0: a free one
   bool control = false;       // the page may pause, resume, cancel and order
+  bool edit = false;          // the page may change the map
   std::string planner = "hybrid";
   double budget_ms = 10000.0;                // of a plan
   std::vector<std::string> allowed_origins;  // of pages elsewhere whose viewers may connect

@@ -13,6 +13,7 @@
 #include "framework/config/config_value.hpp"
 #include "framework/mission/orders/order_text.hpp"
 #include "framework/program/mission/control_socket.hpp"
+#include "framework/program/view/edit_api.hpp"
 #include "framework/program/view/page_files.hpp"
 
 namespace cairn {
@@ -52,6 +53,10 @@ fs::path map_in(const fs::path& folder) {
                                        maps.empty() ? "no" : "several"));
 }
 
+fs::path map_file(const ViewCommand& command) {
+  return fs::is_directory(command.map) ? map_in(command.map) : command.map;
+}
+
 MapPlannerOptions plan_on(const fs::path& map, const ViewCommand& command) {
   MapPlannerOptions plan;
   plan.map = map;
@@ -73,24 +78,27 @@ std::string FolderApi::kind() const {
   return fs::is_regular_file(command_.map / "report.json") ? "run" : "map";
 }
 
-MapApi& FolderApi::map() {
+std::shared_ptr<MapApi> FolderApi::map() {
   const std::scoped_lock lock(mutex_);
-  if (!map_)
-    map_ = std::make_unique<MapApi>(plan_on(is_folder_ ? map_in(command_.map) : command_.map, command_), common_);
-  return *map_;
+  if (!map_) map_ = std::make_shared<MapApi>(plan_on(map_file(command_), command_), common_);
+  return map_;
 }
 
 ViewResponse FolderApi::answer(const ViewRequest& request) {
   if (const auto file = page_file(request.target)) return *file;
   if (request.target == "/api/view") {
-    const Json json{{"kind", kind()}, {"control", command_.control}, {"name", command_.map.filename().string()}};
+    const Json json{{"kind", kind()},
+                    {"control", command_.control},
+                    {"edit", command_.edit},
+                    {"name", command_.map.filename().string()}};
     return {200, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
   }
   if (request.target.starts_with(kSteerTarget)) return steer(request);
+  if (request.target.starts_with(kEditTarget)) return edit(request);
   if (request.target == "/api/report") return file("report.json");
   if (request.target == "/api/track") return file("track.json");
   if (kind() != "live")
-    if (auto answered = map().answer(request)) return std::move(*answered);
+    if (auto answered = map()->answer(request)) return std::move(*answered);
   return view_error(404, "there is nothing of that name");
 }
 
@@ -98,6 +106,18 @@ ViewResponse FolderApi::file(const std::string& name) const {
   auto text = is_folder_ ? bytes_of_file(command_.map / name) : std::nullopt;
   if (!text) return view_error(404, "the folder holds no " + name);
   return {200, "application/json", std::move(*text)};
+}
+
+// The next question is answered from the file as it then is.
+ViewResponse FolderApi::edit(const ViewRequest& request) {
+  if (!command_.edit) return view_error(403, "this view changes no map: cairn view --edit does");
+  if (kind() == "live")
+    return view_error(409, "the mission still writes the map; it can be changed when the run has ended");
+  const std::scoped_lock lock(mutex_);
+  ViewResponse answer =
+      edit_map(map_file(command_), request.target.substr(std::string_view(kEditTarget).size()), request.body);
+  if (answer.status == 200) map_.reset();
+  return answer;
 }
 
 ViewResponse FolderApi::steer(const ViewRequest& request) const {

@@ -28,14 +28,15 @@ class FolderApi {
  private:
   [[nodiscard]] std::string kind() const;  // live, run or map
   [[nodiscard]] ViewResponse steer(const ViewRequest& request) const;
+  [[nodiscard]] ViewResponse edit(const ViewRequest& request);
   [[nodiscard]] ViewResponse file(const std::string& name) const;
-  [[nodiscard]] MapApi& map();
+  [[nodiscard]] std::shared_ptr<MapApi> map();
 
   const ViewCommand command_;
   const CommonOptions common_;
   const bool is_folder_;
-  std::mutex mutex_;  // of map_
-  std::unique_ptr<MapApi> map_;
+  std::mutex mutex_;  // of map_, and of the file's changes
+  std::shared_ptr<MapApi> map_;
 };
 
 }  // namespace cairn

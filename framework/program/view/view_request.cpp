@@ -51,7 +51,8 @@ std::optional<ViewResponse> refusal_of(const ViewRequest& request, std::uint16_t
   const bool is_api = request.target.starts_with("/api/") || request.target == kLiveTarget;
   if (is_api && !is_same_token(request.token, token))
     return view_error(401, "the header X-Cairn-Token must hold the token of the printed address");
-  const bool is_post = request.target == "/api/plan" || request.target.starts_with(kSteerTarget);
+  const bool is_post = request.target == "/api/plan" || request.target.starts_with(kSteerTarget) ||
+                       request.target.starts_with(kEditTarget);
   const std::string method = is_post ? "POST" : "GET";
   if (request.method != method) return view_error(405, "the method must be " + method);
   if (method == "POST" && request.content_type != "application/json")

@@ -14,6 +14,7 @@ namespace cairn {
 
 inline constexpr const char* kLiveTarget = "/live";       // a WebSocket with the stream of a running mission
 inline constexpr const char* kSteerTarget = "/api/run/";  // with a command of its control socket behind it
+inline constexpr const char* kEditTarget = "/api/edit/";  // with a change of a saved map behind it
 
 struct ViewRequest {
   std::string method;

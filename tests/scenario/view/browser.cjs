@@ -1,4 +1,5 @@
-// The page of `cairn view` in a browser: node browser.cjs live|run ADDRESS [PICTURE]. Ends with 1 and says what is wrong.
+// The page of `cairn view` in a browser: node browser.cjs live|run|map ADDRESS [PICTURE]. Ends with 1 and says what is wrong.
+const { execSync } = require('node:child_process');
 const { chromium } = require('playwright-core');
 
 const [kind, address, picture] = process.argv.slice(2);
@@ -67,15 +68,81 @@ async function browse(page) {
   if (picture) await page.screenshot({ path: picture });
 }
 
+// What differs from one time to the next.
+function without_times(answer) {
+  return JSON.parse(JSON.stringify(answer, (key, value) => key.endsWith('_ms') ? undefined : value));
+}
+
+// Of the office: two landmarks chosen by the keyboard alone.
+async function plan_by_keyboard(page) {
+  await page.locator('#map').focus();
+  const before = await page.evaluate(() => document.getElementById('map').toDataURL());
+  await page.keyboard.press('+');
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForFunction((was) => document.getElementById('map').toDataURL() !== was, before, kPatience);
+  const answered = page.waitForResponse('**/api/plan');
+  for (let chosen = 0, i = 0; chosen < 2 && i < 100; ++i) {
+    await page.keyboard.press('Tab');
+    if (!await page.evaluate(() => document.activeElement.closest('#landmarks') !== null)) continue;
+    await page.keyboard.press('Enter');
+    ++chosen;
+  }
+  const { answer } = await (await answered).json();
+  check(answer.outcome === 'solved', `the keyboard's plan: ${answer.outcome}`);
+  await status_holds(page, 'Solved: ');
+  const printed = execSync(await page.textContent('#command'), { encoding: 'utf8' });
+  check(JSON.stringify(without_times(JSON.parse(printed))) === JSON.stringify(without_times(answer)),
+        `the printed command answers otherwise: ${printed}`);
+}
+
+async function change(page) {
+  await page.fill('#edit-what', 'L1');
+  await page.fill('#edit-name', 'pillar_box');
+  await page.press('#edit-name', 'Enter');
+  await status_holds(page, 'L1 is pillar_box');
+  check((await page.textContent('#landmarks')).includes('pillar_box'), 'the list has the old name');
+  await page.locator('#edit-route').selectOption({ index: 0 });
+  await page.click('#edit-close');
+  await status_holds(page, 'Now closed: R');
+  check((await page.textContent('#edit-route')).includes(', closed'), 'the route is listed as open');
+  await page.click('#edit-open');
+  await status_holds(page, 'Now open: R');
+  await page.fill('#edit-at', 'L1');
+  await page.fill('#edit-category', 'seen');
+  await page.press('#edit-category', 'Enter');
+  await status_holds(page, 'Wrote ');
+  await page.press('#edit-category', 'Enter');
+  await status_holds(page, 'there is such a file already');
+}
+
+async function look_at_map(page) {
+  for (let i = 0; i < 100 && await colours_of(page) <= 20; ++i) await page.waitForTimeout(50);
+  check(await colours_of(page) > 20, 'the map is blank');
+  await plan_by_keyboard(page);
+  await change(page);
+
+  const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await background();
+  await page.emulateMedia({ colorScheme: 'dark' });
+  check(await background() !== light, 'dark mode changes nothing');
+  if (picture) await page.screenshot({ path: picture });
+  await page.setViewportSize({ width: 390, height: 844 });
+  const sizes = await page.evaluate(() => ({
+    map: document.getElementById('map').getBoundingClientRect().height,
+    wide: document.documentElement.scrollWidth }));
+  check(sizes.map > 300 && sizes.wide <= 390, `on a phone: ${JSON.stringify(sizes)}`);
+  if (picture) await page.screenshot({ path: picture.replace('.png', '_phone.png') });
+}
+
 async function main() {
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium' });
   const faults = [];
   try {
     const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
     page.on('pageerror', (error) => faults.push(error.message));
-    page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+    page.on('console', (message) => message.type() === 'error' && !message.text().includes('status of 400') && faults.push(message.text()));
     await page.goto(address);
-    await (kind === 'live' ? watch : browse)(page);
+    await { live: watch, run: browse, map: look_at_map }[kind](page);
   } finally {
     await browser.close();
   }

@@ -27,8 +27,8 @@ class Browser : public testing::Test {
   // Empty: the page does all that it should.
   [[nodiscard]] std::string faults_of(const std::string& kind, const std::string& address) const {
     const fs::path said = folder_ / "said.txt";
-    const std::string command = "node " + source_folder() + "/tests/scenario/view/browser.cjs " + kind + " '" +
-                                address + "' 2> " + said.string();
+    const std::string command = "PATH=" CAIRN_BINARY_DIR "/bin:$PATH node " + source_folder() +
+                                "/tests/scenario/view/browser.cjs " + kind + " '" + address + "' 2> " + said.string();
     return succeeds(command) ? "" : text_of_file(said) + "(" + command + ")";
   }
 
@@ -60,6 +60,18 @@ TEST_F(Browser, WatchesSteersAndBrowsesARun) {
   EXPECT_EQ(faults_of("run", view.hear()), "");
   view.send(SIGTERM);
   EXPECT_EQ(view.exit_status(), 0);
+}
+
+TEST_F(Browser, PlansByTheKeyboardAndChangesASavedMap) {
+  ASSERT_EQ(run_cairn({"run", source_folder() + "/config/missions/office.yaml", "--out", out_.string(), "--json"})
+                .exit_status,
+            0);
+  Conversation view({"view", (out_ / "office.cairn").string(), "--edit"});
+  EXPECT_EQ(faults_of("map", view.hear()), "");
+  view.send(SIGTERM);
+  EXPECT_EQ(view.exit_status(), 0);
+  EXPECT_TRUE(fs::exists(out_ / "seen.yaml"));
+  EXPECT_NE(run_cairn({"map", (out_ / "office.cairn").string(), "--json"}).out.find("pillar_box"), std::string::npos);
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ class ViewOfARun : public testing::Test {
 TEST_F(ViewOfARun, OnlyWatchesUnlessItMaySteer) {
   Conversation run(run_with({"--view"}));
   read_address(run);
-  EXPECT_EQ(body_of(get("/api/view")), json::parse(R"({"kind": "live", "control": false, "name": "out"})"));
+  EXPECT_EQ(body_of(get("/api/view")),
+            json::parse(R"({"kind": "live", "control": false, "edit": false, "name": "out"})"));
   const std::string refused = post("/api/run/cancel", "{}");
   EXPECT_TRUE(refused.starts_with("HTTP/1.1 403")) << refused;
   EXPECT_THAT(refused, HasSubstr("--control"));
@@ -119,6 +120,43 @@ TEST_F(ViewOfARun, SteersAsTheCommandLineDoes) {
   EXPECT_TRUE(post("/api/run/status", "{}").starts_with("HTTP/1.1 404"));
   EXPECT_EQ(body_of(post("/api/run/cancel", "{}"))["outcome"], "cancelled");
   EXPECT_EQ(run.exit_status(), 1);
+}
+
+TEST_F(ViewOfARun, ChangesTheMapOnlyWhenItMayAndTheRunIsOver) {
+  Conversation run(run_with({"--json"}));
+  for (int i = 0; i < 2000 && !fs::exists(out_ / "control.sock"); ++i) ::usleep(5000);
+  Conversation view({"view", out_.string(), "--edit", "--control"});
+  read_address(view);
+  const std::string capture = R"({"at": "0.6,0.6", "category": "box"})";
+  EXPECT_TRUE(post("/api/edit/capture", capture).starts_with("HTTP/1.1 409"));
+  EXPECT_EQ(body_of(post("/api/run/cancel", "{}"))["outcome"], "cancelled");
+  EXPECT_EQ(run.exit_status(), 1);
+
+  const std::string before = text_of_file(out_ / "held.cairn");
+  const auto reason_of = [&](const std::string& what, const std::string& body) {
+    const std::string answer = post("/api/edit/" + what, body);
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 400")) << answer;
+    return body_of(answer)["error"].get<std::string>();
+  };
+  EXPECT_THAT(reason_of("name", R"({"what": "L1", "name": "kitchen"})"), HasSubstr("L1"));
+  EXPECT_THAT(reason_of("name", R"({"what": "L1", "nam": "kitchen"})"), HasSubstr(R"(did you mean "name")"));
+  EXPECT_THAT(reason_of("close", R"({"route": "R1"})"), HasSubstr("R1"));
+  EXPECT_THAT(reason_of("close", "[1, 2"), HasSubstr("JSON"));
+  EXPECT_THAT(reason_of("capture", R"({"at": "0.6,0.6", "category": "../box"})"), HasSubstr("category"));
+  EXPECT_THAT(reason_of("capture", capture), HasSubstr("held.cairn"));
+  EXPECT_TRUE(post("/api/edit/burn", "{}").starts_with("HTTP/1.1 404"));
+  EXPECT_TRUE(get("/api/edit/name").starts_with("HTTP/1.1 405"));
+  EXPECT_EQ(text_of_file(out_ / "held.cairn"), before);
+  view.send(SIGTERM);
+  EXPECT_EQ(view.exit_status(), 0);
+
+  Conversation watching({"view", out_.string()});
+  read_address(watching);
+  const std::string refused = post("/api/edit/capture", capture);
+  EXPECT_TRUE(refused.starts_with("HTTP/1.1 403")) << refused;
+  EXPECT_THAT(refused, HasSubstr("--edit"));
+  watching.send(SIGTERM);
+  EXPECT_EQ(watching.exit_status(), 0);
 }
 
 TEST_F(ViewOfARun, OutlivesTheRunWhenItIsOnItsOwn) {

@@ -1,5 +1,6 @@
 // A mission while it runs: what its stream says, drawn as it comes.
 import { element, post, say, token } from './api.js';
+import { Chart } from './charts.js';
 import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_plan, draw_ranges, draw_robot, draw_routes, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
 import { list_landmarks } from './map.js';
 import { add_lines, show_facts, show_node, show_parts, show_tree } from './panels.js';
@@ -7,6 +8,7 @@ import { add_lines, show_facts, show_node, show_parts, show_tree } from './panel
 const kTile = 64;
 const kMaxPath = 20000;
 const run = { tiles: new Map(), landmarks: new Map(), routes: [], path: [], ranges: [], plan: null };
+const charts = new Map();  // title -> Chart
 let may_steer = false, has_fitted = false, has_ended = false, target = null;
 
 function take_tile([tx, ty, text]) {
@@ -14,6 +16,21 @@ function take_tile([tx, ty, text]) {
   const key = `${tx},${ty}`;
   if (!run.tiles.has(key)) run.tiles.set(key, { tx, ty, picture: new_picture(kTile, kTile) });
   paint_cells(run.tiles.get(key).picture, (column, row) => bytes[row * kTile + column]);
+}
+
+function chart_of(title, unit) {
+  if (!charts.has(title)) { charts.set(title, new Chart(title, unit)); show_parts('charts-part'); }
+  return charts.get(title);
+}
+
+// Once a second of the mission's time, the most that a curve needs.
+function take_figures(line) {
+  if (line.time_s === undefined || line.time_s < (run.next_figure_s ?? 0)) return;
+  run.next_figure_s = line.time_s + 1;
+  if (line.pose && line.truth)
+    chart_of('Error of the pose', 'm').add('error', line.time_s, Math.hypot(line.pose.x_m - line.truth[0], line.pose.y_m - line.truth[1]));
+  for (const one of run.shown.slice(0, 6)) chart_of('Degrees of landmarks', '0 to 1').add(one.label, line.time_s, one.degree);
+  for (const chart of charts.values()) chart.draw(line.time_s, line.time_s);
 }
 
 function take_landmarks(changed = [], retired = []) {
@@ -51,7 +68,7 @@ function take_status(status) {
 
 function begin_run(line) {
   if (line.ok !== true) { say(`The run cannot be watched: ${line.error}`); return; }
-  Object.assign(run, { tiles: new Map(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [] });
+  Object.assign(run, { tiles: new Map(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [], next_figure_s: 0 });
   run.radius_m = line.robot_radius_m;
   document.title = element('name').textContent = line.mission;
   element('log').replaceChildren();
@@ -74,6 +91,7 @@ function take(line) {
   if (line.driven) run.path = line.driven;
   if (line.pose) take_pose(line.pose);
   if (line.ranges) run.ranges = line.ranges;
+  take_figures(line);
   run.truth = line.truth;
   if ('plan' in line) run.plan = line.plan;
   for (const [path, state, reason] of line.nodes ?? []) show_node(path, state, reason);

@@ -4,7 +4,7 @@ import { begin, canvas, categories_of, draw_label, draw_landmarks, draw_lines, d
 
 const kTile = 512;
 export let map, landmarks = [], routes = [];
-let clusters = [], categories = [];
+let clusters = [], categories = [], marked = null;
 let path = [], ends = [];
 const levels = new Map();  // level -> tiles or 'loading'
 
@@ -62,6 +62,7 @@ function draw_clusters() {
 export function draw_map(shown = landmarks) {
   draw_grid();
   if (element('show-routes').checked) draw_routes(routes);
+  if (marked) draw_lines([marked.points], '#e69f00', 5);
   draw_clusters();
   if (element('show-landmarks').checked) draw_landmarks(shown, categories);
 }
@@ -105,6 +106,7 @@ async function plan() {
 export function choose(x, y, text = `${x.toFixed(3)},${y.toFixed(3)}`) {
   if (ends.length === 2) clear();
   ends.push([x, y]);
+  document.dispatchEvent(new CustomEvent('chosen', { detail: { text } }));
   element(ends.length === 1 ? 'from' : 'to').value = text;
   if (ends.length === 2) plan(); else { say(`From ${text}. Choose where to.`); redraw(); }
 }
@@ -127,11 +129,23 @@ export function list_landmarks(list, choose_landmark) {
   }));
 }
 
+export function mark_route(label) {
+  marked = routes.find((route) => `R${route.id}` === label) ?? null;
+  redraw();
+}
+
+// All but the grid, which nothing changes.
+export async function load_lists() {
+  [landmarks, routes, clusters] = await Promise.all(['/api/landmarks', '/api/routes', '/api/clusters'].map(ask_json));
+  categories = categories_of(landmarks);
+  if (marked) mark_route(`R${marked.id}`);
+  list_landmarks(landmarks, (one) => choose(one.x, one.y, `L${one.id}`));
+}
+
 // Without drawing it. Throws when there is no map.
 export async function load_map() {
-  [map, landmarks, routes, clusters] =
-      await Promise.all(['/api/map', '/api/landmarks', '/api/routes', '/api/clusters'].map(ask_json));
-  categories = categories_of(landmarks);
+  map = await ask_json('/api/map');
+  await load_lists();
   for (const level of [...new Set(clusters.map((cluster) => cluster.level))].sort()) {
     const option = document.createElement('option');
     option.value = option.textContent = level;
@@ -139,7 +153,6 @@ export async function load_map() {
   }
   element('clear').onclick = clear;
   element('plan').onsubmit = (event) => { event.preventDefault(); ends = []; plan(); };
-  list_landmarks(landmarks, (one) => choose(one.x, one.y, `L${one.id}`));
 }
 
 export async function show_map() {

@@ -1,11 +1,13 @@
 // A finished run: where the robot was, what it did and what had been said at any time of it.
 import { ask_json, element, say } from './api.js';
+import { Chart } from './charts.js';
 import { begin, draw_lines, draw_plan, draw_robot, redraw } from './canvas.js';
 import * as saved from './map.js';
 import { clear_nodes, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 
 const kRadius_m = 0.22;
 let report, track = { poses: [], plans: [], landmarks: [] };
+const charts = [];
 let events = [], runs = [], at_s = 0, end_s = 0, player = null;
 
 // The last whose time has come; -1: none.
@@ -70,6 +72,7 @@ function show_time(time_s) {
   element('slider').setAttribute('aria-valuetext', `${at_s.toFixed(1)} seconds`);
   element('clock').textContent = `${at_s.toFixed(1)} of ${end_s.toFixed(1)} s`;
   show_nodes();
+  for (const chart of charts) chart.draw(end_s, at_s);
   show_lines(events.slice(0, last_before(events, (event) => event[0], at_s) + 1));
   redraw();
 }
@@ -100,6 +103,21 @@ function draw_marks() {
   for (const touch of report.contacts ?? []) add(touch.time_s, touch.time_s, 'contact', 'touched something');
 }
 
+function add_charts() {
+  if (report.pose_errors?.length) {
+    const chart = new Chart('Error of the pose', 'm');
+    for (const { time_s, error_m } of report.pose_errors) chart.add('error', time_s, error_m);
+    charts.push(chart);
+  }
+  if (report.degrees?.length) {
+    const chart = new Chart('Degrees of matching', '0 to 1');
+    for (const { time_s, ...degrees } of report.degrees)
+      for (const [category, degree] of Object.entries(degrees)) chart.add(category, time_s, degree);
+    charts.push(chart);
+  }
+  if (charts.length) show_parts('charts-part');
+}
+
 export async function show_run(settings) {
   report = await ask_json('/api/report');
   track = await ask_json('/api/track').catch(() => track);
@@ -115,6 +133,7 @@ export async function show_run(settings) {
               ['time', `${report.time_s.toFixed(1)} s`], ['landmarks', String(report.landmarks.length)]]);
   show_tree(tree_of(report.nodes ?? []));
   draw_marks();
+  add_charts();
   const slider = element('slider');
   slider.max = end_s; slider.step = Math.max(end_s / 5000, 0.01);
   slider.oninput = () => show_time(Number(slider.value));
