@@ -37,19 +37,6 @@ Json watch_points(const std::vector<Pose2>& path) {
   return points;
 }
 
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t at) { return at < bytes.size() ? std::uint32_t{bytes[at]} : 0U; };
-    const std::uint32_t three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
-    for (unsigned digit = 0; digit < 4; ++digit)
-      text += i + digit > bytes.size() ? '=' : kDigits[three >> (18U - 6U * digit) & 63U];
-  }
-  return text;
-}
-
 Json watch_json(const std::vector<TreeNode>& nodes) {
   Json list = Json::array();
   for (const TreeNode& node : nodes)

@@ -1,7 +1,5 @@
 #include "framework/program/view/live_session.hpp"
 
-#include <unistd.h>
-
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
@@ -10,7 +8,7 @@
 #include <chrono>
 #include <utility>
 
-#include "framework/program/mission/control_socket.hpp"
+#include "framework/program/view/run_stream.hpp"
 
 namespace cairn {
 namespace {
@@ -20,8 +18,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 
-constexpr std::size_t kMaxLine = std::size_t{1} << 26;  // the largest: all of a large map
-constexpr std::size_t kMaxHeard = 1024;                 // of a message from the browser, which has nothing to say
+constexpr std::size_t kMaxHeard = 1024;  // of a message from the browser, which has nothing to say
 constexpr std::chrono::seconds kIdle(20);
 constexpr const char* kTokenPrefix = "token.";
 
@@ -65,7 +62,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   }
 
   void hand_on() {
-    asio::async_read_until(run_, asio::dynamic_buffer(text_, kMaxLine), '\n',
+    asio::async_read_until(run_, asio::dynamic_buffer(text_, kMaxRunLine), '\n',
                            [self = shared_from_this()](beast::error_code error, std::size_t size) {
                              if (error) return self->close();
                              self->send(size);
@@ -110,17 +107,10 @@ std::string live_token_of(const LiveRequest& request) {
 
 std::string serve_live(beast::tcp_stream&& stream, LiveRequest&& request, const std::filesystem::path& folder,
                        std::shared_ptr<void> counted) {
-  if (folder.empty()) return "this is the view of a map";
-  try {
-    const MissionConnection run = connect_to_mission(folder);
-    if (run.reached != Reached::answered || !write_line(run.socket.get(), "watch")) return "no mission runs there";
-    const int own = ::dup(run.socket.get());
-    if (own < 0) return "so many files are open already that none is left for another stream";
-    std::make_shared<LiveSession>(std::move(stream), own, std::move(counted))->accept(request);
-    return {};
-  } catch (const std::exception& error) {
-    return error.what();
-  }
+  const RunStream run = watch_run(folder);
+  if (run.descriptor < 0) return run.why;
+  std::make_shared<LiveSession>(std::move(stream), run.descriptor, std::move(counted))->accept(request);
+  return {};
 }
 
 }  // namespace cairn

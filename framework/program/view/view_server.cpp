@@ -138,7 +138,7 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
     if (std::ranges::count(state_.foxglove->origins, asked.origin) > 0) asked.origin.clear();
     if (auto refused = refusal_of(asked, state_.port(), state_.token)) return write(std::move(*refused));
     const std::string why =
-        serve_foxglove(std::move(stream_), std::move(request), *state_.foxglove, shared_from_this());
+        serve_foxglove(std::move(stream_), std::move(request), *state_.foxglove, state_.live, shared_from_this());
     if (!why.empty()) write(view_error(409, why));
   }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "maps/base/base64.hpp"
+
 namespace cairn::exchange::foxglove {
 namespace {
 
@@ -40,19 +42,6 @@ std::string pose_text(const Pose2& pose, double z_m = 0.0) {
 
 std::string stamped(std::uint64_t time_ns, std::string_view frame) {
   return fmt::format(R"({{"timestamp":{},"frame_id":{})", time_text(time_ns), json_string(frame));
-}
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t j = 0; j < 3; ++j) group = group << 8U | (j < count ? bytes[i + j] : 0U);
-    for (std::size_t j = 0; j < 4; ++j) text += j <= count ? kDigits[group >> (18U - 6U * j) & 63U] : '=';
-  }
-  return text;
 }
 
 GridBytes halved(const GridBytes& grid) {
@@ -107,7 +96,11 @@ GridBytes grid_bytes(const OccupancyGrid& grid, int max_side) {
   GridBytes bytes{origin_m, grid.cell_m(), box.width(), {}};
   bytes.ol.resize(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
   grid.copy_ol(box, bytes.ol);
-  while (bytes.columns > max_side || static_cast<int>(bytes.ol.size()) / bytes.columns > max_side)
+  return halved_to(max_side, std::move(bytes));
+}
+
+GridBytes halved_to(int max_side, GridBytes bytes) {
+  while (bytes.columns > max_side || static_cast<int>(bytes.ol.size()) / std::max(bytes.columns, 1) > max_side)
     bytes = halved(bytes);
   return bytes;
 }

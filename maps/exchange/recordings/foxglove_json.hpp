@@ -38,7 +38,9 @@ struct GridBytes {
   int columns = 0;
   std::vector<std::uint8_t> ol;
 };
-// What was seen of the grid. Halved, by the greater occupancy, until no side has more than max_side cells.
+// By the greater occupancy, until no side has more than max_side cells.
+[[nodiscard]] GridBytes halved_to(int max_side, GridBytes bytes);
+// What was seen of the grid, halved_to(max_side).
 [[nodiscard]] GridBytes grid_bytes(const OccupancyGrid& grid, int max_side);
 [[nodiscard]] std::string grid(std::uint64_t time_ns, std::string_view frame, const GridBytes& grid);
 

@@ -1,11 +1,11 @@
 // Reads a run from `cairn view` with the npm client of Foxglove's protocol, and checks every JSON message with the
 // published schemas where these are installed. Prints one JSON object.
 //
-//   node foxglove_client.mjs FOLDER_WITH_NODE_MODULES ADDRESS SECONDS
+//   node foxglove_client.mjs FOLDER_WITH_NODE_MODULES ADDRESS SECONDS [SECONDS_UNTIL_A_PAUSE]
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
-const [folder, address, seconds] = process.argv.slice(2);
+const [folder, address, seconds, until_pause = 0] = process.argv.slice(2);
 const require = createRequire(join(folder, "x.js"));
 const { FoxgloveClient } = require("@foxglove/ws-protocol");
 const { WebSocket } = require("ws");
@@ -54,7 +54,7 @@ client.on("advertiseServices", (services) => {
       data: new Uint8Array(Buffer.from(JSON.stringify(request))),
     });
   call("/plan", 1, { from: "0.6,0.6", to: "1.0,0.6" });
-  call("/pause", 2, {});
+  setTimeout(() => call("/pause", 2, {}), 1000 * Number(until_pause));
 });
 client.on("serviceCallResponse", (response) => {
   result.answers[response.callId] = JSON.parse(Buffer.from(response.data.buffer, response.data.byteOffset, response.data.byteLength).toString());

@@ -49,7 +49,32 @@ TEST(FoxgloveView, TheNpmClientReadsARunAndItsMessagesFitThePublishedSchemas) {
     EXPECT_GT(seen["counts"].value(topic, 0), 0) << topic;
   EXPECT_TRUE(seen["failures"].empty()) << seen["failures"];
   EXPECT_TRUE(seen["answers"]["1"].contains("answer")) << seen["answers"];
-  EXPECT_THAT(seen["answers"]["2"].get<std::string>(), testing::HasSubstr("steering is not allowed"));
+  EXPECT_THAT(seen["answers"]["2"].get<std::string>(), testing::HasSubstr("--control"));
+  if (!seen["has_schemas"].get<bool>()) GTEST_SKIP() << "no @foxglove/schemas with ajv";
+  EXPECT_GT(seen["checked"].get<int>(), 20);
+  EXPECT_TRUE(seen["wrong"].empty()) << seen["wrong"];
+}
+
+TEST(FoxgloveView, TheNpmClientWatchesARunAndPausesIt) {
+  const char* const modules = std::getenv("CAIRN_NODE_MODULES");
+  if (modules == nullptr) GTEST_SKIP() << "no CAIRN_NODE_MODULES: @foxglove/ws-protocol";
+  const auto out = fresh_folder("foxglove_live");
+  Conversation run({"run", source_folder() + "/config/missions/office.yaml", "--out", out.string(), "--pace", "4",
+                    "--view", "--control"});
+  std::string line = run.hear();
+  while (!line.empty() && line.find("ws://") == std::string::npos) line = run.hear();
+  const std::string text = output_of("node '" + source_folder() + "/tests/scenario/view/foxglove_client.mjs' '" +
+                                     modules + "' '" + line.substr(line.find("ws://")) + "' 6 3");
+  run.send(SIGTERM);
+  EXPECT_EQ(run.exit_status(), 1);
+  const json seen = json::parse(text, nullptr, false);
+  ASSERT_TRUE(seen.is_object()) << text;
+  EXPECT_FALSE(seen.contains("error")) << text;
+  EXPECT_EQ(seen["name"], "cairn: foxglove_live");
+  for (const char* topic : {"/pose", "/tf", "/map", "/ranges", "/tree", "/driven_path", "/log", "/status"})
+    EXPECT_GT(seen["counts"].value(topic, 0), 0) << topic;
+  EXPECT_THAT(seen["answers"]["1"].get<std::string>(), testing::HasSubstr("when it has ended")) << "a plan";
+  EXPECT_EQ(seen["answers"]["2"]["state"], "paused") << seen["answers"];
   if (!seen["has_schemas"].get<bool>()) GTEST_SKIP() << "no @foxglove/schemas with ajv";
   EXPECT_GT(seen["checked"].get<int>(), 20);
   EXPECT_TRUE(seen["wrong"].empty()) << seen["wrong"];

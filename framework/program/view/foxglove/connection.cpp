@@ -1,8 +1,7 @@
 #include "framework/program/view/foxglove/connection.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -12,10 +11,7 @@ namespace {
 namespace protocol = foxglove_protocol;
 using protocol::Level;
 
-constexpr double kNsOfSecond = 1e9;
-constexpr double kMaxStep_s = 1.0;  // so that a computer that slept does not leap
-constexpr float kMinSpeed = 0.01F;
-constexpr float kMaxSpeed = 100.0F;
+constexpr const char* kNotOffered = "a binary message that is not offered here";
 
 enum FoxgloveService : std::uint32_t { plan_service = 1, pause_service, resume_service, cancel_service };
 
@@ -42,20 +38,25 @@ const nlohmann::json& list_of(const nlohmann::json& message, const char* key) {
 
 }  // namespace
 
-FoxgloveConnection::FoxgloveConnection(const PlayedRecording& recording, bool has_control, std::string session,
-                                       Plan plan)
-    : recording_(recording),
-      has_control_(has_control),
-      session_(std::move(session)),
-      plan_(std::move(plan)),
-      position_ns_(recording.times.begin_ns) {}
+FoxgloveConnection::FoxgloveConnection(FoxgloveServices services) : services_(std::move(services)) {}
 
-FoxgloveConnection::Frames FoxgloveConnection::greeting() const {
-  std::vector<protocol::Channel> channels;
-  for (const PlayedChannel& channel : recording_.channels) channels.push_back(channel.channel);
-  const auto playback = has_control_ ? std::optional(recording_.times) : std::nullopt;
-  return {protocol::server_info("cairn: " + recording_.name, session_, playback), protocol::advertise(channels),
+FoxgloveConnection::Frames FoxgloveConnection::greeting_of(const std::string& name, const std::string& session,
+                                                           const std::optional<protocol::Range>& playback,
+                                                           const std::vector<protocol::Channel>& channels) {
+  return {protocol::server_info("cairn: " + name, session, playback), protocol::advertise(channels),
           protocol::advertise_services(services())};
+}
+
+std::optional<protocol::Frame> FoxgloveConnection::refused_subscription(std::uint32_t id, std::uint32_t channel,
+                                                                        bool has_channel, bool has_subscription,
+                                                                        std::size_t subscriptions) {
+  if (!has_channel) return protocol::status(Level::error, "there is no channel " + std::to_string(channel));
+  if (has_subscription)
+    return protocol::status(Level::error, "subscription " + std::to_string(id) + " is there already");
+  if (subscriptions >= kMaxFoxgloveSubscriptions)
+    return protocol::status(Level::error,
+                            "so many subscriptions are there already: " + std::to_string(kMaxFoxgloveSubscriptions));
+  return std::nullopt;
 }
 
 FoxgloveConnection::Frames FoxgloveConnection::on_text(std::string_view text) {
@@ -74,42 +75,28 @@ FoxgloveConnection::Frames FoxgloveConnection::on_text(std::string_view text) {
     }
   } else if (op == "unsubscribe") {
     for (const auto& one : list_of(message, "subscriptionIds"))
-      if (const auto id = id_of(one)) subscriptions_.erase(*id);
+      if (const auto id = id_of(one)) unsubscribe(*id);
   } else {
     frames.push_back(protocol::status(Level::warning, "\"" + op.substr(0, 64) + "\" is not offered here"));
   }
   return frames;
 }
 
-FoxgloveConnection::Frames FoxgloveConnection::subscribe(std::uint32_t id, std::uint32_t channel) {
-  const auto found =
-      std::ranges::find(recording_.channels, channel, [](const PlayedChannel& played) { return played.channel.id; });
-  if (found == recording_.channels.end())
-    return {protocol::status(Level::error, "there is no channel " + std::to_string(channel))};
-  if (subscriptions_.contains(id))
-    return {protocol::status(Level::error, "subscription " + std::to_string(id) + " is there already")};
-  if (subscriptions_.size() >= kMaxFoxgloveSubscriptions)
-    return {protocol::status(Level::error,
-                             "so many subscriptions are there already: " + std::to_string(kMaxFoxgloveSubscriptions))};
-  is_begun_ = true;
-  rewind(subscriptions_[id] = {&*found, 0});
-  return {};
-}
-
-// To the message that shows how things stand at the position.
-void FoxgloveConnection::rewind(Subscription& subscription) const {
-  const auto& messages = subscription.channel->messages;
-  const auto after = std::ranges::upper_bound(messages, position_ns_, {}, &PlayedMessage::time_ns);
-  subscription.next = static_cast<std::size_t>(after - messages.begin());
-  if (subscription.next > 0) --subscription.next;
-  if (subscription.channel->is_incremental) subscription.next = 0;
-}
-
 FoxgloveConnection::Frames FoxgloveConnection::on_binary(std::string_view frame) {
   if (const auto asked = protocol::service_call_of(frame)) return call(*asked);
-  const auto asked = protocol::playback_control_of(frame);
-  if (asked && has_control_) return control(*asked);
-  return {protocol::status(Level::error, "a binary message that is not offered here")};
+  if (const auto asked = protocol::playback_control_of(frame)) return control(*asked);
+  return {protocol::status(Level::error, kNotOffered)};
+}
+
+FoxgloveConnection::Frames FoxgloveConnection::control(const protocol::PlaybackControl&) {
+  return {protocol::status(Level::error, kNotOffered)};
+}
+
+std::string FoxgloveConnection::answer_of(const protocol::ServiceCall& asked) const {
+  if (asked.service == plan_service) return services_.plan(std::string(asked.payload));
+  return services_.steer(asked.service == pause_service    ? "pause"
+                         : asked.service == resume_service ? "resume"
+                                                           : "cancel");
 }
 
 FoxgloveConnection::Frames FoxgloveConnection::call(const protocol::ServiceCall& asked) const {
@@ -117,76 +104,12 @@ FoxgloveConnection::Frames FoxgloveConnection::call(const protocol::ServiceCall&
     return Frames{protocol::service_failure(asked.service, asked.call, why)};
   };
   if (asked.service < plan_service || asked.service > cancel_service) return refuse("there is no such service");
-  if (asked.service != plan_service) return refuse("steering is not allowed: this is a view of what is finished");
   if (asked.encoding != "json") return refuse("the encoding must be json");
   try {
-    return {protocol::service_response(asked.service, asked.call, plan_(std::string(asked.payload)))};
+    return {protocol::service_response(asked.service, asked.call, answer_of(asked))};
   } catch (const std::exception& error) {
     return refuse(error.what());
   }
-}
-
-FoxgloveConnection::Frames FoxgloveConnection::control(const protocol::PlaybackControl& asked) {
-  if (!(asked.speed > 0.0F)) return {protocol::status(Level::error, "the speed of playback must be above 0")};
-  speed_ = std::clamp(asked.speed, kMinSpeed, kMaxSpeed);
-  if (asked.seek_ns) {
-    position_ns_ = std::clamp(*asked.seek_ns, recording_.times.begin_ns, recording_.times.end_ns);
-    rest_ns_ = 0.0;
-    for (auto& [id, subscription] : subscriptions_) rewind(subscription);
-  }
-  is_playing_ = asked.is_playing;
-  is_end_reported_ = position_ns_ == recording_.times.end_ns;
-  is_begun_ = is_begun_ || is_playing_;
-  return {state(asked.seek_ns.has_value(), asked.request)};
-}
-
-protocol::Frame FoxgloveConnection::state(bool did_seek, std::string_view request) const {
-  const bool is_ended = position_ns_ == recording_.times.end_ns;
-  const auto playing = is_ended      ? protocol::Playing::ended
-                       : is_playing_ ? protocol::Playing::playing
-                                     : protocol::Playing::paused;
-  return protocol::playback_state(playing, position_ns_, speed_, did_seek, request);
-}
-
-// In the order of time. False: there was more than could be sent.
-bool FoxgloveConnection::send_until(std::uint64_t time_ns, std::size_t max_bytes, std::size_t& bytes, Frames& frames) {
-  while (true) {
-    auto earliest = subscriptions_.end();
-    for (auto one = subscriptions_.begin(); one != subscriptions_.end(); ++one) {
-      const auto& [channel, next] = one->second;
-      if (next == channel->messages.size() || channel->messages[next].time_ns > time_ns) continue;
-      if (earliest == subscriptions_.end() ||
-          channel->messages[next].time_ns < earliest->second.channel->messages[earliest->second.next].time_ns)
-        earliest = one;
-    }
-    if (earliest == subscriptions_.end()) return true;
-    if (bytes >= max_bytes) return false;
-    Subscription& subscription = earliest->second;
-    const PlayedMessage& message = subscription.channel->messages[subscription.next++];
-    frames.push_back(protocol::message_data(earliest->first, message.time_ns, message.data));
-    bytes += frames.back().bytes.size();
-    position_ns_ = std::max(position_ns_, message.time_ns);
-  }
-}
-
-FoxgloveConnection::Frames FoxgloveConnection::advance(double elapsed_s, std::size_t max_bytes) {
-  Frames frames;
-  std::size_t bytes = 0;
-  const std::uint64_t end_ns = recording_.times.end_ns;
-  bool is_all_sent = send_until(position_ns_, max_bytes, bytes, frames);
-  if (is_all_sent && is_begun_ && is_playing_ && position_ns_ != end_ns) {
-    const std::uint64_t before_ns = position_ns_;
-    const double step_ns =
-        rest_ns_ + kNsOfSecond * static_cast<double>(speed_) * std::clamp(elapsed_s, 0.0, kMaxStep_s);
-    rest_ns_ = step_ns - std::floor(step_ns);
-    const std::uint64_t target_ns = before_ns + std::min(end_ns - before_ns, static_cast<std::uint64_t>(step_ns));
-    is_all_sent = send_until(target_ns, max_bytes, bytes, frames);
-    if (is_all_sent) position_ns_ = target_ns;
-    if (position_ns_ != before_ns) frames.push_back(protocol::time(position_ns_));
-  }
-  if (is_all_sent && is_begun_ && position_ns_ == end_ns && !std::exchange(is_end_reported_, true) && has_control_)
-    frames.push_back(state(false, ""));
-  return frames;
 }
 
 }  // namespace cairn

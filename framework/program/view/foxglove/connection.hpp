@@ -1,63 +1,60 @@
 // One viewer of Foxglove's protocol: what is said to it, without the network.
-//
-// Playback begins with the first subscription, runs by the wall clock and stops at the end. A new subscription gets the
-// last message of its channel before, of landmarks all of them. Playback waits for a viewer that is slow: it never
-// leaves out a message, and never queues more than it is allowed to. Not thread-safe.
 #pragma once
 
 #include <functional>
-#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "framework/program/view/foxglove/recording.hpp"
+#include "framework/program/view/foxglove/frames.hpp"
 
 namespace cairn {
 
 inline constexpr std::size_t kMaxFoxgloveSubscriptions = 1024;
 
+// What viewers can call. Both throw std::exception with why it is refused.
+struct FoxgloveServices {
+  // The JSON of a plan to that of its answer (`POST /api/plan`).
+  std::function<std::string(const std::string& request)> plan;
+  // pause, resume or cancel; returns the answer of the mission's control socket.
+  std::function<std::string(const std::string& command)> steer;
+};
+
+// Of a kind: a recording that is played (playback.hpp), or a run that is watched (live_connection.hpp).
 class FoxgloveConnection {
  public:
   using Frames = std::vector<foxglove_protocol::Frame>;
-  // The JSON of a plan to that of its answer (`POST /api/plan`). Throws std::exception with why it is refused.
-  using Plan = std::function<std::string(const std::string& request)>;
 
-  // has_control: the viewer knows control of playback. The recording must outlive this.
-  FoxgloveConnection(const PlayedRecording& recording, bool has_control, std::string session, Plan plan);
+  virtual ~FoxgloveConnection() = default;
+  FoxgloveConnection(const FoxgloveConnection&) = delete;
+  FoxgloveConnection& operator=(const FoxgloveConnection&) = delete;
 
-  [[nodiscard]] Frames greeting() const;
+  [[nodiscard]] virtual Frames greeting() const = 0;
   [[nodiscard]] Frames on_text(std::string_view text);
   [[nodiscard]] Frames on_binary(std::string_view frame);
-  // Time has gone on. No more messages once these have max_bytes together.
-  [[nodiscard]] Frames advance(double elapsed_s, std::size_t max_bytes);
+  // So much wall clock has gone by. No more messages once these have max_bytes together.
+  [[nodiscard]] virtual Frames advance(double elapsed_s, std::size_t max_bytes) = 0;
 
-  [[nodiscard]] std::uint64_t position_ns() const { return position_ns_; }
+ protected:
+  explicit FoxgloveConnection(FoxgloveServices services);
+
+  [[nodiscard]] static Frames greeting_of(const std::string& name, const std::string& session,
+                                          const std::optional<foxglove_protocol::Range>& playback,
+                                          const std::vector<foxglove_protocol::Channel>& channels);
+  // None: the viewer may subscribe.
+  [[nodiscard]] static std::optional<foxglove_protocol::Frame> refused_subscription(
+      std::uint32_t id, std::uint32_t channel, bool has_channel, bool has_subscription, std::size_t subscriptions);
+  // Unless it is overridden, refused.
+  [[nodiscard]] virtual Frames control(const foxglove_protocol::PlaybackControl& control);
 
  private:
-  struct Subscription {
-    const PlayedChannel* channel = nullptr;
-    std::size_t next = 0;  // of its messages
-  };
-
-  [[nodiscard]] Frames subscribe(std::uint32_t id, std::uint32_t channel);
+  [[nodiscard]] virtual Frames subscribe(std::uint32_t id, std::uint32_t channel) = 0;
+  virtual void unsubscribe(std::uint32_t id) = 0;
   [[nodiscard]] Frames call(const foxglove_protocol::ServiceCall& call) const;
-  [[nodiscard]] Frames control(const foxglove_protocol::PlaybackControl& control);
-  void rewind(Subscription& subscription) const;
-  [[nodiscard]] bool send_until(std::uint64_t time_ns, std::size_t max_bytes, std::size_t& bytes, Frames& frames);
-  [[nodiscard]] foxglove_protocol::Frame state(bool did_seek, std::string_view request) const;
+  [[nodiscard]] std::string answer_of(const foxglove_protocol::ServiceCall& asked) const;
 
-  const PlayedRecording& recording_;
-  const bool has_control_;
-  const std::string session_;
-  const Plan plan_;
-  std::map<std::uint32_t, Subscription> subscriptions_;
-  std::uint64_t position_ns_;
-  double rest_ns_ = 0.0;  // of the position, below one
-  float speed_ = 1.0F;
-  bool is_begun_ = false;
-  bool is_playing_ = true;
-  bool is_end_reported_ = false;
+  const FoxgloveServices services_;
 };
 
 }  // namespace cairn

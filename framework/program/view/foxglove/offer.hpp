@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "framework/program/view/foxglove/connection.hpp"
+#include "framework/program/view/foxglove/recording.hpp"
 
 namespace cairn {
 
 struct FoxgloveOffer {
   // Called with the first viewer. Throws std::exception when there is nothing to play.
   std::function<std::shared_ptr<const PlayedRecording>()> recording;
-  FoxgloveConnection::Plan plan;
+  FoxgloveServices services;
   std::vector<std::string> origins;  // of pages elsewhere that may connect, as "https://app.example.org"
 };
 

@@ -1,5 +1,7 @@
 #include "framework/program/view/foxglove/session.hpp"
 
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/read_until.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
@@ -7,6 +9,9 @@
 #include <deque>
 #include <utility>
 
+#include "framework/program/view/foxglove/live_connection.hpp"
+#include "framework/program/view/foxglove/playback.hpp"
+#include "framework/program/view/run_stream.hpp"
 #include "framework/program/view/view_request.hpp"
 
 namespace cairn {
@@ -33,14 +38,20 @@ std::string chosen_protocol(const FoxgloveRequest& request) {
 
 class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
  public:
-  FoxgloveSession(beast::tcp_stream&& stream, std::shared_ptr<const PlayedRecording> recording, std::string protocol,
-                  FoxgloveConnection::Plan plan, std::shared_ptr<void> counted)
+  FoxgloveSession(beast::tcp_stream&& stream, std::string protocol, std::unique_ptr<FoxgloveConnection> connection,
+                  std::shared_ptr<void> counted)
       : viewer_(std::move(stream)),
         timer_(viewer_.get_executor()),
-        recording_(std::move(recording)),
+        run_(viewer_.get_executor()),
         protocol_(std::move(protocol)),
-        connection_(*recording_, protocol_ == foxglove_protocol::kName, new_view_token(), std::move(plan)),
+        connection_(std::move(connection)),
         counted_(std::move(counted)) {}
+
+  // Before accept(): the connection hears the run's stream. Takes the descriptor.
+  void watch(int run) {
+    run_.assign(asio::local::stream_protocol(), run);
+    live_ = static_cast<LiveConnection*>(connection_.get());
+  }
 
   void accept(const FoxgloveRequest& request) {
     beast::get_lowest_layer(viewer_).expires_never();
@@ -51,10 +62,11 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
     viewer_.read_message_max(kMaxHeard);
     viewer_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (error) return;
-      self->send(self->connection_.greeting());
+      self->send(self->connection_->greeting());
       self->listen();
       self->last_ = Clock::now();
       self->tick();
+      if (self->live_ != nullptr) self->hear_run();
     });
   }
 
@@ -64,16 +76,42 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
       if (error) return self->end();
       const std::string said = beast::buffers_to_string(self->heard_.data());
       self->heard_.consume(self->heard_.size());
-      self->send(self->viewer_.got_text() ? self->connection_.on_text(said) : self->connection_.on_binary(said));
+      self->send(self->viewer_.got_text() ? self->connection_->on_text(said) : self->connection_->on_binary(said));
       self->listen();
     });
+  }
+
+  // A line more when the viewer has room for it: the run keeps what changes, and sends it later at once.
+  void hear_run() {
+    if (is_ended_) return;
+    asio::async_read_until(run_, asio::dynamic_buffer(text_, kMaxRunLine), '\n',
+                           [self = shared_from_this()](beast::error_code error, std::size_t size) {
+                             if (error) return self->leave();
+                             self->send(self->live_->take(std::string_view(self->text_).substr(0, size)));
+                             self->text_.erase(0, size);
+                             self->is_run_heard_ = self->queued_ < kMaxQueued;
+                             if (self->is_run_heard_) self->hear_run();
+                           });
+  }
+
+  // The run has ended: a viewer that comes again is played what it has left.
+  void leave() {
+    if (!queue_.empty()) {
+      is_leaving_ = true;
+      return;
+    }
+    viewer_.async_close(websocket::close_code::normal, [self = shared_from_this()](beast::error_code) { self->end(); });
   }
 
   void tick() {
     if (is_ended_) return;
     const auto now = Clock::now();
     const double elapsed_s = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    if (queued_ < kMaxQueued) send(connection_.advance(elapsed_s, kMaxQueued));
+    if (queued_ < kMaxQueued) send(connection_->advance(elapsed_s, kMaxQueued));
+    if (live_ != nullptr && !is_run_heard_ && queued_ < kMaxQueued) {
+      is_run_heard_ = true;
+      hear_run();
+    }
     timer_.expires_after(kTick);
     timer_.async_wait([self = shared_from_this()](beast::error_code error) {
       if (!error) self->tick();
@@ -94,7 +132,11 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
   }
 
   void write() {
-    if (queue_.empty() || is_ended_) return;
+    if (is_ended_) return;
+    if (queue_.empty()) {
+      if (is_leaving_) leave();
+      return;
+    }
     is_writing_ = true;
     viewer_.text(queue_.front().is_text);
     viewer_.async_write(asio::buffer(queue_.front().bytes),
@@ -109,20 +151,26 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
 
   void end() {
     is_ended_ = true;
+    beast::error_code ignored;
+    run_.close(ignored);
     timer_.cancel();
   }
 
   websocket::stream<beast::tcp_stream> viewer_;
   asio::steady_timer timer_;
-  std::shared_ptr<const PlayedRecording> recording_;
+  asio::local::stream_protocol::socket run_;
   std::string protocol_;
-  FoxgloveConnection connection_;
+  std::unique_ptr<FoxgloveConnection> connection_;
+  LiveConnection* live_ = nullptr;  // the same, of a run
+  std::string text_;                // of the run
   std::shared_ptr<void> counted_;
   beast::flat_buffer heard_;
   std::deque<foxglove_protocol::Frame> queue_;
   std::size_t queued_ = 0;
   Clock::time_point last_;
   bool is_writing_ = false;
+  bool is_run_heard_ = true;  // asked for its next line
+  bool is_leaving_ = false;
   bool is_ended_ = false;
 };
 
@@ -146,11 +194,20 @@ std::string foxglove_token_of(const FoxgloveRequest& request) {
 }
 
 std::string serve_foxglove(beast::tcp_stream&& stream, FoxgloveRequest&& request, const FoxgloveOffer& offer,
-                           std::shared_ptr<void> counted) {
+                           const std::filesystem::path& live, std::shared_ptr<void> counted) {
   try {
-    std::make_shared<FoxgloveSession>(std::move(stream), offer.recording(), chosen_protocol(request), offer.plan,
-                                      std::move(counted))
-        ->accept(request);
+    const std::string protocol = chosen_protocol(request);
+    const RunStream run = watch_run(live);
+    std::unique_ptr<FoxgloveConnection> connection;
+    if (run.descriptor >= 0)
+      connection = std::make_unique<LiveConnection>(live.filename().string(), new_view_token(), offer.services);
+    else
+      connection = std::make_unique<PlaybackConnection>(offer.recording(), protocol == foxglove_protocol::kName,
+                                                        new_view_token(), offer.services);
+    const auto session =
+        std::make_shared<FoxgloveSession>(std::move(stream), protocol, std::move(connection), std::move(counted));
+    if (run.descriptor >= 0) session->watch(run.descriptor);
+    session->accept(request);
     return {};
   } catch (const std::exception& error) {
     return error.what();

@@ -1,4 +1,4 @@
-#include "framework/program/view/foxglove/connection.hpp"
+#include "framework/program/view/foxglove/playback.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,13 +27,13 @@ PlayedChannel channel(std::uint32_t id, const std::string& topic, const std::vec
 }
 
 // /a every second from 10 s to 14 s, /b at 11 s and 14 s, /marks (which add up) at 10 s and 11 s.
-PlayedRecording recording() {
+std::shared_ptr<const PlayedRecording> recording() {
   PlayedRecording all;
   all.name = "test";
   all.channels = {channel(1, "/a", {10, 11, 12, 13, 14}), channel(2, "/b", {11, 14}), channel(3, "/marks", {10, 11})};
   all.channels[2].is_incremental = true;
   all.times = {10 * kS, 14 * kS};
-  return all;
+  return std::make_shared<const PlayedRecording>(std::move(all));
 }
 
 // "5:/a@10" for message data of subscription 5, "t11" for a time, "state 1" for a state of playback, texts as they are.
@@ -52,7 +52,7 @@ std::vector<std::string> shown(const Frames& frames) {
   return all;
 }
 
-class FoxgloveConnectionTest : public testing::Test {
+class PlaybackConnectionTest : public testing::Test {
  protected:
   static std::string subscribe(int id, int channel) {
     return R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(id) + R"(,"channelId":)" +
@@ -70,25 +70,29 @@ class FoxgloveConnectionTest : public testing::Test {
     return std::string("\2") + service + std::string("\0\0\0\7\0\0\0\4\0\0\0json", 15) + payload;
   }
 
-  PlayedRecording recording_ = recording();
-  FoxgloveConnection connection_{recording_, true, "session", [](const std::string& asked) {
-                                   if (asked == "bad") throw std::runtime_error("no such place");
-                                   return "answer to " + asked;
-                                 }};
+  const FoxgloveServices services_{[](const std::string& asked) {
+                                     if (asked == "bad") throw std::runtime_error("no such place");
+                                     return "answer to " + asked;
+                                   },
+                                   [](const std::string& command) {
+                                     if (command == "cancel") throw std::runtime_error("this view only watches");
+                                     return command + "d";
+                                   }};
+  PlaybackConnection connection_{recording(), true, "session", services_};
 };
 
-TEST_F(FoxgloveConnectionTest, GreetsWithWhatItOffers) {
+TEST_F(PlaybackConnectionTest, GreetsWithWhatItOffers) {
   const Frames frames = connection_.greeting();
   ASSERT_EQ(frames.size(), 3U);
   EXPECT_EQ(json::parse(frames[0].bytes)["op"], "serverInfo");
   EXPECT_EQ(json::parse(frames[0].bytes)["dataEndTime"]["sec"], 14);
   EXPECT_EQ(json::parse(frames[1].bytes)["channels"].size(), 3U);
   EXPECT_EQ(json::parse(frames[2].bytes)["services"].size(), 4U);
-  const FoxgloveConnection old(recording_, false, "session", {});
+  const PlaybackConnection old(recording(), false, "session", {});
   EXPECT_FALSE(json::parse(old.greeting()[0].bytes).contains("dataEndTime"));
 }
 
-TEST_F(FoxgloveConnectionTest, PlaysInTheOrderOfTimeFromTheFirstSubscriptionOn) {
+TEST_F(PlaybackConnectionTest, PlaysInTheOrderOfTimeFromTheFirstSubscriptionOn) {
   EXPECT_THAT(shown(connection_.advance(1.0, kMuch)), IsEmpty());
   EXPECT_EQ(connection_.position_ns(), 10 * kS) << "nobody watches";
   EXPECT_THAT(shown(connection_.on_text(subscribe(5, 1))), IsEmpty());
@@ -102,7 +106,7 @@ TEST_F(FoxgloveConnectionTest, PlaysInTheOrderOfTimeFromTheFirstSubscriptionOn) 
   EXPECT_THAT(shown(connection_.advance(1.0, kMuch)), IsEmpty());
 }
 
-TEST_F(FoxgloveConnectionTest, ALateSubscriptionGetsHowThingsStand) {
+TEST_F(PlaybackConnectionTest, ALateSubscriptionGetsHowThingsStand) {
   (void)connection_.on_text(subscribe(5, 1));
   for (int i = 0; i < 5; ++i) (void)connection_.advance(1.0, kMuch);
   (void)connection_.on_text(subscribe(6, 2));
@@ -110,7 +114,7 @@ TEST_F(FoxgloveConnectionTest, ALateSubscriptionGetsHowThingsStand) {
   EXPECT_THAT(shown(connection_.advance(0.0, kMuch)), ElementsAre("7:/marks@10", "7:/marks@11", "6:/b@14"));
 }
 
-TEST_F(FoxgloveConnectionTest, PlaybackWaitsForAViewerThatIsSlow) {
+TEST_F(PlaybackConnectionTest, PlaybackWaitsForAViewerThatIsSlow) {
   (void)connection_.on_text(subscribe(5, 1));
   (void)connection_.on_text(subscribe(6, 2));
   EXPECT_THAT(shown(connection_.advance(1.0, 1)), ElementsAre("5:/a@10"));
@@ -121,7 +125,7 @@ TEST_F(FoxgloveConnectionTest, PlaybackWaitsForAViewerThatIsSlow) {
   EXPECT_THAT(rest, ElementsAre("5:/a@11", "6:/b@11", "5:/a@12", "5:/a@13", "5:/a@14", "6:/b@14", "state 3"));
 }
 
-TEST_F(FoxgloveConnectionTest, PlaybackIsControlled) {
+TEST_F(PlaybackConnectionTest, PlaybackIsControlled) {
   (void)connection_.on_text(subscribe(5, 1));
   EXPECT_THAT(shown(connection_.on_binary(control(false, 1.0F, 12 * kS + 5))), ElementsAre("state 1"));
   EXPECT_THAT(shown(connection_.advance(1.0, kMuch)), ElementsAre("5:/a@12")) << "how things stood";
@@ -133,11 +137,11 @@ TEST_F(FoxgloveConnectionTest, PlaybackIsControlled) {
   EXPECT_THAT(shown(connection_.on_binary(control(true, 2.0F, 0))), ElementsAre("state 0"));
   EXPECT_THAT(shown(connection_.advance(0.0, kMuch)), ElementsAre("5:/a@10"));
   EXPECT_THAT(shown(connection_.on_binary(control(true, std::nanf(""), 0))).at(0), HasSubstr("must be above 0"));
-  FoxgloveConnection old(recording_, false, "session", {});
+  PlaybackConnection old(recording(), false, "session", {});
   EXPECT_THAT(shown(old.on_binary(control(true, 1.0F, 0))).at(0), HasSubstr("not offered here"));
 }
 
-TEST_F(FoxgloveConnectionTest, PlansAndRefusesToSteer) {
+TEST_F(PlaybackConnectionTest, PlansAndSteersAsTheServicesDo) {
   const Frames answer = connection_.on_binary(call(1, "{}"));
   ASSERT_EQ(answer.size(), 1U);
   EXPECT_TRUE(answer[0].bytes.ends_with("jsonanswer to {}")) << answer[0].bytes;
@@ -145,12 +149,13 @@ TEST_F(FoxgloveConnectionTest, PlansAndRefusesToSteer) {
   EXPECT_EQ(refused["op"], "serviceCallFailure");
   EXPECT_EQ(refused["callId"], 7);
   EXPECT_EQ(refused["message"], "no such place");
-  for (const char service : {'\2', '\3', '\4'})
-    EXPECT_THAT(connection_.on_binary(call(service, "{}"))[0].bytes, HasSubstr("steering is not allowed"));
+  EXPECT_TRUE(connection_.on_binary(call('\2', "{}"))[0].bytes.ends_with("paused"));
+  EXPECT_TRUE(connection_.on_binary(call('\3', "{}"))[0].bytes.ends_with("resumed"));
+  EXPECT_THAT(connection_.on_binary(call('\4', "{}"))[0].bytes, HasSubstr("this view only watches"));
   EXPECT_THAT(connection_.on_binary(call('\5', "{}"))[0].bytes, HasSubstr("there is no such service"));
 }
 
-TEST_F(FoxgloveConnectionTest, WhatIsNotUnderstoodIsAnsweredByAStatus) {
+TEST_F(PlaybackConnectionTest, WhatIsNotUnderstoodIsAnsweredByAStatus) {
   const auto level_of = [&](const std::string& text) {
     const Frames frames = connection_.on_text(text);
     return frames.size() == 1 ? json::parse(frames[0].bytes).value("level", -1) : -1;
