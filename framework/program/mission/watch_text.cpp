@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include "framework/behaviour_tree/tree_text.hpp"
 #include "framework/program/mission/status_json.hpp"
+#include "maps/base/base64.hpp"
 
 namespace cairn {
 namespace {

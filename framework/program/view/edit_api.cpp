@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRequestBody = "the request";
+constexpr const char* kChangeBody = "the request";
 
 struct Naming {
   std::string what;
@@ -46,8 +46,8 @@ struct Capturing {
 
 template <class Body>
 Body body_as(const std::string& text, const std::string& change) {
-  if (!Json::accept(text)) throw ConfigError({kRequestBody, 1, 1}, "the body of a change is one JSON object");
-  return load_config<Body>(parse_config_text(text, kRequestBody), change);
+  if (!Json::accept(text)) throw ConfigError({kChangeBody, 1, 1}, "the body of a change is one JSON object");
+  return load_config<Body>(parse_config_text(text, kChangeBody), change);
 }
 
 Json renamed(const fs::path& map, const Naming& naming) {
@@ -63,7 +63,7 @@ Json closed(const fs::path& map, const Closing& closing, bool is_closed) {
 }
 
 Json captured(const fs::path& map, const Capturing& capturing) {
-  check_category(capturing.category, {kRequestBody, 1, 1});
+  check_category(capturing.category, {kChangeBody, 1, 1});
   CaptureCommand command;
   command.map = map;
   command.at = capturing.at;

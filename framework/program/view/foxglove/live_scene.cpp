@@ -13,7 +13,6 @@ namespace {
 
 namespace foxglove = exchange::foxglove;
 using exchange::FoxgloveMessage;
-using nlohmann::json;
 
 constexpr const char* kFrame = "map";
 constexpr const char* kRobot = "base_link";
@@ -36,25 +35,25 @@ foxglove_protocol::Channel known(LiveChannel id, const char* topic, FoxgloveMess
   return {id, topic, "json", name_of(message), schema_of(message), "jsonschema"};
 }
 
-double number(const json& value) {
+double number(const nlohmann::json& value) {
   return value.is_number() ? value.get<double>() : 0.0;
 }
 
-std::string text_of(const json& value) {
-  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+std::string scene_text(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-Pose2 pose_of(const json& list) {
+Pose2 pose_of(const nlohmann::json& list) {
   return {number(list.at(0)), number(list.at(1)), list.size() > 2 ? number(list.at(2)) : 0.0};
 }
 
-std::vector<Pose2> path_of(const json& points) {
+std::vector<Pose2> path_of(const nlohmann::json& points) {
   std::vector<Pose2> path;
-  for (const json& point : points) path.push_back(pose_of(point));
+  for (const nlohmann::json& point : points) path.push_back(pose_of(point));
   return path;
 }
 
-Landmark landmark_of(const json& row) {
+Landmark landmark_of(const nlohmann::json& row) {
   Landmark landmark;
   landmark.id = row.at("id").get<LandmarkId>();
   landmark.name = row.at("label").get<std::string>();
@@ -81,7 +80,7 @@ std::vector<foxglove_protocol::Channel> LiveScene::channels() {
           {live_status, "/status", "json", "cairn.Status", kAnything, "jsonschema"}};
 }
 
-std::vector<LiveMessage> LiveScene::take(const json& line) {
+std::vector<LiveMessage> LiveScene::take(const nlohmann::json& line) {
   std::vector<LiveMessage> messages;
   if (line.contains("tree")) name_nodes(line["tree"]);
   if (line.contains("time_s"))
@@ -92,7 +91,7 @@ std::vector<LiveMessage> LiveScene::take(const json& line) {
   return messages;
 }
 
-void LiveScene::take_map(const json& line, std::vector<LiveMessage>& messages) {
+void LiveScene::take_map(const nlohmann::json& line, std::vector<LiveMessage>& messages) {
   if (line.value("afresh", false)) {
     tiles_.clear();
     for (const auto& [id, landmark] : std::exchange(landmarks_, {}))
@@ -104,23 +103,23 @@ void LiveScene::take_map(const json& line, std::vector<LiveMessage>& messages) {
     box_ = line["grid"].at("box");
     changed_[live_map] = true;
   }
-  for (const json& tile : line.value("tiles", json::array())) {
+  for (const nlohmann::json& tile : line.value("tiles", nlohmann::json::array())) {
     std::vector<std::uint8_t> ol = bytes_of_base64(tile.at(2).get_ref<const std::string&>());
     if (ol.size() != std::size_t{kTileSide} * kTileSide) throw std::runtime_error("a tile of another size");
     tiles_[{tile.at(0).get<int>(), tile.at(1).get<int>()}] = std::move(ol);
     changed_[live_map] = true;
   }
-  for (const json& row : line.value("landmarks", json::array())) {
+  for (const nlohmann::json& row : line.value("landmarks", nlohmann::json::array())) {
     const Landmark landmark = landmark_of(row);
     messages.push_back(message(live_landmarks, foxglove::landmark(time_ns_, kFrame, landmark)));
     landmarks_[landmark.id] = landmark;
   }
-  for (const json& id : line.value("retired", json::array()))
+  for (const nlohmann::json& id : line.value("retired", nlohmann::json::array()))
     if (landmarks_.erase(id.get<LandmarkId>()) > 0)
       messages.push_back(message(live_landmarks, foxglove::no_landmark(time_ns_, id.get<LandmarkId>())));
 }
 
-void LiveScene::take_pose(const json& line, std::vector<LiveMessage>& messages) {
+void LiveScene::take_pose(const nlohmann::json& line, std::vector<LiveMessage>& messages) {
   if (line.contains("driven")) {
     driven_ = path_of(line["driven"]);
     changed_[live_driven] = true;
@@ -130,7 +129,7 @@ void LiveScene::take_pose(const json& line, std::vector<LiveMessage>& messages) 
     messages.push_back(message(channel, std::move(text)));
   };
   if (line.contains("pose")) {
-    const json& pose = line["pose"];
+    const nlohmann::json& pose = line["pose"];
     const Pose2 T_map_robot{number(pose.at("x_m")), number(pose.at("y_m")), number(pose.at("theta_rad"))};
     tell(live_transform, foxglove::frame_transform(time_ns_, kFrame, kRobot, T_map_robot));
     tell(live_pose, foxglove::pose_in_frame(time_ns_, kFrame, T_map_robot));
@@ -142,8 +141,8 @@ void LiveScene::take_pose(const json& line, std::vector<LiveMessage>& messages) 
     tell(live_plan, foxglove::poses_in_frame(time_ns_, kFrame,
                                              is_over ? std::vector<Pose2>{} : path_of(line["plan"].at("points"))));
   }
-  if (line.contains("ranges")) tell(live_ranges, text_of({{"ranges", line["ranges"]}}));
-  if (line.contains("status")) tell(live_status, text_of(line["status"]));
+  if (line.contains("ranges")) tell(live_ranges, scene_text(nlohmann::json{{"ranges", line["ranges"]}}));
+  if (line.contains("status")) tell(live_status, scene_text(line["status"]));
 }
 
 void LiveScene::drive_to(const Pose2& T_map_robot) {
@@ -156,30 +155,30 @@ void LiveScene::drive_to(const Pose2& T_map_robot) {
   driven_.resize(kept);
 }
 
-void LiveScene::take_state(const json& line, std::vector<LiveMessage>& messages) {
-  for (const json& row : line.value("nodes", json::array())) {
+void LiveScene::take_state(const nlohmann::json& line, std::vector<LiveMessage>& messages) {
+  for (const nlohmann::json& row : line.value("nodes", nlohmann::json::array())) {
     const auto& path = row.at(0).get_ref<const std::string&>();
     Node& node = nodes_[path];
     node.state = row.at(1).get<std::string>();
     node.reason = row.at(2).get<std::string>();
     messages.push_back(message(live_tree, node_text(path)));
   }
-  for (const json& row : line.value("log", json::array()))
+  for (const nlohmann::json& row : line.value("log", nlohmann::json::array()))
     messages.push_back(message(
         live_log, foxglove::log(time_ns_, foxglove::LogLevel::info, "cairn", row.at(1).get_ref<const std::string&>())));
 }
 
-void LiveScene::name_nodes(const json& tree) {
-  for (const json& node : tree) {
+void LiveScene::name_nodes(const nlohmann::json& tree) {
+  for (const nlohmann::json& node : tree) {
     nodes_[node.at("path").get<std::string>()] = {node.at("name").get<std::string>(),
                                                   node.at("kind").get<std::string>(), "", ""};
-    name_nodes(node.value("children", json::array()));
+    name_nodes(node.value("children", nlohmann::json::array()));
   }
 }
 
 std::string LiveScene::node_text(const std::string& path) const {
   const Node& node = nodes_.at(path);
-  return text_of(
+  return scene_text(
       {{"path", path}, {"name", node.name}, {"kind", node.kind}, {"state", node.state}, {"reason", node.reason}});
 }
 
