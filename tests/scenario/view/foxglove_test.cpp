@@ -70,7 +70,7 @@ TEST(FoxgloveView, TheNpmClientWatchesARunAndPausesIt) {
   const json seen = json::parse(text, nullptr, false);
   ASSERT_TRUE(seen.is_object()) << text;
   EXPECT_FALSE(seen.contains("error")) << text;
-  EXPECT_EQ(seen["name"], "cairn: foxglove_live");
+  EXPECT_EQ(seen["name"], "cairn: " + out.filename().string());
   for (const char* topic : {"/pose", "/tf", "/map", "/ranges", "/tree", "/driven_path", "/log", "/status"})
     EXPECT_GT(seen["counts"].value(topic, 0), 0) << topic;
   EXPECT_THAT(seen["answers"]["1"].get<std::string>(), testing::HasSubstr("when it has ended")) << "a plan";

@@ -140,7 +140,7 @@ TEST_F(ViewOfARun, ChangesTheMapOnlyWhenItMayAndTheRunIsOver) {
   };
   EXPECT_THAT(reason_of("name", R"({"what": "L1", "name": "kitchen"})"), HasSubstr("L1"));
   EXPECT_THAT(reason_of("name", R"({"what": "L1", "nam": "kitchen"})"), HasSubstr(R"(did you mean "name")"));
-  EXPECT_THAT(reason_of("close", R"({"route": "R1"})"), HasSubstr("R1"));
+  EXPECT_THAT(reason_of("close", R"({"route": "R1"})"), HasSubstr("no route 1"));
   EXPECT_THAT(reason_of("close", "[1, 2"), HasSubstr("JSON"));
   EXPECT_THAT(reason_of("capture", R"({"at": "0.6,0.6", "category": "../box"})"), HasSubstr("category"));
   EXPECT_THAT(reason_of("capture", capture), HasSubstr("held.cairn"));

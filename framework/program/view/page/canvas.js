@@ -91,8 +91,10 @@ export function draw_landmarks(landmarks, categories) {
   for (const landmark of landmarks) draw_label(landmark.label, landmark.x, landmark.y);
 }
 
-export function draw_label(text, x, y) {
-  const [px, py] = to_screen(x, y);
+// above: of what lies at its place, whose own label stands beside it.
+export function draw_label(text, x, y, above = false) {
+  const [px, ground] = to_screen(x, y);
+  const py = ground - (above ? 16 * devicePixelRatio : 0);
   context.font = `${13 * devicePixelRatio}px system-ui, sans-serif`;
   context.lineWidth = 3 * devicePixelRatio; context.strokeStyle = '#fff'; context.fillStyle = '#000';
   context.strokeText(text, px + 11 * devicePixelRatio, py + 5 * devicePixelRatio);

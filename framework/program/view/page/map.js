@@ -75,7 +75,7 @@ function draw() {
 
 export function draw_plan() {
   draw_lines([path], '#fff', 7); draw_lines([path], '#000', 4);
-  ends.forEach(([x, y], i) => draw_label(i ? '◎ to' : '● from', x, y));
+  ends.forEach(([x, y], i) => draw_label(i ? '◎ to' : '● from', x, y, true));
 }
 
 export function show_all() {
