@@ -32,9 +32,9 @@ struct MissionModules {
   double begin_s = 0.0;  // the mission's clock
 };
 
-// resume: the map to go on from, or null. start: of a run that leaves its map alone, which needs no detector; its mapper
-// begins with nothing, and where the sensor begins is not where the robot is said to be. cancel: ends the reading of a log that is under way. Throws ConfigError or
-// ModuleFault; StoreError when the map does not fit.
+// resume: the map to go on from, or null. start: of a run that leaves its map alone, which needs no detector; its
+// mapper begins with nothing, and where the sensor begins is not where the robot is said to be. cancel: ends the
+// reading of a log that is under way. Throws ConfigError or ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
                                            const SavedMap* resume = nullptr, const std::atomic<bool>* cancel = nullptr,
                                            const std::optional<LocalizerStart>& start = std::nullopt);

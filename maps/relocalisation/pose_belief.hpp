@@ -19,7 +19,7 @@ struct BeliefRules {
   double min_score = 0.7;
   double clear_ratio = 0.93;  // no other guess scores more than this, of the best
   double max_contradicted_ratio = 0.03;
-  double same_m = 0.5;        // how far the same guess may move between two searches
+  double same_m = 0.5;  // how far the same guess may move between two searches
   double same_rad = radians(10.0);
 };
 

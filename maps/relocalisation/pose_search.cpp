@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kLevels = 7;
 constexpr double kSharp = 0.2;  // of a cell: a field that is full in its own cells and 0 beside them
-constexpr int kOnIt = 250;    // in 255ths: of a field that is full in the cells of what is occupied
+constexpr int kOnIt = 250;      // in 255ths: of a field that is full in the cells of what is occupied
 constexpr double kSurfaceCell_m = 0.3;
 constexpr double kMaxMoved_m = 0.3;  // by the alignment
 constexpr double kMaxMoved_rad = radians(6.0);
@@ -37,9 +37,9 @@ PoseSearch::PoseSearch(const OccupancyGrid& map, const PoseSearchSettings& setti
     : settings_(settings),
       occupied_(LikelihoodField(raster_points(map, settings.raster_m).occupied_m, settings.raster_m, settings.sigma_m),
                 kLevels),
-      free_(LikelihoodField(raster_points(map, settings.raster_m).free_m, settings.raster_m,
-                            kSharp * settings.raster_m),
-            kLevels),
+      free_(
+          LikelihoodField(raster_points(map, settings.raster_m).free_m, settings.raster_m, kSharp * settings.raster_m),
+          kLevels),
       surfaces_(surfaces_of(map)) {
   const CellBox box = map.bounds();
   if (box.empty()) return;

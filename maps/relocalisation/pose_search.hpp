@@ -19,7 +19,7 @@ struct PoseSearchSettings {
   double raster_m = 0.1;
   double sigma_m = 0.1;  // of echoes, around what is occupied
   DistinctRules distinct{.min_score = 0.5, .min_of_best_ratio = 0.85, .apart_m = 1.0, .apart_rad = radians(30.0)};
-  double min_corner_ratio = 0.1;  // of what the echoes say of the worst known direction, over the best known
+  double min_corner_ratio = 0.1;   // of what the echoes say of the worst known direction, over the best known
   double min_matched_ratio = 0.3;  // of the echoes: near a line of the map
 };
 
@@ -34,8 +34,8 @@ struct PoseHypothesis {
   double score = 0.0;
   // Whether walls of two directions, or something as good, hold the pose in all directions: false in a bare corridor.
   bool is_held_by_corners = false;
-  // Of all points: echoes in the open of the map, at least three sigmas from what is occupied, and free places on what is
-  // occupied.
+  // Of all points: echoes in the open of the map, at least three sigmas from what is occupied, and free places on what
+  // is occupied.
   double contradicted_ratio = 0.0;
 };
 

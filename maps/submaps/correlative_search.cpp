@@ -172,8 +172,7 @@ class BranchAndBound {
     std::vector<Candidate> parts;
     for (const int y : {whole.y, whole.y + side})
       for (const int x : {whole.x, whole.x + side})
-        if (x <= lattice_.half_side() && y <= lattice_.half_side())
-          add_bounded(level - 1, whole.heading, x, y, parts);
+        if (x <= lattice_.half_side() && y <= lattice_.half_side()) add_bounded(level - 1, whole.heading, x, y, parts);
     sort(parts);
     return parts;
   }

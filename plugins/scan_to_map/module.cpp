@@ -1,6 +1,6 @@
-#include <algorithm>
-
 #include "framework/contracts/module.hpp"
+
+#include <algorithm>
 
 #include "plugins/scan_to_map/scan_to_map.hpp"
 

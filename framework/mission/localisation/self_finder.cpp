@@ -24,11 +24,10 @@ void SelfFinder::update(const Observation& observation, const Pose2& T_local_rob
     if (T_map_local()) return;
   }
   if (!belief_.drive(T_local_robot) || running_) return;
-  running_ = Search{std::async(std::launch::async,
-                               [this, around = surroundings_of(seen, T_local_robot), turned = heading(T_local_robot)] {
-                                 return search_.find(around, turned);
-                               }),
-                    T_local_robot, time_s};
+  running_ =
+      Search{std::async(std::launch::async, [this, around = surroundings_of(seen, T_local_robot),
+                                             turned = heading(T_local_robot)] { return search_.find(around, turned); }),
+             T_local_robot, time_s};
 }
 
 void SelfFinder::follow_compass(const Observation& observation, const Pose2& T_local_robot) {

@@ -28,8 +28,8 @@ class Perception {
 
   // Goes on from what an earlier run has known. Before begin().
   void restore(const SavedMap& map);
-  // The map is left alone: nothing is drawn into it, nothing recognised. Before begin(). map must outlive it. is_lost: a
-  // map of its own is drawn, in the frame of a localizer that does not know the map, until settle().
+  // The map is left alone: nothing is drawn into it, nothing recognised. Before begin(). map must outlive it. is_lost:
+  // a map of its own is drawn, in the frame of a localizer that does not know the map, until settle().
   void leave_alone(const OccupancyGrid& map, LandmarkGraph graph, bool is_lost);
   // The robot has found where in that map it is: from here on by this localizer. The map's grid.
   const OccupancyGrid& settle(std::shared_ptr<Localizer> localizer);

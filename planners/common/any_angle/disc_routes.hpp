@@ -42,8 +42,8 @@ class DiscRoutes {
   [[nodiscard]] bool may_reach(const Point& from, const Point& to) const;
   // No route is shorter; +inf when there is none. Less than nothing is known when the budget ends: 0.
   [[nodiscard]] double length_lower_bound_m(const Point& from, const Point& to, const Budget& budget) const;
-  // The lattice's cells that routes between two points may pass, of those not longer than max_m. O(cells), O(rectangles)
-  // where max_m is infinite; none when the budget ends it.
+  // The lattice's cells that routes between two points may pass, of those not longer than max_m. O(cells),
+  // O(rectangles) where max_m is infinite; none when the budget ends it.
   [[nodiscard]] NumberedCells cells_between(const Point& from, const Point& to, double max_m,
                                             const Budget& budget = {}) const;
   [[nodiscard]] const std::shared_ptr<const DiscSpace>& lattice() const { return coarse_.space; }

@@ -43,8 +43,7 @@ std::vector<Pose2> path_along(const std::vector<Motion>& motions, const Pose2& o
 }  // namespace
 
 PathResult result_of(const PoseProblem& problem, const PoseSetup& setup, const WorldView& world,
-                     const StartPlace& start, const GoalPlace& goal, const FoundPath& found,
-                     const Budget& budget) {
+                     const StartPlace& start, const GoalPlace& goal, const FoundPath& found, const Budget& budget) {
   const auto space = make_kinematic_space(setup.kinematics, start.space->field());
   const std::vector<Motion> motions = motions_of(*space, found.states);
   int reversals = 0;

@@ -47,9 +47,11 @@ std::optional<Status> FindMyself::ended(const WorldView& world) {
   driven_m_ += (at_m - at_m_).norm();
   at_m_ = at_m;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
-    return Status{StepState::failure, "has not found itself in " + std::to_string(std::lround(config_.at_most_s)) + " s"};
+    return Status{StepState::failure,
+                  "has not found itself in " + std::to_string(std::lround(config_.at_most_s)) + " s"};
   if (driven_m_ >= config_.at_most_m)
-    return Status{StepState::failure, "has not found itself in " + std::to_string(std::lround(config_.at_most_m)) + " m"};
+    return Status{StepState::failure,
+                  "has not found itself in " + std::to_string(std::lround(config_.at_most_m)) + " m"};
   return std::nullopt;
 }
 

@@ -45,23 +45,27 @@ TEST(PoseBelief, BelievesWhenTheOtherGuessHasDroppedOut) {
 }
 
 TEST(PoseBelief, DoesNotBelieveAGuessThatNoCornerHolds) {
-  EXPECT_FALSE(believed_after_m(
-      [](const Pose2& truth, double) { return std::vector<PoseHypothesis>{{truth, 0.95, false}}; }));
+  EXPECT_FALSE(believed_after_m([](const Pose2& truth, double) {
+    return std::vector<PoseHypothesis>{{truth, 0.95, false}};
+  }));
 }
 
 TEST(PoseBelief, DoesNotBelieveWhatFitsBadly) {
-  EXPECT_FALSE(believed_after_m(
-      [](const Pose2& truth, double) { return std::vector<PoseHypothesis>{{truth, 0.55, true}}; }));
+  EXPECT_FALSE(believed_after_m([](const Pose2& truth, double) {
+    return std::vector<PoseHypothesis>{{truth, 0.55, true}};
+  }));
 }
 
 TEST(PoseBelief, DoesNotBelieveWhatTheMapContradicts) {
-  EXPECT_FALSE(believed_after_m(
-      [](const Pose2& truth, double) { return std::vector<PoseHypothesis>{{truth, 0.9, true, 0.06}}; }));
+  EXPECT_FALSE(believed_after_m([](const Pose2& truth, double) {
+    return std::vector<PoseHypothesis>{{truth, 0.9, true, 0.06}};
+  }));
 }
 
 TEST(PoseBelief, DoesNotBelieveAGuessThatDoesNotMoveWithTheRobot) {
-  EXPECT_FALSE(believed_after_m(
-      [](const Pose2&, double) { return std::vector<PoseHypothesis>{{{3.0, 3.0, 0.0}, 0.95, true}}; }));
+  EXPECT_FALSE(believed_after_m([](const Pose2&, double) {
+    return std::vector<PoseHypothesis>{{{3.0, 3.0, 0.0}, 0.95, true}};
+  }));
 }
 
 TEST(PoseBelief, NothingFoundIsNothingBelieved) {

@@ -19,8 +19,8 @@ TEST(Surroundings, OccupiedAndFreeSquaresAreSeenFromTheRobot) {
 
 TEST(Surroundings, TakesNoMorePointsThanItMay) {
   const OccupancyGrid seen = drawn({"##########", "..........", "..........", ".........."});
-  const Surroundings around = surroundings_of(
-      seen, {}, {.raster_m = 0.1, .free_raster_m = 0.1, .echoes_at_most = 4, .free_at_most = 3});
+  const Surroundings around =
+      surroundings_of(seen, {}, {.raster_m = 0.1, .free_raster_m = 0.1, .echoes_at_most = 4, .free_at_most = 3});
   EXPECT_EQ(around.echoes_m.size(), 4U);
   EXPECT_EQ(around.free_m.size(), 3U);
 }

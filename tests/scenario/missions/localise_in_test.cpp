@@ -24,9 +24,15 @@ const std::filesystem::path& office_map() {
 
 // The office's mission without its exploring.
 Finished visit(const std::filesystem::path& folder, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments{"run", kMission, "--out", folder.string(), "--json",
-                                     "--set", "steps=[{goto: {landmark: nearest square}}, {save: visit.cairn}]",
-                                     "--localize-in", office_map().string()};
+  std::vector<std::string> arguments{"run",
+                                     kMission,
+                                     "--out",
+                                     folder.string(),
+                                     "--json",
+                                     "--set",
+                                     "steps=[{goto: {landmark: nearest square}}, {save: visit.cairn}]",
+                                     "--localize-in",
+                                     office_map().string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return run_cairn(arguments);
 }
@@ -69,10 +75,11 @@ TEST(LocaliseIn, AGivenPoseIsBelievedAtOnce) {
 }
 
 TEST(LocaliseIn, WhatNeedsAPoseWaitsWhileTheRobotIsLost) {
-  const Finished finished = run_cairn({"run", kMission, "--out", fresh_folder("localise_in_waits").string(), "--json",
-                                       "--localize-in", office_map().string(), "--set",
-                                       "steps=[{parallel: {succeed_when: any, do: [{goto: {at_m: [5, 1]}}, {wait: 3}]}}, "
-                                       "{find_myself: {at_most_m: 0.5}}]"});
+  const Finished finished =
+      run_cairn({"run", kMission, "--out", fresh_folder("localise_in_waits").string(), "--json", "--localize-in",
+                 office_map().string(), "--set",
+                 "steps=[{parallel: {succeed_when: any, do: [{goto: {at_m: [5, 1]}}, {wait: 3}]}}, "
+                 "{find_myself: {at_most_m: 0.5}}]"});
   EXPECT_EQ(finished.exit_status, 1);
   const auto summary = nlohmann::json::parse(finished.out);
   EXPECT_THAT(summary["reason"].get<std::string>(), testing::HasSubstr("find_myself"));
