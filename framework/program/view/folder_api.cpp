@@ -97,6 +97,7 @@ ViewResponse FolderApi::answer(const ViewRequest& request) {
   if (request.target.starts_with(kEditTarget)) return edit(request);
   if (request.target == "/api/report") return file("report.json");
   if (request.target == "/api/track") return file("track.json");
+  if (request.target == "/api/timing") return file("timing.json");
   const bool is_live = kind() == "live";
   if (is_live && request.target == "/api/plan")
     return view_error(409, "the mission is under way; its map can be planned on when it has ended");

@@ -61,6 +61,8 @@ async function browse(page) {
   await page.keyboard.press('End');
   check(await seconds_of(page) === end_s, 'the slider does not lead to the end');
   check((await page.textContent('#log')).includes('step 1 (explore) begins'), 'the log is empty');
+  check((await page.textContent('#charts figcaption')).startsWith('Error of the pose'), 'no chart of the pose');
+  check((await page.textContent('#times')).includes('muriel'), 'no times of the modules');
   await page.fill('#from', '0.6,0.6');
   await page.fill('#to', '2,2');
   await page.click('#go');

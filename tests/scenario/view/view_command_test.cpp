@@ -174,6 +174,7 @@ TEST_F(ViewOfARun, OutlivesTheRunWhenItIsOnItsOwn) {
   EXPECT_EQ(body_of(get("/api/view"))["kind"], "run");
   EXPECT_EQ(body_of(get("/api/report"))["outcome"], "cancelled");
   EXPECT_FALSE(body_of(get("/api/track"))["poses"].empty());
+  EXPECT_TRUE(body_of(get("/api/timing"))[0].contains("worst_us"));
   EXPECT_EQ(body_of(get("/api/map"))["name"], "held.cairn");
   EXPECT_TRUE(post("/api/run/pause", "{}").starts_with("HTTP/1.1 409"));
   view.send(SIGTERM);

@@ -118,6 +118,23 @@ function add_charts() {
   if (charts.length) show_parts('charts-part');
 }
 
+// Wall clock, the longest first; it differs from run to run.
+async function show_times() {
+  const times = await ask_json('/api/timing').catch(() => []);
+  if (!times.length) return;
+  const row_of = ({ stage, module, count, median_us, worst_us, total_s }) => {
+    const row = document.createElement('tr');
+    for (const text of [module ? `${stage} (${module})` : stage, count, (median_us / 1000).toFixed(2), (worst_us / 1000).toFixed(1), total_s.toFixed(2)]) {
+      const cell = document.createElement('td');
+      cell.textContent = text;
+      row.append(cell);
+    }
+    return row;
+  };
+  element('times').replaceChildren(...times.sort((a, b) => b.total_s - a.total_s).map(row_of));
+  show_parts('times-part');
+}
+
 export async function show_run(settings) {
   report = await ask_json('/api/report');
   track = await ask_json('/api/track').catch(() => track);
@@ -134,6 +151,7 @@ export async function show_run(settings) {
   show_tree(tree_of(report.nodes ?? []));
   draw_marks();
   add_charts();
+  show_times();
   const slider = element('slider');
   slider.max = end_s; slider.step = Math.max(end_s / 5000, 0.01);
   slider.oninput = () => show_time(Number(slider.value));
