@@ -56,6 +56,7 @@ class RunReport : public Listener {
   [[nodiscard]] const NearMisses& near_misses() const { return near_misses_; }
   [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
   [[nodiscard]] const RunTrack& track() const { return track_; }
+  [[nodiscard]] const EventLog& events() const { return events_; }
 
  private:
   void note_contact(const MissionView& view);

@@ -181,6 +181,7 @@ std::string WatchText::line_of(const WatchFrame& frame) {
   if (!nodes.empty()) line["nodes"] = std::move(nodes);
   if (!frame.lines.empty()) line["log"] = watch_json(frame.lines);
   if (frame.lines_left_out > 0) line["log_left_out"] = frame.lines_left_out;
+  if (!frame.past.empty()) line["past"] = frame.past;
   if (!frame.driven.empty()) {
     line["driven"] = Json::array();
     for (const Point& point : frame.driven) line["driven"].push_back(watch_json(point));

@@ -66,6 +66,7 @@ struct WatchFrame {
   std::vector<WatchLine> lines{};                      // since the last frame
   std::uint64_t lines_left_out = 0;                    // before these
   std::vector<Point> driven{};                         // of the first frame
+  std::vector<std::string> past{};                     // of the first frame: sentences so far, each behind its time
   std::optional<RunStatus> status{};                   // when it was asked for
 };
 

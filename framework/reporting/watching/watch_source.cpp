@@ -156,8 +156,7 @@ WatchFrame WatchSource::frame_for(Reader& reader, const MissionView& view) const
   add_map(frame, reader, {view.world.grid, view.world.graph}, kMaxFrameTiles);
   frame.plan = plan_;
   if (look_.nodes) frame.nodes = look_.nodes();
-  if (reader.is_new && look_.driven)
-    for (const Pose2& pose : evenly_chosen(look_.driven(), kMaxFramePath)) frame.driven.push_back(pose.position());
+  if (reader.is_new) add_past(frame, reader);
   if (reader.wants_status && look_.status) frame.status = look_.status();
   add_lines(frame, reader);
   reader.is_new = false;
@@ -186,6 +185,16 @@ void WatchSource::add_map(WatchFrame& frame, Reader& reader, const Map& map, std
   if (reader.routes == routes_version_) return;
   frame.routes = routes_;
   reader.routes = routes_version_;
+}
+
+void WatchSource::add_past(WatchFrame& frame, Reader& reader) const {
+  if (look_.driven)
+    for (const Pose2& pose : evenly_chosen(look_.driven(), kMaxFramePath)) frame.driven.push_back(pose.position());
+  if (!look_.sentences) return;
+  frame.past = look_.sentences();
+  if (frame.past.size() > kMaxWatchedLines)
+    frame.past.erase(frame.past.begin(), frame.past.end() - static_cast<std::ptrdiff_t>(kMaxWatchedLines));
+  reader.lines = lines_begin_ + lines_.size();
 }
 
 void WatchSource::add_lines(WatchFrame& frame, Reader& reader) const {

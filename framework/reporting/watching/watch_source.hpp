@@ -28,6 +28,7 @@ class WatchSource final : public Listener {
     std::function<RunStatus()> status{};
     std::function<std::vector<NodeReport>()> nodes{};
     std::function<const std::vector<Pose2>&()> driven{};
+    std::function<std::vector<std::string>()> sentences{};  // of all events, that which is published too
   };
   class Watch;
 
@@ -72,6 +73,7 @@ class WatchSource final : public Listener {
   void serve(const MissionView& view);
   [[nodiscard]] WatchFrame frame_for(Reader& reader, const MissionView& view) const;
   void add_map(WatchFrame& frame, Reader& reader, const Map& map, std::size_t max_tiles) const;
+  void add_past(WatchFrame& frame, Reader& reader) const;
   void add_lines(WatchFrame& frame, Reader& reader) const;
 
   // Of the mission's thread.

@@ -3,7 +3,7 @@ import { element, post, say, token } from './api.js';
 import { Chart } from './charts.js';
 import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_plan, draw_ranges, draw_robot, draw_routes, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
 import { list_landmarks } from './map.js';
-import { add_lines, show_facts, show_node, show_parts, show_tree } from './panels.js';
+import { add_lines, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 
 const kTile = 64;
 const kMaxPath = 20000;
@@ -95,6 +95,7 @@ function take(line) {
   run.truth = line.truth;
   if ('plan' in line) run.plan = line.plan;
   for (const [path, state, reason] of line.nodes ?? []) show_node(path, state, reason);
+  if (line.past) show_lines(line.past.map(event_of));
   if (line.log) add_lines(line.log, line.log_left_out);
   if (line.time_s !== undefined) element('clock').textContent = `${line.time_s.toFixed(1)} s${line.paused ? ', paused' : ''}`;
   if (!has_fitted && run.grid && !line.more) { has_fitted = true; show_all(); }

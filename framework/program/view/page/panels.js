@@ -43,6 +43,12 @@ export function clear_nodes() {
   for (const path of nodes.keys()) show_node(path, 'waiting', '');
 }
 
+// Sentences of the report begin with their time.
+export function event_of(sentence) {
+  const found = /^([\d.]+) s: ([^]*)$/.exec(sentence);
+  return found ? [Number(found[1]), found[2]] : [0, sentence];
+}
+
 function line_of(time_s, sentence) {
   const item = document.createElement('li');
   const time = document.createElement('b');

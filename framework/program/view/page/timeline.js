@@ -3,7 +3,7 @@ import { ask_json, element, say } from './api.js';
 import { Chart } from './charts.js';
 import { begin, draw_lines, draw_plan, draw_robot, redraw } from './canvas.js';
 import * as saved from './map.js';
-import { clear_nodes, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
+import { clear_nodes, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 
 const kRadius_m = 0.22;
 let report, track = { poses: [], plans: [], landmarks: [] };
@@ -19,12 +19,6 @@ function last_before(list, time_of, time_s) {
   }
   return low - 1;
 }
-
-// Sentences of the report begin with their time.
-const event_of = (sentence) => {
-  const found = /^([\d.]+) s: ([^]*)$/.exec(sentence);
-  return found ? [Number(found[1]), found[2]] : [0, sentence];
-};
 
 // "3/1/2" below "3/1" below "3"; the report names only what was ticked.
 function tree_of(nodes) {

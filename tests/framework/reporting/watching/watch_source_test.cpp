@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "framework/reporting/event_sentences.hpp"
+
 namespace cairn {
 namespace {
 
 using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 using Frame = std::shared_ptr<const WatchFrame>;
@@ -66,6 +70,27 @@ TEST_F(WatchedMission, TheFirstFrameHoldsAllAndTheNextWhatHasChanged) {
   EXPECT_THAT(second->landmarks, IsEmpty());
   EXPECT_FALSE(second->routes) << "they are as they were";
   EXPECT_THAT(frame_of(*watch)->tiles, IsEmpty());
+}
+
+TEST_F(WatchedMission, OneWhoComesLateGetsTheSentencesOfBeforeOnce) {
+  std::vector<std::string> said;
+  source_.look_by({{}, {}, {}, [&] { return said; }});
+  const auto say = [&](const std::string& name) {
+    const StepStarted event{0, name};
+    said.push_back("0.10 s: " + sentence_of(event));
+    publish(event);
+  };
+  say("early");
+  const auto watch = source_.attach(1);
+  say("as it came");
+  const Frame first = frame_of(*watch);
+  EXPECT_THAT(first->past, ElementsAre(HasSubstr("early"), HasSubstr("as it came")));
+  EXPECT_THAT(first->lines, IsEmpty());
+  say("later");
+  const Frame second = frame_of(*watch);
+  EXPECT_THAT(second->past, IsEmpty());
+  ASSERT_THAT(second->lines, SizeIs(1));
+  EXPECT_THAT(second->lines[0].sentence, HasSubstr("later"));
 }
 
 TEST_F(WatchedMission, OneWhoDoesNotComeBackMissesFramesButNoChange) {
