@@ -76,13 +76,17 @@ Json watch_json(const std::vector<WatchRange>& ranges) {
 }
 
 Json watch_json(const Landmark& landmark) {
+  Json evidence = Json::array();
+  for (const CategoryEvidence& one : landmark.evidence)
+    evidence.push_back({one.category, one.matchings, watch_number(one.mean_degree)});
   return {{"id", landmark.id},
           {"label", label_of(landmark)},
           {"category", landmark.category},
           {"x", watch_number(landmark.T_map_landmark.x_m)},
           {"y", watch_number(landmark.T_map_landmark.y_m)},
           {"degree", watch_number(landmark.degree)},
-          {"sightings", landmark.sightings}};
+          {"sightings", landmark.sightings},
+          {"evidence", std::move(evidence)}};
 }
 
 Json watch_json(const std::vector<Route>& routes) {

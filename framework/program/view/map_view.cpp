@@ -26,6 +26,14 @@ Json points_of(const std::vector<Pose2>& trajectory) {
   return points;
 }
 
+// Of each category, in how many matchings it fitted there, and with what degree in the mean.
+Json evidence_of(const Landmark& landmark) {
+  Json evidence = Json::array();
+  for (const CategoryEvidence& one : landmark.evidence)
+    evidence.push_back({one.category, one.matchings, one.mean_degree});
+  return evidence;
+}
+
 }  // namespace
 
 std::vector<int> view_levels(const OccupancyGrid& grid) {
@@ -75,7 +83,8 @@ std::string view_landmarks_json(const LandmarkGraph& graph) {
                          {"x", at.x()},
                          {"y", at.y()},
                          {"degree", landmark.degree},
-                         {"sightings", landmark.sightings}});
+                         {"sightings", landmark.sightings},
+                         {"evidence", evidence_of(landmark)}});
   }
   return text_of_json(landmarks);
 }

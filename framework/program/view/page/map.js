@@ -122,6 +122,9 @@ export function list_landmarks(list, choose_landmark) {
   element('landmarks').replaceChildren(...list.map((landmark) => {
     const button = document.createElement('button');
     button.textContent = `${landmark.label}: ${landmark.category || 'place'}, degree ${landmark.degree.toFixed(2)}`;
+    const evidence = document.createElement('small');
+    evidence.textContent = (landmark.evidence ?? []).map(([category, matchings, mean]) => `${category} ${mean.toFixed(2)} in ${matchings}`).join(', ');
+    if (evidence.textContent) button.append(evidence);
     button.onclick = () => choose_landmark(landmark);
     const item = document.createElement('li');
     item.append(button);

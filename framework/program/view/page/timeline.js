@@ -1,7 +1,7 @@
 // A finished run: where the robot was, what it did and what had been said at any time of it.
 import { ask_json, element, say } from './api.js';
 import { Chart } from './charts.js';
-import { begin, draw_lines, draw_plan, draw_robot, redraw } from './canvas.js';
+import { begin, draw_label, draw_lines, draw_plan, draw_robot, redraw } from './canvas.js';
 import * as saved from './map.js';
 import { clear_nodes, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 
@@ -55,6 +55,8 @@ function draw() {
   if (element('show-path').checked) draw_lines([path], '#009e73', 2);
   const plan = track.plans[last_before(track.plans, (one) => one.time_s, at_s)];
   draw_plan(plan?.points ?? []);
+  if (element('show-misses').checked)
+    for (const miss of report.near_misses ?? []) draw_label(`✕ ${miss.category} ${miss.degree.toFixed(2)}`, miss.x_m, miss.y_m);
   const pose = pose_at(at_s);
   if (pose) draw_robot(pose.slice(1), kRadius_m, '#cc79a7');
   saved.draw_plan();
@@ -112,6 +114,18 @@ function add_charts() {
   if (charts.length) show_parts('charts-part');
 }
 
+// What was most like a landmark and was none.
+function list_misses() {
+  const misses = report.near_misses ?? [];
+  if (!misses.length) return;
+  element('misses').replaceChildren(...misses.map((miss) => {
+    const item = document.createElement('li');
+    item.textContent = `${miss.category} ${miss.degree.toFixed(2)} at (${miss.x_m.toFixed(2)}, ${miss.y_m.toFixed(2)}), needs ${miss.needs.toFixed(2)}`;
+    return item;
+  }));
+  show_parts('misses-part', 'misses-label');
+}
+
 // Wall clock, the longest first; it differs from run to run.
 async function show_times() {
   const times = await ask_json('/api/timing').catch(() => []);
@@ -146,6 +160,7 @@ export async function show_run(settings) {
   draw_marks();
   add_charts();
   show_times();
+  list_misses();
   const slider = element('slider');
   slider.max = end_s; slider.step = Math.max(end_s / 5000, 0.01);
   slider.oninput = () => show_time(Number(slider.value));
