@@ -116,7 +116,7 @@ MapPlanner::MapPlanner(MapPlannerOptions options, bool many, std::optional<MapFi
   if (many_) prepare(map_->grid, kLoadedGrid);  // neither is what the planner makes of the grid
 }
 
-MapPlanner::MapPlanner(MapPlannerOptions options, PlannerUse use, const ModuleLibrary& library)
+MapPlanner::MapPlanner(const MapPlannerOptions& options, PlannerUse use, const ModuleLibrary& library)
     : MapPlanner(options, use == PlannerUse::many_in_turn || use == PlannerUse::many_at_once,
                  opened_in_part(options.map, use), nullptr, library) {}
 

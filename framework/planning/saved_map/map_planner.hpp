@@ -27,7 +27,7 @@ namespace cairn {
 class MapPlanner {
  public:
   // Loads options.map. The library must outlive it. Throws what loading the map and the modules throws.
-  MapPlanner(MapPlannerOptions options, PlannerUse use, const ModuleLibrary& library);
+  MapPlanner(const MapPlannerOptions& options, PlannerUse use, const ModuleLibrary& library);
   // Of a map in memory, which nobody changes meanwhile, asked by several threads; options.map is its name in errors.
   MapPlanner(MapPlannerOptions options, std::shared_ptr<SavedMap> map, const ModuleLibrary& library);
 

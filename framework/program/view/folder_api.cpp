@@ -42,7 +42,7 @@ bool is_running_in(const fs::path& folder) {
 fs::path map_in(const fs::path& folder) {
   const Json report = Json::parse(bytes_of_file(folder / "report.json").value_or("null"), nullptr, false);
   if (report.is_object() && report.contains("map") && report["map"].is_string()) {
-    const fs::path named = folder / fs::path(report["map"].get<std::string>()).filename();
+    fs::path named = folder / fs::path(report["map"].get<std::string>()).filename();
     if (fs::is_regular_file(named)) return named;
   }
   std::vector<fs::path> maps;

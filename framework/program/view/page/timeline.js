@@ -120,7 +120,7 @@ function list_misses() {
   if (!misses.length) return;
   element('misses').replaceChildren(...misses.map((miss) => {
     const item = document.createElement('li');
-    item.textContent = `${miss.category} ${miss.degree.toFixed(2)} at (${miss.x_m.toFixed(2)}, ${miss.y_m.toFixed(2)}), needs ${miss.needs.toFixed(2)}`;
+    item.textContent = `${miss.category} ${miss.degree.toFixed(2)} at (${miss.x_m.toFixed(2)}, ${miss.y_m.toFixed(2)})${miss.needs ? `, needs ${miss.needs.toFixed(2)}` : ''}`;
     return item;
   }));
   show_parts('misses-part', 'misses-label');
