@@ -54,8 +54,9 @@ Point across(double heading_rad, int ray) {
 double width_at(const OpenGround& ground, const Point& at, const Point& along, double max_m) {
   const double heading_rad = std::atan2(along.y(), along.x());
   std::array<double, 2 * kOblique_rays + 1> left_m{};
+  double* const left_of_ray = left_m.data() + kOblique_rays;
   for (int ray = -kOblique_rays; ray <= kOblique_rays; ++ray)
-    left_m[static_cast<std::size_t>(ray + kOblique_rays)] = ground.open_length_m(at, across(heading_rad, ray), max_m);
+    left_of_ray[ray] = ground.open_length_m(at, across(heading_rad, ray), max_m);
   double width_m = max_m;
   const double nearest_m = *std::ranges::min_element(left_m);
   for (int ray = -kOblique_rays - kBend_rays; ray <= kOblique_rays + kBend_rays; ++ray) {
@@ -64,7 +65,7 @@ double width_at(const OpenGround& ground, const Point& at, const Point& along, d
     if (right_m >= max_m - nearest_m) continue;
     for (int opposite = std::max(ray - kBend_rays, -kOblique_rays);
          opposite <= std::min(ray + kBend_rays, kOblique_rays); ++opposite) {
-      const double length_m = left_m[static_cast<std::size_t>(opposite + kOblique_rays)];
+      const double length_m = left_of_ray[opposite];
       if (length_m < max_m)
         width_m = std::min(width_m, (length_m * across(heading_rad, opposite) - right_m * to_right).norm());
     }

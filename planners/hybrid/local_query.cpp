@@ -133,7 +133,7 @@ class LocalQuery {
 
   // None: it is between landmarks that a leg failed.
   static std::optional<LandmarkId> unreached_end(const Walk& walk, const SymbolicPath& path) {
-    const auto legs = static_cast<std::size_t>(walk.stored_legs + walk.planned_legs);
+    const auto legs = static_cast<std::size_t>(walk.stored_legs) + static_cast<std::size_t>(walk.planned_legs);
     if (legs == 0) return path.landmarks.front();
     return legs == path.routes.size() ? std::optional(path.landmarks.back()) : std::nullopt;
   }

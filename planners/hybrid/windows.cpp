@@ -72,7 +72,7 @@ std::shared_ptr<const Window> WindowCache::window_of(const WorldView& world, con
   if (auto kept = find(world, box, rules, disc_m)) return kept;
   OccupancyGrid grid = part_of(world.grid, box);
   const auto space = std::make_shared<const DiscSpace>(grid, rules);
-  const auto window =
+  auto window =
       std::make_shared<const Window>(Window{std::move(grid), std::make_shared<const DiscRoutes>(space, disc_m)});
   keep({box, world.grid_version, window});
   return window;
