@@ -92,7 +92,7 @@ std::string shown_topics(const Bag& bag) {
   std::size_t named = 0;
   for (const auto& [name, type] : bag.types) {
     if (named++ == kMaxNamed) return text + ", ...";
-    text += (text.empty() ? "" : ", ") + name + " (" + type + ")";
+    text.append(text.empty() ? "" : ", ").append(name).append(" (").append(type).append(")");
   }
   return text.empty() ? "none" : text;
 }
