@@ -7,6 +7,8 @@ export const view = { x: 0, y: 0, scale: 40 };  // centre in metres, pixels a me
 // Okabe and Ito's colours: also told apart by who sees no red or green.
 export const kColours = ['#d55e00', '#0072b2', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
 
+const kManyLines = 2000, kMaxRoutes = 5000, kMaxShapes = 2000, kMaxLabels = 200;
+
 let draw_all = () => {};
 let asked = false;
 
@@ -53,16 +55,49 @@ export function draw_picture(picture, left, low, side) {
     context.drawImage(picture, px, py, width, height);
 }
 
+// One path for all: many strokes take long. Dashes of many lines do too.
 export function draw_lines(lines, colour, width, dash = []) {
+  const left = canvas.width / 2 - view.x * view.scale, low = canvas.height / 2 + view.y * view.scale;
   context.beginPath();
   for (const points of lines)
-    points.forEach(([x, y], i) => context[i ? 'lineTo' : 'moveTo'](...to_screen(x, y)));
-  context.strokeStyle = colour; context.lineWidth = width * devicePixelRatio; context.setLineDash(dash);
+    for (let i = 0; i < points.length; ++i) {
+      const x = left + points[i][0] * view.scale, y = low - points[i][1] * view.scale;
+      if (i) context.lineTo(x, y); else context.moveTo(x, y);
+    }
+  context.strokeStyle = colour; context.lineWidth = width * devicePixelRatio;
+  context.setLineDash(lines.length < kManyLines ? dash : []);
   context.stroke();
   context.setLineDash([]);
 }
 
-export function draw_routes(routes) {
+// What is on the canvas, in metres, and a little beyond.
+function box_in_view() {
+  const beyond = 40 * devicePixelRatio;
+  const [left, low] = to_map(-beyond, canvas.height + beyond), [right, high] = to_map(canvas.width + beyond, -beyond);
+  return { left, low, right, high };
+}
+
+// Of a route's points; they never change.
+function box_of(route) {
+  if (!route.box) {
+    const box = { left: Infinity, low: Infinity, right: -Infinity, high: -Infinity };
+    for (const [x, y] of route.points) {
+      box.left = Math.min(box.left, x); box.right = Math.max(box.right, x);
+      box.low = Math.min(box.low, y); box.high = Math.max(box.high, y);
+    }
+    route.box = box;
+  }
+  return route.box;
+}
+
+// So many that they cover each other are left out, until the map is nearer.
+export function draw_routes(all_routes) {
+  const view_box = box_in_view();
+  const routes = all_routes.filter((route) => {
+    const box = box_of(route);
+    return box.left < view_box.right && box.right > view_box.left && box.low < view_box.high && box.high > view_box.low;
+  });
+  if (routes.length > kMaxRoutes) return;
   draw_lines(routes.filter((r) => !r.closed && r.driven).map((r) => r.points), '#0072b2', 2);
   draw_lines(routes.filter((r) => !r.closed && !r.driven).map((r) => r.points), '#56b4e9', 1.5, [8, 4]);
   draw_lines(routes.filter((r) => r.closed).map((r) => r.points), '#d55e00', 2, [2, 4]);
@@ -78,16 +113,24 @@ function add_shape(kind, x, y, r) {
 
 export const categories_of = (landmarks) => [...new Set(landmarks.map((landmark) => landmark.category))].sort();
 
-export function draw_landmarks(landmarks, categories) {
+// Many are dots, without an outline and without their names.
+export function draw_landmarks(all_landmarks, categories) {
+  const { left, low, right, high } = box_in_view();
+  const landmarks = all_landmarks.filter(({ x, y }) => x > left && x < right && y > low && y < high);
+  const are_dots = landmarks.length > kMaxShapes, side = 3 * devicePixelRatio;
   categories.forEach((category, kind) => {
     context.beginPath();
-    for (const landmark of landmarks)
-      if (landmark.category === category)
-        add_shape(kind, ...to_screen(landmark.x, landmark.y), (4 + 5 * landmark.degree) * devicePixelRatio);
+    for (const landmark of landmarks) {
+      if (landmark.category !== category) continue;
+      const [x, y] = to_screen(landmark.x, landmark.y);
+      if (are_dots) context.rect(Math.round(x), Math.round(y), side, side);
+      else add_shape(kind, x, y, (4 + 5 * landmark.degree) * devicePixelRatio);
+    }
     context.fillStyle = kColours[kind % kColours.length]; context.fill();
+    if (are_dots) return;
     context.strokeStyle = '#000'; context.lineWidth = devicePixelRatio; context.stroke();
   });
-  if (landmarks.length * 400 > view.scale * view.scale * 40 && landmarks.length > 200) return;
+  if (landmarks.length > kMaxLabels) return;
   for (const landmark of landmarks) draw_label(landmark.label, landmark.x, landmark.y);
 }
 

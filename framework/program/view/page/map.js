@@ -49,6 +49,7 @@ function draw_grid() {
 
 function draw_clusters() {
   const level = Number(element('level').value);
+  if (!level) return;
   const at = new Map(landmarks.map((landmark) => [landmark.id, landmark]));
   for (const cluster of clusters.filter((one) => one.level === level)) {
     const anchor = at.get(cluster.anchor);
