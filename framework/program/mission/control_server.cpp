@@ -117,6 +117,7 @@ ControlServer::~ControlServer() {
   (void)!::write(ending_.get(), &one, sizeof one);
   thread_.join();
   answers_.clear();  // waits for them
+  wait_for_last_lines(streams_);
   streams_.clear();
   remove_socket(folder_);
 }

@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -57,8 +58,6 @@ WatchStream::WatchStream(Descriptor connection, std::unique_ptr<WatchSource::Wat
 }
 
 WatchStream::~WatchStream() {
-  const Clock::time_point until = Clock::now() + kLastLinesWithin;
-  while (!has_ended_ && Clock::now() < until) std::this_thread::sleep_for(milliseconds(1));
   ::shutdown(connection_.get(), SHUT_RDWR);
   thread_.join();
 }
@@ -86,6 +85,12 @@ bool WatchStream::send_frames() {
     if (frame && !frame->is_last) std::this_thread::sleep_until(begin + request_.every);
   }
   return true;
+}
+
+void wait_for_last_lines(const std::list<WatchStream>& streams) {
+  const Clock::time_point until = Clock::now() + kLastLinesWithin;
+  while (Clock::now() < until && !std::ranges::all_of(streams, &WatchStream::has_ended))
+    std::this_thread::sleep_for(milliseconds(1));
 }
 
 }  // namespace cairn

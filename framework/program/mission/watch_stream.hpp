@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <list>
 #include <memory>
 #include <string>
 #include <thread>
@@ -31,7 +32,7 @@ class WatchStream {
               std::string first_line, RunControl& control);
   WatchStream(const WatchStream&) = delete;
   WatchStream& operator=(const WatchStream&) = delete;
-  // The source must have ended, or the stream itself. One who does not read is cut off.
+  // The source must have ended, or the stream itself. What is not sent by then is cut off.
   ~WatchStream();
 
   [[nodiscard]] bool has_ended() const { return has_ended_; }
@@ -47,5 +48,8 @@ class WatchStream {
   std::atomic<bool> has_ended_{false};
   std::thread thread_;
 };
+
+// After the source has ended: until all have sent what is left, or half a second has passed.
+void wait_for_last_lines(const std::list<WatchStream>& streams);
 
 }  // namespace cairn

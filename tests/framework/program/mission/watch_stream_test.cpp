@@ -146,5 +146,15 @@ TEST_F(WatchedRun, AWrongSettingIsNamed) {
   EXPECT_EQ(error_of(R"({"watch": 5})"), R"(a watch is asked for as {"watch": {"every_ms": 50}})");
 }
 
+TEST_F(WatchedRun, ManyWhoReadNothingHoldUpItsEndNoLongerThanOne) {
+  std::vector<Descriptor> stalled;
+  while (stalled.size() < kMaxWatches) stalled.push_back(ask(R"({"watch": {"every_ms": 0}})"));
+  std::this_thread::sleep_for(seconds(1));  // their sockets are full then
+  end();
+  const auto begin = std::chrono::steady_clock::now();
+  server_.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(2));
+}
+
 }  // namespace
 }  // namespace cairn
