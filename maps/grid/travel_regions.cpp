@@ -101,7 +101,7 @@ void TravelRegions::find_borders(const DiscLattice& lattice) {
 void TravelRegions::append_way_home(std::vector<Cell>& path, Cell cell) const {
   path.push_back(cell);
   for (std::int8_t step = came_from_[index_of(cell)]; step >= 0; step = came_from_[index_of(path.back())])
-    path.push_back(path.back() + DiscLattice::kSteps[static_cast<std::size_t>(step)]);
+    path.push_back(path.back() + DiscLattice::kSteps[static_cast<std::uint8_t>(step)]);
 }
 
 std::vector<Cell> TravelRegions::path_across(const Border& border) const {
