@@ -31,7 +31,7 @@ class ViewServer {
   [[nodiscard]] std::uint16_t port() const;
   // Before run(): viewers of Foxglove's protocol are served too, by the thread of run().
   void offer_foxglove(FoxgloveOffer offer);
-  // Answers until `end`. Streams go on while the handler is at work, but for a plan that a viewer of Foxglove's asks.
+  // Answers until `end`. Streams go on while the handler is at work, but for what a viewer of Foxglove's asks.
   void run(const std::atomic<bool>& end);
 
  private:

@@ -104,6 +104,13 @@ TEST_F(ViewOfARun, OnlyWatchesUnlessItMaySteer) {
   EXPECT_THAT(stream, HasSubstr("Sec-WebSocket-Protocol: cairn.view.1\r\n"));
   EXPECT_THAT(stream, HasSubstr(R"({"ok":true,"watch":1,"mission":"held")"));
   EXPECT_THAT(stream, HasSubstr(R"("afresh":true)"));
+
+  const std::string foxglove = "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n";
+  EXPECT_TRUE(ask("GET /?token=wrong", upgrade + foxglove, "").starts_with("HTTP/1.1 401"));
+  const std::string viewed = ask("GET /?token=" + token_, upgrade + foxglove, "", 3000);
+  EXPECT_TRUE(viewed.starts_with("HTTP/1.1 101")) << viewed;
+  EXPECT_THAT(viewed, HasSubstr(R"("name":"cairn: out")"));
+  EXPECT_THAT(viewed, HasSubstr(R"("topic":"/map")"));
   run.send(SIGTERM);
   EXPECT_EQ(run.exit_status(), 1);
 }

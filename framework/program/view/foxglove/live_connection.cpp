@@ -26,6 +26,15 @@ void LiveConnection::add(const LiveMessage& message, Frames& frames) const {
     if (channel == message.channel) frames.push_back(protocol::message_data(id, message.time_ns, message.data));
 }
 
+std::vector<LiveMessage> LiveConnection::standing(std::uint32_t channel, Frames& frames) const {
+  try {
+    return scene_.standing(channel);
+  } catch (const std::exception& error) {
+    frames.push_back(protocol::status(Level::error, error.what()));
+    return {};
+  }
+}
+
 LiveConnection::Frames LiveConnection::take(std::string_view line) {
   Frames frames;
   try {
@@ -33,6 +42,7 @@ LiveConnection::Frames LiveConnection::take(std::string_view line) {
     const std::uint64_t before_ns = scene_.time_ns();
     for (const LiveMessage& message : scene_.take(json)) add(message, frames);
     if (scene_.time_ns() != before_ns) frames.push_back(protocol::time(scene_.time_ns()));
+    if (!json.value("ok", true)) frames.push_back(protocol::status(Level::error, json.value("error", "refused")));
     if (json.value("ended", false)) frames.push_back(protocol::status(Level::info, "the mission has ended"));
   } catch (const std::exception& error) {
     frames.push_back(
@@ -49,7 +59,7 @@ LiveConnection::Frames LiveConnection::advance(double elapsed_s, std::size_t) {
   for (const LiveChannel large : {live_map, live_driven}) {
     const bool is_asked = std::ranges::any_of(channel_of_, [&](const auto& one) { return one.second == large; });
     if (is_asked && scene_.has_changed(large))
-      for (const LiveMessage& message : scene_.standing(large)) add(message, frames);
+      for (const LiveMessage& message : standing(large, frames)) add(message, frames);
   }
   return frames;
 }
@@ -60,7 +70,7 @@ LiveConnection::Frames LiveConnection::subscribe(std::uint32_t id, std::uint32_t
     return {std::move(*refused)};
   channel_of_[id] = channel;
   Frames frames;
-  for (const LiveMessage& message : scene_.standing(channel))
+  for (const LiveMessage& message : standing(channel, frames))
     frames.push_back(protocol::message_data(id, message.time_ns, message.data));
   return frames;
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "framework/program/view/foxglove/connection.hpp"
 #include "framework/program/view/foxglove/live_scene.hpp"
@@ -26,6 +27,8 @@ class LiveConnection final : public FoxgloveConnection {
   [[nodiscard]] Frames subscribe(std::uint32_t id, std::uint32_t channel) override;
   void unsubscribe(std::uint32_t id) override { channel_of_.erase(id); }
   void add(const LiveMessage& message, Frames& frames) const;
+  // How a channel stands; what it cannot show is told to the viewer.
+  [[nodiscard]] std::vector<LiveMessage> standing(std::uint32_t channel, Frames& frames) const;
 
   const std::string name_;
   const std::string session_;

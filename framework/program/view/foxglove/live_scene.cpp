@@ -185,7 +185,9 @@ std::string LiveScene::node_text(const std::string& path) const {
 std::string LiveScene::map_text() const {
   const int left = box_.at("x").get<int>(), low = box_.at("y").get<int>();
   const int width = box_.at("width").get<int>(), height = box_.at("height").get<int>();
-  if (width < 0 || height < 0 || std::int64_t{width} * height > kMaxCells) throw std::runtime_error("a grid too large");
+  if (width < 0 || height < 0 || std::int64_t{width} * height > kMaxCells)
+    throw std::runtime_error("the map has too many cells to be shown: " + std::to_string(width) + " x " +
+                             std::to_string(height));
   foxglove::GridBytes bytes{origin_m_ + cell_m_ * Point(left, low), cell_m_, width, {}};
   bytes.ol.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kUnknown);
   for (const auto& [at, ol] : tiles_) {

@@ -109,8 +109,25 @@ TEST_F(LiveConnectionTest, WhatIsNotUnderstoodIsToldAndTheEndToo) {
     ASSERT_FALSE(frames.empty()) << line;
     EXPECT_EQ(json::parse(frames.back().bytes)["op"], "status") << line;
   }
+  EXPECT_EQ(json::parse(take({{"ok", false}, {"error", "already watched by 8"}})[0].bytes)["message"],
+            "already watched by 8");
   const LiveFrames frames = take({{"ended", true}, {"status", json::object()}});
   EXPECT_EQ(json::parse(frames.back().bytes)["message"], "the mission has ended");
+}
+
+TEST_F(LiveConnectionTest, AMapOfTooManyCellsIsToldAndTheRestIsShown) {
+  begin();
+  (void)take({{"time_s", 1.0},
+              {"pose", pose(2.0)},
+              {"grid",
+               {{"cell_m", 0.1},
+                {"origin_m", {0.0, 0.0}},
+                {"box", {{"x", 0}, {"y", 0}, {"width", 40000}, {"height", 40000}}}}}});
+  const LiveFrames refused = subscribe(7, live_map);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_NE(refused[0].bytes.find("40000 x 40000"), std::string::npos);
+  EXPECT_EQ(connection_.advance(1.0, 1).size(), 1U);
+  EXPECT_EQ(heard(subscribe(8, live_pose), 8).size(), 1U);
 }
 
 }  // namespace
