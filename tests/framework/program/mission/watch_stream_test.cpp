@@ -56,21 +56,25 @@ class WatchedRun : public testing::Test {
     EXPECT_TRUE(write_line(connection.socket.get(), command));
     return std::move(connection.socket);
   }
-  // Its lines until it ends, at most so many.
-  static std::vector<json> lines_of(const Descriptor& socket, std::size_t max) {
+  // Its lines until it ends, at most so many. What was read beyond them stays in `text`, for the next call.
+  static std::vector<json> lines_of(const Descriptor& socket, std::size_t max, std::string& text) {
     std::vector<json> lines;
-    std::string text;
     char piece[4096];
     while (lines.size() < max) {
-      const ssize_t got = ::recv(socket.get(), piece, sizeof piece, 0);
-      if (got <= 0) return lines;
-      text.append(piece, static_cast<std::size_t>(got));
-      for (std::size_t end = 0; lines.size() < max && (end = text.find('\n')) != std::string::npos;) {
+      if (const std::size_t end = text.find('\n'); end != std::string::npos) {
         lines.push_back(json::parse(text.substr(0, end)));
         text.erase(0, end + 1);
+        continue;
       }
+      const ssize_t got = ::recv(socket.get(), piece, sizeof piece, 0);
+      if (got <= 0) break;
+      text.append(piece, static_cast<std::size_t>(got));
     }
     return lines;
+  }
+  static std::vector<json> lines_of(const Descriptor& socket, std::size_t max) {
+    std::string text;
+    return lines_of(socket, max, text);
   }
   void wait_for_ticks(std::int64_t more) const {
     const std::int64_t until = ticks_ + more;
@@ -93,14 +97,15 @@ class WatchedRun : public testing::Test {
 
 TEST_F(WatchedRun, TheConnectionBecomesAStreamThatEndsWithTheRun) {
   const Descriptor socket = ask(R"({"watch": {"every_ms": 1}})");
-  const std::vector<json> lines = lines_of(socket, 5);
+  std::string unread;
+  const std::vector<json> lines = lines_of(socket, 5, unread);
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0]["mission"], "held");
   EXPECT_EQ(lines[1]["afresh"], true);
   EXPECT_EQ(lines[1]["tiles"].size(), 1U);
   EXPECT_LT(lines[1]["tick"], lines[2]["tick"]);
   end();
-  const std::vector<json> rest = lines_of(socket, 1'000'000);
+  const std::vector<json> rest = lines_of(socket, 1'000'000, unread);
   ASSERT_FALSE(rest.empty());
   EXPECT_EQ(rest.back()["ended"], true);
   EXPECT_EQ(rest.back()["status"]["outcome"], "done");
