@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "framework/reporting/plan_end.hpp"
+#include "maps/base/base64.hpp"
 
 namespace cairn {
 namespace {
@@ -16,6 +18,10 @@ constexpr std::size_t kMaxPointsOfAPlan = 200;
 // Tenths of a millimetre, of a milliradian and of a millisecond.
 double track_number(double value) {
   return std::isfinite(value) ? std::round(value * 1e4) / 1e4 : 0.0;
+}
+
+std::span<const std::uint8_t> bytes_in(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 std::vector<Point> thinned_path(const std::vector<Pose2>& path) {
@@ -35,7 +41,10 @@ void RunTrack::on(const Event& event, const MissionView& view) {
   if (!plans_.empty() && !plans_.back().points.empty() &&
       is_end_of_plan(event, view.world, plans_.back().points.back()))
     note_plan({time_s});
-  if (std::holds_alternative<TickDone>(event)) return poses_.add({time_s, view.world.pose.T_map_robot});
+  if (const auto* const tick = std::get_if<TickDone>(&event)) {
+    poses_.add({time_s, view.world.pose.T_map_robot});
+    return grid_.note(time_s, view.world.grid, tick->changes);
+  }
   if (const auto* const plan = std::get_if<PlanDone>(&event)) note_plan({time_s, thinned_path(plan->result.path)});
   if (landmarks_.size() >= max_events_) return;
   if (const auto* const change = std::get_if<LandmarkChanged>(&event); change != nullptr && change->is_new)
@@ -54,7 +63,8 @@ std::string RunTrack::json() const {
   Json track{{"poses_every", poses_.every()},
              {"poses", Json::array()},
              {"plans", Json::array()},
-             {"landmarks", Json::array()}};
+             {"landmarks", Json::array()},
+             {"grid", Json::array()}};
   for (const Sample& sample : poses_.samples())
     track["poses"].push_back({track_number(sample.time_s), track_number(sample.T_map_robot.x_m),
                               track_number(sample.T_map_robot.y_m), track_number(sample.T_map_robot.theta_rad)});
@@ -67,6 +77,13 @@ std::string RunTrack::json() const {
     track["landmarks"].push_back({{"time_s", track_number(change.time_s)},
                                   {"id", change.id},
                                   {"change", change.is_retired ? "retired" : "found"}});
+  for (const GridMoment& moment : grid_.moments()) {
+    Json tiles = Json::array();
+    for (const Cell& tile : moment.tiles) tiles.push_back({tile.x, tile.y});
+    track["grid"].push_back({{"time_s", track_number(moment.time_s)},
+                             {"tiles", std::move(tiles)},
+                             {"ol", base64(bytes_in(moment.packed_ol))}});
+  }
   return track.dump() + "\n";
 }
 

@@ -1,4 +1,5 @@
-// Where the robot was when, which plan it had and when landmarks came and went: for the timeline of a finished run.
+// Where the robot was when, which plan it had, when landmarks came and went and how the grid grew: for the timeline of
+// a finished run.
 #pragma once
 
 #include <string>
@@ -6,6 +7,7 @@
 
 #include "framework/mission/events.hpp"
 #include "framework/mission/history.hpp"
+#include "framework/reporting/grid_history.hpp"
 #include "framework/reporting/thinned_series.hpp"
 
 namespace cairn {
@@ -18,7 +20,9 @@ class RunTrack final : public Listener {
   void on(const Event& event, const MissionView& view) override;
 
   // {"poses": [[time_s, x_m, y_m, theta_rad]], "poses_every": ticks, "plans": [{time_s, points}], "landmarks":
-  // [{time_s, id, change}]}, change: found or retired. The same bytes for the same build, mission and seed.
+  // [{time_s, id, change}], "grid": [{time_s, tiles: [[x, y]], ol}]}. change: found or retired; ol: base 64 of what
+  // zlib packed: the cells of these tiles (GridTile), one tile after the other. The same bytes for the same build,
+  // mission and seed.
   [[nodiscard]] std::string json() const;
 
  private:
@@ -42,6 +46,7 @@ class RunTrack final : public Listener {
   std::vector<Plan> plans_;
   std::size_t plan_points_ = 0;
   std::vector<Change> landmarks_;
+  GridHistory grid_;
 };
 
 }  // namespace cairn

@@ -101,15 +101,21 @@ Json watch_json(const std::vector<Route>& routes) {
   return list;
 }
 
-Json watch_json(const std::vector<WatchTile>& tiles) {
+Json watch_json(const std::vector<GridTile>& tiles) {
   Json list = Json::array();
-  for (const WatchTile& tile : tiles) list.push_back({tile.tile.x, tile.tile.y, base64(tile.ol)});
+  for (const GridTile& tile : tiles) list.push_back({tile.tile.x, tile.tile.y, base64(tile.ol)});
   return list;
 }
 
 Json watch_json(const std::vector<WatchLine>& lines) {
   Json list = Json::array();
   for (const WatchLine& line : lines) list.push_back({watch_number(line.time_s), line.sentence});
+  return list;
+}
+
+Json watch_json(const std::vector<StageTime>& times) {
+  Json list = Json::array();
+  for (const StageTime& one : times) list.push_back({one.stage, one.module, one.count, watch_number(one.own_s)});
   return list;
 }
 
@@ -185,6 +191,7 @@ std::string WatchText::line_of(const WatchFrame& frame) {
   if (!nodes.empty()) line["nodes"] = std::move(nodes);
   if (!frame.lines.empty()) line["log"] = watch_json(frame.lines);
   if (frame.lines_left_out > 0) line["log_left_out"] = frame.lines_left_out;
+  if (!frame.times.empty()) line["times"] = watch_json(frame.times);
   if (!frame.past.empty()) line["past"] = frame.past;
   if (!frame.driven.empty()) {
     line["driven"] = Json::array();

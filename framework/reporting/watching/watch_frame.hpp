@@ -1,7 +1,6 @@
 // What one who watches a running mission gets at once: values, none of which the mission still uses.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +10,8 @@
 #include "framework/behaviour_tree/runner.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/run_control.hpp"
+#include "framework/modules/stage_clock.hpp"
+#include "framework/reporting/grid_tiles.hpp"
 
 namespace cairn {
 
@@ -19,12 +20,6 @@ inline constexpr std::size_t kMaxFrameLandmarks = 500;  // likewise
 inline constexpr std::size_t kMaxFrameRanges = 720;     // of one observation, evenly chosen
 inline constexpr std::size_t kMaxFramePath = 5000;      // points of the path driven so far
 inline constexpr std::size_t kMaxWatchedLines = 500;    // that wait for those who watch; the oldest go
-
-// The grid's 64 x 64 cells whose lowest is 64 times that cell: row-major from the lowest y, kUnknownOl where unknown.
-struct WatchTile {
-  Cell tile;
-  std::array<std::uint8_t, std::size_t{OccupancyGrid::kTileSide} * OccupancyGrid::kTileSide> ol;
-};
 
 struct WatchLine {
   double time_s = 0.0;
@@ -56,8 +51,8 @@ struct WatchFrame {
   double cell_m = 0.0;
   Point origin_m{0.0, 0.0};
   CellBox bounds;
-  std::vector<WatchTile> tiles{};  // changed since the last frame
-  bool has_more = false;           // tiles or landmarks that did not fit in
+  std::vector<GridTile> tiles{};  // changed since the last frame
+  bool has_more = false;          // tiles or landmarks that did not fit in
   std::vector<Landmark> landmarks{};
   std::vector<LandmarkId> retired{};
   std::shared_ptr<const std::vector<Route>> routes{};  // null: as before
@@ -67,6 +62,7 @@ struct WatchFrame {
   std::uint64_t lines_left_out = 0;                    // before these
   std::vector<Point> driven{};                         // of the first frame
   std::vector<std::string> past{};                     // of the first frame: sentences so far, each behind its time
+  std::vector<StageTime> times{};                      // so far, of the wall clock: once a second of the mission
   std::optional<RunStatus> status{};                   // when it was asked for
 };
 

@@ -9,17 +9,9 @@
 namespace cairn {
 namespace {
 
-constexpr int kTileShift = 6;
 constexpr std::size_t kMaxSonars = 32;  // with more it is a laser, which sees all at once
 constexpr double kRangesShown_s = 1.0;
-static_assert(OccupancyGrid::kTileSide == 1 << kTileShift);
-
-WatchTile tile_of(const OccupancyGrid& grid, Cell tile) {
-  WatchTile copied{tile, {}};
-  const LogOdds* const cells = grid.cells_of_tile(tile);
-  for (std::size_t i = 0; i < copied.ol.size(); ++i) copied.ol[i] = cells == nullptr ? kUnknownOl : ol_of(cells[i]);
-  return copied;
-}
+constexpr double kTimesEvery_s = 1.0;
 
 template <class Item>
 std::vector<Item> evenly_chosen(const std::vector<Item>& items, std::size_t max) {
@@ -87,13 +79,7 @@ void WatchSource::note_ranges(const WorldView& world) {
 }
 
 void WatchSource::note_tiles(const CellChanges& changes) {
-  std::vector<Tile> touched;  // few: what the sensors reach in one tick
-  for (const CellSpan& span : changes.spans)
-    for (int x = span.x_begin >> kTileShift; x <= (span.x_end - 1) >> kTileShift; ++x) {
-      const Tile tile{x, span.y >> kTileShift};
-      if (std::ranges::find(touched, tile) == touched.end()) touched.push_back(tile);
-    }
-  for (const Tile& tile : touched) tiles_.mark(tile);
+  for (const Cell& tile : tiles_touched(changes)) tiles_.mark(tile);
 }
 
 // Another map than before, or one that was not watched.
@@ -104,11 +90,7 @@ void WatchSource::note_all(const Map& map) {
   tiles_.clear();
   landmarks_.clear();
   routes_.reset();
-  const CellBox box = grid_->bounds();
-  if (!box.empty())
-    for (int y = box.min.y >> kTileShift; y <= (box.max.y - 1) >> kTileShift; ++y)
-      for (int x = box.min.x >> kTileShift; x <= (box.max.x - 1) >> kTileShift; ++x)
-        if (grid_->cells_of_tile({x, y}) != nullptr) tiles_.mark({x, y});
+  for (const Cell& tile : tiles_written(*grid_)) tiles_.mark(tile);
   for (const auto& [id, landmark] : map.graph.landmarks()) landmarks_.mark(id);
 }
 
@@ -159,6 +141,7 @@ WatchFrame WatchSource::frame_for(Reader& reader, const MissionView& view) const
   if (reader.is_new) add_past(frame, reader);
   if (reader.wants_status && look_.status) frame.status = look_.status();
   add_lines(frame, reader);
+  add_times(frame, reader);
   reader.is_new = false;
   return frame;
 }
@@ -173,7 +156,7 @@ void WatchSource::add_map(WatchFrame& frame, Reader& reader, const Map& map, std
   frame.cell_m = grid.cell_m();
   frame.origin_m = grid.origin_m();
   frame.bounds = grid.bounds();
-  for (const auto& [x, y] : tiles_.take(reader.tiles, max_tiles)) frame.tiles.push_back(tile_of(grid, {x, y}));
+  for (const Cell& tile : tiles_.take(reader.tiles, max_tiles)) frame.tiles.push_back(copied_tile(grid, tile));
   for (const LandmarkId id : landmarks_.take(reader.landmarks, kMaxFrameLandmarks)) {
     const Landmark* const landmark = map.graph.find(id);
     if (landmark != nullptr)
@@ -203,6 +186,12 @@ void WatchSource::add_lines(WatchFrame& frame, Reader& reader) const {
   const std::uint64_t from = std::max(reader.lines, lines_begin_) - lines_begin_;
   frame.lines.assign(lines_.begin() + static_cast<std::ptrdiff_t>(from), lines_.end());
   reader.lines = lines_begin_ + lines_.size();
+}
+
+void WatchSource::add_times(WatchFrame& frame, Reader& reader) const {
+  if (!look_.times || frame.time_s < reader.next_times_s) return;
+  reader.next_times_s = frame.time_s + kTimesEvery_s;
+  frame.times = look_.times();
 }
 
 std::unique_ptr<WatchSource::Watch> WatchSource::attach(std::size_t max_watches) {

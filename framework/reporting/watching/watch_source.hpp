@@ -29,6 +29,7 @@ class WatchSource final : public Listener {
     std::function<std::vector<NodeReport>()> nodes{};
     std::function<const std::vector<Pose2>&()> driven{};
     std::function<std::vector<std::string>()> sentences{};  // of all events, that which is published too
+    std::function<std::vector<StageTime>()> times{};
   };
   class Watch;
 
@@ -55,10 +56,10 @@ class WatchSource final : public Listener {
     std::uint64_t landmarks = 0;
     std::uint64_t lines = 0;
     std::uint64_t routes = 0;
+    double next_times_s = 0.0;  // of the mission
     std::shared_ptr<const WatchFrame> frame{};
     std::shared_ptr<const WatchFrame> last_frame{};
   };
-  using Tile = std::pair<int, int>;
 
   struct Map {
     const OccupancyGrid& grid;
@@ -75,6 +76,7 @@ class WatchSource final : public Listener {
   void add_map(WatchFrame& frame, Reader& reader, const Map& map, std::size_t max_tiles) const;
   void add_past(WatchFrame& frame, Reader& reader) const;
   void add_lines(WatchFrame& frame, Reader& reader) const;
+  void add_times(WatchFrame& frame, Reader& reader) const;
 
   // Of the mission's thread.
   Look look_;
@@ -83,7 +85,7 @@ class WatchSource final : public Listener {
   bool is_paused_ = false;
   const OccupancyGrid* grid_ = nullptr;
   std::uint64_t epoch_ = 0;  // of the map that the change logs are of
-  ChangeLog<Tile> tiles_;
+  ChangeLog<Cell> tiles_;
   ChangeLog<LandmarkId> landmarks_;
   std::shared_ptr<const std::vector<Route>> routes_;
   std::uint64_t routes_version_ = 0;

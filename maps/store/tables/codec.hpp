@@ -1,4 +1,4 @@
-// Bytes of the saved map: little-endian numbers, zlib compression, CRC-32.
+// Bytes of the saved map: little-endian numbers, packed ones (maps/base/deflate.hpp), CRC-32.
 #pragma once
 
 #include <bit>
@@ -9,10 +9,8 @@
 
 namespace cairn::store {
 
-// The same level everywhere, since the same map must give the same bytes.
-[[nodiscard]] std::string compressed(const std::string& raw);
-// Throws StoreError when the bytes do not unpack to exactly raw_size bytes.
-[[nodiscard]] std::string decompressed(const std::string& packed, std::size_t raw_size);
+// What deflated() has packed. Throws StoreError when it does not unpack to exactly raw_size bytes.
+[[nodiscard]] std::string unpacked(const std::string& packed, std::size_t raw_size);
 [[nodiscard]] std::uint32_t crc32_of(std::string_view bytes, std::uint32_t crc_before = 0);
 
 template <std::size_t kBytes>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "maps/base/deflate.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/store/map_store.hpp"
 #include "maps/store/tables/codec.hpp"
@@ -97,14 +98,14 @@ std::vector<Pose2> trajectory_of_doubles(const std::string& raw) {
 std::string packed_trajectory(const std::vector<Pose2>& trajectory) {
   if (trajectory.empty()) return {};
   if (std::optional<std::string> steps = packed_steps(trajectory)) return *std::move(steps);
-  return kDoubles + compressed(doubles_of(trajectory));
+  return kDoubles + deflated(doubles_of(trajectory));
 }
 
 std::vector<Pose2> unpacked_trajectory(const std::string& packed, std::size_t poses) {
   if (packed.empty() && poses == 0) return {};
   if (packed.starts_with(kSteps)) return unpacked_steps(packed, poses);
   if (!packed.starts_with(kDoubles)) throw StoreError("its first byte is neither 0 nor 1");
-  return trajectory_of_doubles(decompressed(packed.substr(1), poses * kPoseBytes));
+  return trajectory_of_doubles(unpacked(packed.substr(1), poses * kPoseBytes));
 }
 
 }  // namespace cairn::store

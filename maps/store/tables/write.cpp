@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "maps/base/deflate.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/store/tables/codec.hpp"
 #include "maps/store/tables/tables.hpp"
@@ -40,7 +41,7 @@ void write_tiles(Database& database, const OccupancyGrid& grid) {
       if (std::ranges::all_of(cells, [](LogOdds value) { return value == 0; })) continue;
       std::string raw;
       for (const LogOdds value : cells) append_little_endian(raw, value);
-      insert.bind(ty).bind(tx).bind_blob(compressed(raw));
+      insert.bind(ty).bind(tx).bind_blob(deflated(raw));
       insert.bind(crc32_of(raw)).run();
     }
   }

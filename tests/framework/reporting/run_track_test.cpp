@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "maps/base/base64.hpp"
+#include "maps/base/deflate.hpp"
+
 namespace cairn {
 namespace {
 
@@ -23,11 +28,30 @@ TEST(RunTrack, HoldsPosesPlansAndLandmarksWithTheirTimes) {
   track.on(StepEnded{}, {view(2.0)});
   track.on(StepEnded{}, {view(2.5)});  // no plan is left
   track.on(LandmarkRetired{landmark, "freed"}, {view(3.0)});
-  EXPECT_EQ(track.json(),
-            R"({"poses_every":1,"poses":[[1.0,1.0,0.0,0.25],[2.0,2.0,0.0,0.25]],)"
-            R"("plans":[{"time_s":1.0,"points":[[0.0,0.0],[2.0,1.0]]},{"time_s":2.0,"points":[]}],)"
-            R"("landmarks":[{"time_s":1.5,"id":3,"change":"found"},{"time_s":3.0,"id":3,"change":"retired"}]})"
-            "\n");
+  EXPECT_EQ(
+      track.json(),
+      R"({"poses_every":1,"poses":[[1.0,1.0,0.0,0.25],[2.0,2.0,0.0,0.25]],)"
+      R"("plans":[{"time_s":1.0,"points":[[0.0,0.0],[2.0,1.0]]},{"time_s":2.0,"points":[]}],)"
+      R"("landmarks":[{"time_s":1.5,"id":3,"change":"found"},{"time_s":3.0,"id":3,"change":"retired"}],"grid":[]})"
+      "\n");
+}
+
+TEST(RunTrack, HoldsWhatOfTheGridHasChanged) {
+  OccupancyGrid grid(0.05);
+  grid.set_log_odds({64, -1}, 400);
+  const LandmarkGraph graph;
+  const RobotModel robot;
+  RunTrack track;
+  track.on(TickDone{}, {WorldView{grid, graph, robot, {}, 1.5}});
+  const auto json = nlohmann::json::parse(track.json());
+  ASSERT_EQ(json["grid"].size(), 1U);
+  const auto& moment = json["grid"][0];
+  EXPECT_EQ(moment["time_s"], 1.5);
+  EXPECT_EQ(moment["tiles"], nlohmann::json::parse("[[1,-1]]"));
+  const std::vector<std::uint8_t> packed = bytes_of_base64(moment["ol"].get<std::string>());
+  const std::string ol = inflated({packed.begin(), packed.end()}, GridTile::kCells);
+  EXPECT_EQ(static_cast<std::uint8_t>(ol[std::size_t{63} * 64]), ol_of(400));
+  EXPECT_EQ(static_cast<std::uint8_t>(ol[0]), kUnknownOl);
 }
 
 TEST(RunTrack, HasABoundedSize) {

@@ -15,6 +15,12 @@ const colours_of = (page) => page.evaluate(() => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   return new Set(new Uint32Array(data.buffer)).size;
 });
+// How much of the map's canvas is free, which is white.
+const free_of = (page) => page.evaluate(() => {
+  const canvas = document.getElementById('map');
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  return new Uint32Array(data.buffer).filter((pixel) => (pixel & 0xff) > 200).length;
+});
 const status_holds = (page, text) => page.waitForFunction(
     (wanted) => document.getElementById('status').textContent.includes(wanted), text, kPatience);
 const seconds_of = async (page) => parseFloat(await page.textContent('#clock'));
@@ -24,6 +30,7 @@ async function watch(page) {
   await page.waitForFunction(() => document.querySelector('#tree .running'), null, kPatience);
   await page.waitForFunction(() => parseFloat(document.getElementById('clock').textContent) > 1, null, kPatience);
   check(await colours_of(page) > 20, 'the map is blank');
+  await page.waitForFunction(() => document.getElementById('charts').textContent.includes('Time of a tick'), null, kPatience);
 
   await page.click('#pause');
   await status_holds(page, 'held: paused');
@@ -49,9 +56,11 @@ async function browse(page) {
   await status_holds(page, 'Drag the time');
   for (let i = 0; i < 100 && await colours_of(page) <= 20; ++i) await page.waitForTimeout(50);
   check(await colours_of(page) > 20, 'the map is blank');
-  const end_s = await seconds_of(page);
+  const end_s = await seconds_of(page), free_at_end = await free_of(page);
   await page.locator('#slider').focus();
   await page.keyboard.press('Home');
+  for (let i = 0; i < 100 && await free_of(page) > free_at_end / 2; ++i) await page.waitForTimeout(50);
+  check(await free_of(page) < free_at_end / 2, 'the grid of the beginning is that of the end');
   check(await seconds_of(page) === 0, 'the slider does not lead to the beginning');
   check((await page.textContent('#tree')).includes('running'), 'nothing runs at the beginning');
   await page.click('#play');
@@ -60,6 +69,8 @@ async function browse(page) {
   await page.locator('#slider').focus();
   await page.keyboard.press('End');
   check(await seconds_of(page) === end_s, 'the slider does not lead to the end');
+  for (let i = 0; i < 100 && await free_of(page) !== free_at_end; ++i) await page.waitForTimeout(50);
+  check(await free_of(page) === free_at_end, 'the grid of the end does not come back');
   check((await page.textContent('#log')).includes('step 1 (explore) begins'), 'the log is empty');
   check((await page.textContent('#charts figcaption')).startsWith('Error of the pose'), 'no chart of the pose');
   check((await page.textContent('#times')).includes('muriel'), 'no times of the modules');

@@ -1,22 +1,15 @@
 // A mission while it runs: what its stream says, drawn as it comes.
 import { element, post, say, token } from './api.js';
 import { Chart } from './charts.js';
-import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_plan, draw_ranges, draw_robot, draw_routes, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
+import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_plan, draw_ranges, draw_robot, draw_routes, fit, redraw, view } from './canvas.js';
 import { list_landmarks } from './map.js';
 import { add_lines, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
+import { bytes_of, Tiles } from './tiles.js';
 
-const kTile = 64;
 const kMaxPath = 20000;
-const run = { tiles: new Map(), landmarks: new Map(), routes: [], path: [], ranges: [], plan: null };
+const run = { tiles: new Tiles(), landmarks: new Map(), routes: [], path: [], ranges: [], plan: null };
 const charts = new Map();  // title -> Chart
 let may_steer = false, has_fitted = false, has_ended = false, target = null;
-
-function take_tile([tx, ty, text]) {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const key = `${tx},${ty}`;
-  if (!run.tiles.has(key)) run.tiles.set(key, { tx, ty, picture: new_picture(kTile, kTile) });
-  paint_cells(run.tiles.get(key).picture, (column, row) => bytes[row * kTile + column]);
-}
 
 function chart_of(title, unit) {
   if (!charts.has(title)) { charts.set(title, new Chart(title, unit)); show_parts('charts-part'); }
@@ -31,6 +24,15 @@ function take_figures(line) {
     chart_of('Error of the pose', 'm').add('error', line.time_s, Math.hypot(line.pose.x_m - line.truth[0], line.pose.y_m - line.truth[1]));
   for (const one of run.shown.slice(0, 6)) chart_of('Degrees of landmarks', '0 to 1').add(one.label, line.time_s, one.degree);
   for (const chart of charts.values()) chart.draw(line.time_s, line.time_s);
+}
+
+// Of the wall clock, the stages in which most of it is spent.
+function take_times(line) {
+  const before = run.times;
+  run.times = { tick: line.tick, own_s: new Map(line.times.map(([stage, module, , own_s]) => [module ? `${stage} (${module})` : stage, own_s])) };
+  if (!before || line.tick === before.tick) return;
+  for (const [name, own_s] of [...run.times.own_s].sort((a, b) => b[1] - a[1]).slice(0, 5))
+    chart_of('Time of a tick', 'ms').add(name, line.time_s, 1000 * (own_s - (before.own_s.get(name) ?? 0)) / (line.tick - before.tick));
 }
 
 function take_landmarks(changed = [], retired = []) {
@@ -68,7 +70,7 @@ function take_status(status) {
 
 function begin_run(line) {
   if (line.ok !== true) { say(`The run cannot be watched: ${line.error}`); return; }
-  Object.assign(run, { tiles: new Map(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [], next_figure_s: 0 });
+  Object.assign(run, { tiles: new Tiles(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [], next_figure_s: 0, times: null });
   run.radius_m = line.robot_radius_m;
   document.title = element('name').textContent = line.mission;
   element('log').replaceChildren();
@@ -85,12 +87,13 @@ function take(line) {
     take_landmarks([], [0]);
   }
   if (line.grid) run.grid = line.grid;
-  for (const tile of line.tiles ?? []) take_tile(tile);
+  for (const [tx, ty, text] of line.tiles ?? []) run.tiles.take(tx, ty, bytes_of(text));
   take_landmarks(line.landmarks, line.retired);
   if (line.routes) run.routes = line.routes;
   if (line.driven) run.path = line.driven;
   if (line.pose) take_pose(line.pose);
   if (line.ranges) run.ranges = line.ranges;
+  if (line.times) take_times(line);
   take_figures(line);
   run.truth = line.truth;
   if ('plan' in line) run.plan = line.plan;
@@ -104,9 +107,7 @@ function take(line) {
 
 function draw() {
   if (!run.grid) return;
-  const { cell_m, origin_m } = run.grid;
-  for (const { tx, ty, picture } of run.tiles.values())
-    draw_picture(picture, origin_m[0] + tx * kTile * cell_m, origin_m[1] + ty * kTile * cell_m, cell_m);
+  run.tiles.draw(run.grid);
   if (element('show-ranges').checked) draw_ranges(run.ranges);
   if (element('show-routes').checked) draw_routes(run.routes);
   if (element('show-path').checked) draw_lines([run.path], '#009e73', 1.5);

@@ -59,9 +59,9 @@ function draw_clusters() {
   }
 }
 
-// shown: the landmarks that are drawn.
-export function draw_map(shown = landmarks) {
-  draw_grid();
+// shown: the landmarks that are drawn; draw_cells: the grid, where it is another than the saved one.
+export function draw_map(shown = landmarks, draw_cells = draw_grid) {
+  draw_cells();
   if (element('show-routes').checked) draw_routes(routes);
   if (marked) draw_lines([marked.points], '#e69f00', 5);
   draw_clusters();

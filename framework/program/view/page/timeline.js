@@ -2,11 +2,12 @@
 import { ask_json, element, say } from './api.js';
 import { Chart } from './charts.js';
 import { begin, draw_label, draw_lines, draw_plan, draw_robot, redraw } from './canvas.js';
+import { GridHistory } from './grid_history.js';
 import * as saved from './map.js';
 import { clear_nodes, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 
 const kRadius_m = 0.22;
-let report, track = { poses: [], plans: [], landmarks: [] };
+let report, track = { poses: [], plans: [], landmarks: [] }, grid = new GridHistory([]);
 const charts = [];
 let events = [], runs = [], at_s = 0, end_s = 0, player = null;
 
@@ -49,7 +50,8 @@ function landmarks_at(time_s) {
 }
 
 function draw() {
-  if (saved.map) saved.draw_map(landmarks_at(at_s));
+  const is_past = at_s < end_s && !grid.is_empty;
+  if (saved.map) saved.draw_map(landmarks_at(at_s), is_past ? () => grid.draw(saved.map) : undefined);
   const i = last_before(track.poses, (pose) => pose[0], at_s);
   const path = track.poses.slice(0, i + 1).map(([, x, y]) => [x, y]);
   if (element('show-path').checked) draw_lines([path], '#009e73', 2);
@@ -68,6 +70,7 @@ function show_time(time_s) {
   element('slider').setAttribute('aria-valuetext', `${at_s.toFixed(1)} seconds`);
   element('clock').textContent = `${at_s.toFixed(1)} of ${end_s.toFixed(1)} s`;
   show_nodes();
+  grid.show(at_s);
   for (const chart of charts) chart.draw(end_s, at_s);
   show_lines(events.slice(0, last_before(events, (event) => event[0], at_s) + 1));
   redraw();
@@ -146,6 +149,7 @@ async function show_times() {
 export async function show_run(settings) {
   report = await ask_json('/api/report');
   track = await ask_json('/api/track').catch(() => track);
+  grid = new GridHistory(track.grid ?? []);
   let why = '';
   await saved.load_map().catch((error) => { why = ` No map: ${error.message}`; });
   events = (report.events ?? []).map(event_of);

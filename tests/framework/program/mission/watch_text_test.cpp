@@ -43,6 +43,18 @@ TEST(WatchText, WritesRangesWhereTheyAreInTheMap) {
             json::parse(R"([[1.5, 2.0, 1.0, 0.1, 1.25, "echo"], [1.0, 2.0, 0.0, 0.0, 5.0, "no_echo"]])"));
 }
 
+TEST(WatchText, WritesTheTimesOfTheStages) {
+  WatchFrame frame = small_frame();
+  EXPECT_FALSE(json::parse(WatchText().line_of(frame)).contains("times"));
+  StageTime time;
+  time.stage = "map";
+  time.module = "muriel";
+  time.count = 7;
+  time.own_s = 0.25;
+  frame.times = {time};
+  EXPECT_EQ(json::parse(WatchText().line_of(frame))["times"], json::parse(R"([["map", "muriel", 7, 0.25]])"));
+}
+
 TEST(WatchText, WritesNodesPlanAndBoundsWhenTheyHaveChanged) {
   WatchText text;
   WatchFrame frame = small_frame();

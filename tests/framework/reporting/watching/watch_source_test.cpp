@@ -209,6 +209,23 @@ TEST_F(WatchedMission, OnlySoManyMayWatch) {
   EXPECT_TRUE(source_.attach(1));
 }
 
+TEST_F(WatchedMission, TimesOfTheStagesComeOnceASecond) {
+  std::int64_t calls = 0;
+  source_.look_by({{}, {}, {}, {}, [&calls] {
+                     StageTime time;
+                     time.stage = "map";
+                     time.count = ++calls;
+                     return std::vector{time};
+                   }});
+  tick();
+  const auto watch = source_.attach(1);
+  (void)watch->next(milliseconds(0), false);
+  int with_times = 0;
+  for (int i = 0; i < 25; ++i) with_times += frame_of(*watch)->times.empty() ? 0 : 1;
+  EXPECT_EQ(with_times, 3);
+  EXPECT_EQ(calls, 3);
+}
+
 TEST_F(WatchedMission, TheStatusIsAskedForOnlyWhenItIsWanted) {
   int asked = 0;
   source_.look_by({[&asked] {
