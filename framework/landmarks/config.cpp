@@ -26,8 +26,9 @@ void LandmarksConfig::describe(Fields<LandmarksConfig>& fields) {
                  "joined to this many nearest others by travel; more routes join what these leave apart");
   fields.number("driven_detour_ratio", &C::driven_detour_ratio, {1.0, 100.0}, "",
                 "a driven path is kept when it is at most this much longer than the planned one");
-  fields.number("access_margin_m", &C::access_margin_m, {0.0, 1.0}, "m",
-                "free space kept round the robot at a landmark's approach pose, where there is room");
+  fields.number(
+      "access_margin_m", &C::access_margin_m, {0.0, 1.0}, "m",
+      "free space kept round the robot at a landmark's approach pose and on driven routes, where there is room");
 }
 
 }  // namespace cairn

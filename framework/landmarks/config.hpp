@@ -20,7 +20,8 @@ struct LandmarksConfig {
   double freed_ratio = 0.8;               // of the cells inside its outline: seen free, a landmark is retired
   int routes_per_landmark = 3;            // joined to this many nearest others by travel; more routes join what is left
   double driven_detour_ratio = 1.3;  // a driven path is kept when it is at most this much longer than the planned one
-  double access_margin_m = 0.05;     // free space kept round the robot at an approach pose, where there is room
+  double access_margin_m =
+      0.12;  // free space kept round the robot at approach poses and on routes, where there is room
   static void describe(Fields<LandmarksConfig>& fields);
 };
 

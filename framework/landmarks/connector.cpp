@@ -62,7 +62,7 @@ void LandmarkConnector::connect(LandmarkGraph& graph, const DrivenPath& driven, 
   const DistanceField space(world.grid, UnknownPolicy::avoid);
   const DiscLattice lattice(space, planned_radius_m());
   // Distances run between cell centres: half a diagonal on either side makes the disc fit.
-  const double clearance_m = robot_.radius_m + config_.access_margin_m + std::numbers::sqrt2 * space.cell_m() / 2;
+  const double clearance_m = roomy_radius_m() + std::numbers::sqrt2 * space.cell_m() / 2;
   find_approach_poses(graph, {space, lattice, clearance_m}, driven, world.pose.T_map_robot);
   const JoinCandidates candidates(graph, world.grid, lattice);
 
@@ -112,12 +112,12 @@ void LandmarkConnector::remove_unwanted(Round& round) const {
 }
 
 // A path of at most that length stays where its distances from both ends add up to no more; the robot's disc reaches a
-// radius beyond.
+// radius beyond. One with more room beside it is taken though it is a little longer.
 bool LandmarkConnector::is_current(const Link& link, const Landmark& from, const Landmark& to,
                                    const std::vector<Point>& changed_m) const {
   if (link.from != *from.access || link.to != *to.access) return false;
   if (!link.is_planned) return changed_m.empty();
-  const double within_m = link.length_m + 2.0 * (robot_.radius_m + planned_on_->cell_m());
+  const double within_m = kMaxRoomDetour * link.length_m + 2.0 * (roomy_radius_m() + planned_on_->cell_m());
   return std::ranges::none_of(changed_m, [&](const Point& at) {
     return (at - link.from.position()).norm() + (at - link.to.position()).norm() <= within_m;
   });
@@ -172,7 +172,9 @@ bool LandmarkConnector::store(Round& round, const RouteEnds& pair, const Link& l
   route.from = pair.first;
   route.to = pair.second;
   route.driven = (!link.path || length_of(stretch) <= config_.driven_detour_ratio * link.length_m) &&
-                 is_free(stretch, round.grid, planned_radius_m());
+                 is_free(stretch, round.grid, planned_radius_m()) &&
+                 (!link.path || is_free(stretch, round.grid, roomy_radius_m()) ||
+                  !is_free(*link.path, round.grid, roomy_radius_m()));
   if (!route.driven && !link.path) {
     for (const auto& [from, to] : {pair, RouteEnds(pair.second, pair.first)})
       for (const RouteId id : routes_joining(graph, from, to)) graph.remove_route(id);

@@ -29,10 +29,14 @@ namespace cairn {
 
 class LandmarkConnector {
  public:
+  // A plan may be so much longer than the shortest path, to keep room beside the robot.
+  static constexpr double kMaxRoomDetour = 1.2;
+
   LandmarkConnector(const LandmarksConfig& config, const RobotModel& robot) : config_(config), robot_(robot) {}
 
   using Plan = std::function<PlanResult(const PlanRequest&)>;
-  // A route is the path that the robot drove between the two where there is one that is free, a planned one elsewhere.
+  // A route is the path that the robot drove between the two where there is one that is free and keeps as much room as
+  // the planned one, a planned one elsewhere.
   // Where the planner finds none, whatever its reason, and a robot that turns on the spot would not be joined
   // otherwise, it is the shortest one over cell centres. Routes that are not wanted any more go last, and none goes
   // that alone joins two landmarks and is free. Whenever plan is called the graph is whole, so that a call which never
@@ -64,6 +68,8 @@ class LandmarkConnector {
   [[nodiscard]] bool is_good(const Route& route, const Round& round) const;
   // Of the disc that paths are planned for, so that they are free for the robot when rounded.
   [[nodiscard]] double planned_radius_m() const { return robot_.radius_m + kMaxRounding_m; }
+  // Where there is room.
+  [[nodiscard]] double roomy_radius_m() const { return planned_radius_m() + config_.access_margin_m; }
 
   LandmarksConfig config_;
   RobotModel robot_;

@@ -1,9 +1,12 @@
 #include "framework/mission/loop/planning.hpp"
 
+#include "framework/planning/margins.hpp"
+
 namespace cairn {
 namespace {
 
 constexpr std::size_t kJoiningSeed = 1;  // 0: the planner itself
+static_assert(kMaxMarginDetour <= LandmarkConnector::kMaxRoomDetour);
 
 ClusterId of_level_with(const ClusterTree& tree, int level, LandmarkId landmark) {
   const auto lowest = tree.cluster_of.find(landmark);
@@ -52,9 +55,12 @@ void Planning::connect(LandmarkTracker& tracker, WorldView world) {
   if (!modules_.routes || tracker.graph().landmarks().empty()) return;
   monitor_.stand();
   world.hierarchies = nullptr;  // the graph changes meanwhile
-  const auto plan = [&](const PlanRequest& request) {
+  const PlanCall ask = [&](const PlanRequest& request) {
     return modules_.routes.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
   };
+  // As questions are planned afterwards, which else would find the routes too narrow.
+  const std::vector<double> margins_m = usual_margins_m(mission_.robot, world.grid);
+  const auto plan = [&](const PlanRequest& request) { return plan_with_margins(ask, request, margins_m); };
   tracker.connect(world, plan, module_seed(mission_.config.seed, PluginKind::planner, kJoiningSeed));
   static_cast<void>(clusters(world.grid));
 }

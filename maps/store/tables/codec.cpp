@@ -16,7 +16,7 @@ const Bytef* bytes_of(std::string_view text) {
 
 }  // namespace
 
-std::string unpacked(const std::string& packed, std::size_t raw_size) {
+std::string unpacked_bytes(const std::string& packed, std::size_t raw_size) {
   try {
     return inflated(packed, raw_size);
   } catch (const std::invalid_argument& error) {

@@ -10,7 +10,7 @@
 namespace cairn::store {
 
 // What deflated() has packed. Throws StoreError when it does not unpack to exactly raw_size bytes.
-[[nodiscard]] std::string unpacked(const std::string& packed, std::size_t raw_size);
+[[nodiscard]] std::string unpacked_bytes(const std::string& packed, std::size_t raw_size);
 [[nodiscard]] std::uint32_t crc32_of(std::string_view bytes, std::uint32_t crc_before = 0);
 
 template <std::size_t kBytes>

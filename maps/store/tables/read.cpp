@@ -31,7 +31,7 @@ void require_level_zero(const Statement& row, int column) {
 // Unpacks a blob column with the checksum in the column behind it.
 std::string unpacked(const Statement& row, int column, std::size_t raw_size, const std::string& what) {
   try {
-    std::string raw = unpacked(row.blob(column), raw_size);
+    std::string raw = unpacked_bytes(row.blob(column), raw_size);
     if (crc32_of(raw) != row.integer(column + 1)) throw StoreError("its bytes do not match its checksum");
     return raw;
   } catch (const StoreError& error) {

@@ -105,7 +105,7 @@ std::vector<Pose2> unpacked_trajectory(const std::string& packed, std::size_t po
   if (packed.empty() && poses == 0) return {};
   if (packed.starts_with(kSteps)) return unpacked_steps(packed, poses);
   if (!packed.starts_with(kDoubles)) throw StoreError("its first byte is neither 0 nor 1");
-  return trajectory_of_doubles(unpacked(packed.substr(1), poses * kPoseBytes));
+  return trajectory_of_doubles(unpacked_bytes(packed.substr(1), poses * kPoseBytes));
 }
 
 }  // namespace cairn::store

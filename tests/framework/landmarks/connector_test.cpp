@@ -145,6 +145,28 @@ TEST_F(LandmarkConnectorTest, APathThatTheRobotHasDrivenMeanwhileReplacesThePlan
   EXPECT_EQ(driven.id, planned.id);
 }
 
+TEST_F(LandmarkConnectorTest, ADrivenPathWithLessRoomBesideItThanThePlannedOneIsNotTaken) {
+  connect();
+  const Pose2 from = *graph_.find(1)->access;
+  const Pose2 to = *graph_.find(2)->access;
+  const Pose2 middle{(from.x_m + to.x_m) / 2, from.y_m, 0.0};
+  for (double s = 0.0; s <= 1.0; s += 0.01) driven_.record({from.x_m + s * (to.x_m - from.x_m), from.y_m, 0.0});
+  fill(grid_, {{28, grid_.cell_at({middle.x_m, middle.y_m + robot_.radius_m + 0.05}).y}, {29, 25}}, 1000);
+  const auto by_way_of = [&](double aside_m) {
+    return [&, aside_m](const PlanRequest& request) {
+      PlanResult result = GridPlanner(grid_, robot_.radius_m)(request);
+      const bool is_pair = *request.from.pose == from && *request.to.pose == to;
+      if (is_pair) result.path = {from, {middle.x_m, middle.y_m + aside_m, 0.0}, to};
+      return result;
+    };
+  };
+  connect_by(by_way_of(-0.02));
+  EXPECT_TRUE(graph_.route_between(1, 2)->driven) << "the planned path has no more room";
+  LandmarkConnector connector(config_, robot_);
+  connect_by(by_way_of(-0.3), connector, graph_);
+  EXPECT_FALSE(graph_.route_between(1, 2)->driven);
+}
+
 TEST_F(LandmarkConnectorTest, TwoJoinedRoomsAreOneComponent) {
   make_two_rooms();
   connect();

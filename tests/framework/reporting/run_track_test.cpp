@@ -49,7 +49,7 @@ TEST(RunTrack, HoldsWhatOfTheGridHasChanged) {
   EXPECT_EQ(moment["time_s"], 1.5);
   EXPECT_EQ(moment["tiles"], nlohmann::json::parse("[[1,-1]]"));
   const std::vector<std::uint8_t> packed = bytes_of_base64(moment["ol"].get<std::string>());
-  const std::string ol = inflated({packed.begin(), packed.end()}, GridTile::kCells);
+  const std::string ol = inflated(std::string(packed.begin(), packed.end()), GridTile::kCells);
   EXPECT_EQ(static_cast<std::uint8_t>(ol[std::size_t{63} * 64]), ol_of(400));
   EXPECT_EQ(static_cast<std::uint8_t>(ol[0]), kUnknownOl);
 }
