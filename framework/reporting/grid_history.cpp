@@ -1,30 +1,22 @@
 #include "framework/reporting/grid_history.hpp"
 
-#include <map>
 #include <string_view>
+#include <utility>
 
 #include "maps/base/deflate.hpp"
 
 namespace cairn {
 namespace {
 
-using OlOfTiles = std::map<Cell, std::string>;
-
-void add_tiles(OlOfTiles& tiles, const GridMoment& moment) {
-  const std::string ol = inflated(moment.packed_ol, moment.tiles.size() * GridTile::kCells);
-  for (std::size_t i = 0; i < moment.tiles.size(); ++i)
-    tiles[moment.tiles[i]] = ol.substr(i * GridTile::kCells, GridTile::kCells);
+std::string packed_tile(const OccupancyGrid& grid, Cell tile) {
+  const GridTile copied = copied_tile(grid, tile);
+  return deflated({reinterpret_cast<const char*>(copied.ol.data()), copied.ol.size()});
 }
 
-GridMoment moment_of(double time_s, const OlOfTiles& tiles) {
-  GridMoment moment{time_s, {}, {}};
-  std::string ol;
-  for (const auto& [tile, cells] : tiles) {
-    moment.tiles.push_back(tile);
-    ol += cells;
-  }
-  moment.packed_ol = deflated(ol);
-  return moment;
+std::size_t bytes_of(const GridMoment& moment) {
+  std::size_t bytes = 0;
+  for (const auto& [tile, packed] : moment.packed_ol) bytes += packed.size();
+  return bytes;
 }
 
 }  // namespace
@@ -41,14 +33,11 @@ void GridHistory::note(double time_s, const OccupancyGrid& grid, const CellChang
 }
 
 void GridHistory::take(double time_s, const OccupancyGrid& grid) {
-  OlOfTiles tiles;
-  for (const Cell& tile : changed_) {
-    const GridTile copied = copied_tile(grid, tile);
-    tiles[tile].assign(copied.ol.begin(), copied.ol.end());
-  }
+  GridMoment moment{time_s, {}};
+  for (const Cell& tile : changed_) moment.packed_ol.emplace(tile, packed_tile(grid, tile));
   changed_.clear();
-  moments_.push_back(moment_of(time_s, tiles));
-  packed_bytes_ += moments_.back().packed_ol.size();
+  packed_bytes_ += bytes_of(moment);
+  moments_.push_back(std::move(moment));
   next_s_ = time_s + every_s_;
   while (moments_.size() >= kFewMoments && (moments_.size() > kMaxMoments || packed_bytes_ > max_packed_bytes_))
     halve();
@@ -58,17 +47,16 @@ void GridHistory::take(double time_s, const OccupancyGrid& grid) {
   changed_.clear();
 }
 
-// Of two moments the later stays, with what changed at either.
+// Of two moments the later stays, with what changed at either. Nothing is packed again: a tick must not take long.
 void GridHistory::halve() {
   std::vector<GridMoment> kept;
   packed_bytes_ = 0;
   for (std::size_t i = 0; i < moments_.size(); i += 2) {
-    OlOfTiles tiles;
-    add_tiles(tiles, moments_[i]);
-    const std::size_t last = std::min(i + 1, moments_.size() - 1);
-    if (last > i) add_tiles(tiles, moments_[last]);
-    kept.push_back(moment_of(moments_[last].time_s, tiles));
-    packed_bytes_ += kept.back().packed_ol.size();
+    const bool is_last = i + 1 == moments_.size();
+    GridMoment& later = moments_[is_last ? i : i + 1];
+    if (!is_last) later.packed_ol.merge(moments_[i].packed_ol);  // which leaves those that are there already
+    packed_bytes_ += bytes_of(later);
+    kept.push_back(std::move(later));
   }
   moments_ = std::move(kept);
   every_s_ *= 2.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,8 +14,7 @@ namespace cairn {
 // Each piece that changed since the moment before, as it then was.
 struct GridMoment {
   double time_s = 0.0;
-  std::vector<Cell> tiles;  // by their order
-  std::string packed_ol;    // of GridTile::kCells bytes for each, one after the other: maps/base/deflate.hpp
+  std::map<Cell, std::string> packed_ol;  // of each of these tiles, by maps/base/deflate.hpp
 };
 
 // A moment every second at first. When there are too many, or they take too much memory, two and two become one and

@@ -79,10 +79,8 @@ std::string RunTrack::json() const {
                                   {"change", change.is_retired ? "retired" : "found"}});
   for (const GridMoment& moment : grid_.moments()) {
     Json tiles = Json::array();
-    for (const Cell& tile : moment.tiles) tiles.push_back({tile.x, tile.y});
-    track["grid"].push_back({{"time_s", track_number(moment.time_s)},
-                             {"tiles", std::move(tiles)},
-                             {"ol", base64(bytes_in(moment.packed_ol))}});
+    for (const auto& [tile, packed] : moment.packed_ol) tiles.push_back({tile.x, tile.y, base64(bytes_in(packed))});
+    track["grid"].push_back({{"time_s", track_number(moment.time_s)}, {"tiles", std::move(tiles)}});
   }
   return track.dump() + "\n";
 }

@@ -26,9 +26,7 @@ Cells told_at(const GridHistory& history, double time_s) {
   Cells cells;
   for (const GridMoment& moment : history.moments()) {
     if (moment.time_s > time_s) break;
-    const std::string ol = inflated(moment.packed_ol, moment.tiles.size() * GridTile::kCells);
-    for (std::size_t i = 0; i < moment.tiles.size(); ++i)
-      cells[moment.tiles[i]] = ol.substr(i * GridTile::kCells, GridTile::kCells);
+    for (const auto& [tile, packed] : moment.packed_ol) cells[tile] = inflated(packed, GridTile::kCells);
   }
   return cells;
 }
@@ -83,7 +81,8 @@ TEST(GridHistory, TakesNoMoreMemoryThanItMay) {
     CellChanges changes = write_anywhere(grid, 300, random);
     history.note(1.0 * tick, grid, &changes);
     std::size_t bytes = 0;
-    for (const GridMoment& moment : history.moments()) bytes += moment.packed_ol.size();
+    for (const GridMoment& moment : history.moments())
+      for (const auto& [tile, packed] : moment.packed_ol) bytes += packed.size();
     most = std::max(most, bytes);
   }
   EXPECT_LE(most, kMaxBytes);

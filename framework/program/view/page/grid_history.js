@@ -1,30 +1,29 @@
 // The grid of a finished run as it was at any time of it.
 import { redraw } from './canvas.js';
-import { bytes_of, kTileBytes, Tiles } from './tiles.js';
+import { bytes_of, Tiles } from './tiles.js';
 
 async function inflated(base64) {
   const stream = new Blob([bytes_of(base64)]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// moments: what had changed at each, [{time_s, tiles: [[x, y]], ol}].
+// moments: what had changed at each, [{time_s, tiles: [[x, y, packed]]}].
 export class GridHistory {
-  #moments;
   #tiles = new Tiles();
-  #places = new Map();  // "x,y" -> {x, y, changes: [[moment, place in it]], shown: moment or -1}
-  #wanted_s = -1;
+  #places = new Map();  // "x,y" -> {x, y, changes: [[time_s, packed]], shown: one of them}
+  #wanted_s = null;
   #is_busy = false;
 
   constructor(moments) {
-    this.#moments = moments;
-    moments.forEach(({ tiles }, moment) => tiles.forEach(([x, y], place) => {
-      const key = `${x},${y}`;
-      if (!this.#places.has(key)) this.#places.set(key, { x, y, changes: [], shown: -1 });
-      this.#places.get(key).changes.push([moment, place]);
-    }));
+    for (const { time_s, tiles } of moments)
+      for (const [x, y, packed] of tiles) {
+        const key = `${x},${y}`;
+        if (!this.#places.has(key)) this.#places.set(key, { x, y, changes: [] });
+        this.#places.get(key).changes.push([time_s, packed]);
+      }
   }
 
-  get is_empty() { return !this.#moments.length; }
+  get is_empty() { return !this.#places.size; }
 
   draw(frame) { this.#tiles.draw(frame); }
 
@@ -41,19 +40,13 @@ export class GridHistory {
     this.#is_busy = false;
   }
 
-  async #paint(time_s) {
-    const wanted = new Map();  // moment -> [[where, place in it]]
-    for (const where of this.#places.values()) {
-      const [moment, place] = where.changes.findLast(([one]) => this.#moments[one].time_s <= time_s) ?? [-1, 0];
-      if (moment === where.shown) continue;
-      where.shown = moment;
-      if (moment < 0) { this.#tiles.drop(where.x, where.y); continue; }
-      if (!wanted.has(moment)) wanted.set(moment, []);
-      wanted.get(moment).push([where, place]);
-    }
-    for (const [moment, tiles] of wanted) {
-      const ol = await inflated(this.#moments[moment].ol);
-      for (const [{ x, y }, place] of tiles) this.#tiles.take(x, y, ol.subarray(place * kTileBytes, (place + 1) * kTileBytes));
-    }
+  async #paint(at_s) {
+    await Promise.all([...this.#places.values()].map(async (place) => {
+      const change = place.changes.findLast(([time_s]) => time_s <= at_s);
+      if (change === place.shown) return;
+      place.shown = change;
+      if (change) this.#tiles.take(place.x, place.y, await inflated(change[1]));
+      else this.#tiles.drop(place.x, place.y);
+    }));
   }
 }

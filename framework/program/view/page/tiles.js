@@ -2,7 +2,6 @@
 import { draw_picture, new_picture, paint_cells } from './canvas.js';
 
 const kTile = 64;
-export const kTileBytes = kTile * kTile;
 
 export const bytes_of = (base64) => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
 
