@@ -132,7 +132,7 @@ FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& c
   found.how = "the shortest path over the grid";
   if (!cost.is_length()) {
     const double known = found.route.empty() ? std::numeric_limits<double>::infinity() : cost_of(cost, found.route);
-    std::vector<Point> cheap = weighted_route(routes, cost, from, to, known, budget_);
+    std::vector<Point> cheap = weighted_route(routes, cost, found.route, from, to, budget_);
     if (!cheap.empty() && cost_of(cost, cheap) < known) {
       found.route = std::move(cheap);
       found.how = cost.is_driving_time() ? "the fastest path over the grid" : "the cheapest path over the grid";
