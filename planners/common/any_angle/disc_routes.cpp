@@ -16,8 +16,6 @@ constexpr int kMaxParts = 4;  // of a cell's side, at first
 constexpr int kFinerParts = 4;
 constexpr std::size_t kKeptRadii = 3;          // on one space: as many margins as a question is tried with
 constexpr std::int64_t kMaxCells = 8'000'000;  // of a lattice finer than the grid
-// A route so much longer than any must be may have missed a passage that only a finer lattice shows.
-constexpr double kDoubtfulRatio = 1.05;
 
 std::int64_t cells_of(const CellBox& box) {
   return std::int64_t{box.width()} * box.height();
@@ -30,8 +28,8 @@ int first_parts(const DiscSpace& space, double radius_m) {
   return parts;
 }
 
-bool is_doubtful(const DiscRoute& found) {
-  return found.route.empty() || length_of(found.route) > kDoubtfulRatio * found.length_lower_bound_m;
+bool is_doubtful(const DiscRoute& found, double ratio = DiscRoutes::kDoubtfulRatio) {
+  return found.route.empty() || length_of(found.route) > ratio * found.length_lower_bound_m;
 }
 
 template <class IsOpen>
@@ -253,9 +251,9 @@ DiscRoute DiscRoutes::coarse_route(const Point& from, const Point& to, const Bud
   return route_on(coarse_, from, to, budget);
 }
 
-DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& budget) const {
+DiscRoute DiscRoutes::route(const Point& from, const Point& to, const Budget& budget, double doubtful_ratio) const {
   DiscRoute answer = coarse_route(from, to, budget);
-  if (answer.interrupted || answer.impossible || !is_doubtful(answer)) return answer;
+  if (answer.interrupted || answer.impossible || !is_doubtful(answer, doubtful_ratio)) return answer;
   const Meshes* const fine = finer(budget);
   if (fine == nullptr) return answer;
   DiscRoute better = route_on(*fine, from, to, budget);

@@ -48,9 +48,14 @@ class DiscRoutes {
                                             const Budget& budget = {}) const;
   [[nodiscard]] const std::shared_ptr<const DiscSpace>& lattice() const { return coarse_.space; }
 
+  // A route so much longer than any must be may have missed a passage that only a finer lattice shows.
+  static constexpr double kDoubtfulRatio = 1.05;
+
   // Between two places where the disc fits. None without `impossible`: the route, if there is one, is narrower
-  // than the finest lattice tried can show.
-  [[nodiscard]] DiscRoute route(const Point& from, const Point& to, const Budget& budget) const;
+  // than the finest lattice tried can show. The finer lattice, of the whole map, is tried where the first gives no
+  // route or one more than doubtful_ratio times as long as any must be.
+  [[nodiscard]] DiscRoute route(const Point& from, const Point& to, const Budget& budget,
+                                double doubtful_ratio = kDoubtfulRatio) const;
   // The same on the first lattice alone, which takes a small part of the time and sees less of narrow passages.
   [[nodiscard]] DiscRoute coarse_route(const Point& from, const Point& to, const Budget& budget) const;
 

@@ -18,6 +18,10 @@ namespace {
 constexpr double kBesideShare = 0.7;
 constexpr double kBesideWidth_m = 0.3;
 
+// Where another count than the length decides, the shortest path only bounds the search: one so much longer than any
+// must be is sought again on a finer lattice, which costs as much as the whole map.
+constexpr double kDoubtfulGuideRatio = 1.25;
+
 Objective objective_of(const OmplConfig& config, const PathRequest& request, bool is_robot_known) {
   if (config.objective != Objective::as_driven && config.objective != Objective::as_asked) return config.objective;
   switch (request.cost) {
@@ -125,14 +129,14 @@ FoundRoute DiscQuery::find(const StartPlace& start, const GoalPlace& goal, const
 
 FoundRoute DiscQuery::find_on_grid(const DiscRoutes& routes, const TravelCost& cost, const Point& from,
                                    const Point& to) const {
-  DiscRoute grid = routes.route(from, to, budget_);
+  DiscRoute grid = routes.route(from, to, budget_, cost.is_length() ? DiscRoutes::kDoubtfulRatio : kDoubtfulGuideRatio);
   FoundRoute found{std::move(grid.route), false, grid.interrupted, grid.impossible, grid.length_lower_bound_m, ""};
   if (found.interrupted && !found.route.empty()) found.interrupted = false;  // it is a route all the same
   if (found.impossible || found.interrupted) return found;
   found.how = "the shortest path over the grid";
   if (!cost.is_length()) {
     const double known = found.route.empty() ? std::numeric_limits<double>::infinity() : cost_of(cost, found.route);
-    std::vector<Point> cheap = weighted_route(routes, cost, from, to, known, budget_);
+    std::vector<Point> cheap = weighted_route(routes, cost, found.route, from, to, budget_);
     if (!cheap.empty() && cost_of(cost, cheap) < known) {
       found.route = std::move(cheap);
       found.how = cost.is_driving_time() ? "the fastest path over the grid" : "the cheapest path over the grid";

@@ -115,6 +115,32 @@ TEST(DiscRoutes, ImpossibleIsNeverSaidOfWhatAFinerLatticeReaches) {
   }
 }
 
+TEST(DiscRoutes, AFinerLatticeIsTriedOnlyForRoutesMoreDoubtfulThanAsked) {
+  std::mt19937_64 random(24);
+  int better = 0;
+  for (int round = 0; round < 20; ++round) {
+    const OccupancyGrid grid = grid_of(random_cells(random, 20, 20, 0.06), 0.1, {0.0, 0.0});
+    const DiscRoutes routes = routes_on(grid, 0.13 + 0.03 * (round % 4));
+    for (int pair = 0; pair < 6; ++pair) {
+      const Point a = grid.centre_of({static_cast<int>(random() % 20), static_cast<int>(random() % 20)});
+      const Point b = grid.centre_of({static_cast<int>(random() % 20), static_cast<int>(random() % 20)});
+      if (!routes.space().fits(a, routes.radius_m()) || !routes.space().fits(b, routes.radius_m())) continue;
+      const DiscRoute coarse = routes.coarse_route(a, b, Budget{});
+      const DiscRoute any_ratio = routes.route(a, b, Budget{}, 1e9);
+      const DiscRoute doubted = routes.route(a, b, Budget{}, 0.0);
+      if (coarse.route.empty()) {
+        EXPECT_EQ(any_ratio.route, doubted.route);
+        continue;
+      }
+      EXPECT_EQ(any_ratio.route, coarse.route);
+      EXPECT_EQ(any_ratio.length_lower_bound_m, coarse.length_lower_bound_m);
+      EXPECT_LE(length_of(doubted.route), length_of(coarse.route));
+      better += doubted.length_lower_bound_m > coarse.length_lower_bound_m * (1.0 + 1e-9);
+    }
+  }
+  EXPECT_GT(better, 3);
+}
+
 TEST(DiscRoutes, ADoorHardlyWiderThanTheDiscIsPassed) {
   // Door and disc in every ratio down to a hair.
   const DrawnWorld world = drawn_world(
