@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "framework/contracts/adapters/lone_planners.hpp"
 #include "maps/base/text.hpp"
 #include "planners/hybrid/segments.hpp"
 
@@ -19,6 +20,17 @@ std::vector<Point> points_on(const std::vector<Pose2>& path) {
 }
 
 }  // namespace
+
+double escape_m(const StartPlace& start) {
+  return start.escape ? (start.escape->to - start.pose.position()).norm() : 0.0;
+}
+
+PathRequest direct_request(const PlanRequest& request, const StartPlace& start, const GoalPlace& goal) {
+  PathRequest direct = path_request_of(request);
+  direct.from = {Pose2{start.leave_from.x(), start.leave_from.y(), start.pose.theta_rad}, false, {}};
+  direct.to = {goal.pose, goal.heading_rad.has_value(), {}};
+  return direct;
+}
 
 PlanResult joined(const AnswerRules& rules, const PlanningGround& ground, const Budget& budget, const StartPlace& start,
                   const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PathSegment> parts) {
@@ -72,12 +84,11 @@ PlanResult as_planned(const AnswerRules& rules, const PlanningGround& ground, co
   result.segments.clear();
   if (planned.path.size() > 1) result.segments.push_back({origin, 0, planned.length_m});
   if (start.escape) {
-    const double escape_m = (start.escape->to - start.pose.position()).norm();
     result.path.insert(result.path.begin(),
                        poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front());
-    result.segments.insert(result.segments.begin(), {PathSegment::Origin::escape, 0, escape_m});
-    result.length_m += escape_m;
-    result.cost_m += escape_m;
+    result.segments.insert(result.segments.begin(), {PathSegment::Origin::escape, 0, escape_m(start)});
+    result.length_m += escape_m(start);
+    result.cost_m += escape_m(start);
     result.length_lower_bound_m.reset();
   }
   const std::vector<Point> points = points_on(result.path);

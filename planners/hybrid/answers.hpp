@@ -19,6 +19,11 @@ struct AnswerRules {
   double shortcut_clearance_m = 0.0;      // that cut corners keep on top of radius_m
 };
 
+[[nodiscard]] double escape_m(const StartPlace& start);  // length of its escape; 0: none
+
+// From where the start is left to the goal, for the path planner.
+[[nodiscard]] PathRequest direct_request(const PlanRequest& request, const StartPlace& start, const GoalPlace& goal);
+
 // Joins, shortens and re-checks on the ground's grid; `route` begins where the start is left. std::logic_error when the
 // re-check refuses it. Corners that the budget leaves no time for stay.
 [[nodiscard]] PlanResult joined(const AnswerRules& rules, const PlanningGround& ground, const Budget& budget,

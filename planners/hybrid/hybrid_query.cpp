@@ -12,6 +12,7 @@
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"
 #include "planners/hybrid/avoided.hpp"
+#include "planners/hybrid/detour.hpp"
 #include "planners/hybrid/legs.hpp"
 #include "planners/hybrid/local_query.hpp"
 #include "planners/hybrid/open_routes.hpp"
@@ -22,8 +23,6 @@ namespace cairn {
 namespace {
 
 using Time = Budget::Clock::time_point;
-
-constexpr double kMaxDetour = 3.0;  // of what a path over landmarks costs before its corners are cut
 
 double ms_since(Time begin) {
   return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
@@ -152,10 +151,11 @@ class Query {
     const SymbolicQuery query{request_, world_, start, goals, disc_m(), tools_.config.detour_ratio};
     const SymbolicSearch search(query, *tools_.route_planner, budget_);
     // What only a graph with routes needs.
-    const double direct_m = world_.graph.routes().empty()
-                                ? 0.0
-                                : routes->length_lower_bound_m(start.leave_from, nearest.pose.position(), budget_);
-    std::optional<PlanResult> over = over_graph(search, whole, start, goals, direct_m);
+    const double direct_min_m = world_.graph.routes().empty()
+                                    ? 0.0
+                                    : routes->length_lower_bound_m(start.leave_from, nearest.pose.position(), budget_);
+    const DetourLimits limits{tools_.config.detour_ratio, tools_.config.shortened_ratio, direct_min_m};
+    std::optional<PlanResult> over = over_graph(search, whole, start, goals, limits);
     if (over && is_for_time()) over = unless_direct_is_faster(std::move(*over), whole, start, nearest);
     PlanResult result = over ? std::move(*over) : direct(whole, start, goals);
     if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
@@ -166,24 +166,25 @@ class Query {
 
   // The path over landmarks; none when there is none or the direct one is preferred.
   std::optional<PlanResult> over_graph(const SymbolicSearch& search, const PlanningGround& whole,
-                                       const StartPlace& start, const std::vector<GoalPlace>& goals, double direct_m) {
+                                       const StartPlace& start, const std::vector<GoalPlace>& goals,
+                                       const DetourLimits& limits) {
     // A request for other than short paths accepts longer ones.
     const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
     for (;;) {
       const SymbolicAnswer symbolic = search_graph(search);
       if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
       if (!symbolic.path) return std::nullopt;
-      const bool is_detour = !any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m;
-      if (is_detour && !(symbolic.path->leaves_its_cluster && symbolic.path->cost_m <= kMaxDetour * direct_m))
-        return prefer_direct(*symbolic.path, direct_m);
+      const Detour detour = any_length ? Detour::none : detour_of(*symbolic.path, limits);
+      if (detour == Detour::too_long) return prefer_direct(costly_text(*symbolic.path, limits));
       const GoalPlace& goal = goals[symbolic.path->goal];
       const Walk walk = walk_along(whole, start, *symbolic.path, goal);
       if (walk.stopped) return refused<PlanResult>(stopped(*walk.stopped));
       if (walk.access_leg_failed) return std::nullopt;
       if (!walk.blocked) {
         PlanResult result = over_landmarks(answers_, whole, budget_, start, goal, *symbolic.path, walk);
-        if (is_detour && result.length_m > tools_.config.shortened_ratio * direct_m)
-          return prefer_direct(*symbolic.path, direct_m);
+        const double shortened_m = result.length_m - escape_m(start);
+        if (detour == Detour::shortened && !is_short_enough(shortened_m, limits))
+          return prefer_direct(long_text(shortened_m, limits));
         return result;
       }
       blocked_.insert(*walk.blocked);
@@ -208,9 +209,8 @@ class Query {
     return std::nullopt;
   }
 
-  std::nullopt_t prefer_direct(const SymbolicPath& path, double direct_m) {
-    why_direct_ =
-        "directly: over landmarks it is " + metres_text(path.cost_m) + ", the direct path " + metres_text(direct_m);
+  std::nullopt_t prefer_direct(std::string why) {
+    why_direct_ = std::move(why);
     return std::nullopt;
   }
 
@@ -251,16 +251,8 @@ class Query {
   }
 
   PlanResult direct_to(const PlanningGround& whole, const StartPlace& start, const GoalPlace& goal) {
-    PathRequest request;
-    request.from.pose = Pose2{start.leave_from.x(), start.leave_from.y(), start.pose.theta_rad};
-    request.to.pose = goal.pose;
-    request.to.heading_matters = goal.heading_rad.has_value();
-    request.radius_m = request_.radius_m;
-    request.seed = request_.seed;
-    request.cost = request_.cost;
-    request.speed_mps = request_.speed_mps;
     const Time begin = Budget::Clock::now();
-    PlanResult planned = plan_of(whole.path(request, budget_));
+    PlanResult planned = plan_of(whole.path(direct_request(request_, start, goal), budget_));
     route_ms_ += ms_since(begin);
     if (planned.path.empty()) return planned;
     PlanResult result = as_planned(answers_, whole, start, goal, planned);
