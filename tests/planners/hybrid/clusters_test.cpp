@@ -78,6 +78,9 @@ class HybridDetour : public test::Hybrid {
   }
   // second: the cluster of P and V; U and M are in cluster 1.
   [[nodiscard]] PlanResult plan_in_clusters(ClusterId second) const {
+    return plan_in_clusters(second, between(u_, v_));
+  }
+  [[nodiscard]] PlanResult plan_in_clusters(ClusterId second, const PlanRequest& request) const {
     ClusterTree clusters;
     for (ClusterId id = 1; id <= second; ++id) {
       clusters.clusters[id].id = id;
@@ -88,7 +91,7 @@ class HybridDetour : public test::Hybrid {
     const Hierarchies hierarchies(world.graph, clusters, {});
     WorldView view = world.view();
     view.hierarchies = &hierarchies;
-    return HybridPlanner(config, router, searcher).plan(between(u_, v_), view, {});
+    return HybridPlanner(config, router, searcher).plan(request, view, {});
   }
 
   LandmarkId u_, m_, p_, v_;
@@ -106,6 +109,7 @@ TEST_F(HybridDetour, WithinOneClusterIsNotTaken) {
 TEST_F(HybridDetour, FromClusterToClusterIsTakenUpToTheShortenedRatio) {
   const PlanResult direct = plan_in_clusters(2);
   ASSERT_EQ(direct.outcome, PlanOutcome::solved) << direct.reason;
+  EXPECT_EQ(router->calls, 1) << "for the direct path alone: no leg is planned of a path that is not taken";
   EXPECT_THAT(
       direct.reason,
       MatchesRegex("directly: over landmarks it is [0-9.]+ m long with its corners cut, more than 1.1 times the "
@@ -122,6 +126,23 @@ TEST_F(HybridDetour, FromClusterToClusterIsTakenUpToTheShortenedRatio) {
   EXPECT_NEAR(number_after(direct.reason, "over landmarks it is "), over.length_m, 0.05)
       << "what was compared, not its cost";
   expect_clear(over);
+}
+
+// Cutting corners from one end only leaves other corners than from the other.
+TEST_F(HybridDetour, IsTakenInBothDirectionsOrInNone) {
+  route(v_, p_, "VP");
+  route(p_, m_, "", 0.8);
+  route(m_, u_, "MU");
+  int taken = 0;
+  for (const double ratio : {1.1, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0, 2.5}) {
+    config.shortened_ratio = ratio;
+    const bool over = plan_in_clusters(2).landmarks.size() > 2;
+    const bool back = plan_in_clusters(2, between(v_, u_)).landmarks.size() > 2;
+    EXPECT_EQ(over, back) << ratio;
+    taken += over ? 1 : 0;
+  }
+  EXPECT_GT(taken, 0);
+  EXPECT_LT(taken, 8);
 }
 
 }  // namespace
