@@ -75,6 +75,7 @@ TEST_F(Building, APathAcrossRoomsIsAnsweredOverClusters) {
     EXPECT_THAT(answer["reason"].get<std::string>(), StartsWith("over ")) << from << " to " << to;
     EXPECT_THAT(answer["explanation"]["search"].get<std::string>(), HasSubstr("Boost.Graph"));
     EXPECT_GE(answer["explanation"]["search_level"], 1);
+    EXPECT_THAT(run_cairn({"plan", map_file(), "--from", from, "--to", to}).out, HasSubstr(", planned over L"));
     ASSERT_GE(answer["explanation"]["clusters"].size(), 1U);
     EXPECT_GE(answer["explanation"]["clusters"][0].size(), 2U) << answer;
   }
