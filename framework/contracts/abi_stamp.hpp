@@ -34,7 +34,7 @@ struct AbiStamp {
 };
 
 // Raised whenever the signature of an interface's function changes: sizes do not show that.
-inline constexpr std::uint32_t kContractsVersion = 5;
+inline constexpr std::uint32_t kContractsVersion = 6;
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
 
 namespace abi_detail {

@@ -54,7 +54,8 @@ class OutputRequests {
   virtual void report(const std::string& sentence) = 0;  // an event for people
 };
 
-// Places by name: those that steps hand to later ones, saved with the mission's progress, and landmarks of the map.
+// Places by name: those that steps hand to later ones, saved with the mission's progress, and landmarks and clusters of
+// the map.
 class NamedPlaces {
  public:
   virtual ~NamedPlaces() = default;
@@ -63,6 +64,9 @@ class NamedPlaces {
   // From then on the landmark is found by this name as well. Success, or failure with the reason: no such landmark, or
   // a name that would find something else.
   virtual Status name_landmark(LandmarkId id, const std::string& name) = 0;
+  // The same of a cluster, as the mission last formed them, by its id (C1:L4) or name. It keeps the name while it
+  // lasts.
+  virtual Status name_cluster(const std::string& cluster, const std::string& name) = 0;
 };
 
 // Orders that people give while the mission runs. Those that no behaviour asks for are refused with the tick.

@@ -61,7 +61,7 @@ struct PlanResult {
   double length_m = 0.0;
   double clearance_m = 0.0;             // least distance of the robot's edge to anything not free
   double margin_m = 0.0;                // that was asked for beside the robot, on top of its radius
-  std::vector<LandmarkId> landmarks;    // passed, in order, ends included
+  std::vector<LandmarkId> landmarks;    // planned over, in order, ends included; of a direct path those at its ends
   std::vector<RouteId> routes;          // stored routes used, in order
   std::vector<RouteId> blocked_routes;  // stored routes found blocked while planning
   std::vector<Pose2> path;

@@ -27,7 +27,7 @@ inline constexpr ClusterIndex kNoCluster = std::numeric_limits<ClusterIndex>::ma
 struct ClusterSizes {
   std::int32_t leaf = 32;        // landmarks of a level 1 cluster, at most
   std::int32_t growth = 4;       // a cluster one level up may hold this many times as many
-  std::size_t large_from = 300;  // landmarks; smaller networks have one level, and searches take them as they are
+  std::size_t large_from = 300;  // landmarks; smaller networks have one level, divided where passages are narrow
   std::size_t from = 8;          // landmarks; fewer have no clusters
   double narrow_below_m = 1.3;   // passages of routes that divide the clusters of a small network
   [[nodiscard]] std::int32_t most(int level) const;  // landmarks of a cluster of that level

@@ -25,6 +25,13 @@ ClusterTree Hierarchies::last_tree() const {
   return by_length == nullptr ? clusters_ : by_length->tree();
 }
 
+void Hierarchies::name_cluster(ClusterId id, const std::string& name) {
+  const std::scoped_lock lock(making_);
+  if (const auto found = clusters_.clusters.find(id); found != clusters_.clusters.end()) found->second.name = name;
+  for (const std::unique_ptr<Hierarchy>& hierarchy : made_)
+    if (hierarchy != nullptr) hierarchy->name_cluster(id, name);
+}
+
 // Each on its own would cut its clusters by its own costs, and names would no longer mean the same.
 template <class Update>
 bool Hierarchies::update_all(Update update) {

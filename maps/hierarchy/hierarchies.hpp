@@ -22,6 +22,8 @@ class Hierarchies {
   // Both say whether the clusters may have changed.
   bool update(const GraphChanges& changes);
   bool update();
+  // Of all kinds of cost; nothing without such a cluster. Not while another thread reads.
+  void name_cluster(ClusterId id, const std::string& name);
   // As of the last update, and nothing is made for it.
   [[nodiscard]] ClusterTree last_tree() const;
   [[nodiscard]] ClusterTree tree() const { return by(CostKind::length).tree(); }

@@ -124,6 +124,11 @@ void Hierarchy::sync_route(const LandmarkGraph& graph, RouteId id, NetworkChange
   }
 }
 
+void Hierarchy::name_cluster(ClusterId id, const std::string& name) {
+  for (ClusterIndex c = 0; c < clustering_.end(); ++c)
+    if (clustering_.node(c).level > 0 && clustering_.node(c).id == id) clustering_.set_name(c, name);
+}
+
 bool Hierarchy::update(const LandmarkGraph& graph, const GraphChanges& changes) {
   auto [moved, costs] = sync_network(graph, changes);
   if (moved.empty()) {

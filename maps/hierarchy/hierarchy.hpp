@@ -53,6 +53,8 @@ class Hierarchy {
   // The same, for who does not know what has changed: looks at everything.
   bool update(const LandmarkGraph& graph);
 
+  void name_cluster(ClusterId id, const std::string& name);  // nothing without such a cluster
+
   [[nodiscard]] const Network& network() const { return network_; }
   [[nodiscard]] const Clustering& clustering() const { return clustering_; }
   [[nodiscard]] const Overlay& overlay() const { return overlay_; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "framework/contracts/adapters/lone_planners.hpp"
 #include "maps/base/text.hpp"
 #include "planners/hybrid/segments.hpp"
 
@@ -18,19 +19,50 @@ std::vector<Point> points_on(const std::vector<Pose2>& path) {
   return points;
 }
 
+std::vector<PartedPoint> shortened(const ShortcutRules& rules, const std::vector<PartedPoint>& route,
+                                   const Budget& budget) {
+  return tightened(rules, straightened(rules, route, 1, budget), 1, budget);
+}
+
+// Each segment keeps its part.
+std::vector<PartedPoint> reversed(const std::vector<PartedPoint>& route) {
+  std::vector<PartedPoint> back(route.rbegin(), route.rend());
+  for (std::size_t i = 1; i < back.size(); ++i) back[i].part = route[route.size() - i].part;
+  back.front().part = route.front().part;
+  return back;
+}
+
 }  // namespace
+
+double escape_m(const StartPlace& start) {
+  return start.escape ? (start.escape->to - start.pose.position()).norm() : 0.0;
+}
+
+PathRequest direct_request(const PlanRequest& request, const StartPlace& start, const GoalPlace& goal) {
+  PathRequest direct = path_request_of(request);
+  direct.from = {Pose2{start.leave_from.x(), start.leave_from.y(), start.pose.theta_rad}, false, {}};
+  direct.to = {goal.pose, goal.heading_rad.has_value(), {}};
+  return direct;
+}
+
+std::vector<PartedPoint> shortened_from_both_ends(const ShortcutRules& rules, const std::vector<PartedPoint>& route,
+                                                  const Budget& budget) {
+  std::vector<PartedPoint> onwards = shortened(rules, route, budget);
+  std::vector<PartedPoint> back = reversed(shortened(rules, reversed(route), budget));
+  return length_of(points_of(back)) < length_of(points_of(onwards)) ? back : onwards;
+}
 
 PlanResult joined(const AnswerRules& rules, const PlanningGround& ground, const Budget& budget, const StartPlace& start,
                   const GoalPlace& goal, std::vector<PartedPoint> route, std::vector<PathSegment> parts) {
+  if (rules.shortcut) {
+    const ShortcutRules shortcuts = ground.shortcuts(rules.shortcut_clearance_m);
+    route =
+        rules.from_both_ends ? shortened_from_both_ends(shortcuts, route, budget) : shortened(shortcuts, route, budget);
+  }
   if (start.escape) {
     parts.push_back({PathSegment::Origin::escape, 0, 0.0});
     route.front().part = static_cast<int>(parts.size()) - 1;
     route.insert(route.begin(), {start.pose.position(), 0});
-  }
-  if (rules.shortcut) {
-    const std::size_t keep = start.escape ? 2 : 1;
-    const ShortcutRules shortcuts = ground.shortcuts(rules.shortcut_clearance_m);
-    route = tightened(shortcuts, straightened(shortcuts, route, keep, budget), keep, budget);
   }
   const auto same_place = [](const PartedPoint& a, const PartedPoint& b) { return a.at == b.at; };
   route.erase(std::unique(route.begin(), route.end(), same_place), route.end());
@@ -72,12 +104,11 @@ PlanResult as_planned(const AnswerRules& rules, const PlanningGround& ground, co
   result.segments.clear();
   if (planned.path.size() > 1) result.segments.push_back({origin, 0, planned.length_m});
   if (start.escape) {
-    const double escape_m = (start.escape->to - start.pose.position()).norm();
     result.path.insert(result.path.begin(),
                        poses_along({start.pose.position(), start.escape->to}, start.pose.theta_rad, {}).front());
-    result.segments.insert(result.segments.begin(), {PathSegment::Origin::escape, 0, escape_m});
-    result.length_m += escape_m;
-    result.cost_m += escape_m;
+    result.segments.insert(result.segments.begin(), {PathSegment::Origin::escape, 0, escape_m(start)});
+    result.length_m += escape_m(start);
+    result.cost_m += escape_m(start);
     result.length_lower_bound_m.reset();
   }
   const std::vector<Point> points = points_on(result.path);

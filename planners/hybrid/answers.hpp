@@ -17,7 +17,18 @@ struct AnswerRules {
   bool shortcut = true;
   std::optional<DrivingRules> driving{};  // the robot, where it is known
   double shortcut_clearance_m = 0.0;      // that cut corners keep on top of radius_m
+  bool from_both_ends = false;            // corners are cut from either end, which takes twice the time
 };
+
+[[nodiscard]] double escape_m(const StartPlace& start);  // length of its escape; 0: none
+
+// From where the start is left to the goal, for the path planner.
+[[nodiscard]] PathRequest direct_request(const PlanRequest& request, const StartPlace& start, const GoalPlace& goal);
+
+// Its corners cut from the first point on, and from the last one: the shorter of the two, the former when equal.
+[[nodiscard]] std::vector<PartedPoint> shortened_from_both_ends(const ShortcutRules& rules,
+                                                                const std::vector<PartedPoint>& route,
+                                                                const Budget& budget);
 
 // Joins, shortens and re-checks on the ground's grid; `route` begins where the start is left. std::logic_error when the
 // re-check refuses it. Corners that the budget leaves no time for stay.

@@ -30,8 +30,8 @@ struct HybridConfig {
                   "leg planned anew likewise against its stored cost");
     fields.number(
         "shortened_ratio", &HybridConfig::shortened_ratio, {1.0, 100.0}, "",
-        "one that costs more is taken when it leads from cluster to cluster and is at most this much longer than the "
-        "direct one once its corners are cut");
+        "one that costs more, up to 3 times the direct one, is taken when it leads from cluster to cluster and is at "
+        "most this much longer than the direct one once its corners are cut");
     fields.number("start_tolerance_m", &HybridConfig::start_tolerance_m, {0.0, 1.0}, "m",
                   "how far a start that is too near to something may be left with what clearance it has");
     fields.flag("shortcut", &HybridConfig::shortcut, "cut corners of the joined path where the ground is free");

@@ -1,33 +1,18 @@
 #include "planners/hybrid/hybrid_query.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
-#include <set>
 
 #include "framework/contracts/adapters/lone_planners.hpp"
 #include "framework/contracts/view/cell_source.hpp"
-#include "planners/common/any_angle/nearest_goals.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"
-#include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/legs.hpp"
 #include "planners/hybrid/local_query.hpp"
-#include "planners/hybrid/open_routes.hpp"
 #include "planners/hybrid/segments.hpp"
-#include "planners/hybrid/symbolic_path.hpp"
+#include "planners/hybrid/whole_query.hpp"
 
 namespace cairn {
 namespace {
-
-using Time = Budget::Clock::time_point;
-
-constexpr double kMaxDetour = 3.0;  // of what a path over landmarks costs before its corners are cut
-
-double ms_since(Time begin) {
-  return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
-}
 
 // Answers one request.
 class Query {
@@ -56,7 +41,7 @@ class Query {
       if (auto result = answer_in_windows()) return *std::move(result);
     }
     if (world_.cells != nullptr) world_.cells->require(world_.grid.bounds());
-    PlanResult result = answer_on_whole_grid();
+    PlanResult result = answer_on_whole_grid(tools_, ends_, legs_, answers_, request_, world_, budget_);
     result.reason += why_whole_;
     return result;
   }
@@ -72,48 +57,10 @@ class Query {
     return local.result;
   }
 
-  PlanResult answer_on_whole_grid() {
-    const auto usual = start_of(request_.from, world_, ends_, tools_.usual.spaces);
-    if (const auto* refusal = std::get_if<Refusal>(&usual)) return refused<PlanResult>(*refusal);
-    const auto& start = std::get<StartPlace>(usual);
-    if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space, disc_m());
-    PlanResult result = avoided_grid_ ? answer_avoiding() : answer_from(start, world_);
-    result.settled = settled_;
-    result.alternatives = alternatives_;
-    result.explanation = explanation_;
-    report_blocked_of(start, result);
-    result.time_ms.graph_ms = graph_ms_;
-    result.time_ms.route_ms = route_ms_;
-    return result;
-  }
-
   PlanResult answer_of_graph() const {
     PlanResult result = LoneRoutePlanner(tools_.route_planner).plan(request_, world_, budget_);
     if (result.outcome == PlanOutcome::solved) result.segments = segments_of_graph(result, world_.graph);
     return result;
-  }
-
-  // In the world with obstacles where the robot is not to go.
-  PlanResult answer_avoiding() {
-    const WorldView world = with_grid(*avoided_grid_, world_);
-    const auto start = start_of(request_.from, world, ends_, tools_.avoiding.spaces);
-    PlanResult result = std::holds_alternative<Refusal>(start) ? refused<PlanResult>(std::get<Refusal>(start))
-                                                               : answer_from(std::get<StartPlace>(start), world);
-    if (result.outcome != PlanOutcome::solved) result.reason += kAvoidedCount;
-    return result;
-  }
-
-  // A route that only what is avoided blocks is not blocked today.
-  void report_blocked_of(const StartPlace& start, PlanResult& result) {
-    if (!avoided_grid_) return report_blocked(blocked_, world_.graph, result);
-    const WorldView planned = planned_world(start, world_);
-    const WholeGround ground = ground_of(start, planned);
-    for (const RouteId id : blocked_) {
-      if (Walker(ground, legs_, budget_).walk_alone(*world_.graph.find_route(id)).blocked)
-        report_blocked({id}, world_.graph, result);
-      else
-        result.reason += "; " + text_of_route(id, world_.graph) + " passes an avoided landmark";
-    }
   }
 
   // That the planned disc keeps of the robot's clearance.
@@ -122,152 +69,6 @@ class Query {
   // With a hair more than is re-checked, so that rounding makes no difference.
   double disc_m() const { return ends_.radius_m + kMinRadius_m; }
 
-  // The robot's world as it is planned in: with the ground under the robot known, and the robot no
-  // longer where a leg begins.
-  static WorldView planned_world(const StartPlace& start, const WorldView& world) {
-    WorldView planned = with_grid(start.grid_of(world), world);
-    planned.observation = nullptr;
-    planned.hierarchies = nullptr;
-    return planned;
-  }
-  WholeGround ground_of(const StartPlace& start, const WorldView& planned) const {
-    return {planned, *start.space, disc_m(), tools_.path_planner};
-  }
-
-  PlanResult answer_from(const StartPlace& start, const WorldView& world) {
-    const HybridGround& ground = avoided_grid_ ? tools_.avoiding : tools_.usual;
-    const auto routes = ground.routes.routes_of(start.space, disc_m());
-    const auto goals_or_refusal = goals_of(
-        request_.to, world, ends_, start, [&](const Point& goal) { return routes->may_reach(start.leave_from, goal); });
-    if (const auto* refusal = std::get_if<Refusal>(&goals_or_refusal)) return refused<PlanResult>(*refusal);
-    std::vector<GoalPlace> goals;
-    for (RankedGoal& goal :
-         nearest_first(std::get<std::vector<GoalPlace>>(goals_or_refusal), start.leave_from, *routes, budget_))
-      goals.push_back(std::move(goal.place));
-    const GoalPlace& nearest = goals.front();
-    const WorldView planned = planned_world(start, world);
-    const WholeGround whole = ground_of(start, planned);
-    if (start.landmark == nearest.landmark && start.landmark != 0) return stay(whole, start, nearest);
-
-    const SymbolicQuery query{request_, world_, start, goals, disc_m(), tools_.config.detour_ratio};
-    const SymbolicSearch search(query, *tools_.route_planner, budget_);
-    // What only a graph with routes needs.
-    const double direct_m = world_.graph.routes().empty()
-                                ? 0.0
-                                : routes->length_lower_bound_m(start.leave_from, nearest.pose.position(), budget_);
-    std::optional<PlanResult> over = over_graph(search, whole, start, goals, direct_m);
-    if (over && is_for_time()) over = unless_direct_is_faster(std::move(*over), whole, start, nearest);
-    PlanResult result = over ? std::move(*over) : direct(whole, start, goals);
-    if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
-      alternatives_ = open_alternatives(search, candidates_, result.routes, request_.alternatives,
-                                        OpenRoutes(world_.graph, Walker(whole, legs_, budget_), blocked_), budget_);
-    return result;
-  }
-
-  // The path over landmarks; none when there is none or the direct one is preferred.
-  std::optional<PlanResult> over_graph(const SymbolicSearch& search, const PlanningGround& whole,
-                                       const StartPlace& start, const std::vector<GoalPlace>& goals, double direct_m) {
-    // A request for other than short paths accepts longer ones.
-    const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
-    for (;;) {
-      const SymbolicAnswer symbolic = search_graph(search);
-      if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
-      if (!symbolic.path) return std::nullopt;
-      const bool is_detour = !any_length && symbolic.path->cost_m > tools_.config.detour_ratio * direct_m;
-      if (is_detour && !(symbolic.path->leaves_its_cluster && symbolic.path->cost_m <= kMaxDetour * direct_m))
-        return prefer_direct(*symbolic.path, direct_m);
-      const GoalPlace& goal = goals[symbolic.path->goal];
-      const Walk walk = walk_along(whole, start, *symbolic.path, goal);
-      if (walk.stopped) return refused<PlanResult>(stopped(*walk.stopped));
-      if (walk.access_leg_failed) return std::nullopt;
-      if (!walk.blocked) {
-        PlanResult result = over_landmarks(answers_, whole, budget_, start, goal, *symbolic.path, walk);
-        if (is_detour && result.length_m > tools_.config.shortened_ratio * direct_m)
-          return prefer_direct(*symbolic.path, direct_m);
-        return result;
-      }
-      blocked_.insert(*walk.blocked);
-    }
-  }
-
-  // Speed limits hold on routes alone: where the graph has them, its paths are taken.
-  [[nodiscard]] bool is_for_time() const {
-    return request_.cost == CostKind::time && request_.avoid.empty() && request_.closed.empty() &&
-           std::ranges::none_of(world_.graph.routes(),
-                                [](const auto& r) { return r.second.speed_limit_mps.has_value(); });
-  }
-
-  // None: the direct path takes less time to drive.
-  std::optional<PlanResult> unless_direct_is_faster(PlanResult over, const PlanningGround& whole,
-                                                    const StartPlace& start, const GoalPlace& nearest) {
-    if (over.outcome != PlanOutcome::solved || !over.driving_time_s) return over;
-    const PlanResult straight = direct_to(whole, start, nearest);
-    if (straight.outcome != PlanOutcome::solved || straight.driving_time_s >= over.driving_time_s) return over;
-    why_direct_ = fmt::format("directly: over landmarks it takes {:.1f} s, the direct path {:.1f} s",
-                              *over.driving_time_s, *straight.driving_time_s);
-    return std::nullopt;
-  }
-
-  std::nullopt_t prefer_direct(const SymbolicPath& path, double direct_m) {
-    why_direct_ =
-        "directly: over landmarks it is " + metres_text(path.cost_m) + ", the direct path " + metres_text(direct_m);
-    return std::nullopt;
-  }
-
-  SymbolicAnswer search_graph(const SymbolicSearch& search) {
-    const Time begin = Budget::Clock::now();
-    SymbolicAnswer answer = search.find(blocked_);
-    graph_ms_ += ms_since(begin);
-    settled_ += answer.settled;
-    candidates_ = answer.candidates;
-    explanation_ = answer.explanation;
-    return answer;
-  }
-
-  Walk walk_along(const PlanningGround& whole, const StartPlace& start, const SymbolicPath& path,
-                  const GoalPlace& goal) {
-    const Time begin = Budget::Clock::now();
-    Walk walk = Walker(whole, legs_, budget_).walk(start.leave_from, path, goal.pose);
-    route_ms_ += ms_since(begin);
-    return walk;
-  }
-
-  PlanResult stay(const PlanningGround& whole, const StartPlace& start, const GoalPlace& goal) const {
-    PlanResult result = joined(answers_, whole, budget_, start, goal, {{start.leave_from, 0}}, {});
-    result.landmarks = {goal.landmark};
-    result.reason = "start and goal are the same landmark";
-    return result;
-  }
-
-  // Without landmarks in between: the goals in their order, until one is reached.
-  PlanResult direct(const PlanningGround& whole, const StartPlace& start, const std::vector<GoalPlace>& goals) {
-    PlanResult first;
-    for (const GoalPlace& goal : goals) {
-      PlanResult result = direct_to(whole, start, goal);
-      if (result.outcome == PlanOutcome::solved || budget_.exhausted()) return result;
-      if (first.reason.empty()) first = std::move(result);
-    }
-    return first;
-  }
-
-  PlanResult direct_to(const PlanningGround& whole, const StartPlace& start, const GoalPlace& goal) {
-    PathRequest request;
-    request.from.pose = Pose2{start.leave_from.x(), start.leave_from.y(), start.pose.theta_rad};
-    request.to.pose = goal.pose;
-    request.to.heading_matters = goal.heading_rad.has_value();
-    request.radius_m = request_.radius_m;
-    request.seed = request_.seed;
-    request.cost = request_.cost;
-    request.speed_mps = request_.speed_mps;
-    const Time begin = Budget::Clock::now();
-    PlanResult planned = plan_of(whole.path(request, budget_));
-    route_ms_ += ms_since(begin);
-    if (planned.path.empty()) return planned;
-    PlanResult result = as_planned(answers_, whole, start, goal, planned);
-    if (!result.path.empty()) result.reason = (why_direct_.empty() ? "directly" : why_direct_) + "; " + result.reason;
-    return result;
-  }
-
   const HybridTools& tools_;
   const PlanRequest& request_;
   const WorldView& world_;
@@ -275,16 +76,7 @@ class Query {
   EndRules ends_;
   LegRules legs_;
   AnswerRules answers_;
-  std::optional<OccupancyGrid> avoided_grid_;
-  std::set<RouteId> blocked_;
-  std::vector<RouteAlternative> candidates_;  // of the last search
-  std::string why_direct_;
   std::string why_whole_;
-  std::int64_t settled_ = 0;
-  std::vector<RouteAlternative> alternatives_;
-  std::optional<RouteExplanation> explanation_;
-  double graph_ms_ = 0.0;
-  double route_ms_ = 0.0;
 };
 
 }  // namespace

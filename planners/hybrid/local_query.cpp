@@ -6,8 +6,10 @@
 #include <chrono>
 #include <limits>
 
+#include "framework/contracts/adapters/lone_planners.hpp"
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/avoided.hpp"
+#include "planners/hybrid/detour.hpp"
 #include "planners/hybrid/local_ends.hpp"
 #include "planners/hybrid/open_routes.hpp"
 
@@ -83,7 +85,7 @@ class LocalQuery {
     // Also where both ends are joined to the same landmark.
     const double joined_m = 2.0 * (windows_.reach_blocks + 1) * windows_.block_m;
     const auto goal = near ? near : ends_.nearest(start_, goals_, std::max(joined_m, windows_.near_m));
-    return goal ? directly(*goal, std::numeric_limits<double>::infinity()) : std::nullopt;
+    return goal ? directly(*goal, std::numeric_limits<double>::infinity(), "directly") : std::nullopt;
   }
 
   // Along landmarks, or directly where that is much shorter. None when neither is found; `unreached` is a landmark that
@@ -100,7 +102,7 @@ class LocalQuery {
       }
       const double cost_m = symbolic.path->cost_m;
       if (near && !any_length && cost_m > legs_.detour_ratio * near->min_m)
-        if (auto result = directly(*near, cost_m)) return result;
+        if (auto result = directly(*near, cost_m, costly_text(cost_m, legs_.detour_ratio, near->min_m))) return result;
       const GoalPlace& goal = goals_[symbolic.path->goal];
       const Budget::Clock::time_point begin = Budget::Clock::now();
       const Walk walk = Walker(ground_, legs_, budget_).walk(start_.leave_from, *symbolic.path, goal.pose);
@@ -139,28 +141,16 @@ class LocalQuery {
   }
 
   // Where it is not longer than that.
-  std::optional<PlanResult> directly(const NearGoal& near, double at_most_m) {
+  std::optional<PlanResult> directly(const NearGoal& near, double at_most_m, const std::string& why) {
     const GoalPlace& goal = goals_[near.index];
-    PathRequest request;
-    request.from.pose = Pose2{start_.leave_from.x(), start_.leave_from.y(), start_.pose.theta_rad};
-    request.to.pose = goal.pose;
-    request.to.heading_matters = goal.heading_rad.has_value();
-    request.radius_m = request_.radius_m;
-    request.seed = request_.seed;
-    request.cost = request_.cost;
-    request.speed_mps = request_.speed_mps;
     const Budget::Clock::time_point begin = Budget::Clock::now();
-    const PlanResult planned = plan_of(ground_.path(request, budget_));
+    const PlanResult planned = plan_of(ground_.path(direct_request(request_, start_, goal), budget_));
     route_ms_ += milliseconds(Budget::Clock::now() - begin);
     if (budget_.exhausted()) return refused<PlanResult>(stopped(stop_outcome(budget_)));
     if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return std::nullopt;
     PlanResult result = as_planned(answers_, ground_, start_, goal, planned);
     if (result.outcome != PlanOutcome::solved) return std::nullopt;
-    const std::string why =
-        at_most_m < std::numeric_limits<double>::infinity()
-            ? ": over landmarks it is " + metres_text(at_most_m) + ", the direct path " + metres_text(planned.length_m)
-            : std::string();
-    result.reason = "directly" + why + "; " + result.reason;
+    result.reason = why + "; " + result.reason;
     return result;
   }
 

@@ -117,6 +117,11 @@ Status BehaviourHost::name_landmark(LandmarkId id, const std::string& name) {
   return {StepState::success, "L" + std::to_string(id) + " is now " + name};
 }
 
+Status BehaviourHost::name_cluster(const std::string& cluster, const std::string& name) {
+  record_ += "name " + cluster + " " + name + "\n";
+  return {StepState::failure, "there is no cluster " + cluster};
+}
+
 void BehaviourHost::answer_order(const Status& answer) {
   record_ += "answer " + answer.reason + "\n";
   if (fault_.empty()) fault_ = "answered an order that nobody gave";

@@ -25,6 +25,7 @@ class BehaviourHost : public BehaviourContext {
   std::optional<Place> input(const std::string& name) override;
   void output(const std::string& name, const Place& place) override;
   Status name_landmark(LandmarkId id, const std::string& name) override;
+  Status name_cluster(const std::string& cluster, const std::string& name) override;
   std::optional<Order> next_order() override { return std::nullopt; }  // nobody orders anything
   void answer_order(const Status& answer) override;
 

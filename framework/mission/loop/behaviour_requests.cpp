@@ -134,6 +134,18 @@ Status BehaviourRequests::name_landmark(LandmarkId id, const std::string& name) 
   return {StepState::success, before + " is now " + name};
 }
 
+Status BehaviourRequests::name_cluster(const std::string& cluster, const std::string& name) {
+  const StageClock::Visit visit(host_.clock, StageClock::kHost);
+  const LandmarkGraph& graph = host_.tracker.graph();
+  const ClusterTree clusters = host_.planning.hierarchies().last_tree();
+  const Cluster* const found = find_cluster(clusters, graph, cluster);
+  if (found == nullptr) return {StepState::failure, "there is no cluster " + in_quotes(cluster)};
+  if (const std::string refusal = refusal_of_name(name, graph, clusters, &found->name); !refusal.empty())
+    return {StepState::failure, "the name " + in_quotes(name) + " cannot be given: " + refusal};
+  host_.planning.name_cluster(found->id, name);
+  return {StepState::success, label_of(*found, graph) + " is now " + name};
+}
+
 std::optional<Order> BehaviourRequests::next_order() {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
   return host_.orders.next();

@@ -56,6 +56,7 @@ class BehaviourRequests final : public BehaviourContext {
   std::optional<Place> input(const std::string& name) override;
   void output(const std::string& name, const Place& place) override;
   Status name_landmark(LandmarkId id, const std::string& name) override;
+  Status name_cluster(const std::string& cluster, const std::string& name) override;
   std::optional<Order> next_order() override;
   void answer_order(const Status& answer) override;
 

@@ -32,6 +32,8 @@ class Planning {
   // As they were last brought in line. When that is decides which ids the clusters get, so that what must change
   // nothing asks for these.
   [[nodiscard]] ClusterTree last_clusters() const { return hierarchies_.last_tree(); }
+  // One of last_clusters().
+  void name_cluster(ClusterId id, const std::string& name) { hierarchies_.name_cluster(id, name); }
   // For names of clusters; the graph may have changed since they were brought in line.
   [[nodiscard]] const Hierarchies& hierarchies() const { return hierarchies_; }
 

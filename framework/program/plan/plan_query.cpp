@@ -77,8 +77,11 @@ std::string text_of(const PlanQuery& query, const PlanResult& result, const Save
   const auto list = [&](const std::vector<LandmarkId>& landmarks) {
     for (const LandmarkId id : landmarks) out += fmt::format(" L{}", id);
   };
-  if (!result.landmarks.empty()) {
-    out += ", by way of";
+  if (!result.routes.empty()) {
+    out += on_grid ? ", planned over" : ", by way of";  // corners that are cut may leave landmarks aside
+    list(result.landmarks);
+  } else if (!result.landmarks.empty()) {
+    out += result.landmarks.size() == 1 ? ", one end at" : ", from and to";
     list(result.landmarks);
   }
   if (!result.reason.empty()) out += "\n  " + result.reason;

@@ -59,8 +59,9 @@ std::string note_on(const Pose2& approach, const Landmark& landmark) {
   const Point usual = landmark.approach_pose().position();
   const double away_m = (approach.position() - usual).norm();
   if (away_m == 0.0) return {};
-  return "; it ends " + metres_text(away_m) + " from " + label_of(landmark) +
-         (landmark.access ? ", whose usual place leaves too little room" : "");
+  return "; it ends " + metres_text(away_m) + " from " +
+         (landmark.access ? "the approach pose of " + label_of(landmark) + ", where there is too little room"
+                          : label_of(landmark));
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ void NameConfig::describe(Fields<NameConfig>& fields) {
   fields.raw("as", &C::as, "text", "the name; no id, no coordinates, not `nearest ...`, and no other landmark's")
       .required = true;
   fields.raw("landmark", &C::landmark, "place",
-             "which one: an id (L3), a name, a category or `nearest CATEGORY`; this or input; without both, the one "
-             "found last");
+             "which one: an id (L3), a name, a category or `nearest CATEGORY`, or a cluster by its id (C1:L3) or name; "
+             "this or input; without both, the one found last");
   fields.input("input", &C::input,
                "which one: of those that an earlier step gives by `output` under this name, the one found last");
   fields.point("near_m", &C::near_m, "m", "of those that are meant, the one whose centre is nearest to this point");
@@ -80,6 +80,7 @@ ChosenLandmark NameLandmark::chosen(const WorldView& world, BehaviourContext& co
 }
 
 Status NameLandmark::tick(const WorldView& world, BehaviourContext& context) {
+  if (!config_.near_m && names_cluster(landmark_, world)) return context.name_cluster(landmark_, as_);
   const ChosenLandmark landmark = chosen(world, context);
   if (!landmark.unknown.empty()) return {StepState::failure, "names nothing " + as_ + ": " + landmark.unknown};
   return context.name_landmark(landmark.id, as_);

@@ -1,4 +1,5 @@
-// Gives a landmark a name. From then on the name is a place for steps, for `cairn plan` and in the saved map.
+// Gives a landmark or a cluster of them a name. From then on the name is a place for steps, for `cairn plan` and in the
+// saved map.
 #pragma once
 
 #include <optional>
@@ -24,8 +25,9 @@ class NameLandmark : public Behaviour {
   // Throws ConfigError on a name that is also a place of another kind, on a landmark that is none, and when both
   // `landmark` and `input` are given.
   explicit NameLandmark(const NameConfig& config);
-  // Of several landmarks that are meant: with near_m the nearest to that point, else of `input` the one found last, of
-  // `nearest CATEGORY` the one with the cheapest path. With neither of them: the landmark found last.
+  // A cluster is named as a whole, unless near_m chooses one of its landmarks. Of several landmarks that are meant:
+  // with near_m the nearest to that point, else of `input` the one found last, of `nearest CATEGORY` the one with the
+  // cheapest path. With neither of them: the landmark found last.
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override {}
 

@@ -29,6 +29,18 @@ std::string known_landmarks(const LandmarkGraph& graph) {
   return "the map holds " + list;
 }
 
+// Those that people have named first.
+std::string known_clusters(const ClusterTree& clusters, const LandmarkGraph& graph) {
+  std::string list;
+  std::size_t listed = 0;
+  for (const bool named : {true, false})
+    for (const auto& [id, cluster] : clusters.clusters) {
+      if (cluster.name.empty() == named) continue;
+      if (listed++ < kMaxListed) list += (list.empty() ? " and the clusters " : ", ") + label_of(cluster, graph);
+    }
+  return listed > kMaxListed ? list + ", ..." : list;
+}
+
 // "2.0,1.0", as `cairn plan` takes places; no landmark is called so.
 bool reads_as_coordinates(std::string_view text) {
   const std::size_t comma = text.find(',');
@@ -91,7 +103,9 @@ FoundPlace find_landmarks(const std::string& name, const LandmarkGraph& graph, c
       if (!landmark.category.empty()) names.push_back(landmark.category);
     }
     for (const auto& [id, cluster] : clusters.clusters) names.push_back(label_of(cluster, graph));
-    found.unknown = "no landmark \"" + name + "\"" + did_you_mean(name, names);
+    found.unknown = std::string(clusters.clusters.empty() ? "no landmark \"" : "no landmark and no cluster \"") + name +
+                    "\"" + did_you_mean(name, names) + "; " + known_landmarks(graph) + known_clusters(clusters, graph);
+    return found;
   }
   found.unknown += "; " + known_landmarks(graph);
   return found;
@@ -108,6 +122,11 @@ FoundPlace find_landmarks(const std::string& name, const WorldView& world) {
 
 FoundPlace find_place(const PlaceName& name, const WorldView& world) {
   return find_place(name, world.graph, clusters_of(world));
+}
+
+bool names_cluster(const std::string& name, const WorldView& world) {
+  return !name.starts_with(kNearest) && world.graph.find_by_name(name) == nullptr &&
+         find_cluster(clusters_of(world), world.graph, name) != nullptr;
 }
 
 bool names_retired(const Place& goal, const LandmarkGraph& graph) {

@@ -35,6 +35,9 @@ struct FoundPlace {
 [[nodiscard]] FoundPlace find_landmarks(const std::string& name, const WorldView& world);
 [[nodiscard]] FoundPlace find_place(const PlaceName& name, const WorldView& world);
 
+// Whether it is the id or name of a cluster, and not of a landmark.
+[[nodiscard]] bool names_cluster(const std::string& name, const WorldView& world);
+
 // Whether a landmark of a goal is known no more: planners refuse all of it then, so its name must be looked up again.
 [[nodiscard]] bool names_retired(const Place& goal, const LandmarkGraph& graph);
 

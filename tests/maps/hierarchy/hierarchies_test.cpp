@@ -79,5 +79,22 @@ TEST(Hierarchies, AKindThatIsMadeLateHasTheClustersOfNow) {
   expect_in_line(hierarchies, graph, "made late");
 }
 
+TEST(Hierarchies, NameAClusterForEveryKindOfCostAndKeepIt) {
+  LandmarkGraph graph;
+  for (int i = 0; i < 3; ++i) graph.add({});
+  const ClusterTree clusters{{{1, {1, 1, 0, 1, ""}}, {2, {2, 1, 0, 3, ""}}}, {{1, 1}, {2, 1}, {3, 2}}, 3};
+  for (const bool made_before : {false, true}) {
+    Hierarchies hierarchies(graph, clusters, {});
+    if (made_before) (void)hierarchies.by(CostKind::time);
+    const ClusterTree tree = hierarchies.last_tree();
+    const ClusterId last = tree.clusters.rbegin()->first;
+    hierarchies.name_cluster(last, "lounge");
+    EXPECT_EQ(hierarchies.last_tree().clusters.at(last).name, "lounge");
+    EXPECT_EQ(hierarchies.tree(), hierarchies.by(CostKind::time).tree());
+    hierarchies.name_cluster(99, "nowhere");
+    EXPECT_EQ(hierarchies.last_tree(), hierarchies.tree());
+  }
+}
+
 }  // namespace
 }  // namespace cairn

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "maps/hierarchy/hierarchies.hpp"
 #include "tests/planners/hybrid/hybrid_world.hpp"
 
@@ -11,7 +13,12 @@ namespace cairn {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::StartsWith;
+using ::testing::MatchesRegex;
+
+double number_after(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + words.size()));
+}
 
 // A is a cluster by itself, in the left room; U, in the middle of the upper corridor, and B, in the right room, are
 // another.
@@ -71,6 +78,9 @@ class HybridDetour : public test::Hybrid {
   }
   // second: the cluster of P and V; U and M are in cluster 1.
   [[nodiscard]] PlanResult plan_in_clusters(ClusterId second) const {
+    return plan_in_clusters(second, between(u_, v_));
+  }
+  [[nodiscard]] PlanResult plan_in_clusters(ClusterId second, const PlanRequest& request) const {
     ClusterTree clusters;
     for (ClusterId id = 1; id <= second; ++id) {
       clusters.clusters[id].id = id;
@@ -81,7 +91,7 @@ class HybridDetour : public test::Hybrid {
     const Hierarchies hierarchies(world.graph, clusters, {});
     WorldView view = world.view();
     view.hierarchies = &hierarchies;
-    return HybridPlanner(config, router, searcher).plan(request('U', 'V'), view, {});
+    return HybridPlanner(config, router, searcher).plan(request, view, {});
   }
 
   LandmarkId u_, m_, p_, v_;
@@ -91,19 +101,48 @@ TEST_F(HybridDetour, WithinOneClusterIsNotTaken) {
   config.shortened_ratio = 3.0;
   const PlanResult result = plan_in_clusters(1);
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
-  EXPECT_THAT(result.reason, StartsWith("directly"));
+  EXPECT_THAT(result.reason, MatchesRegex("directly: over landmarks it costs [0-9.]+ m, more than 1.3 times the direct "
+                                          "path's lower bound of [0-9.]+ m; .*"));
+  EXPECT_GT(number_after(result.reason, "it costs "), 1.3 * number_after(result.reason, "lower bound of "));
 }
 
 TEST_F(HybridDetour, FromClusterToClusterIsTakenUpToTheShortenedRatio) {
   const PlanResult direct = plan_in_clusters(2);
   ASSERT_EQ(direct.outcome, PlanOutcome::solved) << direct.reason;
-  EXPECT_THAT(direct.reason, StartsWith("directly: over landmarks it is ")) << "1.1 unless set";
+  EXPECT_EQ(router->calls, 1) << "for the direct path alone: no leg is planned of a path that is not taken";
+  EXPECT_THAT(
+      direct.reason,
+      MatchesRegex("directly: over landmarks it is [0-9.]+ m long with its corners cut, more than 1.1 times the "
+                   "direct path's lower bound of [0-9.]+ m; .*"))
+      << "1.1 unless set";
+  EXPECT_GE(number_after(direct.reason, "lower bound of "), 0.9 * direct.length_m);
+  EXPECT_LE(number_after(direct.reason, "lower bound of "), direct.length_m + 0.005);
   config.shortened_ratio = 3.0;
   const PlanResult over = plan_in_clusters(2);
   ASSERT_EQ(over.outcome, PlanOutcome::solved) << over.reason;
   EXPECT_THAT(over.landmarks, ElementsAre(u_, m_, p_, v_)) << over.reason;
   EXPECT_GT(over.length_m, 1.1 * direct.length_m);
+  EXPECT_LT(over.length_m, over.cost_m);
+  EXPECT_NEAR(number_after(direct.reason, "over landmarks it is "), over.length_m, 0.05)
+      << "what was compared, not its cost";
   expect_clear(over);
+}
+
+// Cutting corners from one end only leaves other corners than from the other.
+TEST_F(HybridDetour, IsTakenInBothDirectionsOrInNone) {
+  route(v_, p_, "VP");
+  route(p_, m_, "", 0.8);
+  route(m_, u_, "MU");
+  int taken = 0;
+  for (const double ratio : {1.1, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0, 2.5}) {
+    config.shortened_ratio = ratio;
+    const bool over = plan_in_clusters(2).landmarks.size() > 2;
+    const bool back = plan_in_clusters(2, between(v_, u_)).landmarks.size() > 2;
+    EXPECT_EQ(over, back) << ratio;
+    taken += over ? 1 : 0;
+  }
+  EXPECT_GT(taken, 0);
+  EXPECT_LT(taken, 8);
 }
 
 }  // namespace

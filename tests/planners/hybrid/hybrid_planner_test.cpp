@@ -131,20 +131,6 @@ TEST_F(Hybrid, BetweenLandmarksTheCostIsThatOfTheGraph) {
   EXPECT_NEAR(result.length_m, 1.3, 1e-9);
 }
 
-TEST_F(Hybrid, StandsBesideALandmarkWithoutAnAccessOnTheSideThatCanBeReached) {
-  Landmark inside;
-  inside.T_map_landmark = {1.4, 1.15, 0.0};  // in the block between the corridors
-  const LandmarkId id = world.graph.add(inside);
-  PlanRequest to_landmark = request('A', 'B');
-  to_landmark.to = {};
-  to_landmark.to.landmarks = {id};
-  const PlanResult result = plan(to_landmark);
-  ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
-  EXPECT_THAT(result.landmarks, ElementsAre(id));
-  EXPECT_LT((result.path.back().position() - inside.T_map_landmark.position()).norm(), 1.0);
-  expect_clear(result);
-}
-
 TEST_F(Hybrid, WhatCannotBeReachedIsAnOutcomeWithASentence) {
   landmark('M');
   PlanRequest away = request('A', 'B');

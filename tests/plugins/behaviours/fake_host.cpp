@@ -125,6 +125,7 @@ WorldView FakeHost::view(const Observation* seen) const {
   WorldView world{grid, graph, robot, {T_map_robot, Eigen::Matrix3d::Zero()}, time_s, seen, speed_reduction_ratio};
   world.T_map_start = T_map_start;
   world.pose.trust = trust;
+  world.hierarchies = hierarchies;
   return world;
 }
 

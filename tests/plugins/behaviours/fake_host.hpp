@@ -55,6 +55,10 @@ class FakeHost : public BehaviourContext {
     graph.find(id)->name = name;
     return {StepState::success, "L" + std::to_string(id) + " is now " + name};
   }
+  Status name_cluster(const std::string& cluster, const std::string& name) override {
+    named_clusters.push_back(cluster + " " + name);
+    return {StepState::success, cluster + " is now " + name};
+  }
 
   std::optional<Order> next_order() override {
     if (orders.empty()) return std::nullopt;
@@ -94,6 +98,8 @@ class FakeHost : public BehaviourContext {
 
   std::shared_ptr<Controller> controller = std::make_shared<pursuit_dwa::PursuitDwa>(pursuit_dwa::PursuitDwaConfig{});
   std::map<std::string, Place> values;  // that steps hand over
+  const Hierarchies* hierarchies = nullptr;
+  std::vector<std::string> named_clusters;
 
   std::vector<Pose2> driven;  // every tick
   std::vector<PlanRequest> planned;

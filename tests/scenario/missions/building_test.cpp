@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "framework/files/template_file.hpp"
@@ -16,6 +17,8 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
 
 constexpr double kTolerance_m = 0.25;
 
@@ -65,12 +68,32 @@ TEST_F(Building, ItsLandmarksHaveClustersOfRoomsAndAreOneGraph) {
 }
 
 TEST_F(Building, APathAcrossRoomsIsAnsweredOverClusters) {
-  const json answer = plan({"--from", "1.2,8.6", "--to", "15,2.4"});
-  ASSERT_EQ(answer["outcome"], "solved") << answer;
-  EXPECT_THAT(answer["explanation"]["search"].get<std::string>(), HasSubstr("Boost.Graph"));
-  EXPECT_GE(answer["explanation"]["search_level"], 1);
-  ASSERT_GE(answer["explanation"]["clusters"].size(), 1U);
-  EXPECT_GE(answer["explanation"]["clusters"][0].size(), 2U) << answer;
+  for (const auto& [from, to] : {std::pair{"1.2,8.6", "15,2.4"}, std::pair{"15,2.4", "1.2,8.6"}}) {
+    const json answer = plan({"--from", from, "--to", to});
+    ASSERT_EQ(answer["outcome"], "solved") << answer;
+    EXPECT_GE(answer["landmarks"].size(), 2U) << from << " to " << to << ": " << answer["reason"];
+    EXPECT_THAT(answer["reason"].get<std::string>(), StartsWith("over ")) << from << " to " << to;
+    EXPECT_THAT(answer["explanation"]["search"].get<std::string>(), HasSubstr("Boost.Graph"));
+    EXPECT_GE(answer["explanation"]["search_level"], 1);
+    EXPECT_THAT(run_cairn({"plan", map_file(), "--from", from, "--to", to}).out, HasSubstr(", planned over L"));
+    ASSERT_GE(answer["explanation"]["clusters"].size(), 1U);
+    EXPECT_GE(answer["explanation"]["clusters"][0].size(), 2U) << answer;
+  }
+}
+
+// Step 3 drives from one end of the building to the other.
+TEST_F(Building, TheMissionItselfDrivesAcrossRoomsOverLandmarks) {
+  std::ifstream file(folder() / "report.json");
+  const json report = json::parse(file, nullptr, false);
+  std::vector<std::string> plans;
+  bool is_third = false;
+  for (const json& event : report["events"]) {
+    const auto text = event.get<std::string>();
+    if (text.find(" s: step ") != std::string::npos) is_third = text.find("step 3 (goto) begins") != std::string::npos;
+    if (is_third && text.find("plan: ") != std::string::npos) plans.push_back(text);
+  }
+  ASSERT_FALSE(plans.empty());
+  EXPECT_THAT(plans.front(), MatchesRegex(".* s: plan: solved, over [0-9]+ landmarks, .*"));
 }
 
 TEST_F(Building, ANameOfAClusterIsAPlace) {

@@ -32,15 +32,16 @@ objects:
   - {template: circle, at_m: [10.2, 1.6], angle_deg: 0}
 )";
 
-std::string mission() {
+std::string mission(const std::string& more_steps = "") {
   const std::string config = source_folder() + "/config";
   return "mission: two_rooms\nseed: 7\nrobot: " + config +
          "/robots/pioneer1.yaml\nworld: world.yaml\nstart: {at_m: [0.7, 0.7], angle_deg: 0}\n"
          "sensor: {plugin: simulated_robot}\nlocalizer: {plugin: odometry_compass}\n"
          "map: {plugin: muriel, cell_m: 0.05}\ndetector: {plugin: template_matcher, templates: " +
          config +
-         "/templates, coarse_cells: 5}\nplanner: {plugin: hybrid}\nat_most_s: 1500\n"
-         "steps:\n  - explore: {until_known_ratio: 1.0, at_most_s: 1200}\n";
+         "/templates, coarse_cells: 5}\nplanner: {plugin: hybrid}\nat_most_s: 3000\n"
+         "steps:\n  - explore: {until_known_ratio: 1.0, at_most_s: 1200}\n" +
+         more_steps;
 }
 
 class Clusters : public ::testing::Test {
@@ -82,6 +83,28 @@ TEST_F(Clusters, DoNotReachThroughTheDoor) {
       sides.insert(map.graph.find(member)->T_map_landmark.x_m < 7.0);
     EXPECT_EQ(sides.size(), 1U) << label_of(cluster, map.graph);
   }
+}
+
+TEST_F(Clusters, AreGivenNamesByAMissionThatItsLaterStepsAndItsMapKnow) {
+  const SavedMap before = load_map(map_file());
+  ASSERT_FALSE(before.clusters.clusters.empty());
+  const Cluster& cluster = before.clusters.clusters.rbegin()->second;
+  const std::string id = "C1:L" + std::to_string(cluster.anchor);
+  const std::filesystem::path folder = fresh_folder("clusters_named");
+  write_text(folder / "world.yaml", kWorld);
+  write_text(folder / "mission.yaml",
+             mission("  - name: {landmark: " + id + ", as: lounge}\n  - goto: lounge\n  - save: named.cairn\n"));
+  const Finished named = run_cairn(
+      {"run", (folder / "mission.yaml").string(), "--resume", map_file(), "--out", folder.string(), "--json"});
+  ASSERT_EQ(named.exit_status, 0) << named.err << named.out;
+  const SavedMap map = load_map(folder / "named.cairn");
+  const Cluster* const lounge = find_cluster(map.clusters, map.graph, "lounge");
+  ASSERT_NE(lounge, nullptr);
+  EXPECT_EQ(lounge->id, cluster.id);
+  EXPECT_EQ(map.graph.find_by_name("lounge"), nullptr) << "no landmark got the name";
+  const json steps = json::parse(named.out)["steps"];
+  EXPECT_EQ(steps[1]["reason"], id + " is now lounge") << steps;
+  EXPECT_THAT(steps[2]["reason"].get<std::string>(), ::testing::StartsWith("at L")) << steps;
 }
 
 TEST_F(Clusters, AreGivenNamesThatPlansTake) {

@@ -68,6 +68,22 @@ TEST_F(BehaviourRequestsTest, ALandmarkGetsANameUnlessItWouldFindSomethingElse) 
   EXPECT_EQ(requests().name_landmark(7, "desk"), (Status{StepState::failure, "there is no landmark L7"}));
 }
 
+TEST_F(BehaviourRequestsTest, AClusterGetsANameThatStaysWithIt) {
+  LandmarkGraph graph;
+  for (int i = 0; i < 3; ++i) graph.add({});
+  graph.find(3)->name = "desk";
+  tracker_.restore(graph, {}, {});
+  const ClusterTree clusters{{{1, {1, 1, 0, 1, ""}}, {2, {2, 1, 0, 3, ""}}}, {{1, 1}, {2, 1}, {3, 2}}, 3};
+  planning_ = std::make_unique<Planning>(mission_, modules(), tracker_.graph(), clusters, monitor_, Budget{});
+  EXPECT_EQ(requests().name_cluster("C1:L1", "lounge"), (Status{StepState::success, "C1:L1 is now lounge"}));
+  EXPECT_EQ(planning().last_clusters().clusters.at(1).name, "lounge");
+  EXPECT_EQ(requests().name_cluster("lounge", "lounge").state, StepState::success) << "its own";
+  EXPECT_EQ(requests().name_cluster("lounge", "parlour"), (Status{StepState::success, "lounge is now parlour"}));
+  EXPECT_EQ(requests().name_cluster("C1:L3", "desk"),
+            (Status{StepState::failure, "the name \"desk\" cannot be given: landmark L3 has it"}));
+  EXPECT_EQ(requests().name_cluster("C1:L9", "den"), (Status{StepState::failure, "there is no cluster \"C1:L9\""}));
+}
+
 TEST_F(BehaviourRequestsTest, ASaveThatFailsIsRememberedForItsLeaf) {
   EXPECT_EQ(requests().save("a.cairn").state, StepState::success);
   EXPECT_FALSE(requests().take().has_failed_to_save);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "maps/hierarchy/hierarchies.hpp"
 #include "tests/plugins/behaviours/fake_host.hpp"
 #include "tests/plugins/behaviours/written_config.hpp"
 
@@ -83,6 +84,22 @@ TEST(NameLandmark, TooFarFromThePointItSaysWhichIsTheNearest) {
             "names nothing stove: no landmark \"circle\" within 0.20 m of (0.40, 0.70): the nearest, L2 (circle) is "
             "0.50 m away");
   EXPECT_EQ(id_of(host, "stove"), 0);
+}
+
+TEST(NameLandmark, OfAClusterNamesTheClusterUnlessAPointChoosesOneOfItsLandmarks) {
+  FakeHost host = room();
+  const ClusterTree clusters{{{1, {1, 1, 0, 2, ""}}, {2, {2, 1, 0, 3, "den"}}}, {{1, 1}, {2, 1}, {3, 2}}, 3};
+  const Hierarchies hierarchies(host.graph, clusters, {});
+  host.hierarchies = &hierarchies;
+  EXPECT_EQ(named(host, "{landmark: C1:L2, as: lounge}"), (Status{StepState::success, "C1:L2 is now lounge"}));
+  EXPECT_EQ(named(host, "{landmark: den, as: study}").state, StepState::success);
+  EXPECT_THAT(host.named_clusters, testing::ElementsAre("C1:L2 lounge", "den study"));
+  EXPECT_EQ(id_of(host, "lounge"), 0) << "none of its landmarks has the name";
+  EXPECT_EQ(named(host, "{landmark: C1:L2, near_m: [0.2, 0.2], as: sofa}").state, StepState::success);
+  EXPECT_EQ(id_of(host, "sofa"), 1);
+  EXPECT_EQ(named(host, "{landmark: L2, as: stove}").state, StepState::success);
+  EXPECT_EQ(id_of(host, "stove"), 2);
+  EXPECT_EQ(host.named_clusters.size(), 2U);
 }
 
 TEST(NameLandmark, WithoutSuchALandmarkFailsAndSaysWhatThereIs) {
