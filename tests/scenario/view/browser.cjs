@@ -59,6 +59,7 @@ async function watch(page) {
   await page.keyboard.press('Enter');
   await status_holds(page, 'held: paused');
   check(await focus_of(page) === 'resume', 'the focus is lost with a pause');
+  await page.waitForFunction(() => document.getElementById('clock').textContent.endsWith(', paused'), null, kPatience);
   const before = await seconds_of(page);
   await page.waitForTimeout(300);
   check(await seconds_of(page) === before, 'the clock goes on in a pause');
