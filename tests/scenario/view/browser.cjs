@@ -92,7 +92,7 @@ async function watch(page) {
   await keeps_focus_in_list(page);
   if (picture) await page.screenshot({ path: picture });
   await page.click('#cancel');
-  await status_holds(page, 'has ended: cancelled');
+  await status_holds(page, 'has ended: cancelled. To browse it: cairn view ');
 }
 
 async function browse(page) {
