@@ -34,6 +34,11 @@ struct LandmarkRetired {
 struct PlanDone {
   PlanResult result;
 };
+// A behaviour begins to follow a path: one of a planner's, a part of it, or one that the behaviour has made itself, as
+// explore does.
+struct PathStarted {
+  std::vector<Point> path;  // map frame, never empty
+};
 struct StepStarted {
   int index = 0;
   std::string name;
@@ -95,9 +100,9 @@ struct Resumed {
   std::optional<double> paused_s;  // by the robot's clock; none for a log, whose clock stood
 };
 
-using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, StepStarted, StepEnded,
-                           NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Stalled, Message, Bumped,
-                           WentDeaf, HearsAgain, Paused, Resumed>;
+using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, PathStarted, StepStarted,
+                           StepEnded, NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Stalled, Message,
+                           Bumped, WentDeaf, HearsAgain, Paused, Resumed>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

@@ -23,6 +23,7 @@ struct Sentence {
   std::string operator()(const PlanDone& e) const {
     return "plan: " + std::string(name_of(e.result.outcome)) + (e.result.reason.empty() ? "" : ", " + e.result.reason);
   }
+  std::string operator()(const PathStarted&) const { return {}; }
   static std::string ended(const Status& status) {
     return std::string(" ends: ") + (status.state == StepState::success ? "success" : "failure") +
            (status.reason.empty() ? "" : ", " + status.reason);

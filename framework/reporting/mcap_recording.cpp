@@ -10,6 +10,7 @@
 #include "framework/reporting/event_sentences.hpp"
 #include "framework/reporting/recording_errors.hpp"
 #include "framework/reporting/scan_rays.hpp"
+#include "framework/reporting/topics.hpp"
 #include "maps/exchange/recordings/foxglove_json.hpp"
 #include "maps/exchange/recordings/foxglove_schemas.hpp"
 #include "maps/exchange/recordings/ros2_messages.hpp"
@@ -162,17 +163,17 @@ McapRecording::Topics McapRecording::add_topics() {
         topic, writer_.add_schema(ros2::name_of(message), "ros2msg", ros2::definition_of(message)), "cdr");
   };
   Topics topics{};
-  topics.pose = json("/pose", FoxgloveMessage::pose_in_frame);
-  topics.transform = json("/transform", FoxgloveMessage::frame_transform);
-  topics.truth = json("/truth", FoxgloveMessage::pose_in_frame);
-  topics.ranges = own("/ranges", "cairn.Ranges", kRangesSchema);
-  topics.scan = json("/scan", FoxgloveMessage::laser_scan);
-  topics.map = json("/map", FoxgloveMessage::grid);
-  topics.landmarks = json("/landmarks", FoxgloveMessage::scene_update);
-  topics.plan = json("/plan", FoxgloveMessage::poses_in_frame);
-  topics.plan_result = own("/plan_result", "cairn.PlanResult", kPlanSchema);
-  topics.tree = own("/tree", "cairn.TreeNode", kTreeSchema);
-  topics.log = json("/log", FoxgloveMessage::log);
+  topics.pose = json(topics::kPose, FoxgloveMessage::pose_in_frame);
+  topics.transform = json(topics::kTransform, FoxgloveMessage::frame_transform);
+  topics.truth = json(topics::kTruth, FoxgloveMessage::pose_in_frame);
+  topics.ranges = own(topics::kRanges, "cairn.Ranges", kRangesSchema);
+  topics.scan = json(topics::kScan, FoxgloveMessage::laser_scan);
+  topics.map = json(topics::kMap, FoxgloveMessage::grid);
+  topics.landmarks = json(topics::kLandmarks, FoxgloveMessage::scene_update);
+  topics.plan = json(topics::kPlan, FoxgloveMessage::poses_in_frame);
+  topics.plan_result = own(topics::kPlanResult, "cairn.PlanResult", kPlanSchema);
+  topics.tree = own(topics::kTree, "cairn.TreeNode", kTreeSchema);
+  topics.log = json(topics::kLog, FoxgloveMessage::log);
   topics.ros_pose = ros("/ros/pose", ros2::Message::pose_stamped);
   topics.ros_tf = ros("/tf", ros2::Message::tf);
   topics.ros_map = ros("/ros/map", ros2::Message::occupancy_grid);

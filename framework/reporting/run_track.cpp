@@ -24,11 +24,17 @@ std::span<const std::uint8_t> bytes_in(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-std::vector<Point> thinned_path(const std::vector<Pose2>& path) {
+std::vector<Point> thinned_path(const std::vector<Point>& path) {
   const std::size_t every = (path.size() + kMaxPointsOfAPlan - 1) / kMaxPointsOfAPlan;
   std::vector<Point> points;
-  for (std::size_t i = 0; i < path.size(); i += every) points.push_back(path[i].position());
-  if (!path.empty() && points.back() != path.back().position()) points.push_back(path.back().position());
+  for (std::size_t i = 0; i < path.size(); i += every) points.push_back(path[i]);
+  if (!path.empty() && points.back() != path.back()) points.push_back(path.back());
+  return points;
+}
+
+std::vector<Point> points_of(const std::vector<Pose2>& path) {
+  std::vector<Point> points;
+  for (const Pose2& pose : path) points.push_back(pose.position());
   return points;
 }
 
@@ -41,11 +47,16 @@ void RunTrack::on(const Event& event, const MissionView& view) {
   if (!plans_.empty() && !plans_.back().points.empty() &&
       is_end_of_plan(event, view.world, plans_.back().points.back()))
     note_plan({time_s});
+  robot_radius_m_ = view.world.robot.radius_m;
   if (const auto* const tick = std::get_if<TickDone>(&event)) {
     poses_.add({time_s, view.world.pose.T_map_robot});
     return grid_.note(time_s, view.world.grid, tick->changes);
   }
-  if (const auto* const plan = std::get_if<PlanDone>(&event)) note_plan({time_s, thinned_path(plan->result.path)});
+  if (const auto* const plan = std::get_if<PlanDone>(&event))
+    note_plan({time_s, thinned_path(points_of(plan->result.path)), true});
+  const bool is_under_way = !plans_.empty() && !plans_.back().points.empty() && plans_.back().is_from_planner;
+  if (const auto* const started = std::get_if<PathStarted>(&event); started != nullptr && !is_under_way)
+    note_plan({time_s, thinned_path(started->path)});
   if (landmarks_.size() >= max_events_) return;
   if (const auto* const change = std::get_if<LandmarkChanged>(&event); change != nullptr && change->is_new)
     landmarks_.push_back({time_s, change->landmark.id, false});
@@ -60,7 +71,8 @@ void RunTrack::note_plan(Plan plan) {
 }
 
 std::string RunTrack::json() const {
-  Json track{{"poses_every", poses_.every()},
+  Json track{{"robot_radius_m", track_number(robot_radius_m_)},
+             {"poses_every", poses_.every()},
              {"poses", Json::array()},
              {"plans", Json::array()},
              {"landmarks", Json::array()},

@@ -19,9 +19,9 @@ class RunTrack final : public Listener {
 
   void on(const Event& event, const MissionView& view) override;
 
-  // {"poses": [[time_s, x_m, y_m, theta_rad]], "poses_every": ticks, "plans": [{time_s, points}], "landmarks":
-  // [{time_s, id, change}], "grid": [{time_s, tiles: [[x, y, ol]]}]}. change: found or retired; ol: base 64 of
-  // the tile's cells (GridTile), packed by zlib. The same bytes for the same build, mission and seed.
+  // {"robot_radius_m", "poses_every": ticks, "poses": [[time_s, x_m, y_m, theta_rad]], "plans": [{time_s, points}],
+  // "landmarks": [{time_s, id, change}], "grid": [{time_s, tiles: [[x, y, ol]]}]}. change: found or retired; ol: base 64
+  // of the tile's cells (GridTile), packed by zlib. The same bytes for the same build, mission and seed.
   [[nodiscard]] std::string json() const;
 
  private:
@@ -32,6 +32,7 @@ class RunTrack final : public Listener {
   struct Plan {
     double time_s = 0.0;
     std::vector<Point> points{};  // empty: the plan is over
+    bool is_from_planner = false;
   };
   struct Change {
     double time_s = 0.0;
@@ -41,6 +42,7 @@ class RunTrack final : public Listener {
   void note_plan(Plan plan);
 
   const std::size_t max_events_;
+  double robot_radius_m_ = 0.0;
   ThinnedSeries<Sample> poses_;
   std::vector<Plan> plans_;
   std::size_t plan_points_ = 0;

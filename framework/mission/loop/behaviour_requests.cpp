@@ -39,6 +39,8 @@ ControlResult BehaviourRequests::control(const ControlRequest& request) {
   ControlRequest asked = request;
   asked.is_new_path = request.is_new_path || controlled_ != asking_;
   controlled_ = asking_;
+  if (asked.is_new_path && !asked.path.empty())
+    host_.publisher.publish(PathStarted{{asked.path.begin(), asked.path.end()}});
   const WorldView world = host_.world.view();
   const ControlResult result =
       host_.controller.call([&](Controller& controller) { return controller.control(asked, world); });

@@ -94,4 +94,12 @@ void hold_folder(const std::filesystem::path& folder, std::chrono::milliseconds 
   name_holder(lock);
 }
 
+bool is_folder_held(const std::filesystem::path& folder) {
+  const int lock = ::open((folder / kFolderLock).c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (lock < 0) return false;
+  const bool is_held = ::flock(lock, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(lock);
+  return is_held;
+}
+
 }  // namespace cairn

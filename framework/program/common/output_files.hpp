@@ -15,6 +15,8 @@ inline constexpr const char* kFolderLock = ".cairn.lock";
 // All throw std::runtime_error.
 // Holds a folder for one run at a time. Another run that is about to end is waited for.
 void hold_folder(const std::filesystem::path& folder, std::chrono::milliseconds within = std::chrono::seconds(3));
+// Whether a run holds it now. Never throws; false where the lock cannot be read.
+[[nodiscard]] bool is_folder_held(const std::filesystem::path& folder);
 
 void make_folder(const std::filesystem::path& folder);
 

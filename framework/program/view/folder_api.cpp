@@ -1,20 +1,19 @@
 #include "framework/program/view/folder_api.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "framework/config/config_value.hpp"
 #include "framework/mission/orders/order_text.hpp"
+#include "framework/program/common/output_files.hpp"
 #include "framework/program/mission/control_socket.hpp"
 #include "framework/program/view/edit_api.hpp"
+#include "framework/program/view/folder_map.hpp"
 #include "framework/program/view/page_files.hpp"
+#include "framework/program/view/shell_word.hpp"
 
 namespace cairn {
 namespace {
@@ -38,23 +37,16 @@ bool is_running_in(const fs::path& folder) {
   }
 }
 
-// What the report names, or the only map.
-fs::path map_in(const fs::path& folder) {
-  const Json report = Json::parse(bytes_of_file(folder / "report.json").value_or("null"), nullptr, false);
-  if (report.is_object() && report.contains("map") && report["map"].is_string()) {
-    fs::path named = folder / fs::path(report["map"].get<std::string>()).filename();
-    if (fs::is_regular_file(named)) return named;
-  }
-  std::vector<fs::path> maps;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".cairn") maps.push_back(entry.path());
-  if (maps.size() == 1) return maps.front();
-  throw std::runtime_error(fmt::format("view: {} holds {} saved maps (*.cairn); name one", folder.string(),
-                                       maps.empty() ? "no" : "several"));
-}
-
 fs::path map_file(const ViewCommand& command) {
   return fs::is_directory(command.map) ? map_in(command.map) : command.map;
+}
+
+// A mission writes its map beside the name it is known by, whoever looks at the file alone.
+bool is_written(const fs::path& map) {
+  std::error_code error;
+  const fs::path file = fs::canonical(map, error);
+  const fs::path folder = error ? fs::absolute(map).parent_path() : file.parent_path();
+  return is_folder_held(folder) || is_running_in(folder);
 }
 
 MapPlannerOptions plan_on(const fs::path& map, const ViewCommand& command) {
@@ -90,7 +82,8 @@ ViewResponse FolderApi::answer(const ViewRequest& request) {
     const Json json{{"kind", kind()},
                     {"control", command_.control},
                     {"edit", command_.edit},
-                    {"name", command_.map.filename().string()}};
+                    {"name", command_.map.filename().string()},
+                    {"command", "cairn view " + shell_word(command_.map.string())}};
     return {200, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"};
   }
   if (request.target.starts_with(kSteerTarget)) return steer(request);
@@ -115,11 +108,14 @@ ViewResponse FolderApi::file(const std::string& name) const {
 // The next question is answered from the file as it then is.
 ViewResponse FolderApi::edit(const ViewRequest& request) {
   if (!command_.edit) return view_error(403, "this view changes no map: cairn view --edit does");
-  if (kind() == "live")
-    return view_error(409, "the mission still writes the map; it can be changed when the run has ended");
+  const auto refused = [] {
+    return view_error(409, "a mission still writes the map; it can be changed when the run has ended");
+  };
+  if (kind() == "live") return refused();
   const std::scoped_lock lock(mutex_);
-  ViewResponse answer =
-      edit_map(map_file(command_), request.target.substr(std::string_view(kEditTarget).size()), request.body);
+  const fs::path map = map_file(command_);
+  if (is_written(map)) return refused();
+  ViewResponse answer = edit_map(map, request.target.substr(std::string_view(kEditTarget).size()), request.body);
   if (answer.status == 200) map_.reset();
   return answer;
 }

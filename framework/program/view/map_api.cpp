@@ -10,18 +10,12 @@
 #include "framework/program/common/modules.hpp"
 #include "framework/program/plan/answer_line.hpp"
 #include "framework/program/view/map_view.hpp"
+#include "framework/program/view/shell_word.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr const char* kRequestBody = "the request";
-
-// As one word of a shell.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 ViewResponse json_answer(std::string text) {
   return {200, "application/json", std::move(text)};

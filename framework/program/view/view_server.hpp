@@ -1,4 +1,4 @@
-// HTTP on 127.0.0.1, for one page and its API. With live_session.hpp and foxglove_session.hpp the only user of
+// HTTP on 127.0.0.1, for one page and its API. With live_session.hpp and foxglove/session.hpp the only user of
 // Boost.Beast.
 #pragma once
 

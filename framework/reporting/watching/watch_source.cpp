@@ -56,14 +56,32 @@ void WatchSource::note(const Event& event, const MissionView& view) {
   }
   if (const auto* const change = std::get_if<LandmarkChanged>(&event)) landmarks_.mark(change->landmark.id);
   if (const auto* const retired = std::get_if<LandmarkRetired>(&event)) landmarks_.mark(retired->landmark.id);
-  if (const auto* const plan = std::get_if<PlanDone>(&event))
-    plan_ = std::make_shared<WatchPlan>(WatchPlan{view.world.time_s, plan->result});
+  note_plan(event, view.world.time_s);
   std::string sentence = sentence_of(event);
   if (sentence.empty()) return;
   lines_.push_back({view.world.time_s, std::move(sentence)});
   if (lines_.size() <= kMaxWatchedLines) return;
   lines_.pop_front();
   ++lines_begin_;
+}
+
+// The path that a behaviour follows is shown where no planner's is under way.
+void WatchSource::note_plan(const Event& event, double time_s) {
+  if (const auto* const plan = std::get_if<PlanDone>(&event)) {
+    plan_ = std::make_shared<WatchPlan>(WatchPlan{time_s, plan->result});
+    is_from_planner_ = true;
+  }
+  const auto* const started = std::get_if<PathStarted>(&event);
+  if (started == nullptr || (plan_ && is_from_planner_)) return;
+  PlanResult result;
+  result.outcome = PlanOutcome::solved;
+  for (std::size_t i = 0; i < started->path.size(); ++i) {
+    const Point& at = started->path[i];
+    if (i > 0) result.length_m += (at - started->path[i - 1]).norm();
+    result.path.push_back({at.x(), at.y(), 0.0});
+  }
+  plan_ = std::make_shared<WatchPlan>(WatchPlan{time_s, std::move(result)});
+  is_from_planner_ = false;
 }
 
 // Sonars fire in turn: the others' last readings are shown for a while.

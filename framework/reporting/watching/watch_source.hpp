@@ -70,6 +70,7 @@ class WatchSource final : public Listener {
   void note_tiles(const CellChanges& changes);
   void note_all(const Map& map);
   void note_routes(const LandmarkGraph& graph);
+  void note_plan(const Event& event, double time_s);
   void note_ranges(const WorldView& world);
   void serve(const MissionView& view);
   [[nodiscard]] WatchFrame frame_for(Reader& reader, const MissionView& view) const;
@@ -90,6 +91,7 @@ class WatchSource final : public Listener {
   std::shared_ptr<const std::vector<Route>> routes_;
   std::uint64_t routes_version_ = 0;
   std::shared_ptr<const WatchPlan> plan_;
+  bool is_from_planner_ = false;  // the plan
   std::vector<WatchRange> ranges_;
   std::deque<WatchLine> lines_;
   std::uint64_t lines_begin_ = 0;  // number of the first line

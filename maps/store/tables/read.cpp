@@ -29,7 +29,7 @@ void require_level_zero(const Statement& row, int column) {
 }
 
 // Unpacks a blob column with the checksum in the column behind it.
-std::string unpacked(const Statement& row, int column, std::size_t raw_size, const std::string& what) {
+std::string unpacked_column(const Statement& row, int column, std::size_t raw_size, const std::string& what) {
   try {
     std::string raw = unpacked_bytes(row.blob(column), raw_size);
     if (crc32_of(raw) != row.integer(column + 1)) throw StoreError("its bytes do not match its checksum");
@@ -104,7 +104,7 @@ void read_tiles(Reading& reading, const std::string& where, const CellBox& box, 
                     static_cast<int>(row.integer_within(2, -kMaxTile, kMaxTile))};
     const std::string what = "tile (" + std::to_string(tile.x) + ", " + std::to_string(tile.y) + ")";
     reading.at_tile(tile);
-    take_tile(grid, tile, unpacked(row, 3, kTileBytes, what), box, what);
+    take_tile(grid, tile, unpacked_column(row, 3, kTileBytes, what), box, what);
   });
 }
 

@@ -13,13 +13,16 @@ namespace {
 TEST(RunTrack, HoldsPosesPlansAndLandmarksWithTheirTimes) {
   const OccupancyGrid grid(0.05);
   const LandmarkGraph graph;
-  const RobotModel robot;
+  RobotModel robot;
+  robot.radius_m = 0.31;
   const auto view = [&](double time_s) { return WorldView{grid, graph, robot, {{time_s, 0.0, 0.25}}, time_s}; };
-  RunTrack track({.max_path_poses = 10, .max_samples = 10, .max_events = 2});
+  RunTrack track({.max_path_poses = 10, .max_samples = 10, .max_events = 3});
   PlanResult plan;
   plan.path = {{0.0, 0.0, 0.0}, {2.0, 1.0, 0.0}};
   track.on(TickDone{}, {view(1.0)});
+  track.on(PathStarted{{Point(0.0, 0.0), Point(0.0, 3.0)}}, {view(0.5)});
   track.on(PlanDone{plan}, {view(1.0)});
+  track.on(PathStarted{{Point(0.0, 0.0), Point(1.0, 0.5)}}, {view(1.0)});  // a part of the plan
   Landmark landmark;
   landmark.id = 3;
   track.on(LandmarkChanged{landmark, true}, {view(1.5)});
@@ -30,8 +33,8 @@ TEST(RunTrack, HoldsPosesPlansAndLandmarksWithTheirTimes) {
   track.on(LandmarkRetired{landmark, "freed"}, {view(3.0)});
   EXPECT_EQ(
       track.json(),
-      R"({"poses_every":1,"poses":[[1.0,1.0,0.0,0.25],[2.0,2.0,0.0,0.25]],)"
-      R"("plans":[{"time_s":1.0,"points":[[0.0,0.0],[2.0,1.0]]},{"time_s":2.0,"points":[]}],)"
+      R"({"robot_radius_m":0.31,"poses_every":1,"poses":[[1.0,1.0,0.0,0.25],[2.0,2.0,0.0,0.25]],)"
+      R"("plans":[{"time_s":0.5,"points":[[0.0,0.0],[0.0,3.0]]},{"time_s":1.0,"points":[[0.0,0.0],[2.0,1.0]]},{"time_s":2.0,"points":[]}],)"
       R"("landmarks":[{"time_s":1.5,"id":3,"change":"found"},{"time_s":3.0,"id":3,"change":"retired"}],"grid":[]})"
       "\n");
 }

@@ -71,7 +71,8 @@ TEST(FoxgloveView, TheNpmClientWatchesARunAndPausesIt) {
   ASSERT_TRUE(seen.is_object()) << text;
   EXPECT_FALSE(seen.contains("error")) << text;
   EXPECT_EQ(seen["name"], "cairn: " + out.filename().string());
-  for (const char* topic : {"/pose", "/tf", "/map", "/ranges", "/tree", "/driven_path", "/log", "/status"})
+  for (const char* topic :
+       {"/pose", "/transform", "/map", "/ranges_in_map", "/tree", "/driven_path", "/log", "/status"})
     EXPECT_GT(seen["counts"].value(topic, 0), 0) << topic;
   EXPECT_THAT(seen["answers"]["1"].get<std::string>(), testing::HasSubstr("when it has ended")) << "a plan";
   EXPECT_EQ(seen["answers"]["2"]["state"], "paused") << seen["answers"];

@@ -84,8 +84,11 @@ class ViewOfARun : public testing::Test {
 TEST_F(ViewOfARun, OnlyWatchesUnlessItMaySteer) {
   Conversation run(run_with({"--view"}));
   read_address(run);
-  EXPECT_EQ(body_of(get("/api/view")),
-            json::parse(R"({"kind": "live", "control": false, "edit": false, "name": "out"})"));
+  EXPECT_EQ(body_of(get("/api/view")), (json{{"kind", "live"},
+                                             {"control", false},
+                                             {"edit", false},
+                                             {"name", "out"},
+                                             {"command", "cairn view '" + out_.string() + "'"}}));
   const std::string refused = post("/api/run/cancel", "{}");
   EXPECT_TRUE(refused.starts_with("HTTP/1.1 403")) << refused;
   EXPECT_THAT(refused, HasSubstr("--control"));
@@ -164,6 +167,24 @@ TEST_F(ViewOfARun, ChangesTheMapOnlyWhenItMayAndTheRunIsOver) {
   EXPECT_THAT(refused, HasSubstr("--edit"));
   watching.send(SIGTERM);
   EXPECT_EQ(watching.exit_status(), 0);
+}
+
+TEST_F(ViewOfARun, LeavesTheFileAloneThatARunStillWrites) {
+  Conversation run(run_with({"--json"}));
+  const fs::path autosaved = out_ / "held.autosave.cairn";
+  for (int i = 0; i < 2000 && !(fs::exists(autosaved) && fs::exists(out_ / "control.sock")); ++i) ::usleep(5000);
+  Conversation view({"view", autosaved.string(), "--edit"});
+  read_address(view);
+  const std::string capture = R"({"at": "0.6,0.6", "category": "box"})";
+  const std::string refused = post("/api/edit/capture", capture);
+  EXPECT_TRUE(refused.starts_with("HTTP/1.1 409")) << refused;
+  EXPECT_THAT(refused, HasSubstr("a mission still writes the map"));
+  run.send(SIGKILL);
+  (void)run.exit_status();
+  const std::string answered = post("/api/edit/capture", capture);
+  EXPECT_TRUE(answered.starts_with("HTTP/1.1 400")) << answered;  // nothing stands there
+  view.send(SIGTERM);
+  EXPECT_EQ(view.exit_status(), 0);
 }
 
 TEST_F(ViewOfARun, OutlivesTheRunWhenItIsOnItsOwn) {

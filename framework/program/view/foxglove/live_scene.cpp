@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/reporting/topics.hpp"
 #include "maps/base/base64.hpp"
 #include "maps/exchange/recordings/foxglove_json.hpp"
 #include "maps/exchange/recordings/foxglove_schemas.hpp"
@@ -67,17 +68,17 @@ Landmark landmark_of(const nlohmann::json& row) {
 }  // namespace
 
 std::vector<foxglove_protocol::Channel> LiveScene::channels() {
-  return {known(live_map, "/map", FoxgloveMessage::grid),
-          known(live_transform, "/tf", FoxgloveMessage::frame_transform),
-          known(live_pose, "/pose", FoxgloveMessage::pose_in_frame),
-          known(live_truth, "/true_pose", FoxgloveMessage::pose_in_frame),
-          known(live_landmarks, "/landmarks", FoxgloveMessage::scene_update),
-          known(live_driven, "/driven_path", FoxgloveMessage::poses_in_frame),
-          known(live_plan, "/plan/path", FoxgloveMessage::poses_in_frame),
-          {live_tree, "/tree", "json", "cairn.TreeNode", kTree, "jsonschema"},
-          known(live_log, "/log", FoxgloveMessage::log),
-          {live_ranges, "/ranges", "json", "cairn.WatchedRanges", kRanges, "jsonschema"},
-          {live_status, "/status", "json", "cairn.Status", kAnything, "jsonschema"}};
+  return {known(live_map, topics::kMap, FoxgloveMessage::grid),
+          known(live_transform, topics::kTransform, FoxgloveMessage::frame_transform),
+          known(live_pose, topics::kPose, FoxgloveMessage::pose_in_frame),
+          known(live_truth, topics::kTruth, FoxgloveMessage::pose_in_frame),
+          known(live_landmarks, topics::kLandmarks, FoxgloveMessage::scene_update),
+          known(live_driven, topics::kDrivenPath, FoxgloveMessage::poses_in_frame),
+          known(live_plan, topics::kPlan, FoxgloveMessage::poses_in_frame),
+          {live_tree, topics::kTree, "json", "cairn.TreeNode", kTree, "jsonschema"},
+          known(live_log, topics::kLog, FoxgloveMessage::log),
+          {live_ranges, topics::kWatchedRanges, "json", "cairn.WatchedRanges", kRanges, "jsonschema"},
+          {live_status, topics::kStatus, "json", "cairn.Status", kAnything, "jsonschema"}};
 }
 
 std::vector<LiveMessage> LiveScene::take(const nlohmann::json& line) {

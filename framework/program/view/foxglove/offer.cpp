@@ -3,15 +3,17 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "framework/program/view/folder_map.hpp"
+
 namespace cairn {
 namespace {
 
 // Empty: none. Throws when there are several.
-std::filesystem::path only_file(const std::filesystem::path& folder, const std::string& extension) {
+std::filesystem::path only_recording(const std::filesystem::path& folder) {
   std::filesystem::path found;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != extension) continue;
-    if (!found.empty()) throw std::runtime_error(folder.string() + " holds several files *" + extension);
+    if (entry.path().extension() != ".mcap") continue;
+    if (!found.empty()) throw std::runtime_error(folder.string() + " holds several recordings (*.mcap)");
     found = entry.path();
   }
   return found;
@@ -20,9 +22,8 @@ std::filesystem::path only_file(const std::filesystem::path& folder, const std::
 PlayedRecording loaded(const std::filesystem::path& named) {
   const bool is_folder = std::filesystem::is_directory(named);
   if (is_folder)
-    if (const auto recording = only_file(named, ".mcap"); !recording.empty()) return played_recording(recording);
-  const std::filesystem::path map = is_folder ? only_file(named, ".cairn") : named;
-  if (map.empty()) throw std::runtime_error(named.string() + " holds neither a recording (*.mcap) nor a map (*.cairn)");
+    if (const auto recording = only_recording(named); !recording.empty()) return played_recording(recording);
+  const std::filesystem::path map = is_folder ? map_in(named) : named;
   return played_map(load_map(map), map.filename().string());
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "framework/reporting/topics.hpp"
 #include "maps/exchange/recordings/foxglove_json.hpp"
 #include "maps/exchange/recordings/foxglove_schemas.hpp"
 #include "maps/exchange/recordings/mcap_reader.hpp"
@@ -103,12 +104,12 @@ PlayedRecording played_map(const SavedMap& map, const std::string& name) {
   constexpr std::uint64_t kNow = 0;
   PlayedRecording recording;
   recording.name = name;
-  add_channel(recording, "/map", FoxgloveMessage::grid)
+  add_channel(recording, topics::kMap, FoxgloveMessage::grid)
       .messages.push_back({kNow, foxglove::grid(kNow, kPlayedFrame, foxglove::grid_bytes(map.grid, kMaxPlayedSide))});
-  auto& landmarks = add_channel(recording, "/landmarks", FoxgloveMessage::scene_update).messages;
+  auto& landmarks = add_channel(recording, topics::kLandmarks, FoxgloveMessage::scene_update).messages;
   for (const auto& [id, landmark] : map.graph.landmarks())
     landmarks.push_back({kNow, foxglove::landmark(kNow, kPlayedFrame, landmark)});
-  add_channel(recording, "/driven_path", FoxgloveMessage::poses_in_frame)
+  add_channel(recording, topics::kDrivenPath, FoxgloveMessage::poses_in_frame)
       .messages.push_back({kNow, foxglove::poses_in_frame(kNow, kPlayedFrame, map.driven_path)});
   return recording;
 }

@@ -1,16 +1,24 @@
 // The map's canvas: metres of the map to pixels, y up; and what is drawn on it.
 import { element } from './api.js';
+import { add_shape, symbol_of } from './symbols.js';
 
 export const canvas = element('map');
 export const context = canvas.getContext('2d', { alpha: false });
 export const view = { x: 0, y: 0, scale: 40 };  // centre in metres, pixels a metre
-// Okabe and Ito's colours: also told apart by who sees no red or green.
-export const kColours = ['#d55e00', '#0072b2', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
-
 const kManyLines = 2000, kMaxRoutes = 5000, kMaxShapes = 2000, kMaxLabels = 200;
 
+// As the program's pictures, continuous on either side of what is unknown: by the byte of a cell.
+const kUnknown = 127, kUnknownColour = [200, 204, 208], kOccupiedColour = [22, 27, 34];
+const kCellColours = Uint32Array.from({ length: 256 }, (_, ol) => {
+  const is_free = ol <= kUnknown, part = is_free ? ol / kUnknown : (ol - kUnknown) / (255 - kUnknown);
+  const mixed = kUnknownColour.map((unknown, i) => Math.round(is_free ? 255 + (unknown - 255) * part : unknown + (kOccupiedColour[i] - unknown) * part));
+  return 0xff000000 | mixed[2] << 16 | mixed[1] << 8 | mixed[0];
+});
+
 let draw_all = () => {};
+let show_everything = () => {};
 let asked = false;
+let has_moved = false;  // by the user, since all was shown
 
 export const to_screen = (x, y) => [canvas.width / 2 + (x - view.x) * view.scale, canvas.height / 2 - (y - view.y) * view.scale];
 export const to_map = (px, py) => [view.x + (px - canvas.width / 2) / view.scale, view.y - (py - canvas.height / 2) / view.scale];
@@ -20,7 +28,7 @@ export function redraw() {
   asked = true;
   requestAnimationFrame(() => {
     asked = false;
-    context.fillStyle = '#b0b0b0'; context.fillRect(0, 0, canvas.width, canvas.height);
+    context.fillStyle = `rgb(${kUnknownColour})`; context.fillRect(0, 0, canvas.width, canvas.height);
     draw_all();
     draw_scale_bar();
   });
@@ -32,11 +40,8 @@ export function paint_cells(picture, cell_at) {
   const image = new ImageData(width, height);
   const pixels = new Uint32Array(image.data.buffer);
   for (let row = 0; row < height; ++row)
-    for (let column = 0; column < width; ++column) {
-      const ol = cell_at(column, row);
-      const grey = ol === 127 ? 176 : 255 - ol;
-      pixels[(height - 1 - row) * width + column] = 0xff000000 | grey << 16 | grey << 8 | grey;
-    }
+    for (let column = 0; column < width; ++column)
+      pixels[(height - 1 - row) * width + column] = kCellColours[cell_at(column, row)];
   picture.getContext('2d').putImageData(image, 0, 0);
 }
 
@@ -103,33 +108,26 @@ export function draw_routes(all_routes) {
   draw_lines(routes.filter((r) => r.closed).map((r) => r.points), '#d55e00', 2, [2, 4]);
 }
 
-// Category by shape and colour, degree by size.
-function add_shape(kind, x, y, r) {
-  if (kind % 3 === 0) { context.moveTo(x + r, y); context.arc(x, y, r, 0, 7); return; }
-  const corners = kind % 3 === 1 ? [[-1, -1], [1, -1], [1, 1], [-1, 1]] : [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]];
-  corners.forEach(([cx, cy], i) => context[i ? 'lineTo' : 'moveTo'](x + cx * r, y + cy * r));
-  context.closePath();
-}
-
 export const categories_of = (landmarks) => [...new Set(landmarks.map((landmark) => landmark.category))].sort();
 
-// Many are dots, without an outline and without their names.
+// Category by shape and colour, degree by size. Many are dots, without an outline and without their names.
 export function draw_landmarks(all_landmarks, categories) {
   const { left, low, right, high } = box_in_view();
   const landmarks = all_landmarks.filter(({ x, y }) => x > left && x < right && y > low && y < high);
   const are_dots = landmarks.length > kMaxShapes, side = 3 * devicePixelRatio;
-  categories.forEach((category, kind) => {
+  for (const category of categories) {
+    const { shape, colour } = symbol_of(category);
     context.beginPath();
     for (const landmark of landmarks) {
       if (landmark.category !== category) continue;
       const [x, y] = to_screen(landmark.x, landmark.y);
       if (are_dots) context.rect(Math.round(x), Math.round(y), side, side);
-      else add_shape(kind, x, y, (4 + 5 * landmark.degree) * devicePixelRatio);
+      else add_shape(context, shape, x, y, (4 + 5 * landmark.degree) * devicePixelRatio);
     }
-    context.fillStyle = kColours[kind % kColours.length]; context.fill();
-    if (are_dots) return;
+    context.fillStyle = colour; context.fill();
+    if (are_dots) continue;
     context.strokeStyle = '#000'; context.lineWidth = devicePixelRatio; context.stroke();
-  });
+  }
   if (landmarks.length > kMaxLabels) return;
   for (const landmark of landmarks) draw_label(landmark.label, landmark.x, landmark.y);
 }
@@ -144,6 +142,17 @@ export function draw_label(text, x, y, above = false) {
   context.fillText(text, px + 11 * devicePixelRatio, py + 5 * devicePixelRatio);
 }
 
+// The sign is centred on its point.
+export function draw_sign(sign, text, x, y, above = false) {
+  const [px, py] = to_screen(x, y);
+  context.font = `${17 * devicePixelRatio}px system-ui, sans-serif`;
+  context.textAlign = 'center'; context.textBaseline = 'middle';
+  context.lineWidth = 3 * devicePixelRatio; context.strokeStyle = '#fff'; context.fillStyle = '#000';
+  context.strokeText(sign, px, py); context.fillText(sign, px, py);
+  context.textAlign = 'start'; context.textBaseline = 'alphabetic';
+  draw_label(text, x, y, above);
+}
+
 function draw_scale_bar() {
   const metres = [0.1, 0.5, 1, 2, 5, 10, 20, 50, 100, 500].find((m) => m * view.scale > 60 * devicePixelRatio) ?? 1000;
   const below = element('timeline').hidden ? 14 : 76;
@@ -154,14 +163,25 @@ function draw_scale_bar() {
   context.fillText(`${metres} m`, x, y - 6 * devicePixelRatio);
 }
 
-// Shows the box from its lowest corner, in metres.
+// Shows the box from its lowest corner, in metres, below the tools and above the timeline.
 export function fit(low, size) {
-  [view.x, view.y] = [low[0] + size[0] / 2, low[1] + size[1] / 2];
-  view.scale = Math.min(canvas.width / Math.max(size[0], 1), canvas.height / Math.max(size[1], 1)) * 0.95;
+  has_moved = false;
+  const tools = element('tools'), timeline = element('timeline');
+  const above = Math.min((tools.offsetTop + tools.offsetHeight) * devicePixelRatio, canvas.height / 3);
+  const below = timeline.hidden ? 0 : (timeline.offsetHeight + 8) * devicePixelRatio;
+  view.scale = 0.95 * Math.min(canvas.width / Math.max(size[0], 1), (canvas.height - above - below) / Math.max(size[1], 1));
+  [view.x, view.y] = [low[0] + size[0] / 2, low[1] + size[1] / 2 + (above - below) / 2 / view.scale];
+  redraw();
+}
+
+// After a change of what there is: unless the user has chosen another view.
+export function fit_again() {
+  if (!has_moved) show_everything();
   redraw();
 }
 
 function zoom(factor, px = canvas.width / 2, py = canvas.height / 2) {
+  has_moved = true;
   const [x, y] = to_map(px, py);
   view.scale = Math.min(Math.max(view.scale * factor, 0.05), 4000);
   view.x = x - (px - canvas.width / 2) / view.scale;
@@ -174,6 +194,7 @@ function listen_to_pointers(click) {
   let moved = 0;
   const at = (event) => [event.offsetX * devicePixelRatio, event.offsetY * devicePixelRatio];
   canvas.addEventListener('pointerdown', (event) => {
+    if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
     if (!pointers.size) moved = 0;
     pointers.set(event.pointerId, at(event));
@@ -188,6 +209,7 @@ function listen_to_pointers(click) {
       const distance = (p) => Math.max(Math.hypot(p[0] - other[0], p[1] - other[1]), 1);
       zoom(distance(now) / distance(before), ...other);
     } else if (moved > 5 * devicePixelRatio) {
+      has_moved = true;
       view.x -= (now[0] - before[0]) / view.scale;
       view.y += (now[1] - before[1]) / view.scale;
     }
@@ -195,8 +217,8 @@ function listen_to_pointers(click) {
     redraw();
   });
   canvas.addEventListener('pointerup', (event) => {
-    if (pointers.size === 1 && moved <= 5 * devicePixelRatio) click(...to_map(...at(event)));
-    pointers.delete(event.pointerId);
+    if (!pointers.delete(event.pointerId)) return;
+    if (!pointers.size && moved <= 5 * devicePixelRatio) click(...to_map(...at(event)));
   });
   canvas.addEventListener('pointercancel', (event) => pointers.delete(event.pointerId));
   canvas.addEventListener('wheel', (event) => {
@@ -207,13 +229,14 @@ function listen_to_pointers(click) {
 
 // draw: all but the background; show_all: fits what there is; click: at a point of the map.
 export function begin({ draw, show_all, click }) {
-  draw_all = draw;
+  draw_all = draw; show_everything = show_all;
   listen_to_pointers(click);
   canvas.addEventListener('keydown', (event) => {
     const step = 60 * devicePixelRatio / view.scale;
+    const move = (x, y) => { has_moved = true; view.x += x; view.y += y; };
     const keys = {
-      ArrowLeft: () => { view.x -= step; }, ArrowRight: () => { view.x += step; },
-      ArrowUp: () => { view.y += step; }, ArrowDown: () => { view.y -= step; },
+      ArrowLeft: () => move(-step, 0), ArrowRight: () => move(step, 0),
+      ArrowUp: () => move(0, step), ArrowDown: () => move(0, -step),
       '+': () => zoom(1.25), '=': () => zoom(1.25), '-': () => zoom(0.8), 0: show_all,
     };
     if (!keys[event.key] || event.ctrlKey || event.metaKey) return;
@@ -230,7 +253,7 @@ export function begin({ draw, show_all, click }) {
   new ResizeObserver(() => {
     canvas.width = canvas.clientWidth * devicePixelRatio;
     canvas.height = canvas.clientHeight * devicePixelRatio;
-    redraw();
+    fit_again();
   }).observe(canvas);
 }
 
@@ -276,5 +299,5 @@ export function draw_plan(points) {
   if (!points.length) return;
   draw_lines([points], '#fff', 6); draw_lines([points], '#000', 3);
   const [x, y] = points[points.length - 1];
-  draw_label('◎ goal', x, y);
+  draw_sign('◎', 'goal', x, y);
 }

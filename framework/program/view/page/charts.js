@@ -1,9 +1,11 @@
 // Curves over a run's time, each with its latest values as text for those who do not see them.
 import { element } from './api.js';
-import { kColours } from './canvas.js';
+import { kColours } from './symbols.js';
 
 const kWidth = 290, kHeight = 110, kLeft = 38, kLow = 16, kMaxSamples = 2000;
 
+// With the colour by i: 18 curves that differ, neighbours in both.
+const dash_of = (i) => (i + Math.floor(i / kColours.length)) % 3;
 const nice_above = (value) => [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100].find((one) => one >= value) ?? value;
 
 // unit: of the values; curves: name -> [[time_s, value], ...] by rising time.
@@ -17,6 +19,7 @@ export class Chart {
     this.title = title;
     figure.append(this.caption, this.canvas);
     element('charts').append(figure);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw(this.end_s, this.at_s));
   }
 
   add(name, time_s, value) {
@@ -28,6 +31,7 @@ export class Chart {
 
   // at_s: where the time stands now.
   draw(end_s, at_s) {
+    Object.assign(this, { end_s, at_s });
     const scale = devicePixelRatio, style = getComputedStyle(document.body);
     this.canvas.width = kWidth * scale; this.canvas.height = kHeight * scale;
     const context = this.canvas.getContext('2d');
@@ -46,20 +50,20 @@ export class Chart {
       context.beginPath();
       points.forEach(([time_s, value], k) => context[k ? 'lineTo' : 'moveTo'](x(time_s), y(value)));
       context.strokeStyle = kColours[i % kColours.length]; context.lineWidth = 1.5;
-      context.setLineDash([[], [5, 3], [2, 2]][i % 3]);
+      context.setLineDash([[], [5, 3], [2, 2]][dash_of(i)]);
       context.stroke(); context.setLineDash([]);
     });
     context.beginPath(); context.moveTo(x(at_s), y(top)); context.lineTo(x(at_s), y(0));
     context.strokeStyle = style.color; context.lineWidth = 1; context.stroke();
-    this.tell(at_s);
+    this.show_values(at_s);
   }
 
-  tell(at_s) {
+  show_values(at_s) {
     const texts = [...this.curves].map(([name, points], i) => {
       const last = points.findLast(([time_s]) => time_s <= at_s);
       const text = document.createElement('span');
       text.textContent = `${name} ${last ? last[1].toFixed(3) : '-'}`;
-      text.style.borderBottom = `3px ${['solid', 'dashed', 'dotted'][i % 3]} ${kColours[i % kColours.length]}`;
+      text.style.borderBottom = `3px ${['solid', 'dashed', 'dotted'][dash_of(i)]} ${kColours[i % kColours.length]}`;
       return text;
     });
     this.caption.replaceChildren(`${this.title}, ${this.unit}: `, ...texts.flatMap((text) => [text, ' ']));

@@ -1,15 +1,17 @@
 // A mission while it runs: what its stream says, drawn as it comes.
-import { element, post, say, token } from './api.js';
+import { ask_json, element, post, say, token } from './api.js';
 import { Chart } from './charts.js';
-import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_plan, draw_ranges, draw_robot, draw_routes, fit, redraw, view } from './canvas.js';
+import { begin, categories_of, draw_landmarks, draw_lines, draw_plan, draw_ranges, draw_robot, draw_routes, draw_sign, fit, fit_again, redraw, view } from './canvas.js';
 import { list_landmarks } from './map.js';
 import { add_lines, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 import { bytes_of, Tiles } from './tiles.js';
 
-const kMaxPath = 20000;
+const kMaxPath = 20000, kRetry_ms = 1000;
 const run = { tiles: new Tiles(), landmarks: new Map(), routes: [], path: [], ranges: [], plan: null };
 const charts = new Map();  // title -> Chart
-let may_steer = false, has_fitted = false, has_ended = false, target = null;
+let may_steer = false, has_ended = false, target = null;
+let settings = {};  // of the view
+
 
 function chart_of(title, unit) {
   if (!charts.has(title)) { charts.set(title, new Chart(title, unit)); show_parts('charts-part'); }
@@ -51,26 +53,38 @@ function take_pose(pose) {
   if (run.path.length > kMaxPath) run.path = run.path.filter((_, i) => i % 2 === 0);
 }
 
+// The one that takes the place of a button which cannot be pressed any more keeps the keyboard's focus.
+function enable(button, is_enabled, instead) {
+  const had_focus = !is_enabled && document.activeElement === button;
+  button.disabled = !is_enabled;
+  if (had_focus) instead.focus();
+}
+
 function take_status(status) {
   run.status = status;
-  const left = status.eta_s === null ? 'not known' : `about ${status.eta_s.toFixed(0)} s`;
   show_facts([
     ['time', `${status.time_s.toFixed(1)} s`],
+    ['state', status.state],
     ['step', `${status.step} of ${status.steps}: ${status.step_name}`],
     ['doing', status.doing || '-'],
-    ['left', left],
+    ['time left', status.eta_s === null ? 'not known' : `about ${status.eta_s.toFixed(0)} s`],
     ['explored', `${(100 * status.explored_ratio).toFixed(0)} %`],
     ['driven', `${status.distance_m.toFixed(1)} m`],
     ['landmarks', String(status.landmarks)],
     ['pose', status.pose.trust]]);
-  say(`${status.mission}: ${status.state}${status.outcome ? `, ${status.outcome}` : ''}`);
-  element('pause').disabled = status.state !== 'running';
-  element('resume').disabled = status.state !== 'paused';
+  const sentence = `${status.mission}: ${status.state}${status.outcome ? `, ${status.outcome}` : ''}`;
+  if (sentence !== run.sentence) say(sentence);  // once: the answer to an order stays until the state is another
+  run.sentence = sentence;
+  const pause = element('pause'), resume = element('resume');
+  if (status.state === 'running') pause.disabled = false;
+  if (status.state === 'paused') resume.disabled = false;
+  enable(pause, status.state === 'running', resume);
+  enable(resume, status.state === 'paused', pause);
 }
 
 function begin_run(line) {
   if (line.ok !== true) { say(`The run cannot be watched: ${line.error}`); return; }
-  Object.assign(run, { tiles: new Tiles(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [], next_figure_s: 0, times: null });
+  Object.assign(run, { tiles: new Tiles(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [], next_figure_s: 0, times: null, sentence: '' });
   run.radius_m = line.robot_radius_m;
   document.title = element('name').textContent = line.mission;
   element('log').replaceChildren();
@@ -82,13 +96,10 @@ function take(line) {
   if ('ok' in line) return begin_run(line);
   if (line.status) take_status(line.status);
   if (line.ended) { end(); return; }
-  if (line.afresh) {
-    run.tiles.clear(); run.landmarks.clear();
-    take_landmarks([], [0]);
-  }
-  if (line.grid) run.grid = line.grid;
+  if (line.afresh) { run.tiles.clear(); run.landmarks.clear(); }
+  if (line.grid) { run.grid = line.grid; fit_again(); }
   for (const [tx, ty, text] of line.tiles ?? []) run.tiles.take(tx, ty, bytes_of(text));
-  take_landmarks(line.landmarks, line.retired);
+  take_landmarks(line.landmarks, line.afresh ? [0] : line.retired);
   if (line.routes) run.routes = line.routes;
   if (line.driven) run.path = line.driven;
   if (line.pose) take_pose(line.pose);
@@ -101,7 +112,6 @@ function take(line) {
   if (line.past) show_lines(line.past.map(event_of));
   if (line.log) add_lines(line.log, line.log_left_out);
   if (line.time_s !== undefined) element('clock').textContent = `${line.time_s.toFixed(1)} s${line.paused ? ', paused' : ''}`;
-  if (!has_fitted && run.grid && !line.more) { has_fitted = true; show_all(); }
   redraw();
 }
 
@@ -115,7 +125,7 @@ function draw() {
   draw_plan(run.plan?.points ?? []);
   if (run.truth && element('show-truth').checked) draw_robot(run.truth, run.radius_m, '#e69f00');
   if (run.pose) draw_robot([run.pose.x_m, run.pose.y_m, run.pose.theta_rad], run.radius_m, '#cc79a7', run.pose.covariance);
-  if (target) draw_label(`✚ ${target.text}`, ...target.at);
+  if (target) draw_sign('✚', target.text, ...target.at);
 }
 
 function show_all() {
@@ -124,12 +134,20 @@ function show_all() {
   fit([origin_m[0] + box.x * cell_m, origin_m[1] + box.y * cell_m], [box.width * cell_m, box.height * cell_m]);
 }
 
-// Where the button "Go there" leads.
-function aim(at, text, place = at.map((metres) => Number(metres.toFixed(3)))) {
-  if (!may_steer) return;
-  target = { at, text, place };
-  element('goto').disabled = has_ended;
-  element('goto').textContent = `Go to ${text}`;
+// Where the robot shall go: marked on the map, and typed for the button.
+function aim(at, text, place) {
+  if (!may_steer || has_ended) return;
+  target = { at, text };
+  element('goto-place').value = place;
+  redraw();
+}
+
+const metres_in = (text) => /^\s*(-?[\d.]+)\s*,\s*(-?[\d.]+)\s*$/.exec(text)?.slice(1).map(Number);
+
+function aim_at_typed() {
+  const text = element('goto-place').value.trim(), at = metres_in(text);
+  const landmark = run.shown?.find((one) => text === one.label || text === `L${one.id}`);
+  target = at ? { at, text } : landmark ? { at: [landmark.x, landmark.y], text: landmark.label } : null;
   redraw();
 }
 
@@ -138,40 +156,75 @@ async function steer(command, body) {
     const answer = await post(`/api/run/${command}`, body);
     if (answer.ok === false) say(answer.error);
     else if (answer.taken === false) say(`Not taken: ${answer.reason}`);
-    else if (answer.taken) { say(`Taken: ${answer.reason}`); target = null; redraw(); }
+    else if (answer.taken) { say(`Taken: ${answer.reason}`); target = null; element('goto-place').value = ''; redraw(); }
     else take_status(answer);
   } catch (error) { say(error.message); }
 }
 
-function end() {
+function stop_steering() {
+  const had_focus = element('steering').contains(document.activeElement);
+  for (const one of document.querySelectorAll('#steering button, #steering input')) one.disabled = true;
+  if (had_focus) element('status').focus();
+}
+
+// What to do next depends on whether the view is still there: that of `run --view` ends with the run.
+async function end() {
   has_ended = true;
-  for (const button of document.querySelectorAll('#steering button')) button.disabled = true;
-  say(`${run.status?.mission ?? 'The run'} has ended${run.status?.outcome ? `: ${run.status.outcome}` : ''}. Reload, or start cairn view again, to browse it.`);
+  stop_steering();
+  const how = `${run.status?.mission ?? 'The run'} has ended${run.status?.outcome ? `: ${run.status.outcome}` : ''}.`;
+  say(`${how} To browse it: ${settings.command}`);
+  await new Promise((done) => setTimeout(done, kRetry_ms));
+  const now = await ask_json('/api/view').catch(() => null);
+  if (now) say(`${how} Reload this page to browse it.`);
+}
+
+// The mission has been killed, or the view has gone, or the way to it is cut.
+async function look_after_loss() {
+  let now = null;
+  try {
+    now = await ask_json('/api/view');
+  } catch (error) {
+    say(error instanceof TypeError ? `The view does not answer any more. If the run is over, browse it by: ${settings.command}` :
+        `The connection is lost: ${error.message}. Trying again.`);
+  }
+  if (now && now.kind !== 'live') {
+    has_ended = true;
+    stop_steering();
+    say(now.kind === 'run' ? 'The run is over. Reload this page to browse it.' :
+        `The run is over and has left no report: it was killed. What it has saved: ${settings.command}`);
+    return;
+  }
+  if (now) say('The connection is lost. Trying again.');
+  setTimeout(connect, kRetry_ms);
 }
 
 function connect() {
   const socket = new WebSocket(`ws://${location.host}/live`, ['cairn.view.1', `token.${token}`]);
   socket.onmessage = (event) => take(JSON.parse(event.data));
-  socket.onclose = () => {
-    if (has_ended) return;
-    say('The connection is lost. Trying again.');
-    setTimeout(connect, 1000);
-  };
+  socket.onclose = () => { if (!has_ended) look_after_loss(); };
 }
 
-export function show_live(settings) {
-  may_steer = settings.control;
+function offer_steering() {
+  may_steer = true;
+  show_parts('steering');
+  for (const command of ['pause', 'resume', 'cancel']) element(command).onclick = () => steer(command, '{}');
+  element('goto-place').oninput = aim_at_typed;
+  element('goto-form').onsubmit = (event) => {
+    event.preventDefault();
+    const text = element('goto-place').value.trim();
+    steer('order', { goto: metres_in(text) ?? text });
+  };
+  element('stop').onclick = () => steer('order', { stop: null });
+}
+
+export function show_live(view_settings) {
+  settings = view_settings;
   document.title = element('name').textContent = settings.name;
   show_parts('clock', 'facts-part', 'tree-part', 'log-part', 'ranges-label', 'truth-label');
   element('show-path').checked = true;
-  if (may_steer) {
-    show_parts('steering');
-    for (const command of ['pause', 'resume', 'cancel']) element(command).onclick = () => steer(command, '{}');
-    element('goto').onclick = () => target && steer('order', { goto: target.place });
-    element('stop').onclick = () => steer('order', { stop: null });
-  }
+  if (settings.control) offer_steering();
   element('plan-part').hidden = element('clusters-label').hidden = true;
-  begin({ draw, show_all, click: (x, y) => aim([x, y], `${x.toFixed(2)}, ${y.toFixed(2)}`) });
+  begin({ draw, show_all, click: (x, y) => aim([x, y], '', `${x.toFixed(2)},${y.toFixed(2)}`) });
   view.scale = 60;
   connect();
 }

@@ -1,12 +1,12 @@
 // A saved map: its grid by levels, landmarks, routes and clusters; plans by two clicks.
 import { ask, ask_json, element, post, say } from './api.js';
-import { begin, canvas, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_routes, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
+import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_routes, draw_sign, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
 
-const kTile = 512;
+const kTile = 512, kRetry_ms = 5000;
 export let map, landmarks = [], routes = [];
 let clusters = [], categories = [], marked = null;
 let path = [], ends = [];
-const levels = new Map();  // level -> tiles or 'loading'
+const levels = new Map();  // level -> tiles, 'loading' or 'failed'
 
 function tiles_of(bytes, width, height) {
   const tiles = [];
@@ -26,7 +26,11 @@ async function load_level(level) {
     const bytes = new Uint8Array(await (await ask(`/api/grid?level=${level}`)).arrayBuffer());
     levels.set(level, tiles_of(bytes, Math.ceil(map.box.width / level), Math.ceil(map.box.height / level)));
     redraw();
-  } catch (error) { say(`The grid cannot be loaded: ${error.message}`); }
+  } catch (error) {
+    say(`The grid cannot be loaded: ${error.message}`);
+    levels.set(level, 'failed');
+    setTimeout(() => { levels.delete(level); redraw(); }, kRetry_ms);
+  }
 }
 
 // The coarsest level whose pixels are no larger than the screen's; until it is there, the nearest that is.
@@ -34,8 +38,8 @@ function grid_level() {
   const cells_a_pixel = 1 / (view.scale * map.cell_m);
   const wanted = [...map.levels].reverse().find((level) => level <= cells_a_pixel) ?? map.levels[0];
   load_level(wanted);
-  if (Array.isArray(levels.get(wanted))) return wanted;
-  return map.levels.find((level) => Array.isArray(levels.get(level)));
+  const distance = (level) => Math.abs(Math.log(level / wanted));
+  return map.levels.filter((level) => Array.isArray(levels.get(level))).sort((a, b) => distance(a) - distance(b))[0];
 }
 
 function draw_grid() {
@@ -76,7 +80,7 @@ function draw() {
 
 export function draw_plan() {
   draw_lines([path], '#fff', 7); draw_lines([path], '#000', 4);
-  ends.forEach(([x, y], i) => draw_label(i ? '◎ to' : '● from', x, y, true));
+  ends.forEach(([x, y], i) => draw_sign(...(i ? ['◎', 'to'] : ['●', 'from']), x, y, true));
 }
 
 export function show_all() {
@@ -119,18 +123,39 @@ function clear() {
   redraw();
 }
 
-export function list_landmarks(list, choose_landmark) {
-  element('landmarks').replaceChildren(...list.map((landmark) => {
-    const button = document.createElement('button');
-    button.textContent = `${landmark.label}: ${landmark.category || 'place'}, degree ${landmark.degree.toFixed(2)}`;
-    const evidence = document.createElement('small');
-    evidence.textContent = (landmark.evidence ?? []).map(([category, matchings, mean]) => `${category} ${mean.toFixed(2)} in ${matchings}`).join(', ');
-    if (evidence.textContent) button.append(evidence);
-    button.onclick = () => choose_landmark(landmark);
-    const item = document.createElement('li');
+const items = new Map();  // id -> {item, button, text, evidence, landmark}
+
+function item_of(id, choose_landmark) {
+  if (!items.has(id)) {
+    const item = document.createElement('li'), button = document.createElement('button');
+    const text = document.createElement('span'), evidence = document.createElement('small');
+    button.append(text, evidence);
     item.append(button);
-    return item;
-  }));
+    const one = { item, button, text, evidence };
+    button.onclick = () => choose_landmark(one.landmark);
+    items.set(id, one);
+  }
+  return items.get(id);
+}
+
+// By rising id. Items stay the same elements, so that the keyboard's focus stays where it is.
+export function list_landmarks(list, choose_landmark) {
+  const listed = element('landmarks'), ids = new Set(list.map((landmark) => landmark.id));
+  for (const [id, { item, button }] of items) {
+    if (ids.has(id)) continue;
+    const next = item.nextElementSibling ?? item.previousElementSibling;
+    if (document.activeElement === button) next?.firstElementChild.focus();
+    item.remove();
+    items.delete(id);
+  }
+  list.forEach((landmark, i) => {
+    const one = item_of(landmark.id, choose_landmark);
+    one.landmark = landmark;
+    one.text.textContent = `${landmark.label}: ${landmark.category || 'place'}, degree ${landmark.degree.toFixed(2)}`;
+    one.evidence.textContent = (landmark.evidence ?? []).map(([category, matchings, mean]) =>
+      `${category}: mean degree ${mean.toFixed(2)} in ${matchings} ${matchings === 1 ? 'matching' : 'matchings'}`).join(', ');
+    if (listed.children[i] !== one.item) listed.insertBefore(one.item, listed.children[i] ?? null);
+  });
 }
 
 export function mark_route(label) {

@@ -1,12 +1,11 @@
 // A finished run: where the robot was, what it did and what had been said at any time of it.
 import { ask_json, element, say } from './api.js';
 import { Chart } from './charts.js';
-import { begin, draw_label, draw_lines, draw_plan, draw_robot, redraw } from './canvas.js';
+import { begin, draw_lines, draw_plan, draw_robot, draw_sign, redraw } from './canvas.js';
 import { GridHistory } from './grid_history.js';
 import * as saved from './map.js';
 import { clear_nodes, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 
-const kRadius_m = 0.22;
 let report, track = { poses: [], plans: [], landmarks: [] }, grid = new GridHistory([]);
 const charts = [];
 let events = [], runs = [], at_s = 0, end_s = 0, player = null;
@@ -58,9 +57,9 @@ function draw() {
   const plan = track.plans[last_before(track.plans, (one) => one.time_s, at_s)];
   draw_plan(plan?.points ?? []);
   if (element('show-misses').checked)
-    for (const miss of report.near_misses ?? []) draw_label(`✕ ${miss.category} ${miss.degree.toFixed(2)}`, miss.x_m, miss.y_m);
+    for (const miss of report.near_misses ?? []) draw_sign('✕', `${miss.category} ${miss.degree.toFixed(2)}`, miss.x_m, miss.y_m);
   const pose = pose_at(at_s);
-  if (pose) draw_robot(pose.slice(1), kRadius_m, '#cc79a7');
+  if (pose) draw_robot(pose.slice(1), track.robot_radius_m ?? 0, '#cc79a7');
   saved.draw_plan();
 }
 

@@ -72,12 +72,15 @@ TEST_F(OutputFiles, AFolderIsHeldByOneRunOnly) {
   EXPECT_THAT([&] { hold_folder(folder_, std::chrono::milliseconds(100)); },
               ThrowsMessage<std::runtime_error>(
                   HasSubstr("another run (process " + std::to_string(::getpid()) + ") is writing into this folder")));
+  EXPECT_TRUE(is_folder_held(folder_));
   EXPECT_EQ(fs::status(folder_ / kFolderLock).permissions(), fs::perms(0600));
 }
 
 TEST_F(OutputFiles, AHolderThatGoesInTimeIsWaitedFor) {
   make_folder(folder_);
+  EXPECT_FALSE(is_folder_held(folder_)) << "no run was here";
   const int held = ::open((folder_ / kFolderLock).c_str(), O_RDWR | O_CREAT, 0600);
+  EXPECT_FALSE(is_folder_held(folder_)) << "a run has left its lock";
   ASSERT_EQ(::flock(held, LOCK_EX), 0);
   EXPECT_THAT([&] { hold_folder(folder_, std::chrono::milliseconds(50)); },
               ThrowsMessage<std::runtime_error>(HasSubstr("another run is writing into this folder")))

@@ -158,6 +158,23 @@ TEST_F(WatchedMission, APlanLastsUntilTheBehaviourEnds) {
   EXPECT_FALSE(frame_of(*watch)->plan) << "the robot stands on its goal";
 }
 
+TEST_F(WatchedMission, APathOfABehaviourIsShownWhereNoPlanIsUnderWay) {
+  const auto watch = source_.attach(1);
+  (void)frame_of(*watch);
+  publish(PathStarted{{Point(2.0, 0.0), Point(2.0, 3.0)}});
+  const Frame explored = frame_of(*watch);
+  ASSERT_TRUE(explored->plan);
+  EXPECT_EQ(explored->plan->result.path.back(), (Pose2{2.0, 3.0, 0.0}));
+  EXPECT_DOUBLE_EQ(explored->plan->result.length_m, 3.0);
+  publish(PathStarted{{Point(2.0, 0.0), Point(4.0, 0.0)}});
+  EXPECT_EQ(frame_of(*watch)->plan->result.path.back(), (Pose2{4.0, 0.0, 0.0})) << "a later one takes its place";
+  PlanResult plan;
+  plan.path = {{0.0, 0.0, 0.0}, {5.0, 0.0, 0.0}};
+  publish(PlanDone{plan});
+  publish(PathStarted{{Point(0.0, 0.0), Point(2.5, 0.0)}});
+  EXPECT_EQ(frame_of(*watch)->plan->result.path.back(), (Pose2{5.0, 0.0, 0.0})) << "a part of the plan";
+}
+
 TEST_F(WatchedMission, RetiredLandmarksAreNamed) {
   const LandmarkId id = graph_.add({});
   const auto watch = source_.attach(1);
