@@ -38,9 +38,14 @@ function(cairn_add_module name)
     target_link_options(${name} PRIVATE -Wl,--no-undefined)  # found when linking, not when loading
     cairn_export_only(${name} module)
   endif()
+  # One path for both trees: one that is changed when it is installed ends in an empty element until then, which is the
+  # current folder.
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                                            LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/cairn
-                                           BUILD_RPATH "$ORIGIN/.." INSTALL_RPATH "$ORIGIN/..")
+                                           INSTALL_RPATH "$ORIGIN/.." BUILD_WITH_INSTALL_RPATH ON)
+  if(NOT TARGET cairn_private_options)  # of others: Cairn's libraries are where it was installed
+    set_target_properties(${name} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  endif()
   install(TARGETS ${name} LIBRARY DESTINATION lib/cairn)
   set_property(GLOBAL APPEND PROPERTY CAIRN_MODULES ${name})
 endfunction()

@@ -46,7 +46,7 @@ function(cairn_add_library name)
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                             $<INSTALL_INTERFACE:include/cairn>)
   target_link_libraries(${name} PUBLIC Eigen3::Eigen ${arg_PUBLIC} PRIVATE ${arg_ROOMS} cairn_private_options ${arg_PRIVATE})
-  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short_name} BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN"
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short_name} INSTALL_RPATH "$ORIGIN" BUILD_WITH_INSTALL_RPATH ON
                                            SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   cairn_export_only(${name} library)
 endfunction()

@@ -41,8 +41,9 @@ class BaseLink {
   // 20 times a second, whatever happens: this process lives.
   virtual void beat() noexcept {}
 
-  // From any thread and from a signal handler, connected or not: the wheels stand. ---------------------------------
-  virtual void send_stop() noexcept = 0;
+  // From any thread and from a signal handler, connected or not: the wheels stand. False: this link cannot send from
+  // there, and the thread that sends does so within 50 ms. ----------------------------------------------------------
+  virtual bool send_stop() noexcept = 0;
 };
 
 }  // namespace cairn::live

@@ -131,7 +131,8 @@ void LiveRobot::command(const Twist& twist, double valid_for_s) {
 
 void LiveRobot::stop() noexcept {
   orders_.stop();
-  link_->send_stop();
+  const bool is_sent = link_->send_stop();
+  if (!is_sent) ++stops_;
 }
 
 void LiveRobot::send_orders(const std::stop_token& ended) {
@@ -148,6 +149,7 @@ void LiveRobot::send_orders(const std::stop_token& ended) {
 }
 
 void LiveRobot::send_what_counts(double time_s) {
+  const std::uint64_t stops = stops_;
   Twist wanted = orders_.ordered(time_s);
   if (time_s - heard_s_ > rules_.silent_s) wanted = {};
   const double dt_s = std::clamp(time_s - sent_s_, 0.0, 2.0 * std::chrono::duration<double>(kSendEvery).count());
@@ -160,6 +162,7 @@ void LiveRobot::send_what_counts(double time_s) {
     link_->send_pulse();
     pulsed_s_ = time_s;
   }
+  if (stands(sent_)) stops_sent_ = stops;
 }
 
 }  // namespace cairn::live

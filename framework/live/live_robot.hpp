@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -16,6 +17,7 @@
 #include "framework/config/fields.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
+#include "framework/contracts/stop_report.hpp"
 #include "framework/live/base_link.hpp"
 #include "framework/live/velocity_orders.hpp"
 
@@ -29,7 +31,7 @@ struct LiveRules {
   static void describe(Fields<LiveRules>& fields);
 };
 
-class LiveRobot final : public Sensor, public Drive {
+class LiveRobot final : public Sensor, public Drive, public StopReport {
  public:
   // Connects when it is used first.
   LiveRobot(std::unique_ptr<BaseLink> link, const LiveRules& rules, const RobotModel& robot);
@@ -46,6 +48,7 @@ class LiveRobot final : public Sensor, public Drive {
   // Throws std::invalid_argument when not finite.
   void command(const Twist& twist, double valid_for_s) override;
   void stop() noexcept override;
+  [[nodiscard]] bool is_stop_sent() const noexcept override { return stops_sent_ >= stops_; }
 
  private:
   // The observations that have come, as one; connects and waits up to some ms for them.
@@ -60,9 +63,11 @@ class LiveRobot final : public Sensor, public Drive {
   std::string disconnect_reason_;  // why it is not connected
   std::string fault_;              // that has ended it
   VelocityOrders orders_;
-  std::atomic<double> heard_s_{0.0};  // when the base was last heard
-  std::atomic<double> asked_s_{0.0};  // when the mission last asked for anything
-  std::mutex sending_;                // and whether it is connected
+  std::atomic<double> heard_s_{0.0};          // when the base was last heard
+  std::atomic<double> asked_s_{0.0};          // when the mission last asked for anything
+  std::atomic<std::uint64_t> stops_{0};       // that the thread that sends is to send
+  std::atomic<std::uint64_t> stops_sent_{0};  // of these
+  std::mutex sending_;                        // and whether it is connected
   bool is_connected_ = false;
   std::condition_variable_any ordered_;
   bool is_ordered_ = false;

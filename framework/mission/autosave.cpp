@@ -122,6 +122,12 @@ AutosaveFigures Autosaver::figures() const {
 
 namespace {
 
+// No link: what it leads to is no map that an earlier run here has left.
+bool is_plain_file(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error));
+}
+
 std::filesystem::path numbered(std::filesystem::path file, int number) {
   const std::string extension = file.extension().string();
   return file.replace_extension("." + std::to_string(number) + extension);
@@ -161,7 +167,7 @@ std::vector<std::filesystem::path> kept_autosaves(const std::filesystem::path& f
 std::optional<KeptAutosave> keep_earlier_autosave(const std::filesystem::path& file,
                                                   const std::filesystem::path& resumed) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  if (!is_plain_file(file)) return std::nullopt;
   const auto is_resumed = [&](const std::filesystem::path& map) {
     std::error_code missing;
     return std::filesystem::equivalent(map, resumed, missing);
@@ -181,7 +187,7 @@ std::optional<KeptAutosave> keep_earlier_autosave(const std::filesystem::path& f
 
 std::optional<std::filesystem::path> keep_under_free_name(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  if (!is_plain_file(file)) return std::nullopt;
   for (int number = 1;; ++number) {
     const std::filesystem::path kept = numbered(file, number);
     if (std::filesystem::exists(kept, error)) continue;

@@ -77,7 +77,7 @@ struct AutosaveFailed {
 // The robot was stopped because ticks had stopped ending, and drives on. At a moment that differs from run to run: not
 // for reports.
 struct Stalled {
-  std::string stage;   // where the mission was then
+  std::string stage;   // where the mission was then; empty: the whole process was held up
   std::string module;  // empty: the host itself
   double for_s = 0.0;  // wall clock since the tick before
 };

@@ -71,6 +71,7 @@ void MissionRunner::watch() {
     thread.detach();
   else
     thread.join();
+  gave_up_ = gave_up_ || loop_->exit_was_called_elsewhere();
 }
 
 RunStatus MissionRunner::status() const {

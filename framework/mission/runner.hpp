@@ -97,7 +97,7 @@ class MissionRunner {
   // monitor's stop_after_s, the wheels are stopped until one does; a module whose call does not return within the
   // mission's watchdog_s (0: never), or that calls exit(), ends the mission (outcome module_fault) and is left behind.
   MissionResult run();
-  // A module was left behind: its thread may still be in there, so the process should end without
+  // A module was left behind: its thread may still be in there, or in exit(), so the process should end without
   // tearing anything down (std::_Exit).
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 

@@ -28,16 +28,35 @@ bool is_near(const Point& at_m, const OccupancyGrid& grid) {
 std::string ObservationCheck::fault_of(const Observation& observation) {
   if (!std::isfinite(observation.stamp_s) || !cairn::is_finite(observation.T_odom_robot))
     return "returned a stamp or an odometry that is not finite";
+  const WallClock::Time here = wall_clock_->now();
   if (last_stamp_s_) {
     const double passed_s = observation.stamp_s - *last_stamp_s_;
-    if (passed_s < -kMaxStampBack_s || passed_s > kMaxStampAhead_s)
+    if (!is_clock_possible(passed_s, std::chrono::duration<double>(here - last_here_).count()))
       return fmt::format("returned a stamp of {:g} s after one of {:g} s", observation.stamp_s, *last_stamp_s_);
-    const double leap_m = (observation.T_odom_robot.position() - T_odom_last_.position()).norm();
-    if (leap_m > kMaxOdometryLeap_m + 10.0 * max_v_mps_ * std::max(passed_s, 0.0))
-      return fmt::format("returned an odometry that leaps by {:g} m within {:g} s", leap_m, passed_s);
+    if (std::string fault = fault_of_motion(observation.T_odom_robot, std::max(passed_s, 0.0)); !fault.empty())
+      return fault;
   }
   last_stamp_s_ = observation.stamp_s;
+  last_here_ = here;
   T_odom_last_ = observation.T_odom_robot;
+  return {};
+}
+
+// here_s: what has passed by this computer's clock. A process that was stopped, or a long plan, is no leap of a clock.
+bool ObservationCheck::is_clock_possible(double passed_s, double here_s) const {
+  if (is_live_) return passed_s >= 0.0 && passed_s <= kMaxLiveStampAhead_s + here_s;
+  return passed_s >= -kMaxStampBack_s && passed_s <= kMaxStampAhead_s;
+}
+
+std::string ObservationCheck::fault_of_motion(const Pose2& T_odom_robot, double passed_s) const {
+  const double leap_m = (T_odom_robot.position() - T_odom_last_.position()).norm();
+  const double max_leap_m =
+      is_live_ ? kMaxLiveLeap_m + 3.0 * max_v_mps_ * passed_s : kMaxOdometryLeap_m + 10.0 * max_v_mps_ * passed_s;
+  if (leap_m > max_leap_m)
+    return fmt::format("returned an odometry that leaps by {:g} m within {:g} s", leap_m, passed_s);
+  const double turn_rad = std::abs(wrap_angle(T_odom_robot.theta_rad - T_odom_last_.theta_rad));
+  if (is_live_ && turn_rad > kMaxLiveTurn_rad + 3.0 * max_w_radps_ * passed_s)
+    return fmt::format("returned an odometry that turns by {:.0f} degrees within {:g} s", degrees(turn_rad), passed_s);
   return {};
 }
 

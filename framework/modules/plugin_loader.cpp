@@ -60,7 +60,9 @@ class ElfFile {
 
 // Reads the file's symbol table; runs nothing of it.
 void check_symbols(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw PluginError(file, "no such file");
+  if (std::filesystem::is_directory(file)) throw PluginError(file, "is a folder; --plugins takes folders");
+  if (!std::filesystem::is_regular_file(file))
+    throw PluginError(file, std::filesystem::exists(file) ? "is not a plain file" : "no such file");
   const ElfFile elf(file);
   if (!elf.is_shared_library())
     throw PluginError(file, "cannot be opened as a module: it is not an ELF shared library");

@@ -1,5 +1,6 @@
 #include "framework/safety/collision_monitor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -25,7 +26,9 @@ std::int64_t CollisionMonitor::now_ns() const noexcept {
 void CollisionMonitor::attach(Staged<Drive> drive) {
   drive_ = std::move(drive);
   ordered_ns_ = now_ns();
-  wheels_ = drive_ ? &drive_.unwatched() : nullptr;
+  Drive* const wheels = drive_ ? &drive_.unwatched() : nullptr;
+  stop_report_ = dynamic_cast<const StopReport*>(wheels);
+  wheels_ = wheels;
 }
 
 DriveCommand CollisionMonitor::drive(const Observation& observation, const Twist& wanted,
@@ -45,12 +48,11 @@ void CollisionMonitor::order(const Twist& twist, bool at_once) {
     ~End() { since = 0; }
   } const end{ordering_since_ns_};
   drive_.call([&](Drive& drive) {
-    if (at_once)
-      drive.stop();
-    else
-      drive.command(twist, command_valid_s_);
+    if (!at_once && !is_over_) drive.command(twist, command_valid_s_);
+    if (at_once || is_over_) drive.stop();  // is_over_: also when that came after the command
   });
   const std::int64_t now = now_ns();
+  was_watch_held_up_ = was_watch_held_up_until(now);
   const bool was_standing = std::exchange(is_standing_, false);
   // By the time alone, whoever has stopped the wheels: when the whole process stood, the drive's own time has.
   const bool was_stalled = now - ordered_ns_ >= stop_after_ns_;
@@ -69,10 +71,23 @@ void CollisionMonitor::stop() {
   if (drive_) drive_.call([](Drive& drive) { drive.stop(); });
 }
 
+void CollisionMonitor::note_look(std::int64_t now) noexcept {
+  const std::int64_t before = looked_ns_.exchange(now);
+  if (before != 0 && now - before > stop_after_ns_ / 2) held_up_ns_ += now - before;
+}
+
+bool CollisionMonitor::was_watch_held_up_until(std::int64_t now) noexcept {
+  const std::int64_t looked = looked_ns_;
+  const std::int64_t not_yet_noted = looked == 0 ? 0 : std::max<std::int64_t>(now - looked, 0);
+  return 2 * (held_up_ns_.exchange(0) + not_yet_noted) > now - ordered_ns_;
+}
+
 void CollisionMonitor::stop_if_stalled(const std::function<void()>& before_first_stop) {
   Drive* const wheels = wheels_;
   const std::int64_t after_ns = ordered_ns_;
-  if (wheels == nullptr || now_ns() - after_ns < stop_after_ns_) return;
+  const std::int64_t now = now_ns();
+  note_look(now);
+  if (wheels == nullptr || now - after_ns < stop_after_ns_) return;
   std::unique_lock lock(ordering_, std::defer_lock);
   if (!lock.try_lock()) {
     const std::int64_t since_ns = ordering_since_ns_;
@@ -85,6 +100,16 @@ void CollisionMonitor::stop_if_stalled(const std::function<void()>& before_first
 
 void CollisionMonitor::stop_at_once() noexcept {
   if (Drive* const wheels = wheels_) wheels->stop();
+}
+
+void CollisionMonitor::stop_for_good() noexcept {
+  is_over_ = true;
+  stop_at_once();
+}
+
+bool CollisionMonitor::is_stop_sent() const noexcept {
+  const StopReport* const report = stop_report_;
+  return report == nullptr || report->is_stop_sent();
 }
 
 }  // namespace cairn

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "framework/contracts/sensor.hpp"
+#include "framework/contracts/stop_report.hpp"
 #include "framework/modules/staged.hpp"
 #include "framework/safety/velocity_limiter.hpp"
 
@@ -49,8 +50,14 @@ class CollisionMonitor {
   void stop_if_stalled(const std::function<void()>& before_first_stop);
   // How long no tick had ended when the last drive() let the wheels go on; none: not for long, or they stood already.
   [[nodiscard]] std::optional<double> stalled_s() const { return stalled_s_; }
+  // Whether the thread that watches was held up then as well: the whole process was stopped, or had no processor.
+  [[nodiscard]] bool was_watch_held_up() const { return was_watch_held_up_; }
   // From any thread, and from a signal handler.
   void stop_at_once() noexcept;
+  // The same, and no drive() lets them turn again: the process is ending.
+  void stop_for_good() noexcept;
+  // Of these two, from a signal handler too: whether the drive has sent the stop to the wheels.
+  [[nodiscard]] bool is_stop_sent() const noexcept;
 
   [[nodiscard]] const CollisionMonitorFigures& figures() const { return limiter_.figures(); }
   // Which transducers are deaf, and what of that has changed with the last drive().
@@ -58,6 +65,10 @@ class CollisionMonitor {
 
  private:
   [[nodiscard]] std::int64_t now_ns() const noexcept;
+  // Of the thread that watches: notes when it looks, and for how long it could not.
+  void note_look(std::int64_t now) noexcept;
+  // Once a tick: for most of the time since the one before.
+  [[nodiscard]] bool was_watch_held_up_until(std::int64_t now) noexcept;
   // at_once: the robot stops as hard as it can, and twist is none.
   void order(const Twist& twist, bool at_once);
 
@@ -66,14 +77,19 @@ class CollisionMonitor {
   const std::int64_t stop_after_ns_;
   const std::shared_ptr<const WallClock> wall_clock_;
   Staged<Drive> drive_;
-  std::atomic<Drive*> wheels_{nullptr};  // the same for other threads
+  std::atomic<Drive*> wheels_{nullptr};                  // the same for other threads
+  std::atomic<const StopReport*> stop_report_{nullptr};  // the same, if it reports
+  std::atomic<bool> is_over_{false};
   // Held while the drive is ordered: a stop for a tick that has just ended does not undo its command.
   std::mutex ordering_;
   std::atomic<std::int64_t> ordering_since_ns_{0};  // 0: not under way
   std::atomic<std::int64_t> ordered_ns_{0};         // the last tick's end
   std::int64_t stopped_after_ns_ = 0;               // of the thread that watches: the tick's end that it stopped after
+  std::atomic<std::int64_t> looked_ns_{0};          // when the thread that watches looked last; 0: there is none
+  std::atomic<std::int64_t> held_up_ns_{0};         // it did not look, since the last tick
   bool is_standing_ = false;                        // since the last tick: on purpose
   std::optional<double> stalled_s_;
+  bool was_watch_held_up_ = false;
 };
 
 }  // namespace cairn

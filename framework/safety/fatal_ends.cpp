@@ -1,6 +1,7 @@
 #include "framework/safety/fatal_ends.hpp"
 
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,12 +15,17 @@ namespace {
 constexpr std::size_t kMaxMissions = 64;
 constexpr std::size_t kStackBytes = std::size_t{64} << 10U;
 constexpr int kExitOfFailure = 1;
-constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
+constexpr int kMaxLooksForStop = 30;
+constexpr timespec kBetweenLooks{0, 5'000'000};
 
 // A signal handler can reach nothing else.
 std::array<std::atomic<FatalEnds*>, kMaxMissions> missions;
 std::array<struct sigaction, kFatalSignals.size()> earlier;
 static_assert(std::atomic<FatalEnds*>::is_always_lock_free && std::atomic<std::thread::id>::is_always_lock_free);
+
+// Where the process was ended.
+enum class Place { this_thread, outside };
 
 // Async-signal-safe.
 void print(const char* text) {
@@ -37,6 +43,12 @@ const char* name_of_signal(int signal) {
       return "SIGFPE";
     case SIGILL:
       return "SIGILL";
+    case SIGQUIT:
+      return "SIGQUIT";
+    case SIGINT:
+      return "a second SIGINT";
+    case SIGTERM:
+      return "a second SIGTERM";
     default:
       return "SIGABRT";
   }
@@ -46,46 +58,71 @@ const char* name_of_signal(int signal) {
 
 // All in signal handlers: no locks, no memory.
 struct FatalEndHandlers {
-  static void stop_all(const char* what) {
-    for (std::atomic<FatalEnds*>& slot : missions) {
-      FatalEnds* const mission = slot;
-      if (mission == nullptr || !mission->is_running_) continue;
-      mission->monitor_.stop_at_once();
-      const StageClock::Id stage = mission->clock_.current();
-      print("cairn: ");
-      print(what);
-      print(" in stage ");
-      print(mission->clock_.stage_of(stage).c_str());
-      print(stage == StageClock::kHost ? "" : " of module ");
-      print(mission->clock_.module_of(stage).c_str());
-      print("; the robot was stopped\n");
+  static void stop_all(const char* what, Place place) {
+    for (std::atomic<FatalEnds*>& slot : missions)
+      if (FatalEnds* const mission = slot; mission != nullptr && mission->is_running_)
+        mission->monitor_.stop_for_good();
+    for (std::atomic<FatalEnds*>& slot : missions)
+      if (FatalEnds* const mission = slot; mission != nullptr && mission->is_running_) report(*mission, what, place);
+  }
+
+  static void report(const FatalEnds& mission, const char* what, Place place) {
+    bool is_sent = mission.monitor_.is_stop_sent();
+    for (int i = 0; i < kMaxLooksForStop && !is_sent; ++i) {
+      ::nanosleep(&kBetweenLooks, nullptr);
+      is_sent = mission.monitor_.is_stop_sent();
     }
+    const bool is_elsewhere = mission.thread_.load() != std::this_thread::get_id();
+    const StageClock::Id stage = mission.clock_.current();
+    print("cairn: ");
+    print(what);
+    print(place == Place::outside ? " while the mission was"
+          : is_elsewhere          ? " in another thread, while the mission was"
+                                  : "");
+    print(" in stage ");
+    print(mission.clock_.stage_of(stage).c_str());
+    print(stage == StageClock::kHost ? "" : " of module ");
+    print(mission.clock_.module_of(stage).c_str());
+    print(is_sent ? "; the robot was stopped\n" : "; a stop was asked for\n");
   }
 
   static void on_signal(int signal, siginfo_t* info, void* context) {
-    stop_all(name_of_signal(signal));
+    const bool is_sent_to_us = info->si_code == SI_USER || signal == SIGQUIT;
+    stop_all(name_of_signal(signal), is_sent_to_us ? Place::outside : Place::this_thread);
     for (std::size_t i = 0; i < kFatalSignals.size(); ++i) {
       if (kFatalSignals[i] != signal) continue;
       if ((earlier[i].sa_flags & SA_SIGINFO) != 0) return earlier[i].sa_sigaction(signal, info, context);
       if (earlier[i].sa_handler != SIG_DFL && earlier[i].sa_handler != SIG_IGN) return earlier[i].sa_handler(signal);
     }
+    end(signal);
+  }
+
+  static void end(int signal) {
     ::signal(signal, SIG_DFL);
     ::raise(signal);
   }
 
   static void on_exit() {
+    bool is_left_to_others = false;
     for (std::atomic<FatalEnds*>& slot : missions) {
       FatalEnds* const mission = slot;
       if (mission == nullptr || !mission->is_running_) continue;
-      stop_all("exit() was called");
-      const bool is_the_modules =
-          mission->thread_.load() == std::this_thread::get_id() && mission->clock_.current() != StageClock::kHost;
-      if (!is_the_modules) ::_exit(kExitOfFailure);
-      mission->exit_was_called_ = true;
-      while (true) ::pause();  // the thread that watches ends the process
+      if (!is_left_to_others) stop_all("exit() was called", Place::this_thread);
+      const bool is_mission = mission->thread_.load() == std::this_thread::get_id();
+      if (mission->watcher_ == std::this_thread::get_id() ||
+          (is_mission && mission->clock_.current() == StageClock::kHost))
+        ::_exit(kExitOfFailure);  // nobody would be left to end the mission
+      (is_mission ? mission->exit_was_called_ : mission->exit_was_called_elsewhere_) = true;
+      is_left_to_others = true;
     }
+    while (is_left_to_others) ::pause();  // the thread that watches ends the process
   }
 };
+
+void end_by_signal(int signal) {
+  FatalEndHandlers::stop_all(name_of_signal(signal), Place::outside);
+  FatalEndHandlers::end(signal);
+}
 
 void handle_fatal_ends() {
   static std::once_flag once;

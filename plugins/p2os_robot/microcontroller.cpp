@@ -138,7 +138,7 @@ void Microcontroller::begin_session(const Identity& identity) {
   units_ = *units;
   odometry_.begin_session(units_);
   write(CommandPacket(Command::open));
-  send_stop();
+  (void)send_stop();
   {
     const std::scoped_lock lock(guarding_);
     guard_ = std::make_unique<WheelGuard>(line_.get(), standing_bytes(),
@@ -153,7 +153,7 @@ void Microcontroller::disconnect() {
     const std::scoped_lock lock(guarding_);
     guard_.reset();
   }
-  send_stop();
+  (void)send_stop();
   write(CommandPacket(Command::close));
   ::dup3(nowhere_.get(), line_.get(), O_CLOEXEC);
 }
@@ -225,11 +225,12 @@ void Microcontroller::beat() noexcept {
   if (lock.owns_lock() && guard_) guard_->beat();
 }
 
-void Microcontroller::send_stop() noexcept {
+bool Microcontroller::send_stop() noexcept {
   const int error = errno;
   write(CommandPacket(Command::velocity, 0));
   write(CommandPacket(Command::turn_velocity, 0));
   errno = error;
+  return true;
 }
 
 }  // namespace cairn::p2os_robot

@@ -37,7 +37,7 @@ class Microcontroller final : public live::BaseLink {
   void send(const Twist& twist) noexcept override;
   void send_pulse() noexcept override;
   void beat() noexcept override;
-  void send_stop() noexcept override;
+  bool send_stop() noexcept override;
 
  private:
   // False: the other end is gone.

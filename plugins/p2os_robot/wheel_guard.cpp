@@ -30,7 +30,7 @@ struct Stop {
 // In the new process, which has one thread only and may do what a signal handler may.
 [[noreturn]] void watch(int beats, int port, const Stop& stop, int silence_ms) {
   ::setsid();  // neither Ctrl-C nor Ctrl-Z reaches it
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT}) ::signal(signal, SIG_IGN);
   ::prctl(PR_SET_NAME, "cairn-wheels");
   const int copy = ::fcntl(port, F_DUPFD, 3);
   ::dup2(beats, kBeats);

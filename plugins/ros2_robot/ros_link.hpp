@@ -35,9 +35,9 @@ class RosLink final : public live::BaseLink {
   [[nodiscard]] MissionDisplay* display() override { return &display_; }
   void send(const Twist& twist) noexcept override;
   void send_pulse() noexcept override {}
-  // DDS cannot be asked from a signal handler: the thread that sends does so within 50 ms. A process that ends by a
-  // signal sends nothing: the base's own time-out counts.
-  void send_stop() noexcept override {}
+  // DDS cannot be asked from a signal handler: the thread that sends does so within 50 ms. A process that is killed
+  // sends nothing: the base's own time-out counts.
+  bool send_stop() noexcept override { return false; }
 
  private:
   void make_endpoints();

@@ -266,10 +266,15 @@ def cases():
             limits = [(resource.RLIMIT_AS, 1 << 30)] if key == "growth" else []
             # A plan moves nothing: who asked for it must make something of it.
             yield Case(fault, stage, key, limits=limits, drives_on=key == "absurd" and stage == "planner")
+    yield Case("the odometry leaps by 9 m a tick", "sensor", "leap")
     yield Case("a million detections at once", "detector", "flood")
     yield Case("SIGSTOP, SIGCONT", "host", act=lambda link, mission: mission.send_signal(signal.SIGSTOP))
     yield Case("kill -9", "host", act=lambda link, mission: mission.send_signal(signal.SIGKILL))
-    yield Case("SIGTERM", "host", act=lambda link, mission: mission.send_signal(signal.SIGTERM))
+    for name in ("SIGTERM", "SIGHUP", "SIGQUIT"):
+        yield Case(name, "host", act=lambda link, mission, name=name: mission.send_signal(getattr(signal, name)))
+    yield Case("SIGINT twice", "host", act=lambda link, mission: [mission.send_signal(signal.SIGINT), time.sleep(0.01),
+                                                                  mission.send_signal(signal.SIGINT)])
+    yield Case("SIGPIPE", "host", act=lambda link, mission: mission.send_signal(signal.SIGPIPE), drives_on=True)
     yield Case("full disk", "host", act=lambda link, mission: None, more="record: stop.log\n",
                limits=[(resource.RLIMIT_FSIZE, 8192)], drives_on=True)
     yield Case("unplugged: the connection is cut", "sensor", act=lambda link, mission: link.cut())

@@ -31,6 +31,7 @@ enum class Fault {
   exits_at_once,
   absurd,
   floods,
+  leaps,
   grows,
   killed,
   stopped
@@ -57,6 +58,7 @@ struct Settings {
                    {"_exit", Fault::exits_at_once},
                    {"absurd", Fault::absurd},
                    {"flood", Fault::floods},
+                   {"leap", Fault::leaps},
                    {"growth", Fault::grows},
                    {"kill", Fault::killed},
                    {"stop", Fault::stopped}},
@@ -122,6 +124,7 @@ class Failure {
       case Fault::stopped:
         ::kill(::getpid(), SIGSTOP);
         break;
+      case Fault::leaps:
       case Fault::absurd:
       case Fault::floods:
         return true;
@@ -146,10 +149,13 @@ std::shared_ptr<Interface> inner(const Settings& settings, const ContextOf<Inter
 class FailingSensor : public Sensor, public Drive {
  public:
   FailingSensor(const Settings& settings, const SensorContext& context, bool is_drive)
-      : failure_(settings), inner_(inner<Sensor>(settings, context)), is_drive_(is_drive) {}
+      : leap_m_(settings.fault == Fault::leaps ? 9.0 : 1e12),
+        failure_(settings),
+        inner_(inner<Sensor>(settings, context)),
+        is_drive_(is_drive) {}
   SensorStep next(const Budget& budget) override {
     SensorStep step = inner_->next(budget);
-    if (!is_drive_ && failure_.is_absurd()) step.observation.T_odom_robot.x_m = 1e12;
+    if (!is_drive_ && failure_.is_absurd()) step.observation.T_odom_robot.x_m += leap_m_;
     return step;
   }
   Drive* drive() override { return this; }
@@ -161,6 +167,7 @@ class FailingSensor : public Sensor, public Drive {
   void stop() noexcept override { inner_->drive()->stop(); }
 
  private:
+  double leap_m_;
   Failure failure_;
   std::shared_ptr<Sensor> inner_;
   bool is_drive_;

@@ -185,6 +185,11 @@ void exit_well() {
   std::exit(0);  // NOLINT: a fault of a module
 }
 
+void exit_elsewhere() {
+  std::thread([] { std::exit(0); }).detach();  // NOLINT: a fault of a module
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+}
+
 int overflow(volatile int* depth) {
   volatile int mine[1024] = {*depth};
   return overflow(mine) + mine[7];  // NOLINT: a fault of a module
@@ -244,6 +249,7 @@ void register_module(Registrar& registrar) {
   add_ending<crash>(registrar, "crash");
   add_ending<terminate>(registrar, "terminate");
   add_ending<exit_well>(registrar, "exit_well");
+  add_ending<exit_elsewhere>(registrar, "exit_elsewhere");
   add_ending<overflow_the_stack>(registrar, "overflow");
   registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",
                                      [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Localizer> {

@@ -8,6 +8,8 @@
 namespace cairn {
 namespace {
 
+constexpr std::chrono::nanoseconds kLongestAfterExit = std::chrono::seconds(1);
+
 void add_sentence(std::string& reason, const std::string& sentence) {
   if (!sentence.empty()) reason += (reason.empty() ? "" : "; ") + sentence;
 }
@@ -21,6 +23,10 @@ void MissionLoop::stop_if_stalled() {
 
 bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   const bool has_exited = fatal_ends_.exit_was_called();
+  const bool is_exit_elsewhere = fatal_ends_.exit_was_called_elsewhere();
+  // The thread that a call waits for may have been the one that called exit().
+  if (is_exit_elsewhere && (longest <= std::chrono::nanoseconds(0) || longest > kLongestAfterExit))
+    longest = kLongestAfterExit;
   if (!has_exited && longest <= std::chrono::nanoseconds(0)) return false;
   const StageClock::Id lost = modules_.clock.give_up_after(has_exited ? std::chrono::nanoseconds(-1) : longest);
   if (lost == StageClock::kHost) return false;
@@ -31,9 +37,10 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   const std::string& stage = modules_.clock.stage_of(lost);
   const auto longest_ms = std::chrono::duration_cast<std::chrono::milliseconds>(longest).count();
   ending_ = {MissionOutcome::module_fault,
-             has_exited ? fmt::format("module {} called exit() in stage {}", module, stage)
-                        : fmt::format("module {} has not returned from stage {} for {} ms and was given up", module,
-                                      stage, longest_ms)};
+             has_exited          ? fmt::format("module {} called exit() in stage {}", module, stage)
+             : is_exit_elsewhere ? kExitElsewhere
+                                 : fmt::format("module {} has not returned from stage {} for {} ms and was given up",
+                                               module, stage, longest_ms)};
   steps_.abandon(clock_.time_s(), ending_.reason);
   if (lost == modules_.mapper.stage() || world_.grid == nullptr) {
     world_.grid = nullptr;

@@ -42,7 +42,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       perception_(mission_, modules_, budget_),
       world_{mission_.robot, perception_.tracker().graph(), modules_.T_map_start},
       publisher_(world_, &modules_.clock, modules_.host.listeners),
-      observation_check_(mission_.robot),
+      observation_check_(mission_.robot, options.wall_clock),
       pace_(options.wall_clock),
       pauses_(options.control, options.wall_clock),
       monitor_(mission_.config.collision_monitor, mission_.robot, options.wall_clock),
@@ -105,6 +105,7 @@ void MissionLoop::run() {
   try {
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
+    if (drive != nullptr) observation_check_.expect_live();
     world_.grid = &perception_.begin(drive == nullptr);
     world_.coarse = perception_.show_earlier_map();
     ending_ = loop();
@@ -126,6 +127,7 @@ MissionLoop::Ending MissionLoop::loop() {
   while (true) {
     wait_while_paused();
     if (budget_.cancelled()) return {MissionOutcome::cancelled, "cancelled by the user"};
+    if (fatal_ends_.exit_was_called_elsewhere()) return {MissionOutcome::module_fault, kExitElsewhere};
     Sensed sensed = sense();
     if (sensed.step.state == SensorState::fault && budget_.cancelled()) continue;
     if (sensed.step.state == SensorState::fault) return {MissionOutcome::sensor_fault, sensed.step.reason};
@@ -261,6 +263,7 @@ bool MissionLoop::is_known_already(const Observation& observation) {
 }
 
 Stalled MissionLoop::stalled_for(double for_s) const {
+  if (monitor_.was_watch_held_up()) return {"", "", for_s};
   const StageClock::Id stage = stalled_stage_;
   return {modules_.clock.stage_of(stage), modules_.clock.module_of(stage), for_s};
 }

@@ -48,6 +48,8 @@ class MissionLoop {
   [[nodiscard]] const LandmarkTracker& tracker() const { return perception_.tracker(); }
   [[nodiscard]] std::vector<StageTime> times() const { return modules_.clock.times(); }
   [[nodiscard]] const Pose2& T_map_start() const { return modules_.T_map_start; }
+  // exit() was called in a thread of a module's own, which never leaves it.
+  [[nodiscard]] bool exit_was_called_elsewhere() const { return fatal_ends_.exit_was_called_elsewhere(); }
   [[nodiscard]] const std::vector<std::string>& listener_faults() const { return publisher_.listener_faults(); }
 
  private:
@@ -55,6 +57,7 @@ class MissionLoop {
     SensorStep step;
     std::optional<GroundTruth> truth{};  // of the step's observation, for listeners only
   };
+  static constexpr const char* kExitElsewhere = "exit() was called in a thread of a module's own";
   struct Ending {
     MissionOutcome outcome = MissionOutcome::done;
     std::string reason{};

@@ -2,6 +2,8 @@
 
 #include <csignal>
 
+#include "framework/safety/fatal_ends.hpp"
+
 namespace cairn {
 namespace {
 
@@ -10,7 +12,12 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void on_interrupt(int signal) {
   flags.cancel.store(true, std::memory_order_relaxed);
-  std::signal(signal, SIG_DFL);
+  std::signal(signal, end_by_signal);
+}
+
+// A shell sends it once more to what its terminal's end has reached already.
+void on_hang_up(int) {
+  flags.cancel.store(true, std::memory_order_relaxed);
 }
 
 void on_pause(int signal) {
@@ -22,6 +29,8 @@ void on_pause(int signal) {
 const std::atomic<bool>& cancel_on_interrupt() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  if (std::signal(SIGHUP, on_hang_up) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // started by nohup
+  std::signal(SIGPIPE, SIG_IGN);  // who reads what is printed may go; what is written is checked
   return flags.cancel;
 }
 

@@ -6,7 +6,9 @@
 
 namespace cairn {
 
-// The flag that SIGINT and SIGTERM raise; a second one ends the program at once.
+// The flag that SIGINT, SIGTERM and SIGHUP raise; a second SIGINT or SIGTERM stops the wheels and ends the program at
+// once. SIGHUP is left ignored where it was. From then on SIGPIPE is ignored: a reader of the output that goes away
+// ends nothing.
 [[nodiscard]] const std::atomic<bool>& cancel_on_interrupt();
 // The same flag, and the one that SIGUSR1 raises and SIGUSR2 takes back.
 [[nodiscard]] ControlFlags& flags_of_signals();

@@ -64,6 +64,18 @@ struct MapVerdict {
   }
 };
 
+ordered_json json_of(const std::vector<ValueFinding>& findings) {
+  ordered_json list = ordered_json::array();
+  for (const ValueFinding& finding : findings)
+    list.push_back(
+        {{"table", finding.table}, {"row", finding.row}, {"column", finding.column}, {"what", finding.what}});
+  return list;
+}
+
+std::string text_of(const ValueFinding& finding) {
+  return fmt::format("table {}: row {}: column {} {}", finding.table, finding.row, finding.column, finding.what);
+}
+
 ordered_json json_of(const MapVerdict& verdict, const std::filesystem::path& file) {
   ordered_json report = {{"file", file.string()}, {"outcome", verdict.outcome()}};
   if (!verdict.unproven.empty()) report["unproven_tables"] = verdict.unproven;
@@ -71,9 +83,7 @@ ordered_json json_of(const MapVerdict& verdict, const std::filesystem::path& fil
     report["reason"] = verdict.fault;
     report["lost"] = json_of(verdict.losses);
   }
-  for (const ValueFinding& finding : verdict.findings)
-    report["bad_values"].push_back(
-        {{"table", finding.table}, {"row", finding.row}, {"column", finding.column}, {"what", finding.what}});
+  if (!verdict.findings.empty()) report["bad_values"] = json_of(verdict.findings);
   return report;
 }
 
@@ -81,9 +91,7 @@ void print_faults(const MapVerdict& verdict, const std::filesystem::path& file) 
   std::cerr << "cairn: "
             << (verdict.fault.empty() ? file.string() + ": holds values that cannot be true" : verdict.fault) << "\n";
   for (const StoreLoss& loss : verdict.losses) std::cerr << "  " << text_of(loss) << "\n";
-  for (const ValueFinding& finding : verdict.findings)
-    std::cerr << fmt::format("  table {}: row {}: column {} {}\n", finding.table, finding.row, finding.column,
-                             finding.what);
+  for (const ValueFinding& finding : verdict.findings) std::cerr << "  " << text_of(finding) << "\n";
   if (verdict.fault.empty()) return;
   const bool is_whole = verdict.losses.empty();
   std::cerr << "  " << (is_whole ? "nothing in it is lost: " : "") << "cairn map repair " << file.string()
@@ -123,19 +131,28 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
   const SalvagedMap salvaged = salvage_map(command.map);
   const bool is_sound = fault_of(command.map).empty();  // damage may have hit what holds nothing
   save_map(command.repaired, salvaged.map, Links::replace);
+  const std::vector<ValueFinding> findings = check_values(command.repaired);  // what loads may still be untrue
   std::ostream& people = common.json ? std::cerr : std::cout;
   for (const StoreLoss& loss : salvaged.losses) people << "  " << text_of(loss) << "\n";
   people << fmt::format("{}: {}; {}, {}, {:.1f} % known within its outermost walls\n", command.repaired.string(),
                         salvaged.losses.empty() ? "nothing was lost" : "saved without the above",
                         counted(salvaged.map.graph.landmarks().size(), "landmark"), counted_routes(salvaged.map.graph),
                         100.0 * known_ratio(salvaged.map.grid));
-  if (common.json)
-    print_json({{"file", command.map.string()},
-                {"map", command.repaired.string()},
-                {"outcome", is_sound ? "sound" : "repaired"},
-                {"lost", json_of(salvaged.losses)},
-                {"kept", json_of_kept(salvaged.map)}});
-  return kExitDone;
+  if (common.json) {
+    ordered_json report = {{"file", command.map.string()},
+                           {"map", command.repaired.string()},
+                           {"outcome", !findings.empty() ? "bad_values"
+                                       : is_sound        ? "sound"
+                                                         : "repaired"},
+                           {"lost", json_of(salvaged.losses)},
+                           {"kept", json_of_kept(salvaged.map)}};
+    if (!findings.empty()) report["bad_values"] = json_of(findings);
+    print_json(report);
+  }
+  if (findings.empty()) return kExitDone;
+  std::cerr << "cairn: " << command.repaired.string() << ": still holds values that cannot be true\n";
+  for (const ValueFinding& finding : findings) std::cerr << "  " << text_of(finding) << "\n";
+  return kExitBadInput;
 }
 
 }  // namespace cairn

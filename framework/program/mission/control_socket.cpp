@@ -47,6 +47,16 @@ const sockaddr* base_of(const Address& address) {
   return reinterpret_cast<const sockaddr*>(&address.name);  // NOLINT: as the C interface wants it
 }
 
+// A socket that an earlier run has left, or a link, wherever it leads. Anything else is not ours.
+void remove_what_stands_there(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::file_status found = std::filesystem::symlink_status(folder / kControlSocket, error);
+  if (!std::filesystem::exists(found)) return;
+  if (!std::filesystem::is_socket(found) && !std::filesystem::is_symlink(found))
+    fail(folder, "is no socket; remove it");
+  remove_socket(folder);
+}
+
 Descriptor new_socket(const std::filesystem::path& folder, int flags = 0) {
   Descriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | flags, 0));
   if (made.get() < 0) fail(folder, "no socket can be made: " + text_of_error(errno));
@@ -56,8 +66,7 @@ Descriptor new_socket(const std::filesystem::path& folder, int flags = 0) {
 }  // namespace
 
 Descriptor listen_in(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (std::filesystem::is_socket(folder / kControlSocket, error)) remove_socket(folder);
+  remove_what_stands_there(folder);
   const Address address = address_in(folder);
   Descriptor made = new_socket(folder, SOCK_NONBLOCK);
   // Before it is bound, so that nobody else may connect at any time.

@@ -21,6 +21,16 @@ std::string ended_text(const std::string& which, const std::string& name, const 
   return fmt::format("step {}: {} {}{}", which, name, how, status.reason.empty() ? "" : " (" + status.reason + ")");
 }
 
+std::string stall_text(const Stalled& stalled) {
+  if (stalled.stage.empty())
+    return fmt::format(
+        "the robot was stopped: this whole process had stood still for {:.2f} s (stopped by a signal, or without a "
+        "processor); it goes on",
+        stalled.for_s);
+  return fmt::format("the robot was stopped: no tick had ended for {:.2f} s (in stage {}{}{}); it goes on",
+                     stalled.for_s, stalled.stage, stalled.module.empty() ? "" : " of module ", stalled.module);
+}
+
 std::string with_article(const std::string& category) {
   return (std::string_view("aeiou").find(category.front()) == std::string_view::npos ? "a " : "an ") + category;
 }
@@ -53,9 +63,7 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
            fmt::format("autosaved {} (state at {:.3f} s, written in {:.0f} ms)", e->file_name, e->time_s, e->took_ms));
     out_ << std::flush;
   }
-  if (const auto* e = std::get_if<Stalled>(&event))
-    report(time_s, fmt::format("the robot was stopped: no tick had ended for {:.2f} s (in stage {}{}{}); it goes on",
-                               e->for_s, e->stage, e->module.empty() ? "" : " of module ", e->module));
+  if (const auto* e = std::get_if<Stalled>(&event)) report(time_s, stall_text(*e));
   if (const auto* e = std::get_if<AutosaveFailed>(&event))
     report(time_s, "autosave failed, the mission continues: " + e->reason);
   if (const auto* e = std::get_if<Message>(&event)) report(time_s, e->sentence);

@@ -23,6 +23,7 @@ struct FakeBase {
   std::atomic<int> sent{0};
   std::atomic<int> pulses{0};
   std::atomic<int> stops{0};
+  std::atomic<bool> stops_by_the_sender{false};
   std::atomic<int> connections{0};
 };
 
@@ -49,9 +50,11 @@ class FakeLink final : public BaseLink {
     ++base_.sent;
   }
   void send_pulse() noexcept override { ++base_.pulses; }
-  void send_stop() noexcept override {
-    base_.sent_v_mps = 0.0;
+  bool send_stop() noexcept override {
     ++base_.stops;
+    if (base_.stops_by_the_sender) return false;
+    base_.sent_v_mps = 0.0;
+    return true;
   }
 
  private:
@@ -125,6 +128,28 @@ TEST_F(LiveRobots, StandAndConnectAgainWhenTheBaseSaysNothing) {
   });
   EXPECT_EQ(robot->next({}).state, SensorState::observation);
   again.join();
+}
+
+TEST_F(LiveRobots, AStopThatALinkCannotSendByItselfIsSentByTheThreadThatSends) {
+  const auto robot = made();
+  drive(*robot, 0.3);
+  robot->stop();
+  EXPECT_TRUE(robot->is_stop_sent()) << "by the link";
+  base.stops_by_the_sender = true;
+  drive(*robot, 0.3);
+  EXPECT_GT(base.sent_v_mps, 0.0);
+  robot->stop();
+  for (const double begin_s = now_s(); !robot->is_stop_sent() && now_s() - begin_s < 5.0;) std::this_thread::yield();
+  EXPECT_TRUE(robot->is_stop_sent());
+  EXPECT_EQ(base.sent_v_mps, 0.0);
+}
+
+TEST_F(LiveRobots, AStopWithoutAConnectionIsNotSent) {
+  base.stops_by_the_sender = true;
+  const auto robot = made();
+  robot->stop();
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  EXPECT_FALSE(robot->is_stop_sent());
 }
 
 TEST_F(LiveRobots, WhatWasOrderedBeforeAGapDoesNotCount) {

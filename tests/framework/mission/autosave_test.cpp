@@ -128,6 +128,14 @@ TEST_F(AutosaverTest, TheAutosaveOfAnEarlierRunIsKept) {
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
+TEST_F(AutosaverTest, ALinkIsNoAutosaveOfAnEarlierRun) {
+  save_map(folder_ / "b.cairn", map_at(5.0));
+  std::filesystem::create_symlink("b.cairn", file_);
+  EXPECT_FALSE(keep_earlier_autosave(file_));
+  EXPECT_FALSE(keep_under_free_name(file_));
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.autosave.cairn", "b.cairn"}));
+}
+
 // A run that is started again and again, and fails each time.
 TEST_F(AutosaverTest, TwoAutosavesAreKeptHoweverManyRunsDoNotEnd) {
   for (const double time_s : {3.0, 1.0, 80000.0, 2.0, 2.0, 5.0}) {

@@ -16,6 +16,7 @@ namespace {
 // Which stage is busy, once, until the wheels have been stopped; by a clock that moves on there only.
 struct Busy {
   std::string stage;
+  int steps = 10;  // of the clock meanwhile; 1: nobody sees that it goes on
   std::shared_ptr<TestClock> clock = std::make_shared<TestClock>();
   std::atomic<int> stops = 0;
   std::atomic<bool> is_over = false;
@@ -24,7 +25,12 @@ struct Busy {
   void visit(const std::string& now) {
     constexpr int kPatience = 20'000'000;  // yields: the test fails instead of hanging
     if (now != stage || is_over) return;
-    clock->advance(std::chrono::milliseconds(600));
+    for (int step = 0; step < steps; ++step) {
+      clock->advance(std::chrono::milliseconds(600) / steps);
+      // Until who watches has looked at this time: once more than the wait that may have begun before.
+      const int waits = clock->waits();
+      for (int i = 0; i < kPatience && clock->waits() < waits + 2; ++i) std::this_thread::yield();
+    }
     for (int i = 0; i < kPatience && stops == 0; ++i) std::this_thread::yield();
     is_over = true;
   }
@@ -164,6 +170,20 @@ TEST_P(StallIn, StopsTheWheelsAndDrivesOnAfterwards) {
   EXPECT_EQ(listener.stalls[0].stage, GetParam());
   EXPECT_NEAR(listener.stalls[0].for_s, 0.6, 1e-9);
 }
+
+TEST_P(StallIn, OfAWholeProcessBlamesNoStage) {
+  Busy busy{GetParam(), 1};
+  const ModuleLibrary library = library_of(busy);
+  RunOptions options{folder_};
+  options.wall_clock = busy.clock;
+  BusyListener listener(busy);
+  MissionRunner runner(mission(), library, options);
+  runner.subscribe(listener);
+  (void)runner.run();
+  ASSERT_EQ(listener.stalls.size(), 1U);
+  EXPECT_EQ(listener.stalls[0].stage, "");
+}
+
 INSTANTIATE_TEST_SUITE_P(EachStage, StallIn,
                          testing::Values("sensor", "localizer", "map", "detector", "behaviour", "drive", "host"));
 

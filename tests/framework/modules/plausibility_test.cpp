@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "tests/framework/modules/test_clock.hpp"
 
 namespace cairn {
 namespace {
@@ -48,6 +51,47 @@ TEST(ObservationCheck, AClockThatLeapsIsAFault) {
   EXPECT_EQ(second_after(at(10.0, 0.0), at(9.5, 0.0)), "") << "jitter";
   EXPECT_EQ(second_after(at(10.0, 0.0), at(5.0, 0.0)), "returned a stamp of 5 s after one of 10 s");
   EXPECT_NE(second_after(at(10.0, 0.0), at(1e9, 0.0)), "");
+}
+
+// The same of a robot that is driven at 0.5 m/s and 1 rad/s at most; here_s passes meanwhile.
+std::string second_live(const Observation& first, const Observation& second, double here_s = 0.04) {
+  RobotModel robot;
+  robot.max_v_mps = 0.5;
+  robot.max_w_radps = 1.0;
+  const auto clock = std::make_shared<TestClock>();
+  ObservationCheck check(robot, clock);
+  check.expect_live();
+  EXPECT_EQ(check.fault_of(first), "");
+  clock->advance(std::chrono::nanoseconds(std::llround(1e9 * here_s)));
+  return check.fault_of(second);
+}
+
+TEST(LiveObservationCheck, WhatARobotCanDoIsNoFault) {
+  EXPECT_EQ(second_live(at(10.0, 0.0), at(10.04, 0.5)), "") << "bumped, or slipped";
+  EXPECT_EQ(second_live(at(10.0, 0.0), at(10.0, 0.0)), "") << "two readings of one moment";
+  EXPECT_EQ(second_live(at(10.0, 0.0), at(14.0, 3.0)), "") << "four seconds without a reading";
+}
+
+TEST(LiveObservationCheck, AnOdometryThatLeapsIsAFault) {
+  EXPECT_EQ(second_live(at(10.0, 0.0), at(10.04, 9.0)), "returned an odometry that leaps by 9 m within 0.04 s");
+  EXPECT_NE(second_live(at(10.0, 0.0), at(10.0, 0.51)), "");
+}
+
+TEST(LiveObservationCheck, AnOdometryThatTurnsTooFastIsAFault) {
+  Observation turned = at(10.04, 0.0);
+  turned.T_odom_robot.theta_rad = 3.0;
+  EXPECT_EQ(second_live(at(10.0, 0.0), turned), "returned an odometry that turns by 172 degrees within 0.04 s");
+  turned.T_odom_robot.theta_rad = 6.28;
+  EXPECT_EQ(second_live(at(10.0, 0.0), turned), "") << "the same heading";
+  turned.T_odom_robot.theta_rad = 3.0;
+  turned.stamp_s = 11.0;
+  EXPECT_EQ(second_live(at(10.0, 0.0), turned), "");
+}
+
+TEST(LiveObservationCheck, AClockThatLeapsIsAFault) {
+  EXPECT_EQ(second_live(at(10.0, 0.0), at(9.1, 0.0)), "returned a stamp of 9.1 s after one of 10 s");
+  EXPECT_EQ(second_live(at(10.0, 0.0), at(3610.0, 0.0)), "returned a stamp of 3610 s after one of 10 s");
+  EXPECT_EQ(second_live(at(10.0, 0.0), at(3610.0, 0.0), 3600.0), "") << "the process was stopped for an hour";
 }
 
 TEST(Plausibility, APoseFarFromEveryMapIsAFault) {

@@ -233,6 +233,43 @@ TEST_F(MonitorOfADrive, AStallIsReportedOnceHoweverLateTheOneWhoWatchesIs) {
   EXPECT_FALSE(monitor.stalled_s());
 }
 
+TEST_F(MonitorOfADrive, StoppedForGoodItNeverLetsTheWheelsTurnAgain) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  monitor_.stop_for_good();
+  EXPECT_EQ(drive_->stops, 1);
+  const std::size_t commands = drive_->commands.size();
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  EXPECT_EQ(drive_->commands.size(), commands);
+  EXPECT_EQ(drive_->stops, 2);
+}
+
+TEST_F(MonitorOfADrive, AStopForGoodDuringACommandIsNotUndoneByIt) {
+  drive_->on_command = [&] { monitor_.stop_for_good(); };
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  EXPECT_EQ(drive_->stops, 2) << "once before the command counts, once after it";
+}
+
+TEST_F(MonitorOfADrive, AStallInWhichNobodyCouldLookIsOfTheWholeProcess) {
+  (void)monitor_.drive(observation(1.0), {0.1, 0.0});
+  watch();
+  wall_clock_->advance(std::chrono::milliseconds(600));
+  (void)monitor_.drive(observation(1.0 + kTick_s), {0.1, 0.0});
+  EXPECT_TRUE(monitor_.stalled_s());
+  EXPECT_TRUE(monitor_.was_watch_held_up()) << "it has not looked yet";
+  watch();
+  wall_clock_->advance(std::chrono::milliseconds(600));
+  watch();
+  (void)monitor_.drive(observation(1.0 + 2.0 * kTick_s), {0.1, 0.0});
+  EXPECT_TRUE(monitor_.was_watch_held_up()) << "it has looked again";
+  for (int i = 0; i < 6; ++i) {
+    wall_clock_->advance(std::chrono::milliseconds(100));
+    watch();
+  }
+  (void)monitor_.drive(observation(1.0 + 3.0 * kTick_s), {0.1, 0.0});
+  EXPECT_TRUE(monitor_.stalled_s());
+  EXPECT_FALSE(monitor_.was_watch_held_up()) << "it looked all the time";
+}
+
 TEST(CollisionMonitor, WithoutADriveNothingIsOrdered) {
   CollisionMonitor monitor(CollisionMonitorConfig{}, a_robot());
   EXPECT_FALSE(monitor.has_drive());

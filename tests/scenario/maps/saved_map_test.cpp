@@ -349,5 +349,21 @@ TEST(SavedMap, IsCheckedAndRepairedByTheProgram) {
   EXPECT_TRUE(text_of_file(repaired) == sound);
 }
 
+TEST(SavedMap, ARepairReportsTheValuesThatItCouldNotMend) {
+  const fs::path folder = fresh_folder("repair_values");
+  ASSERT_EQ(run_mission(small_mission(folder, "{}", "[wait: 1]"), folder).exit_status, 0);
+  SavedMap map = load_map(folder / "office.cairn");
+  map.driven_path.push_back({1e18, 0.0, 0.0});
+  const std::string far = folder / "far.cairn";
+  save_map(far, map);
+  ASSERT_EQ(run_cairn({"map", "check", far}).exit_status, 2);
+  const Finished repair = run_cairn({"map", "repair", far, "-o", folder / "repaired.cairn", "--json"});
+  EXPECT_EQ(repair.exit_status, 2);
+  const json report = json::parse(repair.out);
+  EXPECT_EQ(report["outcome"], "bad_values");
+  EXPECT_FALSE(report["bad_values"].empty());
+  EXPECT_THAT(repair.err, HasSubstr("repaired.cairn: still holds values that cannot be true\n"));
+}
+
 }  // namespace
 }  // namespace cairn::testing_program

@@ -49,8 +49,21 @@ TEST_F(FatalEnds, AnOverflowOfTheStackDoesToo) {
 TEST_F(FatalEnds, AnExceptionThatNobodyCatchesDoesToo) {
   const Finished finished = run("terminate");
   EXPECT_NE(finished.exit_status, 0);
-  EXPECT_THAT(finished.err,
-              HasSubstr("cairn: SIGABRT in stage behaviour of module terminate; the robot was stopped\n"));
+  EXPECT_THAT(
+      finished.err,
+      HasSubstr("cairn: SIGABRT in another thread, while the mission was in stage behaviour of module terminate; "
+                "the robot was stopped\n"));
+}
+
+TEST_F(FatalEnds, AModuleThatCallsExitInAThreadOfItsOwnEndsTheMissionAsAFaultToo) {
+  const Finished finished = run("exit_elsewhere");
+  EXPECT_EQ(finished.exit_status, 1);
+  EXPECT_THAT(finished.err, HasSubstr("cairn: exit() was called in another thread, while the mission was in stage "
+                                      "behaviour of module exit_elsewhere; the robot was stopped\n"));
+  const auto summary = nlohmann::json::parse(finished.out);
+  EXPECT_EQ(summary.at("outcome"), "module_fault");
+  EXPECT_EQ(summary.at("reason"), "exit() was called in a thread of a module's own");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "fatal.cairn"));
 }
 
 TEST_F(FatalEnds, AModuleThatCallsExitEndsTheMissionAsAFaultAndTheMapIsSaved) {

@@ -109,7 +109,38 @@ TEST_F(RemoteBase, AStoppedProgramGoesOnByItselfAndSaysWhatHappened) {
   EXPECT_TRUE(wait_until_driving(log_, continued_s)) << mission_->output();
   mission_->send(SIGINT);
   EXPECT_EQ(mission_->exit_status(), 1) << "cancelled";
-  EXPECT_THAT(mission_->output(), HasSubstr("the robot was stopped: no tick had ended for "));
+  EXPECT_THAT(mission_->output(), HasSubstr("the robot was stopped: this whole process had stood still for "));
+  EXPECT_NO_THROW((void)load_map(folder_ / "out" / "remote.cairn"));
+}
+
+TEST_F(RemoteBase, ATerminalThatIsClosedEndsTheMissionInOrder) {
+  start_both();
+  mission_->send(SIGHUP);
+  mission_->send(SIGHUP);
+  EXPECT_EQ(mission_->exit_status(), 1);
+  EXPECT_THAT(mission_->output(), HasSubstr("cancelled by the user"));
+  EXPECT_NO_THROW((void)load_map(folder_ / "out" / "remote.cairn"));
+}
+
+TEST_F(RemoteBase, WhatEndsTheProcessAtOnceStopsTheWheelsFirst) {
+  start_both();
+  const double ended_s = monotonic_s();
+  mission_->send(SIGQUIT);
+  EXPECT_EQ(mission_->exit_status(), -SIGQUIT);
+  ASSERT_TRUE(wait_until_standing(log_, ended_s));
+  EXPECT_LE(stopped_after(ended_s).ordered_s, 4 * kTick_s + 1e-6) << "sooner than by the drive's own time";
+  EXPECT_THAT(mission_->output(), HasSubstr("cairn: SIGQUIT while the mission was in stage "));
+}
+
+TEST_F(RemoteBase, AnOdometryThatLeapsIsAFaultOfTheSensorModule) {
+  start_base();
+  start_mission(
+      {"--set", "sensor={plugin: failing_sensor, fault: leap, after_s: 1, of: {plugin: remote_base, socket: " +
+                    (folder_ / "base.sock").string() + "}}"});
+  EXPECT_EQ(mission_->exit_status(), 1);
+  EXPECT_THAT(
+      mission_->output(),
+      HasSubstr("module_fault: module failing_sensor failed in stage sensor: returned an odometry that leaps "));
   EXPECT_NO_THROW((void)load_map(folder_ / "out" / "remote.cairn"));
 }
 

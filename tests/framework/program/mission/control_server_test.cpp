@@ -73,6 +73,29 @@ TEST_F(ControlServerTest, ACrowdThatSaysNothingHoldsNobodyUp) {
       << "it waited until the silent ones were sent away";
 }
 
+TEST_F(ControlServerTest, ALinkAtItsPlaceIsReplacedAndNotFollowed) {
+  const fs::path folder = folder_ / "linked";
+  fs::create_directories(folder);
+  fs::create_symlink(folder_ / kControlSocket, folder / kControlSocket);
+  { const ControlServer other(folder, control_); }
+  fs::create_symlink("nowhere", folder / kControlSocket);
+  { const ControlServer other(folder, control_); }
+  EXPECT_TRUE(fs::is_socket(fs::symlink_status(folder_ / kControlSocket)));
+  EXPECT_EQ(ask("status")["mission"], "held");
+}
+
+TEST_F(ControlServerTest, WhatIsNoSocketIsLeftAloneAndNamed) {
+  const fs::path folder = folder_ / "filed";
+  fs::create_directories(folder / kControlSocket);
+  try {
+    const ControlServer other(folder, control_);
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), (folder / kControlSocket).string() + ": is no socket; remove it");
+  }
+  EXPECT_TRUE(fs::is_directory(folder / kControlSocket));
+}
+
 TEST_F(ControlServerTest, ACrowdThatSaysHalfALineHoldsNobodyUp) {
   connect(300, "canc");
   EXPECT_EQ(ask("status")["mission"], "held");

@@ -79,6 +79,14 @@ TEST_F(ProgressLineTest, AStallSaysForHowLongAndWhere) {
             "template_matcher); it goes on\n");
 }
 
+TEST_F(ProgressLineTest, AStallOfTheWholeProcessBlamesNoStage) {
+  ProgressLine line(out_, false, [&] { return status_; });
+  publish(line, Stalled{"", "", 1.25}, 3.0);
+  EXPECT_EQ(out_.str(),
+            "    3.0 s  the robot was stopped: this whole process had stood still for 1.25 s (stopped by a signal, or "
+            "without a processor); it goes on\n");
+}
+
 TEST_F(ProgressLineTest, ALandmarkIsReportedWhenItIsFoundAndWhenItsCategoryChanges) {
   ProgressLine line(out_, false, [&] { return status_; });
   Landmark landmark = square();
