@@ -6,6 +6,8 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "framework/files/template_file.hpp"
 #include "framework/files/world_file.hpp"
@@ -94,6 +96,34 @@ TEST_F(Building, TheMissionItselfDrivesAcrossRoomsOverLandmarks) {
   }
   ASSERT_FALSE(plans.empty());
   EXPECT_THAT(plans.front(), MatchesRegex(".* s: plan: solved, over [0-9]+ landmarks, .*"));
+}
+
+// They keep the room beside the robot that plans ask for.
+TEST_F(Building, PlansTakeItsStoredRoutesAsTheyAre) {
+  std::vector<std::string> labels;
+  const SavedMap map = load_map(map_file());
+  for (const auto& [id, landmark] : map.graph.landmarks()) labels.push_back("L" + std::to_string(id));
+  std::string queries;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    queries += json{{"from", labels[i]}, {"to", labels[(i + 7) % labels.size()]}}.dump() + "\n";
+  write_text(folder() / "queries.jsonl", queries);
+  std::istringstream answers(
+      run_cairn({"plan", map_file(), "--queries", (folder() / "queries.jsonl").string(), "--json"}).out);
+  int stored = 0;
+  int planned = 0;
+  const std::regex legs("by ([0-9]+) stored and ([0-9]+) newly planned");
+  for (std::string line; std::getline(answers, line);) {
+    const json answer = json::parse(line);
+    EXPECT_EQ(answer["outcome"], "solved") << line;
+    const auto reason = answer["reason"].get<std::string>();
+    EXPECT_EQ(reason.find("leaves too little room"), std::string::npos) << reason;
+    std::smatch match;
+    if (!std::regex_search(reason, match, legs)) continue;
+    stored += std::stoi(match[1]);
+    planned += std::stoi(match[2]);
+  }
+  EXPECT_GE(stored, 20);
+  EXPECT_LE(planned, stored / 10);
 }
 
 TEST_F(Building, ANameOfAClusterIsAPlace) {
