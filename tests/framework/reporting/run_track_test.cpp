@@ -34,7 +34,8 @@ TEST(RunTrack, HoldsPosesPlansAndLandmarksWithTheirTimes) {
   EXPECT_EQ(
       track.json(),
       R"({"robot_radius_m":0.31,"poses_every":1,"poses":[[1.0,1.0,0.0,0.25],[2.0,2.0,0.0,0.25]],)"
-      R"("plans":[{"time_s":0.5,"points":[[0.0,0.0],[0.0,3.0]]},{"time_s":1.0,"points":[[0.0,0.0],[2.0,1.0]]},{"time_s":2.0,"points":[]}],)"
+      R"("plans":[{"time_s":0.5,"points":[[0.0,0.0],[0.0,3.0]]},)"
+      R"({"time_s":1.0,"points":[[0.0,0.0],[2.0,1.0]]},{"time_s":2.0,"points":[]}],)"
       R"("landmarks":[{"time_s":1.5,"id":3,"change":"found"},{"time_s":3.0,"id":3,"change":"retired"}],"grid":[]})"
       "\n");
 }
