@@ -20,8 +20,8 @@ class RunTrack final : public Listener {
   void on(const Event& event, const MissionView& view) override;
 
   // {"robot_radius_m", "poses_every": ticks, "poses": [[time_s, x_m, y_m, theta_rad]], "plans": [{time_s, points}],
-  // "landmarks": [{time_s, id, change}], "grid": [{time_s, tiles: [[x, y, ol]]}]}. change: found or retired; ol: base 64
-  // of the tile's cells (GridTile), packed by zlib. The same bytes for the same build, mission and seed.
+  // "landmarks": [{time_s, id, change}], "grid": [{time_s, tiles: [[x, y, ol]]}]}. change: found or retired; ol: base
+  // 64 of the tile's cells (GridTile), packed by zlib. The same bytes for the same build, mission and seed.
   [[nodiscard]] std::string json() const;
 
  private:

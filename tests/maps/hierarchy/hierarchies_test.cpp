@@ -84,7 +84,7 @@ TEST(Hierarchies, NameAClusterForEveryKindOfCostAndKeepIt) {
   for (int i = 0; i < 3; ++i) graph.add({});
   const ClusterTree clusters{{{1, {1, 1, 0, 1, ""}}, {2, {2, 1, 0, 3, ""}}}, {{1, 1}, {2, 1}, {3, 2}}, 3};
   for (const bool made_before : {false, true}) {
-    Hierarchies hierarchies(graph, clusters, {});
+    Hierarchies hierarchies(graph, clusters, {}, ClusterSizes{.from = 1});
     if (made_before) (void)hierarchies.by(CostKind::time);
     const ClusterTree tree = hierarchies.last_tree();
     const ClusterId last = tree.clusters.rbegin()->first;
