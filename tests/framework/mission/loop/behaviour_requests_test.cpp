@@ -38,6 +38,22 @@ TEST_F(BehaviourRequestsTest, AVelocityThatIsNotFiniteOrThatNothingDrivesIsRefus
   EXPECT_FALSE(requests().take().wanted.has_value());
 }
 
+TEST_F(BehaviourRequestsTest, APathThatIsFollowedIsPublishedOnce) {
+  built_.controller = std::make_shared<StillController>();
+  const std::vector<Point> path{{0.5, 0.5}, {2.0, 0.5}};
+  ControlRequest request;
+  request.path = path;
+  for (int i = 0; i < 3; ++i) {
+    (void)requests().control(request);
+    request.is_new_path = false;
+  }
+  EXPECT_THAT(events_.names, ElementsAre("path of 2"));
+  request.path = {};
+  request.is_new_path = true;
+  (void)requests().control(request);
+  EXPECT_THAT(events_.names, ElementsAre("path of 2")) << "it has arrived";
+}
+
 TEST_F(BehaviourRequestsTest, TheRobotStandsWhileThePlannerWorks) {
   attach_drive();
   EXPECT_EQ(requests().plan({}).outcome, PlanOutcome::solved);

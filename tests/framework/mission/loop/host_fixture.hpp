@@ -39,6 +39,11 @@ class RecordingDrive : public Drive {
   std::vector<Twist> commands;
 };
 
+class StillController : public Controller {
+ public:
+  ControlResult control(const ControlRequest&, const WorldView&) override { return {}; }
+};
+
 // Keeps the names of the events.
 class EventNames : public Listener {
  public:
@@ -52,6 +57,7 @@ class EventNames : public Listener {
     std::string operator()(const AutosaveFailed&) const { return "autosave failed"; }
     std::string operator()(const Message& e) const { return e.sentence; }
     std::string operator()(const PlanDone&) const { return "plan"; }
+    std::string operator()(const PathStarted& e) const { return "path of " + std::to_string(e.path.size()); }
     template <class Other>
     std::string operator()(const Other&) const {
       return "other";
