@@ -49,7 +49,7 @@ class Clusters : public ::testing::Test {
   static void SetUpTestSuite() {
     folder() = fresh_folder("clusters");
     write_text(folder() / "world.yaml", kWorld);
-    write_text(folder() / "mission.yaml", mission());
+    write_text(folder() / "mission.yaml", mission("  - save: explored.cairn\n"));
     run() = run_cairn({"run", (folder() / "mission.yaml").string(), "--out", folder().string(), "--json"});
   }
   static std::filesystem::path& folder() {
@@ -86,23 +86,24 @@ TEST_F(Clusters, DoNotReachThroughTheDoor) {
 }
 
 TEST_F(Clusters, AreGivenNamesByAMissionThatItsLaterStepsAndItsMapKnow) {
-  const SavedMap before = load_map(map_file());
+  const std::string explored = (Clusters::folder() / "explored.cairn").string();
+  const SavedMap before = load_map(explored);
   ASSERT_FALSE(before.clusters.clusters.empty());
   const Cluster& cluster = before.clusters.clusters.rbegin()->second;
   const std::string id = "C1:L" + std::to_string(cluster.anchor);
   const std::filesystem::path folder = fresh_folder("clusters_named");
   write_text(folder / "world.yaml", kWorld);
-  write_text(folder / "mission.yaml",
-             mission("  - name: {landmark: " + id + ", as: lounge}\n  - goto: lounge\n  - save: named.cairn\n"));
-  const Finished named = run_cairn(
-      {"run", (folder / "mission.yaml").string(), "--resume", map_file(), "--out", folder.string(), "--json"});
+  write_text(folder / "mission.yaml", mission("  - save: explored.cairn\n  - name: {landmark: " + id +
+                                              ", as: lounge}\n  - goto: lounge\n  - save: named.cairn\n"));
+  const Finished named =
+      run_cairn({"run", (folder / "mission.yaml").string(), "--resume", explored, "--out", folder.string(), "--json"});
   ASSERT_EQ(named.exit_status, 0) << named.err << named.out;
   const SavedMap map = load_map(folder / "named.cairn");
   const Cluster* const lounge = find_cluster(map.clusters, map.graph, "lounge");
   ASSERT_NE(lounge, nullptr);
   EXPECT_EQ(lounge->id, cluster.id);
   EXPECT_EQ(map.graph.find_by_name("lounge"), nullptr) << "no landmark got the name";
-  const json steps = json::parse(named.out)["steps"];
+  const json steps = json::parse(text_of_file(folder / "report.json"))["steps"];
   EXPECT_EQ(steps[1]["reason"], id + " is now lounge") << steps;
   EXPECT_THAT(steps[2]["reason"].get<std::string>(), ::testing::StartsWith("at L")) << steps;
 }

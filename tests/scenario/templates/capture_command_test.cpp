@@ -85,7 +85,7 @@ TEST_F(OfficeCapture, SaysWhatIsWrong) {
   EXPECT_THAT(error("2.5,2.5"),
               HasSubstr("nothing lies wholly within 0.80 m of (2.50, 2.50): what is there is too thin"));
   EXPECT_THAT(error("3,0"), HasSubstr("what is there is too thin or too small"));
-  EXPECT_THAT(error("nearest square", "crate", "0.3"), HasSubstr("what is there goes on farther"));
+  EXPECT_THAT(error("nearest square", "crate", "0.35"), HasSubstr("what is there goes on farther"));
   EXPECT_THAT(error("nearest square", "two words"), HasSubstr("bad.yaml:2:11: category must be a letter"));
   ASSERT_EQ(capture("nearest square", "crate", "twice.yaml").exit_status, 0);
   EXPECT_THAT(capture("nearest square", "crate", "twice.yaml").err, HasSubstr("there is such a file already"));
