@@ -25,6 +25,8 @@ struct Busy {
   void visit(const std::string& now) {
     constexpr int kPatience = 20'000'000;  // yields: the test fails instead of hanging
     if (now != stage || is_over) return;
+    // Who watches has looked once, before the clock moves.
+    for (int i = 0; i < kPatience && clock->waits() < 2; ++i) std::this_thread::yield();
     for (int step = 0; step < steps; ++step) {
       clock->advance(std::chrono::milliseconds(600) / steps);
       // Until who watches has looked at this time: once more than the wait that may have begun before.
