@@ -137,9 +137,16 @@ class ViewServer::State::Session : public std::enable_shared_from_this<Session> 
     asked.token = foxglove_token_of(request);
     if (std::ranges::count(state_.foxglove->origins, asked.origin) > 0) asked.origin.clear();
     if (auto refused = refusal_of(asked, state_.port(), state_.token)) return write(std::move(*refused));
-    const std::string why =
-        serve_foxglove(std::move(stream_), std::move(request), *state_.foxglove, state_.live, shared_from_this());
-    if (!why.empty()) write(view_error(409, why));
+    stream_.expires_never();
+    asio::post(state_.workers, [self = shared_from_this(), request = std::move(request)]() mutable {
+      State& state = self->state_;
+      auto source = std::make_shared<FoxgloveSource>(foxglove_source(*state.foxglove, state.live));
+      asio::post(state.io, [self = std::move(self), request = std::move(request), source] {
+        if (!source->why.empty()) return self->write(view_error(409, source->why));
+        serve_foxglove(std::move(self->stream_), request, std::move(*source), self->state_.foxglove->services,
+                       self->state_.workers.get_executor(), self);
+      });
+    });
   }
 
   void write(ViewResponse&& answer) {

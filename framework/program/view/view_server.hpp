@@ -29,9 +29,9 @@ class ViewServer {
   ViewServer& operator=(const ViewServer&) = delete;
 
   [[nodiscard]] std::uint16_t port() const;
-  // Before run(): viewers of Foxglove's protocol are served too, by the thread of run().
+  // Before run(): viewers of Foxglove's protocol are served too.
   void offer_foxglove(FoxgloveOffer offer);
-  // Answers until `end`. Streams go on while the handler is at work, but for what a viewer of Foxglove's asks.
+  // Answers until `end`. Streams go on while the handler is at work.
   void run(const std::atomic<bool>& end);
 
  private:

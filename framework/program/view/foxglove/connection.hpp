@@ -32,6 +32,7 @@ class FoxgloveConnection {
 
   [[nodiscard]] virtual Frames greeting() const = 0;
   [[nodiscard]] Frames on_text(std::string_view text);
+  // A call of a service may come from another thread than all else: it is answered by the services alone.
   [[nodiscard]] Frames on_binary(std::string_view frame);
   // So much wall clock has gone by. No more messages once these have max_bytes together.
   [[nodiscard]] virtual Frames advance(double elapsed_s, std::size_t max_bytes) = 0;

@@ -1,6 +1,7 @@
 #include "framework/program/view/foxglove/session.hpp"
 
 #include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
@@ -11,7 +12,6 @@
 
 #include "framework/program/view/foxglove/live_connection.hpp"
 #include "framework/program/view/foxglove/playback.hpp"
-#include "framework/program/view/run_stream.hpp"
 #include "framework/program/view/view_request.hpp"
 
 namespace cairn {
@@ -27,6 +27,7 @@ constexpr std::chrono::milliseconds kTick{20};
 constexpr std::chrono::seconds kIdle{20};  // without a sign of life, then it has gone
 constexpr std::size_t kMaxHeard = std::size_t{1} << 20;
 constexpr std::size_t kMaxQueued = std::size_t{1} << 20;    // bytes, of playback
+constexpr std::size_t kMaxCalls = 64;                       // of services that wait
 constexpr std::size_t kMaxAnswers = std::size_t{64} << 20;  // bytes, of all: beyond, the viewer asks and does not read
 
 // The first of the viewer's list that is known here; empty: none.
@@ -39,8 +40,9 @@ std::string chosen_protocol(const FoxgloveRequest& request) {
 class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
  public:
   FoxgloveSession(beast::tcp_stream&& stream, std::string protocol, std::unique_ptr<FoxgloveConnection> connection,
-                  std::shared_ptr<void> counted)
+                  asio::any_io_executor workers, std::shared_ptr<void> counted)
       : viewer_(std::move(stream)),
+        workers_(std::move(workers)),
         timer_(viewer_.get_executor()),
         run_(viewer_.get_executor()),
         protocol_(std::move(protocol)),
@@ -74,10 +76,34 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
   void listen() {
     viewer_.async_read(heard_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (error) return self->end();
-      const std::string said = beast::buffers_to_string(self->heard_.data());
+      std::string said = beast::buffers_to_string(self->heard_.data());
       self->heard_.consume(self->heard_.size());
-      self->send(self->viewer_.got_text() ? self->connection_->on_text(said) : self->connection_->on_binary(said));
+      self->take(std::move(said));
       self->listen();
+    });
+  }
+
+  void take(std::string&& said) {
+    if (viewer_.got_text()) return send(connection_->on_text(said));
+    const auto asked = foxglove_protocol::service_call_of(said);
+    if (!asked) return send(connection_->on_binary(said));
+    if (calls_.size() >= kMaxCalls)
+      return send({foxglove_protocol::service_failure(asked->service, asked->call, "so many calls wait already")});
+    calls_.push_back(std::move(said));
+    if (calls_.size() == 1) call();
+  }
+
+  // A plan takes long.
+  void call() {
+    asio::post(workers_, [self = shared_from_this(), frame = calls_.front()]() mutable {
+      auto answer = std::make_shared<FoxgloveConnection::Frames>(self->connection_->on_binary(frame));
+      const auto network = self->viewer_.get_executor();
+      // The session goes with it: it must end in the network's thread.
+      asio::post(network, [self = std::move(self), answer] {
+        self->calls_.pop_front();
+        self->send(std::move(*answer));
+        if (!self->calls_.empty()) self->call();
+      });
     });
   }
 
@@ -157,6 +183,7 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
   }
 
   websocket::stream<beast::tcp_stream> viewer_;
+  asio::any_io_executor workers_;
   asio::steady_timer timer_;
   asio::local::stream_protocol::socket run_;
   std::string protocol_;
@@ -165,6 +192,7 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
   std::string text_;                // of the run
   std::shared_ptr<void> counted_;
   beast::flat_buffer heard_;
+  std::deque<std::string> calls_;  // of services, as they were heard; the first is under way
   std::deque<foxglove_protocol::Frame> queue_;
   std::size_t queued_ = 0;
   Clock::time_point last_;
@@ -193,25 +221,30 @@ std::string foxglove_token_of(const FoxgloveRequest& request) {
   return {};
 }
 
-std::string serve_foxglove(beast::tcp_stream&& stream, FoxgloveRequest&& request, const FoxgloveOffer& offer,
-                           const std::filesystem::path& live, std::shared_ptr<void> counted) {
+FoxgloveSource foxglove_source(const FoxgloveOffer& offer, const std::filesystem::path& live) {
+  FoxgloveSource source{live.filename().string(), watch_run(live)};
   try {
-    const std::string protocol = chosen_protocol(request);
-    const RunStream run = watch_run(live);
-    std::unique_ptr<FoxgloveConnection> connection;
-    if (run.descriptor >= 0)
-      connection = std::make_unique<LiveConnection>(live.filename().string(), new_view_token(), offer.services);
-    else
-      connection = std::make_unique<PlaybackConnection>(offer.recording(), protocol == foxglove_protocol::kName,
-                                                        new_view_token(), offer.services);
-    const auto session =
-        std::make_shared<FoxgloveSession>(std::move(stream), protocol, std::move(connection), std::move(counted));
-    if (run.descriptor >= 0) session->watch(run.descriptor);
-    session->accept(request);
-    return {};
+    if (source.run.descriptor < 0) source.recording = offer.recording();
   } catch (const std::exception& error) {
-    return error.what();
+    source.why = error.what();
   }
+  return source;
+}
+
+void serve_foxglove(beast::tcp_stream&& stream, const FoxgloveRequest& request, FoxgloveSource&& source,
+                    const FoxgloveServices& services, const asio::any_io_executor& workers,
+                    std::shared_ptr<void> counted) {
+  const std::string protocol = chosen_protocol(request);
+  std::unique_ptr<FoxgloveConnection> connection;
+  if (source.recording)
+    connection = std::make_unique<PlaybackConnection>(source.recording, protocol == foxglove_protocol::kName,
+                                                      new_view_token(), services);
+  else
+    connection = std::make_unique<LiveConnection>(source.name, new_view_token(), services);
+  const auto session = std::make_shared<FoxgloveSession>(std::move(stream), protocol, std::move(connection), workers,
+                                                         std::move(counted));
+  if (!source.recording) session->watch(source.run.descriptor);
+  session->accept(request);
 }
 
 }  // namespace cairn

@@ -6,6 +6,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -15,6 +16,7 @@
 namespace cairn {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -63,13 +65,17 @@ class FoxgloveClient {
     return whole;
   }
 
-  // Short, with a mask of zeros.
-  void send_text(const std::string& text) {
-    ASSERT_LT(text.size(), 126U);
-    send_all(std::string{'\x81', static_cast<char>(0x80U | text.size())} + std::string(4, '\0') + text);
+  void send_text(const std::string& text) { send_frame('\x81', text); }
+  void send_plan(char call) {
+    send_frame('\x82', std::string("\2\1\0\0\0", 5) + std::string{call, 0, 0, 0, 4, 0, 0, 0} + "json{}");
   }
 
  private:
+  // Short, with a mask of zeros.
+  void send_frame(char kind, const std::string& content) {
+    ASSERT_LT(content.size(), 126U);
+    send_all(std::string{kind, static_cast<char>(0x80U | content.size())} + std::string(4, '\0') + content);
+  }
   [[nodiscard]] std::string content(const std::string& head) const {
     std::uint64_t size = static_cast<unsigned char>(head[1]);
     const int more = size == 126 ? 2 : size == 127 ? 8 : 0;
@@ -103,7 +109,13 @@ class FoxgloveSessionTest : public testing::Test {
     channel.messages = {{1, "first"}, {2, std::string(3'000'000, 'x')}, {3, "last"}};
     recording->channels.push_back(std::move(channel));
     recording->times = {1, 3};
-    server_.offer_foxglove({[recording] { return recording; }, {}, {"https://viewer.example"}});
+    FoxgloveServices services;
+    services.plan = [this](const std::string&) {
+      may_plan_.get_future().wait();
+      may_plan_ = {};
+      return std::string("planned");
+    };
+    server_.offer_foxglove({[recording] { return recording; }, services, {"https://viewer.example"}});
     thread_ = std::thread([this] { server_.run(end_); });
   }
   ~FoxgloveSessionTest() override {
@@ -111,6 +123,7 @@ class FoxgloveSessionTest : public testing::Test {
     thread_.join();
   }
 
+  std::promise<void> may_plan_;
   const std::string target_ = "/?token=" + kFoxgloveToken;
   std::atomic<bool> end_ = false;
   ViewServer server_{0, kFoxgloveToken, [](const ViewRequest&) { return ViewResponse{200, "text/plain", "page"}; }};
@@ -144,6 +157,26 @@ TEST_F(FoxgloveSessionTest, SendsWhatItOffersAndThenTheMessages) {
   EXPECT_EQ(payloads[0], "first");
   EXPECT_TRUE(payloads[1] == std::string(3'000'000, 'x'));
   EXPECT_EQ(payloads[2], "last");
+}
+
+TEST_F(FoxgloveSessionTest, WhileAServiceIsCalledEverythingElseGoesOn) {
+  FoxgloveClient asking(server_.port());
+  EXPECT_THAT(asking.shake_hands("foxglove.websocket.v1", target_), StartsWith("HTTP/1.1 101"));
+  for (int greeting = 0; greeting < 3; ++greeting) (void)asking.message();
+  asking.send_plan(7);
+  asking.send_text(R"({"op":"subscribe","subscriptions":[{"id":5,"channelId":1}]})");
+  std::string message;
+  do message = asking.message();
+  while (!message.empty() && !(message[0] == '\1' && message.ends_with("last")));
+  EXPECT_FALSE(message.empty()) << "its own messages";
+  FoxgloveClient other(server_.port());
+  EXPECT_THAT(other.shake_hands("foxglove.sdk.v1", target_), StartsWith("HTTP/1.1 101"));
+  EXPECT_EQ(nlohmann::json::parse(other.message())["op"], "serverInfo");
+  may_plan_.set_value();
+  do message = asking.message();
+  while (!message.empty() && message[0] != '\3');
+  EXPECT_EQ(message.substr(0, 6), std::string("\3\1\0\0\0\7", 6));
+  EXPECT_THAT(message, EndsWith("planned"));
 }
 
 TEST_F(FoxgloveSessionTest, StrangersAreRefused) {
