@@ -111,8 +111,7 @@ class FoxgloveSessionTest : public testing::Test {
     recording->times = {1, 3};
     FoxgloveServices services;
     services.plan = [this](const std::string&) {
-      may_plan_.get_future().wait();
-      may_plan_ = {};
+      planned_.wait();
       return std::string("planned");
     };
     server_.offer_foxglove({[recording] { return recording; }, services, {"https://viewer.example"}});
@@ -124,6 +123,7 @@ class FoxgloveSessionTest : public testing::Test {
   }
 
   std::promise<void> may_plan_;
+  const std::shared_future<void> planned_ = may_plan_.get_future().share();
   const std::string target_ = "/?token=" + kFoxgloveToken;
   std::atomic<bool> end_ = false;
   ViewServer server_{0, kFoxgloveToken, [](const ViewRequest&) { return ViewResponse{200, "text/plain", "page"}; }};
