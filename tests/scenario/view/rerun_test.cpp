@@ -21,8 +21,8 @@ TEST(RerunViewer, DrawsTheRecordedGrid) {
     GTEST_SKIP() << "playwright-core or @rerun-io/web-viewer is missing (npm install playwright-core "
                     "@rerun-io/web-viewer; NODE_PATH names their node_modules)";
   const fs::path folder = fresh_folder("rerun");
-  ASSERT_EQ(run_cairn({"run", source_folder() + "/config/missions/office.yaml", "--set", "record_mcap=run.mcap", "--out",
-                       folder.string()})
+  ASSERT_EQ(run_cairn({"run", source_folder() + "/config/missions/office.yaml", "--set", "record_mcap=run.mcap",
+                       "--out", folder.string()})
                 .exit_status,
             0);
   const fs::path said = folder / "said.txt";
