@@ -34,6 +34,7 @@ std::vector<Point> thinned_path(const std::vector<Point>& path) {
 
 std::vector<Point> points_of(const std::vector<Pose2>& path) {
   std::vector<Point> points;
+  points.reserve(path.size());
   for (const Pose2& pose : path) points.push_back(pose.position());
   return points;
 }

@@ -115,7 +115,8 @@ struct FatalEndHandlers {
       (is_mission ? mission->exit_was_called_ : mission->exit_was_called_elsewhere_) = true;
       is_left_to_others = true;
     }
-    while (is_left_to_others) ::pause();  // the thread that watches ends the process
+    if (!is_left_to_others) return;
+    for (;;) ::pause();  // the thread that watches ends the process
   }
 };
 
